@@ -26,6 +26,9 @@ struct DoctorArguments {
   bool json = false;
 };
 
+/// Where to print what was written: JSON has standard output for itself.
+std::FILE* notes_of(const DoctorArguments& a) { return a.json ? stderr : stdout; }
+
 struct Diagnosed {
   std::string name;
   metrics::Diagnosis result;
@@ -67,7 +70,8 @@ void apply_to_graph(const DoctorArguments& a,
   graph.edges = std::move(problem.odometry);
   graph.edges.insert(graph.edges.end(), problem.closures.begin(), problem.closures.end());
   write_g2o(out, graph);
-  fmt::print("{}: {} findings applied, {} of {} closures kept\n",
+  fmt::print(notes_of(a),
+             "{}: {} findings applied, {} of {} closures kept\n",
              printable(out),
              findings.size(),
              problem.closures.size(),
@@ -101,7 +105,7 @@ void apply_offsets(const DoctorArguments& a,
     for (StampedPose& pose : file.poses) pose.stamp += offset;
     for (std::int64_t& stamp : file.nanoseconds) stamp += nanoseconds;
     write_trajectory(files[i], file, Format::tum);
-    fmt::print("{}: offset {:.4f} s applied\n", printable(files[i]), offset);
+    fmt::print(notes_of(a), "{}: offset {:.4f} s applied\n", printable(files[i]), offset);
   }
 }
 
@@ -144,6 +148,10 @@ std::string report_json(const std::vector<Diagnosed>& all) {
 }
 
 int doctor(const DoctorArguments& a) {
+  if (!a.apply.empty() && !a.loops.empty() && a.estimates.empty()) {
+    throw InputError(
+        "--apply: expected EST or one pose graph (g2o); files of --loops stay as they are");
+  }
   std::vector<Diagnosed> all;
   std::vector<NamedTrajectory> estimates;
   std::optional<PoseGraph> graph;

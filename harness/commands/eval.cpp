@@ -83,8 +83,12 @@ void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>&
   }
   reject_standard_output("--report", a.report);
   if (!a.report.empty()) {
-    const std::string table = all.size() == 1 ? text(all.front()) : markdown(comparison(all));
-    write_eval_report(a.report, all.front().reference, table + verdict_of(a, all), drawn);
+    const bool is_alone = all.size() == 1;
+    write_eval_report(a.report,
+                      all.front().reference,
+                      is_alone ? std::vector<Table>{} : comparison(all),
+                      is_alone ? text(all.front()) : verdict_of(a, all, TerminalStyle{}),
+                      drawn);
     fmt::print(stderr, "{}\n", printable(a.report));
   }
   if (a.plot.empty()) return;

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "harness/plot/map_panel.hpp"
 #include "harness/plot/style.hpp"
+#include "harness/plot/wraps.hpp"
 #include "metrics/numerics/angle.hpp"
 #include "metrics/numerics/euler.hpp"
 
@@ -145,19 +145,6 @@ double component(const Pose& pose, std::size_t axis) {
   if (axis < 3) return pose.translation[static_cast<Eigen::Index>(axis)];
   const metrics::Euler angles = metrics::euler(pose.rotation);
   return metrics::kDegrees * std::array{angles.roll, angles.pitch, angles.yaw}[axis - 3];
-}
-
-/// Breaks lines between -180 and 180 deg.
-void break_at_wraps(PlotPanel& panel) {
-  const Vector3 gap = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
-  for (PlotSeries& series : panel.series) {
-    std::vector<Vector3> points;
-    for (const Vector3& p : series.points) {
-      if (!points.empty() && std::abs(p.y() - points.back().y()) > 180.0) points.push_back(gap);
-      points.push_back(p);
-    }
-    series.points = std::move(points);
-  }
 }
 
 PlotPanel axis_of(const std::vector<DrawnEvaluation>& all, std::size_t axis) {

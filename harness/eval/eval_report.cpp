@@ -59,7 +59,8 @@ std::string svg_of(const NamedFigure& figure,
 
 void write_eval_report(const std::filesystem::path& file,
                        const std::string& reference,
-                       const std::string& table,
+                       const std::vector<Table>& tables,
+                       const std::string& text,
                        const std::vector<DrawnRuns>& drawn) {
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -68,10 +69,15 @@ void write_eval_report(const std::filesystem::path& file,
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>{0} - loopbench eval</title>\n"
       "<style>body{{font-family:sans-serif;margin:2rem;max-width:90rem}}"
-      "pre{{overflow-x:auto;background:#f5f5f5;padding:1rem}}img{{max-width:100%}}</style>\n"
-      "</head>\n<body>\n<h1>Evaluation against {0}</h1>\n<pre>{1}</pre>\n",
-      html_text(reference),
-      html_lines(table));
+      "pre{{overflow-x:auto;background:#f5f5f5;padding:1rem}}img{{max-width:100%}}"
+      "figure{{margin:0 0 1rem}}.scroll{{overflow-x:auto}}table{{border-collapse:collapse}}"
+      "caption{{text-align:left;font-weight:bold;padding:.5rem 0}}"
+      "th,td{{padding:.3rem .6rem;border-bottom:1px solid #ddd;text-align:right}}"
+      "th[scope=row]{{text-align:left}}.notes{{font-size:.9em}}</style>\n"
+      "</head>\n<body>\n<h1>Evaluation against {0}</h1>\n",
+      html_text(reference));
+  for (const Table& table : tables) page += html_table(table_view(table));
+  if (!text.empty()) page += "<pre>" + html_lines(text) + "</pre>\n";
   for (const DrawnRuns& each : drawn) {
     for (const NamedFigure& figure : error_figures(each.drawn)) {
       page +=

@@ -93,7 +93,7 @@ std::string spatial_tics(const PlotPanel& panel) {
   const double longest = std::max(lengths[0], lengths[1]);
   if (!(longest > 0.0)) return out;
   out = fmt::format("set xtics {0:g} offset 0,-0.3\nset ytics {0:g} offset 0.4,-0.2\n",
-                    round_step(0.5 * longest));
+                    round_step(0.9 * longest));
   if (lengths[2] > 1e-9 * longest) {
     out += fmt::format("set ztics {:g}\n", round_step(0.6 * lengths[2]));
   }

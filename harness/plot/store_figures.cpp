@@ -10,9 +10,15 @@ namespace {
 
 constexpr std::size_t kMostPlotted = 800;  // points per curve; more are not visible in print
 
-std::vector<Vector3> positions(const std::vector<TracePose>& poses) {
+/// Of a trace, in the reference's world frame.
+Vector3 origin_of(const std::optional<SequenceTrace>& trace) {
+  if (!trace) return Vector3::Zero();
+  return {trace->origin.x, trace->origin.y, trace->origin.z};
+}
+
+std::vector<Vector3> positions(const std::vector<TracePose>& poses, const Vector3& origin) {
   std::vector<Vector3> out;
-  for (const TracePose& p : poses) out.emplace_back(p.x, p.y, p.z);
+  for (const TracePose& p : poses) out.push_back(origin + Vector3(p.x, p.y, p.z));
   return out;
 }
 
@@ -119,6 +125,7 @@ SequenceFigures sequence_figures(const std::vector<CellRecord>& cells,
   }
   std::vector<MapPanel> maps = map_panels(sequence, panels);
   std::vector<ErrorPanel> errors = error_panels(sequence, panels);
+  std::optional<SequenceTrace> sequence_trace;
   bool is_first = true;
   for (const std::string& method : methods) {
     const auto cell = std::ranges::find_if(cells, [&](const CellRecord& c) {
@@ -127,14 +134,16 @@ SequenceFigures sequence_figures(const std::vector<CellRecord>& cells,
     if (cell == cells.end()) continue;
     const std::optional<CellTrace> trace = traces.cell(cell->position);
     if (!trace || trace->samples.empty()) continue;
-    const auto sequence_trace = is_first ? traces.sequence(cell->position) : std::nullopt;
-    is_first = false;
+    if (is_first) sequence_trace = traces.sequence(cell->position);
+    const Vector3 origin = origin_of(sequence_trace);
     for (MapPanel& map : maps) {
-      if (!sequence_trace) break;
-      map.add({"reference", kReferenceColor, false, {}}, positions(sequence_trace->reference));
+      if (!is_first || !sequence_trace) break;
+      map.add({"reference", kReferenceColor, false, {}},
+              positions(sequence_trace->reference, origin));
     }
+    is_first = false;
     std::vector<Vector3> estimate;
-    for (const TraceSample& sample : trace->samples) estimate.push_back(position(sample));
+    for (const TraceSample& sample : trace->samples) estimate.push_back(origin + position(sample));
     const auto index = std::ranges::find(all_methods, method) - all_methods.begin();
     const CurveStyle style = curve_style(static_cast<std::size_t>(index));
     for (MapPanel& map : maps) {

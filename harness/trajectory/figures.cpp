@@ -8,6 +8,7 @@
 
 #include "harness/plot/map_panel.hpp"
 #include "harness/plot/style.hpp"
+#include "harness/plot/wraps.hpp"
 #include "metrics/numerics/angle.hpp"
 #include "metrics/numerics/euler.hpp"
 
@@ -107,8 +108,12 @@ std::vector<PlotPanel> trajectory_panels(const std::vector<NamedTrajectory>& all
       const auto angles = metrics::euler(poses[i].world_from_body.rotation);
       return metrics::kDegrees * std::array{angles.roll, angles.pitch, angles.yaw}[axis];
     }));
+    break_at_wraps(out.back());
   }
-  out.push_back(time_panel(drawn, origin, "speed [m/s]", speed_at));
+  const auto has_speed = [](const DrawnTrajectory& each) { return each.poses.size() > 1; };
+  if (std::ranges::any_of(drawn, has_speed)) {
+    out.push_back(time_panel(drawn, origin, "speed [m/s]", speed_at));
+  }
   return out;
 }
 

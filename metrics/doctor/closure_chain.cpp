@@ -24,6 +24,13 @@ Matrix6 moved(const Pose& pose, const Matrix6& covariance) {
   return a * covariance * a.transpose();
 }
 
+/// The same edge again has the same error, so the two do not show how large errors are.
+bool is_copy(const Edge& a, const Edge& b) {
+  return a.from == b.from && a.to == b.to &&
+         a.from_from_to.translation == b.from_from_to.translation &&
+         a.from_from_to.rotation.coeffs() == b.from_from_to.rotation.coeffs();
+}
+
 /// Parts without valid information count as 0: they constrain nothing.
 SquaredError over(const Twist& residual, const Matrix6& covariance) {
   const auto valid = [](double x) { return std::isfinite(x) && x > 0.0 ? x : 0.0; };
@@ -104,6 +111,7 @@ std::vector<Neighbours> neighbours_of(const std::vector<Edge>& closures, const C
     for (std::size_t j = i + 1; j < std::min(closures.size(), i + 1 + kSearched); ++j) {
       const Edge& a = closures[i];
       const Edge& b = closures[j];
+      if (is_copy(a, b)) continue;
       const bool is_near = difference(a.from, b.from) <= kMostKeyframes &&
                            difference(a.to, b.to) <= kMostKeyframes &&
                            chain.length(a.from, b.from) <= kMostMetres &&

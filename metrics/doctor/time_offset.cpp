@@ -242,6 +242,8 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
   if (out.correlation < kLeastCorrelation) return std::nullopt;
   const auto unexplained = [](double now, double then) {
     constexpr double kUseful = 0.7;
+    constexpr double kRounding = 1e-6;  // at a constant speed all offsets fit equally well
+    if (1.0 - then < kRounding) return 1.0;
     return now < kUseful ? 1.0 : (1.0 - now) / std::max(1e-9, 1.0 - std::max(0.0, then));
   };
   out.unexplained = std::min(unexplained(after.angle, before.angle),

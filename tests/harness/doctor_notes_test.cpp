@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "datasets/core/params.hpp"
 #include "datasets/formats/formats.hpp"
 #include "datasets/formats/g2o.hpp"
@@ -191,6 +193,9 @@ TEST_F(DoctorNotes, ApplyCorrectsPoseGraphs) {
   check("closure_direction", [](Problem& p) {
     for (Edge& edge : p.closures) edge.from_from_to = edge.from_from_to.inverse();
   });
+  const CommandResult json = loopbench_command("doctor g.g2o --apply fixed --json", folder_);
+  EXPECT_TRUE(nlohmann::json::accept(json.out)) << json.out;
+  EXPECT_THAT(json.err, HasSubstr("fixed/g.g2o: "));
   check("closure_gap", [](Problem& p) { p.closures[3].from_from_to.translation.x() += 4.5; });
   check("information_scale", [](Problem& p) {
     for (auto* edges : {&p.odometry, &p.closures}) {

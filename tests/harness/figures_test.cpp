@@ -1,7 +1,10 @@
 /// Figures of `eval`: origin of their axes, names, legends, sizes, and which runs they contain.
+#include "harness/trajectory/figures.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "datasets/core/so3.hpp"
 #include "datasets/formats/formats.hpp"
 #include "harness/eval/drawn_sequences.hpp"
 #include "harness/eval/error_figures.hpp"
@@ -82,6 +85,22 @@ TEST(Figures, KeepThePeakOfAnErrorWithFewerPoints) {
   EXPECT_EQ(errors.points.front().x(), 0.0);
   EXPECT_NEAR(errors.points.back().x(), 499.9, 1e-9);
   EXPECT_LE(errors.points.size(), 1010u);
+}
+
+TEST(Figures, OfATrajectoryBreakAtWrapsAndHaveNoSpeedOfOnePose) {
+  NamedTrajectory turning{"turning", {}, {}};
+  for (int i = 0; i < 10; ++i) {
+    turning.file.poses.push_back({1.0 * i, {exp_so3({0.0, 0.0, 1.0 * i}), Vector3::Zero()}});
+  }
+  const std::vector<PlotPanel> panels = trajectory_panels({turning}, std::nullopt);
+  const auto yaw = std::ranges::find(panels, "yaw [deg]", &PlotPanel::y_label);
+  ASSERT_NE(yaw, panels.end());
+  const auto is_break = [](const Vector3& p) { return !p.allFinite(); };
+  EXPECT_EQ(std::ranges::count_if(yaw->series[0].points, is_break), 1);  // at 3.14 rad
+  turning.file.poses.resize(1);
+  for (const PlotPanel& panel : trajectory_panels({turning}, std::nullopt)) {
+    EXPECT_NE(panel.y_label, "speed [m/s]");
+  }
 }
 
 std::vector<EvaluationResult> results(const std::vector<FilePair>& files,

@@ -89,6 +89,8 @@ TEST(Session, FromABagToTheGate) {
   EXPECT_EQ(read_all(path("one_errors.pdf")).substr(0, 5), "%PDF-");
   EXPECT_EQ(read_all(path("one_axes.png")).substr(1, 3), "PNG");
   EXPECT_THAT(read_all(path("one.html")), HasSubstr("data:image/svg+xml;base64,"));
+  run("eval groundtruth.txt fixed/good_run0.txt fixed/good_run1.txt --report two.html");
+  EXPECT_THAT(read_all(path("two.html")), HasSubstr("<th scope=\"row\">fixed/good_run1.txt</th>"));
 }
 
 }  // namespace

@@ -84,6 +84,25 @@ TEST(DoctorOfClosures, InformationInTheWrongOrderOrScale) {
 }
 
 /// Without neighbours, and with too little drift to hide the motion between the lanes.
+TEST(DoctorOfClosures, RepeatedOrExactClosuresShowNothingAboutTheirInformation) {
+  Problem repeated = rounds();
+  repeated.closures.clear();
+  for (const Edge& closure : rounds().closures) {
+    repeated.closures.insert(repeated.closures.end(), 2, closure);
+  }
+  EXPECT_THAT(closure_faults(repeated), IsEmpty());
+  Problem exact = rounds();
+  for (Edge& edge : exact.odometry) {
+    edge.from_from_to = exact.keyframes[edge.from].world_from_body.inverse() *
+                        exact.keyframes[edge.to].world_from_body;
+  }
+  for (Edge& edge : exact.closures) {
+    edge.from_from_to = exact.keyframes[edge.from].world_from_body.inverse() *
+                        exact.keyframes[edge.to].world_from_body;
+  }
+  EXPECT_THAT(closure_faults(exact), IsEmpty());
+}
+
 TEST(DoctorOfClosures, FewClosuresAreComparedWithTheOdometry) {
   Problem problem = rounds();
   problem.closures = {problem.closures[0], problem.closures[13], problem.closures[26]};
