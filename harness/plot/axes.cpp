@@ -17,7 +17,8 @@ namespace {
 std::string axis_range(const char* axis,
                        const std::vector<PlotSeries>& series,
                        Eigen::Index coordinate,
-                       double least) {
+                       double least,
+                       const char* mode = "") {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (const PlotSeries& each : series) {
@@ -28,7 +29,9 @@ std::string axis_range(const char* axis,
     }
   }
   const double pad = std::max(least, 0.1 * std::abs(low));
-  if (low > high || high - low > 1e-9 * pad) return fmt::format("set {}range [*:*]\n", axis);
+  if (low > high || high - low > 1e-9 * pad) {
+    return fmt::format("set {}range [*:*]{}\n", axis, mode);
+  }
   return fmt::format("set {}range [{:.6g}:{:.6g}]\n", axis, low - pad, high + pad);
 }
 
@@ -92,7 +95,7 @@ std::string spatial_tics(const PlotPanel& panel) {
   std::string out = "set xtics autofreq\nset ytics autofreq\nset ztics autofreq\n";
   const double longest = std::max(lengths[0], lengths[1]);
   if (!(longest > 0.0)) return out;
-  out = fmt::format("set xtics {0:g} offset 0,-0.3\nset ytics {0:g} offset 0.4,-0.2\n",
+  out = fmt::format("set xtics {0:g} offset -0.3,-0.3\nset ytics {0:g} offset 0.6,-0.2\n",
                     round_step(0.9 * longest));
   if (lengths[2] > 1e-9 * longest) {
     out += fmt::format("set ztics {:g}\n", round_step(0.6 * lengths[2]));
@@ -106,8 +109,10 @@ std::string ranges(const PlotPanel& panel) {
   constexpr double kLeastHeight = 1.0;   // [m]
   constexpr double kLeastError = 0.001;  // [m] or [deg]
   const bool is_map = panel.spatial || panel.same_scale;
-  return axis_range("y", panel.series, 1, is_map ? kLeastHeight : kLeastError) +
-         axis_range("z", panel.series, 2, kLeastHeight);
+  // Not up to the next tics in space: their numbers would meet at the corner of two axes.
+  const char* const mode = panel.spatial ? " noextend" : "";
+  return axis_range("y", panel.series, 1, is_map ? kLeastHeight : kLeastError, mode) +
+         axis_range("z", panel.series, 2, kLeastHeight, mode);
 }
 
 std::string framed(const PlotPanel& panel, const PanelBox& box, double font) {
@@ -115,8 +120,8 @@ std::string framed(const PlotPanel& panel, const PanelBox& box, double font) {
     return fmt::format(
                "unset lmargin\nunset rmargin\nunset bmargin\nunset tmargin\n"
                "set size {:.6f},{:.6f}\nset origin {:.6f},{:.6f}\n"
-               "set view 62,35,0.82,1.3\nset xyplane 0\nset xrange [*:*]\n"
-               "set zlabel '' rotate by 90 offset 2,0\nset xlabel '' offset 0,0\n",
+               "set view 62,35,0.82,1.3\nset xyplane 0\nset xrange [*:*] noextend\n"
+               "set zlabel '' rotate by 90 offset 0,0\nset xlabel '' offset 0,0\n",
                box.width / box.page_width,
                box.height / box.page_height,
                box.left / box.page_width,

@@ -14,12 +14,13 @@ namespace {
 constexpr std::size_t kMostPairs = 600;
 constexpr double kSearch = 10.0;  // [s]
 
-/// Motion of the estimate between two of its stamps.
+/// Mean speeds of the estimate between two of its stamps. Not angles and distances: at constant
+/// speeds these would correlate through the durations of the intervals, at any offset.
 struct TimedMotion {
-  double begin = 0.0;
+  double begin = 0.0;  ///< [s]
   double end = 0.0;
-  double angle = 0.0;
-  double distance = 0.0;
+  double angular_speed = 0.0;  ///< [rad/s]
+  double speed = 0.0;
 };
 
 /// Correlation of speeds for offsets between two trajectories, over at most kMostPairs intervals
@@ -50,8 +51,8 @@ class SpeedMatch {
       const Pose& to = estimate[j].world_from_body;
       motions_.push_back({estimate[i].stamp,
                           estimate[j].stamp,
-                          angle_between(from.rotation, to.rotation),
-                          (to.translation - from.translation).norm()});
+                          angle_between(from.rotation, to.rotation) / duration,
+                          (to.translation - from.translation).norm() / duration});
     }
   }
 
@@ -72,10 +73,11 @@ class SpeedMatch {
       const std::optional<Pose> from = reference_at(motion.begin + offset);
       const std::optional<Pose> to = reference_at(motion.end + offset);
       if (!from || !to) continue;
-      out.reference_angle.push_back(angle_between(from->rotation, to->rotation));
-      out.estimate_angle.push_back(motion.angle);
-      out.reference_distance.push_back((to->translation - from->translation).norm());
-      out.estimate_distance.push_back(motion.distance);
+      const double duration = motion.end - motion.begin;
+      out.reference_angular_speed.push_back(angle_between(from->rotation, to->rotation) / duration);
+      out.estimate_angular_speed.push_back(motion.angular_speed);
+      out.reference_speed.push_back((to->translation - from->translation).norm() / duration);
+      out.estimate_speed.push_back(motion.speed);
     }
     return out;
   }
@@ -96,9 +98,9 @@ class SpeedMatch {
   Score score(double offset) const {
     constexpr std::size_t kFewest = 10;
     const MotionSignals s = signals(offset);
-    if (s.reference_angle.size() < std::max(kFewest, motions_.size() / 5)) return {};
-    return {correlation(s.reference_angle, s.estimate_angle),
-            correlation(s.reference_distance, s.estimate_distance),
+    if (s.reference_angular_speed.size() < std::max(kFewest, motions_.size() / 5)) return {};
+    return {correlation(s.reference_angular_speed, s.estimate_angular_speed),
+            correlation(s.reference_speed, s.estimate_speed),
             true};
   }
 
@@ -189,11 +191,11 @@ double deviation_of(const SpeedMatch& match, double offset, double step) {
       information += slopes * static_cast<double>(reference.size()) / residuals;
     }
   };
-  add(here.reference_angle, here.estimate_angle, after.reference_angle, before.reference_angle);
-  add(here.reference_distance,
-      here.estimate_distance,
-      after.reference_distance,
-      before.reference_distance);
+  add(here.reference_angular_speed,
+      here.estimate_angular_speed,
+      after.reference_angular_speed,
+      before.reference_angular_speed);
+  add(here.reference_speed, here.estimate_speed, after.reference_speed, before.reference_speed);
   return information > 0.0 ? 1.0 / std::sqrt(information) : INFINITY;
 }
 
