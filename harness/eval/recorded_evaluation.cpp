@@ -77,6 +77,16 @@ void check_clocks(const EvalArguments& a,
   }
 }
 
+/// Of copying the poses of a file.
+void remove_costs(CellResult& result) {
+  result.seconds.clear();
+  result.cpu_seconds.clear();
+  result.peak_memory.reset();
+  result.added_memory.reset();
+  result.allocations.reset();
+  result.report.phases.clear();
+}
+
 CellResult evaluated(const Cell& cell,
                      const Sweep& sweep,
                      const SharedReference& reference,
@@ -90,6 +100,7 @@ CellResult evaluated(const Cell& cell,
     const Sequence sequence =
         recorded_sequence(options, reference.read.poses, std::move(estimate.poses));
     out = run_cell(cell, sweep, sequence, catalogue);
+    remove_costs(out);
     SequenceMetadata metadata = metadata_of(options, reference);
     metadata.size.keyframes = static_cast<std::int64_t>(sequence.problem.keyframes.size());
     metadata.content = content_of(sequence);

@@ -30,7 +30,8 @@ struct SharedReference {
 SharedReference shared_reference(const Params& options);
 
 /// Evaluates cells that have this reference. An estimate that cannot be read is a failed cell. The
-/// notes of the metadata are those of `eval` for the same files.
+/// notes of the metadata are those of `eval` for the same files. No times are recorded, because
+/// they would be those of copying poses, not of the system.
 std::vector<CellResult> evaluate_recorded(const std::vector<Cell>& cells,
                                           const SharedReference& reference,
                                           const Sweep& sweep,
