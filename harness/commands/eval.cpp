@@ -34,15 +34,18 @@ std::optional<TerminalStyle> terminal_style() {
   return TerminalStyle{standard_output_style().width, false};
 }
 
-/// Statistics over runs and the verdict; empty if the files have no distinct labels.
+/// Statistics over runs and the verdict, or why there is none.
 std::string verdict_of(const EvalArguments& a,
                        const std::vector<EvaluationResult>& results,
                        const std::optional<TerminalStyle>& style = std::nullopt) {
   std::vector<RecordedRun> runs;
   try {
     runs = recorded_runs(file_pairs(a), a.sequence);
-  } catch (const InputError&) {
-    return "";
+  } catch (const InputError& error) {
+    std::string out = "\n";
+    const std::string why = "no verdict: " + std::string(error.what());
+    for (const std::string& line : wrapped(why, style ? style->width : 0)) out += line + "\n";
+    return out;
   }
   return run_report(records_of(results, runs), style);
 }
@@ -153,7 +156,7 @@ int eval_to_store(const EvalArguments& a, const Source& source) {
                                                   stored.incomplete,
                                                   a.min_coverage.value_or(kUsualMinCoverage)),
              printable(failures_text(stored, a.store)));
-  return stored.failed == 0 ? kExitOk : kExitSomeCellsFailed;
+  return stored.failed + stored.incomplete == 0 ? kExitOk : kExitSomeCellsFailed;
 }
 
 int eval(const EvalArguments& a, const Source& source) {

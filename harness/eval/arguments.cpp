@@ -113,6 +113,10 @@ std::vector<metrics::NamedProtocol> protocols(const EvalArguments& a) {
     // Command line options override the folder's configuration, which applies to rpg's protocols.
     if (name.starts_with("rpg")) changed.insert(of_folder.begin(), of_folder.end());
     out.push_back(known_protocol(name, changed));
+    const std::string label = out.back().label();
+    if (std::ranges::count(out, label, &metrics::NamedProtocol::label) > 1) {
+      throw InputError("--protocol: '" + label + "' is listed twice");
+    }
   }
   return out;
 }

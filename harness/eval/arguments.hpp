@@ -49,7 +49,8 @@ struct EvalArguments {
   std::string sequence;  ///< label of the reference in the store; empty: from its file name
 };
 
-/// Throws InputError for an unknown protocol or malformed setting, OptionError for an invalid one.
+/// Throws InputError for an unknown or repeated protocol or a malformed setting, OptionError for an
+/// invalid one.
 std::vector<metrics::NamedProtocol> protocols(const EvalArguments& arguments);
 
 /// As in evo: a relation selects ape and rpe in that relation; a delta or unit alone selects one

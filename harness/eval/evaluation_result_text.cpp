@@ -40,6 +40,21 @@ std::string diagnosis_text(const std::vector<metrics::Score>& diagnosis) {
   return out + "\n";
 }
 
+bool is_total(const std::string& axis) { return axis == "3d" || axis == "all"; }
+
+/// Follows a relation; empty for totals and scores without axis.
+std::string axis_text(const std::string& axis) {
+  return is_total(axis) || axis.empty() ? "" : " " + axis;
+}
+
+/// Without totals, as for `-r rpy`, tables show the axes.
+bool has_total(const EvaluationResult& result) {
+  return std::ranges::any_of(result.metrics, [](const EvaluatedMetric& metric) {
+    return std::ranges::any_of(metric.scores,
+                               [](const metrics::Score& score) { return is_total(score.axis); });
+  });
+}
+
 /// Columns as wide as their content.
 struct Widths {
   std::size_t metric = 13;
@@ -83,8 +98,7 @@ std::vector<Missing> missing_scores(const EvaluationResult& result, const std::s
     }
     for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
       if (why.empty()) continue;
-      const bool is_total = axis == "3d" || axis == "all";
-      const std::string what = label(metric) + " " + relation + (is_total ? "" : " " + axis);
+      const std::string what = label(metric) + " " + relation + axis_text(axis);
       out.push_back({row, what, "undefined", why});
     }
   }
@@ -145,6 +159,7 @@ std::string text(const EvaluationResult& result) {
 }
 
 std::vector<Table> comparison(const std::vector<EvaluationResult>& results) {
+  const bool has_totals = std::ranges::any_of(results, has_total);
   std::vector<Table> tables;
   std::vector<std::map<std::string, std::size_t>> columns;  // per table
   std::vector<std::vector<Missing>> missing;                // per table
@@ -188,9 +203,9 @@ std::vector<Table> comparison(const std::vector<EvaluationResult>& results) {
     for (Missing& note : missing_scores(result, result.estimate)) notes.push_back(std::move(note));
     for (const EvaluatedMetric& metric : result.metrics) {
       for (const auto& [relation, axis, unit, s, why, better, target] : metric.scores) {
-        if (axis != "3d" && axis != "all") continue;
-        if (!why.empty()) continue;
-        const std::string column = fmt::format("{} {} [{}]", label(metric), relation, unit);
+        if ((has_totals && !is_total(axis)) || !why.empty()) continue;
+        const std::string what = relation + axis_text(axis);
+        const std::string column = fmt::format("{} {} [{}]", label(metric), what, unit);
         if (result.incomplete_reason.empty()) {
           put(column, number(quoted_statistic(rules, s)));
           if (metric.name == "rpe" && axis == "3d") {

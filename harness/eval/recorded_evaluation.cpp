@@ -16,13 +16,6 @@
 namespace loopbench::harness {
 namespace {
 
-/// The reference of several cells, read once.
-struct SharedReference {
-  RecordedFile read;
-  InputFile file;
-  std::string content;
-};
-
 /// `option`: of the dataset, by which the gate finds the reference among the inputs.
 InputFile hashed_input(const std::string& name, const std::string& option) {
   return hashed_inputs({{file_of(name), option}}).front();
@@ -84,6 +77,16 @@ void check_clocks(const EvalArguments& a,
   }
 }
 
+/// Of copying the poses of a file.
+void remove_costs(CellResult& result) {
+  result.seconds.clear();
+  result.cpu_seconds.clear();
+  result.peak_memory.reset();
+  result.added_memory.reset();
+  result.allocations.reset();
+  result.report.phases.clear();
+}
+
 CellResult evaluated(const Cell& cell,
                      const Sweep& sweep,
                      const SharedReference& reference,
@@ -97,6 +100,7 @@ CellResult evaluated(const Cell& cell,
     const Sequence sequence =
         recorded_sequence(options, reference.read.poses, std::move(estimate.poses));
     out = run_cell(cell, sweep, sequence, catalogue);
+    remove_costs(out);
     SequenceMetadata metadata = metadata_of(options, reference);
     metadata.size.keyframes = static_cast<std::int64_t>(sequence.problem.keyframes.size());
     metadata.content = content_of(sequence);
@@ -134,14 +138,18 @@ std::string unreadable_content(const std::string& reference_content, const std::
   }
 }
 
+SharedReference shared_reference(const Params& options) {
+  SharedReference out{
+      recorded_reference(options), hashed_input(to_text(options.at("reference")), "reference"), ""};
+  out.content = reference_content(out.read.poses);
+  return out;
+}
+
 std::vector<CellResult> evaluate_recorded(const std::vector<Cell>& cells,
+                                          const SharedReference& reference,
                                           const Sweep& sweep,
                                           const Catalogue& catalogue,
                                           const EvalArguments& a) {
-  const Params& first = sweep.datasets[cells.front().dataset].dataset.options;
-  SharedReference reference{
-      recorded_reference(first), hashed_input(to_text(first.at("reference")), "reference"), ""};
-  reference.content = reference_content(reference.read.poses);
   std::vector<CellResult> out(cells.size());
   const std::size_t threads = std::min(hardware_threads(), cells.size());
   parallel_invoke(threads, [&](std::size_t thread) {

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "datasets/bags/bag_name.hpp"
@@ -29,8 +30,22 @@ std::string plain_stem(const std::string& file) {
   return path.stem().string();
 }
 
-std::string folder_name(const std::string& file) {
-  return std::filesystem::absolute(file_of(file)).parent_path().filename().string();
+/// The same file from any current folder, under one name; `-` is standard input.
+std::string absolute_name(const std::string& name) {
+  const std::string file = file_of(name);
+  if (file.empty() || file == "-") return name;
+  const std::filesystem::path given = std::filesystem::absolute(file);
+  const std::filesystem::path normal = given.lexically_normal();
+  std::error_code none;  // FOLDER/.. is another folder if FOLDER is a symbolic link
+  const bool is_same =
+      !std::filesystem::exists(given, none) || std::filesystem::equivalent(given, normal, none);
+  const std::string out = (is_same ? normal : given).string();
+  return names_bag(name) ? to_text(BagName{out, bag_name(name).topic}) : out;
+}
+
+/// `name`: as returned by absolute_name().
+std::filesystem::path parent_folder(const std::string& name) {
+  return std::filesystem::path(file_of(name)).parent_path();
 }
 
 bool is_generic(const std::string& stem) {
@@ -52,7 +67,7 @@ std::string sequence_of(const std::string& reference) {
   const std::string stem = plain_stem(reference);
   if (!is_generic(stem)) return stem;
   if (names_bag(reference)) return std::filesystem::path(file_of(reference)).stem().string();
-  const std::string folder = folder_name(reference);
+  const std::string folder = parent_folder(reference).filename().string();
   return folder.empty() ? stem : folder;
 }
 
@@ -69,12 +84,20 @@ bool split_run(const std::string& stem, RecordedRun& out) {
   return true;
 }
 
+/// Whether `folder` is METHOD/SEQUENCE. Under a reference such as SEQUENCE/groundtruth.txt, only
+/// for numbered files, because SEQUENCE can also contain one file for each method.
+bool is_sequence_folder(const std::filesystem::path& folder, const RecordedRun& run) {
+  if (folder.filename() == plain_stem(run.reference)) return true;
+  return folder.filename() == run.sequence && folder != parent_folder(run.reference) &&
+         is_run_number(plain_stem(run.estimate));
+}
+
+/// `pair`: with absolute names.
 RecordedRun labelled(const FilePair& pair, const std::string& sequence) {
   RecordedRun out{sequence, "", "0", pair.reference, pair.estimate};
   const std::string stem = plain_stem(pair.estimate);
-  const std::filesystem::path folder =
-      std::filesystem::absolute(file_of(pair.estimate)).parent_path();
-  if (folder.filename() == plain_stem(pair.reference)) {  // METHOD/SEQUENCE/RUN.txt
+  const std::filesystem::path folder = parent_folder(pair.estimate);
+  if (is_sequence_folder(folder, out)) {  // METHOD/SEQUENCE/RUN.txt
     out.method = folder.parent_path().filename().string();
     out.run = stem;
   } else if (is_run_number(stem)) {
@@ -84,6 +107,15 @@ RecordedRun labelled(const FilePair& pair, const std::string& sequence) {
     out.method = stem;
   }
   return out;
+}
+
+/// The method of a run whose labels another file has, too.
+std::string method_with_folder(const RecordedRun& run) {
+  std::filesystem::path folder = parent_folder(run.estimate);
+  const bool is_numbered = is_run_number(plain_stem(run.estimate));
+  if (is_numbered || folder.filename() == run.sequence) folder = folder.parent_path();
+  const std::string name = folder.filename().string();
+  return is_numbered ? name : name + "/" + run.method;
 }
 
 auto labels_of(const RecordedRun& run) { return std::tie(run.sequence, run.method, run.run); }
@@ -111,26 +143,36 @@ bool natural_less(const std::string& a, const std::string& b) {
     ++i;
     ++j;
   }
-  return a.size() - i < b.size() - j;
+  const bool is_end_of_a = i == a.size();
+  const bool is_end_of_b = j == b.size();
+  if (is_end_of_a && is_end_of_b) return a < b;  // "run1" and "run01" are two names
+  return is_end_of_a;
 }
 
 std::vector<RecordedRun> recorded_runs(const std::vector<FilePair>& files,
                                        const std::string& sequence) {
   std::vector<RecordedRun> out;
   for (const FilePair& pair : files) {
-    out.push_back(labelled(pair, sequence.empty() ? sequence_of(pair.reference) : sequence));
+    const FilePair names{absolute_name(pair.reference), absolute_name(pair.estimate)};
+    out.push_back(labelled(names, sequence.empty() ? sequence_of(names.reference) : sequence));
   }
-  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> count;
-  for (const RecordedRun& run : out) ++count[labels_of(run)];
-  for (RecordedRun& run : out) {
-    if (count[labels_of(run)] > 1) run.method = folder_name(run.estimate) + "/" + run.method;
-  }
-  std::map<std::tuple<std::string, std::string, std::string>, std::string> taken;
+  std::set<std::tuple<std::string, std::string, std::string>> labels;
+  std::set<std::pair<std::string, std::string>> ambiguous;  // sequence and method
   for (const RecordedRun& run : out) {
-    const auto [other, is_new] = taken.emplace(labels_of(run), run.estimate);
+    if (!labels.insert(labels_of(run)).second) ambiguous.emplace(run.sequence, run.method);
+  }
+  for (RecordedRun& run : out) {
+    if (ambiguous.contains({run.sequence, run.method})) run.method = method_with_folder(run);
+  }
+  std::map<std::tuple<std::string, std::string, std::string>, const RecordedRun*> taken;
+  for (const RecordedRun& run : out) {
+    const auto [other, is_new] = taken.emplace(labels_of(run), &run);
     if (is_new) continue;
+    if (run.estimate == other->second->estimate && run.reference == other->second->reference) {
+      throw InputError(run.estimate + ": is listed twice");
+    }
     throw InputError(run.estimate + ": has the same sequence '" + run.sequence + "', method '" +
-                     run.method + "' and run " + run.run + " as " + other->second +
+                     run.method + "' and run " + run.run + " as " + other->second->estimate +
                      ", expected METHOD/SEQUENCE/RUN.txt or NAME_RUN.txt");
   }
   return out;

@@ -12,24 +12,25 @@ namespace loopbench::harness {
 struct RecordedRun {
   std::string sequence;
   std::string method;
-  std::string run;  ///< "0", "7", or "0" if the file name has no number
-  std::string reference;
-  std::string estimate;
+  std::string run;        ///< "0", "7", or "0" if the file name has no number
+  std::string reference;  ///< absolute
+  std::string estimate;   ///< absolute
   friend bool operator==(const RecordedRun&, const RecordedRun&) = default;
 };
 
 /// Labels from the file names:
-/// - METHOD/SEQUENCE/RUN.txt with SEQUENCE.txt as reference: these names;
+/// - METHOD/SEQUENCE/RUN.txt with SEQUENCE.txt as reference: these names; with any other reference
+///   of the sequence if RUN is a number;
 /// - METHOD/RUN.txt where RUN is a number: these;
 /// - NAME_3.txt, NAME_run3.txt, NAME-3.txt: method NAME, run 3;
-/// - any other name: the method, run 0. A name that occurs in several folders gets its folder's.
+/// - any other name: the method, run 0. A method that occurs in several folders gets their names.
 /// The sequence is the name of the reference file, or of its folder for names such as
 /// groundtruth.txt, or `sequence` if not empty. Topics of bags are names, too. Throws InputError if
 /// two files have the same labels. Files of equal content are not detected here.
 std::vector<RecordedRun> recorded_runs(const std::vector<FilePair>& files,
                                        const std::string& sequence);
 
-/// "run2" < "run10": numbers within names are compared as numbers.
+/// "run2" < "run10": numbers within names are compared as numbers. A total order of texts.
 bool natural_less(const std::string& a, const std::string& b);
 
 }  // namespace loopbench::harness

@@ -1,13 +1,16 @@
 #include "harness/eval/recorded_store.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <tuple>
 
+#include "datasets/bags/bag_name.hpp"
 #include "datasets/core/error.hpp"
 #include "harness/eval/note_summary.hpp"
 #include "harness/eval/recorded_evaluation.hpp"
 #include "harness/provenance/build.hpp"
+#include "harness/store/resume.hpp"
 #include "harness/store/store.hpp"
 
 namespace loopbench::harness {
@@ -15,23 +18,42 @@ namespace {
 
 auto run_labels(const RecordedRun& run) { return std::tie(run.sequence, run.method, run.run); }
 
-/// The stored runs, where `added` replace runs with the same labels, and then the others of
-/// `added`.
-std::vector<RecordedRun> with_stored(const std::filesystem::path& file,
-                                     const std::vector<RecordedRun>& added) {
-  if (!std::filesystem::exists(file)) return added;
+/// The runs of a store. Throws InputError if it has none, or has paths of an unknown folder.
+std::vector<RecordedRun> stored_runs(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return {};
   std::vector<RecordedRun> out = runs_of_manifest(read_run(file)["config"]);
   if (out.empty()) {
     throw InputError(file.string() + ": is the store of a sweep, expected one of eval --store");
   }
+  for (const RecordedRun& run : out) {
+    for (const std::string& name : {run.reference, run.estimate}) {
+      if (file_of(name) == "-" || std::filesystem::path(file_of(name)).is_absolute()) continue;
+      throw InputError(file.string() + ": has the relative path " + name +
+                       " of an earlier version, whose folder is unknown; evaluate its files into "
+                       "a new store");
+    }
+  }
+  return out;
+}
+
+/// The stored runs, where `added` replace runs with the same labels, and then the others of
+/// `added`. `notes`: receives runs that are replaced by another file.
+std::vector<RecordedRun> with_stored(const std::vector<RecordedRun>& stored,
+                                     const std::vector<RecordedRun>& added,
+                                     std::vector<std::string>& notes) {
+  std::vector<RecordedRun> out = stored;
   for (const RecordedRun& run : added) {
     const auto same = std::ranges::find_if(
         out, [&](const RecordedRun& other) { return run_labels(other) == run_labels(run); });
     if (same == out.end()) {
       out.push_back(run);
-    } else {
-      *same = run;
+      continue;
     }
+    if (same->estimate != run.estimate) {
+      notes.push_back(run.estimate + ": replaces " + same->estimate + " as run " + run.run +
+                      " of '" + run.method + "' on '" + run.sequence + "'");
+    }
+    *same = run;
   }
   return out;
 }
@@ -41,13 +63,58 @@ void check_references(const std::vector<RecordedRun>& runs) {
   std::map<std::string, std::string> known;
   for (const RecordedRun& run : runs) {
     const auto [found, is_new] = known.emplace(run.sequence, run.reference);
-    if (is_new || std::filesystem::path(found->second).lexically_normal() ==
-                      std::filesystem::path(run.reference).lexically_normal()) {
-      continue;
-    }
+    if (is_new || found->second == run.reference) continue;
     throw InputError("sequence '" + run.sequence + "' has two references, " + found->second +
                      " and " + run.reference + "; name one of them with --sequence NAME");
   }
+}
+
+using References = std::map<std::string, SharedReference>;  // by RecordedRun::reference
+
+/// Reads the references of cells that are not known yet. Throws InputError.
+void read_references(const std::vector<Cell>& cells,
+                     const std::vector<RecordedRun>& runs,
+                     const Sweep& sweep,
+                     References& known) {
+  for (const Cell& cell : cells) {
+    const std::string& reference = runs[cell.dataset].reference;
+    if (known.contains(reference)) continue;
+    known.emplace(reference, shared_reference(sweep.datasets[cell.dataset].dataset.options));
+  }
+}
+
+/// A note on stored runs that are evaluated although they were not given; empty if there is none.
+std::string evaluated_again(const std::vector<Cell>& missing,
+                            const std::vector<RecordedRun>& runs,
+                            const std::vector<RecordedRun>& added) {
+  const auto count = std::ranges::count_if(missing, [&](const Cell& cell) {
+    return std::ranges::find(added, runs[cell.dataset]) == added.end();
+  });
+  if (count == 0) return "";
+  return std::to_string(count) + (count == 1 ? " earlier run is" : " earlier runs are") +
+         " evaluated again, because options, files or the program have changed";
+}
+
+/// Empty if all scores could be computed or are undefined.
+std::string why_failed(const CellResult& result) {
+  if (is_failure(result.status)) return result.why;
+  const auto failed = std::ranges::find_if(result.scores, is_failure, &ScoreResult::status);
+  if (failed == result.scores.end()) return "";
+  const bool is_all = std::ranges::all_of(result.scores, is_failure, &ScoreResult::status);
+  return is_all ? failed->why : failed->label + ": " + failed->why;
+}
+
+void add_result(const CellResult& result,
+                const std::string& estimate,
+                RecordedSweep& out,
+                NoteSummary& notes) {
+  if (const std::string why = why_failed(result); !why.empty()) {
+    ++out.failed;
+    const bool names_file = why.find(estimate) != std::string::npos;
+    out.failures.push_back(names_file ? why : estimate + ": " + why);
+  }
+  out.incomplete += result.status == Status::incomplete ? 1 : 0;
+  if (result.metadata) notes.add(estimate, result.metadata->notes);
 }
 
 }  // namespace
@@ -57,35 +124,42 @@ RecordedSweep store_runs(const std::vector<RecordedRun>& added,
                          const std::filesystem::path& folder,
                          const Source& source) {
   const std::filesystem::path file = folder / "results.sqlite";
-  const std::vector<RecordedRun> runs = with_stored(file, added);
+  const std::vector<RecordedRun> stored = stored_runs(file);
+  RecordedSweep out;
+  const std::vector<RecordedRun> runs = with_stored(stored, added, out.notes);
   check_references(runs);
   const Catalogue known = recorded_catalogue();
   const Sweep sweep = recorded_sweep(runs, a);
   const std::vector<Cell> cells = recorded_cells(runs, sweep);
   CellKeys keys(sweep, known, DataRoot{}, build_id(source.code));
+  // Before the store changes: stored results are kept if a reference cannot be read.
+  References references;
+  const std::vector<Cell> missing =
+      stored.empty() ? cells : missing_cells(file, keys, cells, cells);
+  read_references(missing, runs, sweep, references);
+  const std::string again = evaluated_again(missing, runs, added);
+  if (!again.empty()) out.notes.push_back(again);
   std::filesystem::create_directories(folder);
   Store store(file, keys, provenance(source, sweep, known));
   // A failure can be repaired without a change of the estimate, for example by its permissions.
   const Resumed resumed = store.resume(cells, cells, Retry::failed);
-  RecordedSweep out{cells.size(), resumed.there, resumed.failed, resumed.incomplete, {}, {}};
+  read_references(resumed.missing, runs, sweep, references);
+  out.cells = cells.size();
+  out.stored = resumed.there;
+  out.failed = resumed.failed;
+  out.incomplete = resumed.incomplete;
   std::map<std::string, std::vector<Cell>> by_reference;
   for (const Cell& cell : resumed.missing)
     by_reference[runs[cell.dataset].reference].push_back(cell);
   NoteSummary notes;
-  for (const auto& [reference, missing] : by_reference) {
-    for (const CellResult& result : evaluate_recorded(missing, sweep, known, a)) {
-      const std::string& estimate = runs[result.cell.dataset].estimate;
+  for (const auto& [name, those] : by_reference) {
+    for (const CellResult& result :
+         evaluate_recorded(those, references.at(name), sweep, known, a)) {
       store.write(result);
-      if (is_failure(result.status)) {
-        ++out.failed;
-        const bool names_file = result.why.find(estimate) != std::string::npos;
-        out.failures.push_back(names_file ? result.why : estimate + ": " + result.why);
-      }
-      out.incomplete += result.status == Status::incomplete ? 1 : 0;
-      if (result.metadata) notes.add(estimate, result.metadata->notes);
+      add_result(result, runs[result.cell.dataset].estimate, out, notes);
     }
   }
-  out.notes = notes.lines();
+  std::ranges::move(notes.lines(), std::back_inserter(out.notes));
   return out;
 }
 

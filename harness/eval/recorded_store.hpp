@@ -18,9 +18,10 @@ inline constexpr double kUsualMinCoverage = 0.5;
 struct RecordedSweep {
   std::size_t cells = 0;   ///< of the store
   std::size_t stored = 0;  ///< of those, stored before
-  std::size_t failed = 0;
+  std::size_t failed = 0;  ///< including runs of which a metric failed
   std::size_t incomplete = 0;
-  std::vector<std::string> notes;     ///< of the files evaluated now, see NoteSummary
+  std::vector<std::string>
+      notes;  ///< on earlier runs, and of the files evaluated now (NoteSummary)
   std::vector<std::string> failures;  ///< "FILE: reason"
 };
 
@@ -29,7 +30,7 @@ struct RecordedSweep {
 /// evaluated again, except those that failed. Every run of a sequence is a group of its own, so
 /// that conclusions hold for other runs on these sequences; runs with the same number on equal
 /// references are one group, see recorded_group(). Throws InputError, also if the store is the
-/// result of a sweep. O(poses).
+/// result of a sweep or has relative paths; the store is then unchanged. O(poses).
 RecordedSweep store_runs(const std::vector<RecordedRun>& runs,
                          const EvalArguments& arguments,
                          const std::filesystem::path& folder,

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "datasets/bags/bag_name.hpp"
 #include "datasets/core/polyline.hpp"
@@ -215,15 +216,18 @@ std::vector<RecordedRun> runs_of_manifest(const std::string& text) {
   std::istringstream lines(text);
   std::string line;
   if (!std::getline(lines, line) || line != kRecordedTitle) return out;
+  std::set<std::tuple<std::string, std::string, std::string>> known;
   while (std::getline(lines, line)) {
+    if (!line.starts_with("- ")) continue;
     const nlohmann::json json = nlohmann::json::parse(line.substr(2), nullptr, false);
     if (!json.is_object()) continue;
     const auto text_of = [&](const char* key) { return json.value(key, ""); };
-    out.push_back({text_of("sequence"),
-                   text_of("method"),
-                   text_of("run"),
-                   text_of("reference"),
-                   text_of("estimate")});
+    RecordedRun run{text_of("sequence"),
+                    text_of("method"),
+                    text_of("run"),
+                    text_of("reference"),
+                    text_of("estimate")};
+    if (known.emplace(run.sequence, run.method, run.run).second) out.push_back(std::move(run));
   }
   return out;
 }

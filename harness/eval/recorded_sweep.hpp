@@ -42,7 +42,8 @@ Sweep recorded_sweep(const std::vector<RecordedRun>& runs, const EvalArguments& 
 std::vector<Cell> recorded_cells(const std::vector<RecordedRun>& runs, const Sweep& sweep);
 
 /// The runs as text, for the store, and back. Other texts have no runs. `options`: those that all
-/// files share, for recorded_options().
+/// files share, for recorded_options(). `merge` concatenates such texts: of several runs with the
+/// same labels, the first is returned.
 std::string manifest(const std::vector<RecordedRun>& runs, const std::string& options = "");
 std::vector<RecordedRun> runs_of_manifest(const std::string& text);
 

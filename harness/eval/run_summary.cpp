@@ -13,17 +13,19 @@
 namespace loopbench::harness {
 namespace {
 
-bool is_total(const Record& r) { return r.axis.empty() || r.axis == "3d" || r.axis == "all"; }
+bool is_total_score(const Record& r) { return r.axis.empty() || r.axis == "3d" || r.axis == "all"; }
 
 /// The score of a protocol that summarises runs.
 std::optional<Record> run_score(const std::vector<Record>& records, const SharedText& protocol) {
   std::optional<Record> first;
+  std::optional<Record> first_axis;
   for (const Record& r : records) {
-    if (r.metric.empty() || r.protocol != protocol || !is_total(r)) continue;
-    if (metric_label(r) == "ate" && r.relation == "translation") return r;
-    if (!first && r.better != metrics::Better::neither) first = r;
+    if (r.metric.empty() || r.protocol != protocol) continue;
+    if (is_total_score(r) && metric_label(r) == "ate" && r.relation == "translation") return r;
+    std::optional<Record>& known = is_total_score(r) ? first : first_axis;
+    if (!known && r.better != metrics::Better::neither) known = r;
   }
-  return first;
+  return first ? first : first_axis;
 }
 
 bool is_score(const Record& r, const Record& score) {
@@ -41,11 +43,26 @@ std::vector<SharedText> protocols_of(const std::vector<Record>& records) {
   return out;
 }
 
+/// Runs of one method on one sequence. Runs with equal data have the same content.
+struct CountedRuns {
+  std::set<std::int64_t> repeats;
+  std::set<std::string> contents;
+  std::map<std::string, double> values;  ///< of the successes, by content
+};
+
+/// Runs whose content is unknown are different.
+std::string content_key(const Record& r) {
+  return r.content.empty() ? "run " + std::to_string(r.repeat) : r.content.text();
+}
+
 RunSummary summary(const std::string& sequence,
                    const std::string& method,
-                   std::size_t runs,
-                   std::vector<double> values) {
-  RunSummary out{sequence, method, runs, values.size(), 0, 0, 0, 0, {}};
+                   const CountedRuns& counted,
+                   bool is_error) {
+  std::vector<double> values;
+  for (const auto& [content, value] : counted.values) values.push_back(value);
+  RunSummary out{sequence, method, counted.contents.size(), 0, values.size(), 0, 0, 0, 0, {}};
+  out.copies = counted.repeats.size() - counted.contents.size();
   if (values.empty()) return out;
   std::ranges::sort(values);
   for (const double value : values) out.mean += value / static_cast<double>(values.size());
@@ -55,6 +72,9 @@ RunSummary summary(const std::string& sequence,
   out.smallest = values.front();
   out.largest = values.back();
   if (const auto interval = mean_interval(values)) out.interval = interval->interval;
+  const bool is_negative = out.smallest < 0.0;
+  if (out.interval && is_error && !is_negative)
+    out.interval->low = std::max(0.0, out.interval->low);
   return out;
 }
 
@@ -93,11 +113,23 @@ std::string table_of(const std::vector<RunSummary>& all,
                   "mean " + subject + " [" + unit + "]",
                   "95 % interval",
                   "median [" + unit + "]",
-                  "range [m]"},
+                  "range [" + unit + "]"},
                  {},
                  {}};
   for (const RunSummary& each : all) view.lines.push_back(row(each));
-  return style ? terminal(view, *style) : markdown(view);
+  std::size_t copies = 0;
+  for (const RunSummary& each : all) copies += each.copies;
+  std::string out = style ? terminal(view, *style) : markdown(view);
+  if (copies > 0) {
+    out += "\n" + lines_of(fmt::format("- {} of the files {} the data of another run of {} method "
+                                       "and count{} once with it",
+                                       copies,
+                                       copies == 1 ? "repeats" : "repeat",
+                                       copies == 1 ? "its" : "their",
+                                       copies == 1 ? "s" : ""),
+                           style);
+  }
+  return out;
 }
 
 }  // namespace
@@ -167,17 +199,21 @@ std::vector<Record> records_of(const std::vector<EvaluationResult>& results,
 std::vector<RunSummary> summarise_runs(const std::vector<Record>& records, const Record& score) {
   using Key = std::pair<std::string, std::string>;
   std::vector<Key> order;
-  std::map<Key, std::set<std::int64_t>> runs;
-  std::map<Key, std::vector<double>> values;
+  std::map<Key, CountedRuns> runs;
   for (const Record& r : records) {
     const Key key{r.sequence, r.method};
-    if (runs[key].empty()) order.push_back(key);
-    runs[key].insert(r.repeat);
-    if (r.status == Status::ok && is_score(r, score)) values[key].push_back(r.statistics.rmse);
+    CountedRuns& counted = runs[key];
+    if (counted.repeats.empty()) order.push_back(key);
+    counted.repeats.insert(r.repeat);
+    counted.contents.insert(content_key(r));
+    if (r.status == Status::ok && is_score(r, score)) {
+      counted.values.emplace(content_key(r), r.statistics.rmse);
+    }
   }
   std::vector<RunSummary> out;
   for (const Key& key : order) {
-    out.push_back(summary(key.first, key.second, runs[key].size(), values[key]));
+    const bool is_error = score.better == metrics::Better::lower;
+    out.push_back(summary(key.first, key.second, runs[key], is_error));
   }
   return out;
 }
@@ -193,7 +229,7 @@ std::string report_of(const std::vector<Record>& records,
   std::set<std::string> methods;
   for (const RunSummary& each : all) methods.insert(each.method);
   const bool has_repeats =
-      std::ranges::any_of(all, [](const RunSummary& each) { return each.runs > 1; });
+      std::ranges::any_of(all, [](const RunSummary& each) { return each.runs + each.copies > 1; });
   const bool has_values =
       std::ranges::any_of(all, [](const RunSummary& each) { return each.successes > 0; });
   if (!has_values || (methods.size() < 2 && !has_repeats)) return "";
@@ -227,6 +263,7 @@ std::string run_report(const std::vector<Record>& records,
     const std::optional<Record> score = run_score(records, protocol);
     if (!score) continue;
     std::string subject = metric_label(*score);
+    if (!is_total_score(*score)) subject += " " + score->axis;
     if (protocols.size() > 1) subject += " (" + protocol + ")";
     out += report_of(records, *score, subject, style);
   }

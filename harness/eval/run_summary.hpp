@@ -16,7 +16,8 @@ namespace loopbench::harness {
 struct RunSummary {
   std::string sequence;
   std::string method;
-  std::size_t runs = 0;
+  std::size_t runs = 0;       ///< with different data
+  std::size_t copies = 0;     ///< further runs, whose data are those of another; not counted
   std::size_t successes = 0;  ///< runs with a value: sufficient coverage, no failure
   double mean = 0.0;          ///< of the successes
   double median = 0.0;
@@ -36,8 +37,8 @@ std::vector<RunSummary> summarise_runs(const std::vector<Record>& records, const
 
 /// For each protocol the table of the summaries and the verdict over all runs: which method is
 /// better, and whether that is proven. The score is the translational ATE or, if it was not
-/// requested, the first one with a direction. Empty below two methods and two runs. Markdown
-/// without a style.
+/// requested, the first one with a direction, or an axis of it if there is no total. Empty below
+/// two methods and two runs. Equal runs count once, as in compare(). Markdown without a style.
 std::string run_report(const std::vector<Record>& records,
                        const std::optional<TerminalStyle>& style = std::nullopt);
 

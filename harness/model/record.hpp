@@ -23,7 +23,7 @@ struct Record {
   SharedText closures;
   bool oracle_closures = false;
   bool oracle = false;        ///< the method has access to the reference
-  double milliseconds = 0.0;  ///< median wall time of the method
+  double milliseconds = 0.0;  ///< median wall time of the method; NaN: not recorded
   SharedText protocol;        ///< label; empty if not applicable, as are the next two
   SharedText protocol_version;
   SharedText times;   ///< keyframes | dense

@@ -27,6 +27,16 @@ inline std::string recorded_options(std::string_view config) {
   return std::string(config.substr(begin, config.find('\n', begin) - begin));
 }
 
+/// Why two such stores cannot be merged: all files of one are read with the same options. Empty if
+/// they can be, or if one is the store of a sweep.
+inline std::string why_other_options(std::string_view earlier, std::string_view added) {
+  if (!is_recorded(earlier) || !is_recorded(added)) return "";
+  const std::string options = recorded_options(added);
+  const std::string others = recorded_options(earlier);
+  if (options == others) return "";
+  return "its files were read with " + options + ", those of the earlier stores with " + others;
+}
+
 /// Record::group of a run. The reference is identified by its poses, because the same recording
 /// under several names is not several independent sequences.
 inline std::string recorded_group(const std::string& run, const std::string& reference_hash) {

@@ -85,13 +85,17 @@ TextTable costs(const std::vector<CellRecord>& cells) {
                  "iterations"},
                 {},
                 {}};
+  if (lacks_times(cells)) {
+    out.notes.push_back(kNoTimes);
+    return out;
+  }
   bool shared = false;
   bool alone = false;
   for (const auto& [method, all] : by_method(cells)) {
     const std::vector<const CellRecord*> timed = timed_of(all);
     std::size_t failed = 0;
     for (const CellRecord* cell : all) {
-      if (!is_finished(*cell) && cell->status != Status::declined) ++failed;
+      if (!has_numbers(cell->status) && cell->status != Status::declined) ++failed;
       (cell->worker.text().find("serial") == std::string::npos ? shared : alone) = true;
     }
     out.rows.push_back(

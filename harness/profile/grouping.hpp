@@ -52,6 +52,16 @@ inline std::vector<std::string> oracle_notes(const std::vector<CellRecord>& cell
   return out;
 }
 
+/// Note of tables for cells that have results, but no times.
+inline constexpr const char* kNoTimes =
+    "none: no run times are recorded, because the results are those of files (`eval --store`)";
+
+/// Whether there are results, but all without times.
+inline bool lacks_times(const std::vector<CellRecord>& cells) {
+  return std::ranges::none_of(cells, [](const auto& cell) { return cell.runs > 0; }) &&
+         std::ranges::any_of(cells, [](const auto& cell) { return has_numbers(cell.status); });
+}
+
 /// Whether the method of the cell finished.
 inline bool is_finished(const CellRecord& cell) {
   return cell.runs > 0 && has_numbers(cell.status);

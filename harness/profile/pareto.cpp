@@ -69,7 +69,7 @@ std::vector<Point> points_of(const std::vector<CellRecord>& cells,
     std::size_t runs = 0;
     for (const CellRecord* cell : all) {
       const auto error = error_of.find(cell->position);
-      if (error == error_of.end()) continue;
+      if (error == error_of.end() || cell->runs == 0) continue;
       ++runs;
       by_sequence[cell->sequence].first.push_back(error->second);
       by_sequence[cell->sequence].second.push_back(cell->seconds);
@@ -155,6 +155,10 @@ TextTable pareto(const std::vector<CellRecord>& cells,
                         point.error ? fmt::format("{:.4g}", *point.error) : "-",
                         fmt::format("{:.4g}", 1e3 * point.seconds),
                         front[i]});
+  }
+  if (points.empty() && !error_of.empty()) {
+    out.notes.push_back(kNoTimes);
+    return out;
   }
   if (points.empty()) {
     out.notes.push_back("no cell has " + accuracy.metric + " " + accuracy.relation + " " +

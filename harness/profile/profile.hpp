@@ -27,6 +27,7 @@ std::optional<PowerLaw> power_law(const std::vector<double>& x, const std::vecto
 /// O(n^2).
 std::vector<bool> pareto_front(const std::vector<double>& a, const std::vector<double>& b);
 
+/// Tables of times are empty, with a note, for results of files (`eval --store`).
 /// Every table below marks methods that use the reference with "(oracle)", and its notes name
 /// sequences whose closures were measured in the reference.
 

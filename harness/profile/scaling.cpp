@@ -38,7 +38,9 @@ TextTable scaling(const std::vector<CellRecord>& cells) {
                         fmt::format("{:.3f}", law->r2),
                         fmt::format("{:.4g}", 1e3 * times.back())});
   }
-  if (out.rows.empty()) {
+  if (lacks_times(cells)) {
+    out.notes.push_back(kNoTimes);
+  } else if (out.rows.empty()) {
     out.notes.push_back(
         "none: needs at least three numbers of keyframes, the largest four times the "
         "smallest, for example `sweep: {keyframes: [100, 1000, 10000]}`");

@@ -168,7 +168,7 @@ std::string costs_html(const ReportContent& content) {
                                    content.accuracy_and_time}) {
     if (!listing.rows.empty()) out += html_table(listing);
   }
-  return out;
+  return out.empty() ? "<p>No run times are recorded.</p>\n" : out;
 }
 
 std::string provenance_html(const ReportContent& content) {

@@ -27,7 +27,7 @@ struct CellRow {
   Status status = Status::ok;
   SharedText closures;
   SharedText why;
-  double seconds = 0.0;         ///< CellRecord::seconds
+  double seconds = 0.0;         ///< CellRecord::seconds; NaN: not recorded, though it has results
   Hash key;                     ///< of the text of CellRecord::key
   std::array<Hash, 6> details;  ///< digests of its rows by detail_number(); zero: none
   Hash digest;

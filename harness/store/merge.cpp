@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "datasets/core/error.hpp"
+#include "harness/model/recorded_run.hpp"
 #include "harness/model/result.hpp"
 #include "harness/store/cell_columns.hpp"
 #include "harness/store/cell_writer.hpp"
@@ -41,6 +42,7 @@ class Merge {
     database_.prepare("ATTACH ? AS source").bind(store_).run();
     {
       Transaction transaction(database_);
+      check_recorded_options();
       add_cells();
       add_details();
       add_sequences();
@@ -176,8 +178,14 @@ class Merge {
     }
   }
 
-  std::string run_value(const std::string& key) {
-    Statement row = database_.prepare("SELECT value FROM run WHERE key = ?");
+  void check_recorded_options() {
+    const std::string added = run_value("config", "source.run");
+    const std::string why = why_other_options(run_value("config"), added);
+    if (!why.empty()) throw InputError(store_ + ": " + why);
+  }
+
+  std::string run_value(const std::string& key, const std::string& table = "main.run") {
+    Statement row = database_.prepare("SELECT value FROM " + table + " WHERE key = ?");
     return row.bind(key).step() ? row.text() : "";
   }
 

@@ -30,8 +30,8 @@ struct MergeOptions {
 /// are both kept. Cells keep their positions where these are free. With `mixed_builds`, the build
 /// is added to the method label of a cell that another build also computed. O(bytes), about 300
 /// bytes of memory per cell of the output. Throws InputError if `out` exists (without `add`), for
-/// cells of several builds, cells with equal labels but other differences, and sequences read from
-/// different files.
+/// cells of several builds, cells with equal labels but other differences, sequences read from
+/// different files, and stores of `eval --store` with different options of reading.
 Merged merge_stores(const std::vector<std::filesystem::path>& stores,
                     const std::filesystem::path& out,
                     const MergeOptions& options = {});

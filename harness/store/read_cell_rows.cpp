@@ -1,3 +1,4 @@
+#include <cmath>
 #include <future>
 #include <iterator>
 #include <limits>
@@ -100,11 +101,12 @@ class RowReader {
     cell.oracle_closures = row.integer() != 0;
     cell.oracle = row.integer() != 0;
     row.skip();  // worker
-    row.skip();  // runs
+    const bool is_timed = row.integer() > 0;
     cell.seconds = row.real();
     for (int i = 0; i < 6; ++i) row.skip();  // seconds_min to allocations
     const std::optional<Status> status = status_of(row.view());
     cell.status = status.value_or(Status::failed);
+    if (!is_timed && has_numbers(cell.status)) cell.seconds = std::nan("");
     row.skip();  // signal
     cell.why = why_.read(row);
     cell.failed_scores = row.integer();

@@ -105,7 +105,8 @@ std::string csv_row(const Record& r) {
                                                            number(s.sse),
                                                            r.pairs,
                                                            r.possible);
-  out += fmt::format("{},{},{}\n", r.milliseconds, quoted(to_text(r.status)), quoted(r.why));
+  out +=
+      fmt::format("{},{},{}\n", number(r.milliseconds), quoted(to_text(r.status)), quoted(r.why));
   return out;
 }
 

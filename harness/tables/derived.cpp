@@ -62,6 +62,8 @@ Record one_number(const Record& r,
   return one;
 }
 
+bool has_time(const Record& r) { return !std::isnan(r.milliseconds); }
+
 Record run_time(const Record& r) {
   static const SharedText metric = "time";
   static const SharedText unit = "ms";
@@ -112,7 +114,9 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
 
 std::vector<Record> run_times(const std::vector<Record>& records) {
   std::vector<Record> out;
-  for (const std::size_t i : first_scores(records)) out.push_back(run_time(records[i]));
+  for (const std::size_t i : first_scores(records)) {
+    if (has_time(records[i])) out.push_back(run_time(records[i]));
+  }
   return out;
 }
 
@@ -128,7 +132,9 @@ void add_derived(std::vector<Record>& records, const std::string& baseline) {
   records.reserve(records.size() + gain.size() + 2 * first.size());
   records.insert(records.end(), gain.begin(), gain.end());
   for (const std::size_t i : first) records.push_back(pair_count(records[i]));
-  for (const std::size_t i : first) records.push_back(run_time(records[i]));
+  for (const std::size_t i : first) {
+    if (has_time(records[i])) records.push_back(run_time(records[i]));
+  }
 }
 
 }  // namespace loopbench::harness

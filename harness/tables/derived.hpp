@@ -16,7 +16,7 @@ namespace loopbench::harness {
 std::vector<Record> gains(const std::vector<Record>& records, const std::string& baseline);
 
 /// One record per cell, protocol and times: metric `time`, unit ms, every statistic is the median
-/// wall time.
+/// wall time. None of files that `eval --store` evaluated.
 std::vector<Record> run_times(const std::vector<Record>& records);
 
 /// One record per cell, protocol and times: metric `pairs`, number of pose pairs of the scores.

@@ -141,6 +141,8 @@ TEST(Eval, RefusesProtocolsThatCannotBe) {
   const std::string tum = golden("gt.txt");
   EXPECT_EQ(refusal<InputError>({tum, tum, "--protocol=evoo"}),
             "no protocol is named 'evoo'; did you mean 'evo'?");
+  EXPECT_EQ(refusal<InputError>({tum, tum, "--protocol=evo,tum,evo"}),
+            "--protocol: 'evo' is listed twice");
   EXPECT_EQ(refusal<InputError>({tum, tum, "--set=ddof"}),
             "--set: 'ddof': expected FIELD=VALUE, for example ddof=1");
   EXPECT_THROW(eval({tum, tum, "--set=dof=1"}), OptionError);

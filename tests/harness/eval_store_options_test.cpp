@@ -6,8 +6,11 @@
 #include <fstream>
 
 #include "harness/eval/note_summary.hpp"
+#include "harness/eval/run_summary.hpp"
 #include "harness/gate/check.hpp"
 #include "harness/gate/snapshot.hpp"
+#include "harness/profile/profile.hpp"
+#include "harness/store/read.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/recorded_files.hpp"
 
@@ -94,6 +97,81 @@ TEST_F(EvalStoreOptions, EvaluatesNoNumbersAgainstStamps) {
       test::eval({path("truths/office.txt"), path("kitti.txt"), "--store", path("store")},
                  kExitSomeCellsFailed);
   EXPECT_THAT(out, HasSubstr("poses without stamps, and the other file has stamps"));
+}
+
+TEST_F(EvalStoreOptions, MetricsThatFailAreFailures) {
+  const std::string out = test::eval({path("truths/office.txt"),
+                                      path("systems/good/office/0.txt"),
+                                      "--offset",
+                                      "0.05",
+                                      "--store",
+                                      path("store")},
+                                     kExitSomeCellsFailed);
+  EXPECT_THAT(out, HasSubstr("1 failed\nfailed: " + path("systems/good/office/0.txt")));
+  EXPECT_THAT(out, HasSubstr("no pose of the estimate"));
+}
+
+TEST_F(EvalStoreOptions, LowCoverageHasExitCodeOne) {
+  Trajectory part = path_of(0.01);
+  part.resize(40);
+  write_tum(path("part.txt"), part);
+  for (int call = 0; call < 2; ++call) {  // also if it is stored already
+    EXPECT_THAT(test::eval({path("truths/office.txt"),
+                            path("part.txt"),
+                            "--min-coverage",
+                            "0.9",
+                            "--store",
+                            path("store")},
+                           kExitSomeCellsFailed),
+                HasSubstr("1 with coverage below 0.9"));
+  }
+}
+
+TEST_F(EvalStoreOptions, TimesOfReadingFilesAreNotRecorded) {
+  test::eval({path("truths"), path("systems"), "--store", path("store")});
+  for (const Record& r : all_records(path("store"))) EXPECT_NE(r.metric, "time");
+  EXPECT_THROW(compare_store(path("store"), "time", {}, CompareOptions{}), InputError);
+  const std::vector<CellRecord> cells = read_cells(path("store"));
+  EXPECT_TRUE(costs(cells).rows.empty());
+  EXPECT_THAT(costs(cells).notes, ElementsAre(HasSubstr("no run times are recorded")));
+  EXPECT_TRUE(scaling(cells).rows.empty());
+  EXPECT_TRUE(pareto(cells, read_records(path("store")), Accuracy{}).rows.empty());
+}
+
+TEST_F(EvalStoreOptions, TablesShowAxesIfThereIsNoTotal) {
+  const std::vector<std::string> files{path("truths"), path("systems"), "-r", "rpy"};
+  const std::string out = test::eval(files);
+  EXPECT_THAT(out, HasSubstr("ape rotation roll [deg]"));
+  EXPECT_THAT(out, HasSubstr("mean ape roll [deg]"));
+  EXPECT_THAT(out, HasSubstr("range [deg]"));
+}
+
+TEST_F(EvalStoreOptions, EqualRunsOfOneMethodCountOnce) {
+  std::vector<std::string> arguments{path("truths/office.txt")};
+  for (int run = 0; run < 10; ++run) {
+    write_run("copies", "office", run, 0.01);
+    arguments.push_back(path("copies/office/" + std::to_string(run) + ".txt"));
+  }
+  const std::string out = test::eval(arguments);
+  EXPECT_THAT(out, ContainsRegex("\n\\| office / copies +\\| +1 of 1 \\|"));
+  EXPECT_THAT(out, HasSubstr("9 of the files repeat the data of another run"));
+}
+
+TEST(RunSummary, IntervalOfAnErrorIsNotNegative) {
+  std::vector<Record> records;
+  for (int run = 0; run < 10; ++run) {
+    Record& r = records.emplace_back();
+    r.sequence = "s";
+    r.method = "m";
+    r.repeat = run;
+    r.metric = "ate";
+    r.better = metrics::Better::lower;
+    r.statistics.rmse = run == 0 ? 5.0 : 0.01 * run;
+  }
+  const std::vector<RunSummary> all = summarise_runs(records, records.front());
+  ASSERT_EQ(all.size(), 1u);
+  ASSERT_TRUE(all[0].interval);
+  EXPECT_EQ(all[0].interval->low, 0.0);  // -0.57 without this limit
 }
 
 TEST_F(EvalStoreOptions, RejectsAFolderOfRunsWithTheAcceptedLayouts) {

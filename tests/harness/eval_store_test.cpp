@@ -6,7 +6,9 @@
 
 #include "harness/eval/recorded_runs.hpp"
 #include "harness/eval/recorded_sweep.hpp"
+#include "harness/store/merge.hpp"
 #include "harness/store/read.hpp"
+#include "harness/store/store.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/recorded_files.hpp"
 
@@ -15,6 +17,7 @@ namespace {
 
 using testing::ContainsRegex;
 using testing::HasSubstr;
+using testing::Not;
 using namespace harness;
 
 class EvalStore : public test::RecordedFiles {};
@@ -93,6 +96,107 @@ TEST_F(EvalStore, ARepairedFileIsEvaluatedAgain) {
   EXPECT_THAT(out, ContainsRegex("\n\\| office / bad +\\| +10 of 10 \\|"));
 }
 
+/// Sets the current folder until its end.
+class InFolder {
+ public:
+  explicit InFolder(const std::string& folder) { std::filesystem::current_path(folder); }
+  ~InFolder() { std::filesystem::current_path(before_); }
+  InFolder(const InFolder&) = delete;
+  InFolder& operator=(const InFolder&) = delete;
+
+ private:
+  std::filesystem::path before_ = std::filesystem::current_path();
+};
+
+TEST_F(EvalStore, RelativeNamesInSeveralFoldersAreDifferentFiles) {
+  for (const std::string dot : {"", "./"}) {
+    const std::string store = path(dot.empty() ? "store" : "dots");
+    for (const char* const sequence : {"seq1", "seq2"}) {
+      const double error = std::string(sequence) == "seq1" ? 0.01 : 0.05;
+      std::filesystem::create_directories(path(sequence));
+      write_tum(path(std::string(sequence) + "/ref.txt"), path_of(0.0));
+      write_tum(path(std::string(sequence) + "/sys.txt"), path_of(error));
+      const InFolder folder(path(sequence));
+      test::eval({dot + "ref.txt", dot + "sys.txt", "--store", store});
+    }
+    const auto cells = read_cells(store);
+    ASSERT_EQ(cells.size(), 2u);
+    EXPECT_EQ(cells[0].sequence, "seq1");
+    EXPECT_EQ(cells[1].sequence, "seq2");
+    const auto runs = runs_of_manifest(read_run(store)["config"]);
+    EXPECT_EQ(runs.at(0).estimate, path("seq1/sys.txt"));
+    EXPECT_EQ(runs.at(1).estimate, path("seq2/sys.txt"));
+  }
+}
+
+TEST_F(EvalStore, RejectsRelativePathsOfEarlierVersions) {
+  std::filesystem::create_directories(path("old"));
+  const Sweep sweep = recorded_sweep({{"s", "m", "0", "ref.txt", "est.txt"}}, EvalArguments{});
+  const Catalogue known = recorded_catalogue();
+  {
+    CellKeys keys(sweep, known, DataRoot{}, "build");
+    Store store(path("old/results.sqlite"), keys, {});
+    CellResult result;
+    result.status = Status::failed;
+    result.why = "not read";
+    store.write(result);
+  }
+  EXPECT_THAT(
+      test::refusal<InputError>(
+          {path("truths/office.txt"), path("systems/bad/office/1.txt"), "--store", path("old")}),
+      HasSubstr("old/results.sqlite: has the relative path ref.txt of an earlier version"));
+}
+
+TEST_F(EvalStore, AnUnreadableReferenceLeavesTheStoreUnchanged) {
+  test::eval({path("truths"), path("systems"), "--store", path("s")});
+  std::ofstream(path("truths/street.txt")) << "1 2 3\n";
+  EXPECT_THAT(test::refusal<InputError>({path("truths/office.txt"),
+                                         path("systems/bad/office/1.txt"),
+                                         "--align",
+                                         "sim3",
+                                         "--store",
+                                         path("s")}),
+              HasSubstr("street.txt"));
+  const auto cells = read_cells(path("s"));
+  EXPECT_EQ(cells.size(), 40u);
+  for (const CellRecord& cell : cells) EXPECT_EQ(cell.status, Status::ok);
+}
+
+TEST_F(EvalStore, OtherOptionsEvaluateEarlierRunsAgainWithANote) {
+  const std::vector<std::string> arguments{
+      path("truths/office.txt"), path("systems/bad/office/1.txt"), "--store", path("s")};
+  test::eval({path("truths"), path("systems"), "--store", path("s")});
+  const auto notes = [&](std::vector<std::string> all) {
+    testing::internal::CaptureStderr();
+    test::eval(all);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_THAT(notes(arguments), Not(HasSubstr("evaluated again")));
+  std::vector<std::string> others = arguments;
+  others.insert(others.end(), {"--align", "sim3"});
+  EXPECT_THAT(notes(others), HasSubstr("39 earlier runs are evaluated again"));
+}
+
+TEST_F(EvalStore, MergedStoresGoOn) {
+  const auto store_of = [&](const std::string& method, const std::string& period) {
+    const std::string folder = path(method + period);
+    test::eval({path("truths/office.txt"),
+                path("systems/" + method + "/office/0.txt"),
+                "--period",
+                period,
+                "--store",
+                folder});
+    return std::filesystem::path(folder);
+  };
+  const std::filesystem::path good = store_of("good", "0.1");
+  merge_stores({good, store_of("bad", "0.1")}, path("merged/results.sqlite"), {});
+  const std::string out = test::eval(
+      {path("truths/office.txt"), path("systems/good/office/1.txt"), "--store", path("merged")});
+  EXPECT_THAT(out, HasSubstr("3 runs in"));
+  EXPECT_THAT(out, HasSubstr("(2 stored before)"));
+  EXPECT_THROW(merge_stores({good, store_of("bad", "0.2")}, path("other.sqlite"), {}), InputError);
+}
+
 TEST_F(EvalStore, EvalOfSeveralEstimatesEndsWithTheVerdict) {
   std::vector<std::string> arguments{path("truths/office.txt")};
   for (int run = 0; run < 10; ++run) {
@@ -102,6 +206,16 @@ TEST_F(EvalStore, EvalOfSeveralEstimatesEndsWithTheVerdict) {
     }
   }
   EXPECT_THAT(test::eval(arguments), HasSubstr("verdict on ate: "));
+}
+
+TEST_F(EvalStore, EvalStatesWhyThereIsNoVerdict) {
+  for (const char* const folder : {"x/same", "y/same"}) {
+    std::filesystem::create_directories(path(folder));
+    write_tum(path(std::string(folder) + "/est.txt"), path_of(0.01));
+  }
+  const std::string out =
+      test::eval({path("truths/office.txt"), path("x/same/est.txt"), path("y/same/est.txt")});
+  EXPECT_THAT(out, HasSubstr("no verdict: " + path("y/same/est.txt") + ": has the same sequence"));
 }
 
 TEST(RecordedRuns, NamesGiveMethodAndRun) {
@@ -117,6 +231,40 @@ TEST(RecordedRuns, NamesGiveMethodAndRun) {
   EXPECT_EQ(label("bag:b.bag#groundtruth", "bag:b.bag#/odom"), "b|odom|0");
   EXPECT_TRUE(natural_less("run9", "run10"));
   EXPECT_FALSE(natural_less("run10", "run9"));
+  EXPECT_TRUE(natural_less("run01", "run1"));  // two names, hence two runs
+  EXPECT_FALSE(natural_less("run1", "run01"));
+  EXPECT_FALSE(natural_less("run1", "run1"));
+}
+
+TEST(RecordedRuns, FoldersOfASequenceAreNotMethods) {
+  const auto methods = [](const std::string& reference, const std::string& sequence) {
+    std::vector<std::string> out;
+    for (const RecordedRun& run : recorded_runs({{reference, "est/A/seq1/0.txt"},
+                                                 {reference, "est/A/seq1/1.txt"},
+                                                 {reference, "est/B/seq1/0.txt"}},
+                                                sequence)) {
+      out.push_back(run.method);
+    }
+    return out;
+  };
+  const std::vector<std::string> expected{"A", "A", "B"};
+  EXPECT_EQ(methods("lay/groundtruth.txt", "seq1"), expected);
+  EXPECT_EQ(methods("lay/groundtruth.txt", ""), expected);
+  EXPECT_EQ(methods("seq1/groundtruth.txt", ""), expected);
+  // One file for each method, next to the reference or in a folder of results.
+  EXPECT_EQ(recorded_runs({{"s/groundtruth.txt", "s/orb.txt"}}, "")[0].method, "orb");
+  EXPECT_EQ(recorded_runs({{"s/groundtruth.txt", "out/s/orb.txt"}}, "")[0].method, "orb");
+  EXPECT_EQ(recorded_runs({{"s/groundtruth.txt", "s/0.txt"}}, "")[0].method, "s");
+}
+
+TEST(RecordedRuns, OneFileIsNotTwoMethods) {
+  EXPECT_THROW(recorded_runs({{"t/a.txt", "one/odom.txt"}, {"t/a.txt", "one/./odom.txt"}}, ""),
+               InputError);
+  const auto runs = recorded_runs({{"t/a.txt", "a_1.txt"}, {"t/a.txt", "a_01.txt"}}, "");
+  const auto cells = recorded_cells(runs, recorded_sweep(runs, EvalArguments{}));
+  EXPECT_NE(cells[0].repeat, cells[1].repeat);
+  EXPECT_EQ(recorded_runs({{"a.txt", "bag:b.bag#/odom"}}, "")[0].estimate,
+            "bag:" + std::filesystem::absolute("b.bag").string() + "#/odom");
 }
 
 TEST(RecordedRuns, EqualNamesInOtherFoldersAreOtherMethods) {

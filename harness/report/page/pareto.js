@@ -5,6 +5,12 @@
   const R = window.R;
   const geometric = (values) => Math.exp(d3.mean(values, (v) => Math.log(v)));
 
+  if (!R.scores.cells.some((c) => c.ms > 0)) {  // results of files (`eval --store`)
+    document.getElementById("pareto").hidden = true;
+    document.querySelector('[data-for="pareto"]').hidden = true;
+    return;
+  }
+
   // Of one sequence, or (s null) of all together.
   const points = (s) => {
     const runs = new Set(R.scores.cells.filter((c) => s === null || c.s === s).map((c) => `${c.s} ${c.n}`)).size;
