@@ -85,22 +85,30 @@ std::string equal_scales(const PlotPanel& panel, double width, double height) {
       step);
 }
 
-/// Few tics: their numbers are close to each other in the projection.
-std::string spatial_tics(const PlotPanel& panel) {
-  std::array<double, 3> lengths{};
+/// Equal scales of x and y, and few tics, whose numbers are close to each other in the projection.
+/// Ranges end between tics, so that the numbers of two axes do not meet at their common corner.
+std::string spatial_axes(const PlotPanel& panel) {
+  constexpr double kSpace = 0.54;
+  std::array<std::pair<double, double>, 3> range{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto range = bounds(panel, static_cast<Eigen::Index>(axis));
-    if (range) lengths[axis] = range->second - range->first;
+    range[axis] = bounds(panel, static_cast<Eigen::Index>(axis)).value_or(std::pair{0.0, 0.0});
   }
-  std::string out = "set xtics autofreq\nset ytics autofreq\nset ztics autofreq\n";
-  const double longest = std::max(lengths[0], lengths[1]);
-  if (!(longest > 0.0)) return out;
-  out = fmt::format("set xtics {0:g} offset -0.3,-0.3\nset ytics {0:g} offset 0.6,-0.2\n",
-                    round_step(0.9 * longest));
-  if (lengths[2] > 1e-9 * longest) {
-    out += fmt::format("set ztics {:g}\n", round_step(0.6 * lengths[2]));
+  const auto length = [&](std::size_t axis) { return range[axis].second - range[axis].first; };
+  const double longest = std::max(length(0), length(1));
+  if (!(longest > 0.0)) return "set xtics autofreq\nset ytics autofreq\nset ztics autofreq\n";
+  std::string out;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const double middle = 0.5 * (range[axis].first + range[axis].second);
+    out += fmt::format("set {}range [{:.7g}:{:.7g}]\nset {}tics {:g} offset {}\n",
+                       axis == 0 ? 'x' : 'y',
+                       middle - kSpace * longest,
+                       middle + kSpace * longest,
+                       axis == 0 ? 'x' : 'y',
+                       round_step(0.9 * longest),
+                       axis == 0 ? "-0.3,-0.3" : "0.6,-0.2");
   }
-  return out;
+  if (!(length(2) > 1e-9 * longest)) return out + "set ztics autofreq\n";
+  return out + fmt::format("set ztics {:g}\n", round_step(0.6 * length(2)));
 }
 
 }  // namespace
@@ -109,7 +117,6 @@ std::string ranges(const PlotPanel& panel) {
   constexpr double kLeastHeight = 1.0;   // [m]
   constexpr double kLeastError = 0.001;  // [m] or [deg]
   const bool is_map = panel.spatial || panel.same_scale;
-  // Not up to the next tics in space: their numbers would meet at the corner of two axes.
   const char* const mode = panel.spatial ? " noextend" : "";
   return axis_range("y", panel.series, 1, is_map ? kLeastHeight : kLeastError, mode) +
          axis_range("z", panel.series, 2, kLeastHeight, mode);
@@ -126,7 +133,7 @@ std::string framed(const PlotPanel& panel, const PanelBox& box, double font) {
                box.height / box.page_height,
                box.left / box.page_width,
                box.bottom / box.page_height) +
-           ranges(panel) + spatial_tics(panel);
+           ranges(panel) + spatial_axes(panel);
   }
   const double em = font / 72.0;  // [in]
   const double left = 5.6 * em, right = 1.6 * em, bottom = 3.7 * em;

@@ -14,13 +14,12 @@ namespace {
 constexpr std::size_t kMostPairs = 600;
 constexpr double kSearch = 10.0;  // [s]
 
-/// Mean speeds of the estimate between two of its stamps. Not angles and distances: at constant
-/// speeds these would correlate through the durations of the intervals, at any offset.
+/// Motion of the estimate between two of its stamps.
 struct TimedMotion {
-  double begin = 0.0;  ///< [s]
+  double begin = 0.0;
   double end = 0.0;
-  double angular_speed = 0.0;  ///< [rad/s]
-  double speed = 0.0;
+  double angle = 0.0;
+  double distance = 0.0;
 };
 
 /// Correlation of speeds for offsets between two trajectories, over at most kMostPairs intervals
@@ -51,8 +50,8 @@ class SpeedMatch {
       const Pose& to = estimate[j].world_from_body;
       motions_.push_back({estimate[i].stamp,
                           estimate[j].stamp,
-                          angle_between(from.rotation, to.rotation) / duration,
-                          (to.translation - from.translation).norm() / duration});
+                          angle_between(from.rotation, to.rotation),
+                          (to.translation - from.translation).norm()});
     }
   }
 
@@ -73,11 +72,11 @@ class SpeedMatch {
       const std::optional<Pose> from = reference_at(motion.begin + offset);
       const std::optional<Pose> to = reference_at(motion.end + offset);
       if (!from || !to) continue;
-      const double duration = motion.end - motion.begin;
-      out.reference_angular_speed.push_back(angle_between(from->rotation, to->rotation) / duration);
-      out.estimate_angular_speed.push_back(motion.angular_speed);
-      out.reference_speed.push_back((to->translation - from->translation).norm() / duration);
-      out.estimate_speed.push_back(motion.speed);
+      out.reference_angle.push_back(angle_between(from->rotation, to->rotation));
+      out.estimate_angle.push_back(motion.angle);
+      out.reference_distance.push_back((to->translation - from->translation).norm());
+      out.estimate_distance.push_back(motion.distance);
+      out.duration.push_back(motion.end - motion.begin);
     }
     return out;
   }
@@ -95,18 +94,30 @@ class SpeedMatch {
     }
   };
 
-  Score score(double offset) const {
-    constexpr std::size_t kFewest = 10;
-    const MotionSignals s = signals(offset);
-    if (s.reference_angular_speed.size() < std::max(kFewest, motions_.size() / 5)) return {};
-    return {correlation(s.reference_angular_speed, s.estimate_angular_speed),
-            correlation(s.reference_speed, s.estimate_speed),
-            true};
+  Score score(double offset) const { return score(signals(offset)); }
+
+  /// Of speeds instead of steps: at constant speeds, steps correlate at any offset if the durations
+  /// of intervals differ.
+  Score score_of_speeds(double offset) const {
+    MotionSignals s = signals(offset);
+    for (auto* values :
+         {&s.reference_angle, &s.estimate_angle, &s.reference_distance, &s.estimate_distance}) {
+      for (std::size_t i = 0; i < values->size(); ++i) (*values)[i] /= s.duration[i];
+    }
+    return score(s);
   }
 
   double at(double offset) const { return score(offset).best(); }
 
  private:
+  Score score(const MotionSignals& s) const {
+    constexpr std::size_t kFewest = 10;
+    if (s.reference_angle.size() < std::max(kFewest, motions_.size() / 5)) return {};
+    return {correlation(s.reference_angle, s.estimate_angle),
+            correlation(s.reference_distance, s.estimate_distance),
+            true};
+  }
+
   std::optional<Pose> reference_at(double stamp) const {
     if (reference_.empty() || !(stamp >= reference_.front().stamp)) return std::nullopt;
     // Poses are close to evenly spaced, so the search begins near its result.
@@ -191,11 +202,11 @@ double deviation_of(const SpeedMatch& match, double offset, double step) {
       information += slopes * static_cast<double>(reference.size()) / residuals;
     }
   };
-  add(here.reference_angular_speed,
-      here.estimate_angular_speed,
-      after.reference_angular_speed,
-      before.reference_angular_speed);
-  add(here.reference_speed, here.estimate_speed, after.reference_speed, before.reference_speed);
+  add(here.reference_angle, here.estimate_angle, after.reference_angle, before.reference_angle);
+  add(here.reference_distance,
+      here.estimate_distance,
+      after.reference_distance,
+      before.reference_distance);
   return information > 0.0 ? 1.0 / std::sqrt(information) : INFINITY;
 }
 
@@ -213,7 +224,7 @@ bool raises_correlation(const TimeOffset& found) {
 std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
                                                const Trajectory& estimate) {
   constexpr std::size_t kFewestPoses = 20;
-  constexpr double kLeastCorrelation = 0.6;
+  constexpr double kLeastCorrelation = 0.6, kLeastOfSpeeds = 0.3;
   if (reference.size() < kFewestPoses || estimate.size() < kFewestPoses) return std::nullopt;
   const SpeedMatch match(reference, estimate);
   TimeOffset out;
@@ -241,7 +252,10 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
   out.offset = vertex(match, best.offset, fine);
   const SpeedMatch::Score after = match.score(out.offset);
   out.correlation = after.best();
-  if (out.correlation < kLeastCorrelation) return std::nullopt;
+  if (out.correlation < kLeastCorrelation ||
+      match.score_of_speeds(out.offset).best() < kLeastOfSpeeds) {
+    return std::nullopt;
+  }
   const auto unexplained = [](double now, double then) {
     constexpr double kUseful = 0.7;
     constexpr double kRounding = 1e-6;  // at a constant speed all offsets fit equally well
