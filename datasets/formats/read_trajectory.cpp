@@ -87,11 +87,13 @@ TrajectoryFile from_text(const std::filesystem::path& path, const ReadOptions& o
   if (format == Format::kitti) {
     out.poses = read_kitti(file, options);
     out.has_stamps = options.times.has_value();
+    if (options.findings) options.findings->has_stamps = out.has_stamps;
     return out;
   }
   if (format == Format::g2o) {
     out.poses = trajectory_of(read_g2o(path), file.name(), options.period);
     out.has_stamps = false;
+    if (options.findings) options.findings->has_stamps = false;
     return out;
   }
   out.poses = format == Format::euroc ? read_euroc(file, options)
