@@ -28,6 +28,11 @@ std::vector<std::string> header_names(std::string_view header) {
   return out;
 }
 
+std::string shortened(const std::string& name) {
+  constexpr std::size_t kMost = 40;
+  return name.size() > kMost ? name.substr(0, kMost) + "..." : name;
+}
+
 struct PoseNames {
   std::vector<std::string> names;
   std::vector<std::optional<PoseColumn>> meanings;
@@ -58,7 +63,7 @@ struct PoseNames {
     std::size_t count = 0;
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (meanings[i] || names[i].empty()) continue;
-      if (++count <= kMost) out += (count == 1 ? "" : ", ") + names[i];
+      if (++count <= kMost) out += (count == 1 ? "" : ", ") + shortened(names[i]);
     }
     return out + (count > kMost ? ", ..." : "");
   }
@@ -93,13 +98,13 @@ std::string why_not_understood(const PoseNames& all) {
     if (found.size() > 1) {
       return fmt::format("has a header with two columns for {}: {} and {}",
                          kPoseColumns[i],
-                         all.names[found[0]],
-                         all.names[found[1]]);
+                         shortened(all.names[found[0]]),
+                         shortened(all.names[found[1]]));
     }
     if (!found.empty() && !all.meanings[found[0]]->wrong_unit.empty()) {
       return fmt::format("has a header with unit {} in '{}', expected {}",
-                         all.meanings[found[0]]->wrong_unit,
-                         all.names[found[0]],
+                         shortened(all.meanings[found[0]]->wrong_unit),
+                         shortened(all.names[found[0]]),
                          i == 0 ? "s, ms, us or ns" : "m, cm or mm");
     }
   }
@@ -125,8 +130,8 @@ std::optional<std::size_t> nanoseconds_column(const PoseNames& all, std::string&
     return partners[0];
   }
   why_not = fmt::format("has a header with time in '{}' and '{}', expected one, or secs and nsecs",
-                        all.names[time],
-                        all.names[partners[0]]);
+                        shortened(all.names[time]),
+                        shortened(all.names[partners[0]]));
   return std::nullopt;
 }
 
