@@ -1,8 +1,13 @@
 // ROS 2 bag in SQLite: tables topics(id, name, type, ...) and messages(id, topic_id, timestamp,
 // data). Messages can be compressed one by one (compression_mode: message).
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <map>
 #include <memory>
 
@@ -32,13 +37,48 @@ std::string uri_of(const std::string& path) {
   return out + "?immutable=1";
 }
 
-Db3 open_db3(const OpenedFile& file) {
+/// A file in memory, which has no path that SQLite can open: decompressed, or read from a pipe.
+class MappedDb3 {
+ public:
+  explicit MappedDb3(const OpenedFile& file) : size_(file.size) {
+    const int descriptor = open(file.path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) throw file.error(std::string("cannot be read: ") + std::strerror(errno));
+    void* const bytes = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_PRIVATE, descriptor, 0);
+    const int reason = errno;
+    close(descriptor);
+    if (bytes == MAP_FAILED) {
+      throw file.error(std::string("cannot be read: ") + std::strerror(reason));
+    }
+    bytes_ = static_cast<unsigned char*>(bytes);
+    // SQLite rejects a database in memory that has a write-ahead log, which is a second file.
+    constexpr std::size_t kWriteVersion = 18, kReadVersion = 19;
+    if (size_ > kReadVersion) bytes_[kWriteVersion] = bytes_[kReadVersion] = 1;
+  }
+  ~MappedDb3() { munmap(bytes_, size_); }
+  MappedDb3(const MappedDb3&) = delete;
+  MappedDb3& operator=(const MappedDb3&) = delete;
+
+  /// Replaces the content of `db`, which must be closed before this is destroyed.
+  int attach(sqlite3* db) const {
+    const auto size = static_cast<sqlite3_int64>(size_);
+    return sqlite3_deserialize(db, "main", bytes_, size, size, SQLITE_DESERIALIZE_READONLY);
+  }
+
+ private:
+  std::size_t size_ = 0;
+  unsigned char* bytes_ = nullptr;
+};
+
+Db3 open_db3(const OpenedFile& file, const MappedDb3* mapped) {
   sqlite3* handle = nullptr;
-  const int code = sqlite3_open_v2(uri_of(file.path).c_str(),
-                                   &handle,
-                                   SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX,
-                                   nullptr);
+  const int access = mapped == nullptr ? SQLITE_OPEN_READONLY | SQLITE_OPEN_URI
+                                       : SQLITE_OPEN_READWRITE | SQLITE_OPEN_MEMORY;
+  int code = sqlite3_open_v2(mapped == nullptr ? uri_of(file.path).c_str() : ":memory:",
+                             &handle,
+                             access | SQLITE_OPEN_NOMUTEX,
+                             nullptr);
   Db3 out(handle);
+  if (code == SQLITE_OK && mapped != nullptr) code = mapped->attach(handle);
   if (code != SQLITE_OK) throw file.error(std::string("cannot be opened: ") + sqlite3_errstr(code));
   // Without this, SQLite rejects truncated files as a whole. The file is opened read-only.
   sqlite3_db_config(handle, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
@@ -98,7 +138,8 @@ std::string missing_pages(const OpenedFile& file) {
 BagSummary read_db3(const OpenedFile& file, const WantsTopic& wants, const VisitMessage& visit) {
   BagSummary out;
   out.damage = missing_pages(file);
-  const Db3 db = open_db3(file);
+  const auto mapped = file.memory ? std::make_unique<const MappedDb3>(file) : nullptr;
+  const Db3 db = open_db3(file, mapped.get());
   if (!has_tables(db)) {
     throw file.error(
         "is an SQLite file without readable tables topics and messages, expected a "

@@ -1,106 +1,91 @@
 #include "datasets/formats/csv.hpp"
 
-#include <algorithm>
-#include <cctype>
+#include <array>
+#include <cmath>
 #include <vector>
 
 #include "datasets/formats/columns.hpp"
+#include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/euroc.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
-#include "datasets/formats/stamps.hpp"
 
 namespace loopbench {
 namespace {
 
+using CsvRow = std::vector<std::string_view>;
+
 constexpr std::array kCsvNames{"time", "x", "y", "z", "qw", "qx", "qy", "qz"};
 
-std::vector<std::string> header_names(const std::string& header) {
-  const char* const separators = header.find(',') == header.npos ? " \t" : ",";
-  std::vector<std::string> out;
-  std::size_t at = 0;
-  while ((at = header.find_first_not_of(separators, at)) != header.npos) {
-    const std::size_t end = std::min(header.find_first_of(separators, at), header.size());
-    out.push_back(header.substr(at, end - at));
-    at = end;
+void split_row(const TextFile& file, const Line& line, const CsvColumns& columns, CsvRow& row) {
+  split_columns(line.text, row);
+  if (row.size() + 1 == columns.width && line.text.ends_with(',')) row.emplace_back();
+  if (row.size() == columns.width) return;
+  throw file.error(line.number,
+                   "has " + std::to_string(row.size()) +
+                       (row.size() == 1 ? " column" : " columns") + ", expected " +
+                       std::to_string(columns.width) + " as in the header" +
+                       (line.unterminated ? " (the file ends in the middle of this line)" : ""));
+}
+
+double csv_number(const TextFile& file, const Line& line, std::string_view text, const char* what) {
+  Line column = line;
+  column.text = text;
+  Columns parsed(file, column);
+  const double out = parsed.number(what);
+  if (parsed.done()) return out;
+  throw file.error(line.number,
+                   "column " + std::string(what) + ": '" + std::string(text) + "' is not a number");
+}
+
+/// Whole seconds and a column of nanoseconds, as in messages of ROS.
+ReadStamp split_stamp(const TextFile& file,
+                      const Line& line,
+                      std::string_view seconds,
+                      std::string_view nanoseconds) {
+  const double whole = csv_number(file, line, seconds, "seconds");
+  const double rest = csv_number(file, line, nanoseconds, "nanoseconds");
+  if (rest < 0.0 || rest >= 1e9 || rest != std::floor(rest) || whole != std::floor(whole)) {
+    throw file.error(line.number,
+                     "stamp has '" + std::string(seconds) + "' s and '" + std::string(nanoseconds) +
+                         "' ns, expected whole seconds and nanoseconds from 0 to 999999999");
+  }
+  ReadStamp out{whole + 1e-9 * rest, exact_nanoseconds(seconds)};
+  std::int64_t sum = 0;
+  if (out.exact && __builtin_add_overflow(*out.exact, static_cast<std::int64_t>(rest), &sum)) {
+    out.exact.reset();
+  } else if (out.exact) {
+    out = {seconds_of(sum), sum};
   }
   return out;
 }
 
-/// Lower case, without units in brackets and without punctuation: "p_x [m]" -> "px".
-std::string plain_name(const std::string& name) {
-  std::string out;
-  for (const char c : name.substr(0, name.find_first_of("[("))) {
-    const auto letter = static_cast<unsigned char>(c);
-    if (std::isalnum(letter) != 0) out += static_cast<char>(std::tolower(letter));
-  }
-  return out;
-}
-
-bool is_one_of(const std::string& name, const std::vector<std::string>& known) {
-  return std::ranges::count(known, name) > 0;
-}
-
-bool is_time(const std::string& name) {
-  return is_one_of(name,
-                   {"t",
-                    "time",
-                    "times",
-                    "stamp",
-                    "timestamp",
-                    "timestamps",
-                    "s",
-                    "sec",
-                    "secs",
-                    "seconds",
-                    "ns",
-                    "nsec",
-                    "nanosec",
-                    "nanoseconds",
-                    "timens",
-                    "timestampns",
-                    "headerstamp"});
-}
-
-/// Column index within kCsvNames; nothing for other columns.
-std::optional<std::size_t> meaning(const std::string& name) {
-  if (is_time(name)) return 0;
-  if (name.empty()) return std::nullopt;
-  const std::string axis = name.substr(name.size() - 1);
-  const std::string stem = name.substr(0, name.size() - 1);
-  const auto ends = [&](const char* with) { return stem.ends_with(with); };
-  const std::size_t index = std::string("xyz").find(axis);
-  if (axis == "w" || index != std::string::npos) {
-    if (is_one_of(stem, {"q", "quat", "quaternion", "rot", "qrs"}) || ends("orientation") ||
-        ends("rotation")) {
-      return axis == "w" ? 4 : 5 + index;
-    }
-  }
-  if (index != std::string::npos && (is_one_of(stem, {"", "t", "p", "pos", "prsr", "trans"}) ||
-                                     ends("position") || ends("translation"))) {
-    return 1 + index;
-  }
-  return std::nullopt;
+ReadStamp stamp_of_row(const TextFile& file,
+                       const Line& line,
+                       const CsvColumns& columns,
+                       const CsvRow& row) {
+  const std::string_view text = row[columns.index[0]];
+  if (columns.nanoseconds) return split_stamp(file, line, text, row[*columns.nanoseconds]);
+  const double number = csv_number(file, line, text, kCsvNames[0]);
+  int exponent = columns.time_exponent.value_or(0);
+  if (exponent == 0 && is_in_nanoseconds(number, false)) exponent = -9;
+  const auto exact = exact_nanoseconds(text, exponent);
+  if (exponent == 0) return {number, exact};
+  return {exact ? seconds_of(*exact) : number * std::pow(10.0, exponent), exact};
 }
 
 Trajectory read_csv_part(TextFile& file, const CsvColumns& columns, const ReadOptions& options) {
   Trajectory out;
   StampOrder order(file, options.repeats);
-  std::vector<std::string_view> row;
+  CsvRow row;
   std::array<double, kCsvNames.size()> v{};
   for (Line line; file.next(line);) {
-    row.clear();
-    for (Columns each(file, line); !each.done();) row.push_back(each.word());
-    if (row.size() != columns.width) {
-      throw wrong_columns(
-          file, line, Format::csv, std::to_string(columns.width) + " as in the header");
+    split_row(file, line, columns, row);
+    const double stamp = stamp_of_row(file, line, columns, row).seconds;
+    for (std::size_t i = 1; i < v.size(); ++i) {
+      v[i] = csv_number(file, line, row[columns.index[i]], kCsvNames[i]);
     }
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      Line column = line;
-      column.text = row[columns.index[i]];
-      v[i] = Columns(file, column).number(kCsvNames[i]);
-    }
-    const double stamp = seconds_of_stamp(row[columns.index[0]], v[0], columns.nanoseconds);
+    for (std::size_t i = 0; i < columns.per_metre.size(); ++i) v[1 + i] /= columns.per_metre[i];
     const Rotation rotation = normalized_rotation(file, line.number, {v[4], v[5], v[6], v[7]});
     order.put(stamp, line.number, {rotation, {v[1], v[2], v[3]}}, out);
   }
@@ -109,29 +94,31 @@ Trajectory read_csv_part(TextFile& file, const CsvColumns& columns, const ReadOp
 
 }  // namespace
 
-std::optional<CsvColumns> csv_columns(const std::string& header) {
-  const std::vector<std::string> names = header_names(header);
-  CsvColumns out;
-  out.width = names.size();
-  std::array<bool, kCsvNames.size()> found{};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto column = meaning(plain_name(names[i]));
-    if (!column) continue;
-    if (found[*column]) return std::nullopt;
-    found[*column] = true;
-    out.index[*column] = i;
-    if (*column == 0) {
-      out.nanoseconds = names[i].find("[ns]") != std::string::npos ||
-                        plain_name(names[i]).find("nano") != std::string::npos ||
-                        plain_name(names[i]).ends_with("ns");
-    }
+std::optional<CsvColumns> csv_columns(const TextFile& file) {
+  const bool is_row = !file.header().empty();
+  auto out = csv_header(is_row ? file.header() : file.comment()).columns;
+  if (!out) return std::nullopt;
+  if (!is_row) {
+    TextFile reopened = file.reopened();
+    Line line;
+    CsvRow row;
+    if (reopened.next(line)) split_columns(line.text, row);
+    if (row.size() != out->width) return std::nullopt;
   }
-  if (!std::ranges::all_of(found, [](bool is) { return is; })) return std::nullopt;
+  const bool is_stated = out->time_exponent || out->nanoseconds;
+  if (!is_stated && out->index[0] == 0 && has_small_nanoseconds(file)) out->time_exponent = -9;
   return out;
 }
 
+ReadStamp csv_stamp(const TextFile& file, const Line& line, const CsvColumns& columns) {
+  CsvRow row;
+  split_row(file, line, columns, row);
+  return stamp_of_row(file, line, columns, row);
+}
+
 Trajectory read_csv(TextFile& file, const ReadOptions& options) {
-  const auto columns = csv_columns(file.header());
+  const auto columns = csv_columns(file);
+  if (!columns && !file.header().empty()) throw file.error(0, csv_header(file.header()).why_not);
   if (!columns) {
     throw file.error(0,
                      "has no header that names time, x, y, z, qx, qy, qz and qw, expected one in a "

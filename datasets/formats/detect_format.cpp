@@ -1,6 +1,7 @@
 #include "datasets/formats/detect_format.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "datasets/bags/bag_name.hpp"
 #include "datasets/bags/messages.hpp"
@@ -65,9 +66,10 @@ Line first_line(TextFile& file) {
   return line;
 }
 
-Format detect_format(TextFile& file) {
-  const Line line = first_line(file);
-  if (csv_columns(file.header())) return Format::csv;
+namespace {
+
+/// Detects by the numbers of the first lines.
+Format detect_by_numbers(const TextFile& file, const Line& line) {
   const std::string_view stamp = Columns(file, line).word();
   const bool is_integer = stamp.find_first_not_of("0123456789") == stamp.npos;
   const bool is_small = is_integer && has_small_nanoseconds(file);
@@ -85,10 +87,52 @@ Format detect_format(TextFile& file) {
   std::string what = "has " + std::to_string(count) + (count == 1 ? " column" : " columns") +
                      " and starts '" + std::string(line.text.substr(0, kShownText)) + "'";
   if (count == 4) what += " (stamp x y z? positions without rotation are not supported)";
+  if (line.text.find(';') != std::string_view::npos) {
+    throw file.error(line.number,
+                     what + ": found ';', expected columns separated by commas or blanks");
+  }
   throw file.error(line.number,
                    what +
                        ", expected tum (8 columns), kitti (12 columns), euroc (whole nanoseconds "
                        "and 7 or more columns) or g2o (VERTEX and EDGE lines)");
+}
+
+/// Whether the reader of `format` reads columns in this order and these units anyway.
+bool is_usual_order(Format format, const CsvColumns& columns) {
+  using Order = std::array<std::size_t, 8>;
+  if (columns.nanoseconds || columns.per_metre != std::array{1.0, 1.0, 1.0}) return false;
+  const int unit = columns.time_exponent.value_or(format == Format::euroc ? -9 : 0);
+  if (format == Format::euroc) return unit == -9 && columns.index == Order{0, 1, 2, 3, 4, 5, 6, 7};
+  return format == Format::tum && unit == 0 && columns.index == Order{0, 1, 2, 3, 7, 4, 5, 6};
+}
+
+/// Rejects a header row that is not understood, except for KITTI matrices and for words that name
+/// no columns of the table.
+void check_header(const TextFile& file, const Line& line) {
+  const CsvHeader header = csv_header(file.header());
+  const bool names_any = header.names_time || header.names_position || header.names_quaternion;
+  const std::size_t width = count_columns(file, line);
+  const bool is_matrix = width == 12 && !header.names_time && !header.names_quaternion;
+  if (header.columns || is_matrix || (!names_any && header.width != width)) return;
+  throw file.error(0, header.why_not);
+}
+
+}  // namespace
+
+Format detect_format(TextFile& file) {
+  const Line line = first_line(file);
+  const auto columns = csv_columns(file);
+  if (!file.header().empty()) {
+    if (columns) return Format::csv;
+    check_header(file, line);
+  }
+  if (!columns) return detect_by_numbers(file, line);
+  try {
+    const Format found = detect_by_numbers(file, line);
+    return found == Format::g2o || is_usual_order(found, *columns) ? found : Format::csv;
+  } catch (const InputError&) {
+    return Format::csv;  // only the comment above the first line names its columns
+  }
 }
 
 Format detect_format(const std::filesystem::path& file) {

@@ -87,11 +87,13 @@ TrajectoryFile from_text(const std::filesystem::path& path, const ReadOptions& o
   if (format == Format::kitti) {
     out.poses = read_kitti(file, options);
     out.has_stamps = options.times.has_value();
+    if (options.findings) options.findings->has_stamps = out.has_stamps;
     return out;
   }
   if (format == Format::g2o) {
     out.poses = trajectory_of(read_g2o(path), file.name(), options.period);
     out.has_stamps = false;
+    if (options.findings) options.findings->has_stamps = false;
     return out;
   }
   out.poses = format == Format::euroc ? read_euroc(file, options)
@@ -101,35 +103,38 @@ TrajectoryFile from_text(const std::filesystem::path& path, const ReadOptions& o
   return out;
 }
 
+/// The stamp in the first column of a tum or euroc file.
+ReadStamp first_stamp(const TextFile& text, const Line& line, Format format, bool small) {
+  Columns columns(text, line);
+  const std::string_view word = columns.peek();
+  const double number = columns.number("stamp");
+  std::optional<std::int64_t> exact = exact_nanoseconds(word);
+  const bool is_whole = format == Format::euroc || seconds_of_stamp(word, number, small) != number;
+  if (is_whole && exact) {
+    exact = *exact % 1'000'000'000 == 0 ? std::optional(*exact / 1'000'000'000) : std::nullopt;
+  }
+  if (is_whole && !exact) {
+    std::int64_t whole = 0;
+    const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), whole);
+    if (error == std::errc{}) exact = whole;
+  }
+  return {is_whole && exact ? seconds_of(*exact) : number, exact};
+}
+
 /// Exact stamps of the poses in `file`, in order; empty if one is not a number of nanoseconds.
 std::vector<std::int64_t> exact_stamps(const std::filesystem::path& path,
                                        const TrajectoryFile& file) {
   TextFile text(path);
   text.skip_header();
-  const bool is_csv = file.format == Format::csv;
-  const CsvColumns csv = is_csv ? csv_columns(text.header()).value_or(CsvColumns{}) : CsvColumns{};
-  const bool small = file.format == Format::tum ? has_small_nanoseconds(text) : csv.nanoseconds;
+  const auto csv = file.format == Format::csv ? csv_columns(text) : std::nullopt;
+  const bool small = file.format == Format::tum && has_small_nanoseconds(text);
   std::vector<std::int64_t> out;
   for (Line line; text.next(line) && out.size() < file.poses.size();) {
-    Columns columns(text, line);
-    for (std::size_t i = 0; i < csv.index[0]; ++i) columns.word();
-    const std::string_view word = columns.peek();
-    const double number = columns.number("stamp");
-    std::optional<std::int64_t> exact = exact_nanoseconds(word);
-    const bool is_whole =
-        file.format == Format::euroc || seconds_of_stamp(word, number, small) != number;
-    if (is_whole && exact) {
-      exact = *exact % 1'000'000'000 == 0 ? std::optional(*exact / 1'000'000'000) : std::nullopt;
-    }
-    if (is_whole && !exact) {
-      std::int64_t whole = 0;
-      const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), whole);
-      if (error == std::errc{}) exact = whole;
-    }
-    if (!exact) return {};
+    const ReadStamp stamp =
+        csv ? csv_stamp(text, line, *csv) : first_stamp(text, line, file.format, small);
+    if (!stamp.exact) return {};
     // A repeated stamp belongs to the pose that was kept.
-    const double stamp = is_whole ? seconds_of(*exact) : number;
-    if (stamp == file.poses[out.size()].stamp) out.push_back(*exact);
+    if (stamp.seconds == file.poses[out.size()].stamp) out.push_back(*stamp.exact);
   }
   if (out.size() != file.poses.size()) out.clear();
   return out;

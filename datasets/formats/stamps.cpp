@@ -24,19 +24,20 @@ double seconds_of_stamp(std::string_view word, double number, bool small_nanosec
   return is_integer ? seconds_of(integer) : 1e-9 * number;
 }
 
-std::optional<std::int64_t> exact_nanoseconds(std::string_view word) {
+std::optional<std::int64_t> exact_nanoseconds(std::string_view word, int exponent) {
   const bool is_negative = word.starts_with('-');
   if (is_negative || word.starts_with('+')) word.remove_prefix(1);
   const std::size_t tail = std::min(word.find_first_of("eE"), word.size());
-  int exponent = 0;
   if (tail < word.size()) {
     std::string_view digits = word.substr(tail + 1);
     if (digits.starts_with('+')) digits.remove_prefix(1);
+    int stated = 0;
     const auto [rest, error] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+        std::from_chars(digits.data(), digits.data() + digits.size(), stated);
     constexpr int kMostExponent = 30;
     if (error != std::errc{} || rest != digits.data() + digits.size()) return std::nullopt;
-    if (std::abs(exponent) > kMostExponent) return std::nullopt;
+    if (std::abs(stated) > kMostExponent) return std::nullopt;
+    exponent += stated;
   }
   std::string digits;
   int decimals = 0;

@@ -19,9 +19,14 @@ inline bool is_in_nanoseconds(double stamp, bool small_nanoseconds) {
 /// `small_nanoseconds`.
 double seconds_of_stamp(std::string_view word, double number, bool small_nanoseconds);
 
-/// Exact nanoseconds of a decimal number of seconds, also in the form 1.3e+09. Nothing if it has
-/// more than nine decimals or does not fit into 64 bits.
-std::optional<std::int64_t> exact_nanoseconds(std::string_view seconds);
+/// Exact nanoseconds of a decimal number of 10^exponent seconds, also in the form 1.3e+09. Nothing
+/// if it is no whole number of nanoseconds or does not fit into 64 bits.
+std::optional<std::int64_t> exact_nanoseconds(std::string_view number, int exponent = 0);
+
+struct ReadStamp {
+  double seconds = 0.0;
+  std::optional<std::int64_t> exact = {};  ///< [ns]
+};
 
 /// Shortest decimal number of seconds: 1305031102.1753.
 std::string seconds_text(std::int64_t nanoseconds);

@@ -23,14 +23,15 @@ bool is_number(std::string_view word) {
   return error == std::errc{} && rest == word.data() + word.size();
 }
 
-/// The words of a line, separated by blanks, tabs or commas.
+/// The words of a line, separated by blanks, tabs or commas, without quotes.
 std::vector<std::string_view> words_of(std::string_view text) {
+  constexpr std::string_view kSeparators = " \t,\"";
   std::vector<std::string_view> out;
   while (true) {
-    const std::size_t first = text.find_first_not_of(" \t,");
+    const std::size_t first = text.find_first_not_of(kSeparators);
     if (first == text.npos) return out;
     text.remove_prefix(first);
-    const std::size_t end = std::min(text.find_first_of(" \t,"), text.size());
+    const std::size_t end = std::min(text.find_first_of(kSeparators), text.size());
     out.push_back(text.substr(0, end));
     text.remove_prefix(end);
   }
@@ -39,8 +40,10 @@ std::vector<std::string_view> words_of(std::string_view text) {
 bool names_columns(std::string_view text) {
   constexpr std::size_t kFewest = 3;
   const std::vector<std::string_view> words = words_of(text);
+  // `rostopic echo -p` starts its header with %.
   const bool starts_with_letter =
-      !words.empty() && std::isalpha(static_cast<unsigned char>(words[0][0])) != 0;
+      !words.empty() &&
+      (std::isalpha(static_cast<unsigned char>(words[0][0])) != 0 || words[0][0] == '%');
   // A number that is not finite is an invalid pose, not a name.
   return starts_with_letter && words.size() >= kFewest && std::ranges::none_of(words, is_number);
 }
@@ -72,14 +75,18 @@ TextFile::TextFile(OpenedFile file, std::size_t begin, std::size_t end)
 TextFile TextFile::part(std::size_t begin, std::size_t end) const {
   TextFile out(file_, begin, end);
   out.header_ = header_;
+  out.comment_ = comment_;
   out.is_first_ = is_first_ && begin == begin_;
   return out;
 }
 
 void TextFile::skip_header() {
   TextFile probe = reopened();
+  probe.keeps_comment_ = true;
   Line line;
-  if (!probe.next(line) || !names_columns(line.text)) return;
+  if (!probe.next(line)) return;
+  comment_ = probe.comment_;
+  if (!names_columns(line.text)) return;
   std::string header(line.text);
   const std::size_t end = probe.offset();
   if (!probe.next(line)) return;
@@ -137,7 +144,11 @@ bool TextFile::next(Line& line) {
     if (end != begin && end[-1] == '\r') --end;
     const char* first = begin;
     while (first != end && (*first == ' ' || *first == '\t')) ++first;
-    if (first == end || *first == '#') continue;
+    if (first == end) continue;
+    if (*first == '#') {
+      if (keeps_comment_) comment_.assign(first + 1, end);
+      continue;
+    }
     line.text = {first, static_cast<std::size_t>(end - first)};
     line.number = line_;
     line.unterminated = newline == nullptr;

@@ -38,11 +38,15 @@ class alignas(64) TextFile {
   void put_back(const Line& line);
 
   /// Skips the first line of data if it names columns: three or more words with letters, none a
-  /// number, followed by a line that starts with a number. Only before the first call of next().
+  /// number, followed by a line that starts with a number. Words can be quoted, the first name can
+  /// be empty. Only before the first call of next().
   void skip_header();
 
   /// The line skipped by skip_header(); empty: none.
   const std::string& header() const { return header_; }
+
+  /// The last comment above the first line of data, without '#', found by skip_header().
+  const std::string& comment() const { return comment_; }
 
   /// The same file from its start, or after the header if that was skipped.
   TextFile reopened() const { return part(begin_, end_); }
@@ -94,6 +98,8 @@ class alignas(64) TextFile {
 
   OpenedFile file_;
   std::string header_;
+  std::string comment_;
+  bool keeps_comment_ = false;
   bool is_first_ = true;      ///< the part with the first line of data
   std::size_t begin_ = 0;     ///< file offset of the first line of this part after the header
   std::size_t unread_ = 0;    ///< file offset of the next bytes to read into the window

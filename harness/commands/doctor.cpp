@@ -9,6 +9,7 @@
 #include "harness/correct/correct.hpp"
 #include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
+#include "harness/trajectory/clocks.hpp"
 #include "harness/trajectory/named_trajectory.hpp"
 #include "metrics/doctor/closure_checks.hpp"
 #include "metrics/doctor/diagnose.hpp"
@@ -101,9 +102,7 @@ void apply_offsets(const DoctorArguments& a,
       if (finding.fault == metrics::Fault::time_offset) offset = finding.value;
     }
     TrajectoryFile& file = estimates[i].file;
-    const auto nanoseconds = static_cast<std::int64_t>(std::llround(offset * 1e9));
-    for (StampedPose& pose : file.poses) pose.stamp += offset;
-    for (std::int64_t& stamp : file.nanoseconds) stamp += nanoseconds;
+    shift_stamps(file, offset);
     write_trajectory(files[i], file, Format::tum);
     fmt::print(notes_of(a), "{}: offset {:.4f} s applied\n", printable(files[i]), offset);
   }

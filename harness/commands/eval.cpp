@@ -118,7 +118,10 @@ void check_store_options(const EvalArguments& a, const std::vector<RecordedRun>&
   if (!a.plot.empty()) {
     throw InputError(store + "--plot use `loopbench plot " + a.store + " -o FOLDER` afterwards");
   }
-  if (!a.times.empty() && !has_kitti_poses(a, runs)) throw unused_times(a);
+  const bool has_kitti = (!a.times.empty() || a.period) && has_poses_of(Format::kitti, a, runs);
+  if (!a.times.empty() && !has_kitti) throw unused_times(a);
+  const bool has_unstamped = has_kitti && a.times.empty();
+  if (a.period && !has_unstamped && !has_poses_of(Format::g2o, a, runs)) throw unused_period(a);
 }
 
 /// Summary of the failed files, at most five of them.

@@ -4,14 +4,15 @@
 
 #include "harness/commands/commands.hpp"
 #include "harness/commands/traj_options.hpp"
+#include "harness/commands/traj_pairs.hpp"
 #include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
+#include "harness/trajectory/clocks.hpp"
 #include "harness/trajectory/figures.hpp"
 #include "harness/trajectory/selection.hpp"
 #include "harness/trajectory/summary.hpp"
 #include "harness/trajectory/transformation.hpp"
 #include "metrics/alignment/alignment.hpp"
-#include "metrics/pairing/association.hpp"
 #include "metrics/trajectory/projection.hpp"
 
 namespace loopbench::harness {
@@ -41,6 +42,13 @@ int write_all(const TrajArguments& a, const NamedTrajectories& all) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool loses_stamps =
         (format == Format::kitti || format == Format::g2o) && a.times_out.empty();
+    const std::string assumed = assumed_period(all[i].file, a.reading);
+    if (!loses_stamps && !assumed.empty()) {
+      fmt::print(stderr,
+                 "loopbench: {} has no stamps: {} (--period S)\n",
+                 printable(all[i].name),
+                 assumed);
+    }
     if (loses_stamps && all[i].file.has_stamps) {
       fmt::print(stderr,
                  "loopbench: {} does not contain stamps{}\n",
@@ -70,6 +78,8 @@ int info(const TrajArguments& a) {
   std::vector<TrajectorySummary> all;
   for (const NamedTrajectory& each : read_all_named(a.files, a.reading)) {
     all.push_back(summarise(each.name, each.file, each.findings));
+    const std::string assumed = assumed_period(each.file, a.reading);
+    if (!assumed.empty()) all.back().remarks.push_back("no stamps: " + assumed + " (--period S)");
   }
   if (a.json) {
     fmt::print("{}", json(all));
@@ -80,15 +90,22 @@ int info(const TrajArguments& a) {
 }
 
 int merge_files(const TrajArguments& a) {
+  NamedTrajectories all = read_all_named(a.files, a.reading);
   std::vector<TrajectoryFile> files;
-  std::size_t poses = 0;
-  for (NamedTrajectory& each : read_all_named(a.files, a.reading)) {
-    poses += each.file.poses.size();
-    files.push_back(std::move(each.file));
+  for (const NamedTrajectory& each : all) reject_two_clocks(a, all.front(), each);
+  for (NamedTrajectory& each : all) files.push_back(std::move(each.file));
+  Repeats repeats = Repeats::keep_first;
+  if (!a.reading.repeats.empty()) {
+    FieldType<Repeats>::assign("repeats", repeats, a.reading.repeats);
   }
-  const NamedTrajectory out{"merged", merged(files), {}};
-  if (const std::size_t dropped = poses - out.file.poses.size(); dropped > 0) {
-    fmt::print(stderr, "loopbench: dropped {} poses with the stamp of another one\n", dropped);
+  std::vector<std::size_t> dropped;
+  const NamedTrajectory out{"merged", merged(files, repeats, dropped), {}};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (dropped[i] == 0) continue;
+    fmt::print(stderr,
+               "loopbench: {}: dropped {} poses with the stamp of a pose of another file\n",
+               printable(all[i].name),
+               dropped[i]);
   }
   return write_all(a, {out});
 }
@@ -117,8 +134,22 @@ int downsample(const TrajArguments& a) {
 }
 
 int resample(const TrajArguments& a) {
+  constexpr double kLongestGap = 2.0;  // [s]
   return write_changed(a, [&](NamedTrajectory& each) {
-    each.file = {.poses = resampled(each.file.poses, a.step), .format = each.file.format};
+    TrajectoryFile out{.poses = resampled(each.file.poses, a.step),
+                       .format = each.file.format,
+                       .has_stamps = each.file.has_stamps};
+    const std::size_t in_gaps = poses_in_gaps(each.file.poses, out.poses, kLongestGap);
+    if (in_gaps > 0) {
+      fmt::print(stderr,
+                 "loopbench: warning: {}: {} of {} poses are interpolated in gaps longer than {:g} "
+                 "s\n",
+                 printable(each.name),
+                 in_gaps,
+                 out.poses.size(),
+                 kLongestGap);
+    }
+    each.file = std::move(out);
   });
 }
 
@@ -150,36 +181,8 @@ int transform(const TrajArguments& a) {
   });
 }
 
-std::vector<metrics::IndexPair> paired_indices(const TrajArguments& a,
-                                               const Trajectory& reference,
-                                               const NamedTrajectory& estimate) {
-  using metrics::Crossing;
-  using metrics::Limit;
-  const std::vector<double> of_reference = stamps(reference);
-  const std::vector<double> of_estimate = stamps(estimate.file.poses);
-  const std::vector<metrics::IndexPair> out =
-      a.association == "evo" ? metrics::match_evo(of_reference, of_estimate, a.max_diff, a.offset)
-                             : metrics::match_one_to_one(of_reference,
-                                                         of_estimate,
-                                                         a.max_diff,
-                                                         Limit::inclusive,
-                                                         Crossing::refused,
-                                                         a.offset);
-  if (!out.empty()) return out;
-  throw InputError(fmt::format(
-      "{}: no stamps are within {:g} s of stamps of {}", estimate.name, a.max_diff, a.reference));
-}
-
-/// The paired poses of one trajectory.
-TrajectoryFile paired_part(const TrajectoryFile& file,
-                           const std::vector<metrics::IndexPair>& pairs,
-                           std::size_t metrics::IndexPair::*index) {
-  std::vector<std::size_t> indices;
-  for (const metrics::IndexPair& pair : pairs) indices.push_back(pair.*index);
-  return selected(file, indices);
-}
-
 int sync(const TrajArguments& a) {
+  if (is_dash(a.out)) throw InputError("sync: expected -o FOLDER, it writes two files per input");
   const NamedTrajectory reference = read_named(a.reference, a.reading);
   const NamedTrajectories all = read_all_named(a.files, a.reading);
   const Format format = written_format(a);
@@ -189,9 +192,10 @@ int sync(const TrajArguments& a) {
   protect_inputs(a, files);
   protect_inputs(a, references);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto pairs = paired_indices(a, reference.file.poses, all[i]);
-    write_trajectory(
-        files[i], paired_part(all[i].file, pairs, &metrics::IndexPair::estimate), format);
+    const auto pairs = paired_indices(a, reference, all[i]);
+    TrajectoryFile paired = paired_part(all[i].file, pairs, &metrics::IndexPair::estimate);
+    shift_stamps(paired, a.offset);
+    write_trajectory(files[i], paired, format);
     const TrajectoryFile partners =
         paired_part(reference.file, pairs, &metrics::IndexPair::reference);
     // As in evo, a reference pose can be the nearest one of several poses.
@@ -204,14 +208,14 @@ int sync(const TrajArguments& a) {
 }
 
 int align_files(const TrajArguments& a) {
-  const Trajectory reference = read_named(a.reference, a.reading).file.poses;
+  const NamedTrajectory reference = read_named(a.reference, a.reading);
   metrics::Align type{};
   FieldType<metrics::Align>::assign("align", type, a.align);
   return write_changed(a, [&](NamedTrajectory& each) {
     const auto pairs = paired_indices(a, reference, each);
     Trajectory of_reference, of_estimate;
     for (const metrics::IndexPair& pair : pairs) {
-      of_reference.push_back(reference[pair.reference]);
+      of_reference.push_back(reference.file.poses[pair.reference]);
       of_estimate.push_back(each.file.poses[pair.estimate]);
     }
     try {
@@ -226,6 +230,7 @@ int align_files(const TrajArguments& a) {
       throw InputError(each.name + ": " + error.what());
     }
     each.file.covariances.clear();
+    shift_stamps(each.file, a.offset);
   });
 }
 

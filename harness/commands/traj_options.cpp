@@ -34,7 +34,11 @@ void declare_inputs(CLI::App& verb, TrajArguments& a) {
 void declare_output(CLI::App& verb, TrajArguments& a) {
   verb.add_option("-o,--out", a.out, "Output file, or folder for several; - is standard output")
       ->type_name("PATH");
-  verb.add_option("--to", a.to, "Output format")->type_name("WORD:tum|kitti|euroc|g2o|csv");
+  verb.add_option("--to",
+                  a.to,
+                  "Output format (default: csv, g2o or kitti if -o ends in .csv, .g2o or .kitti, "
+                  "otherwise tum)")
+      ->type_name("WORD:tum|kitti|euroc|g2o|csv");
   verb.add_option("--times-out", a.times_out, "File for the stamps of KITTI poses")
       ->type_name("FILE");
 }
@@ -145,13 +149,19 @@ const std::vector<VerbInfo>& verb_infos() {
 }  // namespace
 
 Format written_format(const TrajArguments& arguments) {
-  Format out = Format::tum;
-  FieldType<Format>::assign("to", out, arguments.to);
-  if (out == Format::automatic || out == Format::bag) {
-    throw OptionError("to",
-                      "to = " + arguments.to + ": expected one of tum | kitti | euroc | g2o | csv");
+  if (arguments.to.empty()) {
+    const std::string extension = std::filesystem::path(arguments.out).extension().string();
+    return extension == ".g2o"     ? Format::g2o
+           : extension == ".csv"   ? Format::csv
+           : extension == ".kitti" ? Format::kitti
+                                   : Format::tum;
   }
-  return out;
+  for (const auto& [name, format] : choices(Format{})) {
+    const bool is_written = format != Format::automatic && format != Format::bag;
+    if (is_written && name == arguments.to) return format;
+  }
+  throw OptionError("to",
+                    "to = " + arguments.to + ": expected one of tum | kitti | euroc | g2o | csv");
 }
 
 void declare_traj(CLI::App& traj, const std::map<std::string, TrajVerb>& verbs, int& exit_code) {

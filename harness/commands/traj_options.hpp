@@ -22,7 +22,7 @@ struct TrajArguments {
   ReadArguments reading;
   std::string reference;
   std::string out = "-";
-  std::string to = "tum";
+  std::string to;         ///< empty: of the extension of `out`
   std::string times_out;  ///< stamps of a KITTI file; empty: none
   bool json = false;
   std::optional<double> start;  ///< [s]
@@ -45,7 +45,8 @@ struct TrajArguments {
 
 using TrajVerb = std::function<int(const TrajArguments&)>;
 
-/// The format of `to`. Throws OptionError.
+/// The format of `to`, or of the extension of `out` (.g2o, .csv, .kitti), otherwise tum. Throws
+/// OptionError.
 Format written_format(const TrajArguments& arguments);
 
 /// Adds one subcommand for each verb.

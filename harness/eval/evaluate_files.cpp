@@ -47,6 +47,7 @@ struct Reader {
   const EvalArguments& arguments;
   bool reads_matrices = false;
   std::atomic<bool> has_used_times = false;
+  std::atomic<bool> has_used_period = false;
 
   Loaded read(const std::string& file, const std::string& format_word) {
     ReadOptions options;
@@ -64,6 +65,7 @@ struct Reader {
     out.poses = read_trajectory(file, options);
     if (options.format == Format::g2o || (is_kitti && !options.times)) {
       out.unstamped = file + ": is " + to_text(options.format);
+      has_used_period = true;
     }
     if (out.poses.empty()) throw input_error(file, 0, "has no poses, expected at least one");
     if (is_kitti && reads_matrices) out.matrices = read_kitti_matrices(file);
@@ -206,6 +208,11 @@ InputError unused_times(const EvalArguments& a) {
   return InputError(a.times + ": is a times file, but no file has KITTI poses");
 }
 
+InputError unused_period(const EvalArguments& a) {
+  return InputError("--period " + to_text(*a.period) +
+                    ": all files have stamps, expected KITTI poses without --times, or g2o");
+}
+
 std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
   const std::vector<metrics::NamedProtocol> rules = protocols(a);
   for (const metrics::NamedProtocol& protocol : rules)
@@ -227,6 +234,7 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
     for (auto& each : results) std::ranges::move(each, std::back_inserter(out));
   }
   if (!a.times.empty() && !reader.has_used_times) throw unused_times(a);
+  if (a.period && !reader.has_used_period) throw unused_period(a);
   return out;
 }
 

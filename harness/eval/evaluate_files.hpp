@@ -40,6 +40,9 @@ std::vector<EvaluationResult> evaluate_read(const EvalArguments& arguments,
 /// Error for a times file without KITTI poses.
 InputError unused_times(const EvalArguments& arguments);
 
+/// Error for a period without files that lack stamps.
+InputError unused_period(const EvalArguments& arguments);
+
 /// Returns one result for each estimate and protocol, in that order. If there are several, an
 /// estimate that cannot be read or evaluated has a result with `why_failed`. Throws InputError,
 /// OptionError.

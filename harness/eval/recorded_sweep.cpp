@@ -135,18 +135,18 @@ Catalogue recorded_catalogue() {
           metrics::metrics()};
 }
 
-bool has_kitti_poses(const EvalArguments& a, const std::vector<RecordedRun>& runs) {
-  const auto is_kitti = [](const std::string& file, const std::string& word) {
+bool has_poses_of(Format wanted, const EvalArguments& a, const std::vector<RecordedRun>& runs) {
+  const auto is_wanted = [wanted](const std::string& file, const std::string& word) {
     Format format = Format::automatic;
     FieldType<Format>::assign("format", format, word);
     if (format != Format::automatic || !std::filesystem::is_regular_file(file)) {
-      return format == Format::kitti;
+      return format == wanted;
     }
-    return detect_format(file) == Format::kitti;
+    return detect_format(file) == wanted;
   };
   const std::string& reference = a.reference_format.empty() ? a.format : a.reference_format;
   return std::ranges::any_of(runs, [&](const RecordedRun& run) {
-    return is_kitti(run.reference, reference) || is_kitti(run.estimate, a.format);
+    return is_wanted(run.reference, reference) || is_wanted(run.estimate, a.format);
   });
 }
 

@@ -31,8 +31,10 @@ RecordedFile recorded_estimate(const Params& options);
 /// The sequence of these files.
 Sequence recorded_sequence(const Params& options, Trajectory reference, Trajectory estimate);
 
-/// Whether any file is in KITTI format, by the arguments or its content; the others have stamps.
-bool has_kitti_poses(const EvalArguments& arguments, const std::vector<RecordedRun>& runs);
+/// Whether any file has this format, by the arguments or its content.
+bool has_poses_of(Format format,
+                  const EvalArguments& arguments,
+                  const std::vector<RecordedRun>& runs);
 
 /// One dataset per run, with the sequence as label; the methods in the order of their first run.
 Sweep recorded_sweep(const std::vector<RecordedRun>& runs, const EvalArguments& arguments);

@@ -54,7 +54,9 @@ NamedTrajectory read_named(const std::string& name, const ReadArguments& argumen
   out.name = name;
   ReadOptions options;
   FieldType<Format>::assign("format", options.format, arguments.format);
-  FieldType<Repeats>::assign("repeats", options.repeats, arguments.repeats);
+  if (!arguments.repeats.empty()) {
+    FieldType<Repeats>::assign("repeats", options.repeats, arguments.repeats);
+  }
   if (!arguments.times.empty()) options.times = arguments.times;
   if (arguments.period) options.period = *arguments.period;
   options.findings = &out.findings;
@@ -103,7 +105,8 @@ std::vector<std::string> output_files(const std::vector<std::string>& names,
                                       const std::string& out,
                                       Format format,
                                       const std::string& suffix) {
-  const bool is_folder = out.ends_with('/') || std::filesystem::is_directory(out);
+  const bool is_folder =
+      !is_dash(out) && (out.ends_with('/') || std::filesystem::is_directory(out));
   if (names.size() == 1 && !is_folder) return {out};
   if (is_dash(out)) throw InputError("-o: found several trajectories, expected a folder");
   const std::string ending = std::filesystem::path(out).extension().string();

@@ -15,9 +15,9 @@ struct ReadArguments {
   std::string format = "auto";
   std::string times = {};
   std::optional<double> period = {};
-  std::string repeats = "refuse";
-  std::string tf = {};      ///< PARENT.CHILD for bags named without a topic; empty: none
-  bool all_topics = false;  ///< every trajectory of bags named without a topic
+  std::string repeats = {};  ///< empty: refuse within a file, keep_first across merged files
+  std::string tf = {};       ///< PARENT.CHILD for bags named without a topic; empty: none
+  bool all_topics = false;   ///< every trajectory of bags named without a topic
 };
 
 struct NamedTrajectory {

@@ -1,10 +1,13 @@
 #include "harness/trajectory/selection.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "datasets/core/fields.hpp"
 #include "datasets/core/polyline.hpp"
 
 namespace loopbench::harness {
@@ -113,15 +116,44 @@ Trajectory resampled(const Trajectory& poses, const MotionStep& step) {
   return out;
 }
 
-TrajectoryFile merged(const std::vector<TrajectoryFile>& files) {
+std::size_t poses_in_gaps(const Trajectory& poses, const Trajectory& result, double gap) {
+  std::size_t out = 0;
+  std::size_t i = 1;
+  for (const StampedPose& pose : result) {
+    while (i < poses.size() && poses[i].stamp <= pose.stamp) ++i;
+    if (i == poses.size()) break;
+    const double before = poses[i - 1].stamp;
+    if (before < pose.stamp && poses[i].stamp - before > gap) ++out;
+  }
+  return out;
+}
+
+TrajectoryFile merged(const std::vector<TrajectoryFile>& files,
+                      Repeats repeats,
+                      std::vector<std::size_t>& dropped) {
   std::vector<std::pair<std::size_t, std::size_t>> order;  // file, pose
   for (std::size_t f = 0; f < files.size(); ++f) {
     for (std::size_t i = 0; i < files[f].poses.size(); ++i) order.emplace_back(f, i);
   }
   const auto stamp = [&](const auto& at) { return files[at.first].poses[at.second].stamp; };
   std::ranges::stable_sort(order, {}, stamp);
-  const auto same_stamp = [&](const auto& a, const auto& b) { return stamp(a) == stamp(b); };
-  order.erase(std::unique(order.begin(), order.end(), same_stamp), order.end());
+  std::vector<std::pair<std::size_t, std::size_t>> kept;
+  dropped.assign(files.size(), 0);
+  for (const auto& at : order) {
+    if (kept.empty() || stamp(kept.back()) != stamp(at)) {
+      kept.push_back(at);
+      continue;
+    }
+    if (repeats == Repeats::refuse) {
+      throw InputError(
+          fmt::format("stamp {} is in two files, expected --repeats keep_first or "
+                      "keep_last",
+                      to_text(stamp(at))));
+    }
+    const bool keeps_last = repeats == Repeats::keep_last;
+    ++dropped[keeps_last ? kept.back().first : at.first];
+    if (keeps_last) kept.back() = at;
+  }
   const auto all_have = [&](auto member) {
     return std::ranges::all_of(files, [&](const TrajectoryFile& file) {
       return (file.*member).size() == file.poses.size();
@@ -130,7 +162,8 @@ TrajectoryFile merged(const std::vector<TrajectoryFile>& files) {
   const bool exact = all_have(&TrajectoryFile::nanoseconds);
   const bool uncertain = all_have(&TrajectoryFile::covariances);
   TrajectoryFile out;
-  for (const auto& [f, i] : order) {
+  out.has_stamps = std::ranges::all_of(files, &TrajectoryFile::has_stamps);
+  for (const auto& [f, i] : kept) {
     out.poses.push_back(files[f].poses[i]);
     if (exact) out.nanoseconds.push_back(files[f].nanoseconds[i]);
     if (uncertain) out.covariances.push_back(files[f].covariances[i]);

@@ -35,8 +35,14 @@ std::vector<std::size_t> by_motion(const Trajectory& poses, const MotionStep& st
 /// O(n + result).
 Trajectory resampled(const Trajectory& poses, const MotionStep& step);
 
-/// All poses in the order of their stamps. Poses with equal stamps keep the order of the files, and
-/// all but the first are dropped. O(n log n).
-TrajectoryFile merged(const std::vector<TrajectoryFile>& files);
+/// Number of poses of `result` strictly between two poses that are more than `gap` apart [s]. O(n).
+std::size_t poses_in_gaps(const Trajectory& poses, const Trajectory& result, double gap);
+
+/// All poses in the order of their stamps. Of poses with equal stamps, the one of the first or of
+/// the last file is kept, and the others are added to `dropped`, which has an element per file.
+/// Throws InputError if repeats are refused and there are any. O(n log n).
+TrajectoryFile merged(const std::vector<TrajectoryFile>& files,
+                      Repeats repeats,
+                      std::vector<std::size_t>& dropped);
 
 }  // namespace loopbench::harness

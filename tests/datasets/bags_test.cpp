@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <thread>
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/bags/byte_reader.hpp"
@@ -203,6 +206,31 @@ TEST(RealBags, TruncatedChunksYieldTheirIntactPart) {
   const std::size_t whole = poses_of("nav2_turtlebot.mcap", "/odom", 100);
   EXPECT_GT(poses_of("nav2_turtlebot.mcap", "/odom", 50), whole / 4);
   EXPECT_LT(poses_of("nav2_turtlebot.mcap", "/odom", 50), whole);
+}
+
+TEST(RealBags, CompressedDatabasesAndPipesAreRead) {
+  if (recording("").empty()) GTEST_SKIP() << "needs LOOPBENCH_DATA";
+  const Scratch scratch;
+  std::string database = content(recording("tf_example.db3"));
+  database[18] = database[19] = '\2';  // has a write-ahead log, as ROS 2 bags can have
+  const auto plain = scratch.file("a.db3", database);
+  const auto poses_of = [](const std::filesystem::path& file) {
+    return read_trajectory("bag:" + file.string() + "#tf:odom.base_link").size();
+  };
+  const std::size_t poses = poses_of(plain);
+  EXPECT_GT(poses, 100u);
+  for (const char* const program : {"gzip", "zstd -q"}) {
+    const auto packed = scratch.path(std::string("a.db3.") + program[0]);
+    const std::string command = std::string(program) + " -c '" + plain.string() + "' > '" +
+                                packed.string() + "' 2>/dev/null";
+    if (std::system(command.c_str()) != 0) continue;  // not installed
+    EXPECT_EQ(poses_of(packed), poses) << program;
+  }
+  const std::string pipe = scratch.path("pipe").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] { std::ofstream(pipe) << database; });
+  EXPECT_EQ(poses_of(pipe), poses);
+  writer.join();
 }
 
 TEST(RealBags, ATruncatedDatabaseYieldsItsIntactPart) {

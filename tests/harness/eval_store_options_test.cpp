@@ -70,6 +70,7 @@ TEST_F(EvalStoreOptions, RejectsOptionsThatAStoreIgnores) {
   EXPECT_THAT(error("--plot", "out"), HasSubstr("loopbench plot " + path("store") + " -o FOLDER"));
   std::ofstream(path("times.txt")) << "0\n";
   EXPECT_THAT(error("--times", path("times.txt")), HasSubstr("no file has KITTI poses"));
+  EXPECT_THAT(error("--period", "3"), HasSubstr("--period 3.0: all files have stamps"));
   EXPECT_FALSE(std::filesystem::exists(path("store")));
 }
 

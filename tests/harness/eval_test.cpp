@@ -145,6 +145,8 @@ TEST(Eval, TimesBelongToWhicheverFileIsKitti) {
   const std::string why =
       refusal<InputError>({golden("gt.txt"), golden("est_drift.txt"), "--times=" + times});
   EXPECT_EQ(why, times + ": is a times file, but no file has KITTI poses");
+  EXPECT_EQ(refusal<InputError>({golden("gt.txt"), golden("est_drift.txt"), "--period=3"}),
+            "--period 3.0: all files have stamps, expected KITTI poses without --times, or g2o");
 }
 
 TEST(Eval, PrintsATableForPeople) {

@@ -1,0 +1,41 @@
+/// Meaning of the columns that a header names, with their units.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace loopbench {
+
+/// Indices of the columns t, x, y, z, qw, qx, qy, qz in a row with `width` columns.
+struct CsvColumns {
+  std::array<std::size_t, 8> index{};
+  std::size_t width = 0;
+  std::optional<int> time_exponent;                ///< stated unit of time, 10^exponent [s]
+  std::optional<std::size_t> nanoseconds;          ///< column to add to whole seconds
+  std::array<double, 3> per_metre{1.0, 1.0, 1.0};  ///< unit of x, y and z
+};
+
+struct CsvHeader {
+  std::optional<CsvColumns> columns;
+  std::string why_not;  ///< "has a header that ..."; empty if there are columns
+  std::size_t width = 0;
+  bool names_time = false;
+  bool names_position = false;    ///< any of x, y, z
+  bool names_quaternion = false;  ///< any of qw, qx, qy, qz
+};
+
+/// Recognises names such as t, time, timestamp [ns], secs and nsecs; x, tx, p_x [mm],
+/// pose.position.x; qw, q_w, orientation.w, and q0 to q3 in the order w, x, y, z. The usual name is
+/// taken if a rare one (epoch, rx) is present, too. If only the first column is unknown and only
+/// the time is missing, this is the time. Columns with an empty name are ignored.
+CsvHeader csv_header(std::string_view header);
+
+/// Splits a row or a header at commas, or at blanks if it has none. Quotes around a column are
+/// removed; an empty last column is dropped. The views point into `text`.
+void split_columns(std::string_view text, std::vector<std::string_view>& out);
+
+}  // namespace loopbench

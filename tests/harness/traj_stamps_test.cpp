@@ -1,0 +1,195 @@
+// Stamps that `traj` reads, shifts, assumes and merges.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "datasets/formats/trajectory_file.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/eval_command.hpp"
+
+namespace loopbench::traj_stamps_test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using namespace harness;
+
+struct Printed {
+  std::string output;
+  std::string errors;
+};
+
+/// Output of `loopbench traj ARGS`. Exceptions of the verb pass.
+Printed traj(std::vector<std::string> arguments) {
+  CLI::App app;
+  int exit_code = -1;
+  add_traj(app, exit_code);
+  arguments.insert(arguments.begin(), "traj");
+  std::ranges::reverse(arguments);  // order required by CLI11
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  try {
+    app.parse(arguments);
+  } catch (...) {
+    testing::internal::GetCapturedStdout();
+    testing::internal::GetCapturedStderr();
+    throw;
+  }
+  EXPECT_EQ(exit_code, kExitOk);
+  return {testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
+}
+
+std::string traj_error(const std::vector<std::string>& arguments) {
+  try {
+    traj(arguments);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing thrown";
+  return "";
+}
+
+/// A folder with poses on the x axis.
+class TrajStamps : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  /// A TUM file with a pose for each stamp and the position x = `x`.
+  std::string tum(const std::string& name,
+                  const std::vector<std::string>& stamps,
+                  const std::string& x = "1") const {
+    std::ofstream out(path(name));
+    for (const std::string& stamp : stamps) out << stamp << " " << x << " 0 0 0 0 0 1\n";
+    return path(name);
+  }
+
+  std::string kitti(const std::string& name, std::size_t poses) const {
+    std::ofstream out(path(name));
+    for (std::size_t i = 0; i < poses; ++i) out << "1 0 0 " << i << " 0 1 0 0 0 0 1 0\n";
+    return path(name);
+  }
+
+  std::vector<std::int64_t> nanoseconds(const std::string& name) const {
+    return read_trajectory_file(path(name)).nanoseconds;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(TrajStamps, SyncAndAlignWriteStampsWithTheOffset) {
+  const std::string est = tum("est.txt", {"1700000000.100000001", "1700000000.200000001"});
+  const std::string ref = tum("ref.txt", {"1700000003.600000001", "1700000003.700000001"});
+  traj({"sync", est, "--ref", ref, "--offset", "3.5", "-o", path("out")});
+  EXPECT_THAT(nanoseconds("out/est.txt"), ElementsAre(1700000003600000001, 1700000003700000001));
+  EXPECT_EQ(nanoseconds("out/est_reference.txt"), nanoseconds("out/est.txt"));
+  traj({"align",
+        est,
+        "--ref",
+        ref,
+        "--t_offset",
+        "3.5",
+        "--align",
+        "origin",
+        "-o",
+        path("aligned.txt")});
+  EXPECT_THAT(nanoseconds("aligned.txt"), ElementsAre(1700000003600000001, 1700000003700000001));
+}
+
+TEST_F(TrajStamps, PosesWithoutStampsAreNotPairedWithStamps) {
+  const std::string est = kitti("est.txt", 3);
+  const std::string ref = tum("ref.txt", {"0", "0.1", "0.2"});
+  const std::string why = est + ": is kitti, poses without stamps, and " + ref +
+                          " has stamps: expected --period S, or a file with stamps (traj convert "
+                          "FILE --times TIMES -o NEW)";
+  EXPECT_EQ(traj_error({"sync", est, "--ref", ref, "-o", path("out")}), why);
+  EXPECT_EQ(traj_error({"align", est, "--ref", ref, "-o", path("a.txt")}), why);
+  EXPECT_EQ(traj_error({"merge", ref, est, "-o", path("a.txt")}), why);
+  traj({"sync", est, "--ref", ref, "--period", "0.1", "-o", path("out")});
+  EXPECT_EQ(read_trajectory(path("out/est.txt")).size(), 3u);
+  traj({"sync", est, "--ref", kitti("other.txt", 3), "-o", path("both")});
+}
+
+TEST_F(TrajStamps, AssumedStampsArePrinted) {
+  const std::string est = kitti("est.txt", 3);
+  EXPECT_THAT(traj({"info", est}).output,
+              HasSubstr("remark          no stamps: assumed 0.1 s between poses (--period S)\n"));
+  EXPECT_THAT(traj({"info", est, "--period", "0.1"}).output, Not(HasSubstr("no stamps")));
+  EXPECT_EQ(traj({"convert", est, "-o", path("a.txt")}).errors,
+            "loopbench: " + est + " has no stamps: assumed 0.1 s between poses (--period S)\n");
+  EXPECT_THAT(traj({"convert", est, "--period", "1", "-o", path("a.txt")}).errors, IsEmpty());
+  EXPECT_THAT(traj({"convert", est, "--to", "kitti", "-o", path("a.txt")}).errors, IsEmpty());
+}
+
+TEST_F(TrajStamps, SyncNeedsAFolder) {
+  const std::string est = tum("est.txt", {"0", "1"});
+  for (const std::vector<std::string>& out : {std::vector<std::string>{}, {"-o", "-"}}) {
+    std::vector<std::string> arguments{"sync", est, "--ref", est};
+    arguments.insert(arguments.end(), out.begin(), out.end());
+    EXPECT_EQ(traj_error(arguments), "sync: expected -o FOLDER, it writes two files per input");
+  }
+  EXPECT_FALSE(std::filesystem::exists("-"));
+}
+
+TEST_F(TrajStamps, ADashIsStandardOutputBesideAFolderOfThatName) {
+  const std::string est = tum("est.txt", {"0", "1"});
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::create_directory(path("-"));
+  std::filesystem::current_path(path("."));
+  EXPECT_EQ(traj({"convert", est, "-o", "-"}).output, "0 1 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
+  std::filesystem::current_path(before);
+}
+
+TEST_F(TrajStamps, RepeatsAcrossMergedFilesFollowTheOption) {
+  const std::string a = tum("a.txt", {"0", "1", "2"}, "1");
+  const std::string b = tum("b.txt", {"1", "2", "3"}, "5");
+  const auto merged_x = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"merge", a, b, "-o", path("out.txt")};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const std::string errors = traj(arguments).errors;
+    std::vector<double> out;
+    for (const StampedPose& pose : read_trajectory(path("out.txt"))) {
+      out.push_back(pose.world_from_body.translation.x());
+    }
+    return std::pair(out, errors);
+  };
+  const std::string why = ": dropped 2 poses with the stamp of a pose of another file\n";
+  EXPECT_EQ(merged_x({}), std::pair(std::vector<double>({1, 1, 1, 5}), "loopbench: " + b + why));
+  EXPECT_EQ(merged_x({"--repeats", "keep_first"}), merged_x({}));
+  EXPECT_EQ(merged_x({"--repeats", "keep_last"}),
+            std::pair(std::vector<double>({1, 5, 5, 5}), "loopbench: " + a + why));
+  EXPECT_EQ(traj_error({"merge", a, b, "--repeats", "refuse", "-o", path("out.txt")}),
+            "stamp 1.0 is in two files, expected --repeats keep_first or keep_last");
+}
+
+TEST_F(TrajStamps, TheExtensionOfTheOutputIsItsFormat) {
+  const std::string est = tum("est.txt", {"0", "1"});
+  for (const auto& [name, format] : {std::pair{"out.g2o", Format::g2o},
+                                     std::pair{"out.csv", Format::csv},
+                                     std::pair{"out.kitti", Format::kitti},
+                                     std::pair{"out.dat", Format::tum}}) {
+    traj({"convert", est, "-o", path(name)});
+    EXPECT_EQ(detect_format(path(name)), format) << name;
+  }
+  traj({"convert", est, "--to", "tum", "-o", path("out.csv")});
+  EXPECT_EQ(detect_format(path("out.csv")), Format::tum);
+  for (const char* const to : {"auto", "bag", "nonsense"}) {
+    EXPECT_EQ(traj_error({"convert", est, "--to", to}),
+              "to = " + std::string(to) + ": expected one of tum | kitti | euroc | g2o | csv");
+  }
+}
+
+TEST_F(TrajStamps, PosesInterpolatedInGapsAreCounted) {
+  const std::string est = tum("est.txt", {"0", "1", "5", "6"});
+  EXPECT_EQ(
+      traj({"resample", est, "--seconds", "0.5", "-o", path("out.txt")}).errors,
+      "loopbench: warning: " + est + ": 7 of 13 poses are interpolated in gaps longer than 2 s\n");
+  const std::string dense = tum("dense.txt", {"0", "2", "4"});
+  EXPECT_THAT(traj({"resample", dense, "--seconds", "0.5", "-o", path("out.txt")}).errors,
+              IsEmpty());
+}
+
+}  // namespace
+}  // namespace loopbench::traj_stamps_test
