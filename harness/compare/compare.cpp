@@ -146,6 +146,12 @@ std::vector<Comparison> compare(const std::vector<Record>& records, const Compar
 }
 
 std::vector<Comparison> compare(const RecordSource& records, const CompareOptions& options) {
+  value(Record{}, options.value);  // rejects an unknown statistic
+  if (!has_direction(options.value)) {
+    throw InputError("value: '" + options.value +
+                     "' depends on the number of errors: no value is better than another; expected "
+                     "rmse, mean, median, std, min or max");
+  }
   OracleMethods excluded;
   ObservationsBuilder everything(options.value);
   records([&](const Record& r) {

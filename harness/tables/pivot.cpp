@@ -50,7 +50,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
     return;
   }
   table.counts.add(column, record);
-  entry.numbers.add(record, run, table.group_of_run[run], value(record, spec.value));
+  entry.numbers.add(record, run, table.group_of_run[run], spec.value);
 }
 
 /// Number of runs of all competitors together: an upper limit of possible().
