@@ -41,13 +41,6 @@ void flag_oracle_closures(SequenceMetadata& out, const Sequence& sequence) {
   out.closures += fmt::format("; {} of {} equal the reference", equal, all);
 }
 
-std::string hash_of_reference(const Sequence& sequence, const std::vector<InputFile>& inputs) {
-  for (const InputFile& file : inputs) {
-    if (file.path == sequence.provenance.reference.string()) return file.hash;
-  }
-  return "";
-}
-
 }  // namespace
 
 std::vector<InputFile> hashed_inputs(const std::vector<InputPath>& files) {
@@ -77,7 +70,7 @@ SequenceMetadata sequence_metadata(const Sequence& sequence, bool with_trace) {
               count(sequence.reference)};
   flag_oracle_closures(out, sequence);
   out.content = content_of(sequence);
-  out.source = source_of(sequence, hash_of_reference(sequence, out.inputs));
+  out.source = source_of(sequence);
   out.group = out.source;
   out.notes = sequence.provenance.notes;
   if (!sequence.loop_candidates.empty() && !sequence.reference.empty()) {
