@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 #include <string_view>
 
 #include "harness/compare/compare.hpp"
@@ -150,10 +151,12 @@ TableView summary(const std::vector<Record>& records, const SummaryOptions& opti
   if (lead == candidates.end()) return {};
   std::vector<Record> own;
   NameOrder sequences;
+  std::set<std::string> oracle_sequences;
   for (const Record& r : candidates) {
     if (!r.metric.empty() && !is_same_score(r, *lead)) continue;
     own.push_back(r);
     sequences.index(r.sequence);
+    if (r.oracle_closures) oracle_sequences.insert(r.sequence);
   }
   const bool has_sequences = sequences.names().size() <= kMostSequences;
   const TableSpec spec{.columns = {has_sequences ? "sequence" : "score"},
@@ -207,6 +210,8 @@ TableView summary(const std::vector<Record>& records, const SummaryOptions& opti
     out.lines.resize(kMostMethods);
   }
   if (!has_sequences) out.notes.push_back(fmt::format("{} sequences", sequences.names().size()));
+  const std::string oracle = oracle_closures_note(oracle_sequences, kMostSequences);
+  if (!oracle.empty()) out.notes.push_back(oracle);
   for (std::string& line : reasons(own)) out.notes.push_back(std::move(line));
   const auto is_baseline = [&](const Record& r) { return r.method == options.baseline; };
   const bool has_verdicts = has_direction(options.value);
