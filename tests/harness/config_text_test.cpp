@@ -94,6 +94,21 @@ TEST(ConfigShape, AScalarOrAListWhereAMapBelongsIsRejected) {
       "c.yaml:2: log: expected true or false");
 }
 
+TEST(ConfigTable, NamesAreCheckedWhenTheConfigIsRead) {
+  const auto refusal = [](const std::string& rest) {
+    return why(config("{dataset: simulated}", "ate", rest));
+  };
+  EXPECT_EQ(refusal("table: {rows: [methods]}\n"),
+            "c.yaml:5: table.rows: no column is named 'methods'; did you mean 'method'?");
+  EXPECT_EQ(refusal("table:\n  rows: [method]\n  columns: [scor]\n"),
+            "c.yaml:7: table.columns: no column is named 'scor'; did you mean 'score'?");
+  EXPECT_EQ(refusal("table: {split: [time]}\n"),
+            "c.yaml:5: table.split: no column is named 'time'; did you mean 'times'?");
+  EXPECT_EQ(refusal("table: {value: rms}\n"),
+            "c.yaml:5: table.value: no statistic is named 'rms'; did you mean 'rmse'?");
+  EXPECT_EQ(refusal("table: {rows: [sequence, repeat], split: [], value: max}\n"), "");
+}
+
 TEST(ConfigMetric, OptionsThatContradictEachOtherAreRejected) {
   const auto refusal = [](const std::string& metric, const std::string& rest = "") {
     return why(config("{dataset: simulated}", metric, rest));
