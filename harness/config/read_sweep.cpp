@@ -6,6 +6,7 @@
 #include "datasets/formats/regular_file.hpp"
 #include "harness/config/bytes.hpp"
 #include "harness/config/choices.hpp"
+#include "harness/config/exclusions.hpp"
 #include "harness/config/protocol_choice.hpp"
 #include "harness/config/setting_reader.hpp"
 #include "harness/model/where.hpp"
@@ -92,6 +93,7 @@ class SweepReader : private SettingReader {
     // Without errors, because the labels of rejected methods are missing.
     if (!has_errors()) {
       attempt([&] { sweep.baseline = baseline(root.find("baseline"), sweep.methods); });
+      optional(root, "exclude", [&](const auto& node) { require_matches(node, sweep, file()); });
     }
     report_errors();
     return sweep;
