@@ -135,8 +135,9 @@ Lines remarks(const Comparison& c) {
       level));
   out.push_back(fmt::format(
       "p against {}, ranks, groups and the verdict: one family of {} Wilcoxon signed-rank tests "
-      "(Pratt), Holm-corrected; a method is proven better where p <= {:g} and the "
-      "ratio and its interval agree; fewer than 8 groups prove nothing; rank: range given the "
+      "(Pratt), Holm-corrected; p is the larger of the test's and, where that is significant, 1.4 "
+      "times that of the interval of the ratio; a method is proven better where p <= {:g} and the "
+      "ratio agrees; fewer than 8 groups prove nothing; rank: range given the "
       "proven differences; group: methods that share a letter are not "
       "proven different; differences up to {:g} of a value are ties",
       c.options.baseline,

@@ -296,6 +296,13 @@ TEST(Compare, RejectsStatisticsWithoutADirection) {
   }
 }
 
+TEST(Compare, StatesThatPIsTheLargerOfTwo) {
+  const std::vector<std::string> all = remarks(compared(sweep()));
+  EXPECT_TRUE(std::ranges::any_of(all, [](const std::string& remark) {
+    return has(remark, "p is the larger of the test's and, where that is significant, 1.4 times");
+  }));
+}
+
 TEST(ComparisonText, HasALinePerMethodInEveryFormat) {
   const std::vector<Comparison> all = compare(sweep(), {.baseline = "uniform"});
   const std::string text = markdown(table_view(all[0]));
