@@ -287,22 +287,6 @@ TEST(Compare, RejectsUnknownNames) {
   EXPECT_NE(refusal_of([] { compared({failed("a", 0, "uniform")}); }), "");
 }
 
-TEST(Compare, RejectsStatisticsWithoutADirection) {
-  for (const std::string value : {"count", "sse"}) {
-    EXPECT_EQ(refusal_of([&] { compare(sweep(), {.baseline = "raw", .value = value}); }),
-              "value: '" + value +
-                  "' depends on the number of errors: no value is better than another; expected "
-                  "rmse, mean, median, std, min or max");
-  }
-}
-
-TEST(Compare, StatesThatPIsTheLargerOfTwo) {
-  const std::vector<std::string> all = remarks(compared(sweep()));
-  EXPECT_TRUE(std::ranges::any_of(all, [](const std::string& remark) {
-    return has(remark, "p is the larger of the test's and, where that is significant, 1.4 times");
-  }));
-}
-
 TEST(ComparisonText, HasALinePerMethodInEveryFormat) {
   const std::vector<Comparison> all = compare(sweep(), {.baseline = "uniform"});
   const std::string text = markdown(table_view(all[0]));
