@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "datasets/derive/poses_at.hpp"
+#include "harness/provenance/copied_reference.hpp"
 #include "harness/provenance/oracle_closures.hpp"
 #include "harness/provenance/sequence_identity.hpp"
 #include "harness/text/hash.hpp"
@@ -75,6 +76,9 @@ SequenceMetadata sequence_metadata(const Sequence& sequence, bool with_trace) {
   out.notes = sequence.provenance.notes;
   if (!sequence.loop_candidates.empty() && !sequence.reference.empty()) {
     out.notes.push_back(to_text(metrics::evaluate_detection(sequence, {})));
+  }
+  if (const std::string note = copied_reference(sequence); !note.empty()) {
+    out.notes.push_back("oracle: " + note);
   }
   if (const std::string note = reference_of_other_body(sequence); !note.empty()) {
     out.notes.push_back(note);
