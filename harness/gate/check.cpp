@@ -54,7 +54,7 @@ std::string why_not_comparable(const GateScore& before, const GateScore& now) {
 class Checker {
  public:
   Checker(const Baseline& baseline, const Snapshot& now, GateExtent extent)
-      : baseline_(baseline), extent_(extent), limit_of_(baseline.limits) {
+      : extent_(extent), limit_of_(baseline.limits) {
     for (const GateCell& cell : now.cells) now_.emplace(key(cell), &cell);
     const auto is_there = [&](const GateCell& cell) { return now_.contains(key(cell)); };
     if (std::ranges::none_of(baseline.snapshot.cells, is_there)) {
@@ -191,7 +191,6 @@ class Checker {
                      allowed));
   }
 
-  const Baseline& baseline_;
   GateExtent extent_;
   LimitOfScore limit_of_;
   std::size_t unlimited_ = 0;  // scores without a limit
