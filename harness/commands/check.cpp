@@ -6,6 +6,7 @@
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/gate/formats.hpp"
+#include "harness/gate/limits.hpp"
 #include "harness/gate/snapshot.hpp"
 #include "harness/store/open.hpp"
 #include "harness/text/print_error.hpp"
@@ -46,6 +47,11 @@ int update(const CheckArguments& arguments) {
     baseline.limits.insert(baseline.limits.begin(), time_limit(*arguments.time));
   }
   baseline.snapshot = snapshot(arguments.store, baseline.limits);
+  try {
+    require_used_limits(baseline);
+  } catch (const InputError& error) {
+    throw InputError(arguments.baseline + ": " + error.what());
+  }
   baseline.build_summary = build_summary(arguments.store);
   if (is_dirty(baseline.build_summary) && !arguments.allow_dirty) {
     throw InputError(arguments.store +

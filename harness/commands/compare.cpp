@@ -73,8 +73,7 @@ void add_compare(CLI::App& app, int& exit_code) {
           "--metric", arguments->metric, "Label or name of a metric, or a score: ate, error x")
       ->capture_default_str();
   command
-      ->add_option(
-          "--value", arguments->options.value, "Statistic: rmse mean median std min max sse count")
+      ->add_option("--value", arguments->options.value, "Statistic: rmse mean median std min max")
       ->capture_default_str();
   command
       ->add_option("--alpha",

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "datasets/core/error.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/standard_output.hpp"
@@ -22,6 +23,7 @@ struct ProfileArguments {
   std::optional<ExportFormat> format;  ///< none: terminal on a terminal, otherwise Markdown
   std::string out;
   Accuracy accuracy;
+  bool has_accuracy = false;  ///< an option names it, so that it must be there
 };
 
 int print_profile(const ProfileArguments& arguments) {
@@ -40,11 +42,12 @@ int print_profile(const ProfileArguments& arguments) {
   const TerminalStyle style = is_printed ? standard_output_style() : TerminalStyle{};
   RecordReader reader(arguments.store);
   const RecordSource records = [&](const auto& visit) { reader.for_each(visit); };
+  const TextTable accuracies = pareto(cells, records, arguments.accuracy);
+  if (arguments.has_accuracy && accuracies.rows.empty()) {
+    throw InputError(arguments.store + ": " + accuracies.notes.front());
+  }
   std::string out;
-  for (const TextTable& listing : {costs(cells),
-                                   reported(cells),
-                                   scaling(cells),
-                                   pareto(cells, records, arguments.accuracy)}) {
+  for (const TextTable& listing : {costs(cells), reported(cells), scaling(cells), accuracies}) {
     out += out.empty() ? "" : "\n";
     out += format == ExportFormat::csv        ? csv(listing)
            : format == ExportFormat::terminal ? terminal(table_view(listing), style)
@@ -88,7 +91,12 @@ void add_profile(CLI::App& app, int& exit_code) {
                    arguments->out,
                    "File to write (-: standard output); for CSV also its provenance")
       ->type_name("FILE");
-  command->callback([arguments, &exit_code] { exit_code = print_profile(*arguments); });
+  command->callback([arguments, command, &exit_code] {
+    for (const char* option : {"--metric", "--relation", "--axis"}) {
+      if (command->count(option) > 0) arguments->has_accuracy = true;
+    }
+    exit_code = print_profile(*arguments);
+  });
 }
 
 }  // namespace loopbench::harness

@@ -197,6 +197,7 @@ int run(const RunArguments& arguments, const Source& source) {
                              is_there("table.csv") && is_there("rows.csv");
   const bool has_tables = all.size() <= kMostCellsInTables;
   const std::vector<Record> records = has_tables ? all_records(file) : std::vector<Record>{};
+  if (has_tables) fmt::print("{}", summary_text(records, sweep));  // even if a table of it fails
   if (has_tables && !is_up_to_date) {
     write_tables(file, sweep, records, out);
     store->exported();
@@ -214,8 +215,7 @@ int run(const RunArguments& arguments, const Source& source) {
                   sweep.table.value,
                   protocol_names(sweep));
   fmt::print(
-      "{}{}\n{}{}\n{}",
-      has_tables ? summary_text(records, sweep) : "",
+      "{}\n{}{}\n{}",
       fitted(status),
       has_tables ? ""
                  : fmt::format("more than {} cells: no tables and summary\n", kMostCellsInTables),

@@ -21,7 +21,11 @@ void add_ratio(MethodVerdict& method, const PairedMethods& pair, const Compariso
   method.ratio = Interval{estimate, estimate, estimate};
   method.why_no_interval = why_no_interval(pair.common);
   const auto found = mean_interval(pair.common, 1.0 - of.options.alpha);
-  if (!found) return;
+  if (!found) {
+    const std::size_t groups = pair.common.size();
+    method.has_equal_ratios = groups >= kFewestForInterval && 2 * pair.ties < groups;
+    return;
+  }
   const double one = std::exp(sign * found->interval.low);
   const double other = std::exp(sign * found->interval.high);
   method.ratio = Interval{estimate, std::min(one, other), std::max(one, other)};
@@ -146,6 +150,12 @@ std::vector<Comparison> compare(const std::vector<Record>& records, const Compar
 }
 
 std::vector<Comparison> compare(const RecordSource& records, const CompareOptions& options) {
+  value(Record{}, options.value);  // rejects an unknown statistic
+  if (!has_direction(options.value)) {
+    throw InputError("value: '" + options.value +
+                     "' depends on the number of errors: no value is better than another; expected "
+                     "rmse, mean, median, std, min or max");
+  }
   OracleMethods excluded;
   ObservationsBuilder everything(options.value);
   records([&](const Record& r) {

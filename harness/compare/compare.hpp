@@ -42,6 +42,7 @@ struct MethodVerdict {
   std::optional<Interval> ratio;  ///< geometric mean of value / baseline over groups
   bool has_interval = false;      ///< ratio.low and ratio.high are valid
   std::string why_no_interval;    ///< reason for a ratio without an interval
+  bool has_equal_ratios = false;  ///< no interval, because most ratios are equal but no ties
   std::size_t wins = 0;           ///< groups better than the baseline
   std::size_t losses = 0;
   std::size_t ties = 0;

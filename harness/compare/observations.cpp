@@ -71,7 +71,10 @@ void ObservationsBuilder::add(const Record& r) {
   }
   const std::size_t kind = kinds_.index(r);
   if (kind == tables_.size()) {
-    tables_.emplace_back().kind = r;
+    Record& own = tables_.emplace_back().kind;
+    own = r;
+    own.better = direction_of(r, value_);
+    own.unit = unit_of(r, value_);
     for (const Unscored& earlier : unscored_) put(tables_.back(), earlier);
   }
   put(tables_[kind], one);

@@ -40,7 +40,9 @@ struct ObservedRun {
 };
 
 struct Observations {
-  Record kind;  ///< protocol, times, metric, relation, axis and unit, shared by all values
+  /// Protocol, times, metric, relation, axis, and unit and direction of the statistic, shared by
+  /// all values.
+  Record kind;
   std::vector<std::string> methods;
   std::vector<ObservedRun> runs;
   std::vector<std::vector<Observed>> values;  ///< [method][run]

@@ -9,7 +9,7 @@
 /// misses the ratio as often as for the worst of usual distributions, and the order agrees, too.
 /// With fewer groups than an interval needs (8), nothing is proven. If there is no interval for
 /// another reason (equal ratios, failures), the ranks and the direction and size of the ratio
-/// decide.
+/// decide; `compare` remarks that groups with equal ratios can be copies.
 #pragma once
 
 #include <string>

@@ -87,11 +87,13 @@ Lines about_ratios(const Comparison& c) {
     return {"some values are negative: no ratio; tests on plain differences decide alone"};
   }
   Lines out;
+  Lines equal;
   Lines zero;
   Lines tied;
   std::map<std::string, Lines> without;  // by reason
   for (const MethodVerdict& m : c.methods) {
     if (m.has_interval && is_tied(m, c)) tied.push_back(m.method);
+    if (m.has_equal_ratios) equal.push_back(m.method);
     if (!m.ratio && m.runs > 0) zero.push_back(m.method);
     if (m.ratio && !m.has_interval && m.wins + m.losses > 0) {
       without[m.why_no_interval].push_back(m.method);
@@ -103,6 +105,11 @@ Lines about_ratios(const Comparison& c) {
   }
   for (const auto& [why, methods] : without) {
     out.push_back("no interval for " + comma_list(methods) + ": " + why);
+  }
+  if (!equal.empty()) {
+    out.push_back("most ratios to " + c.options.baseline +
+                  " are equal to rounding, so that the groups can be copies of one another: " +
+                  comma_list(equal));
   }
   if (!tied.empty()) {
     out.push_back(
@@ -135,8 +142,9 @@ Lines remarks(const Comparison& c) {
       level));
   out.push_back(fmt::format(
       "p against {}, ranks, groups and the verdict: one family of {} Wilcoxon signed-rank tests "
-      "(Pratt), Holm-corrected; a method is proven better where p <= {:g} and the "
-      "ratio and its interval agree; fewer than 8 groups prove nothing; rank: range given the "
+      "(Pratt), Holm-corrected; p is the larger of the test's and, where that is significant, 1.4 "
+      "times that of the interval of the ratio; a method is proven better where p <= {:g} and the "
+      "ratio agrees; fewer than 8 groups prove nothing; rank: range given the "
       "proven differences; group: methods that share a letter are not "
       "proven different; differences up to {:g} of a value are ties",
       c.options.baseline,

@@ -6,6 +6,7 @@
 #include "datasets/formats/regular_file.hpp"
 #include "harness/config/bytes.hpp"
 #include "harness/config/choices.hpp"
+#include "harness/config/exclusions.hpp"
 #include "harness/config/protocol_choice.hpp"
 #include "harness/config/setting_reader.hpp"
 #include "harness/model/where.hpp"
@@ -92,6 +93,7 @@ class SweepReader : private SettingReader {
     // Without errors, because the labels of rejected methods are missing.
     if (!has_errors()) {
       attempt([&] { sweep.baseline = baseline(root.find("baseline"), sweep.methods); });
+      optional(root, "exclude", [&](const auto& node) { require_matches(node, sweep, file()); });
     }
     report_errors();
     return sweep;
@@ -191,22 +193,41 @@ class SweepReader : private SettingReader {
     return out;
   }
 
+  /// Adds file, line and, if given, key to the InputError of `read`.
+  template <class Read>
+  void checked(const YamlNode& node, const std::string& key, Read read) const {
+    try {
+      read();
+    } catch (const InputError& error) {
+      const std::string place = key.empty() ? "" : key + ": ";
+      throw input_error(file(), node.line, place + error.what());
+    }
+  }
+
+  /// Names of fields of a record.
+  std::vector<std::string> fields(const YamlNode& node, const std::string& key) const {
+    std::vector<std::string> out = words(node, key);
+    checked(node, "table." + key, [&] {
+      for (const std::string& name : out) field(Record{}, name);
+    });
+    return out;
+  }
+
   TableSpec table(const YamlNode& node) const {
     map_of(node, "table", {"rows", "columns", "split", "value", "show", "where", "plus_minus"});
     TableSpec out;
-    if (const YamlNode* rows = node.find("rows")) out.rows = words(*rows, "rows");
-    if (const YamlNode* columns = node.find("columns")) out.columns = words(*columns, "columns");
-    if (const YamlNode* split = node.find("split")) out.split = words(*split, "split");
+    if (const YamlNode* rows = node.find("rows")) out.rows = fields(*rows, "rows");
+    if (const YamlNode* columns = node.find("columns")) out.columns = fields(*columns, "columns");
+    if (const YamlNode* split = node.find("split")) out.split = fields(*split, "split");
     if (const YamlNode* show = node.find("show")) out.show = words(*show, "show");
-    if (const YamlNode* value = node.find("value")) out.value = word(*value, "value");
+    if (const YamlNode* statistic = node.find("value")) {
+      out.value = word(*statistic, "value");
+      checked(*statistic, "table.value", [&] { value(Record{}, out.value); });
+    }
     if (const YamlNode* on = node.find("plus_minus")) out.plus_minus = flag(*on, "plus_minus");
     if (const YamlNode* rules = node.find("where")) {
       out.where = words(*rules, "where");
-      try {
-        where(out.where);
-      } catch (const InputError& error) {
-        throw input_error(file(), rules->line, error.what());
-      }
+      checked(*rules, "", [&] { where(out.where); });
     }
     return out;
   }

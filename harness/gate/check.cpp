@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <tuple>
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/fields.hpp"
 #include "harness/gate/consistent_loss.hpp"
 #include "harness/gate/definitions.hpp"
-#include "harness/model/where.hpp"
+#include "harness/gate/limits.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -55,8 +54,7 @@ std::string why_not_comparable(const GateScore& before, const GateScore& now) {
 class Checker {
  public:
   Checker(const Baseline& baseline, const Snapshot& now, GateExtent extent)
-      : baseline_(baseline), extent_(extent) {
-    for (const Tolerance& limit : baseline.limits) keeps_.push_back(where(limit.where));
+      : extent_(extent), limit_of_(baseline.limits) {
     for (const GateCell& cell : now.cells) now_.emplace(key(cell), &cell);
     const auto is_there = [&](const GateCell& cell) { return now_.contains(key(cell)); };
     if (std::ranges::none_of(baseline.snapshot.cells, is_there)) {
@@ -71,6 +69,10 @@ class Checker {
     }
     for (const Finding& finding : losses_.findings()) report_.findings.push_back(finding);
     report_.notes = losses_.notes();
+    if (unlimited_ > 0) {
+      report_.notes.push_back(
+          fmt::format("{} {} no limit", unlimited_, unlimited_ == 1 ? "score has" : "scores have"));
+    }
   }
 
   GateReport report() && { return std::move(report_); }
@@ -136,7 +138,8 @@ class Checker {
   }
 
   void compare(const GateCell& cell, const GateScore& before, const GateScore& now) {
-    ++report_.scores;
+    const Tolerance* const limit = limit_of_(cell, before);
+    ++(limit == nullptr ? unlimited_ : report_.scores);
     const auto regression = [&](const std::string& what) {
       find(Finding::Kind::regression, name(cell), name(before), what);
     };
@@ -153,21 +156,16 @@ class Checker {
                              before.pairs,
                              before.possible));
     }
-    const Record record = as_record(cell, before);
-    for (std::size_t i = 0; i < keeps_.size(); ++i) {
-      if (!keeps_[i](record)) continue;
-      const Tolerance& limit = baseline_.limits[i];
-      const double fewest = static_cast<double>(before.count) * (1.0 - limit.relative);
-      if (static_cast<double>(now.count) < fewest) {
-        regression(fmt::format("statistics over {} errors, was {}", now.count, before.count));
-      }
-      for (const std::string& statistic : limit.values) {
-        const auto old_value = before.values.find(statistic);
-        const auto new_value = now.values.find(statistic);
-        if (old_value == before.values.end() || new_value == now.values.end()) continue;
-        measure(cell, before, statistic, limit, old_value->second, new_value->second);
-      }
-      return;
+    if (limit == nullptr) return;
+    const double fewest = static_cast<double>(before.count) * (1.0 - limit->relative);
+    if (static_cast<double>(now.count) < fewest) {
+      regression(fmt::format("statistics over {} errors, was {}", now.count, before.count));
+    }
+    for (const std::string& statistic : limit->values) {
+      const auto old_value = before.values.find(statistic);
+      const auto new_value = now.values.find(statistic);
+      if (old_value == before.values.end() || new_value == now.values.end()) continue;
+      measure(cell, before, statistic, *limit, old_value->second, new_value->second);
     }
   }
 
@@ -193,9 +191,9 @@ class Checker {
                      allowed));
   }
 
-  const Baseline& baseline_;
   GateExtent extent_;
-  std::vector<std::function<bool(const Record&)>> keeps_;
+  LimitOfScore limit_of_;
+  std::size_t unlimited_ = 0;  // scores without a limit
   std::map<CellKey, const GateCell*> now_;
   std::map<CellKey, bool> seen_;
   ConsistentLosses losses_;
@@ -209,6 +207,7 @@ std::size_t GateReport::count(Finding::Kind kind) const {
 }
 
 GateReport check(const Baseline& baseline, const Snapshot& now, GateExtent extent) {
+  require_used_limits(baseline);
   require_same_definitions(baseline.snapshot, now);
   GateReport out = Checker(baseline, now, extent).report();
   const std::string contents = note_on_contents(baseline.snapshot, now);

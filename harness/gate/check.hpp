@@ -23,7 +23,7 @@ struct Finding {
 
 struct GateReport {
   std::size_t cells = 0;           ///< of the baseline
-  std::size_t scores = 0;          ///< compared scores
+  std::size_t scores = 0;          ///< compared scores, that is, those with a limit
   std::vector<std::string> names;  ///< of the baseline's cells, in order
   std::vector<Finding> findings;   ///< in the order of the baseline; those over all runs last
   std::vector<std::string> notes;  ///< checks that were not possible, with the reason
@@ -35,9 +35,10 @@ struct GateReport {
 /// Whether `now` is the complete sweep, or a part whose missing cells are accepted.
 enum class GateExtent { complete, part };
 
-/// Throws InputError if the baseline was computed with other definitions (see definitions.hpp), or
-/// has no cell in common with the results. Removed sequences or methods are reported as missing
-/// cells, not as other definitions. O(n log n) and one joint test of all methods and scores.
+/// Throws InputError if the baseline was computed with other definitions (see definitions.hpp), has
+/// no cell in common with the results, or has a limit that selects no score. Removed sequences or
+/// methods are reported as missing cells, not as other definitions. O(n log n) and one joint test
+/// of all methods and scores.
 GateReport check(const Baseline& baseline,
                  const Snapshot& now,
                  GateExtent extent = GateExtent::complete);

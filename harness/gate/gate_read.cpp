@@ -8,6 +8,7 @@
 #include "datasets/formats/regular_file.hpp"
 #include "harness/gate/formats.hpp"
 #include "harness/model/where.hpp"
+#include "harness/text/suggest.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -105,8 +106,19 @@ class BaselineReader {
     for (std::size_t i = 0; i < node.size(); ++i) act(node[i], fmt::format("{}[{}]", key, i));
   }
 
+  /// A misspelt key would be a limit that is not applied.
+  void reject_unknown_keys(const Json& node, const std::string& at) const {
+    static const std::vector<std::string> known{
+        "where", "value", "values", "relative", "absolute", "tie", "alpha"};
+    for (const auto& entry : node.items()) {
+      if (std::ranges::count(known, entry.key()) > 0) continue;
+      reject(at, unknown_name("key of a limit", entry.key(), known));
+    }
+  }
+
   Tolerance limit(const Json& node, const std::string& at) const {
     Tolerance out;
+    if (node.is_object()) reject_unknown_keys(node, at);
     const Json& rules = member(node, "where", at);
     if (!rules.is_array()) reject(at + ".where", "expected a list");
     for (const Json& rule : rules) {

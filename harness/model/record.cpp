@@ -69,4 +69,22 @@ double value(const Record& record, const std::string& name) {
       "statistic", name, {"rmse", "mean", "median", "std", "min", "max", "sse", "count"}));
 }
 
+bool has_direction(const std::string& statistic) {
+  return statistic != "count" && statistic != "sse";
+}
+
+metrics::Better direction_of(const Record& record, const std::string& statistic) {
+  return has_direction(statistic) ? record.better : metrics::Better::neither;
+}
+
+std::string unit_of(const Record& record, const std::string& statistic) {
+  const std::string unit = record.unit;
+  if (statistic == "count") return "";
+  // The sum of squares of a gain is the gain of the sum of squares.
+  const bool is_squared = statistic == "sse" && record.metric != "gain";
+  if (!is_squared || unit.empty() || unit == "1") return unit;
+  const bool is_product = unit.find_first_of("/* ^") != std::string::npos;
+  return (is_product ? "(" + unit + ")" : unit) + "^2";
+}
+
 }  // namespace loopbench::harness

@@ -89,4 +89,13 @@ std::string field(const Record& record, const std::string& name);
 /// InputError with a suggestion for another name.
 double value(const Record& record, const std::string& name);
 
+/// Whether values of a statistic can be better than others: not those of count, nor of sse, which
+/// is smaller for an estimate with fewer poses.
+bool has_direction(const std::string& statistic);
+
+/// Direction and unit of value(): neither without a direction; no unit for count, the squared unit
+/// for sse.
+metrics::Better direction_of(const Record& record, const std::string& statistic);
+std::string unit_of(const Record& record, const std::string& statistic);
+
 }  // namespace loopbench::harness

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "datasets/core/error.hpp"
 #include "harness/compare/levels.hpp"
 #include "harness/profile/grouping.hpp"
 #include "harness/profile/profile.hpp"
@@ -125,6 +126,10 @@ TextTable pareto(const std::vector<CellRecord>& cells,
 TextTable pareto(const std::vector<CellRecord>& cells,
                  const RecordSource& records,
                  const Accuracy& accuracy) {
+  if (!has_direction(accuracy.value)) {
+    throw InputError("--value: '" + accuracy.value +
+                     "' is no accuracy; expected rmse, mean, median, std, min or max");
+  }
   const Chosen chosen = choose(records, accuracy);
   std::map<std::int64_t, double> error_of;  // by position
   std::string unit;

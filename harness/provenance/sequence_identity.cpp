@@ -1,6 +1,6 @@
 #include "harness/provenance/sequence_identity.hpp"
 
-#include <initializer_list>
+#include <cmath>
 
 #include "harness/text/hash.hpp"
 
@@ -56,6 +56,25 @@ std::string hash_of_poses(const Trajectory& poses) {
   return hash.text();
 }
 
+/// Hash of the distances from the first position, which do not depend on the format of the file,
+/// on the world frame or the axes, nor on the body, whose offset is undone. Formats and the offset
+/// change the last digits, so distances are rounded; few decimal numbers are near a limit of the
+/// cells, because of their fraction.
+std::string hash_of_shape(const Trajectory& poses, const Pose& body_from_reference) {
+  constexpr double kCell = 1e-3;  // [m]
+  constexpr double kFraction = 0.3183;
+  const auto position = [&](const StampedPose& one) -> Vector3 {
+    return (one.world_from_body * body_from_reference).translation;
+  };
+  const Vector3 first = position(poses.front());
+  ContentHash hash;
+  hash.add(std::uint64_t{poses.size()});
+  for (const StampedPose& one : poses) {
+    hash.add(std::floor((position(one) - first).norm() / kCell + kFraction));
+  }
+  return hash.text();
+}
+
 }  // namespace
 
 std::string content_of(const Sequence& sequence) {
@@ -72,11 +91,13 @@ std::string content_of(const Sequence& sequence) {
   return hash.text();
 }
 
-std::string source_of(const Sequence& sequence, const std::string& reference_hash) {
+std::string source_of(const Sequence& sequence) {
   const std::string& noise = sequence.provenance.noise;
   if (!noise.empty()) return "noise:" + hex(hash_of(noise));
-  if (!reference_hash.empty()) return "reference:" + reference_hash;
-  if (!sequence.reference.empty()) return "reference:" + hash_of_poses(sequence.reference);
+  if (!sequence.reference.empty()) {
+    const Pose offset = sequence.provenance.body_from_reference.value_or(Pose{});
+    return "reference:" + hash_of_shape(sequence.reference, offset);
+  }
   return "estimate:" + hash_of_poses(sequence.problem.keyframes);
 }
 

@@ -14,10 +14,11 @@ std::string content_of(const Sequence& sequence);
 
 /// Source of the noise in a sequence; sequences with equal source are not independent.
 ///
-/// `reference:HASH`: measured data, hash of the reference file. Everything derived from one
-/// recording shares its motion and sensor noise: several odometers on one route, several runs of
-/// one system, closures drawn with several seeds. `reference_body` and keyframe rules do not change
-/// it. If the reference is not a separate file, its poses are hashed.
+/// `reference:HASH`: measured data, hash of the shape of the reference: distances from its first
+/// position, rounded to a millimetre. Everything derived from one recording shares its motion and
+/// sensor noise: several odometers on one route, several runs of one system, closures drawn with
+/// several seeds. Comments and the format of the file, stamps, `reference_body`, `truth_axes` and
+/// keyframe rules do not change it.
 ///
 /// `noise:HASH`: simulated data, by stream and seed. Another seed draws all noise anew and is
 /// another source although the path is the same: paths are closed formulas selected by the config,
@@ -25,9 +26,7 @@ std::string content_of(const Sequence& sequence);
 /// on these paths, and a p value over recordings to other recordings. For a statement about paths,
 /// set `group` in the dataset's entry.
 ///
-/// `estimate:HASH`: no reference; by the poses of the keyframes.
-///
-/// `reference_hash`: of the file in Provenance::reference; empty if there is none.
-std::string source_of(const Sequence& sequence, const std::string& reference_hash);
+/// `estimate:HASH`: no reference; by the poses of the keyframes. O(poses).
+std::string source_of(const Sequence& sequence);
 
 }  // namespace loopbench::harness

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "datasets/derive/poses_at.hpp"
+#include "harness/provenance/copied_reference.hpp"
 #include "harness/provenance/oracle_closures.hpp"
 #include "harness/provenance/sequence_identity.hpp"
 #include "harness/text/hash.hpp"
@@ -41,13 +42,6 @@ void flag_oracle_closures(SequenceMetadata& out, const Sequence& sequence) {
   out.closures += fmt::format("; {} of {} equal the reference", equal, all);
 }
 
-std::string hash_of_reference(const Sequence& sequence, const std::vector<InputFile>& inputs) {
-  for (const InputFile& file : inputs) {
-    if (file.path == sequence.provenance.reference.string()) return file.hash;
-  }
-  return "";
-}
-
 }  // namespace
 
 std::vector<InputFile> hashed_inputs(const std::vector<InputPath>& files) {
@@ -77,11 +71,14 @@ SequenceMetadata sequence_metadata(const Sequence& sequence, bool with_trace) {
               count(sequence.reference)};
   flag_oracle_closures(out, sequence);
   out.content = content_of(sequence);
-  out.source = source_of(sequence, hash_of_reference(sequence, out.inputs));
+  out.source = source_of(sequence);
   out.group = out.source;
   out.notes = sequence.provenance.notes;
   if (!sequence.loop_candidates.empty() && !sequence.reference.empty()) {
     out.notes.push_back(to_text(metrics::evaluate_detection(sequence, {})));
+  }
+  if (const std::string note = copied_reference(sequence); !note.empty()) {
+    out.notes.push_back("oracle: " + note);
   }
   if (const std::string note = reference_of_other_body(sequence); !note.empty()) {
     out.notes.push_back(note);

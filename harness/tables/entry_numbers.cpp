@@ -12,14 +12,17 @@ namespace loopbench::harness {
 
 std::string run_key(const Record& r) { return r.content.empty() ? run_name(r) : r.content.text(); }
 
-void EntryNumbers::add(const Record& record, std::size_t run, std::size_t group, double value) {
+void EntryNumbers::add(const Record& record,
+                       std::size_t run,
+                       std::size_t group,
+                       const std::string& statistic) {
   if (values_.empty()) values_.reserve(kFirstRuns);
-  values_.push_back({run, group, record.method, value});
+  values_.push_back({run, group, record.method, value(record, statistic)});
   method_ = record.method;
-  is_gain_ = record.metric == "gain";
+  is_gain_ = record.metric == "gain" && statistic != "count";
   is_oracle_ = record.oracle;
   if (record.oracle) return;
-  better_ = record.better;
+  better_ = direction_of(record, statistic);
   target_ = record.target;
 }
 

@@ -15,8 +15,9 @@ std::string run_key(const Record& record);
 
 class EntryNumbers {
  public:
-  /// `run` and `group`: numbers of run_key() and group_name().
-  void add(const Record& record, std::size_t run, std::size_t group, double value);
+  /// `run` and `group`: numbers of run_key() and group_name(). Throws InputError for an unknown
+  /// statistic.
+  void add(const Record& record, std::size_t run, std::size_t group, const std::string& statistic);
 
   /// Number of added records.
   std::size_t size() const { return values_.size(); }

@@ -30,6 +30,7 @@ std::map<std::string, double> mean_ranks(const std::vector<Record>& records,
   const std::vector<Observations> all = observations(ranked, value);
   if (all.empty()) return {};
   Observations kind = all.front();
+  if (kind.kind.better == metrics::Better::neither) return {};
   drop_duplicates(kind);
   std::map<std::string, std::vector<double>> ranks;
   for (std::size_t run = 0; run < kind.runs.size(); ++run) {

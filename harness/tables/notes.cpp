@@ -53,4 +53,16 @@ std::vector<std::string> grouped(const std::vector<Missing>& missing) {
   return out;
 }
 
+std::string oracle_closures_note(const std::set<std::string>& sequences, std::size_t most) {
+  if (sequences.empty()) return "";
+  std::vector<std::string> names(sequences.begin(), sequences.end());
+  std::string more;
+  if (names.size() > most) {
+    more = " and " + std::to_string(names.size() - most) + " more";
+    names.resize(most);
+  }
+  return "closures are oracle, measured in the reference or selected by it: " + listed(names) +
+         more;
+}
+
 }  // namespace loopbench::harness

@@ -50,7 +50,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
     return;
   }
   table.counts.add(column, record);
-  entry.numbers.add(record, run, table.group_of_run[run], value(record, spec.value));
+  entry.numbers.add(record, run, table.group_of_run[run], spec.value);
 }
 
 /// Number of runs of all competitors together: an upper limit of possible().
@@ -127,13 +127,9 @@ Table finish(TableNumbers& table,
   if (const std::string counts = table.counts.text(out.columns); !counts.empty()) {
     out.notes.push_back("number of errors, where it differs from the evaluated pairs: " + counts);
   }
-  if (!table.oracle_sequences.empty()) {
-    std::string names;
-    for (const std::string& name : table.oracle_sequences)
-      names += (names.empty() ? "" : ", ") + name;
-    out.notes.push_back("closures are oracle, measured in the reference or selected by it: " +
-                        names);
-  }
+  const std::string oracle =
+      oracle_closures_note(table.oracle_sequences, table.oracle_sequences.size());
+  if (!oracle.empty()) out.notes.push_back(oracle);
   for (const bool along_columns : {true, false}) {
     if (!(along_columns ? down_columns : along_rows)) continue;
     const std::string text = keep_common_runs(table, along_columns);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 #include <string_view>
 
 #include "harness/compare/compare.hpp"
@@ -32,19 +33,19 @@ bool is_same_score(const Record& a, const Record& b) {
 /// The records that can lead the summary: one protocol, one kind of times, with a direction.
 std::vector<Record> comparable(const std::vector<Record>& records, const SummaryOptions& options) {
   std::vector<Record> out;
-  const auto has_direction = [](const Record& r) {
+  const auto is_directed = [](const Record& r) {
     return !r.metric.empty() && !is_derived(r) && r.better != metrics::Better::neither;
   };
-  const auto first = std::ranges::find_if(records, has_direction);
+  const auto first = std::ranges::find_if(records, is_directed);
   if (first == records.end()) return out;
   const bool has_dense = std::ranges::any_of(
-      records, [&](const Record& r) { return has_direction(r) && r.times == "dense"; });
+      records, [&](const Record& r) { return is_directed(r) && r.times == "dense"; });
   const std::string times = has_dense ? "dense" : first->times;
   const auto is_shown = [&](const Record& r) {
     return options.show.empty() || std::ranges::count(options.show, field(r, "score")) > 0;
   };
   const auto is_wanted = [&](const Record& r) {
-    return has_direction(r) && r.times == times && r.protocol == first->protocol;
+    return is_directed(r) && r.times == times && r.protocol == first->protocol;
   };
   const bool any_shown =
       std::ranges::any_of(records, [&](const Record& r) { return is_wanted(r) && is_shown(r); });
@@ -150,10 +151,12 @@ TableView summary(const std::vector<Record>& records, const SummaryOptions& opti
   if (lead == candidates.end()) return {};
   std::vector<Record> own;
   NameOrder sequences;
+  std::set<std::string> oracle_sequences;
   for (const Record& r : candidates) {
     if (!r.metric.empty() && !is_same_score(r, *lead)) continue;
     own.push_back(r);
     sequences.index(r.sequence);
+    if (r.oracle_closures) oracle_sequences.insert(r.sequence);
   }
   const bool has_sequences = sequences.names().size() <= kMostSequences;
   const TableSpec spec{.columns = {has_sequences ? "sequence" : "score"},
@@ -161,12 +164,13 @@ TableView summary(const std::vector<Record>& records, const SummaryOptions& opti
                        .value = options.value,
                        .show = {},
                        .where = {}};
+  std::string unit = unit_of(*lead, options.value);
+  if (!unit.empty()) unit = " [" + unit + "]";
   TableView out;
   if (has_sequences) {
     // Records without a score belong to their sequence's column.
     out = table_view(pivot(own, spec).front());
     for (std::string& heading : out.headings) {
-      const std::string unit = " [" + lead->unit + "]";
       if (heading.ends_with(unit)) heading.resize(heading.size() - unit.size());
     }
   } else {
@@ -175,7 +179,6 @@ TableView summary(const std::vector<Record>& records, const SummaryOptions& opti
     for (const std::string& row : all.rows) out.lines.push_back({{row, Mark::none}});
   }
   out.notes.clear();
-  const std::string unit = lead->unit.empty() ? "" : " [" + lead->unit + "]";
   out.title = fmt::format("{}{}, {}, {}{}",
                           field(*lead, "score"),
                           unit,
@@ -190,10 +193,12 @@ TableView summary(const std::vector<Record>& records, const SummaryOptions& opti
   const bool is_labelled = lead->metric == "ate" && metric_label(*lead) != "ate";
   const std::string gain = is_labelled ? "gain (" + metric_label(*lead) + ")" : "gain";
   // The gain is always that of the ATE.
-  add_column(out,
-             lead->metric == "ate" ? "gain [%]" : "ATE gain [%]",
-             derived_texts(records, gain, *lead, options.value));
-  add_column(out, "time [ms]", derived_texts(records, "time", *lead, options.value));
+  if (has_direction(options.value)) {
+    add_column(out,
+               lead->metric == "ate" ? "gain [%]" : "ATE gain [%]",
+               derived_texts(records, gain, *lead, options.value));
+  }
+  add_column(out, "time [ms]", derived_texts(records, "time", *lead, "rmse"));
 
   const auto rank_of = [&](const auto& line) {
     const auto found = ranks.find(method_of(line[0].text));
@@ -205,9 +210,13 @@ TableView summary(const std::vector<Record>& records, const SummaryOptions& opti
     out.lines.resize(kMostMethods);
   }
   if (!has_sequences) out.notes.push_back(fmt::format("{} sequences", sequences.names().size()));
+  const std::string oracle = oracle_closures_note(oracle_sequences, kMostSequences);
+  if (!oracle.empty()) out.notes.push_back(oracle);
   for (std::string& line : reasons(own)) out.notes.push_back(std::move(line));
   const auto is_baseline = [&](const Record& r) { return r.method == options.baseline; };
-  if (std::ranges::any_of(candidates, is_baseline)) {  // `run --only` can leave it out
+  const bool has_verdicts = has_direction(options.value);
+  if (has_verdicts &&
+      std::ranges::any_of(candidates, is_baseline)) {  // `run --only` can leave it out
     for (std::string& line : verdicts(candidates, options)) out.notes.push_back(std::move(line));
   }
   return out;

@@ -11,6 +11,25 @@ std::vector<std::string> with(std::vector<std::string> fields, const char* more)
   return fields;
 }
 
+std::vector<std::string> column_fields(const TableSpec& spec) {
+  std::vector<std::string> out = with(spec.columns, "unit");
+  for (const char* name : {"metric", "relation"}) out.emplace_back(name);
+  return out;
+}
+
+/// With the unit of the statistic; counts have none that would tell translation and rotation apart.
+std::string column_name(const Record& r,
+                        const std::vector<std::string>& names,
+                        const std::string& statistic) {
+  std::string out = fields_joined(r, names, " ");
+  const std::string unit = unit_of(r, statistic);
+  if (!unit.empty()) return out + " [" + unit + "]";
+  const bool has_relation =
+      std::ranges::count(names, "relation") > 0 || std::ranges::count(names, "score") == 0;
+  if (statistic == "count" && !has_relation && r.relation == "rotation") out += " rotation";
+  return out;
+}
+
 /// Records of different kinds must not be averaged: all labels but sequence, repeat and method.
 std::string kind_of(const Record& r) {
   return r.times + " / " + metric_label(r) + " / " + r.relation + " / " + r.axis + " [" + r.unit +
@@ -44,10 +63,9 @@ TableNumbers::TableNumbers(const TableSpec& spec)
            [names = spec.rows](const Record& r) {
              return fields_joined(r, names, ", ") + (r.oracle ? " (oracle)" : "");
            }),
-      columns(with(spec.columns, "unit"),
-              [names = spec.columns](const Record& r) {
-                const std::string unit = r.unit.empty() ? "" : " [" + r.unit + "]";
-                return fields_joined(r, names, " ") + unit;
+      columns(column_fields(spec),
+              [names = spec.columns, value = spec.value](const Record& r) {
+                return column_name(r, names, value);
               }),
       kinds({"times", "label", "relation", "axis", "unit"}, kind_of),
       runs({"content", "sequence", "repeat"}, run_key),

@@ -42,11 +42,13 @@ TEST(ConfigText, StaysAsItWasWrittenWhereTextIsWanted) {
 }
 
 TEST(ConfigText, IsKeptInSweepsLabelsAndRules) {
-  const Sweep sweep = parse(config("{dataset: trajectory, label: a, sweep: {estimate: [00, 01]}}",
-                                   "{metric: ate, label: 1e3}",
-                                   "table: {where: [label=1e3], value: rmse}\n"
-                                   "exclude: [{dataset: 007}]\n"));
-  ASSERT_EQ(sweep.datasets.size(), 2u);
+  const Sweep sweep =
+      parse(config("{dataset: trajectory, label: a, sweep: {estimate: [00, 01]}}\n"
+                   "  - {dataset: trajectory, label: 007, estimate: b}",
+                   "{metric: ate, label: 1e3}",
+                   "table: {where: [label=1e3], value: rmse}\n"
+                   "exclude: [{dataset: 007}]\n"));
+  ASSERT_EQ(sweep.datasets.size(), 3u);
   EXPECT_EQ(sweep.datasets[1].label, "a (estimate=01)");
   EXPECT_EQ(sweep.metrics[0].label, "1e3");
   EXPECT_EQ(sweep.exclude[0].dataset, "007");
@@ -92,6 +94,34 @@ TEST(ConfigShape, AScalarOrAListWhereAMapBelongsIsRejected) {
   EXPECT_EQ(
       why(config("{dataset: simulated, sweep: {keyframes: {from: 1, to: 2, steps: 2, log: [1]}}}")),
       "c.yaml:2: log: expected true or false");
+}
+
+TEST(ConfigTable, NamesAreCheckedWhenTheConfigIsRead) {
+  const auto refusal = [](const std::string& rest) {
+    return why(config("{dataset: simulated}", "ate", rest));
+  };
+  EXPECT_EQ(refusal("table: {rows: [methods]}\n"),
+            "c.yaml:5: table.rows: no column is named 'methods'; did you mean 'method'?");
+  EXPECT_EQ(refusal("table:\n  rows: [method]\n  columns: [scor]\n"),
+            "c.yaml:7: table.columns: no column is named 'scor'; did you mean 'score'?");
+  EXPECT_EQ(refusal("table: {split: [time]}\n"),
+            "c.yaml:5: table.split: no column is named 'time'; did you mean 'times'?");
+  EXPECT_EQ(refusal("table: {value: rms}\n"),
+            "c.yaml:5: table.value: no statistic is named 'rms'; did you mean 'rmse'?");
+  EXPECT_EQ(refusal("table: {rows: [sequence, repeat], split: [], value: max}\n"), "");
+}
+
+TEST(ConfigExclude, APatternThatMatchesNoLabelIsRejected) {
+  const auto refusal = [](const std::string& rule) {
+    return why(config("{dataset: simulated, label: room}", "ate", "exclude: [" + rule + "]\n"));
+  };
+  EXPECT_EQ(refusal("{dataset: rom}"),
+            "c.yaml:5: exclude: the label of no dataset matches 'rom' (a regular expression for "
+            "the complete label)");
+  EXPECT_EQ(refusal("{dataset: room, method: dual}"),
+            "c.yaml:5: exclude: the label of no method matches 'dual' (a regular expression for "
+            "the complete label)");
+  EXPECT_EQ(refusal("{dataset: 'ro.*', method: raw}"), "");
 }
 
 TEST(ConfigMetric, OptionsThatContradictEachOtherAreRejected) {

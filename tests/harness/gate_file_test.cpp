@@ -63,6 +63,8 @@ TEST(BaselineFile, IsRefusedWithItsPlace) {
             "b.json: limits[0].values: expected a list of statistics, found [3]");
   EXPECT_EQ(changed("\"values\":[\"rmse\"]", "\"values\":[\"rms\"]"),
             "b.json: limits[0]: no statistic is named 'rms'; did you mean 'rmse'?");
+  EXPECT_EQ(changed("\"alpha\":", "\"alhpa\":"),
+            "b.json: limits[0]: no key of a limit is named 'alhpa'; did you mean 'alpha'?");
   EXPECT_EQ(changed("\"relative\":0.001", "\"relative\":-1"),
             "b.json: limits[0].relative: expected a non-negative number, found -1");
   EXPECT_EQ(changed("\"sequence\":\"room\"", "\"sequence\":3"),

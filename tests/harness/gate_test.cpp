@@ -124,6 +124,29 @@ TEST(Gate, HoldsTheFirstLimitThatKeepsAScore) {
   EXPECT_EQ(report.findings[0].cell, "room / raw");
 }
 
+TEST(Gate, RejectsLimitsThatSelectNoScore) {
+  const auto with = [](std::vector<Tolerance> limits) {
+    return refusal_of([&] {
+      Baseline loose = baseline();
+      loose.limits = std::move(limits);
+      check(loose, sweep());
+    });
+  };
+  EXPECT_EQ(with({}), "limits: is empty, so that every change would pass; expected at least one");
+  EXPECT_EQ(with({rmse_alone(), {.where = {"metric=atee", "axis=3d"}}}),
+            "limits[1].where: 'metric=atee, axis=3d' selects no score of the baseline");
+  EXPECT_EQ(with({rmse_alone()}), "");
+}
+
+TEST(Gate, CountsScoresWithoutALimit) {
+  Baseline raw = baseline();
+  raw.limits[0].where = {"method=raw", "repeat=3"};
+  const GateReport report = check(raw, sweep());
+  EXPECT_EQ(report.scores, 1u);
+  ASSERT_FALSE(report.notes.empty());
+  EXPECT_EQ(report.notes.back(), "15 scores have no limit");
+}
+
 TEST(Gate, TakesAnyMoveOfADescriptionForALoss) {
   Baseline counted = baseline();
   for (GateCell& cell : counted.snapshot.cells) cell.scores[0].better = Better::neither;

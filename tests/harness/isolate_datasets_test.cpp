@@ -153,7 +153,7 @@ TEST_F(IsolatedDatasets, LongTextsOfDatasetsAreCut) {
       }));
   testing::internal::CaptureStderr();
   const std::vector<CellResult> results =
-      run("datasets: [talks]\nmethods: [straight]\nmetrics: [ate]\n", 1);
+      run("datasets: [{dataset: talks, bias: 0.5}]\nmethods: [straight]\nmetrics: [ate]\n", 1);
   EXPECT_LT(testing::internal::GetCapturedStderr().size(), 3'000'000u);
   ASSERT_EQ(results.size(), 1u);
   ASSERT_TRUE(results[0].metadata);

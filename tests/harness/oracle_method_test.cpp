@@ -33,7 +33,11 @@ TEST(OracleMethod, IsOneTrainedOnTheEvaluatedReference) {
   EXPECT_EQ(why("another name", "reference:07"),
             "c.yaml was trained on the reference of this sequence");
   EXPECT_EQ(why("kitti 06", "reference:00"), "");  // the label alone is no evidence
-  method.trained_on.sources.clear();               // a file of an older version
+  SequenceMetadata read = with_source("reference:shape");
+  read.inputs = {{"reference", "gt.txt", 10, "06"}};  // hash of its bytes, in older calibrations
+  EXPECT_EQ(trained_on_evaluated(method, {"another name", {}}, read),
+            "c.yaml was trained on the reference of this sequence");
+  method.trained_on.sources.clear();  // a file of an older version
   EXPECT_EQ(why("kitti 06", "reference:00"), "c.yaml was trained on a dataset with this label");
   EXPECT_EQ(why("another name", "reference:06"), "");
   method.trained_on = {};

@@ -35,6 +35,35 @@ TEST(Pivot, MarksAlongRowsWhereTheColumnsAreMethods) {
   EXPECT_EQ(sequences[0].notes.size(), 1u);
 }
 
+TEST(Pivot, MarksNoStatisticWithoutADirection) {
+  std::vector<Record> records;
+  for (int repeat = 0; repeat < 8; ++repeat) {
+    for (const double error : {2.0, 1.0}) {
+      Record r = ate(error > 1.5 ? "raw" : "dm", error, repeat);
+      r.statistics.sse = error * error;
+      r.statistics.count = error > 1.5 ? 400 : 300;
+      r.unit = "m";
+      records.push_back(r);
+      r.relation = "rotation";
+      r.unit = "deg";
+      records.push_back(r);
+    }
+  }
+  const auto table = [&](const std::string& value) {
+    const TableSpec spec{
+        .columns = {"score"}, .split = {}, .value = value, .show = {}, .where = {}};
+    return pivot(records, spec).at(0);
+  };
+  EXPECT_EQ(table("rmse").entries[1][0].mark, Mark::best);
+  for (const std::string value : {"sse", "count"}) {
+    for (const auto& row : table(value).entries) {
+      for (const TableEntry& entry : row) EXPECT_EQ(entry.mark, Mark::none) << value;
+    }
+  }
+  EXPECT_EQ(table("sse").columns, (std::vector<std::string>{"ate [m^2]", "ate [deg^2]"}));
+  EXPECT_EQ(table("count").columns, (std::vector<std::string>{"ate", "ate rotation"}));
+}
+
 TEST(Pivot, AveragesGainsByTheirRatios) {
   std::vector<Record> records;  // ratios 0.5 and 4: their geometric mean is sqrt 2
   for (int repeat = 0; repeat < 2; ++repeat) {

@@ -97,7 +97,34 @@ TEST(SequenceContent, OfALongSequenceIsStable) {
   EXPECT_NE(content_of(sequence), first);
 }
 
-TEST(Group, IsTheReferenceFileOfMeasuredData) {
+TEST(Group, IsTheShapeOfTheReferenceInAnyFile) {
+  const TemporaryFolder folder;
+  std::string kitti;
+  for (int i = 0; i <= 20; ++i) {
+    const std::string x = std::to_string(1.0 / 3.0 * std::abs(i - 10));
+    const std::string z = std::to_string(0.1 * i);
+    kitti += "1 0 0 " + x + " 0 1 0 " + z + " 0 0 1 0\n";
+  }
+  folder.file("est.txt", walk(1.01));
+  folder.file("gt.txt", walk(1.0 / 3.0));
+  folder.file("remark.txt", "# another line\n" + walk(1.0 / 3.0));
+  folder.file("gt.kitti", kitti);
+  const std::string common = "  - {dataset: trajectory, estimate: est.txt, ";
+  const Sweep sweep = sweep_of(common + "label: tum, reference: gt.txt}\n" + common +
+                                   "label: remark, reference: remark.txt}\n" + common +
+                                   "label: turned, reference: gt.txt, reference_body.y: 0.7, "
+                                   "reference_body.qz: 0.6, reference_body.qw: 0.8}\n" +
+                                   "  - {dataset: trajectory, label: kitti, estimate: gt.kitti, "
+                                   "reference: gt.kitti}\n",
+                               folder);
+  const auto group = [&](std::size_t dataset) {
+    return metadata_of_sequence(sweep, folder, dataset).group;
+  };
+  EXPECT_THAT(group(0), StartsWith("reference:"));
+  for (const std::size_t other : {1, 2, 3}) EXPECT_EQ(group(0), group(other)) << other;
+}
+
+TEST(Group, IsTheReferenceOfMeasuredData) {
   const TemporaryFolder folder;
   folder.file("a.txt", walk(1.01));
   folder.file("b.txt", walk(1.02));

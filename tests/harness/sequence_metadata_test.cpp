@@ -47,6 +47,28 @@ TEST(SequenceMetadata, TellOfAReferenceThatFollowsAnotherBody) {
   sequence.provenance.body_from_reference = Pose{};  // the dataset supports the option
   EXPECT_EQ(notes(), std::vector{found + "; see reference_body of the dataset"});
   sequence.reference = sequence.problem.keyframes;
+  EXPECT_EQ(notes(), std::vector<std::string>{"oracle: the estimate equals the reference"});
+}
+
+TEST(SequenceMetadata, NotesAnEstimateThatIsTheReference) {
+  Sequence sequence;
+  for (int i = 0; i < 9; ++i) {  // with ten, equal orientations would count as placeholders
+    const Vector3 position(i, 0.1 * i * i, 0.0);
+    sequence.problem.keyframes.push_back({0.1 * i, {Rotation::Identity(), 1.001 * position}});
+    sequence.reference.push_back({0.1 * i, {Rotation::Identity(), position}});
+  }
+  const auto notes = [&] { return sequence_metadata(sequence, false).notes; };
+  sequence.problem.frames = sequence.reference;
+  const Pose other_world{Rotation(0.6, 0.0, 0.8, 0.0), {1.0, 2.0, 3.0}};
+  for (StampedPose& frame : sequence.problem.frames) {
+    frame.world_from_body = other_world * frame.world_from_body;
+  }
+  EXPECT_EQ(notes(), std::vector<std::string>{"oracle: the frames equal the reference"});
+  sequence.problem.frames.clear();
+  EXPECT_TRUE(notes().empty());
+  sequence.problem.keyframes = sequence.reference;
+  EXPECT_EQ(notes(), std::vector<std::string>{"oracle: the estimate equals the reference"});
+  sequence.provenance.noise = "room 1";  // simulated without noise
   EXPECT_TRUE(notes().empty());
 }
 

@@ -1,12 +1,14 @@
 /// Row filters, marks and output formats of tables. Averages: pivot_test.cpp.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "datasets/core/error.hpp"
 #include "harness/model/where.hpp"
 #include "harness/tables/derived.hpp"
+#include "harness/tables/summary.hpp"
 #include "harness/tables/text.hpp"
 #include "tests/support/ate_record.hpp"
 #include "tests/support/refusal_of.hpp"
@@ -198,6 +200,33 @@ TEST(Formats, KeepLessOrEqualReadable) {
   EXPECT_NE(markdown(TableView{"p <= 0.05, p < 1, <b>", {"a"}, {}, {}})
                 .find("### p <= 0.05, p < 1, &lt;b>"),
             std::string::npos);
+}
+
+std::vector<Record> two_methods() {
+  std::vector<Record> out;
+  for (const char* method : {"raw", "dm"}) {
+    out.push_back(ate(method, 1.0));
+    out.back().statistics.count = method == std::string("dm") ? 300 : 400;
+    out.back().oracle_closures = true;
+  }
+  return out;
+}
+
+TEST(Summary, MarksOracleClosures) {
+  const std::vector<std::string> notes = summary(two_methods(), {"raw", "rmse", {}}).notes;
+  EXPECT_EQ(std::ranges::count(
+                notes, "closures are oracle, measured in the reference or selected by it: room"),
+            1);
+}
+
+TEST(Summary, RanksNoCounts) {
+  const auto of = [](const std::string& value) {
+    return summary(two_methods(), {"raw", value, {}});
+  };
+  EXPECT_EQ(std::ranges::count(of("rmse").headings, "mean rank"), 1);
+  EXPECT_EQ(std::ranges::count(of("count").headings, "mean rank"), 0);
+  EXPECT_EQ(of("count").title, "ate, dense, count by sequence");
+  EXPECT_EQ(of("sse").title, "ate [m^2], dense, sse by sequence");
 }
 
 }  // namespace

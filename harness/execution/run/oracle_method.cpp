@@ -14,7 +14,13 @@ std::string trained_on_evaluated(const MethodChoice& method,
                                  const DatasetChoice& dataset,
                                  const SequenceMetadata& metadata) {
   const TrainingData& data = method.trained_on;
-  const bool by_source = std::ranges::count(data.sources, metadata.source) > 0;
+  const auto is_source = [&](const std::string& source) {
+    return std::ranges::count(data.sources, source) > 0;
+  };
+  // Older calibrations have the hash of the bytes of the reference file.
+  const bool by_file = std::ranges::any_of(
+      metadata.inputs, [&](const InputFile& file) { return is_source("reference:" + file.hash); });
+  const bool by_source = is_source(metadata.source) || by_file;
   const bool by_label = data.sources.empty() && std::ranges::count(data.labels, dataset.label) > 0;
   if (by_source) return data.calibration + " was trained on the reference of this sequence";
   if (by_label) return data.calibration + " was trained on a dataset with this label";

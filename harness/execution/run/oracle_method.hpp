@@ -13,8 +13,8 @@ namespace loopbench::harness {
 bool uses_reference(const MethodChoice& method, const Catalogue& catalogue);
 
 /// Message naming the calibration if it was trained on the reference or the noise of this sequence;
-/// otherwise empty. Compares sources, see source_of(), or dataset labels if a calibration file has
-/// no sources.
+/// otherwise empty. Compares sources, see source_of(), and hashes of files, which calibrations of
+/// older versions contain; dataset labels if a calibration file has no sources.
 std::string trained_on_evaluated(const MethodChoice& method,
                                  const DatasetChoice& dataset,
                                  const SequenceMetadata& metadata);

@@ -1,0 +1,54 @@
+/// Remarks of comparisons, and statistics that have none.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "harness/compare/compare.hpp"
+#include "tests/support/compared_sweep.hpp"
+#include "tests/support/refusal_of.hpp"
+
+namespace loopbench::compare_remarks_test {
+
+using namespace methods;
+using namespace metrics;
+using namespace harness;
+
+namespace {
+
+using namespace compared_sweep;  // NOLINT: its records are what every test here is about
+
+bool has_remark(const Comparison& c, const std::string& part) {
+  return std::ranges::any_of(remarks(c), [&](const std::string& remark) {
+    return remark.find(part) != std::string::npos;
+  });
+}
+
+TEST(Compare, RejectsStatisticsWithoutADirection) {
+  for (const std::string value : {"count", "sse"}) {
+    EXPECT_EQ(refusal_of([&] { compare(sweep(), {.baseline = "raw", .value = value}); }),
+              "value: '" + value +
+                  "' depends on the number of errors: no value is better than another; expected "
+                  "rmse, mean, median, std, min or max");
+  }
+}
+
+TEST(Compare, StatesThatPIsTheLargerOfTwo) {
+  EXPECT_TRUE(
+      has_remark(compared(sweep()),
+                 "p is the larger of the test's and, where that is significant, 1.4 times"));
+}
+
+TEST(Compare, RemarksThatEqualRatiosCanBeCopies) {
+  const std::string remark =
+      "most ratios to uniform are equal to rounding, so that the groups can be copies of one "
+      "another: raw";  // copy is tied, the ratios of dual differ
+  EXPECT_TRUE(has_remark(compared(sweep()), remark));
+  std::vector<Record> varied = sweep();
+  for (std::size_t i = 0; i < varied.size(); ++i) {
+    if (varied[i].method == "raw") varied[i].statistics.rmse *= 1.0 + 0.01 * double(i);
+  }
+  EXPECT_FALSE(has_remark(compared(varied), remark));
+}
+
+}  // namespace
+}  // namespace loopbench::compare_remarks_test
