@@ -50,5 +50,21 @@ TEST(Compare, RemarksThatEqualRatiosCanBeCopies) {
   EXPECT_FALSE(has_remark(compared(varied), remark));
 }
 
+TEST(Ratio, SaysThatTiesWidenItsInterval) {
+  const auto with_ties = [](int ties) {
+    std::vector<Record> records;
+    for (int i = 0; i < 10; ++i) {
+      records.push_back(score("room", i, "uniform", 1.0));
+      records.push_back(score("room", i, "dual", i < ties ? 1.0 : 0.9 - 0.01 * i));
+    }
+    return compared(records);
+  };
+  const std::string note =
+      "interval too wide (of 95 %, it contains the ratio in up to 98 % of the cases), because a "
+      "fifth of the groups or more tie with uniform: dual";
+  EXPECT_FALSE(has_remark(with_ties(1), note));
+  EXPECT_TRUE(has_remark(with_ties(2), note));
+}
+
 }  // namespace
 }  // namespace loopbench::compare_remarks_test

@@ -122,22 +122,6 @@ TEST(Verdict, NamesTheFailuresOfABaselineThatRanksBehindAWorseMethod) {
   EXPECT_TRUE(has(text, ", but raw fails on 6 of 8 runs")) << text;
 }
 
-TEST(Ratio, SaysThatTiesWidenItsInterval) {
-  const auto with_ties = [](int ties) {
-    std::vector<Record> records;
-    for (int i = 0; i < 10; ++i) {
-      records.push_back(score("room", i, "uniform", 1.0));
-      records.push_back(score("room", i, "dual", i < ties ? 1.0 : 0.9 - 0.01 * i));
-    }
-    return compared(records);
-  };
-  const std::string note =
-      "interval too wide (of 95 %, it contains the ratio in up to 98 % of the cases), because a "
-      "fifth of the groups or more tie with uniform: dual";
-  EXPECT_FALSE(has_note(with_ties(1), note));
-  EXPECT_TRUE(has_note(with_ties(2), note));
-}
-
 TEST(Relevance, MakesSmallDifferencesTies) {
   std::vector<Record> records;
   for (int i = 0; i < 12; ++i) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/diagnose.hpp"
@@ -14,10 +13,8 @@ namespace loopbench::doctor_test {
 namespace {
 
 using namespace metrics;
-using testing::Contains;
 using testing::ElementsAre;
 using testing::IsEmpty;
-using testing::Not;
 
 /// A path through space with varied speed and rotation about all axes.
 Pose at(double t) {
@@ -165,24 +162,6 @@ TEST(Doctor, PeriodicSpeedsHaveNoOffset) {
 }
 
 /// Odometry with a constant bias on a circle at constant speed: all offsets correlate equally.
-TEST(Doctor, AConstantRateOfRotationHasNoOffset) {
-  for (unsigned seed = 0; seed < 8; ++seed) {
-    std::mt19937 random(seed);
-    std::normal_distribution<double> noise(0.0, 0.05);
-    const auto rounded = [](double x) { return 1e-9 * std::round(1e9 * x); };
-    Trajectory reference, estimate;
-    for (int i = 0; i < 200; ++i) {
-      const double t = 1000.0 + 0.1 * i, angle = 0.5 * t;
-      const Rotation rotation(rounded(std::cos(angle / 2)), 0, 0, rounded(std::sin(angle / 2)));
-      const Vector3 p(5 * std::cos(angle), 5 * std::sin(angle), 0.1 * std::sin(3 * angle));
-      reference.push_back({t, {rotation.normalized(), p}});
-      estimate.push_back(
-          {t, {rotation.normalized(), p + Vector3(noise(random), noise(random), noise(random))}});
-    }
-    EXPECT_THAT(faults(reference, estimate), Not(Contains(Fault::time_offset))) << seed;
-  }
-}
-
 TEST(Doctor, AnOffsetThatDoesNotRaiseTheCorrelationIsNoFinding) {
   for (const double bias : {0.003, 0.01, 0.04}) {
     Trajectory reference, estimate;
