@@ -178,23 +178,24 @@ TEST_F(EvalStore, OtherOptionsEvaluateEarlierRunsAgainWithANote) {
 }
 
 TEST_F(EvalStore, MergedStoresGoOn) {
-  const auto store_of = [&](const std::string& method, const std::string& period) {
-    const std::string folder = path(method + period);
+  const auto store_of = [&](const std::string& method, const std::string& repeats) {
+    const std::string folder = path(method + repeats);
     test::eval({path("truths/office.txt"),
                 path("systems/" + method + "/office/0.txt"),
-                "--period",
-                period,
+                "--repeats",
+                repeats,
                 "--store",
                 folder});
     return std::filesystem::path(folder);
   };
-  const std::filesystem::path good = store_of("good", "0.1");
-  merge_stores({good, store_of("bad", "0.1")}, path("merged/results.sqlite"), {});
+  const std::filesystem::path good = store_of("good", "refuse");
+  merge_stores({good, store_of("bad", "refuse")}, path("merged/results.sqlite"), {});
   const std::string out = test::eval(
       {path("truths/office.txt"), path("systems/good/office/1.txt"), "--store", path("merged")});
   EXPECT_THAT(out, HasSubstr("3 runs in"));
   EXPECT_THAT(out, HasSubstr("(2 stored before)"));
-  EXPECT_THROW(merge_stores({good, store_of("bad", "0.2")}, path("other.sqlite"), {}), InputError);
+  EXPECT_THROW(merge_stores({good, store_of("bad", "keep_last")}, path("other.sqlite"), {}),
+               InputError);
 }
 
 TEST_F(EvalStore, EvalOfSeveralEstimatesEndsWithTheVerdict) {

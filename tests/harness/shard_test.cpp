@@ -97,7 +97,7 @@ TEST_F(ShardTest, ThePlanNamesEveryPosition) {
   const std::string text =
       "datasets: [{dataset: line, seed: 1, label: a}, {dataset: line, seed: 2, label: b}]\n"
       "methods: [straight, {method: shift, sweep: {by: [1, 2, 3]}}]\nmetrics: [ate]\n"
-      "repeats: 2\nexclude: [{dataset: a, method: 'shift by=2.*'}]\n";
+      "repeats: 2\nexclude: [{dataset: a, method: 'shift .by=2.*'}]\n";
   const Sweep sweep = parse_sweep(text, folder_.path() / "c.yaml", known_);
   const std::vector<Cell> all = cells(sweep, seeded(sweep, known_), "");
   const SweepPlan plan(plan_text(sweep, all));
