@@ -168,7 +168,7 @@ TEST_F(EvalStore, OtherOptionsEvaluateEarlierRunsAgainWithANote) {
   test::eval({path("truths"), path("systems"), "--store", path("s")});
   const auto notes = [&](std::vector<std::string> all) {
     testing::internal::CaptureStderr();
-    test::eval(all);
+    test::eval(std::move(all));
     return testing::internal::GetCapturedStderr();
   };
   EXPECT_THAT(notes(arguments), Not(HasSubstr("evaluated again")));

@@ -121,7 +121,7 @@ TEST(Group, IsTheShapeOfTheReferenceInAnyFile) {
     return metadata_of_sequence(sweep, folder, dataset).group;
   };
   EXPECT_THAT(group(0), StartsWith("reference:"));
-  for (const std::size_t other : {1, 2, 3}) EXPECT_EQ(group(0), group(other)) << other;
+  for (const std::size_t other : {1u, 2u, 3u}) EXPECT_EQ(group(0), group(other)) << other;
 }
 
 TEST(Group, IsTheReferenceOfMeasuredData) {
