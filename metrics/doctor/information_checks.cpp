@@ -13,7 +13,7 @@ constexpr double kInformationTooLarge = 100.0,
                  kInformationTooSmall = 1e-5;  // squared errors over stated variances
 
 /// Smaller ones are those of noise-free measurements, which show nothing about the noise.
-constexpr double kRounding = 1e-12;
+constexpr double kOfExactMeasurements = 1e-12;
 
 SquaredError median_after_exchange(const std::vector<Edge>& closures, const Chain& chain) {
   const Chain other = exchanged(chain);
@@ -94,11 +94,11 @@ std::vector<InputFinding> check_information(const std::vector<Edge>& closures,
     return {wrong_scale(
         loops, "the loops", is_of_odometry ? Kind::odometry : Kind::all, closures.size())};
   }
-  if (loops.whole > kRounding &&
+  if (loops.whole > kOfExactMeasurements &&
       std::max(loops.translation, loops.rotation) < kInformationTooSmall) {
     return {wrong_scale(loops, "the loops", Kind::all, closures.size())};
   }
-  if (has_neighbours && near.whole > kRounding &&
+  if (has_neighbours && near.whole > kOfExactMeasurements &&
       (near.whole < kInformationTooSmall || near.whole > kInformationTooLarge)) {
     return {wrong_scale(near, "neighbouring closures", Kind::closures, neighbours.size())};
   }
