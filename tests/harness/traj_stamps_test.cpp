@@ -7,6 +7,7 @@
 #include "datasets/formats/trajectory_file.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/eval_command.hpp"
+#include "tests/support/traj_command.hpp"
 
 namespace loopbench::traj_stamps_test {
 namespace {
@@ -16,30 +17,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using namespace harness;
 
-struct Printed {
-  std::string output;
-  std::string errors;
-};
-
-/// Output of `loopbench traj ARGS`. Exceptions of the verb pass.
-Printed traj(std::vector<std::string> arguments) {
-  CLI::App app;
-  int exit_code = -1;
-  add_traj(app, exit_code);
-  arguments.insert(arguments.begin(), "traj");
-  std::ranges::reverse(arguments);  // order required by CLI11
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  try {
-    app.parse(arguments);
-  } catch (...) {
-    testing::internal::GetCapturedStdout();
-    testing::internal::GetCapturedStderr();
-    throw;
-  }
-  EXPECT_EQ(exit_code, kExitOk);
-  return {testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
-}
+using test::traj;
 
 std::string traj_error(const std::vector<std::string>& arguments) {
   try {

@@ -8,6 +8,7 @@
 #include "harness/trajectory/transformation.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/eval_command.hpp"
+#include "tests/support/traj_command.hpp"
 
 namespace loopbench::traj_test {
 namespace {
@@ -18,25 +19,7 @@ using testing::HasSubstr;
 using namespace harness;
 
 /// Output of `loopbench traj ARGS`, which must succeed.
-std::string traj(std::vector<std::string> arguments) {
-  CLI::App app;
-  int exit_code = -1;
-  add_traj(app, exit_code);
-  arguments.insert(arguments.begin(), "traj");
-  std::ranges::reverse(arguments);  // order required by CLI11
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  try {
-    app.parse(arguments);
-  } catch (...) {
-    testing::internal::GetCapturedStdout();
-    testing::internal::GetCapturedStderr();
-    throw;
-  }
-  EXPECT_EQ(exit_code, kExitOk);
-  testing::internal::GetCapturedStderr();
-  return testing::internal::GetCapturedStdout();
-}
+std::string traj(const std::vector<std::string>& arguments) { return test::traj(arguments).output; }
 
 std::string traj_refusal(const std::vector<std::string>& arguments) {
   try {
