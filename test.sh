@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # ./test.sh            setup, optimised build, all tests
 # ./test.sh all        also style, all tests under ASan and UBSan, and threaded code under TSan
-# ./test.sh NAME...    only these (lint, package, slurm, or a preset: release, debug, tsan, clang)
+# ./test.sh NAME...    only these (lint, package, slurm, or a preset: release, debug, tsan, gcc)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/setup.sh
@@ -9,7 +9,8 @@ source cmake/setup.sh
 [[ $* == all ]] && set -- lint tsan debug release
 install_missing "${packages[@]}" "${compression_packages[@]}" "${image_packages[@]}" "${plot_packages[@]}" \
   "${python_packages[@]}" "${test_packages[@]}"
-[[ " $* " == *" clang "* ]] && install_missing clang-14
+[[ " $* " == *" gcc "* ]] && install_missing g++
+[[ " $* " == *" debug "* || " $* " == *" tsan "* ]] && install_missing "${sanitizer_packages[@]}"
 
 # Runs shellcheck for all scripts, clang-format and clang-tidy for all files; each library and program as one source.
 lint() {
@@ -18,8 +19,7 @@ lint() {
   find datasets methods metrics harness tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run --Werror
   cmake --preset lint -DLOOPBENCH_BUILD_TESTS=ON >/dev/null
   find build/lint -path '*/Unity/*.cxx' -print0 |
-    xargs -0 -P "$(nproc)" -n 1 clang-tidy -p build/lint --quiet --extra-arg=-Wno-unknown-warning-option \
-      --extra-arg=-Wno-shadow 2>/dev/null
+    xargs -0 -P "$(nproc)" -n 1 clang-tidy -p build/lint --quiet 2>/dev/null
 }
 
 counts=()

@@ -3,7 +3,7 @@
 # Needs Debian 12 (or a derivative with the same package names).
 
 packages=(
-  g++ cmake ninja-build
+  clang cmake ninja-build
   libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev libre2-dev libceres-dev
   libstb-dev
 )
@@ -13,6 +13,7 @@ compression_packages=(zlib1g-dev libbz2-dev libzstd-dev liblz4-dev)
 image_packages=(libopencv-features2d-dev libopencv-calib3d-dev)
 plot_packages=(gnuplot-nox)
 get_packages=(curl ca-certificates)
+sanitizer_packages=(libclang-rt-dev llvm)  # llvm: names of functions in reports
 lint_packages=(clang-format clang-tidy shellcheck)
 slurm_packages=(slurm-wlm munge)  # a real cluster for tests/slurm
 package_packages=(dpkg-dev file lintian debootstrap)

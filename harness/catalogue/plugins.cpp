@@ -28,7 +28,7 @@ std::vector<PluginEntry> load_plugin(const std::filesystem::path& object) {
   }
   const auto& plugin = *static_cast<const Plugin*>(exported);
   if (plugin.abi != Abi{}) {
-    throw refuse("was built with another compiler, Eigen or alignment");
+    throw refuse("was built with another standard library, Eigen or alignment");
   }
   return plugin.entries();
 }

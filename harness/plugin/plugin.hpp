@@ -16,14 +16,9 @@ using PluginEntry = std::variant<methods::MethodEntry, DatasetEntry, metrics::Me
 /// Properties that must be equal in both binaries before they exchange our types. `interface` stays
 /// the first member: it is read before the others, whose meaning depends on it.
 struct Abi {
-  int interface = 4;  ///< raise when this file or the headers that it includes change shape
+  int interface = 5;  ///< raise when this file or the headers that it includes change shape
   long language = __cplusplus;
-  int compiler = __GNUC__;
-#ifdef __clang__
-  int clang = __clang_major__;
-#else
-  int clang = 0;
-#endif
+  int standard_library = _GLIBCXX_RELEASE;  ///< GCC and clang with the same one fit together
   int eigen = EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 + EIGEN_MINOR_VERSION;
   int eigen_alignment = EIGEN_MAX_ALIGN_BYTES;  ///< differs when one side used -march=native
   int string_size = sizeof(std::string);        ///< differs under another standard library ABI

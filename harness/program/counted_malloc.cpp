@@ -2,15 +2,7 @@
 
 #include <cstdlib>
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || \
-    __has_feature(memory_sanitizer)
-#define LOOPBENCH_SANITIZED
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define LOOPBENCH_SANITIZED
-#endif
+#include "harness/execution/run/sanitized.hpp"
 
 #if defined(__GLIBC__) && !defined(LOOPBENCH_SANITIZED)
 

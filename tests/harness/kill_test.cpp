@@ -11,6 +11,7 @@
 #include <random>
 #include <thread>
 
+#include "harness/execution/run/sanitized.hpp"
 #include "harness/store/sqlite.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/store_text.hpp"
@@ -23,7 +24,7 @@ using namespace harness;
 
 namespace {
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef LOOPBENCH_SANITIZED
 constexpr int kKills = 15;  // each start costs ten times as much
 #else
 constexpr int kKills = 40;  // tests/campaign has as many as wanted

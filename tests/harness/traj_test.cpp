@@ -183,7 +183,7 @@ TEST(Traj, TransformIsAppliedLeftRightOrToTheSteps) {
               1e-15);
   const Trajectory back =
       transformed(transformed(line(3), {quarter.pose, 2.0}, TransformSide::left),
-                  inverse({quarter.pose, 2.0}),
+                  inverse(Similarity{quarter.pose, 2.0}),
                   TransformSide::left);
   EXPECT_TRUE(back[2].world_from_body.translation.isApprox(Vector3(1.0, 0, 0), 1e-12));
 }

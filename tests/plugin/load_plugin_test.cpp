@@ -22,6 +22,7 @@ namespace {
 using testing::HasSubstr;
 
 const std::filesystem::path kOutside = LOOPBENCH_OUTSIDE;
+const std::filesystem::path kOutsideGcc = LOOPBENCH_OUTSIDE_GCC;
 
 /// Checks that the error message contains the file and the reason.
 void expect_refused(const std::filesystem::path& object, const std::string& reason) {
@@ -121,12 +122,30 @@ TEST(LoadPlugin, MayBeLoadedTwice) {
             load_plugin(kOutside / "half_way.so").size());
 }
 
+TEST(LoadPlugin, AcceptsAnotherCompiler) {
+  if (!std::filesystem::exists(kOutsideGcc / "half_way.so")) GTEST_SKIP() << "needs g++";
+  const std::vector<MethodEntry> entries = methods_of(kOutsideGcc / "half_way.so");
+  ASSERT_EQ(entries.size(), 4u);
+  const Problem problem = test::circle();
+  Report report;
+  const auto curve_of = [&](const MethodEntry& entry) {
+    const Stage stage = entry.make({});
+    return std::get<std::unique_ptr<const Smoother>>(stage)->smooth(problem, report);
+  };
+  const auto curve = curve_of(entries[1]);
+  const auto same = curve_of(methods_of(kOutside / "half_way.so")[1]);
+  const double middle = 0.5 * (curve->start() + curve->end());
+  EXPECT_EQ(curve->at(middle).translation, same->at(middle).translation);
+  EXPECT_THROW(curve->at(curve->end() + 1.0), std::out_of_range);
+  EXPECT_THROW(entries[0].make({{"shere", 1.0}}), OptionError);
+}
+
 TEST(LoadPlugin, RefusesAnotherAbi) {
   expect_refused(kOutside / "misaligned.so", "was built with another");
 }
 
 TEST(LoadPlugin, ReadsTheInterfaceNumberBeforeAllElse) {
-  expect_refused(kOutside / "outdated.so", "was built for plugin interface 1, this program has 4");
+  expect_refused(kOutside / "outdated.so", "was built for plugin interface 1, this program has 5");
 }
 
 TEST(LoadPlugin, RefusesAnObjectWithoutThePluginLine) {

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <thread>
 
+#include "harness/execution/run/sanitized.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/command.hpp"
 
@@ -25,7 +26,7 @@ struct Fate {
   const char* why;     ///< part of the reason
 };
 
-#ifdef __SANITIZE_ADDRESS__  // ends the process itself
+#ifdef LOOPBENCH_SANITIZED  // ends the process itself
 constexpr bool kSanitized = true;
 #else
 constexpr bool kSanitized = false;

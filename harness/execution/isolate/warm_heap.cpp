@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "harness/execution/run/sanitized.hpp"
+
 namespace loopbench::harness {
 namespace {
 
@@ -19,7 +21,7 @@ constexpr int kMapped = 32 << 20;  // [bytes], larger blocks have mappings of th
 void keep_heap_compact() { mallopt(M_MMAP_THRESHOLD, kOwnMapping); }
 
 void warm_heap() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef LOOPBENCH_SANITIZED
   mallopt(M_MMAP_THRESHOLD, kMapped);  // the largest value that malloc accepts
   mallopt(M_TRIM_THRESHOLD, 8 * kMapped);
   // An unused block up to the next huge page, so that the blocks after it are in huge pages.
