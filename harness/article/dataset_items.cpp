@@ -14,8 +14,8 @@
 namespace loopbench::harness {
 namespace {
 
-/// Facts printed for one sequence.
-struct PrintedFacts {
+/// Values that the article prints for one sequence.
+struct PrintedValues {
   const char* sequence;
   std::size_t images, keyframes;
   double length;            // [m]
@@ -23,7 +23,7 @@ struct PrintedFacts {
   double speed_band;        // [m/s]
   double turn_max;          // no unit; assumed [rad] per keyframe
 };
-constexpr PrintedFacts kFacts[] = {
+constexpr PrintedValues kPrintedValues[] = {
     {"fr1_room", 1362, 180, 15.989, 0.0593, 1.3648, 0.33, 0.75},
     {"fr3_office", 2585, 204, 21.455, 0.0372, 0.4292, 0.25, 0.42},
 };
@@ -106,12 +106,12 @@ Verdict when(bool holds) { return holds ? Verdict::holds : Verdict::does_not_hol
 
 std::vector<LedgerItem> dataset_items(const std::vector<PaperCell>& cells) {
   std::vector<LedgerItem> out;
-  for (const PrintedFacts& facts : kFacts) {
-    const std::vector<const PaperCell*> runs = raw_runs(cells, facts.sequence);
+  for (const PrintedValues& printed : kPrintedValues) {
+    const std::vector<const PaperCell*> runs = raw_runs(cells, printed.sequence);
     if (runs.empty()) continue;
     const PaperCell& raw = *runs.front();
     const Trajectory truth = true_keyframes(raw);
-    const std::string where = std::string("Section 4, ") + facts.sequence;
+    const std::string where = std::string("Section 4, ") + printed.sequence;
     const Speeds estimated = speeds(raw.keyframes);
     const Speeds real = speeds(truth);
     const double length = path_length(truth);
@@ -123,19 +123,19 @@ std::vector<LedgerItem> dataset_items(const std::vector<PaperCell>& cells) {
     }
     out.push_back(
         {where,
-         fmt::format("{} images, {} keyframes", facts.images, facts.keyframes),
+         fmt::format("{} images, {} keyframes", printed.images, printed.keyframes),
          "ORB-SLAM2's keyframe lists of the article are not public; frames of a closed run "
          "are resampled to as many",
          "keyframes: " + counts,
          Verdict::cannot_be_judged});
     out.push_back(
         {where,
-         fmt::format("length of the real track {} m", facts.length),
+         fmt::format("length of the real track {} m", printed.length),
          fmt::format("{:.3f} m through the reference at the keyframes, {:.3f} m at 100 Hz",
                      length,
                      path_length(raw.dense.reference)),
          "",
-         when(is_within(length, facts.length, 0.05))});
+         when(is_within(length, printed.length, 0.05))});
     out.push_back(axes_item(where, runs));
     double low = estimated.low, high = estimated.high;
     for (const PaperCell* run : runs) {
@@ -146,18 +146,18 @@ std::vector<LedgerItem> dataset_items(const std::vector<PaperCell>& cells) {
     }
     out.push_back(
         {where,
-         fmt::format("speed between keyframes {} to {} m/s", facts.slowest, facts.fastest),
+         fmt::format("speed between keyframes {} to {} m/s", printed.slowest, printed.fastest),
          fmt::format("{:.3f} to {:.3f} m/s, reference {:.3f} to {:.3f}",
                      estimated.low,
                      estimated.high,
                      real.low,
                      real.high),
          fmt::format("{:.3f} to {:.3f} m/s in all metric runs", low, high),
-         when(is_within(estimated.low, facts.slowest, 0.5) &&
-              is_within(estimated.high, facts.fastest, 0.25))});
+         when(is_within(estimated.low, printed.slowest, 0.5) &&
+              is_within(estimated.high, printed.fastest, 0.25))});
     out.push_back(
         {where,
-         fmt::format("speed band {} m/s", facts.speed_band),
+         fmt::format("speed band {} m/s", printed.speed_band),
          fmt::format(
              "the mean speed between the keyframes of the reference is {:.3f} m/s; the article "
              "gives no reason for the band",
@@ -166,7 +166,7 @@ std::vector<LedgerItem> dataset_items(const std::vector<PaperCell>& cells) {
          Verdict::cannot_be_judged});
     const auto pieces = [&](const Trajectory& poses) {
       return methods::manifold::segments(methods::manifold::Nodes(poses),
-                                         {facts.speed_band, facts.turn_max})
+                                         {printed.speed_band, printed.turn_max})
           .size();
     };
     std::string segments;
@@ -177,8 +177,8 @@ std::vector<LedgerItem> dataset_items(const std::vector<PaperCell>& cells) {
     out.push_back(
         {where,
          fmt::format("speed band {} and curvature threshold {} cut the run into segments",
-                     facts.speed_band,
-                     facts.turn_max),
+                     printed.speed_band,
+                     printed.turn_max),
          fmt::format("{} segments with kappa as angle per keyframe [rad]; {} on the reference "
                      "at the keyframes. The number is not printed",
                      pieces(raw.keyframes),

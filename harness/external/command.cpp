@@ -62,20 +62,23 @@ Trajectory run_once(const CommandOptions& options,
         fmt::format("the program grew to {} bytes, limit {}", end.over_memory, setting.memory));
   }
   if (end.exit_code != 0) throw std::runtime_error(with_output("the program " + text(end), output));
-  ResultFacts facts;
+  ResultMetadata metadata;
   if (std::filesystem::is_regular_file(result.string() + ".json")) {
-    facts = parse_facts(content(result.string() + ".json"));
+    metadata = parse_metadata(content(result.string() + ".json"));
   }
-  require_ok(facts);
+  require_ok(metadata);
   Trajectory out;
   try {
     out = read_result(result, problem, options.output);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(with_output(error.what(), output));
   }
-  report.counts.insert(report.counts.end(), facts.report.counts.begin(), facts.report.counts.end());
-  report.phases.insert(report.phases.end(), facts.report.phases.begin(), facts.report.phases.end());
-  report.notes.insert(report.notes.end(), facts.report.notes.begin(), facts.report.notes.end());
+  report.counts.insert(
+      report.counts.end(), metadata.report.counts.begin(), metadata.report.counts.end());
+  report.phases.insert(
+      report.phases.end(), metadata.report.phases.begin(), metadata.report.phases.end());
+  report.notes.insert(
+      report.notes.end(), metadata.report.notes.begin(), metadata.report.notes.end());
   report.count(kProgramTime, end.cpu_seconds);
   report.count(kProgramMemory, static_cast<double>(end.peak_memory));
   add_output(report, output);
@@ -83,14 +86,14 @@ Trajectory run_once(const CommandOptions& options,
     report.notes.push_back(
         fmt::format("{} processes outlived the program and were killed", end.left_behind));
   }
-  const bool is_stated = facts.seconds >= 0.0 && facts.seconds <= ran;
-  if (facts.seconds > ran) {
+  const bool is_stated = metadata.seconds >= 0.0 && metadata.seconds <= ran;
+  if (metadata.seconds > ran) {
     report.notes.push_back(fmt::format(
-        "result.json states {} s, but the program ran for {:.3g} s", facts.seconds, ran));
+        "result.json states {} s, but the program ran for {:.3g} s", metadata.seconds, ran));
   }
   report.notes.emplace_back(is_stated ? "time: as stated by the program"
                                       : "time: from start to end of the program");
-  own = is_stated ? facts.seconds : ran;
+  own = is_stated ? metadata.seconds : ran;
   return out;
 }
 

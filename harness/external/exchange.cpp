@@ -158,8 +158,8 @@ Trajectory read_result(const std::filesystem::path& file,
   }
 }
 
-ResultFacts parse_facts(const std::string& text) {
-  ResultFacts out;
+ResultMetadata parse_metadata(const std::string& text) {
+  ResultMetadata out;
   try {
     const nlohmann::json json = nlohmann::json::parse(text);
     out.status = json.value("status", out.status);
@@ -196,12 +196,12 @@ ResultFacts parse_facts(const std::string& text) {
   return out;
 }
 
-void require_ok(const ResultFacts& facts) {
-  if (facts.status == "ok") return;
-  const std::string why = facts.why.empty() ? "the program gave no reason" : facts.why;
-  if (facts.status == "declined") throw metrics::Undefined(why);
-  if (facts.status == "failed") throw std::runtime_error(why);
-  throw std::runtime_error("result.json: status is '" + facts.status +
+void require_ok(const ResultMetadata& metadata) {
+  if (metadata.status == "ok") return;
+  const std::string why = metadata.why.empty() ? "the program gave no reason" : metadata.why;
+  if (metadata.status == "declined") throw metrics::Undefined(why);
+  if (metadata.status == "failed") throw std::runtime_error(why);
+  throw std::runtime_error("result.json: status is '" + metadata.status +
                            "', expected ok, declined or failed");
 }
 

@@ -62,7 +62,7 @@ Trajectory checked_result(Trajectory poses,
                           const std::string& name);
 
 /// What a program states about its run.
-struct ResultFacts {
+struct ResultMetadata {
   std::string status = "ok";
   std::string why;
   double seconds = -1.0;  ///< time of the method; negative: not stated
@@ -70,9 +70,9 @@ struct ResultFacts {
 };
 
 /// Reads the text of result.json. Throws std::runtime_error if it is invalid.
-ResultFacts parse_facts(const std::string& json);
+ResultMetadata parse_metadata(const std::string& json);
 
 /// Throws Undefined with the program's reason if it declined, std::runtime_error if it failed.
-void require_ok(const ResultFacts& facts);
+void require_ok(const ResultMetadata& metadata);
 
 }  // namespace loopbench::harness

@@ -105,9 +105,11 @@ void check_header(const MessageHeader& header, std::uint64_t number, std::size_t
   }
 }
 
-Trajectory answer_poses(const std::string& text, const std::string& data, ResultFacts& facts) {
-  facts = parse_facts(text);
-  require_ok(facts);
+Trajectory answer_poses(const std::string& text,
+                        const std::string& data,
+                        ResultMetadata& metadata) {
+  metadata = parse_metadata(text);
+  require_ok(metadata);
   std::size_t rows = 0;
   try {
     rows = nlohmann::json::parse(text).at("poses").get<std::size_t>();

@@ -34,8 +34,8 @@ std::string question(const Problem& problem, ResultPoses output, std::uint64_t n
 /// sizes beyond the limits.
 void check_header(const MessageHeader& header, std::uint64_t number, std::size_t keyframes);
 
-/// Poses of an answer; its facts are written to `facts`. Throws std::runtime_error, and Undefined
-/// if the program declined.
-Trajectory answer_poses(const std::string& text, const std::string& data, ResultFacts& facts);
+/// Poses of an answer; its metadata are written to `metadata`. Throws std::runtime_error, and
+/// Undefined if the program declined.
+Trajectory answer_poses(const std::string& text, const std::string& data, ResultMetadata& metadata);
 
 }  // namespace loopbench::harness

@@ -62,7 +62,7 @@ class Server {
   Trajectory ask(const Problem& problem,
                  ResultPoses output,
                  std::int64_t memory,
-                 ResultFacts& facts,
+                 ResultMetadata& metadata,
                  std::string& errors) {
     const std::uint64_t number = ++turn_->asked;
     unsent_ = question(problem, output, number);
@@ -80,7 +80,7 @@ class Server {
     read_available(tree_.errors(), errors);
     return answer_poses(received_.substr(sizeof header, header.text),
                         received_.substr(sizeof header + header.text),
-                        facts);
+                        metadata);
   }
 
  private:
@@ -180,11 +180,11 @@ Trajectory ask_server(const CommandOptions& options,
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   Server& server = running_server(options, setting);
   const double started = elapsed();
-  ResultFacts facts;
+  ResultMetadata metadata;
   std::string errors;
   Trajectory out;
   try {
-    out = checked_result(server.ask(problem, options.output, setting.memory, facts, errors),
+    out = checked_result(server.ask(problem, options.output, setting.memory, metadata, errors),
                          problem,
                          options.output,
                          "the answer");
@@ -195,15 +195,15 @@ Trajectory ask_server(const CommandOptions& options,
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(with_output(error.what(), errors));
   }
-  for (auto& count : facts.report.counts) report.counts.push_back(std::move(count));
-  for (auto& phase : facts.report.phases) report.phases.push_back(std::move(phase));
-  for (auto& note : facts.report.notes) report.notes.push_back(std::move(note));
+  for (auto& count : metadata.report.counts) report.counts.push_back(std::move(count));
+  for (auto& phase : metadata.report.phases) report.phases.push_back(std::move(phase));
+  for (auto& note : metadata.report.notes) report.notes.push_back(std::move(note));
   add_output(report, errors);
   const double all = elapsed();
-  const bool is_stated = facts.seconds >= 0.0 && facts.seconds <= all;
+  const bool is_stated = metadata.seconds >= 0.0 && metadata.seconds <= all;
   report.notes.emplace_back(is_stated ? "time: as stated by the program"
                                       : "time: from question to answer");
-  report.phases.push_back({kExchangePhase, is_stated ? all - facts.seconds : started});
+  report.phases.push_back({kExchangePhase, is_stated ? all - metadata.seconds : started});
   return out;
 }
 

@@ -99,14 +99,14 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
   const auto run = read_run(store);
   StoreSources sources(store);
   const auto made = sources.provenance();
-  const auto fact = [&](const std::string& name) {
+  const auto value_of = [&](const std::string& name) {
     const auto found = made.find(name);
     return found == made.end() ? "unknown" : found->second;
   };
   Snapshot out;
   out.sweep = run.at("sweep");
-  out.machine =
-      fact("compiler") + ", " + fact("flags") + ", " + fact("c library") + ", " + fact("cpu");
+  out.machine = value_of("compiler") + ", " + value_of("flags") + ", " + value_of("c library") +
+                ", " + value_of("cpu");
   out.protocols = definitions(run.at("protocol"), "]: ", 1);
   out.metrics = definitions(text_of(run, "metrics", store), "\t", 0);
   out.methods = definitions(text_of(run, "methods", store), "\t", 0);
@@ -128,7 +128,7 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
   });
   if (has_times) {
     // Times on different machines are not comparable.
-    const std::string cpu = fact("cpu");
+    const std::string cpu = value_of("cpu");
     out.protocols["time"] = cpu == "unknown" ? "on an unknown CPU" : "on " + cpu;
   }
   if (out.cells.empty()) throw InputError(store.string() + ": has no cells to check");

@@ -5,7 +5,7 @@
 namespace loopbench::harness {
 
 std::string build_summary(const std::map<std::string, std::string>& provenance) {
-  const auto fact = [&](const std::string& name, std::size_t most = std::string::npos) {
+  const auto value_of = [&](const std::string& name, std::size_t most = std::string::npos) {
     const auto found = provenance.find(name);
     std::istringstream lines(found == provenance.end() ? "unknown" : found->second);
     std::string out;
@@ -15,9 +15,9 @@ std::string build_summary(const std::map<std::string, std::string>& provenance) 
     return out;
   };
   constexpr std::size_t kShort = 12;  // unambiguous prefix of a commit
-  return "loopbench " + fact("version") + " (" + fact("commit", kShort) + ", " + fact("source") +
-         "), " + fact("compiler") + ", " + fact("flags") + "; " + fact("cpu") + ", " +
-         fact("kernel");
+  return "loopbench " + value_of("version") + " (" + value_of("commit", kShort) + ", " +
+         value_of("source") + "), " + value_of("compiler") + ", " + value_of("flags") + "; " +
+         value_of("cpu") + ", " + value_of("kernel");
 }
 
 }  // namespace loopbench::harness

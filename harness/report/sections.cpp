@@ -14,8 +14,8 @@
 namespace loopbench::harness {
 namespace {
 
-std::string fact(std::size_t number, const std::string& what, const std::string& kind = "") {
-  return fmt::format("<div class=\"fact {}\"><b>{}</b> {}</div>", kind, number, html_text(what));
+std::string counter(std::size_t number, const std::string& what, const std::string& kind = "") {
+  return fmt::format("<div class=\"counter {}\"><b>{}</b> {}</div>", kind, number, html_text(what));
 }
 
 std::string plural(std::size_t number, const std::string& one) {
@@ -78,13 +78,14 @@ std::string summary_html(const ReportContent& content) {
     ++statuses[cell.status];
     repeats.insert(cell.repeat);
   }
-  std::string out = "<div class=\"facts\">" +
-                    fact(content.methods.size(), plural(content.methods.size(), "method")) +
-                    fact(content.sequences.size(), plural(content.sequences.size(), "sequence")) +
-                    fact(repeats.size(), plural(repeats.size(), "repeat"));
+  std::string out =
+      "<div class=\"counters\">" +
+      counter(content.methods.size(), plural(content.methods.size(), "method")) +
+      counter(content.sequences.size(), plural(content.sequences.size(), "sequence")) +
+      counter(repeats.size(), plural(repeats.size(), "repeat"));
   for (const auto& [status, number] : statuses) {
     const bool is_bad = is_failure(status);
-    out += fact(number, plural(number, "cell") + " " + to_text(status), is_bad ? "bad" : "");
+    out += counter(number, plural(number, "cell") + " " + to_text(status), is_bad ? "bad" : "");
   }
   out += "</div>\n";
   if (content.shown < content.sequences.size()) {

@@ -32,15 +32,15 @@ TEST(Arguments, AreSplitAsByAShellWithoutExpansions) {
               ElementsAre("/p q/x", "{other}", "{", "a{problem}"));
 }
 
-TEST(Facts, AreCheckedAsTheyAreRead) {
-  const ResultFacts facts =
-      parse_facts(R"({"seconds": 0.5, "iterations": 7, "counts": {"a": 1}, "notes": ["x"]})");
-  EXPECT_EQ(facts.seconds, 0.5);
-  EXPECT_EQ(facts.report.counts.size(), 2u);
-  EXPECT_THAT(facts.report.notes, ElementsAre("x"));
-  EXPECT_THROW(parse_facts("{"), std::runtime_error);
-  EXPECT_THROW(parse_facts("[]"), std::runtime_error);
-  EXPECT_THROW(parse_facts(R"({"iterations": "many"})"), std::runtime_error);
+TEST(ResultMetadata, IsCheckedWhenRead) {
+  const ResultMetadata metadata =
+      parse_metadata(R"({"seconds": 0.5, "iterations": 7, "counts": {"a": 1}, "notes": ["x"]})");
+  EXPECT_EQ(metadata.seconds, 0.5);
+  EXPECT_EQ(metadata.report.counts.size(), 2u);
+  EXPECT_THAT(metadata.report.notes, ElementsAre("x"));
+  EXPECT_THROW(parse_metadata("{"), std::runtime_error);
+  EXPECT_THROW(parse_metadata("[]"), std::runtime_error);
+  EXPECT_THROW(parse_metadata(R"({"iterations": "many"})"), std::runtime_error);
 }
 
 using Command = test::ProgramSweep;

@@ -103,14 +103,14 @@ TEST_F(VerdictCli, EveryExportCarriesWhatMadeIt) {
   };
   const std::string markdown = run("table r").out;
   const std::string comment = markdown.substr(markdown.find("<!-- provenance\n"));
-  for (const char* fact : {"\ncommit: ",
-                           "\ncompiler: ",
-                           "\ncpu: ",
-                           "\nseeds:\n",
-                           "\nprotocol: ",
-                           "\nconfig:\n  datasets:\n",
-                           "  repeats: 4\n"}) {
-    EXPECT_TRUE(has(comment, fact)) << fact << comment;
+  for (const char* entry : {"\ncommit: ",
+                            "\ncompiler: ",
+                            "\ncpu: ",
+                            "\nseeds:\n",
+                            "\nprotocol: ",
+                            "\nconfig:\n  datasets:\n",
+                            "  repeats: 4\n"}) {
+    EXPECT_TRUE(has(comment, entry)) << entry << comment;
   }
   EXPECT_TRUE(ends(comment, "-->\n"));
   EXPECT_EQ(comment.find("--", 4), comment.size() - 4) << "nothing within may end it";

@@ -19,7 +19,8 @@ std::string trained_on_evaluated(const MethodChoice& method,
                                  const DatasetChoice& dataset,
                                  const SequenceMetadata& metadata);
 
-/// Sets oracle_method of such a cell and adds the reason to its notes. Needs the cell's facts.
+/// Sets oracle_method of such a cell and adds the reason to its notes. Does nothing for a cell
+/// without sequence metadata.
 void flag_trained_on_evaluated(CellResult& result, const Sweep& sweep);
 
 }  // namespace loopbench::harness
