@@ -72,10 +72,11 @@ int check_store(const CheckArguments& arguments) {
   if (arguments.time) throw InputError("--time: needs --update, which writes the limit");
   const Baseline baseline = read_baseline(arguments.baseline);
   if (is_dirty(baseline.build_summary) && !arguments.allow_dirty) {
-    throw InputError(arguments.baseline +
-                     ": made_by.source: was written by a build with uncommitted changes (dirty), "
-                     "expected a clean build; write it again with --update, or accept it with "
-                     "--allow-dirty");
+    throw InputError(
+        arguments.baseline +
+        ": build_summary.source: was written by a build with uncommitted changes (dirty), "
+        "expected a clean build; write it again with --update, or accept it with "
+        "--allow-dirty");
   }
   const Snapshot now = snapshot(arguments.store, baseline.limits);
   GateReport report;

@@ -125,7 +125,7 @@ std::string json(const Baseline& baseline) {
     out += "\"" + key + "\": " + text(value) + ",\n";
   };
   member("sweep", made.sweep);
-  member("made_by", baseline.build_summary);
+  member("build_summary", baseline.build_summary);
   member("machine", made.machine);
   out += lines("limits", limits) + ",\n";
   member("sequences", made.sequences);

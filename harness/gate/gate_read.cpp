@@ -31,7 +31,9 @@ class BaselineReader {
                          kBaselineFormat));
     }
     Baseline out;
-    out.build_summary = texts(root, "made_by");
+    // Version 0.1 wrote it as made_by.
+    const bool has_old_key = root.contains("made_by") && !root.contains("build_summary");
+    out.build_summary = texts(root, has_old_key ? "made_by" : "build_summary");
     out.limits = limits(root);
     out.snapshot.sweep = text(root, "sweep", "");
     out.snapshot.machine = text(root, "machine", "");

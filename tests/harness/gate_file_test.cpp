@@ -35,6 +35,21 @@ TEST(BaselineFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read.limits[0].alpha, before.limits[0].alpha);
 }
 
+TEST(BaselineFile, IsReadWithTheFormerKeyOfItsBuildSummary) {
+  const std::string text = json(baseline());
+  const std::string key = "\"build_summary\"";
+  const std::size_t at = text.find(key);
+  ASSERT_NE(at, std::string::npos) << text;
+  const auto with_key = [&](const std::string& other) {
+    return std::string(text).replace(at, key.size(), other);
+  };
+  const Baseline read = parse_baseline(with_key("\"made_by\""), "b.json");
+  EXPECT_EQ(read.build_summary, baseline().build_summary);
+  EXPECT_EQ(json(read), text);
+  EXPECT_EQ(refusal_of([&] { parse_baseline(with_key("\"made\""), "b.json"); }),
+            "b.json: build_summary: is missing");
+}
+
 TEST(BaselineFile, IsRefusedWithItsPlace) {
   const std::string good = json(baseline());
   const auto refusal = [](const std::string& text) {
