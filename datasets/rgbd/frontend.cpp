@@ -70,15 +70,15 @@ TrackingResult track(const RgbdSource& source,
   const auto make = [&](std::size_t i) {
     TimedFeatures out;
     const auto describe_frame = [&] {
-      FrameFeatures made;
+      FrameFeatures frame;
       out.computed = true;
       const double begin = cpu_seconds();
-      const std::optional<RgbdFrame> images = source.read(i, made.why);
+      const std::optional<RgbdFrame> images = source.read(i, frame.why);
       const double middle = cpu_seconds();
       out.read = middle - begin;
-      if (images) made.features = find_features(*images, camera, options.features);
+      if (images) frame.features = find_features(*images, camera, options.features);
       out.find = cpu_since(middle);
-      return made;
+      return frame;
     };
     const auto pack = [](const FrameFeatures& frame) { return packed(frame); };
     out.frame = cache.get(cache.frame(i), deserialise_frame, describe_frame, pack);

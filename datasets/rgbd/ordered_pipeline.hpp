@@ -22,8 +22,8 @@ void ordered_pipeline(
     std::size_t count, std::size_t workers, std::size_t ahead, const Make& make, const Take& take) {
   std::mutex mutex;
   std::condition_variable changed;
-  std::map<std::size_t, Item> made;
-  std::size_t next = 0;   // next item to be made
+  std::map<std::size_t, Item> finished;
+  std::size_t next = 0;   // next item to be computed
   std::size_t taken = 0;  // number of items taken
   bool stop = false;
   std::exception_ptr error;
@@ -45,7 +45,7 @@ void ordered_pipeline(
         }
         Item item = make(item_index);
         const std::lock_guard lock(mutex);
-        made.emplace(item_index, std::move(item));
+        finished.emplace(item_index, std::move(item));
         changed.notify_all();
       }
     } catch (...) {
@@ -58,9 +58,9 @@ void ordered_pipeline(
     try {
       for (std::size_t i = 0; i < count; ++i) {
         std::unique_lock lock(mutex);
-        changed.wait(lock, [&] { return stop || made.contains(i); });
+        changed.wait(lock, [&] { return stop || finished.contains(i); });
         if (stop) break;
-        Item item = std::move(made.extract(i).mapped());
+        Item item = std::move(finished.extract(i).mapped());
         lock.unlock();
         take(i, std::move(item));
         lock.lock();

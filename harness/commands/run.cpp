@@ -107,15 +107,15 @@ int run(const RunArguments& arguments, const Source& source) {
   if (!arguments.data.empty()) sandbox.unreachable.emplace_back(arguments.data);
   const ControlGroups groups(sandbox.enabled);
   sandbox.groups = &groups;
-  std::map<std::string, std::string> made = provenance(source, sweep, known);
+  std::map<std::string, std::string> run_provenance = provenance(source, sweep, known);
   if (arguments.save_trajectories) {
     set_estimate_folder(out / "trajectories");
     sandbox.writable.push_back(out / "trajectories");
   }
   sandbox.pid_namespace = !uses_programs(sweep);  // as run_isolated() does
   set_dataset_sandbox({sandbox.enabled, false, {out}, {}});
-  made["sandbox"] = sandbox_summary(sandbox);
-  std::optional<Store> store(std::in_place, file, keys, made, arguments.fresh);
+  run_provenance["sandbox"] = sandbox_summary(sandbox);
+  std::optional<Store> store(std::in_place, file, keys, run_provenance, arguments.fresh);
   store->set_shard(part.shard);
   const Resumed resumed = store->resume(all, planned, *from_text<Retry>(arguments.retry));
   report_damage(resumed, file);

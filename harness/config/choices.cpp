@@ -212,9 +212,9 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
       }
       choice.stages[i].options = to_params(by_stage[i]);
       located(file, entry.line, stages[i]->name, by_stage[i], stages[i]->options, [&] {
-        const methods::Stage made = stages[i]->make(choice.stages[i].options);
+        const methods::Stage stage = stages[i]->make(choice.stages[i].options);
         if (stages.size() > 1 &&
-            std::holds_alternative<std::unique_ptr<const methods::Estimator>>(made))
+            std::holds_alternative<std::unique_ptr<const methods::Estimator>>(stage))
           throw OptionError("output",
                             "with these options it is a joint method and has no smoother");
       });

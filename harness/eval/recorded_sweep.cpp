@@ -104,11 +104,11 @@ std::vector<MetricChoice> metrics_of(const EvalArguments& a,
                                      const std::vector<metrics::NamedProtocol>& protocols) {
   std::vector<MetricChoice> out;
   for (const metrics::NamedProtocol& protocol : protocols) {
-    for (const MetricRequest& asked : metric_requests(a, protocol.rules)) {
-      const std::string name = label(EvaluatedMetric{asked.metric, asked.options, {}, {}, {}});
+    for (const MetricRequest& request : metric_requests(a, protocol.rules)) {
+      const std::string name = label(EvaluatedMetric{request.metric, request.options, {}, {}, {}});
       const bool is_known =
           std::ranges::any_of(out, [&](const MetricChoice& m) { return m.label == name; });
-      if (!is_known) out.push_back({name, {asked.metric, asked.options}});
+      if (!is_known) out.push_back({name, {request.metric, request.options}});
     }
   }
   return out;

@@ -23,7 +23,7 @@ namespace {
 
 /// In memory shared with forked processes.
 struct SharedTurn {
-  std::atomic<std::uint64_t> asked = 0;
+  std::atomic<std::uint64_t> requested = 0;
   std::atomic<std::uint64_t> answered = 0;
 };
 
@@ -50,7 +50,7 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  bool is_in_step() const { return turn_->asked == turn_->answered && !tree_.has_ended(); }
+  bool is_in_step() const { return turn_->requested == turn_->answered && !tree_.has_ended(); }
 
   void append_to(RunningServers& out) const {
     out.processes.push_back(tree_.supervisor());
@@ -64,7 +64,7 @@ class Server {
                  std::int64_t memory,
                  ResultMetadata& metadata,
                  std::string& errors) {
-    const std::uint64_t number = ++turn_->asked;
+    const std::uint64_t number = ++turn_->requested;
     unsent_ = question(problem, output, number);
     received_.clear();
     errors_ = &errors;

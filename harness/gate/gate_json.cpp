@@ -40,9 +40,9 @@ Json cell_json(const GateCell& cell,
   Json out = head(cell);
   if (cell.scores.empty()) return out;
   std::vector<const GateScore*> found;
-  for (const GateScore& asked : questions) {
+  for (const GateScore& requested : questions) {
     const auto same = std::ranges::find(
-        cell.scores, name(asked), [](const GateScore& score) { return name(score); });
+        cell.scores, name(requested), [](const GateScore& score) { return name(score); });
     found.push_back(same == cell.scores.end() ? nullptr : &*same);
   }
   const auto list = [&](auto entry) {
@@ -95,10 +95,10 @@ std::vector<std::string> compared_statistics(const std::vector<Tolerance>& limit
 
 std::string json(const Baseline& baseline) {
   std::vector<GateScore> questions;
-  std::map<std::string, bool> asked;
+  std::map<std::string, bool> seen;
   for (const GateCell& cell : baseline.snapshot.cells) {
     for (const GateScore& score : cell.scores) {
-      if (asked.emplace(name(score), true).second) questions.push_back(score);
+      if (seen.emplace(name(score), true).second) questions.push_back(score);
     }
   }
   const std::vector<std::string> statistics = compared_statistics(baseline.limits);
@@ -119,20 +119,20 @@ std::string json(const Baseline& baseline) {
   for (const GateCell& cell : baseline.snapshot.cells) {
     cells.push_back(cell_json(cell, questions, statistics));
   }
-  const Snapshot& made = baseline.snapshot;
+  const Snapshot& snapshot = baseline.snapshot;
   std::string out = fmt::format("{{\n\"loopbench_baseline\": {},\n", kBaselineFormat);
   const auto member = [&](const std::string& key, const Json& value) {
     out += "\"" + key + "\": " + text(value) + ",\n";
   };
-  member("sweep", made.sweep);
+  member("sweep", snapshot.sweep);
   member("build_summary", baseline.build_summary);
-  member("machine", made.machine);
+  member("machine", snapshot.machine);
   out += lines("limits", limits) + ",\n";
-  member("sequences", made.sequences);
-  member("contents", made.contents);
-  member("protocols", made.protocols);
-  member("metrics", made.metrics);
-  member("methods", made.methods);
+  member("sequences", snapshot.sequences);
+  member("contents", snapshot.contents);
+  member("protocols", snapshot.protocols);
+  member("metrics", snapshot.metrics);
+  member("methods", snapshot.methods);
   return out + lines("scores", scores) + ",\n" + lines("cells", cells) + "\n}\n";
 }
 

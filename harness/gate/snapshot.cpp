@@ -98,10 +98,10 @@ void add_sequences(const std::filesystem::path& store, StoreSources& sources, Sn
 Snapshot snapshot(const std::filesystem::path& store, const std::vector<Tolerance>& limits) {
   const auto run = read_run(store);
   StoreSources sources(store);
-  const auto made = sources.provenance();
+  const auto provenance = sources.provenance();
   const auto value_of = [&](const std::string& name) {
-    const auto found = made.find(name);
-    return found == made.end() ? "unknown" : found->second;
+    const auto found = provenance.find(name);
+    return found == provenance.end() ? "unknown" : found->second;
   };
   Snapshot out;
   out.sweep = run.at("sweep");

@@ -180,9 +180,9 @@ std::string provenance_html(const ReportContent& content) {
   };
   out += "<h3>Protocol of every number</h3>\n<pre tabindex=\"0\">" +
          html_text(value_of("protocol")) + "</pre>\n";
-  TextTable made{"provenance", {"item", "value"}, {}, {}};
-  for (const auto& [key, value] : content.provenance) made.rows.push_back({key, value});
-  out += html_text_table(made);
+  TextTable provenance{"provenance", {"item", "value"}, {}, {}};
+  for (const auto& [key, value] : content.provenance) provenance.rows.push_back({key, value});
+  out += html_text_table(provenance);
   if (!content.inputs.empty()) {
     TextTable files{"input files", {"sequence", "file", "bytes", "MurmurHash3 x64 128"}, {}, {}};
     for (const auto& [sequence, inputs] : content.inputs) {

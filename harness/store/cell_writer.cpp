@@ -32,9 +32,9 @@ void remove_cell(Database& database, std::int64_t id) {
   database.prepare("DELETE FROM cell WHERE id = ?").bind(id).run();
 }
 
-CellWriter::CellWriter(Database& database, std::string made)
+CellWriter::CellWriter(Database& database, std::string provenance_key)
     : database_(database),
-      made_(std::move(made)),
+      made_(std::move(provenance_key)),
       remove_(database.prepare("SELECT id, digest FROM cell WHERE position = ?")),
       cell_(database.prepare(
           "INSERT INTO cell (position, key, build, sequence_key, made, sequence, repeat, method, "

@@ -14,8 +14,8 @@ namespace loopbench::harness {
 /// Statements prepared once for all cells of a sweep.
 class CellWriter {
  public:
-  /// `made`: key of the provenance rows for these cells.
-  CellWriter(Database& database, std::string made);
+  /// `provenance_key`: key of the provenance rows for these cells.
+  CellWriter(Database& database, std::string provenance_key);
 
   /// Writes a cell, and its sequence if it is new, in one transaction; replaces the cell at the
   /// same position. Throws InputError; then nothing of the cell is written.

@@ -37,9 +37,9 @@ std::vector<Hash> keys_now(const SequenceRows& sequences,
   std::vector<Hash> out;
   out.reserve(all.size());
   for (const Cell& cell : all) {
-    const std::string& asked = keys.asked(cell);
-    const auto [entry, is_new] = inputs.try_emplace(asked);
-    if (is_new) entry->second = inputs_now(known[asked], keys, cell);
+    const std::string& configuration_hash = keys.asked(cell);
+    const auto [entry, is_new] = inputs.try_emplace(configuration_hash);
+    if (is_new) entry->second = inputs_now(known[configuration_hash], keys, cell);
     out.push_back(hash_of(keys.key(cell, entry->second)));
   }
   return out;

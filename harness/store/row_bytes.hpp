@@ -6,8 +6,8 @@
 
 namespace loopbench::harness {
 
-/// Reads the values of Statement::bytes_of_columns() in order. A value of another type than asked
-/// for, which only a damaged row has, is zero or empty. Views are valid as long as the bytes.
+/// Reads the values of Statement::bytes_of_columns() in order. A value of another type than
+/// requested, which only a damaged row has, is zero or empty. Views are valid as long as the bytes.
 class RowBytes {
  public:
   explicit RowBytes(std::string_view bytes) : bytes_(bytes) {}

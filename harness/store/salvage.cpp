@@ -56,14 +56,14 @@ void check_texts(Database& database) {
   {
     Statement rows = database.prepare("SELECT made, key, value FROM provenance");
     while (rows.step()) {
-      const std::string made = rows.text();
+      const std::string provenance_key = rows.text();
       const std::string key = rows.text();
-      all[made][key] = rows.text();
+      all[provenance_key][key] = rows.text();
     }
   }
-  for (const auto& [made, provenance] : all) {
-    if (made_key(provenance) == made) continue;
-    database.prepare("DELETE FROM provenance WHERE made = ?").bind(made).run();
+  for (const auto& [provenance_key, provenance] : all) {
+    if (made_key(provenance) == provenance_key) continue;
+    database.prepare("DELETE FROM provenance WHERE made = ?").bind(provenance_key).run();
   }
   if (digest_of_texts(database, "run") != written_digest(database, "run")) {
     database.execute("DELETE FROM run");

@@ -26,13 +26,13 @@ void add_lines(std::string& text, const std::string& more) {
 StoreSources::StoreSources(const std::filesystem::path& file)
     : file_(store_file(file)), database_(open_store(file)) {
   using Run = std::tuple<SharedText, std::int64_t, SharedText>;  // sequence, repeat, key
-  std::map<SharedText, std::int64_t> first_of_made;
+  std::map<SharedText, std::int64_t> first_of_provenance;
   std::map<Run, std::int64_t> first_of_run;
   const auto add = [](auto& firsts, const auto& key, std::int64_t position) {
     std::int64_t& first = firsts.try_emplace(key, position).first->second;
     first = std::min(first, position);
   };
-  SharedText made;
+  SharedText provenance_key;
   Run run;
   std::int64_t last = -1;
   Statement row = database_.prepare(
@@ -40,20 +40,21 @@ StoreSources::StoreSources(const std::filesystem::path& file)
       "IS NOT NULL");
   while (row.step()) {
     const std::int64_t position = row.integer();
-    const std::string_view own_made = row.view();
+    const std::string_view own_provenance_key = row.view();
     const std::string_view sequence = row.view();
     const std::int64_t repeat = row.integer();
     const std::string_view key = row.view();
-    const bool is_like_last = position > last && made == own_made && std::get<0>(run) == sequence &&
-                              std::get<1>(run) == repeat && std::get<2>(run) == key;
+    const bool is_like_last = position > last && provenance_key == own_provenance_key &&
+                              std::get<0>(run) == sequence && std::get<1>(run) == repeat &&
+                              std::get<2>(run) == key;
     last = position;
     if (is_like_last) continue;
-    made = own_made;
+    provenance_key = own_provenance_key;
     run = {sequence, repeat, key};
-    add(first_of_made, made, position);
+    add(first_of_provenance, provenance_key, position);
     add(first_of_run, run, position);
   }
-  for (const auto& [used, position] : first_of_made) made_.emplace(position, used);
+  for (const auto& [used, position] : first_of_provenance) made_.emplace(position, used);
   for (const auto& [used, position] : first_of_run) {
     const auto& [label, number, own_key] = used;
     const std::string suffix = number > 0 ? " (repeat " + std::to_string(number) + ")" : "";
@@ -65,8 +66,8 @@ std::map<std::string, std::string> StoreSources::provenance() {
   require_intact_texts(database_, "provenance", file_);
   Statement rows = database_.prepare("SELECT key, value FROM provenance WHERE made = ?");
   std::map<std::string, std::string> out;
-  for (const auto& [position, made] : made_) {
-    rows.bind(made.text());
+  for (const auto& [position, provenance_key] : made_) {
+    rows.bind(provenance_key.text());
     while (rows.step()) {
       const std::string key = rows.text();
       const std::string value = rows.text();

@@ -134,9 +134,10 @@ bool is_run_current(Database& database, const CellKeys& keys) {
 }
 
 void write_provenance(Database& database, const std::map<std::string, std::string>& provenance) {
-  const std::string made = made_key(provenance);
+  const std::string provenance_key = made_key(provenance);
   Statement insert = database.prepare("INSERT OR IGNORE INTO provenance VALUES (?, ?, ?)");
-  for (const auto& [key, value] : provenance) insert.bind(made).bind(key).bind(value).run();
+  for (const auto& [key, value] : provenance)
+    insert.bind(provenance_key).bind(key).bind(value).run();
   update_texts(database, "provenance");
 }
 

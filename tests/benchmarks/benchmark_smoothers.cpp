@@ -51,13 +51,13 @@ const Problem& walk(std::size_t size) {
   return out;
 }
 
-std::unique_ptr<const Smoother> made(const MethodEntry& entry) {
+std::unique_ptr<const Smoother> default_smoother(const MethodEntry& entry) {
   return std::get<std::unique_ptr<const Smoother>>(entry.make({}));
 }
 
 void smooth(const MethodEntry& entry, benchmark::State& state) {
   const Problem& problem = walk(static_cast<std::size_t>(state.range(0)));
-  const auto smoother = made(entry);
+  const auto smoother = default_smoother(entry);
   for (auto _ : state) {
     Report report;
     benchmark::DoNotOptimize(smoother->smooth(problem, report));
@@ -66,7 +66,7 @@ void smooth(const MethodEntry& entry, benchmark::State& state) {
 
 void smooth_and_ask(const MethodEntry& entry, benchmark::State& state) {
   const Problem& problem = walk(kKeyframes);
-  const auto smoother = made(entry);
+  const auto smoother = default_smoother(entry);
   const auto count = static_cast<std::size_t>(state.range(0));
   std::vector<double> times(count);
   for (std::size_t k = 0; k < count; ++k) {

@@ -105,24 +105,24 @@ TEST(Eval, DrawsTumsRandomPairsOnce) {
 }
 
 TEST(Eval, BelowTheLimitOfCoverageIsIncomplete) {
-  const std::vector<std::string> asked{
+  const std::vector<std::string> arguments{
       golden("gt.txt"), golden("est_drift.txt"), "--min-coverage=0.97"};
   const std::string why =
       "evaluated 635 of 657 poses over 100.0 % of the reference's time, below 97.0 %";
-  const Json results = eval_json(asked, kExitSomeCellsFailed);
+  const Json results = eval_json(arguments, kExitSomeCellsFailed);
   EXPECT_EQ(results["status"], "incomplete");
   EXPECT_EQ(results["why"], why);
   EXPECT_GT(find(results, "ate", "translation")["rmse"], 0.0);  // reported nevertheless
-  EXPECT_NE(eval(asked, kExitSomeCellsFailed).find("\nincomplete " + why + "\n"),
+  EXPECT_NE(eval(arguments, kExitSomeCellsFailed).find("\nincomplete " + why + "\n"),
             std::string::npos);
-  const Json enough = eval_json({asked[0], asked[1], "--min-coverage=0.96"});
+  const Json enough = eval_json({arguments[0], arguments[1], "--min-coverage=0.96"});
   EXPECT_EQ(enough["status"], "ok");
   const std::string table =
-      eval({asked[0], asked[1], golden("est_corrected.txt"), "--min-coverage=0.97"},
+      eval({arguments[0], arguments[1], golden("est_corrected.txt"), "--min-coverage=0.97"},
            kExitSomeCellsFailed);
   EXPECT_NE(table.find("est_corrected.txt: incomplete: " + why), std::string::npos) << table;
   EXPECT_NE(table.find(" incomplete |"), std::string::npos) << table;
-  EXPECT_THROW(eval({asked[0], asked[1], "--min-coverage=1.5"}), CLI::ParseError);
+  EXPECT_THROW(eval({arguments[0], arguments[1], "--min-coverage=1.5"}), CLI::ParseError);
 }
 
 TEST(Eval, WritesTheErrorOfEveryPose) {

@@ -40,9 +40,9 @@ class Formula final : public Curve {
 };
 
 /// A keyframe every 0.5 s for 4 s; the reference samples the formula with `rate`.
-EvaluatedCell made(double zero,
-                   const std::function<Vector3(double)>& position,
-                   double rate = 100.0) {
+EvaluatedCell formula_cell(double zero,
+                           const std::function<Vector3(double)>& position,
+                           double rate = 100.0) {
   const auto sampled = [&](double every) {
     std::vector<double> times;
     for (double k = 0.0; k * every <= 4.0 + 1e-9; ++k) times.push_back(zero + k * every);
@@ -61,7 +61,7 @@ EvaluatedCell made(double zero,
 class JumpsAt : public testing::TestWithParam<double> {};
 
 TEST_P(JumpsAt, ByHandOnPieces) {
-  const EvaluatedCell cell = made(GetParam(), [](double t) -> Vector3 {
+  const EvaluatedCell cell = formula_cell(GetParam(), [](double t) -> Vector3 {
     if (t < 2.0) return {t, t * t, 0.0};  // velocity (1, 4, 0), acceleration (0, 2, 0) at 2
     return {t + 3.0, 4.0, 4.0};           // velocity (1, 0, 0), acceleration 0
   });
@@ -79,7 +79,7 @@ TEST_P(JumpsAt, ByHandOnPieces) {
 INSTANTIATE_TEST_SUITE_P(Stamps, JumpsAt, testing::Values(0.0, 1305031910.765));
 
 TEST(Jumps, SmoothCurvesHaveNone) {
-  const EvaluatedCell cell = made(7.0, [](double t) -> Vector3 {
+  const EvaluatedCell cell = formula_cell(7.0, [](double t) -> Vector3 {
     return {std::sin(t), std::cos(0.7 * t), std::exp(0.2 * t)};
   });
   const auto scores = jumps(cell.evaluation, {.reach = 0.02});
@@ -128,7 +128,7 @@ TEST(Jumps, RefusesFilesAndShortCurves) {
 
 TEST(Jerk, ByHandOnACubic) {
   for (const double zero : {0.0, 1305031910.765}) {
-    const EvaluatedCell cell = made(zero, [](double t) -> Vector3 {
+    const EvaluatedCell cell = formula_cell(zero, [](double t) -> Vector3 {
       return {2.0 * t * t * t, t, -1.0};
     });
     const auto scores = jerk(cell.evaluation, {.rate = 10.0});
@@ -143,7 +143,7 @@ TEST(Jerk, ByHandOnACubic) {
 
 TEST(Jerk, LeavesOutStretchesOverAHoleInTheReference) {
   const auto cubic = [](double t) -> Vector3 { return {2.0 * t * t * t, t, -1.0}; };
-  const EvaluatedCell complete = made(0.0, cubic);
+  const EvaluatedCell complete = formula_cell(0.0, cubic);
   Trajectory holed;
   for (const StampedPose& pose : complete.reference) {
     if (pose.stamp < 1.005 || pose.stamp > 1.995) holed.push_back(pose);

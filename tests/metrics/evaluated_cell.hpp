@@ -15,12 +15,12 @@ using namespace metrics;
 struct EvaluatedCell {
   EvaluatedCell(Trajectory truth,
                 Problem given,
-                std::unique_ptr<const Curve> made,
+                std::unique_ptr<const Curve> estimate,
                 Times times,
                 const Protocol& protocol = {})
       : reference(std::move(truth)),
         problem(std::move(given)),
-        curve(std::move(made)),
+        curve(std::move(estimate)),
         at_keyframes(curve->sample(stamps(problem.keyframes))),
         evaluation(evaluate(reference,
                             *curve,

@@ -103,8 +103,8 @@ class ChainMaker {
     std::mt19937_64 bits(use.seed);
     const auto uniform = [&] { return static_cast<double>(bits() >> 11) * 0x1p-53; };
     const auto keyframes = static_cast<double>(complete.truth.size());
-    int made = 0;
-    for (int tries = 0; tries < 4000 && made < use.stretches; ++tries) {
+    int added = 0;
+    for (int tries = 0; tries < 4000 && added < use.stretches; ++tries) {
       const double share = use.shortest + (use.longest - use.shortest) * uniform();
       const auto length = static_cast<std::size_t>(share * keyframes);
       const auto begin =
@@ -125,7 +125,7 @@ class ChainMaker {
       }
       if (farthest < length / 4) continue;
       chains.push_back(stretch_of(complete, begin, length, kept));
-      chains.back().name = use.odometer + ", stretch " + std::to_string(++made);
+      chains.back().name = use.odometer + ", stretch " + std::to_string(++added);
     }
   }
 

@@ -17,14 +17,14 @@ double novelty(const FrameRelation& view, const KeyframeOptions& o) {
 }
 
 double novelty_due(const KeyframeOptions& o,
-                   std::size_t made,
+                   std::size_t selected,
                    std::size_t frame,
                    std::size_t frames) {
   if (o.target == 0 || frames < 2) return 1.0;
   constexpr double kFactor = 2.0;
   const double share = static_cast<double>(frame) / static_cast<double>(frames - 1);
   const double planned = 1.0 + share * static_cast<double>(o.target - 1);
-  return std::pow(kFactor, static_cast<double>(made) - planned);
+  return std::pow(kFactor, static_cast<double>(selected) - planned);
 }
 
 }  // namespace loopbench::rgbd

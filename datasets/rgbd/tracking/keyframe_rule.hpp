@@ -59,10 +59,10 @@ struct FrameRelation {
 double novelty(const FrameRelation& view, const KeyframeOptions& options);
 
 /// Novelty threshold for a new keyframe. With options.target it doubles for each keyframe (of
-/// `made`) above the number planned up to `frame` of `frames`, and halves for each missing one;
+/// `selected`) above the number planned up to `frame` of `frames`, and halves for each missing one;
 /// otherwise 1.
 double novelty_due(const KeyframeOptions& options,
-                   std::size_t made,
+                   std::size_t selected,
                    std::size_t frame,
                    std::size_t frames);
 
