@@ -33,7 +33,7 @@ set(order
   "methods/report"
   "methods/method"
   "methods/pipeline"
-  "methods/smoothers/parts methods/smoothers/stretches methods/smoothers/penalised"
+  "methods/smoothers/parts methods/smoothers/pose_runs methods/smoothers/penalised"
   "methods/smoothers/manifold/jet methods/smoothers/manifold/nodes"
   "methods/smoothers/manifold/frame"
   "methods/smoothers/manifold/families"

@@ -9,7 +9,7 @@
 #include "harness/config/protocol_choice.hpp"
 #include "harness/config/source_text.hpp"
 #include "harness/text/numbers.hpp"
-#include "metrics/pairing/pairs/stretch.hpp"
+#include "metrics/pairing/pairs/select_pairs.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -2,10 +2,10 @@
 
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/parts.hpp"
+#include "methods/smoothers/pose_runs.hpp"
 #include "methods/smoothers/position_and_rotation_curve.hpp"
 #include "methods/smoothers/spline/curve.hpp"
 #include "methods/smoothers/spline/interpolate.hpp"
-#include "methods/smoothers/stretches.hpp"
 
 namespace loopbench::methods {
 

@@ -8,7 +8,7 @@ namespace loopbench::methods {
 /// Positions: sum of N_j(t) c_j through every keyframe. Inner knots are means of k - 1 stamps, so
 /// no end condition is needed and polynomials of degree k - 1 are reproduced. Rotation: the
 /// cumulative spline on SO(3) through the keyframes, on the same knots; if it does not exist,
-/// splines through parts of the trajectory, joined by great arcs (stretches.hpp). C^{k-2} in time;
+/// splines through parts of the trajectory, joined by great arcs (pose_runs.hpp). C^{k-2} in time;
 /// order 2 is the polyline. With fewer than k keyframes the order is their number. Solves a banded
 /// system with k - 1 diagonals on each side: O(n k^2) to construct, O(k^2) amortised per query.
 /// Sources: de Boor, A Practical Guide to Splines, ch. XIII; Kim, Kim & Shin 1995.
@@ -22,7 +22,7 @@ class BSplineThrough final : public Smoother {
   std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `iterations` of the rotation solve, and `great_arcs` with a note if there are any.
-  /// Short intervals (stretches.hpp) are bridged by chords, with a note.
+  /// Short intervals (pose_runs.hpp) are bridged by chords, with a note.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:

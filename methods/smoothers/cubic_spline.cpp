@@ -6,9 +6,9 @@
 #include "datasets/core/knot_span.hpp"
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/parts.hpp"
+#include "methods/smoothers/pose_runs.hpp"
 #include "methods/smoothers/position_and_rotation_curve.hpp"
 #include "methods/smoothers/spline_controls.hpp"
-#include "methods/smoothers/stretches.hpp"
 
 namespace loopbench::methods {
 namespace {

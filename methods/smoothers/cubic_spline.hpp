@@ -22,7 +22,7 @@ class CubicSpline final : public Smoother {
 
   /// Counts: `iterations` of the rotation solve. If no rotation spline through all keyframes
   /// exists, splines through parts of them are joined by great arcs, with the count `great_arcs`
-  /// and a note. Short intervals (stretches.hpp) are bridged by chords, with a note.
+  /// and a note. Short intervals (pose_runs.hpp) are bridged by chords, with a note.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:

@@ -6,7 +6,7 @@
 #include "datasets/core/knot_span.hpp"
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/gp/evidence.hpp"
-#include "methods/smoothers/stretches.hpp"
+#include "methods/smoothers/pose_runs.hpp"
 
 namespace loopbench::methods {
 namespace {

@@ -10,10 +10,10 @@
 namespace loopbench::metrics {
 namespace {
 
-/// Consecutive keyframes at which the reference is defined.
-std::vector<Trajectory> stretches(const Trajectory& reference,
-                                  const std::vector<double>& keyframe_stamps,
-                                  double max_gap) {
+/// Runs of consecutive keyframes at which the reference is defined.
+std::vector<Trajectory> keyframe_runs(const Trajectory& reference,
+                                      const std::vector<double>& keyframe_stamps,
+                                      double max_gap) {
   std::vector<Trajectory> out(1);
   std::size_t after = 0;  // first reference pose not before the keyframe
   for (const double stamp : keyframe_stamps) {
@@ -78,7 +78,7 @@ std::vector<Score> interpolation_floor(const Evaluation& evaluation,
 
   Floor floor;
   std::size_t next = 0;
-  for (const Trajectory& nodes : stretches(reference, keyframe_stamps, options.max_gap)) {
+  for (const Trajectory& nodes : keyframe_runs(reference, keyframe_stamps, options.max_gap)) {
     add_run(floor, nodes, reference, next);
   }
   if (!floor.has_between) {

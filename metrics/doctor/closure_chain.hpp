@@ -46,7 +46,7 @@ double drift_of(const Edge& closure, const Chain& chain);
 /// Median of each part.
 SquaredError median_error(const std::vector<SquaredError>& all);
 
-/// Two closures between the same two stretches of the chain, so that the drift between these
+/// Two closures between the same two sections of the chain, so that the drift between these
 /// cancels.
 struct Neighbours {
   const Edge* a = nullptr;

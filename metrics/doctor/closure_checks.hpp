@@ -9,7 +9,7 @@
 namespace loopbench::metrics {
 
 /// Compares closures with the odometry, without a reference:
-/// - direction: neighbouring closures connect the same two stretches of the chain, so that the
+/// - direction: neighbouring closures connect the same two sections of the chain, so that the
 ///   drift between them cancels; if the inverses are much more consistent, closures are inverted.
 ///   Closures without neighbours are compared with the odometry, see inversion_log_ratio();
 /// - gaps: see check_gaps();

@@ -131,12 +131,12 @@ void require_pairs(std::size_t pairs,
                    const RpeOptions& options,
                    Measured measured) {
   if (pairs > 0 && static_cast<double>(pairs) >= min_pairs) return;
-  const std::string stretch = to_text(options.delta) + " " + to_text(options.unit);
+  const std::string delta = to_text(options.delta) + " " + to_text(options.unit);
   const std::string found = std::to_string(pairs) + (pairs == 1 ? " pair " : " pairs ");
   const std::string why =
       pairs == 0
-          ? "rpe: none of " + std::to_string(poses) + " poses is " + stretch + " before another"
-          : "rpe: found " + found + stretch + " apart among " + std::to_string(poses) +
+          ? "rpe: none of " + std::to_string(poses) + " poses is " + delta + " before another"
+          : "rpe: found " + found + delta + " apart among " + std::to_string(poses) +
                 " poses, fewer than min_pairs = " +
                 std::to_string(std::llround(std::ceil(min_pairs)));
   if (measured == Measured::reference) throw Undefined(why);
@@ -205,7 +205,7 @@ void check_protocol(const RpeOptions& options, const Protocol& protocol) {
 
 std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) {
   const Protocol& protocol = evaluation.protocol;
-  const PairDelta stretch{
+  const PairDelta pair_delta{
       options.delta, options.unit, options.tolerance.value_or(protocol.tolerance)};
   const PairRule rule = rule_of(options, protocol);
   if (uses_complete_files(rule)) {
@@ -213,7 +213,7 @@ std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) 
     const Alignment& alignment = evaluation.alignment;
     const auto most = static_cast<std::size_t>(protocol.max_pairs);
     const TumMotions tum =
-        rule == PairRule::tum ? tum_motions(complete, protocol.offset, alignment, stretch, most)
+        rule == PairRule::tum ? tum_motions(complete, protocol.offset, alignment, pair_delta, most)
                               : random_motions(complete, protocol.offset, alignment, most, options);
     const auto& [reference, estimate] = tum.poses;
     return scores({reference, estimate, tum.pairs, protocol, why_no_attitude(evaluation)},
@@ -230,7 +230,7 @@ std::vector<Score> rpe(const Evaluation& evaluation, const RpeOptions& options) 
       select_pairs(evaluation.reference,
                    is_of_reference ? evaluation.reference : evaluation.estimate,
                    rule,
-                   stretch);
+                   pair_delta);
   return scores({evaluation.reference,
                  evaluation.estimate,
                  pairs,

@@ -7,7 +7,7 @@
 #include "methods/smoothers/cubic_spline.hpp"
 #include "methods/smoothers/gaussian_process.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
-#include "methods/smoothers/stretches.hpp"
+#include "methods/smoothers/pose_runs.hpp"
 #include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 
@@ -52,7 +52,7 @@ std::pair<double, double> chord_deviation(const Curve& curve,
 constexpr GaussianProcess::Prior kPriors[] = {GaussianProcess::Prior::velocity,
                                               GaussianProcess::Prior::acceleration};
 
-TEST(Stretches, AreSplitAtTheGivenIntervals) {
+TEST(PoseRuns, AreSplitAtTheGivenIntervals) {
   EXPECT_EQ(runs_without_breaks(5, [](std::size_t i) { return i == 1 || i == 3; }),
             (std::vector<PoseRun>{{0, 1}, {2, 3}, {4, 4}}));
   EXPECT_EQ(runs_without_breaks(1, [](std::size_t) { return true; }),

@@ -141,7 +141,7 @@ TEST(Jerk, ByHandOnACubic) {
   }
 }
 
-TEST(Jerk, LeavesOutStretchesOverAHoleInTheReference) {
+TEST(Jerk, LeavesOutIntervalsAcrossAReferenceGap) {
   const auto cubic = [](double t) -> Vector3 { return {2.0 * t * t * t, t, -1.0}; };
   const EvaluatedCell complete = formula_cell(0.0, cubic);
   Trajectory holed;

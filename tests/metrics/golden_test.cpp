@@ -123,12 +123,12 @@ void tum_ate(const Json& row) {
   expect_same(find(ate(got, {}), "translation", "3d"), row["stats"], label(row));
 }
 
-RpeOptions tum_stretch(const Json& row) {
+RpeOptions tum_delta(const Json& row) {
   return {.delta = row["delta"], .unit = row["unit"] == "f" ? DeltaUnit::frames : DeltaUnit::s};
 }
 
 void tum_rpe(const Json& row) {
-  RpeOptions options = tum_stretch(row);
+  RpeOptions options = tum_delta(row);
   const Evaluation paired = evaluated(row, "tum", {});
   expect_same(find(rpe(paired, options), "translation", "3d"), row["trans"], label(row));
   options.relation = Relation::rotation_angle_rad;
@@ -138,7 +138,7 @@ void tum_rpe(const Json& row) {
 
 void tum_pairs_in_evos_form(const Json& row) {
   const Params form{{"form", std::string("evo")}};
-  const std::vector<Score> got = rpe(evaluated(row, "tum", form), tum_stretch(row));
+  const std::vector<Score> got = rpe(evaluated(row, "tum", form), tum_delta(row));
   expect_same(find(got, "translation", "3d"), row["trans"], label(row));
 }
 

@@ -40,7 +40,7 @@ Trajectory turning(const std::vector<double>& yaws) {
   return out;
 }
 
-TEST(Consecutive, FramesGoOneStretchAfterTheOther) {
+TEST(Consecutive, PairsOfFramesAreAdjacent) {
   EXPECT_EQ(consecutive_frames(8, 3), (Pairs{{0, 3}, {3, 6}}));
   EXPECT_EQ(consecutive_frames(3, 3), Pairs{});
 }
@@ -232,7 +232,7 @@ TEST(TumRandomMotions, DrawFromAHundredOn) {
   EXPECT_EQ(of_complete_estimate(few), Pairs(got.begin(), got.begin() + 7));
 }
 
-TEST(StretchPairs, RefuseWhatNoStretchCanBe) {
+TEST(SelectPairs, RejectsInvalidDeltas) {
   const Trajectory poses = turning({0.0, 1.0});
   const auto refusal = [&](double delta, DeltaUnit unit) {
     return why<OptionError>([&] { select_pairs(poses, poses, PairRule::all, {delta, unit, 0.1}); });

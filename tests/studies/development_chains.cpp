@@ -21,7 +21,7 @@ struct ChainUse {
   std::string odometer;
   std::string sequence;
   std::vector<std::size_t> loops;  ///< numbers of loops of the complete chain
-  int stretches = 0;
+  int sections = 0;
   std::uint64_t seed = 0;
   double shortest = 0.2;  ///< section length, relative to the chain
   double longest = 0.7;
@@ -96,15 +96,15 @@ class ChainMaker {
       chain.name = use.odometer + ", " + std::to_string(loops) + " loops";
       keep(chain.problem, subsample(problem.closures.size(), loops));
     }
-    add_stretches(use, complete);
+    add_sections(use, complete);
   }
 
-  void add_stretches(const ChainUse& use, const DevelopmentChain& complete) {
+  void add_sections(const ChainUse& use, const DevelopmentChain& complete) {
     std::mt19937_64 bits(use.seed);
     const auto uniform = [&] { return static_cast<double>(bits() >> 11) * 0x1p-53; };
     const auto keyframes = static_cast<double>(complete.truth.size());
     int added = 0;
-    for (int tries = 0; tries < 4000 && added < use.stretches; ++tries) {
+    for (int tries = 0; tries < 4000 && added < use.sections; ++tries) {
       const double share = use.shortest + (use.longest - use.shortest) * uniform();
       const auto length = static_cast<std::size_t>(share * keyframes);
       const auto begin =
@@ -124,12 +124,12 @@ class ChainMaker {
         farthest = std::max(farthest, loop.to - loop.from);
       }
       if (farthest < length / 4) continue;
-      chains.push_back(stretch_of(complete, begin, length, kept));
-      chains.back().name = use.odometer + ", stretch " + std::to_string(++added);
+      chains.push_back(section_of(complete, begin, length, kept));
+      chains.back().name = use.odometer + ", section " + std::to_string(++added);
     }
   }
 
-  static DevelopmentChain stretch_of(const DevelopmentChain& complete,
+  static DevelopmentChain section_of(const DevelopmentChain& complete,
                                      std::size_t begin,
                                      std::size_t length,
                                      const std::vector<std::size_t>& closures) {
@@ -197,11 +197,11 @@ void use_rooms(ChainMaker& make) {
                        const std::string& sequence,
                        const std::string& folder,
                        const std::string& file,
-                       int stretches,
+                       int sections,
                        std::uint64_t seed) {
     camera.estimate = "tum_rgbd/" + folder + "/" + file;
     camera.reference = "tum_rgbd/" + folder + "/groundtruth.txt";
-    make.use_trajectory({what, sequence, {1, 2, 4, 8}, stretches, seed, 0.3, 0.9}, camera);
+    make.use_trajectory({what, sequence, {1, 2, 4, 8}, sections, seed, 0.3, 0.9}, camera);
   };
   use("fr1_room, ORB-SLAM2", "fr1_room", "fr1_room", "orbslam2_rgbd_open_keyframes.txt", 10, 31);
   camera.keyframes = {KeyframeRule::every, 10};

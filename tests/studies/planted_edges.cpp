@@ -78,10 +78,10 @@ std::size_t pairs_of(const Problem& problem) {
   return metrics::neighbours_of(problem.closures, metrics::chain_of(problem)).size();
 }
 
-/// Without two closures between the same stretches, the drift hides how exact closures are.
+/// Without two closures between the same sections, the drift hides how exact closures are.
 std::string unless_isolated(const Problem& problem) {
   return pairs_of(problem) == 0
-             ? "no two closures connect the same stretches, so that none can be compared"
+             ? "no two closures connect the same sections, so that none can be compared"
              : "";
 }
 
@@ -91,7 +91,7 @@ std::string unless_few_pairs(const Problem& problem) {
   const std::size_t pairs = pairs_of(problem);
   return pairs < kFewest
              ? fmt::format(
-                   "{} pairs of closures connect the same stretches, too few to single out "
+                   "{} pairs of closures connect the same sections, too few to single out "
                    "a closure",
                    pairs)
              : "";

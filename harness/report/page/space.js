@@ -2,15 +2,15 @@
 (() => {
   "use strict";
   const R = window.R;
-  const view = { turn: -0.65, tilt: 0.5, zoom: 1, stretch: 1 };
-  let stretchedFor = null;
+  const view = { turn: -0.65, tilt: 0.5, zoom: 1, heightScale: 1 };
+  let scaledFor = null;
   const kWidth = 600, kHeight = 470;
 
   const draw = (svg, scene) => {
     const { middle, reference, methods, traces } = scene;
     const [ct, st, cp, sp] = [Math.cos(view.turn), Math.sin(view.turn), Math.cos(view.tilt), Math.sin(view.tilt)];
     const seen = (x, y, z) => {
-      const [a, b, c] = [x - middle[0], y - middle[1], (z - middle[2]) * view.stretch];
+      const [a, b, c] = [x - middle[0], y - middle[1], (z - middle[2]) * view.heightScale];
       const right = a * ct - b * st, deep = a * st + b * ct;
       return [right, c * cp + deep * sp];
     };
@@ -43,7 +43,7 @@
     };
     axis([x2, y1, floor], `x, ${R.number(step)} m per square`);
     axis([x1, y2, floor], "y");
-    axis([x1, y1, scene.z[1]], `z, ${d3.format(".2~g")(scene.z[1] - scene.z[0])} m` + (view.stretch === 1 ? "" : ` (× ${view.stretch})`));
+    axis([x1, y1, scene.z[1]], `z, ${d3.format(".2~g")(scene.z[1] - scene.z[0])} m` + (view.heightScale === 1 ? "" : ` (× ${view.heightScale})`));
     svg.append("path").attr("class", "band").attr("d", along(reference));
     methods.forEach((m, i) => svg.append("path").attr("class", "curve").attr("d", along(traces[i]))
       .style("stroke", R.color(m.place)).attr("stroke-dasharray", R.dash(m.place)).append("title").text(m.label));
@@ -69,11 +69,11 @@
       x, y, z, reference, methods, traces,
       middle: [x, y, z].map((d) => (d[0] + d[1]) / 2),
     };
-    // Stretches heights of nearly planar trajectories; the z axis shows the factor.
-    if (stretchedFor !== s) {
+    // Scales heights of nearly planar trajectories; the z axis shows the factor.
+    if (scaledFor !== s) {
       const wide = Math.max(x[1] - x[0], y[1] - y[0]);
-      view.stretch = Math.max(1, Math.min(20, Math.round((0.15 * wide) / Math.max(z[1] - z[0], 1e-9))));
-      stretchedFor = s;
+      view.heightScale = Math.max(1, Math.min(20, Math.round((0.15 * wide) / Math.max(z[1] - z[0], 1e-9))));
+      scaledFor = s;
     }
     const svg = d3.select(host).append("svg").attr("viewBox", `0 0 ${kWidth} ${kHeight}`).attr("role", "img")
       .attr("aria-label", `Trajectories of ${R.scores.sequences[s]} in 3-D; arrow keys rotate`)
@@ -105,7 +105,7 @@
     again();
     R.methodLegend(host, methods);
     const label = d3.select(host).append("label").attr("class", "field").text("heights ×");
-    label.append("input").attr("type", "range").attr("min", 1).attr("max", 20).property("value", view.stretch)
-      .on("input", (e) => { view.stretch = Number(e.target.value); again(); });
+    label.append("input").attr("type", "range").attr("min", 1).attr("max", 20).property("value", view.heightScale)
+      .on("input", (e) => { view.heightScale = Number(e.target.value); again(); });
   });
 })();

@@ -3,7 +3,7 @@
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/manifold/dm_report.hpp"
 #include "methods/smoothers/manifold/regression.hpp"
-#include "methods/smoothers/stretches.hpp"
+#include "methods/smoothers/pose_runs.hpp"
 
 namespace loopbench::methods {
 

@@ -27,7 +27,7 @@ class Dm final : public Smoother {
   /// segments and, if the stage is enabled, windows, split_windows, fallbacks, refused_families,
   /// mean_window_nodes, spatial_windows, spatial_truncated, spatial_fallbacks; and the largest
   /// jumps at nodes (see Continuity). Fewer than three nodes give the polyline. Segments separated
-  /// by intervals above `chord_above`, or short ones (stretches.hpp), are smoothed separately and
+  /// by intervals above `chord_above`, or short ones (pose_runs.hpp), are smoothed separately and
   /// joined by chords (smooth_segments()).
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 

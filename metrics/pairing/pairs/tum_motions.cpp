@@ -108,12 +108,12 @@ std::size_t tum_closest_index(const std::vector<double>& sorted, double wanted) 
 TumMotions tum_motions(const Paired& complete,
                        double offset,
                        const Alignment& alignment,
-                       const PairDelta& stretch,
+                       const PairDelta& pair_delta,
                        std::size_t max_pairs) {
-  const std::vector<double> index = measure(complete.estimate, stretch.unit);
+  const std::vector<double> index = measure(complete.estimate, pair_delta.unit);
   std::vector<std::size_t> ends(index.size());
   parallel_for_blocks(ends.size(), [&](std::size_t i, std::size_t end) {
-    for (; i < end; ++i) ends[i] = tum_closest_index(index, index[i] + stretch.delta);
+    for (; i < end; ++i) ends[i] = tum_closest_index(index, index[i] + pair_delta.delta);
   });
   std::vector<FromTo> pairs;
   pairs.reserve(ends.size());

@@ -3,7 +3,7 @@
 
 #include "metrics/alignment/alignment.hpp"
 #include "metrics/pairing/association.hpp"
-#include "metrics/pairing/pairs/stretch.hpp"
+#include "metrics/pairing/pairs/select_pairs.hpp"
 
 namespace loopbench::metrics {
 
@@ -25,7 +25,7 @@ struct TumMotions {
 TumMotions tum_motions(const Paired& complete,
                        double offset,
                        const Alignment& alignment,
-                       const PairDelta& stretch,
+                       const PairDelta& pair_delta,
                        std::size_t max_pairs);
 
 /// The tool's mode without --fixed_delta: `max_pairs` pairs (i, j) drawn from all poses of the

@@ -1,4 +1,4 @@
-#include "metrics/pairing/pairs/stretch.hpp"
+#include "metrics/pairing/pairs/select_pairs.hpp"
 
 #include <cmath>
 
@@ -11,14 +11,14 @@ namespace loopbench::metrics {
 namespace {
 
 /// A whole number of frames; nullopt if no list can be that long.
-std::size_t frames(const PairDelta& stretch, std::size_t size) {
-  check(stretch);
-  return static_cast<std::size_t>(std::min(stretch.delta, static_cast<double>(size)));
+std::size_t frames(const PairDelta& pair_delta, std::size_t size) {
+  check(pair_delta);
+  return static_cast<std::size_t>(std::min(pair_delta.delta, static_cast<double>(size)));
 }
 
-double radians(const PairDelta& stretch) {
-  check(stretch);
-  return stretch.unit == DeltaUnit::deg ? stretch.delta / kDegrees : stretch.delta;
+double radians(const PairDelta& pair_delta) {
+  check(pair_delta);
+  return pair_delta.unit == DeltaUnit::deg ? pair_delta.delta / kDegrees : pair_delta.delta;
 }
 
 std::vector<double> step_lengths(const Trajectory& poses) {
@@ -32,16 +32,16 @@ std::vector<double> step_lengths(const Trajectory& poses) {
 
 }  // namespace
 
-void check(const PairDelta& stretch) {
-  const double delta = stretch.delta;
+void check(const PairDelta& pair_delta) {
+  const double delta = pair_delta.delta;
   const auto refuse = [&](const std::string& why) {
     return OptionError("delta", "delta = " + to_text(delta) + ": " + why);
   };
-  if (stretch.unit == DeltaUnit::frames && delta != std::floor(delta)) {
+  if (pair_delta.unit == DeltaUnit::frames && delta != std::floor(delta)) {
     throw refuse("expected a whole number of frames");
   }
-  const bool is_angle = stretch.unit == DeltaUnit::deg || stretch.unit == DeltaUnit::rad;
-  const double angle = stretch.unit == DeltaUnit::deg ? delta / kDegrees : delta;
+  const bool is_angle = pair_delta.unit == DeltaUnit::deg || pair_delta.unit == DeltaUnit::rad;
+  const double angle = pair_delta.unit == DeltaUnit::deg ? delta / kDegrees : delta;
   if (is_angle && angle > std::numbers::pi) throw refuse("expected at most 180 degrees");
 }
 
@@ -58,29 +58,30 @@ std::vector<double> rotation_angles(const Trajectory& trajectory, AngleFormula f
 std::vector<FromTo> select_pairs(const Trajectory& reference,
                                  const Trajectory& measured,
                                  PairRule rule,
-                                 const PairDelta& stretch) {
+                                 const PairDelta& pair_delta) {
   const bool is_all = rule == PairRule::all;
-  const double delta = stretch.delta;
-  switch (stretch.unit) {
+  const double delta = pair_delta.delta;
+  switch (pair_delta.unit) {
     case DeltaUnit::frames: {
       const std::size_t n = reference.size();
-      const std::size_t d = frames(stretch, n);
+      const std::size_t d = frames(pair_delta, n);
       return is_all ? pairs_by_frames(n, d) : consecutive_frames(n, d);
     }
     case DeltaUnit::s:
-      if (is_all) return pairs_by_measure(stamps(reference), delta, stretch.tolerance * delta);
-      return consecutive_seconds(stamps(reference), delta, stretch.tolerance * delta);
+      if (is_all) return pairs_by_measure(stamps(reference), delta, pair_delta.tolerance * delta);
+      return consecutive_seconds(stamps(reference), delta, pair_delta.tolerance * delta);
     case DeltaUnit::m:
       if (is_all) {
-        return pairs_by_measure(accumulated_distances(measured), delta, stretch.tolerance * delta);
+        return pairs_by_measure(
+            accumulated_distances(measured), delta, pair_delta.tolerance * delta);
       }
       return consecutive_by_measure(step_lengths(measured), delta, FirstPose::left_out);
     case DeltaUnit::deg:
     case DeltaUnit::rad:
       break;
   }
-  const double angle = radians(stretch);
-  if (is_all) return angle_pairs(measured, angle, stretch.tolerance * angle);
+  const double angle = radians(pair_delta);
+  if (is_all) return angle_pairs(measured, angle, pair_delta.tolerance * angle);
   return consecutive_by_measure(
       rotation_angles(measured, AngleFormula::rotation_vector), angle, FirstPose::starts);
 }

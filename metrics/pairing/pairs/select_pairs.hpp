@@ -22,7 +22,7 @@ struct PairDelta {
 };
 
 /// Throws OptionError for a fractional number of frames or an angle beyond 180 degrees.
-void check(const PairDelta& stretch);
+void check(const PairDelta& pair_delta);
 
 /// Rule `all`: every i with one j by frames, seconds or metres (pair_search.hpp), or every j
 /// rotated by delta within the tolerance for deg and rad (angle_pairs.hpp). Rule `consecutive`: see
@@ -31,7 +31,7 @@ void check(const PairDelta& stretch);
 std::vector<FromTo> select_pairs(const Trajectory& reference,
                                  const Trajectory& measured,
                                  PairRule rule,
-                                 const PairDelta& stretch);
+                                 const PairDelta& pair_delta);
 
 /// Rotation from each pose to the one before it [rad]; 0 for the first.
 std::vector<double> rotation_angles(const Trajectory& trajectory, AngleFormula formula);

@@ -1,4 +1,4 @@
-#include "methods/smoothers/stretches.hpp"
+#include "methods/smoothers/pose_runs.hpp"
 
 #include <fmt/format.h>
 
@@ -43,9 +43,9 @@ class JoinedCurve final : public Curve {
   std::vector<double> begins_;  ///< start of each piece, and the end of the last
 };
 
-Trajectory part_of(const Trajectory& poses, const PoseRun& stretch) {
-  const auto begin = poses.begin() + static_cast<std::ptrdiff_t>(stretch.first);
-  return {begin, begin + static_cast<std::ptrdiff_t>(stretch.last - stretch.first + 1)};
+Trajectory part_of(const Trajectory& poses, const PoseRun& run) {
+  const auto begin = poses.begin() + static_cast<std::ptrdiff_t>(run.first);
+  return {begin, begin + static_cast<std::ptrdiff_t>(run.last - run.first + 1)};
 }
 
 double step_angle(const Trajectory& poses, std::size_t i) {
@@ -55,23 +55,23 @@ double step_angle(const Trajectory& poses, std::size_t i) {
 using Solve = std::function<std::unique_ptr<const Curve>(const Trajectory&)>;
 
 void add_rotations(const Trajectory& poses,
-                   const PoseRun& stretch,
+                   const PoseRun& run,
                    const Solve& solve,
                    std::vector<std::unique_ptr<const Curve>>& parts) {
-  if (stretch.first == stretch.last) {
-    parts.push_back(std::make_unique<Polyline>(part_of(poses, stretch)));
+  if (run.first == run.last) {
+    parts.push_back(std::make_unique<Polyline>(part_of(poses, run)));
     return;
   }
-  if (auto curve = solve(part_of(poses, stretch))) {
+  if (auto curve = solve(part_of(poses, run))) {
     parts.push_back(std::move(curve));
     return;
   }
-  std::size_t largest = stretch.first;
-  for (std::size_t i = stretch.first; i < stretch.last; ++i) {
+  std::size_t largest = run.first;
+  for (std::size_t i = run.first; i < run.last; ++i) {
     if (step_angle(poses, i) > step_angle(poses, largest)) largest = i;
   }
-  add_rotations(poses, {stretch.first, largest}, solve, parts);
-  add_rotations(poses, {largest + 1, stretch.last}, solve, parts);
+  add_rotations(poses, {run.first, largest}, solve, parts);
+  add_rotations(poses, {largest + 1, run.last}, solve, parts);
 }
 
 }  // namespace
@@ -121,13 +121,13 @@ std::unique_ptr<const Curve> smooth_segments(
   std::vector<std::unique_ptr<const Curve>> parts;
   std::vector<Count> counts;
   std::size_t longest = 0;
-  for (const PoseRun& stretch : runs) {
+  for (const PoseRun& run : runs) {
     Report part_report;
-    parts.push_back(smooth(part_of(poses, stretch), part_report));
+    parts.push_back(smooth(part_of(poses, run), part_report));
     std::ranges::move(part_report.phases, std::back_inserter(report.phases));
     std::ranges::move(part_report.sections, std::back_inserter(report.sections));
     std::ranges::move(part_report.notes, std::back_inserter(report.notes));
-    const std::size_t size = stretch.last - stretch.first + 1;
+    const std::size_t size = run.last - run.first + 1;
     if (size > longest) {
       longest = size;
       counts = std::move(part_report.counts);
@@ -164,7 +164,7 @@ std::unique_ptr<const Curve> interpolate_rotations_in_parts(const Trajectory& po
   std::vector<std::unique_ptr<const Curve>> parts;
   const auto cut = runs_without_breaks(
       poses.size(), [&](std::size_t i) { return step_angle(poses, i) > kLarge; });
-  for (const PoseRun& stretch : cut) add_rotations(poses, stretch, solve, parts);
+  for (const PoseRun& run : cut) add_rotations(poses, run, solve, parts);
   report.count("great_arcs", static_cast<double>(parts.size() - 1));
   report.notes.push_back(fmt::format(
       "no rotation spline through all keyframes exists: {} of {} intervals are great arcs",
