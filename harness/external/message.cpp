@@ -48,7 +48,7 @@ void add_edges(Values& out, const std::vector<Edge>& edges) {
 
 }  // namespace
 
-std::string question(const Problem& problem, ResultPoses output, std::uint64_t number) {
+std::string request(const Problem& problem, ResultPoses output, std::uint64_t number) {
   const auto changes_scale = [](const Edge& edge) { return edge.scale != 1.0; };
   const bool similarity = std::ranges::any_of(problem.odometry, changes_scale) ||
                           std::ranges::any_of(problem.closures, changes_scale);
@@ -92,7 +92,7 @@ void check_header(const MessageHeader& header, std::uint64_t number, std::size_t
   }
   if (header.number != number) {
     throw std::runtime_error(
-        fmt::format("the program answered question {}, expected {}", header.number, number));
+        fmt::format("the program answered request {}, expected {}", header.number, number));
   }
   const std::uint64_t most =
       kMostData + kMostPosesPerKeyframe * kPoseColumns * sizeof(double) * keyframes;

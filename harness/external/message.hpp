@@ -2,9 +2,9 @@
 ///
 /// A message is 32 bytes, little endian: the magic "LBEXCH01", its number, the size of its text and
 /// the size of its data [bytes]; then the text, a JSON object; then the data, rows of float64 one
-/// array after another. An answer has the number of its question.
+/// array after another. An answer has the number of its request.
 ///
-/// Question: {exchange: 1, planar, similarity, output: keyframes | dense,
+/// Request: {exchange: 1, planar, similarity, output: keyframes | dense,
 ///   arrays: [[name, rows, columns], ...]} with the arrays
 ///   keyframes, frames    8 columns: stamp x y z qx qy qz qw
 ///   odometry, closures  46 columns: from to x y z qx qy qz qw scale, then the 36 elements of the
@@ -27,8 +27,8 @@ struct MessageHeader {
 };
 static_assert(sizeof(MessageHeader) == 32);
 
-/// The complete bytes of a question. O(keyframes + frames + edges).
-std::string question(const Problem& problem, ResultPoses output, std::uint64_t number);
+/// The complete bytes of a request. O(keyframes + frames + edges).
+std::string request(const Problem& problem, ResultPoses output, std::uint64_t number);
 
 /// Throws std::runtime_error if the header of an answer is not one, has another number, or states
 /// sizes beyond the limits.

@@ -65,7 +65,7 @@ class Server {
                  ResultMetadata& metadata,
                  std::string& errors) {
     const std::uint64_t number = ++turn_->requested;
-    unsent_ = question(problem, output, number);
+    unsent_ = request(problem, output, number);
     received_.clear();
     errors_ = &errors;
     MessageHeader header;
@@ -202,7 +202,7 @@ Trajectory ask_server(const CommandOptions& options,
   const double all = elapsed();
   const bool is_stated = metadata.seconds >= 0.0 && metadata.seconds <= all;
   report.notes.emplace_back(is_stated ? "time: as stated by the program"
-                                      : "time: from question to answer");
+                                      : "time: from request to answer");
   report.phases.push_back({kExchangePhase, is_stated ? all - metadata.seconds : started});
   return out;
 }

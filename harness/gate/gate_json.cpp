@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Identification of a score, without its numbers.
-Json question(const GateScore& s) {
+Json requested_score_json(const GateScore& s) {
   Json out{{"protocol", s.protocol},
            {"times", s.times},
            {"metric", s.metric},
@@ -35,12 +35,12 @@ Json head(const GateCell& cell) {
 }
 
 Json cell_json(const GateCell& cell,
-               const std::vector<GateScore>& questions,
+               const std::vector<GateScore>& requested_scores,
                const std::vector<std::string>& statistics) {
   Json out = head(cell);
   if (cell.scores.empty()) return out;
   std::vector<const GateScore*> found;
-  for (const GateScore& requested : questions) {
+  for (const GateScore& requested : requested_scores) {
     const auto same = std::ranges::find(
         cell.scores, name(requested), [](const GateScore& score) { return name(score); });
     found.push_back(same == cell.scores.end() ? nullptr : &*same);
@@ -94,11 +94,11 @@ std::vector<std::string> compared_statistics(const std::vector<Tolerance>& limit
 }  // namespace
 
 std::string json(const Baseline& baseline) {
-  std::vector<GateScore> questions;
+  std::vector<GateScore> requested_scores;
   std::map<std::string, bool> seen;
   for (const GateCell& cell : baseline.snapshot.cells) {
     for (const GateScore& score : cell.scores) {
-      if (seen.emplace(name(score), true).second) questions.push_back(score);
+      if (seen.emplace(name(score), true).second) requested_scores.push_back(score);
     }
   }
   const std::vector<std::string> statistics = compared_statistics(baseline.limits);
@@ -114,10 +114,10 @@ std::string json(const Baseline& baseline) {
   std::vector<Json> limits;
   for (const Tolerance& limit : baseline.limits) limits.push_back(written(limit));
   std::vector<Json> scores;
-  for (const GateScore& score : questions) scores.push_back(question(score));
+  for (const GateScore& score : requested_scores) scores.push_back(requested_score_json(score));
   std::vector<Json> cells;
   for (const GateCell& cell : baseline.snapshot.cells) {
-    cells.push_back(cell_json(cell, questions, statistics));
+    cells.push_back(cell_json(cell, requested_scores, statistics));
   }
   const Snapshot& snapshot = baseline.snapshot;
   std::string out = fmt::format("{{\n\"loopbench_baseline\": {},\n", kBaselineFormat);

@@ -43,7 +43,7 @@ class BaselineReader {
     out.snapshot.metrics = texts(root, "metrics");
     out.snapshot.methods = texts(root, "methods");
     each(root, "scores", [&](const Json& entry, const std::string& at) {
-      questions_.push_back(question(entry, at));
+      requested_scores_.push_back(requested_score(entry, at));
     });
     each(root, "cells", [&](const Json& entry, const std::string& at) {
       out.snapshot.cells.push_back(cell(entry, at, out.limits));
@@ -161,7 +161,7 @@ class BaselineReader {
     return out;
   }
 
-  GateScore question(const Json& node, const std::string& at) const {
+  GateScore requested_score(const Json& node, const std::string& at) const {
     GateScore out;
     out.protocol = text(node, "protocol", at);
     out.times = text(node, "times", at);
@@ -185,8 +185,9 @@ class BaselineReader {
 
   const Json& list(const Json& node, const std::string& key, const std::string& at) const {
     const Json& found = member(node, key, at);
-    if (!found.is_array() || found.size() != questions_.size()) {
-      reject(at + "." + key, fmt::format("expected a list of {}, as scores", questions_.size()));
+    if (!found.is_array() || found.size() != requested_scores_.size()) {
+      reject(at + "." + key,
+             fmt::format("expected a list of {}, as scores", requested_scores_.size()));
     }
     return found;
   }
@@ -208,7 +209,7 @@ class BaselineReader {
                   std::size_t i,
                   const std::string& at,
                   const std::vector<Tolerance>& limits) const {
-    GateScore out = questions_[i];
+    GateScore out = requested_scores_[i];
     out.pairs = integer(node, "pairs", i, at);
     out.possible = integer(node, node.contains("possible") ? "possible" : "pairs", i, at);
     out.count = integer(node, node.contains("counts") ? "counts" : "pairs", i, at);
@@ -242,14 +243,14 @@ class BaselineReader {
     out.status = status_of(member(node, "status", at), at + ".status");
     if (!node.contains("pairs")) return out;
     const Json& pairs = list(node, "pairs", at);
-    for (std::size_t i = 0; i < questions_.size(); ++i) {
+    for (std::size_t i = 0; i < requested_scores_.size(); ++i) {
       if (!pairs[i].is_null()) out.scores.push_back(score(node, i, at, limits));
     }
     return out;
   }
 
   std::string file_;
-  std::vector<GateScore> questions_;
+  std::vector<GateScore> requested_scores_;
 };
 
 }  // namespace

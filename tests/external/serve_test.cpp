@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Misbehaviour{"flood", "failed", "exited with code 4"},
                     Misbehaviour{"grow", "out_of_memory", "grew to"},
                     Misbehaviour{"print", "failed", "something else than an answer"},
-                    Misbehaviour{"number", "failed", "answered question 3, expected 2"},
+                    Misbehaviour{"number", "failed", "answered request 3, expected 2"},
                     Misbehaviour{"counts", "failed", "has 29 poses, expected 30"},
                     Misbehaviour{"nan", "failed", "is not finite"},
                     Misbehaviour{"stamps", "failed", "has stamp"},
@@ -92,7 +92,7 @@ TEST(Server, AnswersForkedProcessesAndRecoversFromTheirEnd) {
   prepare_server(options, {});
   EXPECT_TRUE(asks_in_a_child(options, problem));
   prepare_server(options, {});
-  EXPECT_FALSE(asks_in_a_child(options, problem, true)) << "the second question hangs";
+  EXPECT_FALSE(asks_in_a_child(options, problem, true)) << "the second request hangs";
   prepare_server(options, {});  // starts it again
   EXPECT_TRUE(asks_in_a_child(options, problem));
 }

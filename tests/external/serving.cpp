@@ -1,5 +1,5 @@
 // A serving program without dependencies: answers with the keyframes, or misbehaves at its second
-// question in the way that its argument names.
+// request in the way that its argument names.
 #include <unistd.h>
 
 #include <cstdint>
