@@ -31,7 +31,7 @@ class BaselineReader {
                          kBaselineFormat));
     }
     Baseline out;
-    // Version 0.1 wrote it as made_by.
+    // Older baselines call it made_by.
     const bool has_old_key = root.contains("made_by") && !root.contains("build_summary");
     out.build_summary = texts(root, has_old_key ? "made_by" : "build_summary");
     out.limits = limits(root);

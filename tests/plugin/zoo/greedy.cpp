@@ -12,7 +12,7 @@ constexpr std::size_t kBlock = std::size_t{16} << 20;  // [bytes]
 
 void allocate(int blocks) {
   for (int i = 0; i < blocks; ++i) {
-    char* lost = new char[kBlock];
+    char* volatile lost = new char[kBlock];  // volatile: compilers leave out unused allocations
     std::memset(lost, i, kBlock);
   }
 }
