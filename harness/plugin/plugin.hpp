@@ -44,7 +44,7 @@ struct Plugin {
 /// dataset<Options>("name", "what it reads", load), metric<Options>("name", "what it measures",
 /// score))
 #define LOOPBENCH_PLUGIN(...)                                               \
-  extern "C" const loopbench::harness::Plugin* loopbench_plugin() {         \
+  extern "C" const void* loopbench_plugin() {                               \
     static const loopbench::harness::Plugin plugin{                         \
         {}, [] {                                                            \
           using namespace loopbench;          /* dataset */                 \

@@ -206,8 +206,8 @@ TEST(Matching, NearTakesEachFeatureOnceAndTheOneThatLooksLikeIt) {
   ASSERT_EQ(matches.size(), 1u);
   EXPECT_EQ(matches[0].a, 1u);  // descriptor row 0 is equal, row 1 differs slightly
   EXPECT_EQ(matches[0].b, 0u);
-  EXPECT_TRUE(
-      match_guided(points, all, query, camera, {{}, Vector3(1.0, 0.0, 0.0)}, 10.0, {}).empty());
+  const Pose aside{Rotation::Identity(), Vector3(1.0, 0.0, 0.0)};
+  EXPECT_TRUE(match_guided(points, all, query, camera, aside, 10.0, {}).empty());
 }
 
 TEST(LocalMap, ForgetsWhatNoKeyframeOfTheWindowSaw) {

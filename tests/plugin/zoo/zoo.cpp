@@ -14,7 +14,7 @@ std::vector<harness::PluginEntry> all() {
 }  // namespace
 }  // namespace loopbench::zoo
 
-extern "C" const loopbench::harness::Plugin* loopbench_plugin() {
+extern "C" const void* loopbench_plugin() {
   static const loopbench::harness::Plugin plugin{{}, loopbench::zoo::all};
   return &plugin;
 }
