@@ -1,5 +1,5 @@
-/// LOOPBENCH_SANITIZED is defined in builds whose sanitizer brings its own malloc and ends processes
-/// itself. GCC and clang announce sanitizers differently.
+/// LOOPBENCH_SANITIZED is defined in builds whose sanitizer brings its own malloc and ends
+/// processes itself. GCC and clang announce sanitizers differently.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
