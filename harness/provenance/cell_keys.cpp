@@ -79,7 +79,7 @@ CellKeys::CellKeys(const Sweep& sweep, const Catalogue& catalogue, DataRoot root
     methods_.push_back(of_method(choice, sweep, catalogue));
 }
 
-const std::string& CellKeys::asked(const Cell& cell) {
+const std::string& CellKeys::configuration_hash(const Cell& cell) {
   const auto [found, fresh] = asked_.try_emplace({cell.dataset, cell.repeat});
   if (!fresh) return found->second;
   const DatasetChoice& choice = sweep_.datasets[cell.dataset];
@@ -144,14 +144,14 @@ std::vector<InputFile> CellKeys::current_inputs(const Cell& cell,
 
 std::string CellKeys::sequence_key(const Cell& cell, const std::vector<InputFile>& inputs) {
   Fields fields;
-  fields.add(build_).add(asked(cell));
+  fields.add(build_).add(configuration_hash(cell));
   for (const InputFile& input : inputs) fields.add(input.hash);
   return fields.hashed();
 }
 
 std::string CellKeys::key(const Cell& cell, const std::vector<InputFile>& inputs) {
   Fields fields;
-  fields.add(build_).add(asked(cell)).add(methods_[cell.method]).add(evaluation_);
+  fields.add(build_).add(configuration_hash(cell)).add(methods_[cell.method]).add(evaluation_);
   for (const InputFile& input : inputs) fields.add(input.hash);
   return fields.hashed();
 }

@@ -24,7 +24,7 @@ class CellKeys {
   CellKeys(const Sweep& sweep, const Catalogue& catalogue, DataRoot root, std::string build);
 
   /// Hash of a cell's sequence as configured: dataset, options, seed and group.
-  const std::string& asked(const Cell& cell);
+  const std::string& configuration_hash(const Cell& cell);
 
   /// The same as text: "simulated: closures.angle=30.0, ..." with all options.
   std::string dataset_text(const Cell& cell) const;

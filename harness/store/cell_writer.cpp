@@ -34,12 +34,12 @@ void remove_cell(Database& database, std::int64_t id) {
 
 CellWriter::CellWriter(Database& database, std::string provenance_key)
     : database_(database),
-      made_(std::move(provenance_key)),
+      provenance_key_(std::move(provenance_key)),
       remove_(database.prepare("SELECT id, digest FROM cell WHERE position = ?")),
       cell_(database.prepare(
-          "INSERT INTO cell (position, key, build, sequence_key, made, sequence, repeat, method, "
-          "dataset_options, "
-          "method_options, closures, oracle_closures, oracle, worker, runs, seconds_median, "
+          "INSERT INTO cell (position, key, build, sequence_key, provenance_key, sequence, repeat, "
+          "method, dataset_options, method_options, closures, oracle_closures, oracle, worker, "
+          "runs, seconds_median, "
           "seconds_min, seconds_max, cpu_seconds_median, peak_memory, added_memory, allocations, "
           "status, signal, why, failed_scores) VALUES "
           "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
@@ -107,7 +107,7 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
       .bind(keys.key(result.cell, metadata.inputs))
       .bind(keys.build())
       .bind(keys.sequence_key(result.cell, metadata.inputs))
-      .bind(made_)
+      .bind(provenance_key_)
       .bind(dataset.label)
       .bind(std::int64_t{result.cell.repeat})
       .bind(method.label)
@@ -186,11 +186,11 @@ void CellWriter::write_metadata(const Cell& cell,
   stored.reset();
   database_
       .prepare(
-          "INSERT OR REPLACE INTO sequence (sequence_key, asked, options, keyframes, odometry, "
-          "closures, frames, "
-          "reference, content, group_name) VALUES (?,?,?,?,?,?,?,?,?,?)")
+          "INSERT OR REPLACE INTO sequence (sequence_key, configuration_hash, options, keyframes, "
+          "odometry, closures, frames, reference, content, group_name) VALUES "
+          "(?,?,?,?,?,?,?,?,?,?)")
       .bind(sequence_key)
-      .bind(keys.asked(cell))
+      .bind(keys.configuration_hash(cell))
       .bind(keys.dataset_text(cell))
       .bind(size.keyframes)
       .bind(size.odometry)

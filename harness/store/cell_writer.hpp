@@ -28,7 +28,7 @@ class CellWriter {
   void write_metadata(const Cell& cell, CellKeys& keys, const SequenceMetadata& metadata);
 
   Database& database_;
-  std::string made_;
+  std::string provenance_key_;
   Statement remove_;
   Statement cell_;
   Statement scores_;

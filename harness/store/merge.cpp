@@ -192,8 +192,9 @@ class Merge {
   void add_sequences() {
     Statement other = database_.prepare(
         "SELECT s.path FROM source.input s JOIN source.sequence t USING (sequence_key) JOIN "
-        "main.sequence n ON n.asked = t.asked JOIN main.input m ON m.sequence_key = n.sequence_key "
-        "AND m.number = s.number WHERE s.hash <> m.hash AND t.sequence_key IN (SELECT sequence_key "
+        "main.sequence n USING (configuration_hash) JOIN main.input m ON m.sequence_key = "
+        "n.sequence_key AND m.number = s.number WHERE s.hash <> m.hash AND t.sequence_key IN "
+        "(SELECT sequence_key "
         "FROM source.cell WHERE position IS NOT NULL) LIMIT 1");
     if (other.step()) {
       throw InputError(store_ + ": was computed from a different " + other.text() +
@@ -226,8 +227,8 @@ class Merge {
         "char(10) || excluded.value END WHERE key <> 'baseline' AND instr(char(10) || value || "
         "char(10), char(10) || excluded.value || char(10)) = 0");
     database_.execute(
-        "INSERT OR IGNORE INTO main.provenance SELECT * FROM source.provenance WHERE made IN "
-        "(SELECT made FROM source.cell WHERE id IN copied)");
+        "INSERT OR IGNORE INTO main.provenance SELECT * FROM source.provenance WHERE "
+        "provenance_key IN (SELECT provenance_key FROM source.cell WHERE id IN copied)");
   }
 
   Database database_;

@@ -51,7 +51,7 @@ CellRecord record_of(RowBytes row, WithRecords with) {
   if (with == WithRecords::yes) c.key = key;
   c.build = text();
   row.skip();  // sequence_key
-  row.skip();  // made
+  row.skip();  // provenance_key
   c.sequence = row.view();
   c.repeat = row.integer();
   c.method = row.view();
@@ -91,7 +91,7 @@ class RowReader {
     cell.key = hash_of(row.view());
     row.skip();  // build
     cell.sequence_key = sequence_key_.read(row);
-    row.skip();  // made
+    row.skip();  // provenance_key
     cell.sequence = sequence_.read(row);
     cell.repeat = row.integer();
     cell.method = method_.read(row);

@@ -32,12 +32,12 @@ std::vector<Hash> keys_now(const SequenceRows& sequences,
                            CellKeys& keys,
                            const std::vector<Cell>& all) {
   std::map<std::string, std::vector<const SequenceRow*>> known;
-  for (const auto& [key, row] : sequences.by_key) known[row.asked].push_back(&row);
+  for (const auto& [key, row] : sequences.by_key) known[row.configuration_hash].push_back(&row);
   std::map<std::string, Inputs> inputs;
   std::vector<Hash> out;
   out.reserve(all.size());
   for (const Cell& cell : all) {
-    const std::string& configuration_hash = keys.asked(cell);
+    const std::string& configuration_hash = keys.configuration_hash(cell);
     const auto [entry, is_new] = inputs.try_emplace(configuration_hash);
     if (is_new) entry->second = inputs_now(known[configuration_hash], keys, cell);
     out.push_back(hash_of(keys.key(cell, entry->second)));

@@ -7,8 +7,8 @@
 #include "harness/store/damage.hpp"
 #include "harness/store/digest.hpp"
 #include "harness/store/folder_lock.hpp"
-#include "harness/store/made_key.hpp"
 #include "harness/store/open.hpp"
+#include "harness/store/provenance_key.hpp"
 #include "harness/store/rename_file.hpp"
 #include "harness/store/salvage_rows.hpp"
 #include "harness/store/write_digests.hpp"
@@ -54,7 +54,7 @@ std::set<std::string> remove_damaged_traces(Database& database) {
 void check_texts(Database& database) {
   std::map<std::string, std::map<std::string, std::string>> all;
   {
-    Statement rows = database.prepare("SELECT made, key, value FROM provenance");
+    Statement rows = database.prepare("SELECT provenance_key, key, value FROM provenance");
     while (rows.step()) {
       const std::string provenance_key = rows.text();
       const std::string key = rows.text();
@@ -62,8 +62,8 @@ void check_texts(Database& database) {
     }
   }
   for (const auto& [provenance_key, provenance] : all) {
-    if (made_key(provenance) == provenance_key) continue;
-    database.prepare("DELETE FROM provenance WHERE made = ?").bind(provenance_key).run();
+    if (key_of_provenance(provenance) == provenance_key) continue;
+    database.prepare("DELETE FROM provenance WHERE provenance_key = ?").bind(provenance_key).run();
   }
   if (digest_of_texts(database, "run") != written_digest(database, "run")) {
     database.execute("DELETE FROM run");
@@ -204,7 +204,9 @@ Salvaged salvage(const PageFile& damaged, const std::filesystem::path& out) {
   Database database(out, Database::Mode::create);
   result.run_lost = count(database, "SELECT count(*) FROM run") == 0;
   result.unknown_origin = static_cast<std::size_t>(
-      count(database, "SELECT count(*) FROM cell WHERE made NOT IN (SELECT made FROM provenance)"));
+      count(database,
+            "SELECT count(*) FROM cell WHERE provenance_key NOT IN (SELECT provenance_key FROM "
+            "provenance)"));
   return result;
 }
 

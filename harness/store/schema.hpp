@@ -3,16 +3,16 @@
 namespace loopbench::harness {
 
 /// Incremented when the meaning of a table or column changes; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 7;
+inline constexpr int kSchemaVersion = 8;
 
 /// Creates the tables of a store, readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
   CREATE TABLE run (key TEXT PRIMARY KEY, value TEXT NOT NULL);  -- config and settings of the last run
   CREATE TABLE provenance (            -- build and machine of the cells
-    made TEXT NOT NULL,                -- hash of all key-value pairs of one run
+    provenance_key TEXT NOT NULL,      -- hash of all key-value pairs of one run
     key TEXT NOT NULL,
     value TEXT NOT NULL,               -- can be a list, one item per line
-    PRIMARY KEY (made, key)) WITHOUT ROWID;
+    PRIMARY KEY (provenance_key, key)) WITHOUT ROWID;
   CREATE TABLE input (                 -- input files of each sequence
     sequence_key TEXT NOT NULL,
     number INTEGER NOT NULL,           -- order of reading
@@ -22,8 +22,8 @@ inline constexpr const char* kSchema = R"sql(
     hash TEXT NOT NULL,                -- of the content (MurmurHash3 x64 128), or `missing`
     PRIMARY KEY (sequence_key, number)) WITHOUT ROWID;
   CREATE TABLE sequence (              -- metadata and sizes of each sequence
-    sequence_key TEXT PRIMARY KEY,     -- hash of asked, content of inputs, build
-    asked TEXT NOT NULL,               -- hash of the dataset's name, all options, group
+    sequence_key TEXT PRIMARY KEY,     -- hash of configuration_hash, content of inputs, build
+    configuration_hash TEXT NOT NULL,  -- of the dataset's name, all options, group
     options TEXT NOT NULL,             -- dataset: all options including defaults
     keyframes INTEGER NOT NULL,
     odometry INTEGER NOT NULL,         -- edges
@@ -42,7 +42,7 @@ inline constexpr const char* kSchema = R"sql(
     key TEXT NOT NULL,                 -- hash of input bytes, options, protocols, method and build
     build TEXT NOT NULL,               -- of the program that computed it
     sequence_key TEXT NOT NULL,        -- key of table sequence
-    made TEXT NOT NULL,                -- key of table provenance
+    provenance_key TEXT NOT NULL,      -- key of table provenance
     sequence TEXT NOT NULL,            -- label of the dataset entry
     repeat INTEGER NOT NULL,           -- instance of a seeded dataset, from 0
     method TEXT NOT NULL,              -- label of the method entry

@@ -14,7 +14,7 @@ SequenceRows read_sequence_rows(Database& database) {
   while (rows.step()) {
     const std::string sequence_key = rows.text();
     SequenceRow& s = out.by_key[sequence_key];
-    s.asked = rows.text();
+    s.configuration_hash = rows.text();
     s.options = rows.text();
     s.keyframes = rows.integer();
     rows.integer();  // odometry

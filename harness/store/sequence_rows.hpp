@@ -13,8 +13,8 @@
 namespace loopbench::harness {
 
 struct SequenceRow {
-  std::string asked;    ///< CellKeys::asked
-  std::string options;  ///< "DATASET: all options including defaults"
+  std::string configuration_hash;  ///< CellKeys::configuration_hash
+  std::string options;             ///< "DATASET: all options including defaults"
   std::int64_t keyframes = 0;
   std::int64_t closures = 0;
   std::string content;

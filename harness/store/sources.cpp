@@ -36,7 +36,8 @@ StoreSources::StoreSources(const std::filesystem::path& file)
   Run run;
   std::int64_t last = -1;
   Statement row = database_.prepare(
-      "SELECT position, made, sequence, repeat, sequence_key FROM cell NOT INDEXED WHERE position "
+      "SELECT position, provenance_key, sequence, repeat, sequence_key FROM cell NOT INDEXED WHERE "
+      "position "
       "IS NOT NULL");
   while (row.step()) {
     const std::int64_t position = row.integer();
@@ -64,7 +65,7 @@ StoreSources::StoreSources(const std::filesystem::path& file)
 
 std::map<std::string, std::string> StoreSources::provenance() {
   require_intact_texts(database_, "provenance", file_);
-  Statement rows = database_.prepare("SELECT key, value FROM provenance WHERE made = ?");
+  Statement rows = database_.prepare("SELECT key, value FROM provenance WHERE provenance_key = ?");
   std::map<std::string, std::string> out;
   for (const auto& [position, provenance_key] : made_) {
     rows.bind(provenance_key.text());

@@ -6,9 +6,9 @@
 #include "harness/provenance/version.hpp"
 #include "harness/store/cell_writer.hpp"
 #include "harness/store/damage.hpp"
-#include "harness/store/made_key.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/plan.hpp"
+#include "harness/store/provenance_key.hpp"
 #include "harness/store/resume.hpp"
 #include "harness/store/write_digests.hpp"
 
@@ -134,7 +134,7 @@ bool is_run_current(Database& database, const CellKeys& keys) {
 }
 
 void write_provenance(Database& database, const std::map<std::string, std::string>& provenance) {
-  const std::string provenance_key = made_key(provenance);
+  const std::string provenance_key = key_of_provenance(provenance);
   Statement insert = database.prepare("INSERT OR IGNORE INTO provenance VALUES (?, ?, ?)");
   for (const auto& [key, value] : provenance)
     insert.bind(provenance_key).bind(key).bind(value).run();
@@ -243,7 +243,7 @@ void Store::write(const CellResult& result) {
     changes();
     write_provenance(*database_, provenance_);
     transaction.commit();
-    writer_ = std::make_unique<Writer>(*database_, made_key(provenance_));
+    writer_ = std::make_unique<Writer>(*database_, key_of_provenance(provenance_));
   }
   writer_->write(result, keys_);
   if (std::chrono::steady_clock::now() - synced_ >= kSyncInterval) sync();

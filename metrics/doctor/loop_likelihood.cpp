@@ -104,8 +104,8 @@ double log_likelihood(const Gaps& gaps, const Logarithms& factors) {
   return out - 0.5 * root.matrixL().solve(gaps.values).squaredNorm();
 }
 
-/// The largest log likelihood from one start: climbs along each factor with steps that shrink.
-double climb(const Gaps& gaps, Logarithms at) {
+/// The largest log likelihood found from one start, along each factor in steps that shrink.
+double pattern_search(const Gaps& gaps, Logarithms at) {
   double best = log_likelihood(gaps, at);
   for (double step = 4.0; step > 0.4; step *= 0.5) {
     for (bool has_moved = true; has_moved;) {
@@ -128,7 +128,7 @@ double climb(const Gaps& gaps, Logarithms at) {
 }
 
 double largest_log_likelihood(const Gaps& gaps) {
-  return std::max(climb(gaps, {0.0, 0.0, 0.0}), climb(gaps, {0.0, -4.0, 4.0}));
+  return std::max(pattern_search(gaps, {0.0, 0.0, 0.0}), pattern_search(gaps, {0.0, -4.0, 4.0}));
 }
 
 }  // namespace

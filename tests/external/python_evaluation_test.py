@@ -242,10 +242,10 @@ class Methods(unittest.TestCase):
                 subprocess.run([PROGRAM, "correct", "--method", method, estimate, "--loops", loops,
                                 "-o", out], check=True, capture_output=True)
                 for each in (problem, loaded):
-                    poses, facts = loopbench.correct(each, method)
+                    poses, report = loopbench.correct(each, method)
                     self.assertEqual(poses.tolist(), np.loadtxt(out).tolist(), method)
-                    self.assertLess(facts["after"]["translation_rms"],
-                                    facts["before"]["translation_rms"])
+                    self.assertLess(report["after"]["translation_rms"],
+                                    report["before"]["translation_rms"])
 
     def test_a_python_method_runs_in_this_process(self):
         problem, reference = loopbench.load("simulated", path="room", keyframes=40)
@@ -256,8 +256,8 @@ class Methods(unittest.TestCase):
             calls.append(os.getpid())
             return given.poses, {"iterations": 3}
 
-        poses, facts = loopbench.correct(problem, mine)
-        self.assertEqual((calls, facts["iterations"]), ([os.getpid()], 3))
+        poses, report = loopbench.correct(problem, mine)
+        self.assertEqual((calls, report["iterations"]), ([os.getpid()], 3))
         raw, _ = loopbench.correct(problem, "raw")
         self.assertEqual(poses.tolist(), raw.tolist())
         self.assertEqual(loopbench.evaluate(reference, poses), loopbench.evaluate(reference, raw))

@@ -19,7 +19,7 @@ class ManyCells : public TinyStore {
     Database database(file_, Database::Mode::read);
     Transaction transaction(database);
     const std::string columns =
-        "key, build, sequence_key, made, sequence, repeat, method, "
+        "key, build, sequence_key, provenance_key, sequence, repeat, method, "
         "dataset_options, method_options, closures, oracle_closures, "
         "oracle, worker, runs, seconds_median, seconds_min, seconds_max, "
         "cpu_seconds_median, peak_memory, added_memory, allocations, "

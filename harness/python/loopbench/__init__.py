@@ -15,7 +15,7 @@ A method in ten lines, run by a config with `{method: command, serve: "python3 m
 In a notebook, with the compiled module (python3-dev and pybind11-dev when loopbench is built)::
 
     problem, reference = loopbench.load("simulated", path="room")
-    poses, facts = loopbench.correct(problem, mine)
+    poses, report = loopbench.correct(problem, mine)
     loopbench.score(loopbench.evaluate(reference, poses), "ate")
 """
 

@@ -79,17 +79,17 @@ def problem_of(
 def correct(
     problem: Problem, method: str | Method, at: npt.ArrayLike = ()
 ) -> tuple[Array, dict[str, Any]]:
-    """Runs a method on a problem: corrected poses (n, 8), and facts.
+    """Runs a method on a problem: corrected poses (n, 8), and its report.
 
     `method` is a text as of `loopbench correct --method`, a corrector, a smoother or
     "corrector + smoother"; or a function as for `serve`, which runs in this process. `at` are the
-    stamps of the poses, by default those of the keyframes; a function chooses its own. The facts
-    are those of `correct --json`, or what the function returned. Raises ValueError if the method is
+    stamps of the poses, by default those of the keyframes; a function chooses its own. The report
+    is that of `correct --json`, or what the function returned. Raises ValueError if the method is
     unknown or not applicable; exceptions of a function are not caught.
 
     >>> problem, reference = load("simulated", path="room", keyframes=40)
-    >>> poses, facts = correct(problem, "pose_graph")
-    >>> poses.shape, facts["after"]["chi2_closures"] < facts["before"]["chi2_closures"]
+    >>> poses, report = correct(problem, "pose_graph")
+    >>> poses.shape, report["after"]["chi2_closures"] < report["before"]["chi2_closures"]
     ((40, 8), True)
     >>> correct(problem, "dual + cubic_spline", at=[1.25, 2.5])[0][:, 0]
     array([1.25, 2.5 ])
@@ -100,8 +100,8 @@ def correct(
     if not isinstance(method, str):
         if len(stamps):
             raise TypeError("stamps are chosen by the function, expected no `at`")
-        facts, poses = call(method, problem)
-        return poses, facts
+        report, poses = call(method, problem)
+        return poses, report
     first, last = (min(problem.stamps, default=0.0), max(problem.stamps, default=0.0))
     for stamp in stamps:
         if not first <= stamp <= last:

@@ -118,20 +118,20 @@ def read_problem(folder: str | Path) -> Problem:
     import json
 
     folder = Path(folder)
-    facts: dict[str, Any] = json.loads((folder / "problem.json").read_text())
-    if facts["exchange"] != 1:
-        raise ValueError(f"{folder}: has exchange version {facts['exchange']}, expected 1")
+    header: dict[str, Any] = json.loads((folder / "problem.json").read_text())
+    if header["exchange"] != 1:
+        raise ValueError(f"{folder}: has exchange version {header['exchange']}, expected 1")
     lines = [line.split() for line in (folder / "graph.g2o").read_text().splitlines()]
     edges = [_edge_row(words) for words in lines if words[0].startswith("EDGE")]
     rows = np.array(edges).reshape(-1, 46)
-    odometry = int(facts["odometry"])
+    odometry = int(header["odometry"])
     return Problem(
         _rows(folder / "keyframes.txt"),
         _rows(folder / "frames.txt"),
         Edges.from_rows(rows[:odometry]),
         Edges.from_rows(rows[odometry:]),
-        facts["planar"],
-        facts["similarity"],
+        header["planar"],
+        header["similarity"],
     )
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from .problem import Array, Declined, Edges, Problem, read_problem, stamped
 
-#: A method returns poses, (n, 7) at the keyframes or (k, 8) with stamps, and optionally facts:
+#: A method returns poses, (n, 7) at the keyframes or (k, 8) with stamps, and optionally a report:
 #: iterations, counts {name: number}, phases {name: seconds}, notes [text].
 Method = Callable[[Problem], Any]
 
@@ -38,13 +38,13 @@ def _read(stream: BinaryIO, size: int) -> bytes:
 
 
 def _parse(text: bytes, data: bytes) -> Problem:
-    facts = json.loads(text)
-    if facts["exchange"] != 1:
-        raise ValueError(f"found exchange version {facts['exchange']}, expected 1")
+    header = json.loads(text)
+    if header["exchange"] != 1:
+        raise ValueError(f"found exchange version {header['exchange']}, expected 1")
     arrays: dict[str, Array] = {}
     values = np.frombuffer(data, dtype="<f8")
     begin = 0
-    for name, rows, columns in facts["arrays"]:
+    for name, rows, columns in header["arrays"]:
         arrays[name] = values[begin : begin + rows * columns].reshape(rows, columns)
         begin += rows * columns
     return Problem(
@@ -52,19 +52,19 @@ def _parse(text: bytes, data: bytes) -> Problem:
         arrays["frames"],
         Edges.from_rows(arrays["odometry"]),
         Edges.from_rows(arrays["closures"]),
-        facts["planar"],
-        facts["similarity"],
-        facts["output"],
+        header["planar"],
+        header["similarity"],
+        header["output"],
     )
 
 
 def call(function: Method, problem: Problem) -> tuple[dict[str, Any], Array]:
-    """Runs a method; returns the facts of result.json and (k, 8) poses, or raises its exception."""
+    """Runs a method; returns the report (result.json) and (k, 8) poses, or raises its exception."""
     begin = time.perf_counter()
     returned = function(problem)
     seconds = time.perf_counter() - begin
-    poses, facts = returned if isinstance(returned, tuple) else (returned, {})
-    return {**facts, "seconds": seconds}, stamped(problem, poses)
+    poses, report = returned if isinstance(returned, tuple) else (returned, {})
+    return {**report, "seconds": seconds}, stamped(problem, poses)
 
 
 def solve(function: Method, problem: Problem) -> tuple[dict[str, Any], Array]:
@@ -75,8 +75,8 @@ def solve(function: Method, problem: Problem) -> tuple[dict[str, Any], Array]:
     >>> one = np.array([[5, 0, 0, 0, 0, 0, 0, 1.0]])
     >>> none = Edges.from_rows(np.empty((0, 46)))
     >>> problem = Problem(one, one[:0], none, none)
-    >>> facts, poses = solve(lambda problem: (problem.poses, {"iterations": 3}), problem)
-    >>> facts["iterations"], poses.shape
+    >>> report, poses = solve(lambda problem: (problem.poses, {"iterations": 3}), problem)
+    >>> report["iterations"], poses.shape
     (3, (1, 8))
     >>> def no(problem):
     ...     raise Declined("no closures")
@@ -110,16 +110,16 @@ def answer_all(function: Method, questions: BinaryIO, answers: BinaryIO) -> None
         if magic != _MAGIC:
             raise ValueError(f"found magic {magic!r}, expected {_MAGIC!r}")
         problem = _parse(_read(questions, text), _read(questions, data))
-        facts, poses = solve(function, problem)
-        body = json.dumps({**facts, "poses": len(poses)}, default=_plain).encode()
+        report, poses = solve(function, problem)
+        body = json.dumps({**report, "poses": len(poses)}, default=_plain).encode()
         answers.write(_HEADER.pack(_MAGIC, number, len(body), poses.nbytes) + body)
         answers.write(poses.tobytes())
         answers.flush()
 
 
 def _run_once(function: Method, folder: str, result: str) -> None:
-    facts, poses = solve(function, read_problem(folder))
-    Path(result + ".json").write_text(json.dumps(facts, default=_plain))
+    report, poses = solve(function, read_problem(folder))
+    Path(result + ".json").write_text(json.dumps(report, default=_plain))
     lines = (" ".join(repr(float(x)) for x in row) for row in poses)
     Path(result).write_text("\n".join(lines) + "\n")
 

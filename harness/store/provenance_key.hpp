@@ -8,8 +8,8 @@
 
 namespace loopbench::harness {
 
-/// Hash of all key-value pairs of one run's provenance, column `made`.
-inline std::string made_key(const std::map<std::string, std::string>& provenance) {
+/// Hash of all key-value pairs of one run's provenance, column `provenance_key`.
+inline std::string key_of_provenance(const std::map<std::string, std::string>& provenance) {
   Fields out;
   for (const auto& [key, value] : provenance) out.add(key).add(value);
   return out.hashed();
