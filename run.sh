@@ -12,7 +12,7 @@ configure() { (cd "$here" && quietly cmake --preset release -DLOOPBENCH_BUILD_TE
 
 build_program() {
   if [[ ! -x $build/loopbench ]]; then
-    echo "loopbench: building; the first time takes about 10 minutes on two cores" >&2
+    echo "loopbench: building; the first time takes about 4 minutes on two cores" >&2
     cmake --build "$build" --target loopbench >&2
   else
     quietly cmake --build "$build" --target loopbench || exit 3
