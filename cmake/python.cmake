@@ -25,7 +25,8 @@ if(NOT Python_FOUND OR NOT pybind11_FOUND)
   message(STATUS "python3-dev, python3-numpy or pybind11-dev was not found: building without the Python module")
   return()
 endif()
-pybind11_add_module(loopbench_python MODULE NO_EXTRAS harness/python/module.cpp harness/python/arrays.cpp)
+pybind11_add_module(loopbench_python MODULE NO_EXTRAS
+  harness/python/module.cpp harness/python/arrays.cpp harness/python/manifold.cpp)
 target_link_libraries(loopbench_python PRIVATE loopbench_warnings loopbench::harness)
 # The package in the build folder: the module beside links to the Python files.
 set(loopbench_package ${PROJECT_BINARY_DIR}/python/loopbench)

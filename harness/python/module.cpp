@@ -11,8 +11,10 @@
 #include "harness/correct/correct.hpp"
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/python/arrays.hpp"
+#include "harness/python/manifold.hpp"
 #include "metrics/alignment/alignment.hpp"
 #include "metrics/pairing/association.hpp"
+#include "metrics/trajectory/tracking_gaps.hpp"
 
 namespace py = pybind11;
 
@@ -77,7 +79,20 @@ py::tuple align(const Array& reference_rows,
     found = metrics::align(reference, estimate, type, first);
     estimate = metrics::moved(found, std::move(estimate));
   }
-  return py::make_tuple(rows_of(estimate), found.scale, found.rank, found.condition);
+  const Pose& transform = found.reference_from_estimate;
+  return py::make_tuple(
+      rows_of(estimate), found.scale, found.rank, found.condition, rows_of({{0.0, transform}}));
+}
+
+std::vector<std::pair<double, double>> tracking_gaps(const Array& reference,
+                                                     const std::vector<double>& stamps,
+                                                     double longest_pause) {
+  std::vector<std::pair<double, double>> out;
+  const Trajectory path = checked(reference, "reference");
+  for (const metrics::TrackingGap& gap : metrics::tracking_gaps(path, stamps, 0.0, longest_pause)) {
+    out.emplace_back(gap.begin, gap.end);
+  }
+  return out;
 }
 
 Problem problem_of(const Array& keyframes,
@@ -177,9 +192,11 @@ PYBIND11_MODULE(_core, module) {
              "JSON of `eval --json`");
   module.def("evaluate_arrays", &python::evaluate_arrays, "JSON of `eval --json`");
   module.def("associate", &python::associate, "paired rows of reference and estimate");
-  module.def("align", &python::align, "aligned rows, scale, rank, condition");
+  module.def("align", &python::align, "aligned rows, scale, rank, condition, transform");
+  module.def("tracking_gaps", &python::tracking_gaps, "begin and end of each gap");
   module.def("correct", &python::correct, "rows, and the JSON of `correct --json`");
   module.def("odometry", &python::odometry, "edges between consecutive keyframes");
   module.def("load", &python::load, "keyframes, frames, odometry, closures, planar, reference");
   module.def("methods", &python::method_list, "name and summary of every method");
+  python::add_manifold(module);
 }

@@ -29,14 +29,14 @@ from .serving import corrector, serve, solve
 
 if TYPE_CHECKING:
     from .correction import correct, load, methods, problem_of
-    from .evaluation import Alignment, align, associate, evaluate, score
+    from .evaluation import Alignment, align, associate, evaluate, score, tracking_gaps
     from .figures import plot_errors, plot_scores, plot_trajectories
     from .sweeps import ComparedMethod, Comparison, compare, read, rows, run
 
 # Imported when they are used: a served method starts without them.
 _MODULES = {
     "correction": ("correct", "load", "methods", "problem_of"),
-    "evaluation": ("Alignment", "align", "associate", "evaluate", "score"),
+    "evaluation": ("Alignment", "align", "associate", "evaluate", "score", "tracking_gaps"),
     "figures": ("plot_errors", "plot_scores", "plot_trajectories"),
     "sweeps": ("ComparedMethod", "Comparison", "compare", "read", "rows", "run"),
 }
@@ -68,6 +68,7 @@ __all__ = [
     "score",
     "serve",
     "solve",
+    "tracking_gaps",
 ]
 
 

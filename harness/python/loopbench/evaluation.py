@@ -23,6 +23,7 @@ class Alignment(NamedTuple):
     scale: float
     rank: int  #: independent directions of the positions: 3 in general, 1 on a line
     condition: float  #: large if the rotation about a line is poorly determined
+    transform: Array  #: (7,) x y z qx qy qz qw of reference_from_estimate, applied after the scale
 
 
 def _text(value: Any) -> str:
@@ -147,4 +148,22 @@ def align(
     >>> round(aligned.scale, 9), bool(np.allclose(aligned.poses, larger))
     (2.0, True)
     """
-    return Alignment(*_core.align(_rows(reference), _rows(estimate), how, first))
+    *found, transform = _core.align(_rows(reference), _rows(estimate), how, first)
+    return Alignment(*found, transform[0, 1:])
+
+
+def tracking_gaps(
+    reference: npt.ArrayLike, stamps: npt.ArrayLike, longest_pause: float = 2.0
+) -> Array:
+    """(k, 2) begin and end of the pauses between `stamps` that a dense evaluation excludes [s]: above
+    `longest_pause` and ten median intervals, while the reference moved.
+
+    >>> stamps = np.array([0, 0.1, 0.2, 0.3, 9, 9.1])
+    >>> reference = np.zeros((100, 8))
+    >>> reference[:, 0] = reference[:, 1] = 0.1 * np.arange(100)
+    >>> reference[:, 7] = 1
+    >>> tracking_gaps(reference, stamps)
+    array([[0.3, 9. ]])
+    """
+    found = _core.tracking_gaps(_rows(reference), list(map(float, np.ravel(stamps))), longest_pause)
+    return np.array(found).reshape(-1, 2)
