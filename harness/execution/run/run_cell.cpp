@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <exception>
-#include <new>
+#include <iterator>
 
-#include "harness/catalogue/floating_point_guard.hpp"
+#include "harness/execution/run/add_scores.hpp"
 #include "harness/execution/run/allocations.hpp"
+#include "harness/execution/run/catch_errors.hpp"
 #include "harness/execution/run/check_output.hpp"
 #include "harness/execution/run/checked_curve.hpp"
 #include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/estimate_files.hpp"
-#include "harness/execution/run/incomplete.hpp"
 #include "harness/execution/run/method_guard.hpp"
 #include "harness/execution/run/oracle_method.hpp"
 #include "harness/execution/run/process_usage.hpp"
@@ -39,38 +37,8 @@ metrics::Context context_of(const Sequence& sequence,
 
 using Clock = std::chrono::steady_clock;
 
-/// what() of a plugin's exception can be null or empty.
-const char* message_of(const std::exception& error) {
-  const char* out = error.what();
-  return out != nullptr && *out != '\0' ? out : "threw an exception without a message";
-}
-
 /// A run that is shorter [s] mostly pays for the first access of a new process to its memory.
 constexpr double kShortRun = 2e-3;
-
-/// Runs `work` and converts any exception to a status with its message: declined for Undefined
-/// metrics, otherwise failed.
-template <class Result, class Work>
-void catch_errors(Result& result, Work work) {
-  try {
-    work();
-  } catch (const metrics::Undefined& reason) {
-    result.status = Status::declined;
-    result.why = stored_reason(message_of(reason));
-  } catch (const MemoryLimitExceeded& reason) {
-    result.status = Status::out_of_memory;
-    result.why = stored_reason(message_of(reason));
-  } catch (const std::bad_alloc&) {
-    result.status = Status::out_of_memory;
-    result.why = "memory allocation failed";
-  } catch (const std::exception& error) {
-    result.status = Status::failed;
-    result.why = stored_reason(message_of(error));
-  } catch (...) {
-    result.status = Status::failed;
-    result.why = "threw an exception that is not a std::exception";
-  }
-}
 
 struct TimedRun {
   std::unique_ptr<const Curve> curve;
@@ -124,53 +92,13 @@ std::unique_ptr<const Curve> timed(CellResult& result,
   return std::move(last.curve);
 }
 
-bool is_finite(const metrics::Statistics& s) {
-  return std::isfinite(s.rmse) && std::isfinite(s.mean) && std::isfinite(s.median) &&
-         std::isfinite(s.std) && std::isfinite(s.min) && std::isfinite(s.max) &&
-         std::isfinite(s.sse);
-}
-
-/// All scores of one metric, or one row with the reason why there are none. `row` has its labels.
-void score(CellResult& result,
-           const MetricChoice& choice,
-           ScoreResult row,
-           const metrics::Evaluation& evaluation,
-           const Catalogue& catalogue) {
-  row.metric = choice.metric.name;
-  row.label = choice.label;
-  row.coverage = evaluation.coverage;
-  catch_errors(row, [&] {
-    const metrics::MetricEntry& metric = find_metric(catalogue, choice.metric.name);
-    std::vector<metrics::Score> scores = [&] {
-      const FloatingPointGuard guard;  // for the metrics after it
-      return metric.score(evaluation, choice.metric.options);
-    }();
-    check_scores(scores);
-    for (metrics::Score& score : scores) {
-      result.scores.push_back(row);
-      ScoreResult& added = result.scores.back();
-      if (!score.why_undefined.empty()) {
-        added.status = Status::declined;
-        added.why = score.why_undefined;
-      } else if (!is_finite(score.statistics)) {
-        added.status = Status::failed;
-        added.why = "is not finite";
-        score.statistics = {};
-      }
-      added.score = std::move(score);
-    }
-  });
-  const bool has_thrown = is_failure(row.status) || row.status == Status::declined;
-  if (has_thrown) result.scores.push_back(row);
-}
-
 /// Computes every metric under the protocol and times of `row`.
-void add_scores(CellResult& result,
-                const ScoreResult& row,
-                const Sweep& sweep,
-                const Sequence& sequence,
-                const Curve& curve,
-                const Catalogue& catalogue) {
+void evaluate_curve(CellResult& result,
+                    const ScoreResult& row,
+                    const Sweep& sweep,
+                    const Sequence& sequence,
+                    const Curve& curve,
+                    const Catalogue& catalogue) {
   const std::vector<double> keyframe_stamps = stamps(sequence.problem.keyframes);
   const Trajectory at_keyframes = curve.sample(keyframe_stamps);
   const std::vector<double> tracked = metrics::tracked_stamps(sequence.problem);
@@ -180,28 +108,15 @@ void add_scores(CellResult& result,
     metrics::Evaluation evaluation =
         metrics::evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol, tracked);
     evaluation.context = context_of(sequence, at_keyframes, curve, row.times, protocol);
-    ScoreResult evaluated = row;
-    evaluated.why = incomplete_reason(evaluation.coverage, sweep.min_coverage);
-    if (!evaluated.why.empty()) {
-      evaluated.status = Status::incomplete;
-      result.status = Status::incomplete;
-      result.why = to_text(row.times) + ": " + evaluated.why;
-    }
-    for (const MetricChoice& choice : sweep.metrics) {
-      score(result, choice, evaluated, evaluation, catalogue);
-    }
+    add_scores(result, row, evaluation, sweep, catalogue);
     const bool densest = row.times == metrics::Times::dense ||
                          std::ranges::count(sweep.times, metrics::Times::dense) == 0;
     if (sweep.traces && row.protocol == 0 && densest) {
       result.trace = cell_trace(evaluation, row.times, trace_origin(sequence));
     }
   });
-  if (failure.status == Status::ok) return;
-  for (const MetricChoice& choice : sweep.metrics) {  // no pairs, or no unique alignment
-    failure.metric = choice.metric.name;
-    failure.label = choice.label;
-    result.scores.push_back(failure);
-  }
+  // No pairs, or no unique alignment.
+  if (failure.status != Status::ok) add_failure(result, failure, sweep);
 }
 
 /// Computes metrics that need only the problem; once, since they depend on neither pairs nor times.
@@ -219,7 +134,8 @@ void add_scores_without_reference(CellResult& result,
     const ScoreResult row{p, metrics::Times::keyframes, "", "", {}, {}, Status::ok, ""};
     for (const MetricChoice& choice : sweep.metrics) {
       if (find_metric(catalogue, choice.metric.name).needs_reference) continue;
-      score(result, choice, row, evaluation, catalogue);
+      std::ranges::move(scores_of(choice, row, evaluation, catalogue),
+                        std::back_inserter(result.scores));
     }
   }
 }
@@ -283,7 +199,7 @@ CellResult run_cell(const Cell& cell,
     for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
       for (const metrics::Times times : sweep.times) {
         const ScoreResult row{p, times, "", "", {}, {}, Status::ok, ""};
-        add_scores(result, row, sweep, sequence, checked, catalogue);
+        evaluate_curve(result, row, sweep, sequence, checked, catalogue);
       }
     }
     checked.require_valid_so_far();

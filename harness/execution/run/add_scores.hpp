@@ -1,0 +1,30 @@
+/// Scores of one evaluation: the metrics of a sweep, of cells and of files alike.
+#pragma once
+
+#include "harness/catalogue/catalogue.hpp"
+#include "harness/model/result.hpp"
+#include "harness/model/sweep.hpp"
+#include "metrics/evaluation/evaluation.hpp"
+
+namespace loopbench::harness {
+
+/// All scores of one metric, or one row with the reason why there are none: exceptions of the
+/// metric are not thrown. `row` has protocol, times, status and why of the rows.
+std::vector<ScoreResult> scores_of(const MetricChoice& choice,
+                                   ScoreResult row,
+                                   const metrics::Evaluation& evaluation,
+                                   const Catalogue& catalogue);
+
+/// Adds the scores of all metrics of the sweep to `result`. If the coverage is below the limit of
+/// the sweep, these rows and the result are incomplete. `parallel`: several metrics at a time.
+void add_scores(CellResult& result,
+                ScoreResult row,
+                const metrics::Evaluation& evaluation,
+                const Sweep& sweep,
+                const Catalogue& catalogue,
+                bool parallel = false);
+
+/// Adds the row `failure` for every metric of the sweep: there was nothing to evaluate.
+void add_failure(CellResult& result, ScoreResult failure, const Sweep& sweep);
+
+}  // namespace loopbench::harness
