@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <iterator>
 #include <set>
-#include <sstream>
 
 #include "harness/commands/commands.hpp"
 #include "harness/commands/eval_options.hpp"
@@ -38,32 +37,20 @@ std::optional<TerminalStyle> terminal_style() {
 std::string verdict_of(const EvalArguments& a,
                        const std::vector<EvaluationResult>& results,
                        const std::optional<TerminalStyle>& style = std::nullopt) {
-  std::vector<RecordedRun> runs;
   try {
-    runs = recorded_runs(file_pairs(a), a.sequence);
+    recorded_runs(file_pairs(a), a.sequence);
   } catch (const InputError& error) {
     std::string out = "\n";
     const std::string why = "no verdict: " + std::string(error.what());
     for (const std::string& line : wrapped(why, style ? style->width : 0)) out += line + "\n";
     return out;
   }
-  return run_report(records_of(results, runs), style);
-}
-
-bool fits(const std::string& text, std::size_t columns) {
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) {
-    if (width(line) > columns) return false;
-  }
-  return true;
+  return run_report(all_records(results), style);
 }
 
 std::string result_text(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
   const std::optional<TerminalStyle> style = terminal_style();
-  if (all.size() == 1) {
-    const std::string wide = text(all.front());
-    return !style || fits(wide, style->width) ? wide : terminal(all.front(), *style);
-  }
+  if (all.size() == 1) return text(all.front(), style);
   const std::vector<Table> tables = comparison(all);
   std::string out;
   if (!style) out = markdown(tables);
@@ -118,10 +105,7 @@ void check_store_options(const EvalArguments& a, const std::vector<RecordedRun>&
   if (!a.plot.empty()) {
     throw InputError(store + "--plot use `loopbench plot " + a.store + " -o FOLDER` afterwards");
   }
-  const bool has_kitti = (!a.times.empty() || a.period) && has_poses_of(Format::kitti, a, runs);
-  if (!a.times.empty() && !has_kitti) throw unused_times(a);
-  const bool has_unstamped = has_kitti && a.times.empty();
-  if (a.period && !has_unstamped && !has_poses_of(Format::g2o, a, runs)) throw unused_period(a);
+  check_stamp_options(a, runs);
 }
 
 /// Summary of the failed files, at most five of them.
@@ -157,7 +141,7 @@ int eval_to_store(const EvalArguments& a, const Source& source) {
              stored.incomplete == 0 ? ""
                                     : fmt::format(", {} with coverage below {:g}",
                                                   stored.incomplete,
-                                                  a.min_coverage.value_or(kUsualMinCoverage)),
+                                                  a.min_coverage.value_or(kDefaultMinCoverage)),
              printable(failures_text(stored, a.store)));
   return stored.failed + stored.incomplete == 0 ? kExitOk : kExitSomeCellsFailed;
 }
@@ -167,14 +151,13 @@ int eval(const EvalArguments& a, const Source& source) {
     throw CLI::RequiredError("EST");
   }
   if (!a.store.empty()) return eval_to_store(a, source);
-  std::vector<EvaluationResult> all = evaluate_files(a);
-  if (!a.min_coverage) compare_coverage(all);
+  const std::vector<EvaluationResult> all = evaluate_files(a);
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all));
   write_pictures(a, all);
   if (a.json) {
     fmt::print("{}", json(all));
   } else if (a.csv) {
-    fmt::print("{}", csv(all));
+    fmt::print("{}", csv(all_records(all)));
   } else {
     fmt::print("{}", printable(result_text(a, all)));
   }

@@ -127,28 +127,45 @@ void declare_plot_size(CLI::App& command, ErrorFigureSize& size) {
 void declare(CLI::App& command, EvalArguments& a) {
   declare_files(command, a);
   declare_rules(command, a);
+  auto* metric =
+      command
+          .add_option("--metric",
+                      a.metrics,
+                      "Metric to evaluate instead of the default ones, see `list metrics`; options "
+                      "follow a colon (rpe:delta=5,unit=m); repeat for several")
+          ->type_name("METRIC")
+          ->expected(1)
+          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--plugin", a.plugins, "Shared object with additional metrics")
+      ->type_name("FILE");
   command
       .add_option(
           "-r,--pose_relation",
           a.relation,
           "Evaluate only ape and rpe, in the relation full, trans_part, rot_part, angle_deg, "
           "angle_rad, point_distance, point_distance_error_ratio or rpy")
-      ->type_name("WORD");
+      ->type_name("WORD")
+      ->excludes(metric);
   command
       .add_option("-d,--delta", a.delta, "Distance between paired poses for rpe, in --delta_unit")
       ->type_name("NUMBER")
+      ->excludes(metric)
       ->check(finite_number());
   command
       .add_option("-u,--delta_unit",
                   a.delta_unit,
                   "Unit of --delta: f, s, m, d or r (frames, s, m, deg, rad)")
-      ->type_name("WORD");
+      ->type_name("WORD")
+      ->excludes(metric);
   command.add_flag("--all_pairs", a.all_pairs, "Use all pairs for rpe");
   command.add_flag("--pairs_from_reference",
                    a.pairs_from_reference,
                    "Measure --delta along REF instead of the estimate");
   command.add_flag("--json", a.json, "Print JSON in full precision, one list entry per evaluation");
-  command.add_flag("--csv", a.csv, "Print CSV in full precision")->excludes("--json");
+  command
+      .add_flag(
+          "--csv", a.csv, "Print a CSV line per score in full precision, as `export --what rows`")
+      ->excludes("--json");
   command
       .add_option(
           "--per-pose", a.per_pose, "CSV file for the error of every pose; - is standard output")

@@ -7,6 +7,7 @@
 
 #include "datasets/derive/problem_graph.hpp"
 #include "datasets/formats/formats.hpp"
+#include "harness/config/choice_text.hpp"
 #include "harness/config/choices.hpp"
 #include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/run_cell.hpp"

@@ -49,10 +49,7 @@ struct Correction {
   std::string out;  ///< file that was written; empty: none
 };
 
-/// The choice of a method as in a config. Throws InputError, also for a text with several methods.
-MethodChoice parse_method(const std::string& text, const Catalogue& catalogue);
-
-/// The same. Throws InputError also for an oracle.
+/// parse_method(). Throws InputError also for an oracle.
 MethodChoice method_without_reference(const std::string& text, const Catalogue& catalogue);
 
 /// Runs the method on a problem in memory, which must be valid; `output` is at the stamps `at`,

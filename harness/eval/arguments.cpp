@@ -1,14 +1,18 @@
 #include "harness/eval/arguments.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
 
 #include "datasets/bags/bag_name.hpp"
+#include "harness/config/choice_text.hpp"
 #include "harness/config/protocol_choice.hpp"
 #include "harness/config/source_text.hpp"
 #include "harness/text/numbers.hpp"
+#include "metrics/errors/ape.hpp"
 #include "metrics/pairing/pairs/select_pairs.hpp"
 
 namespace loopbench::harness {
@@ -102,6 +106,73 @@ std::string our_unit(const std::string& word) {
   return found == evo.end() ? word : found->second;
 }
 
+std::string options_text(const Params& options) {
+  std::string out;
+  for (const auto& [name, value] : options) out += " " + name + "=" + to_text(value);
+  return out;
+}
+
+/// "rpe 1 s": a metric and its options as the heading of a column.
+std::string heading(const std::string& metric, Params options) {
+  for (const char* in_heading : {"relation", "each"}) options.erase(in_heading);
+  const auto delta = options.find("delta");
+  const auto unit = options.find("unit");
+  if (delta == options.end() || unit == options.end()) return metric + options_text(options);
+  const double* real = std::get_if<double>(&delta->second);
+  const std::string number = real ? fmt::format("{}", *real) : to_text(delta->second);
+  const std::string out = metric + " " + number + " " + to_text(unit->second);
+  options.erase("delta");
+  options.erase("unit");
+  return out + options_text(options);
+}
+
+/// Adds a metric; of two with one heading, the one without options remains.
+void add_metric(std::vector<MetricChoice>& out, const std::string& name, const Params& options) {
+  const std::string label = heading(name, options);
+  const auto known = std::ranges::find(out, label, &MetricChoice::label);
+  if (known == out.end()) {
+    out.push_back({label, {name, options}});
+  } else if (options.empty()) {
+    known->metric.options.clear();
+  }
+}
+
+void add_defaults(std::vector<MetricChoice>& out, const metrics::Protocol& protocol) {
+  add_metric(out, "ate", {});
+  add_metric(out, "axis_error", {});
+  if (protocol.pairs == metrics::PairRule::tum_random) {
+    add_metric(out, "rpe", {});
+  } else {
+    for (const char* unit : {"frames", "s", "m"}) {
+      add_metric(out, "rpe", {{"delta", 1.0}, {"unit", std::string(unit)}});
+    }
+  }
+  const bool has_lengths = protocol.segments != metrics::SegmentErrorRule{};
+  add_metric(out, "segments", has_lengths ? Params{} : Params{{"each", false}});
+}
+
+std::vector<MetricChoice> metrics_of_evo(const EvalArguments& a) {
+  metrics::Relation relation = metrics::Relation::usual;
+  if (!a.relation.empty()) {
+    FieldType<metrics::Relation>::assign("pose_relation", relation, our_relation(a.relation));
+  }
+  metrics::DeltaUnit unit = metrics::DeltaUnit::frames;
+  if (!a.delta_unit.empty()) {
+    FieldType<metrics::DeltaUnit>::assign("delta_unit", unit, our_unit(a.delta_unit));
+  }
+  Params motion{{"delta", a.delta.value_or(1.0)}, {"unit", to_text(unit)}};
+  std::vector<MetricChoice> out;
+  if (relation != metrics::Relation::usual) {
+    motion["relation"] = to_text(relation);
+    // point_distance_error_ratio is defined only for relative errors.
+    if (relation != metrics::Relation::point_distance_error_ratio) {
+      add_metric(out, "ape", {{"relation", to_text(relation)}});
+    }
+  }
+  add_metric(out, "rpe", motion);
+  return out;
+}
+
 }  // namespace
 
 std::vector<metrics::NamedProtocol> protocols(const EvalArguments& a) {
@@ -121,27 +192,17 @@ std::vector<metrics::NamedProtocol> protocols(const EvalArguments& a) {
   return out;
 }
 
-std::vector<MetricRequest> metric_requests(const EvalArguments& a,
-                                           const metrics::Protocol& protocol) {
-  if (a.relation.empty() && !a.delta && a.delta_unit.empty()) return default_metrics(protocol);
-  metrics::Relation relation = metrics::Relation::usual;
-  if (!a.relation.empty()) {
-    FieldType<metrics::Relation>::assign("pose_relation", relation, our_relation(a.relation));
+std::vector<MetricChoice> metric_choices(const EvalArguments& a,
+                                         const Catalogue& catalogue,
+                                         const std::vector<metrics::NamedProtocol>& protocols) {
+  std::vector<MetricChoice> out;
+  for (const std::string& text : a.metrics) {
+    const Choice metric = parse_metric(text, catalogue, protocols).metric;
+    add_metric(out, metric.name, metric.options);
   }
-  metrics::DeltaUnit unit = metrics::DeltaUnit::frames;
-  if (!a.delta_unit.empty()) {
-    FieldType<metrics::DeltaUnit>::assign("delta_unit", unit, our_unit(a.delta_unit));
-  }
-  Params motion{{"delta", a.delta.value_or(1.0)}, {"unit", to_text(unit)}};
-  std::vector<MetricRequest> out;
-  if (relation != metrics::Relation::usual) {
-    motion["relation"] = to_text(relation);
-    // point_distance_error_ratio is defined only for relative errors.
-    if (relation != metrics::Relation::point_distance_error_ratio) {
-      out.push_back({"ape", {{"relation", to_text(relation)}}});
-    }
-  }
-  out.push_back({"rpe", motion});
+  if (!out.empty()) return out;
+  if (!a.relation.empty() || a.delta || !a.delta_unit.empty()) return metrics_of_evo(a);
+  for (const metrics::NamedProtocol& protocol : protocols) add_defaults(out, protocol.rules);
   return out;
 }
 

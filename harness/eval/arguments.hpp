@@ -1,15 +1,17 @@
 /// Command line arguments of `eval` and their interpretation.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "datasets/derive/reference_body.hpp"
 #include "datasets/formats/formats.hpp"
+#include "harness/catalogue/catalogue.hpp"
 #include "harness/eval/error_figures.hpp"
-#include "harness/eval/evaluation_result.hpp"
 #include "harness/eval/layout.hpp"
+#include "harness/model/sweep.hpp"
 
 namespace loopbench::harness {
 
@@ -39,6 +41,8 @@ struct EvalArguments {
   std::string delta_unit;
   bool all_pairs = false;
   bool pairs_from_reference = false;
+  std::vector<std::string> metrics;  ///< NAME[:option=value,...]; empty: the default metrics
+  std::vector<std::filesystem::path> plugins;
   bool json = false;
   bool csv = false;
   std::string per_pose;  ///< output file; empty: none
@@ -53,10 +57,13 @@ struct EvalArguments {
 /// invalid one.
 std::vector<metrics::NamedProtocol> protocols(const EvalArguments& arguments);
 
-/// As in evo: a relation selects ape and rpe in that relation; a delta or unit alone selects one
-/// rpe. Otherwise the default metrics. Throws OptionError.
-std::vector<MetricRequest> metric_requests(const EvalArguments& arguments,
-                                           const metrics::Protocol& protocol);
+/// The listed metrics. As in evo, a relation selects ape and rpe in that relation; a delta or unit
+/// alone selects one rpe. Otherwise ate, axis_error and segments with their defaults (segments for
+/// each length if a protocol sets the lengths), and rpe over 1 frame, 1 s and 1 m (once for random
+/// pairs); coverage and diagnostics are reported above the table. Throws InputError, OptionError.
+std::vector<MetricChoice> metric_choices(const EvalArguments& arguments,
+                                         const Catalogue& catalogue,
+                                         const std::vector<metrics::NamedProtocol>& protocols);
 
 /// Throws InputError unless the text has three or seven numbers, with a unit quaternion.
 ReferenceBody reference_body(const EvalArguments& arguments);

@@ -3,37 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <map>
-#include <set>
-
-#include "datasets/core/error.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-/// The shortest ends of the paths that all differ: "a/run.txt" and "b/run.txt".
-std::vector<std::string> differing_ends(const std::vector<FilePair>& files) {
-  std::vector<std::filesystem::path> rest;
-  std::vector<std::string> out;
-  for (const FilePair& pair : files) {
-    rest.emplace_back(pair.estimate);
-    out.push_back(rest.back().filename().string());
-  }
-  while (std::set<std::string>(out.begin(), out.end()).size() < out.size()) {
-    bool is_longer = false;
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const std::filesystem::path parent = rest[i].parent_path();
-      if (parent.empty() || parent == rest[i] || parent.filename().empty()) continue;
-      rest[i] = parent;
-      out[i] = parent.filename().string() + "/" + out[i];
-      is_longer = true;
-    }
-    if (!is_longer) return out;  // the same file twice
-  }
-  return out;
-}
 
 /// A candidate for a figure.
 struct RatedRun {
@@ -98,24 +72,6 @@ struct NameNumbers {
 };
 
 }  // namespace
-
-std::vector<RecordedRun> labelled_runs(const std::vector<FilePair>& files,
-                                       const std::string& sequence) {
-  try {
-    return recorded_runs(files, sequence);
-  } catch (const InputError&) {
-    std::vector<RecordedRun> out;
-    const std::vector<std::string> names = differing_ends(files);
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      out.push_back({std::filesystem::path(files[i].reference).stem().string(),
-                     names[i],
-                     "0",
-                     files[i].reference,
-                     files[i].estimate});
-    }
-    return out;
-  }
-}
 
 std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
                                        const std::vector<RecordedRun>& runs) {

@@ -18,11 +18,6 @@ struct DrawnRuns {
 
 inline constexpr std::size_t kMostDrawnEstimates = 6;  ///< in a figure; more hide each other
 
-/// Labels for estimates: those of recorded_runs(), or the shortest ends of the paths that differ if
-/// recorded_runs() rejects them.
-std::vector<RecordedRun> labelled_runs(const std::vector<FilePair>& files,
-                                       const std::string& sequence);
-
 /// The estimates evaluated under the first protocol, by reference. `runs[i / protocols]` belongs to
 /// `all[i]`. The name of an estimate is its method, or method and run if a method has several. A
 /// method has the same colour in all figures; its further runs are dashed, or have colours of their

@@ -1,17 +1,23 @@
 #include "harness/eval/recorded_evaluation.hpp"
 
 #include <algorithm>
+#include <future>
+#include <iterator>
 #include <memory>
+#include <utility>
 
 #include "datasets/bags/bag_name.hpp"
 #include "datasets/core/parallel.hpp"
-#include "harness/eval/evaluate_files.hpp"
+#include "harness/execution/run/add_scores.hpp"
+#include "harness/execution/run/catch_errors.hpp"
 #include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/evaluation_notes.hpp"
-#include "harness/execution/run/run_cell.hpp"
+#include "harness/execution/run/incomplete.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/provenance/sequence_identity.hpp"
 #include "harness/provenance/summarise_sequence.hpp"
+#include "metrics/checks/diagnostics.hpp"
+#include "metrics/checks/extrinsic_offset.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -21,143 +27,228 @@ InputFile hashed_input(const std::string& name, const std::string& option) {
   return hashed_inputs({{file_of(name), option}}).front();
 }
 
+std::string option(const Cell& cell, const Sweep& sweep, const std::string& name) {
+  return to_text(sweep.datasets[cell.dataset].dataset.options.at(name));
+}
+
 /// Identity of the run, also if the estimate could not be read: whether two failures are copies,
 /// and whether the file has changed since, is decided as for other runs.
-SequenceMetadata metadata_of(const Params& options, const SharedReference& reference) {
+SequenceMetadata metadata_of(const Cell& cell,
+                             const Sweep& sweep,
+                             const SharedReference& reference) {
   SequenceMetadata out;
-  out.inputs = {reference.file, hashed_input(to_text(options.at("estimate")), "estimate")};
   out.size.reference = static_cast<std::int64_t>(reference.read.poses.size());
+  if (reference.content.empty()) return out;
+  out.group = recorded_group(option(cell, sweep, "run"), reference.content);
+  if (!reference.file) return out;
   out.source = "reference:" + reference.content;
-  out.group = recorded_group(to_text(options.at("run")), reference.content);
+  out.inputs = {*reference.file, hashed_input(option(cell, sweep, "estimate"), "estimate")};
   return out;
 }
 
-std::shared_ptr<const SequenceMetadata> metadata_of_failure(const Params& options,
+std::shared_ptr<const SequenceMetadata> metadata_of_failure(const Cell& cell,
+                                                            const Sweep& sweep,
                                                             const SharedReference& reference) {
+  if (reference.content.empty()) return nullptr;
   try {
-    SequenceMetadata out = metadata_of(options, reference);
-    out.content = unreadable_content(reference.content, to_text(options.at("estimate")));
+    SequenceMetadata out = metadata_of(cell, sweep, reference);
+    const std::string hash = hashed_input(option(cell, sweep, "estimate"), "estimate").hash;
+    out.content = Fields().add("unreadable").add(reference.content).add(hash).hashed();
     return std::make_shared<const SequenceMetadata>(std::move(out));
   } catch (const InputError&) {
     return nullptr;  // the file exists, but cannot be hashed either
   }
 }
 
-/// Notes of the readers, the doctor and the evaluation.
-std::vector<std::string> notes_of(const Sequence& sequence,
-                                  const Sweep& sweep,
-                                  const RecordedFile& reference,
-                                  const RecordedFile& estimate,
-                                  const std::string& estimate_name) {
-  std::vector<std::string> out;
-  for (const RecordedFile* file : {&reference, &estimate}) {
-    if (!file->findings.damage.empty()) out.push_back("damaged file: " + file->findings.damage);
-  }
-  const bool has_stamps = reference.unstamped.empty() && estimate.unstamped.empty();
-  const std::vector<std::string> findings = doctor_notes({sequence.reference,
-                                                          sequence.problem.keyframes,
-                                                          sequence.provenance.reference.string(),
-                                                          estimate_name,
-                                                          has_stamps},
-                                                         sweep.protocols);
-  out.insert(out.end(), findings.begin(), findings.end());
-  const std::vector<std::string> of_evaluation = evaluation_notes(sequence, sweep);
-  out.insert(out.end(), of_evaluation.begin(), of_evaluation.end());
-  return out;
+/// Adds content and, for a store, the trace.
+void identify(SequenceMetadata& out,
+              const SharedReference& reference,
+              const RecordedFile& estimate) {
+  out.size.keyframes = static_cast<std::int64_t>(estimate.poses.size());
+  if (reference.content.empty()) return;
+  Sequence sequence;
+  sequence.reference = reference.read.poses;
+  sequence.problem.keyframes = estimate.poses;
+  out.content = content_of(sequence);
+  if (reference.file) out.trace = sequence_trace(sequence);
 }
 
-void check_clocks(const EvalArguments& a,
-                  const Sweep& sweep,
-                  const RecordedFile& reference,
-                  const RecordedFile& estimate) {
+/// Error if only one file has stamps, since numbers and stamps would be paired by chance.
+std::string why_two_clocks(const EvalArguments& a,
+                           const metrics::Protocol& protocol,
+                           const std::string& one,
+                           const std::string& other) {
+  const bool uses_stamps = protocol.association != metrics::Association::index;
+  if (a.period || !uses_stamps || one.empty() == other.empty()) return "";
+  return one + other +
+         ", poses without stamps, and the other file has stamps: expected --times FILE (KITTI), "
+         "--period S or --association index";
+}
+
+/// Sets diagnosis, notes and other_body.
+void add_checks(EvaluationResult& out,
+                const metrics::Evaluation& evaluation,
+                const RecordedFile& reference,
+                const RecordedFile& estimate,
+                const EvalArguments& a) {
+  out.diagnosis = metrics::diagnostics(evaluation, {});
+  out.notes = evaluation_notes(reference.poses, evaluation);
+  const double off_unit = std::max(reference.findings.off_unit, estimate.findings.off_unit);
+  for (metrics::Score& score : out.diagnosis) {
+    // Readers normalise, so the value is that of the files.
+    if (score.relation == "off_unit") score = metrics::single("off_unit", "", "1", off_unit);
+  }
+  const std::size_t left_out = reference.findings.repeated + estimate.findings.repeated;
+  out.diagnosis.push_back(metrics::single("left_out", "", "1", static_cast<double>(left_out)));
+  if (const auto offset = metrics::extrinsic_offset(evaluation, {})) {
+    out.other_body = metrics::other_body(*offset, pose_of(reference_body(a)));
+  }
+}
+
+/// Evaluation of two files under the protocols of a sweep, one after the other.
+struct PairEvaluation {
+  const Sweep& sweep;
+  const RecordedFile& reference;
+  const RecordedFile& estimate;
+  const Catalogue& catalogue;
+  const EvalArguments& arguments;
+  EvaluatedFile& out;
+
+  void evaluate(std::size_t number) {
+    EvaluationResult& own = out.protocols[number];
+    const metrics::Protocol& rules = own.protocol.rules;
+    ScoreResult row;
+    row.protocol = number;
+    ScoreResult failure = row;
+    failure.why = why_two_clocks(arguments, rules, reference.unstamped, estimate.unstamped);
+    if (!failure.why.empty()) {
+      failure.status = Status::failed;
+    } else {
+      catch_errors(failure, [&] { add(own, row, rules); });
+    }
+    if (failure.status == Status::ok) return;
+    own.why_failed = failure.why;
+    add_failure(out.result, failure, sweep);
+  }
+
+ private:
+  void add(EvaluationResult& own, const ScoreResult& row, const metrics::Protocol& rules) {
+    metrics::Evaluation evaluation = metrics::evaluate(reference.poses, estimate.poses, rules);
+    const bool are_printed = !reference.matrices.empty() && !estimate.matrices.empty();
+    metrics::PrintedPoses printed;
+    if (are_printed) printed = {reference.matrices, estimate.matrices};
+    evaluation.context = {.reference = &reference.poses,
+                          .estimate = &estimate.poses,
+                          .protocol = rules,
+                          .printed = are_printed ? &printed : nullptr};
+    own.reference_poses = reference.poses.size();
+    own.estimate_poses = estimate.poses.size();
+    own.coverage = evaluation.coverage;
+    own.alignment = evaluation.alignment;
+    own.incomplete_reason = incomplete_reason(evaluation.coverage, sweep.min_coverage);
+    const bool is_large = evaluation.estimate.size() >= kMinItemsPerThread;
+    std::future<void> checks =
+        std::async(is_large ? std::launch::async : std::launch::deferred,
+                   [&] { add_checks(own, evaluation, reference, estimate, arguments); });
+    if (!arguments.per_pose.empty()) own.poses = metrics::pose_errors(evaluation);
+    if (!arguments.plot.empty() || !arguments.report.empty()) {
+      own.drawn = drawn_evaluation(reference.poses, evaluation);
+    }
+    add_scores(out.result, row, evaluation, sweep, catalogue, is_large);
+    if (!arguments.store.empty() && row.protocol == 0) {
+      const StampedPose& first = reference.poses.front();
+      const Vector3& p = first.world_from_body.translation;
+      out.result.trace = cell_trace(evaluation, row.times, {first.stamp, p.x(), p.y(), p.z()});
+    }
+    checks.get();
+  }
+};
+
+/// Without results.
+EvaluatedFile not_evaluated(const Cell& cell, const Sweep& sweep, const EvalArguments& a) {
+  EvaluatedFile out;
+  out.result.cell = cell;
   for (const metrics::NamedProtocol& protocol : sweep.protocols) {
-    const std::string why =
-        why_two_clocks(a, protocol.rules, reference.unstamped, estimate.unstamped);
-    if (!why.empty()) throw InputError(why);
-  }
-}
-
-/// Of copying the poses of a file.
-void remove_costs(CellResult& result) {
-  result.seconds.clear();
-  result.cpu_seconds.clear();
-  result.peak_memory.reset();
-  result.added_memory.reset();
-  result.allocations.reset();
-  result.report.phases.clear();
-}
-
-CellResult evaluated(const Cell& cell,
-                     const Sweep& sweep,
-                     const SharedReference& reference,
-                     const Catalogue& catalogue,
-                     const EvalArguments& a) {
-  const Params& options = sweep.datasets[cell.dataset].dataset.options;
-  CellResult out;
-  try {
-    RecordedFile estimate = recorded_estimate(options);
-    check_clocks(a, sweep, reference.read, estimate);
-    const Sequence sequence =
-        recorded_sequence(options, reference.read.poses, std::move(estimate.poses));
-    out = run_cell(cell, sweep, sequence, catalogue);
-    remove_costs(out);
-    SequenceMetadata metadata = metadata_of(options, reference);
-    metadata.size.keyframes = static_cast<std::int64_t>(sequence.problem.keyframes.size());
-    metadata.content = content_of(sequence);
-    metadata.notes =
-        notes_of(sequence, sweep, reference.read, estimate, to_text(options.at("estimate")));
-    metadata.trace = sequence_trace(sequence);
-    out.metadata = std::make_shared<const SequenceMetadata>(std::move(metadata));
-  } catch (const InputError& error) {
-    out = CellResult{};
-    out.cell = cell;
-    out.status = Status::failed;
-    out.why = error.what();
-    out.metadata = metadata_of_failure(options, reference);
+    EvaluationResult& own = out.protocols.emplace_back();
+    own.reference = option(cell, sweep, "reference");
+    own.reference_body = a.reference_body.value_or("");
+    own.estimate = option(cell, sweep, "estimate");
+    own.protocol = protocol;
   }
   return out;
 }
 
 }  // namespace
 
-std::string reference_content(const Trajectory& reference) { return pair_content(reference, {}); }
-
-std::string pair_content(const Trajectory& reference, const Trajectory& estimate) {
-  Sequence sequence;
-  sequence.reference = reference;
-  sequence.problem.keyframes = estimate;
-  return content_of(sequence);
-}
-
-std::string unreadable_content(const std::string& reference_content, const std::string& estimate) {
-  try {
-    const std::string hash = hashed_input(estimate, "estimate").hash;
-    return Fields().add("unreadable").add(reference_content).add(hash).hashed();
-  } catch (const InputError&) {
-    return "";
+SharedReference shared_reference(const Params& options,
+                                 const Sweep& sweep,
+                                 const EvalArguments& a) {
+  SharedReference out{recorded_reference(options, uses_digits(sweep, a))};
+  if (!a.store.empty()) out.file = hashed_input(to_text(options.at("reference")), "reference");
+  if (!a.store.empty() || sweep.datasets.size() > 1) {
+    Sequence sequence;
+    sequence.reference = out.read.poses;
+    out.content = content_of(sequence);
   }
-}
-
-SharedReference shared_reference(const Params& options) {
-  SharedReference out{
-      recorded_reference(options), hashed_input(to_text(options.at("reference")), "reference"), ""};
-  out.content = reference_content(out.read.poses);
   return out;
 }
 
-std::vector<CellResult> evaluate_recorded(const std::vector<Cell>& cells,
-                                          const SharedReference& reference,
-                                          const Sweep& sweep,
-                                          const Catalogue& catalogue,
-                                          const EvalArguments& a) {
-  std::vector<CellResult> out(cells.size());
-  const std::size_t threads = std::min(hardware_threads(), cells.size());
-  parallel_invoke(threads, [&](std::size_t thread) {
-    for (std::size_t i = thread; i < cells.size(); i += threads) {
-      out[i] = evaluated(cells[i], sweep, reference, catalogue, a);
+EvaluatedFile evaluate_poses(const Cell& cell,
+                             const Sweep& sweep,
+                             const SharedReference& reference,
+                             RecordedFile estimate,
+                             const Catalogue& catalogue,
+                             const EvalArguments& a) {
+  EvaluatedFile out = not_evaluated(cell, sweep, a);
+  SequenceMetadata metadata = metadata_of(cell, sweep, reference);
+  identify(metadata, reference, estimate);
+  const bool is_large = estimate.poses.size() >= kMinItemsPerThread;
+  std::future<std::vector<std::string>> doctor =
+      std::async(is_large ? std::launch::async : std::launch::deferred, [&] {
+        const bool has_stamps = reference.read.unstamped.empty() && estimate.unstamped.empty();
+        return doctor_notes({reference.read.poses,
+                             estimate.poses,
+                             option(cell, sweep, "reference"),
+                             option(cell, sweep, "estimate"),
+                             has_stamps},
+                            sweep.protocols);
+      });
+  PairEvaluation evaluation{sweep, reference.read, estimate, catalogue, a, out};
+  for (std::size_t p = 0; p < sweep.protocols.size(); ++p) evaluation.evaluate(p);
+  for (const RecordedFile* file : {&reference.read, &std::as_const(estimate)}) {
+    if (!file->findings.damage.empty())
+      metadata.notes.push_back("damaged file: " + file->findings.damage);
+  }
+  std::ranges::move(doctor.get(), std::back_inserter(metadata.notes));
+  const std::vector<std::string> of_files = metadata.notes;
+  for (EvaluationResult& own : out.protocols) {
+    if (!own.why_failed.empty()) continue;
+    for (const std::string& note : own.notes) {
+      if (std::ranges::count(metadata.notes, note) == 0) metadata.notes.push_back(note);
     }
-  });
+    own.notes.insert(own.notes.end(), of_files.begin(), of_files.end());
+  }
+  out.result.metadata = std::make_shared<const SequenceMetadata>(std::move(metadata));
   return out;
+}
+
+EvaluatedFile evaluate_recorded(const Cell& cell,
+                                const Sweep& sweep,
+                                const SharedReference& reference,
+                                const Catalogue& catalogue,
+                                const EvalArguments& a) {
+  try {
+    const Params& options = sweep.datasets[cell.dataset].dataset.options;
+    return evaluate_poses(
+        cell, sweep, reference, recorded_estimate(options, uses_digits(sweep, a)), catalogue, a);
+  } catch (const InputError& error) {
+    EvaluatedFile out = not_evaluated(cell, sweep, a);
+    out.result.status = Status::failed;
+    out.result.why = error.what();
+    out.result.metadata = metadata_of_failure(cell, sweep, reference);
+    for (EvaluationResult& own : out.protocols) own.why_failed = error.what();
+    return out;
+  }
 }
 
 }  // namespace loopbench::harness

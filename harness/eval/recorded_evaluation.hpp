@@ -1,41 +1,51 @@
-/// Evaluation of files as cells of a store, with the identity of their runs.
+/// Evaluation of files as cells of a sweep, in this process.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "harness/eval/arguments.hpp"
+#include "harness/eval/evaluation_result.hpp"
 #include "harness/eval/recorded_sweep.hpp"
 #include "harness/model/result.hpp"
 
 namespace loopbench::harness {
 
-/// Hash of the poses: a comment or another file name does not change it. O(poses).
-std::string reference_content(const Trajectory& reference);
-
-/// Hash of the poses of both. O(poses).
-std::string pair_content(const Trajectory& reference, const Trajectory& estimate);
-
-/// The same for a file that is not a trajectory: by its bytes. Empty if it cannot be read.
-std::string unreadable_content(const std::string& reference_content, const std::string& estimate);
-
 /// The reference of several cells, read once.
 struct SharedReference {
-  RecordedFile read;
-  InputFile file;
-  std::string content;  ///< see reference_content()
+  RecordedFile read;         ///< poses in the body of the estimates
+  std::string content = {};  ///< hash of the poses, so that names and comments do not matter;
+                             ///< empty: runs are not compared
+  std::optional<InputFile> file = {};  ///< for a store
 };
 
 /// `options`: of a dataset of recorded_sweep(). Throws InputError.
-SharedReference shared_reference(const Params& options);
+SharedReference shared_reference(const Params& options,
+                                 const Sweep& sweep,
+                                 const EvalArguments& arguments);
 
-/// Evaluates cells that have this reference. An estimate that cannot be read is a failed cell. The
-/// notes of the metadata are those of `eval` for the same files. No times are recorded, because
-/// they would be those of copying poses, not of the system.
-std::vector<CellResult> evaluate_recorded(const std::vector<Cell>& cells,
-                                          const SharedReference& reference,
-                                          const Sweep& sweep,
-                                          const Catalogue& catalogue,
-                                          const EvalArguments& arguments);
+/// The result of a cell, and what a cell does not contain, for each protocol of the sweep.
+struct EvaluatedFile {
+  CellResult result;
+  std::vector<EvaluationResult> protocols;  ///< without records
+};
+
+/// Evaluates an estimate under all protocols of the sweep. Metrics that fail are in the result; a
+/// protocol under which nothing can be evaluated has a `why_failed`. No times are recorded, because
+/// no method runs. O((n + m) log(n + m)).
+EvaluatedFile evaluate_poses(const Cell& cell,
+                             const Sweep& sweep,
+                             const SharedReference& reference,
+                             RecordedFile estimate,
+                             const Catalogue& catalogue,
+                             const EvalArguments& arguments);
+
+/// The same for the file of the cell. If it cannot be read, the cell and all protocols fail.
+EvaluatedFile evaluate_recorded(const Cell& cell,
+                                const Sweep& sweep,
+                                const SharedReference& reference,
+                                const Catalogue& catalogue,
+                                const EvalArguments& arguments);
 
 }  // namespace loopbench::harness

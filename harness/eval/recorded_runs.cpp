@@ -118,6 +118,28 @@ std::string method_with_folder(const RecordedRun& run) {
   return is_numbered ? name : name + "/" + run.method;
 }
 
+/// The shortest ends of the paths that all differ: "a/run.txt" and "b/run.txt".
+std::vector<std::string> differing_ends(const std::vector<FilePair>& files) {
+  std::vector<std::filesystem::path> rest;
+  std::vector<std::string> out;
+  for (const FilePair& pair : files) {
+    rest.emplace_back(pair.estimate);
+    out.push_back(rest.back().filename().string());
+  }
+  while (std::set<std::string>(out.begin(), out.end()).size() < out.size()) {
+    bool is_longer = false;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const std::filesystem::path parent = rest[i].parent_path();
+      if (parent.empty() || parent == rest[i] || parent.filename().empty()) continue;
+      rest[i] = parent;
+      out[i] = parent.filename().string() + "/" + out[i];
+      is_longer = true;
+    }
+    if (!is_longer) return out;  // the same file twice
+  }
+  return out;
+}
+
 auto labels_of(const RecordedRun& run) { return std::tie(run.sequence, run.method, run.run); }
 
 }  // namespace
@@ -176,6 +198,24 @@ std::vector<RecordedRun> recorded_runs(const std::vector<FilePair>& files,
                      ", expected METHOD/SEQUENCE/RUN.txt or NAME_RUN.txt");
   }
   return out;
+}
+
+std::vector<RecordedRun> labelled_runs(const std::vector<FilePair>& files,
+                                       const std::string& sequence) {
+  try {
+    return recorded_runs(files, sequence);
+  } catch (const InputError&) {
+    std::vector<RecordedRun> out;
+    const std::vector<std::string> names = differing_ends(files);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      out.push_back({std::filesystem::path(files[i].reference).stem().string(),
+                     names[i],
+                     "0",
+                     files[i].reference,
+                     files[i].estimate});
+    }
+    return out;
+  }
 }
 
 }  // namespace loopbench::harness

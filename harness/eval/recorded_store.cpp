@@ -7,6 +7,7 @@
 
 #include "datasets/bags/bag_name.hpp"
 #include "datasets/core/error.hpp"
+#include "datasets/core/parallel.hpp"
 #include "harness/eval/note_summary.hpp"
 #include "harness/eval/recorded_evaluation.hpp"
 #include "harness/provenance/build.hpp"
@@ -75,11 +76,13 @@ using References = std::map<std::string, SharedReference>;  // by RecordedRun::r
 void read_references(const std::vector<Cell>& cells,
                      const std::vector<RecordedRun>& runs,
                      const Sweep& sweep,
+                     const EvalArguments& a,
                      References& known) {
   for (const Cell& cell : cells) {
     const std::string& reference = runs[cell.dataset].reference;
     if (known.contains(reference)) continue;
-    known.emplace(reference, shared_reference(sweep.datasets[cell.dataset].dataset.options));
+    known.emplace(reference,
+                  shared_reference(sweep.datasets[cell.dataset].dataset.options, sweep, a));
   }
 }
 
@@ -128,22 +131,22 @@ RecordedSweep store_runs(const std::vector<RecordedRun>& added,
   RecordedSweep out;
   const std::vector<RecordedRun> runs = with_stored(stored, added, out.notes);
   check_references(runs);
-  const Catalogue known = recorded_catalogue();
-  const Sweep sweep = recorded_sweep(runs, a);
+  const Catalogue known = recorded_catalogue(a.plugins);
+  const Sweep sweep = recorded_sweep(runs, a, known);
   const std::vector<Cell> cells = recorded_cells(runs, sweep);
   CellKeys keys(sweep, known, DataRoot{}, build_id(source.code));
   // Before the store changes: stored results are kept if a reference cannot be read.
   References references;
   const std::vector<Cell> missing =
       stored.empty() ? cells : missing_cells(file, keys, cells, cells);
-  read_references(missing, runs, sweep, references);
+  read_references(missing, runs, sweep, a, references);
   const std::string again = evaluated_again(missing, runs, added);
   if (!again.empty()) out.notes.push_back(again);
   std::filesystem::create_directories(folder);
   Store store(file, keys, provenance(source, sweep, known));
   // A failure can be repaired without a change of the estimate, for example by its permissions.
   const Resumed resumed = store.resume(cells, cells, Retry::failed);
-  read_references(resumed.missing, runs, sweep, references);
+  read_references(resumed.missing, runs, sweep, a, references);
   out.cells = cells.size();
   out.stored = resumed.there;
   out.failed = resumed.failed;
@@ -153,8 +156,12 @@ RecordedSweep store_runs(const std::vector<RecordedRun>& added,
     by_reference[runs[cell.dataset].reference].push_back(cell);
   NoteSummary notes;
   for (const auto& [name, those] : by_reference) {
-    for (const CellResult& result :
-         evaluate_recorded(those, references.at(name), sweep, known, a)) {
+    const SharedReference& reference = references.at(name);
+    std::vector<CellResult> results(those.size());
+    parallel_for_tasks(those.size(), [&, &cells = those](std::size_t i) {
+      results[i] = evaluate_recorded(cells[i], sweep, reference, known, a).result;
+    });
+    for (const CellResult& result : results) {
       store.write(result);
       add_result(result, runs[result.cell.dataset].estimate, out, notes);
     }

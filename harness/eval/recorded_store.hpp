@@ -12,9 +12,6 @@
 
 namespace loopbench::harness {
 
-/// Coverage below which a run is a failure unless --min-coverage is given, 0..1.
-inline constexpr double kUsualMinCoverage = 0.5;
-
 struct RecordedSweep {
   std::size_t cells = 0;   ///< of the store
   std::size_t stored = 0;  ///< of those, stored before

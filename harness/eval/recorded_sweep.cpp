@@ -8,8 +8,7 @@
 #include <tuple>
 
 #include "datasets/bags/bag_name.hpp"
-#include "datasets/core/polyline.hpp"
-#include "harness/eval/recorded_store.hpp"
+#include "datasets/formats/kitti.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "methods/correctors/raw.hpp"
 
@@ -40,7 +39,10 @@ void fields(RecordedOptions& o, Visit visit) {
   visit("period", o.period, "time between poses without stamps [s]", GreaterThan{0.0});
 }
 
-RecordedFile read_recorded(const RecordedOptions& o, const std::string& file, Format format) {
+RecordedFile read_recorded(const RecordedOptions& o,
+                           const std::string& file,
+                           Format format,
+                           bool with_matrices) {
   ReadOptions options;
   options.format = format == Format::automatic ? detect_format(file) : format;
   options.period = o.period;
@@ -54,29 +56,26 @@ RecordedFile read_recorded(const RecordedOptions& o, const std::string& file, Fo
   if (options.format == Format::g2o || (is_kitti && !options.times)) {
     out.unstamped = file + ": is " + to_text(options.format);
   }
+  if (is_kitti && with_matrices) out.matrices = read_kitti_matrices(file);
   return out;
 }
 
-RecordedFile read_reference(const RecordedOptions& o) {
+RecordedFile read_reference(const RecordedOptions& o, bool with_matrices) {
   EvalArguments offset;
   if (!o.reference_body.empty()) offset.reference_body = o.reference_body;
-  RecordedFile out = read_recorded(o, o.reference, o.reference_format);
+  RecordedFile out = read_recorded(o, o.reference, o.reference_format, with_matrices);
   out.poses = to_estimate_body(std::move(out.poses), reference_body(offset));
   return out;
 }
 
-Sequence sequence_of(const RecordedOptions& o, Trajectory reference, Trajectory estimate) {
+Sequence load_recorded(const RecordedOptions& o, const DataRoot&) {
   Sequence out;
   out.name = o.sequence;
-  out.reference = std::move(reference);
-  out.problem.keyframes = std::move(estimate);
+  out.reference = read_reference(o, false).poses;
+  out.problem.keyframes = read_recorded(o, o.estimate, o.format, false).poses;
   out.provenance.inputs = {{file_of(o.reference)}, {file_of(o.estimate)}};
   out.provenance.reference = file_of(o.reference);
   return out;
-}
-
-Sequence load_recorded(const RecordedOptions& o, const DataRoot&) {
-  return sequence_of(o, read_reference(o).poses, read_recorded(o, o.estimate, o.format).poses);
 }
 
 Params options_of(const RecordedRun& run, const EvalArguments& a) {
@@ -100,41 +99,7 @@ std::string common_options(const EvalArguments& a) {
   return to_text(out);
 }
 
-std::vector<MetricChoice> metrics_of(const EvalArguments& a,
-                                     const std::vector<metrics::NamedProtocol>& protocols) {
-  std::vector<MetricChoice> out;
-  for (const metrics::NamedProtocol& protocol : protocols) {
-    for (const MetricRequest& request : metric_requests(a, protocol.rules)) {
-      const std::string name = label(EvaluatedMetric{request.metric, request.options, {}, {}, {}});
-      const bool is_known =
-          std::ranges::any_of(out, [&](const MetricChoice& m) { return m.label == name; });
-      if (!is_known) out.push_back({name, {request.metric, request.options}});
-    }
-  }
-  return out;
-}
-
-}  // namespace
-
-RecordedFile recorded_reference(const Params& options) {
-  return read_reference(with(RecordedOptions{}, options));
-}
-
-RecordedFile recorded_estimate(const Params& options) {
-  const RecordedOptions o = with(RecordedOptions{}, options);
-  return read_recorded(o, o.estimate, o.format);
-}
-
-Sequence recorded_sequence(const Params& options, Trajectory reference, Trajectory estimate) {
-  return sequence_of(with(RecordedOptions{}, options), std::move(reference), std::move(estimate));
-}
-
-Catalogue recorded_catalogue() {
-  return {{dataset<RecordedOptions>("files", "a reference and an estimate", load_recorded)},
-          {methods::method<methods::Raw>("recorded", "poses of the estimate's file")},
-          metrics::metrics()};
-}
-
+/// Whether any file has this format, by the arguments or its content.
 bool has_poses_of(Format wanted, const EvalArguments& a, const std::vector<RecordedRun>& runs) {
   const auto is_wanted = [wanted](const std::string& file, const std::string& word) {
     Format format = Format::automatic;
@@ -150,14 +115,54 @@ bool has_poses_of(Format wanted, const EvalArguments& a, const std::vector<Recor
   });
 }
 
-Sweep recorded_sweep(const std::vector<RecordedRun>& runs, const EvalArguments& a) {
+}  // namespace
+
+RecordedFile recorded_reference(const Params& options, bool with_matrices) {
+  return read_reference(with(RecordedOptions{}, options), with_matrices);
+}
+
+RecordedFile recorded_estimate(const Params& options, bool with_matrices) {
+  const RecordedOptions o = with(RecordedOptions{}, options);
+  return read_recorded(o, o.estimate, o.format, with_matrices);
+}
+
+bool uses_digits(const Sweep& sweep, const EvalArguments& a) {
+  if (has_offset(reference_body(a))) return false;
+  return std::ranges::any_of(sweep.protocols, [](const metrics::NamedProtocol& p) {
+    return p.rules.form == metrics::ErrorForm::kitti ||
+           p.rules.association == metrics::Association::evo;
+  });
+}
+
+void check_stamp_options(const EvalArguments& a, const std::vector<RecordedRun>& runs) {
+  const bool has_kitti = (!a.times.empty() || a.period) && has_poses_of(Format::kitti, a, runs);
+  if (!a.times.empty() && !has_kitti) {
+    throw InputError(a.times + ": is a times file, but no file has KITTI poses");
+  }
+  const bool has_unstamped = has_kitti && a.times.empty();
+  if (a.period && !has_unstamped && !has_poses_of(Format::g2o, a, runs)) {
+    throw InputError("--period " + to_text(*a.period) +
+                     ": all files have stamps, expected KITTI poses without --times, or g2o");
+  }
+}
+
+Catalogue recorded_catalogue(const std::vector<std::filesystem::path>& plugins) {
+  Catalogue out = catalogue(plugins);
+  out.datasets = {dataset<RecordedOptions>("files", "a reference and an estimate", load_recorded)};
+  out.methods = {methods::method<methods::Raw>("recorded", "poses of the estimate's file")};
+  return out;
+}
+
+Sweep recorded_sweep(const std::vector<RecordedRun>& runs,
+                     const EvalArguments& a,
+                     const Catalogue& catalogue) {
   Sweep out;
   out.name = "eval";
   out.text = manifest(runs, common_options(a));
   out.protocols = protocols(a);
-  out.metrics = metrics_of(a, out.protocols);
+  out.metrics = metric_choices(a, catalogue, out.protocols);
   out.times = {metrics::Times::keyframes};
-  out.min_coverage = a.min_coverage.value_or(kUsualMinCoverage);
+  out.min_coverage = a.min_coverage.value_or(a.store.empty() ? 0.0 : kDefaultMinCoverage);
   out.table.split = {"sequence"};
   for (const RecordedRun& run : runs) {
     out.datasets.push_back({run.sequence, {"files", options_of(run, a)}});

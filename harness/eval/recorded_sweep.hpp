@@ -13,31 +13,36 @@
 
 namespace loopbench::harness {
 
-/// Dataset `files`, method `recorded` and all metrics.
-Catalogue recorded_catalogue();
+/// Coverage below which a run in a store is a failure unless --min-coverage is given, 0..1.
+inline constexpr double kDefaultMinCoverage = 0.5;
+
+/// Dataset `files`, method `recorded` and all metrics, with those of plugins. Throws InputError.
+Catalogue recorded_catalogue(const std::vector<std::filesystem::path>& plugins = {});
 
 /// Poses of a file and the remarks of its reader.
 struct RecordedFile {
   Trajectory poses;
+  std::vector<PoseMatrix> matrices = {};  ///< as printed; only of KITTI files, and if needed
   ReadFindings findings = {};
   std::string unstamped = {};  ///< file and format if the stamps were generated, otherwise empty
 };
 
 /// Read the files of a dataset of recorded_sweep(); the reference is in the body of the estimate.
-/// Throw InputError.
-RecordedFile recorded_reference(const Params& options);
-RecordedFile recorded_estimate(const Params& options);
+/// `with_matrices`: also the digits of KITTI files. Throw InputError.
+RecordedFile recorded_reference(const Params& options, bool with_matrices);
+RecordedFile recorded_estimate(const Params& options, bool with_matrices);
 
-/// The sequence of these files.
-Sequence recorded_sequence(const Params& options, Trajectory reference, Trajectory estimate);
+/// Whether a protocol computes with the digits of KITTI files instead of rotations.
+bool uses_digits(const Sweep& sweep, const EvalArguments& arguments);
 
-/// Whether any file has this format, by the arguments or its content.
-bool has_poses_of(Format format,
-                  const EvalArguments& arguments,
-                  const std::vector<RecordedRun>& runs);
+/// Throws InputError for a times file or a period that no file uses.
+void check_stamp_options(const EvalArguments& arguments, const std::vector<RecordedRun>& runs);
 
 /// One dataset per run, with the sequence as label; the methods in the order of their first run.
-Sweep recorded_sweep(const std::vector<RecordedRun>& runs, const EvalArguments& arguments);
+/// Throws InputError, OptionError for invalid protocols and metrics.
+Sweep recorded_sweep(const std::vector<RecordedRun>& runs,
+                     const EvalArguments& arguments,
+                     const Catalogue& catalogue);
 
 /// One cell per run, by sequence, run and method. The repeat is the position of the run's name
 /// among all runs of the sequence, in natural order, so that runs of equal names are paired.

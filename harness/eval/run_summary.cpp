@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-#include "harness/model/recorded_run.hpp"
 #include "harness/statistics/mean_interval.hpp"
 #include "harness/text/wrap.hpp"
 
@@ -134,68 +133,6 @@ std::string table_of(const std::vector<RunSummary>& all,
 
 }  // namespace
 
-std::vector<Record> records_of(const std::vector<EvaluationResult>& results,
-                               const std::vector<RecordedRun>& runs) {
-  std::vector<Record> out;
-  const std::size_t protocols = runs.empty() ? 1 : results.size() / runs.size();
-  std::map<std::string, std::map<std::string, std::int64_t>> repeats;  // by sequence and run
-  for (const RecordedRun& run : runs) {
-    auto& known = repeats[run.sequence];
-    known.emplace(run.run, static_cast<std::int64_t>(known.size()));
-  }
-  using RunLabel = std::pair<std::string, std::string>;  // sequence and run
-  std::map<RunLabel, std::map<std::string, std::string>> contents;
-  std::map<std::string, std::string> references;  // file to content, unknown to failed evaluations
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const RecordedRun& run = runs[i / protocols];
-    contents[{run.sequence, run.run}][run.method] = results[i].content;
-    if (!results[i].reference_content.empty()) {
-      references[run.reference] = results[i].reference_content;
-    }
-  }
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const EvaluationResult& result = results[i];
-    const RecordedRun& run = runs[i / protocols];
-    Record record;
-    record.cell = static_cast<std::int64_t>(i);
-    record.sequence = run.sequence;
-    record.repeat = repeats[run.sequence][run.run];
-    record.method = run.method;
-    record.group = recorded_group(run.run, references[run.reference]);
-    record.content = recorded_content(contents.at({run.sequence, run.run}));
-    record.times = "keyframes";
-    if (!result.why_failed.empty()) {
-      record.status = Status::failed;
-      record.why = result.why_failed;
-      out.push_back(record);
-      continue;
-    }
-    record.protocol = result.protocol.label();
-    record.protocol_version = result.protocol.version;
-    record.status = result.incomplete_reason.empty() ? Status::ok : Status::incomplete;
-    record.why = result.incomplete_reason;
-    for (const EvaluatedMetric& metric : result.metrics) {
-      for (const metrics::Score& score : metric.scores) {
-        if (!score.why_undefined.empty()) continue;
-        Record scored = record;
-        scored.metric = metric.name;
-        scored.label = label(metric);
-        scored.relation = score.relation;
-        scored.axis = score.axis;
-        scored.unit = score.unit;
-        scored.better = score.better;
-        scored.target = score.target;
-        scored.statistics = score.statistics;
-        scored.pairs = static_cast<std::int64_t>(result.coverage.pairs);
-        scored.possible = static_cast<std::int64_t>(result.coverage.possible);
-        scored.span = result.coverage.span;
-        out.push_back(scored);
-      }
-    }
-  }
-  return out;
-}
-
 std::vector<RunSummary> summarise_runs(const std::vector<Record>& records, const Record& score) {
   using Key = std::pair<std::string, std::string>;
   std::vector<Key> order;
@@ -238,7 +175,9 @@ std::string report_of(const std::vector<Record>& records,
   if (methods.size() < 2) return out;
   std::vector<Record> scores;
   for (const Record& r : records) {
-    if (r.metric.empty() || is_score(r, score)) scores.push_back(r);
+    const bool is_failed_run =
+        r.metric.empty() && (r.protocol.empty() || r.protocol == score.protocol);
+    if (is_failed_run || is_score(r, score)) scores.push_back(r);
   }
   CompareOptions options;
   options.baseline = records.front().method;

@@ -6,8 +6,6 @@
 #include <vector>
 
 #include "harness/compare/compare.hpp"
-#include "harness/eval/evaluation_result.hpp"
-#include "harness/eval/recorded_runs.hpp"
 #include "harness/tables/table_view.hpp"
 
 namespace loopbench::harness {
@@ -25,11 +23,6 @@ struct RunSummary {
   double largest = 0.0;
   std::optional<Interval> interval;  ///< 95 % of the mean; none below eight successes
 };
-
-/// Records of evaluations of files, for the scores that have a direction. `runs[i / protocols]`
-/// belongs to `results[i]`.
-std::vector<Record> records_of(const std::vector<EvaluationResult>& results,
-                               const std::vector<RecordedRun>& runs);
 
 /// Summaries of the score with the protocol, label, relation, axis and unit of `score`, by sequence
 /// and method in the order of the records.

@@ -3,7 +3,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
+#include <utility>
 
 #include "datasets/core/fields.hpp"
 #include "datasets/derive/odometry.hpp"
@@ -33,16 +33,16 @@ std::string evaluate_arrays(const harness::EvalArguments& arguments,
                             const Array& reference_rows,
                             const Array& estimate_rows) {
   ReadRows reference = read_rows(reference_rows, "reference");
-  const ReadRows estimate = read_rows(estimate_rows, "estimate");
+  ReadRows estimate = read_rows(estimate_rows, "estimate");
   const py::gil_scoped_release unlocked;
   check(reference.poses, "reference");
   check(estimate.poses, "estimate");
-  const Trajectory in_body =
+  Trajectory in_body =
       to_estimate_body(std::move(reference.poses), harness::reference_body(arguments));
-  const harness::EvaluationInput input{{in_body, estimate.poses, "reference", "estimate"},
-                                       {std::max(reference.off_unit, estimate.off_unit)}};
-  return harness::json(
-      harness::evaluate_read(arguments, harness::protocols(arguments), input, true));
+  return harness::json(harness::evaluate_in_memory(
+      arguments,
+      {.poses = std::move(in_body), .findings = {.off_unit = reference.off_unit}},
+      {.poses = std::move(estimate.poses), .findings = {.off_unit = estimate.off_unit}}));
 }
 
 /// One trajectory of the arguments of a function.
@@ -175,6 +175,7 @@ PYBIND11_MODULE(_core, module) {
       .def_readwrite("settings", &Arguments::settings)
       .def_readwrite("align", &Arguments::align)
       .def_readwrite("correct_scale", &Arguments::correct_scale)
+      .def_readwrite("metrics", &Arguments::metrics)
       .def_readwrite("relation", &Arguments::relation)
       .def_readwrite("delta", &Arguments::delta)
       .def_readwrite("delta_unit", &Arguments::delta_unit)

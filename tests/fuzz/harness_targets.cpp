@@ -80,11 +80,8 @@ void fuzz_eval(const std::filesystem::path& file) {
   arguments.delta_unit = line(7);
   arguments.times = line(8);
   or_rejected([&] { reference_body(arguments); });
-  or_rejected([&] {
-    for (const metrics::NamedProtocol& protocol : protocols(arguments)) {
-      metric_requests(arguments, protocol.rules);
-    }
-  });
+  if (!line(9).empty()) arguments.metrics = {line(9)};
+  or_rejected([&] { metric_choices(arguments, catalogue({}), protocols(arguments)); });
 }
 
 /// The input is the settings file and every trajectory of an rpg folder, and of ov_eval folders.

@@ -72,7 +72,8 @@ TEST_F(EvalCoverage, BelowTheLimitExitsWithOne) {
 }
 
 TEST_F(EvalCoverage, RpeShowsItsOwnPairs) {
-  EXPECT_THAT(eval({reference_, complete_, complete_}), HasSubstr("| rpe 1 s pairs |"));
+  EXPECT_THAT(eval({reference_, complete_, short_, "--min-coverage=0"}),
+              HasSubstr("rpe 1 s [m]: 992;"));
 }
 
 TEST_F(EvalCoverage, FewPairsAfterAFitAreNoted) {

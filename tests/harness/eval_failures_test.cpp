@@ -43,7 +43,7 @@ TEST(EvalFailures, AFailedMetricIsNotUndefinedAndTheOthersStand) {
   EXPECT_EQ(evaluated["failed"][0]["metric"], "rpe");
   EXPECT_EQ(evaluated["failed"][0]["why"], why);
   EXPECT_NE(eval({file, file, from_estimate}).find("\nrpe 1 m failed: " + why), std::string::npos);
-  EXPECT_NE(eval({file, file, from_estimate, "--csv"}).find(",failed," + why + ","),
+  EXPECT_NE(eval({file, file, from_estimate, "--csv"}).find(",failed," + why + "\n"),
             std::string::npos);
 
   const Json alone =
@@ -71,11 +71,10 @@ TEST(EvalFailures, OneBadEstimateIsARowAndTheOthersStand) {
   std::vector<std::string> as_csv = files;
   as_csv.push_back("--csv");
   const std::string csv = eval(as_csv, kExitSomeCellsFailed);
-  const std::string row = golden("gt.txt") + "," + bad + ",loopbench,3,,,,,,,,,,,,,,,,,failed," +
-                          bad + ":1: column 4 (tz): '\\x1b[31m' is not a number,";  // escaped
-  EXPECT_NE(csv.find("\n" + row + "\n"), std::string::npos) << csv;
-  const auto commas = [](const std::string& text) { return std::ranges::count(text, ','); };
-  EXPECT_EQ(commas(row), commas(csv.substr(0, csv.find('\n'))));
+  EXPECT_NE(csv.find("\ngolden,0,bad,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",failed," + bad + ":1: column 4 (tz): '\\x1b[31m' is not a number\n"),
+            std::string::npos)
+      << csv;
 
   const std::string text = eval(files, kExitSomeCellsFailed);
   EXPECT_NE(text.find("failed |"), std::string::npos) << text;

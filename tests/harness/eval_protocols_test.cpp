@@ -71,7 +71,7 @@ TEST(Eval, SeveralProtocolsAndEstimatesAreATable) {
   EXPECT_NE(got.find("tum [evo 26d0953, test/tum_benchmark_tools], rmse against "),
             std::string::npos);
   EXPECT_NE(got.find("rpg [8c8ceec], rmse against "), std::string::npos);
-  EXPECT_NE(got.find("ate translation [m]"), std::string::npos);
+  EXPECT_NE(got.find("| ate [m] |"), std::string::npos);
   EXPECT_NE(got.find("est_corrected.txt"), std::string::npos);
   EXPECT_EQ(eval_json({golden("gt.txt"), golden("est_drift.txt"), "--protocol=tum,rpg"}).size(),
             2u);
@@ -80,7 +80,8 @@ TEST(Eval, SeveralProtocolsAndEstimatesAreATable) {
 TEST(Eval, CsvHoldsALinePerScoreInFull) {
   const std::string got =
       eval({golden("gt.txt"), golden("est_drift.txt"), "--protocol=evo", "-a", "--csv"});
-  EXPECT_NE(got.find("evo (align=se3),26d0953,ate,,translation,3d,m,635,0.6762082606821"),
+  EXPECT_NE(got.find("golden,0,est_drift,,false,false,evo (align=se3),26d0953,keyframes,ate,ate,"
+                     "translation,3d,m,lower,,635,0.6762082606821"),
             std::string::npos)
       << got;
 }

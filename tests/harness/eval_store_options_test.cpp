@@ -142,7 +142,7 @@ TEST_F(EvalStoreOptions, TimesOfReadingFilesAreNotRecorded) {
 TEST_F(EvalStoreOptions, TablesShowAxesIfThereIsNoTotal) {
   const std::vector<std::string> files{path("truths"), path("systems"), "-r", "rpy"};
   const std::string out = test::eval(files);
-  EXPECT_THAT(out, HasSubstr("ape rotation roll [deg]"));
+  EXPECT_THAT(out, HasSubstr("ape roll [deg]"));
   EXPECT_THAT(out, HasSubstr("mean ape roll [deg]"));
   EXPECT_THAT(out, HasSubstr("range [deg]"));
 }

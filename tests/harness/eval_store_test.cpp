@@ -131,8 +131,9 @@ TEST_F(EvalStore, RelativeNamesInSeveralFoldersAreDifferentFiles) {
 
 TEST_F(EvalStore, RejectsRelativePathsOfEarlierVersions) {
   std::filesystem::create_directories(path("old"));
-  const Sweep sweep = recorded_sweep({{"s", "m", "0", "ref.txt", "est.txt"}}, EvalArguments{});
   const Catalogue known = recorded_catalogue();
+  const Sweep sweep =
+      recorded_sweep({{"s", "m", "0", "ref.txt", "est.txt"}}, EvalArguments{}, known);
   {
     CellKeys keys(sweep, known, DataRoot{}, "build");
     Store store(path("old/results.sqlite"), keys, {});
@@ -262,7 +263,8 @@ TEST(RecordedRuns, OneFileIsNotTwoMethods) {
   EXPECT_THROW(recorded_runs({{"t/a.txt", "one/odom.txt"}, {"t/a.txt", "one/./odom.txt"}}, ""),
                InputError);
   const auto runs = recorded_runs({{"t/a.txt", "a_1.txt"}, {"t/a.txt", "a_01.txt"}}, "");
-  const auto cells = recorded_cells(runs, recorded_sweep(runs, EvalArguments{}));
+  const auto cells =
+      recorded_cells(runs, recorded_sweep(runs, EvalArguments{}, recorded_catalogue()));
   EXPECT_NE(cells[0].repeat, cells[1].repeat);
   EXPECT_EQ(recorded_runs({{"a.txt", "bag:b.bag#/odom"}}, "")[0].estimate,
             "bag:" + std::filesystem::absolute("b.bag").string() + "#/odom");

@@ -44,6 +44,7 @@ TEST_F(EvalOnATerminal, OneEstimateFits) {
   EXPECT_EQ(narrow.exit_code, 0) << narrow.out;
   EXPECT_LE(widest(narrow.out), 80u) << narrow.out;
   EXPECT_THAT(narrow.out, HasSubstr("\nscore "));
+  EXPECT_THAT(narrow.out, HasSubstr("\ndiagnosis  matched "));
   EXPECT_THAT(narrow.out, HasSubstr("\nrpe 1 s x [m] "));
   const CommandResult wide = run("eval gt.txt a.txt", 160);
   EXPECT_EQ(wide.out, loopbench_command("eval gt.txt a.txt", folder_).out);

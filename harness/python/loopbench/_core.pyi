@@ -14,6 +14,7 @@ class EvalArguments:
     settings: list[str]
     align: str
     correct_scale: bool
+    metrics: list[str]
     relation: str
     delta: float | None
     delta_unit: str

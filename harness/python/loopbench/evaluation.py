@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Mapping, NamedTuple, Union
+from typing import Any, Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -52,6 +52,7 @@ def evaluate(
     *,
     settings: Mapping[str, Any] | None = None,
     correct_scale: bool = False,
+    metrics: Sequence[str] = (),
     relation: str = "",
     delta: float | None = None,
     delta_unit: str = "",
@@ -66,7 +67,8 @@ def evaluate(
     """Evaluates one estimate; returns the object that `loopbench eval --json` prints.
 
     Reference and estimate are two paths or two arrays. The other arguments are the options of
-    `eval`; `settings` are fields of the protocol, as of `--set`. `format` and all after it refer
+    `eval`; `settings` are fields of the protocol, as of `--set`, and `metrics` texts as of
+    `--metric`. `format` and all after it refer
     to files. Raises ValueError for invalid input. Does not hold the interpreter's lock.
 
     >>> t = np.arange(20.0)
@@ -82,6 +84,7 @@ def evaluate(
     """
     arguments = _arguments(protocol, align, settings)
     arguments.correct_scale = correct_scale
+    arguments.metrics = list(metrics)
     arguments.relation = relation
     arguments.delta = delta
     arguments.delta_unit = delta_unit

@@ -15,46 +15,38 @@ Json to_json(const Params& params) {
   return out;
 }
 
-Json to_json(const EvaluatedMetric& metric, const metrics::Score& score) {
-  const metrics::Statistics& s = score.statistics;
-  return {{"metric", metric.name},
-          {"options", to_json(metric.options)},
-          {"relation", score.relation},
-          {"axis", score.axis},
-          {"unit", score.unit},
-          {"rmse", s.rmse},
-          {"mean", s.mean},
-          {"median", s.median},
-          {"std", s.std},
-          {"min", s.min},
-          {"max", s.max},
-          {"count", s.count}};
+Json to_json(const Record& record) {
+  Json out{{"metric", std::string(record.metric)}, {"label", std::string(record.label)}};
+  if (!record.relation.empty()) {
+    out["relation"] = std::string(record.relation);
+    out["axis"] = std::string(record.axis);
+  }
+  if (!has_numbers(record.status)) {
+    out["why"] = std::string(record.why);
+    return out;
+  }
+  const metrics::Statistics& s = record.statistics;
+  out.update({{"unit", std::string(record.unit)},
+              {"rmse", s.rmse},
+              {"mean", s.mean},
+              {"median", s.median},
+              {"std", s.std},
+              {"min", s.min},
+              {"max", s.max},
+              {"count", s.count}});
+  return out;
 }
 
 Json to_json(const EvaluationResult& result) {
   Json scores = Json::array();
   Json undefined = Json::array();
   Json failed = Json::array();
-  Json diagnosis = Json::object();
-  for (const metrics::Score& score : result.diagnosis)
-    diagnosis[score.relation] = score.statistics.mean;
-  for (const EvaluatedMetric& metric : result.metrics) {
-    for (const metrics::Score& score : metric.scores) {
-      if (score.why_undefined.empty()) {
-        scores.push_back(to_json(metric, score));
-      } else {
-        undefined.push_back({{"metric", metric.name},
-                             {"options", to_json(metric.options)},
-                             {"relation", score.relation},
-                             {"axis", score.axis},
-                             {"why", score.why_undefined}});
-      }
-    }
-    const auto without_scores = [&](const std::string& why) -> Json {
-      return {{"metric", metric.name}, {"options", to_json(metric.options)}, {"why", why}};
-    };
-    if (!metric.why_undefined.empty()) undefined.push_back(without_scores(metric.why_undefined));
-    if (!metric.why_failed.empty()) failed.push_back(without_scores(metric.why_failed));
+  for (const Record& record : result.records) {
+    if (record.metric.empty()) continue;
+    Json& list = has_numbers(record.status)  ? scores
+                 : is_failure(record.status) ? failed
+                                             : undefined;
+    list.push_back(to_json(record));
   }
   Json out{{"reference", result.reference},
            {"estimate", result.estimate},
@@ -68,6 +60,9 @@ Json to_json(const EvaluationResult& result) {
   if (!result.reference_body.empty()) out["reference_body"] = result.reference_body;
   if (!result.other_body.empty()) out["other_body"] = result.other_body;
   if (result.why_failed.empty()) {
+    Json diagnosis = Json::object();
+    for (const metrics::Score& score : result.diagnosis)
+      diagnosis[score.relation] = score.statistics.mean;
     out["pairs"] = result.coverage.pairs;
     out["possible"] = result.coverage.possible;
     out["coverage"] = result.coverage.share();

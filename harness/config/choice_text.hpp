@@ -1,0 +1,22 @@
+/// Methods and metrics in one word of the command line: NAME:option=value,option=value.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/catalogue/catalogue.hpp"
+#include "harness/model/sweep.hpp"
+
+namespace loopbench::harness {
+
+/// The choice of a method as in a config, or of a corrector + smoother. Throws InputError, also for
+/// a text with several methods.
+MethodChoice parse_method(const std::string& text, const Catalogue& catalogue);
+
+/// The choice of a metric as in a config; its options must be compatible with each of the
+/// protocols. Throws InputError, with a suggestion for an unknown name.
+MetricChoice parse_metric(const std::string& text,
+                          const Catalogue& catalogue,
+                          const std::vector<metrics::NamedProtocol>& protocols);
+
+}  // namespace loopbench::harness

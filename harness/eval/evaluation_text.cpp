@@ -1,0 +1,226 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "harness/eval/evaluation_result.hpp"
+#include "harness/tables/notes.hpp"
+#include "harness/text/wrap.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+constexpr std::size_t kMargin = 11;  ///< of the values beside their names
+constexpr std::size_t kWidth = 100;  ///< of long lists without a terminal
+
+std::string protocol_text(const metrics::NamedProtocol& protocol) {
+  return fmt::format("{} [{}]", protocol.label(), protocol.version);
+}
+
+/// `text` beside `name`, in lines of at most `columns`; 0: any.
+std::string property(const std::string& name, const std::string& text, std::size_t columns) {
+  if (text.empty()) return "";
+  std::string out = padded(name, kMargin, true);
+  std::size_t count = 0;
+  for (const std::string& line : wrapped(text, columns == 0 ? 0 : columns - kMargin)) {
+    out += (count++ == 0 ? "" : std::string(kMargin, ' ')) + line + "\n";
+  }
+  return out;
+}
+
+std::string path_text(const std::string& path, const std::string& rest, std::size_t columns) {
+  if (columns == 0) return path + rest;
+  return shortened(path, columns - std::min(columns, kMargin + rest.size())) + rest;
+}
+
+/// "largest_gap 0.25 s, repeated 0, ...", in lines of at most `columns`.
+std::string diagnosis_text(const std::vector<metrics::Score>& diagnosis, std::size_t columns) {
+  std::string out;
+  std::string line = padded("diagnosis", kMargin, true);
+  for (const metrics::Score& score : diagnosis) {
+    const std::string item = fmt::format("{} {:.4g}", score.relation, score.statistics.mean) +
+                             (score.unit == "1" ? "" : " " + score.unit) + ",";
+    if (line.size() + item.size() > columns) {
+      out += line + "\n";
+      line = std::string(kMargin, ' ');
+    }
+    line += (line.size() > kMargin ? " " : "") + item;
+  }
+  line.pop_back();
+  return out + line + "\n";
+}
+
+bool is_total(const Record& record) { return record.axis == "3d" || record.axis == "all"; }
+
+/// "rpe 1 s x [m]", without the unit if there is none.
+std::string score_name(const Record& record) {
+  std::string out = metric_label(record);
+  if (record.relation != "translation" && record.relation != "rotation" &&
+      !record.relation.empty()) {
+    out += " " + record.relation;
+  }
+  if (!is_total(record) && !record.axis.empty()) out += " " + record.axis;
+  return record.unit.empty() ? out : out + " [" + record.unit + "]";
+}
+
+/// Undefined scores and failed metrics, as notes of `row`.
+std::vector<Missing> missing_scores(const EvaluationResult& result, const std::string& row) {
+  std::vector<Missing> out;
+  for (const Record& record : result.records) {
+    if (record.metric.empty() || has_numbers(record.status)) continue;
+    const std::string status = is_failure(record.status) ? "failed" : "undefined";
+    out.push_back({row, score_name(record), status, record.why});
+  }
+  return out;
+}
+
+/// `digits`: decimals; none: four significant digits.
+TableView scores_view(const EvaluationResult& result, std::optional<int> digits) {
+  TableView out{"", {"score", "rmse", "mean", "median", "std", "min", "max", "count"}, {}, {}};
+  for (const Record& record : result.records) {
+    if (!has_numbers(record.status)) continue;
+    const metrics::Statistics& s = record.statistics;
+    std::vector<TableViewEntry>& line = out.lines.emplace_back();
+    line.push_back({score_name(record)});
+    for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max}) {
+      line.push_back({fixed(value, digits.value_or(decimals(s.rmse)))});
+    }
+    line.push_back({std::to_string(s.count)});
+  }
+  out.notes = grouped(missing_scores(result, ""));
+  return out;
+}
+
+bool fits(const std::string& text, std::size_t columns) {
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    if (width(line) > columns) return false;
+  }
+  return true;
+}
+
+/// A score with one value, for tables.
+Record share(const EvaluationResult& result, const std::string& name, double value) {
+  Record out;
+  out.metric = name;
+  out.axis = "3d";
+  out.relation = "translation";
+  out.unit = "%";
+  out.protocol = result.protocol.label();
+  out.statistics = metrics::single(name, "", "%", 100.0 * value).statistics;
+  return out;
+}
+
+/// Rows of the comparison: the estimate is the method, and no score is ranked.
+std::vector<Record> compared_records(const EvaluationResult& result, bool has_totals) {
+  std::vector<Record> out;
+  if (result.why_failed.empty()) {
+    out = {share(result, "poses", result.coverage.share()),
+           share(result, "time", result.coverage.span)};
+  }
+  for (const Record& record : result.records) {
+    const bool is_shown = record.relation.empty() || !has_totals || is_total(record);
+    if (is_shown) out.push_back(record);
+  }
+  for (Record& record : out) {
+    record.sequence = result.reference;
+    record.method = result.estimate;
+    record.repeat = 0;
+    record.content = "";
+    record.group = "";
+    record.better = metrics::Better::neither;
+  }
+  return out;
+}
+
+std::string value_of(const metrics::Protocol& protocol) {
+  if (protocol.statistic == metrics::Statistic::mean) return "mean";
+  return protocol.statistic == metrics::Statistic::median ? "median" : "rmse";
+}
+
+std::string body_text(const EvaluationResult& result) {
+  return result.reference_body.empty() ? "" : ", body offset " + result.reference_body;
+}
+
+/// Results with one reference and one protocol.
+Table comparison_of(const std::vector<const EvaluationResult*>& results, bool has_totals) {
+  std::vector<Record> records;
+  std::vector<Missing> notes;
+  for (const EvaluationResult* result : results) {
+    const std::vector<Record> own = compared_records(*result, has_totals);
+    records.insert(records.end(), own.begin(), own.end());
+    if (!result->other_body.empty())
+      notes.push_back({result->estimate, "", "other body", result->other_body});
+    for (const std::string& note : result->notes)
+      notes.push_back({result->estimate, "", "note", note});
+  }
+  const EvaluationResult& first = *results.front();
+  TableSpec spec;
+  spec.split.clear();
+  spec.value = value_of(first.protocol.rules);
+  Table out = pivot(records, spec).front();
+  out.corner = "estimate";
+  out.title = fmt::format("{}, {} against {}{}",
+                          protocol_text(first.protocol),
+                          spec.value,
+                          first.reference,
+                          body_text(first));
+  for (std::string& note : grouped(notes)) out.notes.push_back(std::move(note));
+  return out;
+}
+
+}  // namespace
+
+std::string text(const EvaluationResult& result, const std::optional<TerminalStyle>& style) {
+  const std::size_t columns = style ? std::max<std::size_t>(40, style->width) : 0;
+  const auto line = [&](const char* name, const std::string& value) {
+    return property(name, value, columns);
+  };
+  const auto poses = [](std::size_t count) { return fmt::format(" ({} poses)", count); };
+  const metrics::Coverage& covered = result.coverage;
+  std::string out =
+      line(
+          "reference",
+          path_text(result.reference, poses(result.reference_poses) + body_text(result), columns)) +
+      line("estimate", path_text(result.estimate, poses(result.estimate_poses), columns)) +
+      line("protocol", protocol_text(result.protocol)) +
+      line("pairs",
+           fmt::format("{} of {} ({:.1f} %), over {:.1f} % of the reference's time",
+                       covered.pairs,
+                       covered.possible,
+                       100.0 * covered.share(),
+                       100.0 * covered.span)) +
+      line("incomplete", result.incomplete_reason) +
+      line("alignment",
+           fmt::format("{}, scale {}", to_text(result.alignment.type), result.alignment.scale)) +
+      diagnosis_text(result.diagnosis, style ? std::min(columns, kWidth) : kWidth) +
+      line("other body", result.other_body.empty() ? "" : result.other_body + "; see --ref-body");
+  for (const std::string& note : result.notes) out += line("note", note);
+  const std::string scores = terminal(scores_view(result, 6));
+  if (!style || fits(scores, columns)) return out + "\n" + scores;
+  return out + "\n" + terminal(scores_view(result, std::nullopt), {columns, style->color});
+}
+
+std::vector<Table> comparison(const std::vector<EvaluationResult>& results) {
+  const bool has_totals = std::ranges::any_of(results, [](const EvaluationResult& result) {
+    return std::ranges::any_of(result.records, is_total);
+  });
+  using Group = std::vector<const EvaluationResult*>;
+  std::vector<Group> groups;
+  for (const EvaluationResult& result : results) {
+    const auto same = std::ranges::find_if(groups, [&](const Group& group) {
+      return group.front()->reference == result.reference &&
+             group.front()->protocol.label() == result.protocol.label();
+    });
+    if (same == groups.end()) {
+      groups.push_back({&result});
+    } else {
+      same->push_back(&result);
+    }
+  }
+  std::vector<Table> out;
+  for (const Group& group : groups) out.push_back(comparison_of(group, has_totals));
+  return out;
+}
+
+}  // namespace loopbench::harness
