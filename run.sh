@@ -21,7 +21,7 @@ build_program() {
 
 install_missing "${packages[@]}" "${compression_packages[@]}"
 case "$* " in
-  plot\ * | reproduce\ * | traj\ plot\ * | eval\ *--plot[\ =]* | eval\ *--report[\ =]*)
+  plot\ * | traj\ plot\ * | eval\ *--plot[\ =]* | eval\ *--report[\ =]*)
     install_missing "${plot_packages[@]}" ;;
   get\ *) install_missing "${get_packages[@]}" ;;
 esac

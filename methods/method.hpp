@@ -70,6 +70,10 @@ struct MethodEntry {
   std::string summary;
   std::vector<OptionInfo> options;
   std::function<Stage(const Params&)> make;  ///< throws OptionError
+  /// Set for an oracle only: makes the method with access to the reference, to quantify the gain
+  /// from such a leak. Only the harness calls it; every row of the method is marked and never
+  /// ranked. `make` then returns a method that declines.
+  std::function<Stage(const Params&, const Trajectory& reference)> make_oracle = {};
 };
 
 /// Wraps a `T` constructible from `T::Options` as an entry. Different `defaults` define a variant.

@@ -12,7 +12,6 @@
 #include "methods/smoothers/cubic_spline.hpp"
 #include "methods/smoothers/gaussian_process.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
-#include "methods/smoothers/manifold/paper_literal.hpp"
 #include "methods/smoothers/polyline.hpp"
 #include "methods/smoothers/savitzky_golay.hpp"
 #include "methods/smoothers/screw.hpp"
@@ -141,14 +140,6 @@ std::vector<MethodEntry> methods() {
       method<Dm>("dm_robust",
                  "dm with options chosen on training sequences, configs/dm_training.yaml",
                  robust()),
-      method<PaperLiteral>(
-          "paper_literal_fr1",
-          "the article's equations alone, thresholds for fr1_room: world axes, no guards",
-          {manifold::paper_equations({.speed_band = 0.33, .turn_max = 0.75})}),
-      method<PaperLiteral>(
-          "paper_literal_fr3",
-          "the article's equations alone, thresholds for fr3_office: world axes, no guards",
-          {manifold::paper_equations({.speed_band = 0.25, .turn_max = 0.42})}),
 
       // Joint methods.
       method<SplineFit>("spline_fit",

@@ -67,14 +67,13 @@ void add_plugin(Catalogue& catalogue, const std::filesystem::path& plugin) {
 }  // namespace
 
 Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
-  Catalogue out{datasets(), methods::methods(), metrics::metrics(), oracles(), {}};
+  Catalogue out{datasets(), methods::methods(), metrics::metrics(), {}};
   for (DatasetEntry& entry : rgbd::rgbd_datasets(loading_hooks())) {
     out.datasets.push_back(std::move(entry));
   }
   for (DatasetEntry& entry : external_datasets(loading_hooks().cache)) {
     out.datasets.push_back(std::move(entry));
   }
-  for (const OracleEntry& oracle : out.oracles) out.methods.push_back(oracle.listed);
   for (const ExternalMethod& program : external_methods()) out.methods.push_back(program.listed);
   for (const std::filesystem::path& plugin : plugins) add_plugin(out, plugin);
   return out;
@@ -93,10 +92,9 @@ const DatasetEntry& find_dataset(const Catalogue& catalogue, const std::string& 
 const methods::MethodEntry& find_method(const Catalogue& catalogue, const std::string& name) {
   return find(catalogue.methods, "method", name);
 }
-const OracleEntry* find_oracle(const Catalogue& catalogue, const std::string& name) {
-  const auto found = std::ranges::find(
-      catalogue.oracles, name, [](const OracleEntry& entry) { return entry.listed.name; });
-  return found == catalogue.oracles.end() ? nullptr : &*found;
+bool is_oracle(const Catalogue& catalogue, const std::string& name) {
+  const auto found = std::ranges::find(catalogue.methods, name, &methods::MethodEntry::name);
+  return found != catalogue.methods.end() && found->make_oracle;
 }
 const metrics::MetricEntry& find_metric(const Catalogue& catalogue, const std::string& name) {
   return find(catalogue.metrics, "metric", name);

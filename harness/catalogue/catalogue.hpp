@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "datasets/dataset.hpp"
-#include "harness/oracle/oracle.hpp"
 #include "methods/method.hpp"
 #include "metrics/metric.hpp"
 
@@ -17,7 +16,6 @@ struct Catalogue {
   std::vector<DatasetEntry> datasets;
   std::vector<methods::MethodEntry> methods;
   std::vector<metrics::MetricEntry> metrics;
-  std::vector<OracleEntry> oracles = {};  ///< those of `methods` with access to the reference
   /// Of the entries of plugins, by "method NAME", "dataset NAME" or "metric NAME": hashes of their
   /// file and of the libraries that it loads.
   std::map<std::string, std::string> versions = {};
@@ -35,8 +33,8 @@ std::string plugin_version(const Catalogue& catalogue,
 /// The entry of that name. Throws InputError with a suggestion.
 const DatasetEntry& find_dataset(const Catalogue& catalogue, const std::string& name);
 const methods::MethodEntry& find_method(const Catalogue& catalogue, const std::string& name);
-/// The oracle of that name, or null.
-const OracleEntry* find_oracle(const Catalogue& catalogue, const std::string& name);
+/// Whether the method of that name has access to the reference (MethodEntry::make_oracle).
+bool is_oracle(const Catalogue& catalogue, const std::string& name);
 const metrics::MetricEntry& find_metric(const Catalogue& catalogue, const std::string& name);
 
 }  // namespace loopbench::harness

@@ -50,10 +50,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench help\n"
      "  loopbench help run\n"
      "  loopbench run --help\n"},
-    {"reproduce",
-     "  loopbench reproduce configs/paper_tables_fr1.yaml --data /data\n"
-     "  loopbench reproduce configs/paper_tables_*.yaml --data /data\n"
-     "  loopbench reproduce configs/paper_tables_fr1.yaml --data /data --out reproduced\n"},
     {"calibrate",
      "  loopbench calibrate mine.yaml --train 'my run' --out learnt.yaml\n"
      "  loopbench calibrate configs/kitti_chains.yaml --train 'viso2 KITTI 0[67]' --data /data "
@@ -171,7 +167,6 @@ const std::map<std::string, std::string> kExitCodes{
      "0 success, 1 failed cells or regressions, 2 invalid input or output, 3 internal error, 4 the "
      "build lacks a required part, 130 interrupted."},
     {"run", kSweepExitCodes},
-    {"reproduce", kComputeExitCodes},
     {"calibrate", kComputeExitCodes},
     {"verify",
      "0 equal results, 1 differences, 2 invalid input or output, 3 internal error, 4 the build "

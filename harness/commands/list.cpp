@@ -41,8 +41,7 @@ std::vector<Item> items(const Catalogue& known, const std::string& subject) {
     for (const auto& e : known.datasets) out.push_back({e.name, "", e.summary, e.options, false});
   } else if (subject == "methods") {
     for (const auto& e : known.methods) {
-      const bool is_oracle = find_oracle(known, e.name) != nullptr;
-      out.push_back({e.name, to_text(e.kind), e.summary, e.options, is_oracle});
+      out.push_back({e.name, to_text(e.kind), e.summary, e.options, is_oracle(known, e.name)});
     }
   } else if (subject == "metrics") {
     for (const auto& e : known.metrics) out.push_back({e.name, "", e.summary, e.options, false});

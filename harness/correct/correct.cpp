@@ -135,7 +135,7 @@ std::optional<std::size_t> rejected_closures(const Correction& done) {
 MethodChoice method_without_reference(const std::string& text, const Catalogue& catalogue) {
   MethodChoice out = parse_method(text, catalogue);
   for (const Choice& stage : out.stages) {
-    if (find_oracle(catalogue, stage.name) != nullptr) {
+    if (is_oracle(catalogue, stage.name)) {
       throw InputError("--method: " + stage.name + " reads the reference, which is not given here");
     }
   }

@@ -16,7 +16,7 @@ using PluginEntry = std::variant<methods::MethodEntry, DatasetEntry, metrics::Me
 /// Properties that must be equal in both binaries before they exchange our types. `interface` stays
 /// the first member: it is read before the others, whose meaning depends on it.
 struct Abi {
-  int interface = 5;  ///< raise when this file or the headers that it includes change shape
+  int interface = 6;  ///< raise when this file or the headers that it includes change shape
   long language = __cplusplus;
   int standard_library = _GLIBCXX_RELEASE;  ///< GCC and clang with the same one fit together
   int eigen = EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 + EIGEN_MINOR_VERSION;

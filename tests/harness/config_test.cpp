@@ -11,20 +11,35 @@
 namespace loopbench::config_test {
 namespace {
 
+const std::filesystem::path kConfigs = LOOPBENCH_CONFIGS;
+const std::filesystem::path kPaperConfigs = kConfigs.parent_path() / "results/paper/configs";
+
 std::vector<std::string> shipped() {
   std::vector<std::string> out;
-  for (const auto& entry : std::filesystem::directory_iterator(LOOPBENCH_CONFIGS)) {
-    if (entry.path().extension() == ".yaml") out.push_back(entry.path().stem().string());
+  for (const auto& folder : {kConfigs, kPaperConfigs}) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().extension() == ".yaml") out.push_back(entry.path().stem().string());
+    }
   }
   std::ranges::sort(out);
   return out;
 }
 
+/// The config of that name; those of the article need its methods.
+std::filesystem::path file_of(const std::string& name) {
+  const std::filesystem::path own = kConfigs / (name + ".yaml");
+  return std::filesystem::exists(own) ? own : kPaperConfigs / (name + ".yaml");
+}
+std::string plugin_option(const std::string& name) {
+  return file_of(name).parent_path() == kConfigs ? "" : " --plugin '" LOOPBENCH_PAPER_PLUGIN "' ";
+}
+
 class ShippedConfig : public testing::TestWithParam<std::string> {
  protected:
   CommandResult run(const std::string& more) {
-    return loopbench_command("run '" LOOPBENCH_CONFIGS "/" + GetParam() + ".yaml' " + more,
-                             folder_);
+    return loopbench_command(
+        "run '" + file_of(GetParam()).string() + "'" + plugin_option(GetParam()) + " " + more,
+        folder_);
   }
   TemporaryFolder folder_;
 };
@@ -81,20 +96,20 @@ TEST_P(ShippedConfig, RunsWithoutAFailedCell) {
   const std::filesystem::path configs = folder_.path() / "configs";
   std::filesystem::copy(LOOPBENCH_CONFIGS, configs, std::filesystem::copy_options::recursive);
   const std::string name = "configs/" + GetParam() + ".yaml";
+  const std::string command = "run " + name + plugin_option(GetParam());
   std::ostringstream text;
-  text << std::ifstream(folder_.path() / name).rdbuf();
+  text << std::ifstream(file_of(GetParam())).rdbuf();
   folder_.file(name,
                std::regex_replace(text.str(), std::regex("\\brepeats: [0-9]+"), "repeats: 1"));
   const std::string baseline = LOOPBENCH_CONFIGS "/../results/reference/" + GetParam() + ".json";
   const bool has_baseline = std::filesystem::exists(baseline);
   std::vector<std::string> patterns{""};
   if (!has_baseline) {
-    patterns =
-        every_dataset_and_method(loopbench_command("run " + name + " --dry-run", folder_).out);
+    patterns = every_dataset_and_method(loopbench_command(command + " --dry-run", folder_).out);
   }
   for (const std::string& only : patterns) {
     const CommandResult result =
-        loopbench_command("run " + name + " --out out --only '" + only + "'", folder_);
+        loopbench_command(command + " --out out --only '" + only + "'", folder_);
     if (result.err.find("no such file (looked in") != std::string::npos) {
       GTEST_SKIP() << "its data is absent; set LOOPBENCH_DATA: " << result.err;
     }

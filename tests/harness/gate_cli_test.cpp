@@ -50,7 +50,7 @@ TEST_F(GateCli, PassesTheSameSweepRunAgain) {
 }
 
 TEST_F(GateCli, NamesAMethodThatIsAnotherUnderItsLabel) {
-  sweep("paper_oracle");
+  sweep("two_pass");
   EXPECT_NE(refused().find("defines the method 'mine' differently"), std::string::npos)
       << refused();
   sweep("uniform, rotation: none");

@@ -16,6 +16,9 @@ using namespace harness;
 
 namespace {
 
+/// Built-in methods, and the oracles of results/paper.
+Catalogue readings() { return catalogue({LOOPBENCH_PAPER_PLUGIN}); }
+
 /// Along y = 0.1 x^2, one step per second at uneven speed: on the nominal path at integer seconds.
 Pose on_parabola(double t) {
   const double x = t + 0.2 * std::sin(2.0 * std::numbers::pi * t) / std::numbers::pi;
@@ -38,7 +41,7 @@ CellResult run(const std::vector<Choice>& stages, const Sequence& sequence) {
   Sweep sweep;
   sweep.methods = {{"it", stages}};
   sweep.metrics = {{"ate", {"ate", {}}}};
-  return run_cell({}, sweep, sequence, catalogue({}));
+  return run_cell({}, sweep, sequence, readings());
 }
 
 double dense_ate(const CellResult& result) {
@@ -98,18 +101,22 @@ TEST(Oracle, DeclinesWithoutAReference) {
 }
 
 TEST(Oracle, MadeFromTheListOfMethodsHasSeenNothing) {
-  const Catalogue known = catalogue({});
-  ASSERT_FALSE(known.oracles.empty());
-  for (const OracleEntry& oracle : known.oracles) {
-    const Stage stage = find_method(known, oracle.listed.name).make({});
+  const Catalogue known = readings();
+  std::size_t oracles = 0;
+  for (const MethodEntry& method : known.methods) {
+    if (!method.make_oracle) continue;
+    ++oracles;
+    const Stage stage = method.make({});
     const auto& smoother = std::get<std::unique_ptr<const Smoother>>(stage);
-    EXPECT_NE(smoother->why_declined(parabola().problem), "") << oracle.listed.name;
+    EXPECT_NE(smoother->why_declined(parabola().problem), "") << method.name;
   }
-  EXPECT_EQ(find_oracle(known, "dm"), nullptr);
+  EXPECT_EQ(oracles, 5u);
+  EXPECT_TRUE(is_oracle(known, "paper_text"));
+  EXPECT_FALSE(is_oracle(known, "dm"));
 }
 
 TEST(Oracle, RefusesTheOptionsThatDmRefuses) {
-  const Catalogue known = catalogue({});
+  const Catalogue known = readings();
   EXPECT_THROW(find_method(known, "paper_oracle").make({{"families", std::string("spiral")}}),
                OptionError);
 }
@@ -137,7 +144,7 @@ TEST(Oracle, TheStoreKeepsTheFlag) {
   sweep.metrics = {{"ate", {"ate", {}}}};
   const auto file = folder.path() / "results.sqlite";
   {
-    const Catalogue known = catalogue({});
+    const Catalogue known = readings();
     CellKeys keys(sweep, known, {}, "build");
     Store store(file, keys, {}, true);
     store.write(run_cell({}, sweep, parabola(), known));

@@ -26,12 +26,9 @@ struct Exemption {
   std::string method, law, reason;
 };
 std::vector<Exemption> exemptions() {
-  const std::string axes = "fits y = f(x) in the axes of the world, as the article does";
   return {{"tracked_frames",
            "AcceptsOrdinaryProblems",
-           "requires tracked frames, which some ordinary problems do not have"},
-          {"paper_literal_fr1", "IsIndependentOfTheWorldFrame", axes},
-          {"paper_literal_fr3", "IsIndependentOfTheWorldFrame", axes}};
+           "requires tracked frames, which some ordinary problems do not have"}};
 }
 
 /// Composes a corrector with a polyline, or a smoother without a corrector; returns a joint method

@@ -145,7 +145,7 @@ TEST(LoadPlugin, RefusesAnotherAbi) {
 }
 
 TEST(LoadPlugin, ReadsTheInterfaceNumberBeforeAllElse) {
-  expect_refused(kOutside / "outdated.so", "was built for plugin interface 1, this program has 5");
+  expect_refused(kOutside / "outdated.so", "was built for plugin interface 1, this program has 6");
 }
 
 TEST(LoadPlugin, RefusesAnObjectWithoutThePluginLine) {

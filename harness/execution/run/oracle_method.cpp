@@ -5,9 +5,8 @@
 namespace loopbench::harness {
 
 bool uses_reference(const MethodChoice& method, const Catalogue& catalogue) {
-  return std::ranges::any_of(method.stages, [&](const Choice& stage) {
-    return find_oracle(catalogue, stage.name) != nullptr;
-  });
+  return std::ranges::any_of(method.stages,
+                             [&](const Choice& stage) { return is_oracle(catalogue, stage.name); });
 }
 
 std::string trained_on_evaluated(const MethodChoice& method,

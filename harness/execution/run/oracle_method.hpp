@@ -9,7 +9,7 @@
 
 namespace loopbench::harness {
 
-/// Whether a stage is one of harness/oracle.
+/// Whether a stage is an oracle (MethodEntry::make_oracle).
 bool uses_reference(const MethodChoice& method, const Catalogue& catalogue);
 
 /// Message naming the calibration if it was trained on the reference or the noise of this sequence;

@@ -149,11 +149,11 @@ std::unique_ptr<const methods::Estimator> make_method(const MethodChoice& choice
   std::unique_ptr<const methods::Corrector> corrector;
   std::unique_ptr<const methods::Smoother> smoother;
   for (const Choice& part : choice.stages) {
-    const OracleEntry* oracle = find_oracle(catalogue, part.name);
+    const methods::MethodEntry& entry = find_method(catalogue, part.name);
     const ExternalMethod* program = find_external(part.name);
-    methods::Stage stage = oracle    ? oracle->make(part.options, reference)
-                           : program ? program->make(part.options, setting)
-                                     : find_method(catalogue, part.name).make(part.options);
+    methods::Stage stage = entry.make_oracle ? entry.make_oracle(part.options, reference)
+                           : program         ? program->make(part.options, setting)
+                                             : entry.make(part.options);
     if (auto* joint = std::get_if<std::unique_ptr<const methods::Estimator>>(&stage))
       return std::move(*joint);
     if (auto* first = std::get_if<std::unique_ptr<const methods::Corrector>>(&stage)) {

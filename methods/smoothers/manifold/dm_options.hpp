@@ -183,19 +183,4 @@ void fields(DmOptions& o, Visit visit) {
   visit("report_frames", o.report_frames, "count curvature, torsion and undefined Frenet frames");
 }
 
-/// Options of the article's literal readings. They are not options of `dm`, whose frames follow the
-/// path.
-template <class Visit>
-void literal_fields(DmOptions& o, Visit visit) {
-  visit("fit_axes",
-        o.fit_axes,
-        "axes called world: of the estimate's file, with z along gravity as estimated from level "
-        "cameras, or of the reference (oracles only)");
-  visit("plane", o.plane, "plane of the planar curve with frame = world");
-  visit("torsion_max",
-        o.segment.torsion_max,
-        "maximum torsion per keyframe within a segment [rad]; none: no limit",
-        GreaterThan{0.0});
-}
-
 }  // namespace loopbench::methods

@@ -32,7 +32,7 @@ inline auto choices(Plane) {
 /// rolls; upwards is where their y axes do not point. x is the horizontal direction of largest
 /// variance of the positions, towards the pose farthest from the first. Requires a camera's axes (x
 /// right, y down) as body frame and rotation about more than one axis; the error on the ORB-SLAM2
-/// runs of the article's sequences is 1 to 5 degrees (tests/harness/paper_numbers_test.cpp). The
+/// runs of the article's sequences is 1 to 5 degrees (tests/external/paper_test.py). The
 /// result rotates with the data. O(n).
 Rotation level_axes(const Trajectory& poses);
 

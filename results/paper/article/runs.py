@@ -1,0 +1,114 @@
+"""Runs a config with loopbench and reads its results."""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import sqlite3
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+import loopbench
+from article.cells import DRAWN, ORB, Cell, Config, moved
+from article.program import Program
+
+
+def _notes(store):
+    """Notes of every cell, by labels of sequence and method."""
+    database = sqlite3.connect(f"file:{store}?mode=ro", uri=True)
+    out = {}
+    with contextlib.closing(database):
+        for sequence, method, text in database.execute(
+            "SELECT cell.sequence, cell.method, note.text FROM note JOIN cell"
+            " ON note.cell = cell.id ORDER BY note.rowid"
+        ):
+            out.setdefault((sequence, method), []).append(text)
+    return out
+
+
+def _cells(out, rows):
+    notes = _notes(out / "results.sqlite")
+    cells = {}
+    for row in csv.DictReader(rows.splitlines()):
+        key = (row["sequence"], row["method"])
+        if key not in cells:
+            cells[key] = Cell(*key, oracle=row["oracle_method"] == "true", notes=notes.get(key, []))
+            cells[key].seconds = float(row["milliseconds"]) / 1e3 if row["milliseconds"] else None
+        if row["status"] != "ok" and not row["metric"]:  # a cell without scores
+            cells[key].status, cells[key].why = row["status"], row["why"]
+        cells[key].scores.append(row)
+    return list(cells.values())
+
+
+def _trajectories(folder):
+    """Saved trajectories by labels of sequence and method, and times."""
+    out = {}
+    for file in Path(folder).glob("*.txt"):
+        head = {}
+        with file.open(encoding="utf-8") as lines:
+            for line in lines:
+                if not line.startswith("# "):
+                    break
+                name, value = line[2:].rstrip("\n").split(": ", 1)
+                head[name] = value
+        out[head["sequence"], head["method"], head["times"]] = file
+    return out
+
+
+def _evaluated(problem, reference, estimate):
+    """Poses of the estimate outside tracking gaps, and the reference at their stamps."""
+    tracked = np.sort(np.append(problem.keyframes[:, 0], problem.frames[:, 0]))
+    kept = np.ones(len(estimate), bool)
+    for begin, end in loopbench.tracking_gaps(reference, tracked):
+        kept &= (estimate[:, 0] <= begin) | (estimate[:, 0] >= end)
+    estimate = estimate[kept]
+    return estimate, reference[np.isin(reference[:, 0], estimate[:, 0])]
+
+
+def _add_trajectories(cells, files, options):
+    """Sets keyframes of all runs, and dense trajectories of what is drawn."""
+    loaded = {}
+    how = (options.get("protocol") or {}).get("align", "se3")
+    for cell in cells:
+        if cell.status != "ok":
+            continue
+        cell.keyframes = np.loadtxt(files[cell.dataset, options["baseline"], "keyframes"])
+        if cell.method != ORB and cell.reading not in DRAWN:
+            continue
+        if cell.dataset not in loaded:
+            entry = next(d for d in options["datasets"] if d["label"] == cell.dataset)
+            loaded[cell.dataset] = loopbench.load(**entry)
+        estimate = np.loadtxt(files[cell.dataset, cell.method, "dense"])
+        cell.raw_estimate, cell.reference = _evaluated(*loaded[cell.dataset], estimate)
+        cell.alignment = loopbench.align(cell.reference, cell.raw_estimate, how)
+        cell.estimate = cell.alignment.poses
+        cell.keyframes = moved(cell.alignment, cell.keyframes)
+
+
+def run_config(file, program: Program):
+    """Runs every cell. Trajectories are saved for tables, otherwise the baseline's keyframes."""
+    file = Path(file)
+    text = file.read_text(encoding="utf-8")
+    options = yaml.safe_load(text)
+    with tempfile.TemporaryDirectory() as work:
+        out, saved = Path(work) / "all", Path(work) / "saved"
+        program.run(file, out, "--save-trajectories" if options["baseline"] == ORB else "")
+        config = Config(file, text, options, _cells(out, program("export", out)))
+        if not config.is_tables:
+            out = Path(work) / "baseline"
+            only = f"--only= / {options['baseline']}$"
+            program.run(file, out, "--save-trajectories", only)
+        program("export", out, "--what", "trajectories", "-o", saved)
+        files = _trajectories(saved)
+        if config.is_tables:
+            with contextlib.chdir(file.parent):
+                _add_trajectories(config.cells, files, options)
+        else:
+            for cell in config.cells:
+                keyframes = files.get((cell.dataset, options["baseline"], "keyframes"))
+                if cell.status == "ok" and keyframes is not None:
+                    cell.keyframes = np.loadtxt(keyframes)
+    return config

@@ -1,0 +1,118 @@
+#include "paper_oracle.hpp"
+
+#include "datasets/core/polyline.hpp"
+#include "metrics/evaluation/evaluation.hpp"
+#include "reference_abscissa.hpp"
+
+namespace loopbench::paper {
+namespace {
+
+metrics::Alignment alignment_to(const Trajectory& reference,
+                                const Trajectory& keyframes,
+                                metrics::Align align) {
+  metrics::Protocol protocol;
+  protocol.align = align;
+  return metrics::evaluate(reference, keyframes, protocol).alignment;
+}
+
+/// Transforms the reference to the keyframes' world frame: p = R^T (p_reference - t) / scale.
+Trajectory aligned_reference(const Trajectory& keyframes,
+                             const Trajectory& reference,
+                             metrics::Align align) {
+  const metrics::Alignment to_reference = alignment_to(reference, keyframes, align);
+  const Pose estimate_from_reference = to_reference.reference_from_estimate.inverse();
+  Trajectory out = reference;
+  for (StampedPose& pose : out) {
+    pose.world_from_body = estimate_from_reference * pose.world_from_body;
+    pose.world_from_body.translation /= to_reference.scale;
+  }
+  return out;
+}
+
+/// Mean squared distance to the reference over the edges of a window [m^2].
+methods::manifold::PieceCost nearest_to(const Polyline& reference) {
+  return [&reference](const methods::manifold::PlanarPiece& piece,
+                      const methods::manifold::Window& window,
+                      const methods::manifold::Nodes& nodes,
+                      const methods::manifold::NodeSpline& spline) {
+    constexpr std::size_t parts = 8;  // of an edge
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t edge = window.owned.first; edge < window.owned.last; ++edge) {
+      for (std::size_t k = 0; k <= parts; ++k) {
+        const double u = static_cast<double>(k) / parts;
+        const double time = std::lerp(nodes.stamps[edge], nodes.stamps[edge + 1], u);
+        if (!(time >= reference.start() && time <= reference.end())) continue;
+        const Vector3 reference_point = reference.at(time).translation - nodes.base;
+        sum += (value_of_piece(piece, spline.at(edge, time)) - reference_point).squaredNorm();
+        ++count;
+      }
+    }
+    return count > 0.0 ? sum / count : 0.0;  // selects the first family outside the reference
+  };
+}
+
+/// Options of the smoother in axes that are already set; rejects what Dm rejects.
+methods::DmOptions in_given_axes(methods::DmOptions options) {
+  options.fit_axes = methods::manifold::FitAxes::estimate;
+  const methods::Dm checked(options);
+  options.plane = methods::manifold::Plane::xoy;
+  return options;
+}
+
+}  // namespace
+
+PaperOracle::PaperOracle(const Options& options, Trajectory reference)
+    : options_(options), dm_(in_given_axes(options.dm)), reference_(std::move(reference)) {}
+
+std::string PaperOracle::why_declined(const Problem& problem) const {
+  if (reference_.empty()) return "an oracle needs a reference";
+  return dm_.why_declined(problem);
+}
+
+std::unique_ptr<const Curve> PaperOracle::smooth(const Problem& problem,
+                                                 methods::Report& report) const {
+  using methods::manifold::FitAxes;
+  const bool uses_positions =
+      options_.reference_abscissa || options_.reference_families || options_.overwrite;
+  if (uses_positions || options_.dm.fit_axes != FitAxes::reference)
+    report.notes.push_back("oracle: uses the reference");
+  if (options_.dm.fit_axes == FitAxes::reference) {
+    report.notes.push_back("oracle: uses the axes of the reference (rotation of the alignment " +
+                           to_text(options_.reference_align) + ")");
+  }
+  const bool is_given = options_.dm.fit_axes == FitAxes::estimate;
+  if (is_given && options_.dm.plane == methods::manifold::Plane::xoy) {
+    return smooth_in_axes(problem, report);
+  }
+  const Rotation axes_from_world =
+      methods::manifold::plane_axes(options_.dm.plane) * fit_axes_from_world(problem.keyframes);
+  return methods::manifold::in_world(
+      smooth_in_axes(methods::manifold::in_axes(problem, axes_from_world), report),
+      problem,
+      axes_from_world);
+}
+
+Rotation PaperOracle::fit_axes_from_world(const Trajectory& keyframes) const {
+  using methods::manifold::FitAxes;
+  if (options_.dm.fit_axes == FitAxes::estimate) return Rotation::Identity();
+  if (options_.dm.fit_axes == FitAxes::gravity) return methods::manifold::level_axes(keyframes);
+  return alignment_to(reference_, keyframes, options_.reference_align)
+      .reference_from_estimate.rotation;
+}
+
+std::unique_ptr<const Curve> PaperOracle::smooth_in_axes(const Problem& problem,
+                                                         methods::Report& report) const {
+  Polyline reference(aligned_reference(problem.keyframes, reference_, options_.reference_align));
+  methods::manifold::PieceCost piece_cost;
+  if (options_.reference_families) piece_cost = nearest_to(reference);
+  std::shared_ptr<const methods::manifold::ManifoldCurve> fitted =
+      dm_.fit(problem, report, piece_cost);
+  if (!fitted) return std::make_unique<Polyline>(problem.keyframes);
+  const ReferenceUse use = options_.overwrite            ? ReferenceUse::overwrite
+                           : options_.reference_abscissa ? ReferenceUse::abscissa
+                                                         : ReferenceUse::none;
+  return std::make_unique<ReferenceAbscissa>(std::move(fitted), std::move(reference), use);
+}
+
+}  // namespace loopbench::paper

@@ -1,0 +1,88 @@
+/// The article's smoother with access to the reference, which sets the axes of the fit, the x' at
+/// which curves are evaluated, or the family of each window. The article states neither its axes,
+/// nor which x' it uses, nor how its curves were selected ("most consistent with the real
+/// trajectory"); this quantifies the effect of each.
+#pragma once
+
+#include "methods/method.hpp"
+#include "methods/smoothers/manifold/dm.hpp"
+#include "metrics/protocols/protocol.hpp"
+#include "paper_literal.hpp"
+
+namespace loopbench::paper {
+
+class PaperOracle final : public methods::Smoother {
+ public:
+  struct Options {
+    methods::DmOptions dm = {};
+    bool reference_abscissa = true;
+    bool reference_families = false;
+    bool overwrite = false;
+    metrics::Align reference_align = metrics::Align::se3;
+  };
+
+  /// Throws OptionError as Dm does, except that fit_axes = reference is accepted: the keyframes are
+  /// rotated to the reference's axes by the rotation of `reference_align`, without the reference's
+  /// positions, and the curve is rotated back. An empty reference is declined later.
+  PaperOracle(const Options& options, Trajectory reference);
+
+  std::string why_declined(const Problem& problem) const override;
+
+  /// The name of what is used is added to the notes. Aligns the keyframes to the reference as a
+  /// protocol does, and transforms the reference to their world frame by the inverse. Throws
+  /// std::runtime_error without a unique alignment.
+  std::unique_ptr<const Curve> smooth(const Problem& problem,
+                                      methods::Report& report) const override;
+
+ private:
+  Rotation fit_axes_from_world(const Trajectory& keyframes) const;
+  std::unique_ptr<const Curve> smooth_in_axes(const Problem& problem,
+                                              methods::Report& report) const;
+  Options options_;
+  methods::Dm dm_;
+  Trajectory reference_;
+};
+
+template <class Visit>
+void fields(PaperOracle::Options& o, Visit visit) {
+  visit("reference_abscissa", o.reference_abscissa, "evaluate curves at the reference's x'");
+  visit("reference_families",
+        o.reference_families,
+        "select for each window the one of `families` nearest to the reference");
+  visit("reference_align",
+        o.reference_align,
+        "alignment of the reference to the keyframes; fit_axes = reference uses its rotation");
+  fields(o.dm, visit);
+}
+
+/// PaperOracle with the options of the article's literal readings.
+class PaperLiteralOracle final : public methods::Smoother {
+ public:
+  struct Options {
+    PaperOracle::Options oracle = {};
+  };
+  PaperLiteralOracle(const Options& options, Trajectory reference)
+      : oracle_(options.oracle, std::move(reference)) {}
+
+  std::string why_declined(const Problem& problem) const override {
+    return oracle_.why_declined(problem);
+  }
+  std::unique_ptr<const Curve> smooth(const Problem& problem,
+                                      methods::Report& report) const override {
+    return oracle_.smooth(problem, report);
+  }
+
+ private:
+  PaperOracle oracle_;
+};
+
+template <class Visit>
+void fields(PaperLiteralOracle::Options& o, Visit visit) {
+  visit("overwrite",
+        o.oracle.overwrite,
+        "evaluate no curve: replace x' of the spline by the reference's");
+  literal_fields(o.oracle.dm, visit);
+  fields(o.oracle, visit);
+}
+
+}  // namespace loopbench::paper
