@@ -4,9 +4,9 @@
 
 #include <CLI/CLI.hpp>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <set>
+#include <sstream>
 
 #include "datasets/compressed/compress.hpp"
 #include "datasets/core/fields.hpp"
@@ -51,7 +51,8 @@ int export_trajectories(const std::filesystem::path& store, const std::filesyste
       std::string name = file_name(cell, times);
       if (names.contains(name)) name = fmt::format("{}-{}", cell.position, name);
       names.insert(name);
-      const std::string poses{std::istreambuf_iterator<char>(in), {}};
+      std::ostringstream poses;
+      poses << in.rdbuf();
       write_file(out / name,
                  fmt::format("# sequence: {}\n# repeat: {}\n# method: {}\n# times: {}\n# key: {}\n",
                              printable(cell.sequence.text()),
@@ -59,7 +60,7 @@ int export_trajectories(const std::filesystem::path& store, const std::filesyste
                              printable(cell.method.text()),
                              to_text(times),
                              cell.key) +
-                     poses);
+                     std::move(poses).str());
     }
     if (!has_file) ++without;
   }

@@ -21,7 +21,7 @@ sys.path.insert(0, str(PAPER))
 try:
     import numpy as np
 
-    from article import drawing
+    from article import run_figures, schematic_figures
     from article.pages import article_pages, run_page
     from article.program import Program
     from article.runs import run_config
@@ -71,8 +71,9 @@ class Pages(unittest.TestCase):
     @needs_runs
     def test_of_the_article(self):
         configs = [shipped(name) for name in ("fr1", "fr1_mono", "fr3", "fr3_mono")]
-        undrawn = {"_draw": lambda *_: None, "_save": lambda figure, _: drawing.plt.close(figure)}
-        with folder() as out, unittest.mock.patch.multiple(drawing, **undrawn):
+        undrawn = [unittest.mock.patch.object(module, "write_figure")
+                   for module in (run_figures, schematic_figures)]
+        with folder() as out, undrawn[0], undrawn[1]:
             self.check(article_pages(configs, out), PAPER)
 
     @needs_runs

@@ -12,8 +12,8 @@ import loopbench
 
 ORB = "ORB_SLAM2"
 NATURAL_SPLINE = "natural spline"  #: reading without N or M
-#: Readings whose curves are drawn and whose smoothness is computed.
-DRAWN = ("text", "guarded", NATURAL_SPLINE)
+#: Methods whose curves are drawn and whose smoothness is computed, as a regular expression.
+DRAWN_PATTERN = f"{ORB}|{NATURAL_SPLINE}|(text|guarded) .*"
 
 
 @dataclass
@@ -34,12 +34,12 @@ class Cell:
     estimate: np.ndarray | None = None  #: (n, 8) aligned
     alignment: loopbench.Alignment | None = None
 
-    @property
+    @cached_property
     def sequence(self):
         """First word of the dataset's label: fr1_room | fr3_office."""
         return self.dataset.split(" ", 1)[0]
 
-    @property
+    @cached_property
     def input(self):
         """The run, the other words: closed, open, ..."""
         return (self.dataset + " ").split(" ", 1)[1].rstrip()
@@ -51,27 +51,32 @@ class Cell:
                 return k
         return -1
 
-    @property
+    @cached_property
     def reading(self):
         """Interpretation of the article, or the label without N or M; empty for ORB_SLAM2."""
         if self.method == ORB:
             return ""
         return self.method if self._window() < 0 else self.method[: self._window()]
 
-    @property
+    @cached_property
     def variant(self):
         """ORB_SLAM2, or N or M with the curve: "N4 parabola", "M6"; or empty."""
         if self.method == ORB:
             return ORB
         return "" if self._window() < 0 else self.method[self._window() + 1 :]
 
+    @cached_property
+    def _statistics(self):
+        out = {}
+        for row in self.scores:
+            key = (row["label"], row["axis"], row["times"], row["relation"])
+            if row["status"] == "ok" and key not in out:
+                out[key] = {k: float(row[k]) for k in ("max", "min", "mean", "rmse")}
+        return out
+
     def score(self, label, axis, times, relation="translation"):
         """Statistics by name, or None."""
-        for row in self.scores:
-            found = (row["status"], row["times"], row["label"], row["axis"], row["relation"])
-            if found == ("ok", times, label, axis, relation):
-                return {k: float(row[k]) for k in ("max", "min", "mean", "rmse")}
-        return None
+        return self._statistics.get((label, axis, times, relation))
 
     def axis(self, axis, times):
         """max, min, mean, ate and rpe along one axis [m], or None."""

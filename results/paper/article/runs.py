@@ -12,7 +12,7 @@ import numpy as np
 import yaml
 
 import loopbench
-from article.cells import DRAWN, ORB, Cell, Config, moved
+from article.cells import DRAWN_PATTERN, Cell, Config, moved
 from article.program import Program
 
 
@@ -43,6 +43,12 @@ def _cells(out, rows):
     return list(cells.values())
 
 
+def _poses(file):
+    """(n, 8) rows of a TUM file."""
+    lines = file.read_text(encoding="utf-8").splitlines()
+    return np.array(" ".join(l for l in lines if l[0] != "#").split(), float).reshape(-1, 8)
+
+
 def _trajectories(folder):
     """Saved trajectories by labels of sequence and method, and times."""
     out = {}
@@ -68,20 +74,23 @@ def _evaluated(problem, reference, estimate):
     return estimate, reference[np.isin(reference[:, 0], estimate[:, 0])]
 
 
-def _add_trajectories(cells, files, options):
+def _add_trajectories(config, files):
     """Sets keyframes of all runs, and dense trajectories of what is drawn."""
-    loaded = {}
-    how = (options.get("protocol") or {}).get("align", "se3")
-    for cell in cells:
+    loaded, keyframes = {}, {}
+    for (dataset, method, times), file in files.items():
+        if (method, times) == (config.baseline, "keyframes"):
+            keyframes[dataset] = _poses(file)
+    how = (config.options.get("protocol") or {}).get("align", "se3")
+    for cell in config.cells:
         if cell.status != "ok":
             continue
-        cell.keyframes = np.loadtxt(files[cell.dataset, options["baseline"], "keyframes"])
-        if cell.method != ORB and cell.reading not in DRAWN:
+        cell.keyframes = keyframes.get(cell.dataset)
+        if not config.is_tables or (cell.dataset, cell.method, "dense") not in files:
             continue
         if cell.dataset not in loaded:
-            entry = next(d for d in options["datasets"] if d["label"] == cell.dataset)
+            entry = next(d for d in config.options["datasets"] if d["label"] == cell.dataset)
             loaded[cell.dataset] = loopbench.load(**entry)
-        estimate = np.loadtxt(files[cell.dataset, cell.method, "dense"])
+        estimate = _poses(files[cell.dataset, cell.method, "dense"])
         cell.raw_estimate, cell.reference = _evaluated(*loaded[cell.dataset], estimate)
         cell.alignment = loopbench.align(cell.reference, cell.raw_estimate, how)
         cell.estimate = cell.alignment.poses
@@ -89,26 +98,18 @@ def _add_trajectories(cells, files, options):
 
 
 def run_config(file, program: Program):
-    """Runs every cell. Trajectories are saved for tables, otherwise the baseline's keyframes."""
+    """Runs every cell, then those again whose trajectories are needed: the baseline, and for the
+    article's own tables what is drawn."""
     file = Path(file)
     text = file.read_text(encoding="utf-8")
     options = yaml.safe_load(text)
     with tempfile.TemporaryDirectory() as work:
-        out, saved = Path(work) / "all", Path(work) / "saved"
-        program.run(file, out, "--save-trajectories" if options["baseline"] == ORB else "")
+        out, again, saved = (Path(work) / name for name in ("all", "again", "saved"))
+        program.run(file, out)
         config = Config(file, text, options, _cells(out, program("export", out)))
-        if not config.is_tables:
-            out = Path(work) / "baseline"
-            only = f"--only= / {options['baseline']}$"
-            program.run(file, out, "--save-trajectories", only)
-        program("export", out, "--what", "trajectories", "-o", saved)
-        files = _trajectories(saved)
-        if config.is_tables:
-            with contextlib.chdir(file.parent):
-                _add_trajectories(config.cells, files, options)
-        else:
-            for cell in config.cells:
-                keyframes = files.get((cell.dataset, options["baseline"], "keyframes"))
-                if cell.status == "ok" and keyframes is not None:
-                    cell.keyframes = np.loadtxt(keyframes)
+        wanted = DRAWN_PATTERN if config.is_tables else options["baseline"]
+        program.run(file, again, "--save-trajectories", f"--only= / ({wanted})$")
+        program("export", again, "--what", "trajectories", "-o", saved)
+        with contextlib.chdir(file.parent):
+            _add_trajectories(config, _trajectories(saved))
     return config
