@@ -42,15 +42,15 @@ int print_profile(const ProfileArguments& arguments) {
   const TerminalStyle style = is_printed ? standard_output_style() : TerminalStyle{};
   RecordReader reader(arguments.store);
   const RecordSource records = [&](const auto& visit) { reader.for_each(visit); };
-  const TextTable accuracies = pareto(cells, records, arguments.accuracy);
-  if (arguments.has_accuracy && accuracies.rows.empty()) {
+  const TableView accuracies = pareto(cells, records, arguments.accuracy);
+  if (arguments.has_accuracy && accuracies.lines.empty()) {
     throw InputError(arguments.store + ": " + accuracies.notes.front());
   }
   std::string out;
-  for (const TextTable& listing : {costs(cells), reported(cells), scaling(cells), accuracies}) {
+  for (const TableView& listing : {costs(cells), reported(cells), scaling(cells), accuracies}) {
     out += out.empty() ? "" : "\n";
     out += format == ExportFormat::csv        ? csv(listing)
-           : format == ExportFormat::terminal ? terminal(table_view(listing), style)
+           : format == ExportFormat::terminal ? terminal(listing, style)
                                               : markdown(listing);
   }
   write_output(out, format, "profile", std::move(provenance), arguments.store, arguments.out);

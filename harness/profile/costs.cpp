@@ -56,12 +56,12 @@ class ByName {
     values_[name].push_back(value);
   }
   template <class Text>
-  void add_rows(TextTable& out,
+  void add_rows(TableView& out,
                 const std::string& method,
                 const std::string& what,
                 Text text) const {
     for (const std::string& name : names_) {
-      out.rows.push_back({method, what, name, text(metrics::median(values_.at(name)))});
+      out.lines.push_back({method, what, name, text(metrics::median(values_.at(name)))});
     }
   }
 
@@ -72,8 +72,8 @@ class ByName {
 
 }  // namespace
 
-TextTable costs(const std::vector<CellRecord>& cells) {
-  TextTable out{"costs",
+TableView costs(const std::vector<CellRecord>& cells) {
+  TableView out{"costs",
                 {"method",
                  "cells",
                  "failed",
@@ -98,7 +98,7 @@ TextTable costs(const std::vector<CellRecord>& cells) {
       if (!has_numbers(cell->status) && cell->status != Status::declined) ++failed;
       (cell->worker.text().find("serial") == std::string::npos ? shared : alone) = true;
     }
-    out.rows.push_back(
+    out.lines.push_back(
         {table_name(method, all),
          std::to_string(all.size()),
          std::to_string(failed),
@@ -125,8 +125,8 @@ TextTable costs(const std::vector<CellRecord>& cells) {
   return out;
 }
 
-TextTable reported(const std::vector<CellRecord>& cells) {
-  TextTable out{"reported by the methods", {"method", "what", "name", "median"}, {}, {}};
+TableView reported(const std::vector<CellRecord>& cells) {
+  TableView out{"reported by the methods", {"method", "what", "name", "median"}, {}, {}};
   for (const auto& [method, all] : by_method(cells)) {
     ByName phases;
     ByName counts;

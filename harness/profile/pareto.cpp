@@ -116,14 +116,14 @@ std::vector<std::string> on_front(const std::vector<Point>& points, std::size_t 
 
 }  // namespace
 
-TextTable pareto(const std::vector<CellRecord>& cells,
+TableView pareto(const std::vector<CellRecord>& cells,
                  const std::vector<Record>& records,
                  const Accuracy& accuracy) {
   const RecordSource source = [&](const auto& visit) { std::ranges::for_each(records, visit); };
   return pareto(cells, source, accuracy);
 }
 
-TextTable pareto(const std::vector<CellRecord>& cells,
+TableView pareto(const std::vector<CellRecord>& cells,
                  const RecordSource& records,
                  const Accuracy& accuracy) {
   if (!has_direction(accuracy.value)) {
@@ -145,7 +145,7 @@ TextTable pareto(const std::vector<CellRecord>& cells,
   for (const CellRecord& cell : cells) all_runs.emplace(cell.sequence, cell.repeat);
   const std::vector<Point> points = points_of(cells, error_of);
   const std::vector<std::string> front = on_front(points, all_runs.size());
-  TextTable out{"accuracy and time",
+  TableView out{"accuracy and time",
                 {"method",
                  "runs",
                  accuracy.metric + " " + accuracy.value + " [" + unit + "]",
@@ -155,11 +155,11 @@ TextTable pareto(const std::vector<CellRecord>& cells,
                 {}};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& point = points[i];
-    out.rows.push_back({point.method + (point.is_oracle ? " (oracle)" : ""),
-                        fmt::format("{} of {}", point.runs, all_runs.size()),
-                        point.error ? fmt::format("{:.4g}", *point.error) : "-",
-                        fmt::format("{:.4g}", 1e3 * point.seconds),
-                        front[i]});
+    out.lines.push_back({point.method + (point.is_oracle ? " (oracle)" : ""),
+                         fmt::format("{} of {}", point.runs, all_runs.size()),
+                         point.error ? fmt::format("{:.4g}", *point.error) : "-",
+                         fmt::format("{:.4g}", 1e3 * point.seconds),
+                         front[i]});
   }
   if (points.empty() && !error_of.empty()) {
     out.notes.push_back(kNoTimes);

@@ -7,7 +7,7 @@
 
 #include "harness/compare/compare.hpp"
 #include "harness/model/record.hpp"
-#include "harness/tables/listing.hpp"
+#include "harness/tables/table_view.hpp"
 
 namespace loopbench::harness {
 
@@ -33,14 +33,14 @@ std::vector<bool> pareto_front(const std::vector<double>& a, const std::vector<d
 
 /// One row per method: wall and CPU time, memory, allocations, iterations. Medians over its
 /// finished cells, maximum for memory.
-TextTable costs(const std::vector<CellRecord>& cells);
+TableView costs(const std::vector<CellRecord>& cells);
 
 /// One row per phase and count that a method reports: medians over its cells.
-TextTable reported(const std::vector<CellRecord>& cells);
+TableView reported(const std::vector<CellRecord>& cells);
 
 /// One row per method with cells of three sizes or more: exponent of its time in the number of
 /// keyframes. One point per size: the median over the cells of that size.
-TextTable scaling(const std::vector<CellRecord>& cells);
+TableView scaling(const std::vector<CellRecord>& cells);
 
 /// The score used as accuracy.
 struct Accuracy {
@@ -53,12 +53,12 @@ struct Accuracy {
 /// One row per method: geometric means over all sequences of its mean error and median time over
 /// repeats, and whether it is on the Pareto front of methods that have all runs and do not use the
 /// reference. Errors are those of the store's first protocol, dense if available.
-TextTable pareto(const std::vector<CellRecord>& cells,
+TableView pareto(const std::vector<CellRecord>& cells,
                  const std::vector<Record>& records,
                  const Accuracy& accuracy);
 
 /// The same, with records that are visited twice and need not be in memory at once.
-TextTable pareto(const std::vector<CellRecord>& cells,
+TableView pareto(const std::vector<CellRecord>& cells,
                  const RecordSource& records,
                  const Accuracy& accuracy);
 

@@ -10,8 +10,8 @@
 
 namespace loopbench::harness {
 
-TextTable scaling(const std::vector<CellRecord>& cells) {
-  TextTable out{
+TableView scaling(const std::vector<CellRecord>& cells) {
+  TableView out{
       "scaling: time ~ keyframes^exponent",
       {"method", "sizes", "keyframes", "exponent", "standard error", "R2", "largest [ms]"},
       {},
@@ -30,17 +30,17 @@ TextTable scaling(const std::vector<CellRecord>& cells) {
     }
     const auto law = power_law(sizes, times);
     if (!law) continue;
-    out.rows.push_back({table_name(method, all),
-                        std::to_string(sizes.size()),
-                        fmt::format("{} to {}", by_size.begin()->first, by_size.rbegin()->first),
-                        fmt::format("{:.2f}", law->exponent),
-                        fmt::format("{:.2f}", law->error),
-                        fmt::format("{:.3f}", law->r2),
-                        fmt::format("{:.4g}", 1e3 * times.back())});
+    out.lines.push_back({table_name(method, all),
+                         std::to_string(sizes.size()),
+                         fmt::format("{} to {}", by_size.begin()->first, by_size.rbegin()->first),
+                         fmt::format("{:.2f}", law->exponent),
+                         fmt::format("{:.2f}", law->error),
+                         fmt::format("{:.3f}", law->r2),
+                         fmt::format("{:.4g}", 1e3 * times.back())});
   }
   if (lacks_times(cells)) {
     out.notes.push_back(kNoTimes);
-  } else if (out.rows.empty()) {
+  } else if (out.lines.empty()) {
     out.notes.push_back(
         "none: needs at least three numbers of keyframes, the largest four times the "
         "smallest, for example `sweep: {keyframes: [100, 1000, 10000]}`");

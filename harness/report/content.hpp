@@ -9,7 +9,7 @@
 
 #include "harness/compare/compare.hpp"
 #include "harness/model/sequence_metadata.hpp"
-#include "harness/tables/listing.hpp"
+#include "harness/tables/table_view.hpp"
 
 namespace loopbench::harness {
 
@@ -23,7 +23,7 @@ struct ReportContent {
   std::vector<CellRecord> cells;
   std::vector<Comparison> comparisons;  ///< one for each score; empty without a baseline
   std::vector<Record> undefined;        ///< scores without a value
-  TextTable accuracy_and_time;
+  TableView accuracy_and_time;
   std::vector<std::string> sequences;  ///< labels in the order of the sweep
   std::vector<std::string> methods;    ///< likewise
 

@@ -22,7 +22,7 @@ struct Affected {
 };
 
 /// Cells without scores, or with too little coverage.
-TextTable of_cells(const ReportContent& content) {
+TableView of_cells(const ReportContent& content) {
   std::map<Reason, Affected> reasons;
   for (const CellRecord& cell : content.cells) {
     if (cell.status == Status::ok && cell.why.empty()) continue;
@@ -33,17 +33,17 @@ TextTable of_cells(const ReportContent& content) {
     affected.cells.insert(cell.position);
     affected.sequences.insert(cell.sequence);
   }
-  TextTable out{"cells without results", {"method", "status", "cells", "sequences", "why"}, {}, {}};
+  TableView out{"cells without results", {"method", "status", "cells", "sequences", "why"}, {}, {}};
   for (const auto& [reason, affected] : reasons) {
     const auto& [status, method, why] = reason;
-    out.rows.push_back(
+    out.lines.push_back(
         {method, status, std::to_string(affected.cells.size()), listed(affected.sequences), why});
   }
   return out;
 }
 
 /// Scores missing from cells that finished.
-TextTable of_scores(const ReportContent& content) {
+TableView of_scores(const ReportContent& content) {
   std::set<std::int64_t> ended;
   for (const CellRecord& cell : content.cells) {
     if (has_numbers(cell.status)) ended.insert(cell.position);
@@ -56,16 +56,16 @@ TextTable of_scores(const ReportContent& content) {
     affected.sequences.insert(r.sequence);
     affected.scores.insert(field(r, "score") + (r.unit.empty() ? "" : " [" + r.unit + "]"));
   }
-  TextTable out{
+  TableView out{
       "undefined scores", {"method", "status", "scores", "cells", "sequences", "why"}, {}, {}};
   for (const auto& [reason, affected] : reasons) {
     const auto& [status, method, why] = reason;
-    out.rows.push_back({method,
-                        status,
-                        listed(affected.scores),
-                        std::to_string(affected.cells.size()),
-                        listed(affected.sequences),
-                        why});
+    out.lines.push_back({method,
+                         status,
+                         listed(affected.scores),
+                         std::to_string(affected.cells.size()),
+                         listed(affected.sequences),
+                         why});
   }
   return out;
 }
@@ -74,8 +74,8 @@ TextTable of_scores(const ReportContent& content) {
 
 std::string failures_html(const ReportContent& content) {
   std::string out;
-  for (const TextTable& listing : {of_cells(content), of_scores(content)}) {
-    if (!listing.rows.empty()) out += html_text_table(listing);
+  for (const TableView& listing : {of_cells(content), of_scores(content)}) {
+    if (!listing.lines.empty()) out += html_text_table(listing);
   }
   if (!out.empty()) return out;
   return "<p>Every cell finished and every score has a value.</p>\n";

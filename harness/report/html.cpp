@@ -41,19 +41,6 @@ std::string close_table(const std::vector<std::string>& notes) {
   return "</tbody></table></div>" + notes_list(notes) + "</figure>\n";
 }
 
-std::string listing_table(const TextTable& listing, bool of_words) {
-  std::string out = open_table(listing.title, listing.columns, "", of_words);
-  for (const std::vector<std::string>& row : listing.rows) {
-    out += "<tr>";
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      const std::string text = html_text(row[c]);
-      out += c == 0 ? "<th scope=\"row\">" + text + "</th>" : "<td>" + text + "</td>";
-    }
-    out += "</tr>\n";
-  }
-  return out + close_table(listing.notes);
-}
-
 }  // namespace
 
 std::string html_text(std::string_view text) {
@@ -96,8 +83,10 @@ std::string script_text(const std::string& json) {
   return out;
 }
 
-std::string html_table(const TableView& table_view, const std::string& attributes) {
-  std::string out = open_table(table_view.title, table_view.headings, attributes);
+namespace {
+
+std::string lines_of(const TableView& table_view) {
+  std::string out;
   for (const std::vector<TableViewEntry>& line : table_view.lines) {
     out += "<tr>";
     for (std::size_t c = 0; c < line.size(); ++c) {
@@ -112,11 +101,19 @@ std::string html_table(const TableView& table_view, const std::string& attribute
     }
     out += "</tr>\n";
   }
-  return out + close_table(table_view.notes);
+  return out;
 }
 
-std::string html_table(const TextTable& listing) { return listing_table(listing, false); }
+}  // namespace
 
-std::string html_text_table(const TextTable& listing) { return listing_table(listing, true); }
+std::string html_table(const TableView& table_view, const std::string& attributes) {
+  return open_table(table_view.title, table_view.headings, attributes) + lines_of(table_view) +
+         close_table(table_view.notes);
+}
+
+std::string html_text_table(const TableView& table_view) {
+  return open_table(table_view.title, table_view.headings, "", true) + lines_of(table_view) +
+         close_table(table_view.notes);
+}
 
 }  // namespace loopbench::harness

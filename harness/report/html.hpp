@@ -4,7 +4,6 @@
 #include <string>
 #include <string_view>
 
-#include "harness/tables/listing.hpp"
 #include "harness/tables/table_view.hpp"
 
 namespace loopbench::harness {
@@ -17,9 +16,8 @@ std::string script_text(const std::string& json);
 
 /// A table with its caption and a list of notes. `attributes` is inserted into the figure's tag.
 std::string html_table(const TableView& table_view, const std::string& attributes = "");
-std::string html_table(const TextTable& listing);
 
 /// The same for columns of words instead of numbers.
-std::string html_text_table(const TextTable& listing);
+std::string html_text_table(const TableView& table_view);
 
 }  // namespace loopbench::harness

@@ -123,10 +123,10 @@ std::string summary_html(const ReportContent& content) {
 
 std::string verdicts_html(const ReportContent& content) {
   if (content.comparisons.empty()) return "<p>No baseline, so no verdicts.</p>\n";
-  TextTable out{"verdict for every score", {"score", "times", "protocol", "verdict"}, {}, {}};
+  TableView out{"verdict for every score", {"score", "times", "protocol", "verdict"}, {}, {}};
   for (const Comparison& c : content.comparisons) {
     if (c.methods.size() < 2) continue;
-    out.rows.push_back({score_name(c), c.kind.times, c.kind.protocol, verdict(c)});
+    out.lines.push_back({score_name(c), c.kind.times, c.kind.protocol, verdict(c)});
   }
   out.notes.push_back(
       "each score is tested separately; with many scores, some claims are false by chance");
@@ -163,11 +163,11 @@ std::string scores_html(const ReportContent& content) {
 
 std::string costs_html(const ReportContent& content) {
   std::string out;
-  for (const TextTable& listing : {costs(content.cells),
+  for (const TableView& listing : {costs(content.cells),
                                    reported(content.cells),
                                    scaling(content.cells),
                                    content.accuracy_and_time}) {
-    if (!listing.rows.empty()) out += html_table(listing);
+    if (!listing.lines.empty()) out += html_table(listing);
   }
   return out.empty() ? "<p>No run times are recorded.</p>\n" : out;
 }
@@ -180,14 +180,14 @@ std::string provenance_html(const ReportContent& content) {
   };
   out += "<h3>Protocol of every number</h3>\n<pre tabindex=\"0\">" +
          html_text(value_of("protocol")) + "</pre>\n";
-  TextTable provenance{"provenance", {"item", "value"}, {}, {}};
-  for (const auto& [key, value] : content.provenance) provenance.rows.push_back({key, value});
+  TableView provenance{"provenance", {"item", "value"}, {}, {}};
+  for (const auto& [key, value] : content.provenance) provenance.lines.push_back({key, value});
   out += html_text_table(provenance);
   if (!content.inputs.empty()) {
-    TextTable files{"input files", {"sequence", "file", "bytes", "MurmurHash3 x64 128"}, {}, {}};
+    TableView files{"input files", {"sequence", "file", "bytes", "MurmurHash3 x64 128"}, {}, {}};
     for (const auto& [sequence, inputs] : content.inputs) {
       for (const InputFile& input : inputs) {
-        files.rows.push_back({sequence, input.path, std::to_string(input.bytes), input.hash});
+        files.lines.push_back({sequence, input.path, std::to_string(input.bytes), input.hash});
       }
     }
     out += html_text_table(files);

@@ -1,20 +1,47 @@
-#include "harness/tables/common_runs.hpp"
-
 #include <algorithm>
+#include <map>
+#include <set>
+
+#include "harness/tables/table_numbers.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-std::string runs_text(const std::set<std::size_t>& runs) {
-  std::string out;
-  for (const std::size_t count : runs) {
-    out += (out.empty() ? "" : " or ") + (count == 0 ? "none (-)" : std::to_string(count));
+/// One entry of a column (or a row) of a table.
+struct EntryRuns {
+  RunSet tried;     ///< runs with any outcome
+  RunSet finished;  ///< runs with a number; subset of `tried`
+};
+
+/// Runs that the entries of a column (or a row) tried and finished.
+std::vector<EntryRuns> entry_runs(const TableNumbers& table,
+                                  const std::vector<TablePosition>& positions,
+                                  bool along_columns) {
+  std::vector<EntryRuns> out;
+  for (const TablePosition& position : positions) {
+    EntryRuns& own = out.emplace_back();
+    const EntryContents* entry = table.find(position);
+    if (entry == nullptr || entry->numbers.size() == 0) continue;
+    own.finished = entry->numbers.finished();
+    own.tried = entry->tried;
+    const auto add = [&](const auto& losses, const auto& key) {
+      if (const auto lost = losses.find(key); lost != losses.end())
+        own.tried.insert(lost->second.begin(), lost->second.end());
+    };
+    if (along_columns) add(table.lost_by_row, position.first);
+    if (!along_columns) add(table.lost_by_method, entry->numbers.method());
   }
   return out;
 }
 
-}  // namespace
+bool intersect(const RunSet& a, const RunSet& b) {
+  return std::ranges::any_of(a, [&](std::size_t run) { return b.contains(run); });
+}
 
+/// Returns for each entry the runs that all entries compared with it have finished. Two entries are
+/// compared if both finished at least one run and tried a common run, directly or through other
+/// entries. A method that fails everywhere and entries of other sequences therefore do not restrict
+/// the runs. O(entries^2 * runs).
 std::vector<RunSet> common_runs(const std::vector<EntryRuns>& entries) {
   std::vector<RunSet> out(entries.size());
   std::vector<bool> is_done(entries.size());
@@ -26,16 +53,37 @@ std::vector<RunSet> common_runs(const std::vector<EntryRuns>& entries) {
     for (std::size_t i = 0; i < compared.size(); ++i) {
       for (std::size_t other = 0; other < entries.size(); ++other) {
         if (is_done[other] || entries[other].finished.empty()) continue;
-        if (!entries[compared[i]].tried.intersects(entries[other].tried)) continue;
+        if (!intersect(entries[compared[i]].tried, entries[other].tried)) continue;
         compared.push_back(other);
         is_done[other] = true;
-        common.keep(entries[other].finished);
+        keep_only(common, entries[other].finished);
       }
     }
     for (const std::size_t i : compared) out[i] = common;
   }
   return out;
 }
+
+std::string runs_text(const std::set<std::size_t>& runs) {
+  std::string out;
+  for (const std::size_t count : runs) {
+    out += (out.empty() ? "" : " or ") + (count == 0 ? "none (-)" : std::to_string(count));
+  }
+  return out;
+}
+
+/// Note below a table with means over common runs.
+class CommonRunsNote {
+ public:
+  /// Records that a mean in this column (or row) is over `runs` runs.
+  void add(const std::string& name, std::size_t runs) { runs_[name].insert(runs); }
+
+  /// "means over the 4 runs that every method finished"; empty if nothing was added.
+  std::string text() const;
+
+ private:
+  std::map<std::string, std::set<std::size_t>> runs_;
+};
 
 std::string CommonRunsNote::text() const {
   if (runs_.empty()) return "";
@@ -52,6 +100,24 @@ std::string CommonRunsNote::text() const {
     out += (out.empty() ? "" : ", ") + name + ": " + runs_text(runs);
   }
   return "means over the runs that every method finished (" + out + ")";
+}
+
+}  // namespace
+
+std::string keep_common_runs(TableNumbers& table, bool along_columns) {
+  const std::vector<std::string>& names = (along_columns ? table.columns : table.rows).texts();
+  CommonRunsNote note;
+  for (std::size_t l = 0; l < names.size(); ++l) {
+    const std::vector<TablePosition> positions = entry_indices(table, l, along_columns);
+    const std::vector<EntryRuns> entries = entry_runs(table, positions, along_columns);
+    const std::vector<RunSet> common = common_runs(entries);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      if (entries[i].finished == common[i]) continue;
+      note.add(names[l], common[i].size());
+      table.entries.at(positions[i]).numbers.keep(common[i]);
+    }
+  }
+  return note.text();
 }
 
 }  // namespace loopbench::harness

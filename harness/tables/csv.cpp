@@ -65,6 +65,18 @@ std::string csv(const std::vector<Table>& tables) {
   return out;
 }
 
+std::string csv(const TableView& table_view) {
+  std::string out = "table";
+  for (const std::string& heading : table_view.headings) out += "," + quoted(heading);
+  out += "\n";
+  for (const auto& line : table_view.lines) {
+    out += quoted(table_view.title);
+    for (const TableViewEntry& entry : line) out += "," + quoted(entry.text);
+    out += "\n";
+  }
+  return out;
+}
+
 const char* const kRowsHeader =
     "sequence,repeat,method,closures,oracle_closures,oracle_method,protocol,protocol_version,"
     "times,metric,label,"

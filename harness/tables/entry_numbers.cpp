@@ -1,5 +1,3 @@
-#include "harness/tables/entry_numbers.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -7,6 +5,7 @@
 
 #include "harness/compare/observations.hpp"
 #include "harness/statistics/average.hpp"
+#include "harness/tables/table_numbers.hpp"
 
 namespace loopbench::harness {
 
@@ -16,7 +15,6 @@ void EntryNumbers::add(const Record& record,
                        std::size_t run,
                        std::size_t group,
                        const std::string& statistic) {
-  if (values_.empty()) values_.reserve(kFirstRuns);
   values_.push_back({run, group, record.method, value(record, statistic)});
   method_ = record.method;
   is_gain_ = record.metric == "gain" && statistic != "count";
@@ -32,7 +30,6 @@ std::size_t EntryNumbers::averaged() const {
 
 RunSet EntryNumbers::finished() const {
   RunSet out;
-  out.reserve(values_.size());
   for (const Value& one : values_) {
     if (one.is_kept) out.insert(one.run);
   }
@@ -42,8 +39,7 @@ RunSet EntryNumbers::finished() const {
 ByRun EntryNumbers::runs() const {
   ByRun out;
   if (is_oracle_) return out;
-  out.reserve(values_.size());
-  for (const Value& one : values_) out.set(one.run, one.value);
+  for (const Value& one : values_) out[one.run] = one.value;
   return out;
 }
 

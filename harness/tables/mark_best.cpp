@@ -36,7 +36,7 @@ class Renumbered {
 std::size_t count_runs(const MarkInput& input, const std::vector<std::size_t>& entries) {
   std::vector<bool> is_there(input.group.size(), false);
   for (const std::size_t i : entries) {
-    for (const RunValue& one : input.competitors[i]) is_there[one.run] = true;
+    for (const auto& [run, value] : input.competitors[i]) is_there[run] = true;
   }
   return static_cast<std::size_t>(std::ranges::count(is_there, true));
 }
@@ -45,7 +45,7 @@ MarkContest mark_contest(const MarkInput& input) {
   MarkContest out;
   for (std::size_t i = 0; i < input.competitors.size(); ++i) {
     const ByRun& own = input.competitors[i];
-    if (std::ranges::any_of(own, [](const RunValue& one) { return one.value.has_value(); })) {
+    if (std::ranges::any_of(own, [](const auto& one) { return one.second.has_value(); })) {
       out.entries.push_back(i);
     }
   }
@@ -53,13 +53,12 @@ MarkContest mark_contest(const MarkInput& input) {
   RunSet common;
   for (const std::size_t i : out.entries) {
     RunSet own;
-    own.reserve(input.competitors[i].size());
-    for (const RunValue& one : input.competitors[i]) own.insert(one.run);
+    for (const auto& [run, value] : input.competitors[i]) own.insert(own.end(), run);
     out.is_complete.push_back(own.size() == runs);
     if (i == out.entries.front()) {
       common = std::move(own);
     } else {
-      common.keep(own);
+      keep_only(common, own);
     }
   }
   Renumbered groups;
@@ -69,8 +68,8 @@ MarkContest mark_contest(const MarkInput& input) {
     const bool is_common = own.size() == common.size();
     std::vector<std::optional<double>>& values = out.values.values.emplace_back();
     values.reserve(common.size());
-    for (const RunValue& one : own) {
-      if (is_common || common.contains(one.run)) values.push_back(one.value);
+    for (const auto& [run, value] : own) {
+      if (is_common || common.contains(run)) values.push_back(value);
     }
   }
   out.values.better = input.better;

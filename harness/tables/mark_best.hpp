@@ -1,13 +1,25 @@
 /// Selection of the best and second-best values in a table's column (or row).
 #pragma once
 
+#include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "harness/compare/ranking.hpp"
-#include "harness/tables/by_run.hpp"
 
 namespace loopbench::harness {
+
+using RunSet = std::set<std::size_t>;  ///< numbers of runs
+
+/// The values of one entry by run; nullopt if the method failed.
+using ByRun = std::map<std::size_t, std::optional<double>>;
+
+/// Removes the runs that are not in `others`.
+inline void keep_only(RunSet& runs, const RunSet& others) {
+  std::erase_if(runs, [&](std::size_t run) { return !others.contains(run); });
+}
 
 enum class Mark { none, second, best };
 

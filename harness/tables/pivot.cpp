@@ -4,7 +4,6 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/observations.hpp"
-#include "harness/tables/notes.hpp"
 #include "harness/tables/table_numbers.hpp"
 
 namespace loopbench::harness {
@@ -57,7 +56,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
 std::size_t runs_of_any(const MarkInput& input) {
   std::vector<bool> is_there(input.group.size(), false);
   for (const ByRun& own : input.competitors) {
-    for (const RunValue& one : own) is_there[one.run] = true;
+    for (const auto& [run, value] : own) is_there[run] = true;
   }
   return static_cast<std::size_t>(std::ranges::count(is_there, true));
 }
@@ -83,7 +82,7 @@ void mark(Table& out,
       entry.mark = marks.marks[i];
       is_marked = is_marked || entry.mark != Mark::none;
       const auto values = static_cast<std::size_t>(std::ranges::count_if(
-          all.competitors[i], [](const RunValue& one) { return one.value.has_value(); }));
+          all.competitors[i], [](const auto& one) { return one.second.has_value(); }));
       if (entry.records == 0 || values >= runs) continue;
       const std::size_t most = possible(all, i);
       if (values < most) entry.possible = entry.records + most - values;

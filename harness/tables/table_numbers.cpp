@@ -1,7 +1,6 @@
 #include "harness/tables/table_numbers.hpp"
 
 #include "harness/compare/observations.hpp"
-#include "harness/tables/common_runs.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -36,27 +35,25 @@ std::string kind_of(const Record& r) {
          "]";
 }
 
-/// Runs that the entries of a column (or a row) tried and finished.
-std::vector<EntryRuns> entry_runs(const TableNumbers& table,
-                                  const std::vector<TablePosition>& positions,
-                                  bool along_columns) {
-  std::vector<EntryRuns> out;
-  for (const TablePosition& position : positions) {
-    EntryRuns& own = out.emplace_back();
-    const EntryContents* entry = table.find(position);
-    if (entry == nullptr || entry->numbers.size() == 0) continue;
-    own.finished = entry->numbers.finished();
-    own.tried = entry->tried;
-    const auto add = [&](const auto& losses, const auto& key) {
-      if (const auto lost = losses.find(key); lost != losses.end()) own.tried.insert(lost->second);
-    };
-    if (along_columns) add(table.lost_by_row, position.first);
-    if (!along_columns) add(table.lost_by_method, entry->numbers.method());
+}  // namespace
+
+void ErrorCounts::add(std::size_t column, const Record& record) {
+  const std::size_t count = record.statistics.count;
+  if (count < 2 || count == static_cast<std::size_t>(record.pairs)) return;
+  auto& [least, most] = range_.try_emplace(column, count, count).first->second;
+  least = std::min(least, count);
+  most = std::max(most, count);
+}
+
+std::string ErrorCounts::text(const std::vector<std::string>& columns) const {
+  std::string out;
+  for (const auto& [column, range] : range_) {
+    const auto& [least, most] = range;
+    out += (out.empty() ? "" : "; ") + columns[column] + ": " + std::to_string(least);
+    if (most != least) out += " to " + std::to_string(most);
   }
   return out;
 }
-
-}  // namespace
 
 TableNumbers::TableNumbers(const TableSpec& spec)
     : rows(with(spec.rows, "oracle"),
@@ -105,11 +102,11 @@ MarkInput mark_input(const TableNumbers& table,
     if (own.empty()) continue;
     out.better = entry->numbers.better();
     out.target = entry->numbers.target();
-    for (const RunValue& one : own) is_tried[one.run] = true;
+    for (const auto& [run, value] : own) is_tried[run] = true;
   }
   const auto lose = [&](ByRun& own, const RunSet& lost) {
     for (const std::size_t run : lost) {
-      if (is_tried[run]) own.add_failure(run);
+      if (is_tried[run]) own.try_emplace(run);
     }
   };
   const auto lose_any = [&](ByRun& own, const auto& losses, const auto& key) {
@@ -126,29 +123,13 @@ MarkInput mark_input(const TableNumbers& table,
   return out;
 }
 
-std::string keep_common_runs(TableNumbers& table, bool along_columns) {
-  const std::vector<std::string>& names = (along_columns ? table.columns : table.rows).texts();
-  CommonRunsNote note;
-  for (std::size_t l = 0; l < names.size(); ++l) {
-    const std::vector<TablePosition> positions = entry_indices(table, l, along_columns);
-    const std::vector<EntryRuns> entries = entry_runs(table, positions, along_columns);
-    const std::vector<RunSet> common = common_runs(entries);
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      if (entries[i].finished == common[i]) continue;
-      note.add(names[l], common[i].size());
-      table.entries.at(positions[i]).numbers.keep(common[i]);
-    }
-  }
-  return note.text();
-}
-
 std::size_t possible(const MarkInput& input, std::size_t i) {
   std::vector<bool> is_there(input.group.size(), false);
   for (const ByRun& other : input.competitors) {
     const bool shares = std::ranges::any_of(
-        other, [&](const RunValue& one) { return input.competitors[i].contains(one.run); });
+        other, [&](const auto& one) { return input.competitors[i].contains(one.first); });
     if (!shares) continue;
-    for (const RunValue& one : other) is_there[one.run] = true;
+    for (const auto& [run, value] : other) is_there[run] = true;
   }
   return static_cast<std::size_t>(std::ranges::count(is_there, true));
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -13,13 +14,75 @@
 #include "datasets/hash.hpp"
 #include "harness/model/sweep.hpp"
 #include "harness/model/text_index.hpp"
-#include "harness/tables/by_run.hpp"
-#include "harness/tables/entry_numbers.hpp"
-#include "harness/tables/error_counts.hpp"
 #include "harness/tables/mark_best.hpp"
 #include "harness/tables/notes.hpp"
 
 namespace loopbench::harness {
+
+/// Key of a run within an entry: the content of its data if known, otherwise its name.
+std::string run_key(const Record& record);
+
+/// The numbers that are aggregated in one entry of a table.
+class EntryNumbers {
+ public:
+  /// `run` and `group`: numbers of run_key() and group_name(). Throws InputError for an unknown
+  /// statistic.
+  void add(const Record& record, std::size_t run, std::size_t group, const std::string& statistic);
+
+  /// Number of added records.
+  std::size_t size() const { return values_.size(); }
+  /// Number of averaged records: added and kept.
+  std::size_t averaged() const;
+  /// The runs of the averaged records.
+  RunSet finished() const;
+  /// Restricts the average to the records of these runs.
+  void keep(const RunSet& runs);
+
+  /// The mean; for gains 1 - the geometric mean ratio, over groups as in a verdict. nullopt if that
+  /// is not a number.
+  std::optional<double> average() const;
+  /// Sample standard deviation of the averaged values; nullopt for fewer than two.
+  std::optional<double> deviation() const;
+
+  ByRun runs() const;  ///< added values; none of an oracle
+  const SharedText& method() const { return method_; }
+  metrics::Better better() const { return better_; }
+  double target() const { return target_; }
+  bool is_gain() const { return is_gain_; }
+
+ private:
+  struct Value {
+    std::size_t run = 0;
+    std::size_t group = 0;
+    SharedText method;
+    double value = 0.0;
+    bool is_kept = true;
+  };
+
+  double gain() const;
+  std::vector<double> kept() const;
+
+  std::vector<Value> values_;
+  SharedText method_;
+  metrics::Better better_ = metrics::Better::neither;
+  double target_ = 0.0;
+  bool is_gain_ = false;
+  bool is_oracle_ = false;
+};
+
+/// Number of errors behind the values of a table, if it differs from the evaluated poses. A
+/// relative error has fewer pairs than evaluated poses, a closure residual one error per closure.
+class ErrorCounts {
+ public:
+  /// Ignores single values and scores with as many errors as evaluated poses.
+  void add(std::size_t column, const Record& record);
+
+  /// "rpe 1 s [m]: 396 to 398; ..."; empty if every value is over the evaluated poses.
+  std::string text(const std::vector<std::string>& columns) const;
+
+ private:
+  std::map<std::size_t, std::pair<std::size_t, std::size_t>> range_;  ///< min, max by column
+};
 
 using TablePosition = std::pair<std::size_t, std::size_t>;  // row, column
 

@@ -1,7 +1,9 @@
 /// A formatted table: text only, common to all output formats.
 #pragma once
 
+#include <concepts>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/tables/mark_best.hpp"
@@ -10,11 +12,18 @@
 namespace loopbench::harness {
 
 struct TableViewEntry {
+  TableViewEntry() = default;
+  template <std::convertible_to<std::string> Text>
+  TableViewEntry(Text&& own_text, Mark own_mark = Mark::none)
+      : text(std::forward<Text>(own_text)), mark(own_mark) {}
+
   std::string text;
   Mark mark = Mark::none;
+
+  friend bool operator==(const TableViewEntry&, const TableViewEntry&) = default;
 };
 
-/// The first column has the row names and is left-aligned; the others are right-aligned numbers.
+/// The first column has the row names and is left-aligned; the others are right-aligned.
 struct TableView {
   std::string title;
   std::vector<std::string> headings;
@@ -51,6 +60,9 @@ std::string terminal(const TableView& table_view, const TerminalStyle& style = {
 /// A booktabs tabular, in a table with a caption if it has a title; notes as comments. Best in
 /// bold, second best underlined. Escaped; needs \usepackage{booktabs} and UTF-8.
 std::string latex(const TableView& table_view);
+
+/// RFC 4180, with the title as first column and without marks and notes.
+std::string csv(const TableView& table_view);
 
 /// Padded with spaces to that width.
 std::string padded(const std::string& text, std::size_t columns, bool left);

@@ -87,10 +87,10 @@ TEST(Scaling, OnePointPerSize) {
                                       cell(2, "t", "m", 200, 0.004),
                                       cell(3, "u", "m", 400, 0.008),
                                       cell(4, "u", "once", 400, 0.008)};
-  const TextTable listing = scaling(cells);
-  ASSERT_EQ(listing.rows.size(), 1u);
-  EXPECT_EQ(listing.rows[0],
-            (std::vector<std::string>{"m", "3", "100 to 400", "1.00", "0.00", "1.000", "8"}));
+  const TableView listing = scaling(cells);
+  ASSERT_EQ(listing.lines.size(), 1u);
+  EXPECT_EQ(listing.lines[0],
+            (std::vector<TableViewEntry>{"m", "3", "100 to 400", "1.00", "0.00", "1.000", "8"}));
 }
 
 TEST(Pareto, OverSequencesThatAllHave) {
@@ -107,13 +107,13 @@ TEST(Pareto, OverSequencesThatAllHave) {
     records.push_back(score(i, "keyframes", 77));
     records.push_back(score(i, "dense", errors[i]));
   }
-  const TextTable listing = pareto(cells, records, {});
-  using Row = std::vector<std::string>;
-  ASSERT_EQ(listing.rows.size(), 4u);
-  EXPECT_EQ(listing.rows[0], (Row{"part", "1 of 2", "0.1", "0.5", "-"}));
-  EXPECT_EQ(listing.rows[1], (Row{"fast", "2 of 2", "6", "1", "yes"}));
-  EXPECT_EQ(listing.rows[2], (Row{"slow", "2 of 2", "2", "2", "yes"}));
-  EXPECT_EQ(listing.rows[3], (Row{"worse", "2 of 2", "6", "4", "no"}));
+  const TableView listing = pareto(cells, records, {});
+  using Row = std::vector<TableViewEntry>;
+  ASSERT_EQ(listing.lines.size(), 4u);
+  EXPECT_EQ(listing.lines[0], (Row{"part", "1 of 2", "0.1", "0.5", "-"}));
+  EXPECT_EQ(listing.lines[1], (Row{"fast", "2 of 2", "6", "1", "yes"}));
+  EXPECT_EQ(listing.lines[2], (Row{"slow", "2 of 2", "2", "2", "yes"}));
+  EXPECT_EQ(listing.lines[3], (Row{"worse", "2 of 2", "6", "4", "no"}));
 }
 
 TEST(ParetoFront, TakesTinyDifferencesForNone) {
@@ -137,21 +137,21 @@ TEST(Pareto, LeavesOutOraclesAndMethodsThatLackARun) {
     if (i != 5) records.push_back(score(cells[i].position, "dense", i < 2 ? 1.0 : 0.5));
   }
   cells[5].status = Status::failed;
-  const TextTable listing = pareto(cells, records, {});
-  using Row = std::vector<std::string>;
-  ASSERT_EQ(listing.rows.size(), 3u);
-  EXPECT_EQ(listing.rows[0], (Row{"leaky (oracle)", "2 of 2", "0.5", "0.1", "-"}));
-  EXPECT_EQ(listing.rows[1], (Row{"lucky", "1 of 2", "0.5", "0.1", "-"}));
-  EXPECT_EQ(listing.rows[2], (Row{"fast", "2 of 2", "1", "1", "yes"}));
-  const auto has = [&](const TextTable& of, const std::string& note) {
+  const TableView listing = pareto(cells, records, {});
+  using Row = std::vector<TableViewEntry>;
+  ASSERT_EQ(listing.lines.size(), 3u);
+  EXPECT_EQ(listing.lines[0], (Row{"leaky (oracle)", "2 of 2", "0.5", "0.1", "-"}));
+  EXPECT_EQ(listing.lines[1], (Row{"lucky", "1 of 2", "0.5", "0.1", "-"}));
+  EXPECT_EQ(listing.lines[2], (Row{"fast", "2 of 2", "1", "1", "yes"}));
+  const auto has = [&](const TableView& of, const std::string& note) {
     return std::ranges::any_of(of.notes, [&](const std::string& n) { return n.starts_with(note); });
   };
-  for (const TextTable& of : {listing, costs(cells), reported(cells), scaling(cells)}) {
+  for (const TableView& of : {listing, costs(cells), reported(cells), scaling(cells)}) {
     EXPECT_TRUE(has(of, "oracle: the method or its data uses the reference")) << of.title;
     EXPECT_TRUE(has(of, "closures are oracle (measured in the reference or selected by it): s"))
         << of.title;
   }
-  EXPECT_EQ(costs(cells).rows[1][0], "leaky (oracle)");
+  EXPECT_EQ(costs(cells).lines[1][0].text, "leaky (oracle)");
 }
 
 TEST(Pareto, HasNoMeanWhereAnErrorIsZero) {
@@ -163,17 +163,18 @@ TEST(Pareto, HasNoMeanWhereAnErrorIsZero) {
                                     score(1, "dense", 9.0),
                                     score(2, "dense", 1.0),
                                     score(3, "dense", 4.0)};
-  const TextTable listing = pareto(cells, records, {});
-  using Row = std::vector<std::string>;
-  ASSERT_EQ(listing.rows.size(), 2u);
-  EXPECT_EQ(listing.rows[0], (Row{"perfect once", "2 of 2", "-", "1", "-"}));
-  EXPECT_EQ(listing.rows[1], (Row{"other", "2 of 2", "2", "2", "yes"}));
+  const TableView listing = pareto(cells, records, {});
+  using Row = std::vector<TableViewEntry>;
+  ASSERT_EQ(listing.lines.size(), 2u);
+  EXPECT_EQ(listing.lines[0], (Row{"perfect once", "2 of 2", "-", "1", "-"}));
+  EXPECT_EQ(listing.lines[1], (Row{"other", "2 of 2", "2", "2", "yes"}));
   EXPECT_EQ(std::ranges::count(listing.notes, "no mean where an error is zero: perfect once"), 1);
 }
 
-TEST(TextTable, ReadsAsMarkdownAndAsCsv) {
-  const TextTable listing{"t", {"a", "b"}, {{"x|y", "1"}}, {"note"}};
-  EXPECT_EQ(markdown(listing), "### t\n\n| a    |  b |\n| ---- | -: |\n| x\\|y |  1 |\n\n- note\n");
+TEST(TableView, ReadsAsMarkdownAndAsCsv) {
+  const TableView listing{"t", {"a", "b"}, {{"x|y", "1"}}, {"note"}};
+  EXPECT_EQ(markdown(listing),
+            "### t\n\n| a    |   b |\n| ---- | --: |\n| x\\|y |   1 |\n\n- note\n");
   EXPECT_EQ(csv(listing), "table,a,b\nt,x|y,1\n");
 }
 

@@ -76,7 +76,7 @@ TEST(Where, RefusesByName) {
 /// The error of each run is its number, from 1, times the factor.
 ByRun runs(double factor, std::size_t count = 8) {
   ByRun out;
-  for (std::size_t i = 0; i < count; ++i) out.set(i, factor * static_cast<double>(i + 1));
+  for (std::size_t i = 0; i < count; ++i) out[i] = factor * static_cast<double>(i + 1);
   return out;
 }
 
@@ -102,7 +102,7 @@ TEST(MarkBest, MarksOnlyWhatIsProven) {
   EXPECT_EQ(marks(three, Better::lower, 0.02).marks, (std::vector<Mark>(3, Mark::none)));
   // The two best do not differ significantly: no mark.
   ByRun alike = runs(1.0);
-  alike.set(0, 1.01);
+  alike[0] = 1.01;
   EXPECT_EQ(marks({runs(1.0), alike, runs(3.0)}).marks, (std::vector<Mark>(3, Mark::none)));
 }
 
@@ -120,17 +120,17 @@ TEST(MarkBest, NeverMarksACompetitorThatLacksARun) {
 
 TEST(MarkBest, CountsFailuresAsLosses) {
   ByRun failing = runs(0.5, 10);
-  for (std::size_t i = 0; i < 6; ++i) failing.set(i, std::nullopt);
+  for (std::size_t i = 0; i < 6; ++i) failing[i] = std::nullopt;
   EXPECT_EQ(marks({failing, runs(1.0, 10)}).marks, (std::vector<Mark>{Mark::none, Mark::none}));
   ByRun better = runs(0.5, 20);
-  better.set(0, std::nullopt);  // one loss against nineteen wins
+  better[0] = std::nullopt;  // one loss against nineteen wins
   EXPECT_EQ(marks({better, runs(1.0, 20)}).marks[0], Mark::best);
 }
 
 TEST(MarkBest, NeverMarksAMethodThatLosesNineteenOfTwenty) {
   ByRun loser;  // slightly worse on nineteen runs; the one that it wins makes its mean the lowest
-  for (std::size_t i = 0; i < 19; ++i) loser.set(i, 1.01 * static_cast<double>(i + 1));
-  loser.set(19, 0.01);
+  for (std::size_t i = 0; i < 19; ++i) loser[i] = 1.01 * static_cast<double>(i + 1);
+  loser[19] = 0.01;
   EXPECT_NE(marks({loser, runs(1.0, 20)}).marks[0], Mark::best);
 }
 
