@@ -1,14 +1,11 @@
 #include <CLI/CLI.hpp>
-#include <optional>
 
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/standard_output.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/tables/all_records.hpp"
 #include "harness/tables/comparison.hpp"
 #include "harness/tables/text.hpp"
-#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -18,41 +15,26 @@ struct CompareArguments {
   std::string metric = "ate";
   std::vector<std::string> where;
   CompareOptions options;
-  std::optional<ExportFormat> format;  ///< none: terminal on a terminal, otherwise Markdown
-  std::string out;
+  OutputOptions output;
 };
 
-std::string text(const std::vector<Comparison>& comparisons,
-                 ExportFormat format,
-                 const TerminalStyle& style) {
-  if (format == ExportFormat::csv) return csv(comparisons);
-  if (format == ExportFormat::json) return json(comparisons);
-  std::string out;
-  for (const Comparison& comparison : comparisons) {
-    const TableView shown = table_view(comparison);
-    out += out.empty() ? "" : "\n";
-    out += format == ExportFormat::latex      ? latex(shown)
-           : format == ExportFormat::terminal ? terminal(shown, style)
-                                              : markdown(shown);
-  }
-  return out;
+std::string text(const std::vector<Comparison>& comparisons, const OutputOptions& output) {
+  if (output.format() == ExportFormat::csv) return csv(comparisons);
+  if (output.format() == ExportFormat::json) return json(comparisons);
+  std::vector<TableView> tables;
+  for (const Comparison& comparison : comparisons) tables.push_back(table_view(comparison));
+  return text(tables, output);
 }
 
 int print_comparison(const CompareArguments& arguments) {
   std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
   const std::vector<Comparison> comparisons =
       compare_store(arguments.store, arguments.metric, arguments.where, arguments.options);
-  const bool is_printed = arguments.out.empty() || is_dash(arguments.out);
-  const bool has_terminal = is_printed && prints_to_terminal();
-  const ExportFormat format =
-      arguments.format.value_or(has_terminal ? ExportFormat::terminal : ExportFormat::markdown);
-  const TerminalStyle style = is_printed ? standard_output_style() : TerminalStyle{};
-  write_output(text(comparisons, format, style),
-               format,
+  write_output(text(comparisons, arguments.output),
+               arguments.output,
                "comparisons",
                std::move(provenance),
-               arguments.store,
-               arguments.out);
+               arguments.store);
   return kExitOk;
 }
 
@@ -98,21 +80,13 @@ void add_compare(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option(
       "--where", arguments->where, "Filter of rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, ...");
-  const std::map<std::string, ExportFormat> formats{{"markdown", ExportFormat::markdown},
-                                                    {"terminal", ExportFormat::terminal},
-                                                    {"latex", ExportFormat::latex},
-                                                    {"csv", ExportFormat::csv},
-                                                    {"json", ExportFormat::json}};
-  command
-      ->add_option("--format",
-                   arguments->format,
-                   "Output format; default: terminal on a terminal, otherwise markdown")
-      ->transform(one_of("format", formats));
-  command
-      ->add_option("-o,--out",
-                   arguments->out,
-                   "File to write (-: standard output); for CSV also its provenance")
-      ->type_name("FILE");
+  declare(*command,
+          arguments->output,
+          {ExportFormat::markdown,
+           ExportFormat::terminal,
+           ExportFormat::latex,
+           ExportFormat::csv,
+           ExportFormat::json});
   command->callback([arguments, &exit_code] { exit_code = print_comparison(*arguments); });
 }
 

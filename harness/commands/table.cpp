@@ -1,75 +1,42 @@
 #include <CLI/CLI.hpp>
-#include <optional>
 
 #include "datasets/core/error.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/standard_output.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/model/where.hpp"
 #include "harness/tables/all_records.hpp"
 #include "harness/tables/store_tables.hpp"
 #include "harness/tables/text.hpp"
-#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-enum class TableFormat { markdown, terminal, latex, csv, json, rows };
 
 struct TableArguments {
   std::string store;
   TableSpec spec;
   std::vector<std::string> where;
   RankingOptions ranking;
-  std::optional<TableFormat> format;  ///< none: terminal on a terminal, otherwise Markdown
-  std::string out;
+  OutputOptions output;
 };
 
-std::string text(const std::vector<Table>& tables, TableFormat format, const TerminalStyle& style) {
-  if (format == TableFormat::csv) return csv(tables);
-  if (format == TableFormat::json) return json(tables);
-  if (format == TableFormat::markdown) return markdown(tables);
-  std::string out;
-  for (const Table& table : tables) {
-    const TableView shown = table_view(table);
-    out += out.empty() ? "" : "\n";
-    out += format == TableFormat::latex ? latex(shown) : terminal(shown, style);
-  }
-  return out;
-}
-
-ExportFormat container_format(TableFormat format) {
-  switch (format) {
-    case TableFormat::terminal:
-      return ExportFormat::terminal;
-    case TableFormat::latex:
-      return ExportFormat::latex;
-    case TableFormat::csv:
-    case TableFormat::rows:
-      return ExportFormat::csv;
-    case TableFormat::json:
-      return ExportFormat::json;
-    case TableFormat::markdown:
-      break;
-  }
-  return ExportFormat::markdown;
+std::string text(const std::vector<Table>& tables, const OutputOptions& output) {
+  if (output.format() == ExportFormat::csv) return csv(tables);
+  if (output.format() == ExportFormat::json) return json(tables);
+  std::vector<TableView> views;
+  for (const Table& table : tables) views.push_back(table_view(table));
+  return text(views, output);
 }
 
 int print_table(TableArguments arguments) {
   std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
-  const bool is_printed = arguments.out.empty() || is_dash(arguments.out);
-  const TerminalStyle style = is_printed ? standard_output_style() : TerminalStyle{};
-  const bool has_terminal = is_printed && prints_to_terminal();
-  const TableFormat format =
-      arguments.format.value_or(has_terminal ? TableFormat::terminal : TableFormat::markdown);
   std::vector<std::string> show;
   for (const std::string& word : arguments.spec.show) {
     for (std::string& score : split_list(word)) show.push_back(std::move(score));
   }
   arguments.spec.show = std::move(show);
   std::string shown;
-  if (format == TableFormat::rows) {
+  if (arguments.output.format() == ExportFormat::rows) {
     std::vector<Record> records = all_records(arguments.store);
     keep_where(records, arguments.where);
     if (records.empty()) {
@@ -79,15 +46,9 @@ int print_table(TableArguments arguments) {
     shown = csv(records);
   } else {
     shown = text(store_tables(arguments.store, arguments.where, arguments.spec, arguments.ranking),
-                 format,
-                 style);
+                 arguments.output);
   }
-  write_output(shown,
-               container_format(format),
-               "tables",
-               std::move(provenance),
-               arguments.store,
-               arguments.out);
+  write_output(shown, arguments.output, "tables", std::move(provenance), arguments.store);
   return kExitOk;
 }
 
@@ -139,23 +100,14 @@ void add_table(CLI::App& app, int& exit_code) {
       ->check(finite_number())
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
-  const std::map<std::string, TableFormat> formats{{"markdown", TableFormat::markdown},
-                                                   {"terminal", TableFormat::terminal},
-                                                   {"latex", TableFormat::latex},
-                                                   {"csv", TableFormat::csv},
-                                                   {"json", TableFormat::json},
-                                                   {"rows", TableFormat::rows}};
-  command
-      ->add_option("--format",
-                   arguments->format,
-                   "Output format; rows is the long table. Default: terminal on a terminal, "
-                   "otherwise markdown")
-      ->transform(one_of("format", formats));
-  command
-      ->add_option("-o,--out",
-                   arguments->out,
-                   "File to write (-: standard output); for CSV also its provenance")
-      ->type_name("FILE");
+  declare(*command,
+          arguments->output,
+          {ExportFormat::markdown,
+           ExportFormat::terminal,
+           ExportFormat::latex,
+           ExportFormat::csv,
+           ExportFormat::json,
+           ExportFormat::rows});
   command->callback([arguments, &exit_code] { exit_code = print_table(*arguments); });
 }
 

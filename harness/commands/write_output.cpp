@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <map>
+
+#include "harness/commands/checks.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/provenance/build_summary.hpp"
 #include "harness/store/open.hpp"
@@ -12,37 +16,87 @@
 
 namespace loopbench::harness {
 
+namespace {
+
+bool is_printed(const OutputOptions& output) { return output.file.empty() || is_dash(output.file); }
+
+}  // namespace
+
 std::future<StoreProvenance> begin_provenance(const std::filesystem::path& store) {
   return std::async(std::launch::async, read_store_provenance, store);
 }
 
+ExportFormat OutputOptions::format() const {
+  const bool has_terminal = is_printed(*this) && prints_to_terminal();
+  return given.value_or(has_terminal ? ExportFormat::terminal : ExportFormat::markdown);
+}
+
+void declare(CLI::App& command, OutputOptions& output, const std::vector<ExportFormat>& formats) {
+  const std::map<std::string, ExportFormat> known{{"markdown", ExportFormat::markdown},
+                                                  {"terminal", ExportFormat::terminal},
+                                                  {"latex", ExportFormat::latex},
+                                                  {"csv", ExportFormat::csv},
+                                                  {"json", ExportFormat::json},
+                                                  {"rows", ExportFormat::rows}};
+  std::map<std::string, ExportFormat> accepted = known;
+  std::erase_if(accepted,
+                [&](const auto& one) { return std::ranges::count(formats, one.second) == 0; });
+  const bool has_rows = accepted.contains("rows");
+  command
+      .add_option("--format",
+                  output.given,
+                  std::string("Output format") + (has_rows ? "; rows is the long table" : "") +
+                      "; default: terminal on a terminal, otherwise markdown")
+      ->transform(one_of("format", accepted));
+  command
+      .add_option("-o,--out",
+                  output.file,
+                  "File to write (-: standard output); for CSV also its provenance")
+      ->type_name("FILE");
+}
+
+std::string text(const std::vector<TableView>& tables, const OutputOptions& output) {
+  const TerminalStyle style = is_printed(output) ? standard_output_style() : TerminalStyle{};
+  const ExportFormat format = output.format();
+  std::string out;
+  for (const TableView& table : tables) {
+    out += out.empty() ? "" : "\n";
+    out += format == ExportFormat::csv        ? csv(table)
+           : format == ExportFormat::latex    ? latex(table)
+           : format == ExportFormat::terminal ? terminal(table, style)
+                                              : markdown(table);
+  }
+  return out;
+}
+
 void write_output(const std::string& text,
-                  ExportFormat format,
+                  const OutputOptions& output,
                   const std::string& key,
                   std::future<StoreProvenance> begun,
-                  const std::filesystem::path& store,
-                  const std::string& file) {
-  const bool is_printed = file.empty() || is_dash(file);
-  const bool is_read_by_a_person = is_printed && isatty(STDOUT_FILENO) == 1;
+                  const std::filesystem::path& store) {
+  const ExportFormat format = output.format();
+  const bool is_read_by_a_person = is_printed(output) && isatty(STDOUT_FILENO) == 1;
   std::string out = text;
   const StoreProvenance provenance = begun.get();
   if (format == ExportFormat::json) {
     out = with_provenance(provenance, key, text);
   } else if (format == ExportFormat::terminal) {
     const std::string summary = build_summary(provenance.provenance);
-    out += "\n" + (is_printed ? fitted(summary) : summary) + "\n";
+    out += "\n" + (is_printed(output) ? fitted(summary) : summary) + "\n";
   } else if (format == ExportFormat::markdown && !is_read_by_a_person) {
     out += "\n" + provenance_comment(provenance);
   } else if (format == ExportFormat::latex && !is_read_by_a_person) {
     out += provenance_lines(provenance, "% ");
   }
-  if (is_printed) {
+  if (is_printed(output)) {
     fmt::print("{}", out);
   } else {
-    reject_overwriting({store_file(store)}, file);
-    write_file(file, out);
+    reject_overwriting({store_file(store)}, output.file);
+    write_file(output.file, out);
   }
-  if (format == ExportFormat::csv) write_provenance_of_csv(provenance, file);
+  if (format == ExportFormat::csv || format == ExportFormat::rows) {
+    write_provenance_of_csv(provenance, output.file);
+  }
 }
 
 void write_provenance_of_csv(const StoreProvenance& provenance, const std::string& file) {

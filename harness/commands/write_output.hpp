@@ -1,30 +1,47 @@
 /// Output of results to a file or to standard output, with their provenance.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <future>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "harness/tables/store_provenance.hpp"
+#include "harness/tables/table_view.hpp"
 
 namespace loopbench::harness {
 
-enum class ExportFormat { markdown, terminal, latex, csv, json };
+enum class ExportFormat { markdown, terminal, latex, csv, json, rows };
+
+/// Options of commands that print tables.
+struct OutputOptions {
+  std::optional<ExportFormat> given;  ///< none: terminal on a terminal, otherwise Markdown
+  std::string file;                   ///< empty or "-": standard output
+
+  ExportFormat format() const;
+};
+
+/// Adds --format with these formats, and -o.
+void declare(CLI::App& command, OutputOptions& output, const std::vector<ExportFormat>& formats);
+
+/// The tables one below the other: Markdown, LaTeX, CSV, or for the terminal in its width.
+std::string text(const std::vector<TableView>& tables, const OutputOptions& output);
 
 /// Reads the provenance on another thread while the output is computed.
 std::future<StoreProvenance> begin_provenance(const std::filesystem::path& store);
 
-/// Writes `text` to `file`, or prints it if `file` is empty or "-". The provenance of the store is
+/// Writes or prints `text`. The provenance of the store is
 /// an HTML comment in Markdown, % comments in LaTeX (both omitted on a terminal), and {provenance,
 /// KEY: text} in JSON. CSV has no comments: the provenance of `x.csv` is written to
 /// `x.provenance.json` next to it; for a printed CSV, one line goes to standard error. Throws
 /// InputError.
 void write_output(const std::string& text,
-                  ExportFormat format,
+                  const OutputOptions& output,
                   const std::string& key,
                   std::future<StoreProvenance> provenance,
-                  const std::filesystem::path& store,
-                  const std::string& file);
+                  const std::filesystem::path& store);
 
 /// Writes the provenance of a CSV file next to it; see write_output().
 void write_provenance_of_csv(const StoreProvenance& provenance, const std::string& file);
