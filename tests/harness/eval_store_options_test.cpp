@@ -133,10 +133,10 @@ TEST_F(EvalStoreOptions, TimesOfReadingFilesAreNotRecorded) {
   for (const Record& r : all_records(path("store"))) EXPECT_NE(r.metric, "time");
   EXPECT_THROW(compare_store(path("store"), "time", {}, CompareOptions{}), InputError);
   const std::vector<CellRecord> cells = read_cells(path("store"));
-  EXPECT_TRUE(costs(cells).rows.empty());
+  EXPECT_TRUE(costs(cells).lines.empty());
   EXPECT_THAT(costs(cells).notes, ElementsAre(HasSubstr("no run times are recorded")));
-  EXPECT_TRUE(scaling(cells).rows.empty());
-  EXPECT_TRUE(pareto(cells, read_records(path("store")), Accuracy{}).rows.empty());
+  EXPECT_TRUE(scaling(cells).lines.empty());
+  EXPECT_TRUE(pareto(cells, read_records(path("store")), Accuracy{}).lines.empty());
 }
 
 TEST_F(EvalStoreOptions, TablesShowAxesIfThereIsNoTotal) {
