@@ -27,61 +27,29 @@ constexpr std::size_t kStep = std::size_t{256} << 10;  // [bytes] per call of a 
                     package + " and build again");
 }
 
-/// Output that grows in steps up to a limit.
-class Grown {
- public:
-  explicit Grown(std::size_t limit) : limit_(limit) {}
-
-  /// Space for the next call of a library.
-  char* space() {
-    check();
-    text_.resize(std::min(limit_ + 1, used_ + kStep));  // one more byte shows that there is more
-    return text_.data() + used_;
-  }
-  std::size_t room() const { return text_.size() - used_; }
-  void use(std::size_t count) { used_ += count; }
-  std::string take() {
-    check();
-    text_.resize(used_);
-    return std::move(text_);
-  }
-
- private:
-  void check() const {
-    if (used_ <= limit_) return;
-    throw DamagedStream("expands to more than " + std::to_string(limit_) + " bytes");
-  }
-
-  std::size_t limit_;
-  std::size_t used_ = 0;
-  std::string text_;
-};
+using Sink = std::function<void(std::string_view)>;
 
 /// Calls step(in, size, out, room), which returns the bytes read and written and whether a frame
-/// has ended, until all input is used. `damage`: if given, set to the reason why the input cannot
-/// be used to its end, otherwise this is an exception.
+/// has ended, until all input is used.
 template <class Step>
-std::string expand(std::string_view bytes, std::size_t limit, std::string* damage, Step step) {
-  Grown out(limit);
+void expand(std::string_view bytes, std::size_t limit, const Sink& sink, Step step) {
+  std::string buffer(kStep, '\0');
+  std::size_t total = 0;
   bool ended = false;
   bool full = false;
-  try {
-    while (!bytes.empty() || full) {
-      char* const space = out.space();
-      const auto [read, written, frame_ended] = step(bytes, space, out.room());
-      if (read == 0 && written == 0 && !frame_ended) break;
-      full = written == out.room();
-      ended = frame_ended;
-      if (ended) full = false;
-      bytes.remove_prefix(read);
-      out.use(written);
+  while (!bytes.empty() || full) {
+    const auto [read, written, frame_ended] = step(bytes, buffer.data(), buffer.size());
+    if (read == 0 && written == 0 && !frame_ended) break;
+    total += written;
+    if (total > limit) {
+      throw ExpandsTooFar("expands to more than " + std::to_string(limit) + " bytes");
     }
-    if (!ended) throw DamagedStream("ends early");
-  } catch (const DamagedStream& reason) {
-    if (damage == nullptr) throw;
-    *damage = reason.what();
+    sink({buffer.data(), written});
+    ended = frame_ended;
+    full = !ended && written == buffer.size();
+    bytes.remove_prefix(read);
   }
-  return out.take();
+  if (!ended) throw DamagedStream("ends early");
 }
 
 struct Progress {
@@ -91,7 +59,7 @@ struct Progress {
 };
 
 #ifdef LOOPBENCH_HAS_ZLIB
-std::string expand_gzip(std::string_view bytes, std::size_t limit, std::string* damage) {
+void expand_gzip(std::string_view bytes, std::size_t limit, const Sink& sink) {
   struct Stream {
     z_stream state{};
     Stream() {
@@ -102,7 +70,7 @@ std::string expand_gzip(std::string_view bytes, std::size_t limit, std::string* 
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;
   } stream;
-  return expand(bytes, limit, damage, [&](std::string_view in, char* out, std::size_t room) {
+  expand(bytes, limit, sink, [&](std::string_view in, char* out, std::size_t room) {
     const std::size_t given = std::min<std::size_t>(in.size(), std::size_t{1} << 30);
     z_stream& s = stream.state;
     s.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(in.data()));
@@ -119,11 +87,11 @@ std::string expand_gzip(std::string_view bytes, std::size_t limit, std::string* 
   });
 }
 #else
-std::string expand_gzip(std::string_view, std::size_t, std::string*) { lack("gzip", "zlib1g-dev"); }
+void expand_gzip(std::string_view, std::size_t, const Sink&) { lack("gzip", "zlib1g-dev"); }
 #endif
 
 #ifdef LOOPBENCH_HAS_BZIP2
-std::string expand_bzip2(std::string_view bytes, std::size_t limit, std::string* damage) {
+void expand_bzip2(std::string_view bytes, std::size_t limit, const Sink& sink) {
   struct Stream {
     bz_stream state{};
     Stream() { start(); }
@@ -135,7 +103,7 @@ std::string expand_bzip2(std::string_view bytes, std::size_t limit, std::string*
       if (BZ2_bzDecompressInit(&state, 0, 0) != BZ_OK) throw std::bad_alloc();
     }
   } stream;
-  return expand(bytes, limit, damage, [&](std::string_view in, char* out, std::size_t room) {
+  expand(bytes, limit, sink, [&](std::string_view in, char* out, std::size_t room) {
     const std::size_t given = std::min<std::size_t>(in.size(), std::size_t{1} << 30);
     bz_stream& s = stream.state;
     s.next_in = const_cast<char*>(in.data());
@@ -153,13 +121,11 @@ std::string expand_bzip2(std::string_view bytes, std::size_t limit, std::string*
   });
 }
 #else
-std::string expand_bzip2(std::string_view, std::size_t, std::string*) {
-  lack("bzip2", "libbz2-dev");
-}
+void expand_bzip2(std::string_view, std::size_t, const Sink&) { lack("bzip2", "libbz2-dev"); }
 #endif
 
 #ifdef LOOPBENCH_HAS_ZSTD
-std::string expand_zstd(std::string_view bytes, std::size_t limit, std::string* damage) {
+void expand_zstd(std::string_view bytes, std::size_t limit, const Sink& sink) {
   struct Stream {
     ZSTD_DStream* state = ZSTD_createDStream();
     Stream() {
@@ -169,7 +135,7 @@ std::string expand_zstd(std::string_view bytes, std::size_t limit, std::string* 
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;
   } stream;
-  return expand(bytes, limit, damage, [&](std::string_view in, char* out, std::size_t room) {
+  expand(bytes, limit, sink, [&](std::string_view in, char* out, std::size_t room) {
     ZSTD_inBuffer input{in.data(), in.size(), 0};
     ZSTD_outBuffer output{out, room, 0};
     const std::size_t code = ZSTD_decompressStream(stream.state, &output, &input);
@@ -178,13 +144,11 @@ std::string expand_zstd(std::string_view bytes, std::size_t limit, std::string* 
   });
 }
 #else
-std::string expand_zstd(std::string_view, std::size_t, std::string*) {
-  lack("zstd", "libzstd-dev");
-}
+void expand_zstd(std::string_view, std::size_t, const Sink&) { lack("zstd", "libzstd-dev"); }
 #endif
 
 #ifdef LOOPBENCH_HAS_LZ4
-std::string expand_lz4(std::string_view bytes, std::size_t limit, std::string* damage) {
+void expand_lz4(std::string_view bytes, std::size_t limit, const Sink& sink) {
   struct Stream {
     LZ4F_dctx* state = nullptr;
     Stream() {
@@ -196,7 +160,7 @@ std::string expand_lz4(std::string_view bytes, std::size_t limit, std::string* d
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;
   } stream;
-  return expand(bytes, limit, damage, [&](std::string_view in, char* out, std::size_t room) {
+  expand(bytes, limit, sink, [&](std::string_view in, char* out, std::size_t room) {
     std::size_t read = in.size();
     std::size_t written = room;
     const std::size_t code =
@@ -206,7 +170,7 @@ std::string expand_lz4(std::string_view bytes, std::size_t limit, std::string* d
   });
 }
 #else
-std::string expand_lz4(std::string_view, std::size_t, std::string*) { lack("lz4", "liblz4-dev"); }
+void expand_lz4(std::string_view, std::size_t, const Sink&) { lack("lz4", "liblz4-dev"); }
 #endif
 
 }  // namespace
@@ -219,31 +183,36 @@ std::optional<Codec> codec_of(std::string_view bytes) {
   return std::nullopt;
 }
 
-namespace {
-
-std::string expand(Codec codec, std::string_view bytes, std::size_t limit, std::string* damage) {
+void decompress(Codec codec, std::string_view bytes, std::size_t limit, const Sink& sink) {
   switch (codec) {
     case Codec::gzip:
-      return expand_gzip(bytes, limit, damage);
+      return expand_gzip(bytes, limit, sink);
     case Codec::bzip2:
-      return expand_bzip2(bytes, limit, damage);
+      return expand_bzip2(bytes, limit, sink);
     case Codec::zstd:
-      return expand_zstd(bytes, limit, damage);
+      return expand_zstd(bytes, limit, sink);
     case Codec::lz4:
-      return expand_lz4(bytes, limit, damage);
+      return expand_lz4(bytes, limit, sink);
   }
   throw std::logic_error("unknown codec");
 }
 
-}  // namespace
-
 std::string decompress(Codec codec, std::string_view bytes, std::size_t limit) {
-  return expand(codec, bytes, limit, nullptr);
+  std::string out;
+  decompress(codec, bytes, limit, [&](std::string_view part) { out += part; });
+  return out;
 }
 
 std::string decompress_intact(Codec codec, std::string_view bytes, std::size_t limit) {
-  std::string damage;
-  return expand(codec, bytes, limit, &damage);
+  std::string out;
+  try {
+    decompress(codec, bytes, limit, [&](std::string_view part) { out += part; });
+  } catch (const ExpandsTooFar&) {
+    throw;
+  } catch (const DamagedStream&) {
+    return out;  // up to the damage
+  }
+  return out;
 }
 
 }  // namespace loopbench

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -12,17 +13,29 @@ namespace loopbench {
 enum class Codec { gzip, bzip2, zstd, lz4 };
 
 /// Damaged or truncated compressed data.
-class DamagedStream final : public std::runtime_error {
+class DamagedStream : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// Compressed data that expand to more bytes than permitted.
+class ExpandsTooFar final : public DamagedStream {
+ public:
+  using DamagedStream::DamagedStream;
 };
 
 /// The codec whose magic bytes the data start with; nothing for other data.
 std::optional<Codec> codec_of(std::string_view bytes);
 
-/// Decompresses all concatenated frames of `bytes`. Throws DamagedStream with the reason if they
-/// are damaged, end early or expand to more than `limit` bytes; MissingPart if the build lacks the
-/// library. O(result).
+/// Passes the content of all concatenated frames of `bytes` to `sink`, at most 256 KiB at a time.
+/// Throws DamagedStream with the reason if they are damaged or end early, ExpandsTooFar if they
+/// expand to more than `limit` bytes, MissingPart if the build lacks the library. O(result).
+void decompress(Codec codec,
+                std::string_view bytes,
+                std::size_t limit,
+                const std::function<void(std::string_view)>& sink);
+
+/// The same, into a string.
 std::string decompress(Codec codec, std::string_view bytes, std::size_t limit);
 
 /// The same, up to the first damage or the end of truncated data. Libraries decode block by block,

@@ -1,9 +1,13 @@
 #include "datasets/compressed/input_file.hpp"
 
 #include <fcntl.h>
+#include <linux/magic.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -11,6 +15,7 @@
 #include <map>
 #include <mutex>
 #include <system_error>
+#include <utility>
 
 #include "datasets/compressed/decompress.hpp"
 
@@ -18,6 +23,13 @@ namespace loopbench {
 namespace {
 
 constexpr std::size_t kMagicBytes = 8;
+
+/// Largest content of a pipe or of a compressed file, which are kept in memory [bytes].
+constexpr std::size_t kMostInMemory = std::size_t{2} << 30;
+/// Expansion that is permitted for every compressed file [bytes].
+constexpr std::size_t kAnyExpansion = std::size_t{64} << 20;
+/// Largest expansion of longer files, relative to their size: pose files reach about 10.
+constexpr std::size_t kMostExpansion = 50;
 
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
@@ -48,41 +60,74 @@ std::string all_of(std::FILE* file, const std::string& name, std::size_t limit) 
   return out;
 }
 
-/// A file in memory with this content.
-OpenedFile in_memory(const std::string& name, const std::string& content) {
-  const int file = memfd_create("loopbench", MFD_CLOEXEC);
-  if (file < 0) throw unreadable(name);
-  const std::shared_ptr<const int> handle(new int(file), [](const int* fd) {
-    close(*fd);
-    delete fd;
-  });
-  for (std::size_t done = 0; done < content.size();) {
-    const ssize_t count = write(file, content.data() + done, content.size() - done);
-    if (count < 0) throw unreadable(name);
-    done += static_cast<std::size_t>(count);
+/// A file in memory.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::string name)
+      : name_(std::move(name)), file_(memfd_create("loopbench", MFD_CLOEXEC)) {
+    if (file_ < 0) throw unreadable(name_);
+    handle_ = std::shared_ptr<const int>(new int(file_), [](const int* file) {
+      close(*file);
+      delete file;
+    });
   }
-  return {name, "/proc/self/fd/" + std::to_string(file), content.size(), handle};
-}
 
+  void append(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t count = write(file_, bytes.data(), bytes.size());
+      if (count < 0) throw unreadable(name_);
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+      size_ += static_cast<std::size_t>(count);
+    }
+  }
+
+  OpenedFile opened() const {
+    return {name_, "/proc/self/fd/" + std::to_string(file_), size_, handle_};
+  }
+
+ private:
+  std::string name_;
+  int file_;
+  std::size_t size_ = 0;
+  std::shared_ptr<const void> handle_;
+};
+
+/// The content in memory, decompressed if it is compressed.
 OpenedFile expanded(const std::string& name, const std::string& content, std::size_t limit) {
+  MemoryFile out(name);
   const std::optional<Codec> codec = codec_of(content);
-  if (!codec) return in_memory(name, content);
+  if (!codec) {
+    out.append(content);
+    return out.opened();
+  }
+  const std::size_t most =
+      std::min({limit, kMostInMemory, std::max(kAnyExpansion, kMostExpansion * content.size())});
   try {
-    return in_memory(name, decompress(*codec, content, limit));
+    decompress(*codec, content, most, [&](std::string_view part) { out.append(part); });
+  } catch (const ExpandsTooFar& reason) {
+    throw input_error(name,
+                      0,
+                      std::string(reason.what()) + " (limits: 2 GiB, and 50 times its size or " +
+                          "64 MiB): decompress it first");
   } catch (const DamagedStream& damage) {
     throw input_error(name, 0, std::string("cannot be decompressed: ") + damage.what());
   }
+  return out.opened();
 }
 
 /// Content of pipes, which can be read only once.
 OpenedFile from_pipe(const std::string& name, std::size_t limit) {
   static std::mutex mutex;
-  static std::map<std::string, OpenedFile> read;
+  static std::map<std::pair<std::string, ino_t>, OpenedFile> read;
+  struct stat status {};
+  if (stat(name == "-" ? "/dev/stdin" : name.c_str(), &status) != 0) throw unreadable(name);
   const std::lock_guard lock(mutex);
-  const auto known = read.find(name);
+  const std::pair key(name, status.st_ino);  // numbers of descriptors are used again
+  const auto known = read.find(key);
   if (known != read.end()) return known->second;
-  const std::string content = all_of(opened(name, name).get(), name, limit);
-  return read.emplace(name, expanded(name, content, limit)).first->second;
+  const std::string content =
+      all_of(opened(name, name).get(), name, std::min(limit, kMostInMemory));
+  return read.emplace(key, expanded(name, content, limit)).first->second;
 }
 
 /// The last decompressed file: readers detect the format first and open the file again.
@@ -101,12 +146,20 @@ OpenedFile from_compressed(const OpenedFile& file, std::size_t limit) {
   if (kept.name == file.name && kept.written == written && kept.size == file.size) {
     return kept.content;
   }
-  const std::string content = all_of(opened(file.name, file.path).get(), file.name, limit);
+  const std::string content =
+      all_of(opened(file.name, file.path).get(), file.name, std::min(limit, kMostInMemory));
   kept = {file.name, written, file.size, expanded(file.name, content, limit)};
   return kept.content;
 }
 
 }  // namespace
+
+bool is_named_pipe(const std::filesystem::path& file) {
+  struct stat status {};
+  struct statfs system {};
+  return ::stat(file.c_str(), &status) == 0 && S_ISFIFO(status.st_mode) &&
+         ::statfs(file.c_str(), &system) == 0 && system.f_type != PIPEFS_MAGIC;
+}
 
 OpenedFile open_input(const std::filesystem::path& file,
                       const std::string& expected,
@@ -123,6 +176,7 @@ OpenedFile open_input(const std::filesystem::path& file,
     if (std::filesystem::is_directory(status)) {
       throw out.error("is a directory, expected " + expected);
     }
+    if (is_named_pipe(file)) throw out.error("is a named pipe, expected " + expected);
     if (std::filesystem::is_fifo(status)) {
       out = from_pipe(out.name, limit);
     } else if (!std::filesystem::is_regular_file(status)) {

@@ -24,11 +24,18 @@ struct OpenedFile {
 /// Whether the name stands for standard input.
 inline bool is_standard_input(const std::filesystem::path& file) { return file == "-"; }
 
-/// Opens a regular file, a pipe or standard input (`-`). gzip, bzip2, zstd and lz4 are detected
-/// from the first bytes and decompressed; a pipe is read once, and opening it again returns the
-/// same content. Throws InputError for a file that is missing, empty, of another kind, unreadable,
-/// larger than 8 GiB (`limit` bytes) or damaged, where `expected` states what is accepted ("a text
-/// file"). Throws MissingPart if the build lacks a codec. Thread-safe.
+/// Whether the file is a pipe with a name, where opening waits for a writer. Pipes that a shell has
+/// connected (/dev/stdin, /dev/fd/N) are none.
+bool is_named_pipe(const std::filesystem::path& file);
+
+/// Opens a regular file, a pipe of the shell (`<(COMMAND)`) or standard input (`-`). gzip, bzip2,
+/// zstd and lz4 are detected from the first bytes and decompressed; a pipe is read once, and
+/// opening it again returns the same content. Throws InputError for a file that is missing, empty,
+/// of another kind (also a named pipe, where opening would wait for a writer), unreadable, larger
+/// than 8 GiB (`limit` bytes) or damaged, where `expected` states what is accepted ("a text file");
+/// for pipes and decompressed files of more than 2 GiB, and for compressed files that expand to
+/// more than 64 MiB and 50 times their size. Throws MissingPart if the build lacks a codec.
+/// Thread-safe.
 OpenedFile open_input(const std::filesystem::path& file,
                       const std::string& expected = "a text file",
                       std::size_t limit = std::size_t{8} << 30);

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <memory>
 
+#include "datasets/compressed/input_file.hpp"
 #include "datasets/core/error.hpp"
 
 namespace loopbench {
@@ -86,6 +87,7 @@ std::string read_named_file(const std::filesystem::path& file,
   const auto failure = [&](const std::string& why) {
     return input_error(file.string(), 0, "cannot be read (" + why + "), expected " + what);
   };
+  if (is_named_pipe(file)) throw failure("is a named pipe");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rbe"),
                                                            &std::fclose);
   if (!in) throw failure(std::strerror(errno));

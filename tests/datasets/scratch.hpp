@@ -1,12 +1,16 @@
 /// Helpers of the tests on files: samples, scratch files and error messages.
 #pragma once
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 
 #include "datasets/core/error.hpp"
 
@@ -39,6 +43,30 @@ class Scratch {
 
  private:
   std::filesystem::path folder_;
+};
+
+/// Pipe without a name that another thread fills, as `<(COMMAND)` of a shell gives it.
+class Pipe {
+ public:
+  explicit Pipe(std::string content) {
+    EXPECT_EQ(pipe2(ends_.data(), O_CLOEXEC), 0);
+    writer_ = std::thread([end = ends_[1], text = std::move(content)] {
+      EXPECT_TRUE(std::ofstream("/dev/fd/" + std::to_string(end)) << text);
+      close(end);
+    });
+  }
+  ~Pipe() {
+    writer_.join();
+    close(ends_[0]);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  std::filesystem::path path() const { return "/dev/fd/" + std::to_string(ends_[0]); }
+
+ private:
+  std::array<int, 2> ends_{};
+  std::thread writer_;
 };
 
 inline std::string content(const std::filesystem::path& file) {

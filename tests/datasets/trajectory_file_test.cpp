@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <thread>
-
 #include "datasets/compressed/decompress.hpp"
 #include "datasets/formats/stamps.hpp"
 #include "tests/datasets/scratch.hpp"
@@ -116,11 +114,23 @@ TEST(TrajectoryFile, CompressedFilesAndPipesAreRead) {
     EXPECT_EQ(read_trajectory(scratch.path("b")).size(), 2u) << program;
     std::filesystem::remove(scratch.path("b"));
   }
-  const std::string pipe = scratch.path("pipe").string();
+  EXPECT_EQ(read_trajectory_file(Pipe(kTum).path()).nanoseconds.size(), 2u);  // reads it twice
+}
+
+TEST(TrajectoryFile, NamedPipesAreRejectedWithoutWaitingForAWriter) {
+  const Scratch scratch;
+  const auto pipe = scratch.path("pipe");
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  std::thread writer([&] { std::ofstream(pipe) << kTum; });
-  EXPECT_EQ(read_trajectory_file(pipe).nanoseconds.size(), 2u);  // reads it twice
-  writer.join();
+  EXPECT_THAT(refusal([&] { read_trajectory(pipe); }), HasSubstr("is a named pipe"));
+}
+
+TEST(TrajectoryFile, CompressedFilesThatExpandTooFarAreRejected) {
+  const Scratch scratch;
+  const std::string file = scratch.path("zeros.gz").string();
+  if (std::system(("head -c 70M /dev/zero | gzip > '" + file + "'").c_str()) != 0) GTEST_SKIP();
+  EXPECT_THAT(
+      refusal([&] { read_trajectory(file); }),
+      AllOf(HasSubstr("expands to more than 67108864 bytes"), HasSubstr("decompress it first")));
 }
 
 }  // namespace

@@ -156,13 +156,17 @@ class Evaluation(unittest.TestCase):
     def test_the_lock_is_not_held(self):
         """Reading a pipe ends only because another thread writes to it meanwhile."""
         faulthandler.dump_traceback_later(60, exit=True)
-        with tempfile.TemporaryDirectory() as folder:
-            pipe = Path(folder) / "pipe"
-            os.mkfifo(pipe)
-            writer = threading.Thread(target=lambda: pipe.write_bytes(GT.read_bytes()))
-            writer.start()
-            result = loopbench.evaluate(pipe, GOLDEN / "est_drift.txt", format="tum")
-            writer.join()
+        reader, writer_end = os.pipe()
+
+        def write():
+            with open(writer_end, "wb") as pipe:
+                pipe.write(GT.read_bytes())
+
+        writer = threading.Thread(target=write)
+        writer.start()
+        result = loopbench.evaluate(f"/dev/fd/{reader}", GOLDEN / "est_drift.txt", format="tum")
+        writer.join()
+        os.close(reader)
         faulthandler.cancel_dump_traceback_later()
         self.assertEqual(result["status"], "ok")
         self.assertGreater(self.ticks_during(lambda: loopbench.evaluate(*self.long_arrays())), 0)
