@@ -72,10 +72,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench cancel results/mine\n"
      "  loopbench watch results/mine --once\n"
      "  loopbench submit mine.yaml\n"},
-    {"salvage",
-     "  loopbench salvage results/damaged -o results/saved\n"
-     "  loopbench table results/saved\n"
-     "  loopbench run mine.yaml --out results/saved\n"},
     {"correct",
      "  loopbench correct graph.g2o --method pose_graph -o corrected.g2o\n"
      "  loopbench correct run.txt --loops loops.txt --method motion_drift -o corrected.txt\n"
@@ -175,8 +171,6 @@ const std::map<std::string, std::string> kExitCodes{
      "0 success, 1 an estimate failed or covers too little, 2 invalid input or output, 3 internal "
      "error."},
     {"check", "0 passed, 1 regressions, 2 invalid input or output, 3 internal error."},
-    {"salvage",
-     "0 nothing is lost, 1 something is lost, 2 nothing could be salvaged, 3 internal error."},
     {"watch", "0 all cells are done and merged, 1 otherwise, 2 invalid input, 3 internal error."},
     {"doctor",
      "0 nothing found, 1 mistakes found or nothing could be checked, 2 invalid input or output, 3 "

@@ -131,7 +131,6 @@ int main(int argc, char** argv) {
   add_submit(app, exit_code, source);
   add_watch(app, exit_code);
   add_cancel(app, exit_code);
-  add_salvage(app, exit_code);
   add_plot(app, exit_code);
   add_profile(app, exit_code);
   add_report(app, exit_code);

@@ -105,10 +105,8 @@ CheckedStore remove_damaged(Database& database, const std::filesystem::path& fil
   remove(database, found);
   CheckedStore out = check_rows(database, traces);
   if (!is_intact(out)) {
-    throw InputError(
-        file.string() +
-        ": is damaged and cannot be repaired; 'loopbench salvage' copies its intact cells, and "
-        "--fresh starts a new store");
+    throw InputError(file.string() + ": is damaged and cannot be repaired; " +
+                     recovery_advice(file));
   }
   for (const CellRow& cell : found.cells.cells) {
     if (!cell.intact) out.removed.push_back(label_of(cell));
@@ -129,10 +127,8 @@ void require_intact_texts(Database& database,
                           const std::string& table,
                           const std::filesystem::path& file) {
   if (digest_of_texts(database, table) == written_digest(database, table)) return;
-  throw InputError(
-      file.string() + ": is damaged: its table " + table +
-      " is corrupted; 'loopbench salvage' copies its intact cells, and 'loopbench run' "
-      "with --fresh starts a new store");
+  throw InputError(file.string() + ": is damaged: its table " + table + " is corrupted; " +
+                   recovery_advice(file));
 }
 
 }  // namespace loopbench::harness

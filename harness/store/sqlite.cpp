@@ -24,6 +24,13 @@ void ieee754_from_blob(sqlite3_context* context, int, sqlite3_value** values) {
 
 }  // namespace
 
+std::string recovery_advice(const std::filesystem::path& file) {
+  return "'sqlite3 " + file.string() +
+         " .recover | sqlite3 NEW' copies what is readable, and 'loopbench run' with --fresh "
+         "starts "
+         "a new store";
+}
+
 void Database::Close::operator()(sqlite3* handle) const { sqlite3_close(handle); }
 void Statement::Finalize::operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
 
@@ -76,10 +83,8 @@ Statement Database::prepare(const std::string& sql) {
 
 void Database::fail(const std::string& doing) const {
   const bool damaged = sqlite3_errcode(handle_.get()) == SQLITE_CORRUPT;
-  throw InputError(
-      file_ + ": " + doing + ": " + sqlite3_errmsg(handle_.get()) +
-      (damaged ? "; 'loopbench salvage' copies its intact cells, and --fresh starts a new store"
-               : ""));
+  throw InputError(file_ + ": " + doing + ": " + sqlite3_errmsg(handle_.get()) +
+                   (damaged ? "; " + recovery_advice(file_) : ""));
 }
 
 void Statement::expect(int code, const char* doing) const {

@@ -15,6 +15,9 @@ namespace loopbench::harness {
 
 class Statement;
 
+/// What to do about a file that SQLite cannot read completely.
+std::string recovery_advice(const std::filesystem::path& file);
+
 /// An open database file. Every failure throws InputError naming the file and SQLite's reason.
 class Database {
  public:

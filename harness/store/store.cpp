@@ -57,11 +57,9 @@ constexpr std::chrono::seconds kSyncInterval{10};
 
 /// See store.hpp for synchronous = NORMAL. The log is copied into the file every 16 MB, some
 /// hundred cells with traces, and at every sync, because each copy waits for the disk.
-/// secure_delete, so that salvage finds no rows of removed cells.
 void make_ready(Database& database) {
   database.execute(
-      "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4096; "
-      "PRAGMA secure_delete = ON;");
+      "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4096");
 }
 
 /// SQLite does not detect that the end of a file is missing.
@@ -73,11 +71,7 @@ void check_size(Database& database, const std::filesystem::path& file) {
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
   if (size >= whole) return;
   throw InputError(fmt::format(
-      "{}: is damaged ({} bytes of {}); 'loopbench salvage' copies its intact cells, and --fresh "
-      "starts a new store",
-      file.string(),
-      size,
-      whole));
+      "{}: is damaged ({} bytes of {}); {}", file.string(), size, whole, recovery_advice(file)));
 }
 
 /// SQLite follows symbolic links, also dangling ones: it would write a file elsewhere.

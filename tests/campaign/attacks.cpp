@@ -196,7 +196,8 @@ void damage_file(History& history, const std::filesystem::path& file) {
   }
 }
 
-/// A killed sweep whose files are damaged: salvage, or start again.
+/// A sweep, killed or not, whose files are damaged: `run` repairs it, or rejects it, and --fresh
+/// starts again.
 void damage_store(History& history) {
   if (history.one_in(2)) kill_sweep(history);
   if (!std::filesystem::exists(history.store())) return;
@@ -205,29 +206,9 @@ void damage_store(History& history) {
   ++history.counts["damages"];
   // Readers print rows of an intact store or one error.
   history.command({history.settings().binary, "table", history.out()}, {0, kBadInput});
-  const std::filesystem::path salvaged = history.path("salvaged");
-  const int code = history.command(
-      {history.settings().binary, "salvage", history.out(), "-o", salvaged}, {0, 1, kBadInput});
-  std::filesystem::remove_all(history.out());
-  if (code == kBadInput) {
-    ++history.counts["not salvaged"];
-    std::filesystem::create_directories(history.out());
-    if (std::filesystem::exists(salvaged / "results.sqlite")) throw Broken("salvaged nothing");
-    std::filesystem::remove_all(salvaged);
-    return;
-  }
-  history.counts["cells salvaged"] +=
-      static_cast<int>(history.cells(salvaged / "results.sqlite").size());
-  std::filesystem::rename(salvaged, history.out());
-}
-
-/// A damaged store, without salvage: `run` repairs it, or its message names --fresh.
-void repair_store(History& history) {
-  if (!std::filesystem::exists(history.store())) return;
-  damage_file(history, history.store());
-  ++history.counts["damages"];
   const int done = history.undisturbed().exit_code;
   if (history.command(history.run_words({"--retry", "damaged"}), {done, kBadInput}) == done) return;
+  ++history.counts["not repaired"];
   history.command(history.run_words({"--fresh"}), {done});
 }
 
@@ -258,8 +239,7 @@ std::vector<Attack> attacks() {
           {"resume", 1, resume_sweep},
           {"merge", 1, merge_parts},
           {"full disk", 1, fill_disk},
-          {"damage and salvage", 2, damage_store},
-          {"damage and repair", 1, repair_store},
+          {"damage and repair", 3, damage_store},
           {"two sweeps", 1, run_twice}};
 }
 

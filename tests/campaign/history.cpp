@@ -38,7 +38,7 @@ std::set<std::string> labels_of_store(const std::filesystem::path& store) {
   return out;
 }
 
-/// Without the sizes of the sequences' traces: salvage keeps cells whose trace for plots is lost.
+/// Without the sizes of the sequences' traces, which a repair can lose.
 std::string comparable_text(const std::filesystem::path& store) {
   std::istringstream in(store_text(store));
   std::string out;

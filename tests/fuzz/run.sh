@@ -20,10 +20,10 @@ fuzz_one() {
   mkdir -p "build/corpus/$1"
   local seeds=(tests/data/good tests/data/bad)
   [[ -d tests/data/fuzz/$1 ]] && seeds+=("tests/data/fuzz/$1")
-  [[ $1 == salvage || $1 == report ]] && seeds+=(tests/data/fuzz/store)
+  [[ $1 == report ]] && seeds+=(tests/data/fuzz/store)
   # Short texts run ten times as often as long ones, and contain as many kinds of faults.
   local most=4096
-  [[ $1 == store || $1 == salvage || $1 == report || $1 == bag || $1 == image ]] && most=65536
+  [[ $1 == store || $1 == report || $1 == bag || $1 == image ]] && most=65536
   nice -n 15 "build/fuzz/tests/fuzz/fuzz_$1" -max_total_time="$2" -max_len="$most" -rss_limit_mb=4096 -timeout=30 \
     -print_final_stats=1 -artifact_prefix="build/corpus/$1-" "build/corpus/$1" "${seeds[@]}" \
     >"build/corpus/$1.log" 2>&1 || echo "$1: finding, see build/corpus/$1.log"

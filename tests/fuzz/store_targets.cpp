@@ -3,9 +3,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/report/content.hpp"
 #include "harness/report/report.hpp"
-#include "harness/store/damage.hpp"
 #include "harness/store/read.hpp"
-#include "harness/store/salvage.hpp"
 #include "harness/store/sources.hpp"
 #include "harness/store/traces.hpp"
 #include "tests/fuzz/scratch_file.hpp"
@@ -43,18 +41,6 @@ void fuzz_store(const std::filesystem::path& file) {
     read_run(store);
     StoreSources(store).provenance();
     StoreSources(store).inputs();
-  });
-}
-
-void fuzz_salvage(const std::filesystem::path& file) {
-  with_store(file, [](const std::filesystem::path& store) {
-    const std::filesystem::path out = store.parent_path() / "new.sqlite";
-    salvage_store(store, out);
-    try {
-      require_intact_store(out);
-    } catch (const InputError& error) {
-      throw std::logic_error(std::string("violated postcondition: ") + error.what());
-    }
   });
 }
 

@@ -21,7 +21,6 @@ void fuzz_bag(const std::filesystem::path& file);
 void fuzz_csv(const std::filesystem::path& file);
 void fuzz_config(const std::filesystem::path& file);
 void fuzz_store(const std::filesystem::path& file);
-void fuzz_salvage(const std::filesystem::path& file);
 void fuzz_report(const std::filesystem::path& file);  ///< of a store
 void fuzz_gate(const std::filesystem::path& file);    ///< baselines and limits
 void fuzz_calibration(const std::filesystem::path& file);

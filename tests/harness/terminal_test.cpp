@@ -179,10 +179,25 @@ TEST_F(OnATerminal, HelpHasThreeExamplesForEachCommand) {
   EXPECT_EQ(alone.exit_code, 0);
   EXPECT_EQ(alone.out, piped("help").out);
   EXPECT_NE(alone.out.find("Examples:\n  loopbench run "), std::string::npos) << alone.out;
-  for (const char* command :
-       {"run",   "list",   "table", "compare", "check",   "eval",    "calibrate",
-        "merge", "submit", "watch", "cancel",  "salvage", "correct", "export",
-        "traj",  "doctor", "plot",  "profile", "report",  "verify"}) {
+  for (const char* command : {"run",
+                              "list",
+                              "table",
+                              "compare",
+                              "check",
+                              "eval",
+                              "calibrate",
+                              "merge",
+                              "submit",
+                              "watch",
+                              "cancel",
+                              "correct",
+                              "export",
+                              "traj",
+                              "doctor",
+                              "plot",
+                              "profile",
+                              "report",
+                              "verify"}) {
     const CommandResult result = piped(std::string("help ") + command);
     EXPECT_EQ(result.exit_code, 0) << command;
     const std::size_t begin = result.out.find("Examples:\n");

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "harness/store/merge.hpp"
-#include "harness/store/salvage.hpp"
 #include "tests/store/fault_vfs.hpp"
 #include "tests/support/tiny_store.hpp"
 
@@ -157,7 +156,7 @@ TEST_F(Faults, ADiskThatFailsOnceLosesNoStoreThatFreshSetsAside) {
       });
 }
 
-TEST_F(Faults, MergeAndSalvageOnADiskThatFailsOnceAreCompleteOrAbsent) {
+TEST_F(Faults, MergeOnADiskThatFailsOnceIsCompleteOrAbsent) {
   FaultVfs disk;
   restore();
   sweep(kUsual);
@@ -174,8 +173,6 @@ TEST_F(Faults, MergeAndSalvageOnADiskThatFailsOnceAreCompleteOrAbsent) {
   };
   in_turn(
       disk, 7, [&] { merge_stores({file_}, target); }, check);
-  in_turn(
-      disk, 7, [&] { salvage_store(file_, target); }, check);
 }
 
 TEST_F(Faults, AReaderWithoutDiskOrMemoryReadsTheRightRowsOrNone) {
@@ -204,17 +201,6 @@ TEST_F(Faults, AFailedAllocationLosesNoCell) {
   const std::string expected = undisturbed([&] { sweep(kUsual); });
   in_turn(
       memory, 37, [&] { sweep(kUsual); }, [&](bool) { expect_kept(kUsual, expected); });
-  before_ = bytes_of_file(file_);
-  const std::filesystem::path target = out_ / "new.sqlite";
-  in_turn(
-      memory,
-      1499,
-      [&] { salvage_store(file_, target); },
-      [&](bool returned) {
-        if (returned) {
-          EXPECT_TRUE(store_text(target) == expected);
-        }
-      });
 }
 
 TEST_F(Faults, APowerCutLosesNoCellThatWasSynced) {
