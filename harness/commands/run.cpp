@@ -177,6 +177,7 @@ int run(const RunArguments& arguments, const Source& source) {
                 abandoned == 0 ? "" : fmt::format(", {} running cells abandoned", abandoned));
   };
   if (!part.shard.empty()) {
+    store->close();
     ProgressFile(out).write({done + resumed.there, planned.size(), failed});
     fmt::print("shard {}: {} of {} cells done, {} failed\n{}\nnext, with all shards:\n  {}\n",
                arguments.part.shard,
@@ -202,6 +203,7 @@ int run(const RunArguments& arguments, const Source& source) {
     write_tables(file, sweep, records, out);
     store->exported();
   }
+  store->close();
   store.reset();
   const std::string earlier =
       resumed.there == 0 ? "" : fmt::format(" ({} of them in earlier runs)", resumed.there);

@@ -11,6 +11,7 @@
 #include "harness/eval/note_summary.hpp"
 #include "harness/eval/recorded_evaluation.hpp"
 #include "harness/provenance/build.hpp"
+#include "harness/store/open.hpp"
 #include "harness/store/resume.hpp"
 #include "harness/store/store.hpp"
 
@@ -21,7 +22,7 @@ auto run_labels(const RecordedRun& run) { return std::tie(run.sequence, run.meth
 
 /// The runs of a store. Throws InputError if it has none, or has paths of an unknown folder.
 std::vector<RecordedRun> stored_runs(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) return {};
+  if (!is_stored(file)) return {};
   std::vector<RecordedRun> out = runs_of_manifest(read_run(file)["config"]);
   if (out.empty()) {
     throw InputError(file.string() + ": is the store of a sweep, expected one of eval --store");
@@ -166,6 +167,7 @@ RecordedSweep store_runs(const std::vector<RecordedRun>& added,
       add_result(result, runs[result.cell.dataset].estimate, out, notes);
     }
   }
+  store.close();
   std::ranges::move(notes.lines(), std::back_inserter(out.notes));
   return out;
 }

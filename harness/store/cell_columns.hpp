@@ -14,9 +14,8 @@ inline constexpr const char* kCellColumns =
     "failed_scores, score_digest, phase_digest, count_digest, note_digest, section_digest, "
     "trace_digest";
 
-/// The tables of a cell's rows, with their columns except `cell`.
+/// The tables of a cell's rows except its scores, with their columns except `cell`.
 inline constexpr std::pair<const char*, const char*> kDetails[] = {
-    {"scores", "list, numbers, statuses"},
     {"phase", "name, seconds"},
     {"count", "name, value"},
     {"note", "text"},

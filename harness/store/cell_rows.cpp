@@ -1,55 +1,15 @@
 #include "harness/store/cell_rows.hpp"
 
 #include <algorithm>
-#include <future>
-#include <span>
 
 #include "datasets/core/error.hpp"
 #include "harness/store/digest.hpp"
-#include "harness/store/row_bytes.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-constexpr const char* kDetailTables[] = {"scores", "phase", "count", "note", "section", "trace"};
-
-/// Whether the scores of these cells, found by the numbers of the cells, match their digests.
-bool scores_match(Database& database, const ScoreLists& lists, std::span<const CellRow> cells) {
-  Statement row =
-      database.prepare("SELECT * FROM scores WHERE cell >= ? AND cell <= ? ORDER BY cell");
-  row.bind(cells.front().id).bind(cells.back().id);
-  const std::size_t number = detail_number("scores");
-  const auto is_intact = [&](const CellRow& cell) {
-    if (cell.details[number] == Hash{}) return true;  // has no scores
-    if (!row.step() || row.integer() != cell.id) return false;
-    const std::string_view bytes = row.bytes_of_columns(1, row.columns());
-    RowsDigest digest;
-    digest.add(bytes);
-    RowBytes columns(bytes);
-    const std::string_view key = columns.view();
-    return digest.value() == cell.details[number] && list_of(lists, key, columns.view()) != nullptr;
-  };
-  return std::ranges::all_of(cells, is_intact) && !row.step();
-}
-
-/// The same for all cells of a large store, half of them through a second connection; false for
-/// small ones. That connection can see another state of the store, so false means "unknown".
-bool are_scores_intact(Database& database,
-                       const ScoreLists& lists,
-                       std::span<const CellRow> cells) {
-  if (std::ssize(cells) < kCellsWorthAThread || database.has_changed()) return false;
-  const std::size_t half = cells.size() / 2;
-  std::future<bool> upper = std::async(std::launch::async, [&] {
-    try {
-      Database other(database.file(), Database::Mode::read);
-      return scores_match(other, lists, cells.subspan(half));
-    } catch (const InputError&) {
-      return false;
-    }
-  });
-  const bool lower = scores_match(database, lists, cells.first(half));
-  return upper.get() && lower;
-}
+constexpr const char* kDetailTables[] = {
+    "score_value", "phase", "count", "note", "section", "trace"};
 
 std::string cell_label(const std::string& sequence,
                        std::int64_t repeat,
@@ -93,12 +53,23 @@ void read_details(Database& database,
   }
 }
 
-void check_scores(Database& database, const ScoreLists& lists, CellRows& rows) {
-  if (are_scores_intact(database, lists, rows.cells)) return;
-  read_details(database, "scores", rows, [&](std::size_t cell, Statement& row) {
-    const std::string_view key = row.view();
-    if (list_of(lists, key, row.view()) == nullptr) rows.cells[cell].intact = false;
-  });
+void check_scores(Database& database, const ScoreDefinitions& definitions, CellRows& rows) {
+  std::vector<ScoresDigest> digests(rows.cells.size());
+  std::size_t cell = 0;
+  Statement row = database.prepare(std::string("SELECT ") + kScoreColumns +
+                                   " FROM score_value ORDER BY cell, number");
+  while (row.step()) {
+    const std::int64_t id = row.integer();
+    while (cell < rows.cells.size() && rows.cells[cell].id < id) ++cell;
+    if (cell == rows.cells.size()) break;
+    if (rows.cells[cell].id != id) continue;
+    row.integer();  // number
+    digests[cell].add(row, definitions.find(row.integer()));
+  }
+  const std::size_t number = detail_number("score_value");
+  for (std::size_t i = 0; i < rows.cells.size(); ++i) {
+    if (digests[i].value() != rows.cells[i].details[number]) rows.cells[i].intact = false;
+  }
 }
 
 void throw_damaged(const std::filesystem::path& file, const std::string& what) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "harness/model/record.hpp"
-#include "harness/store/score_lists.hpp"
+#include "harness/store/score_rows.hpp"
 #include "harness/store/sqlite.hpp"
 #include "harness/text/hash.hpp"
 
@@ -54,17 +54,17 @@ enum class WithRecords { no, costs, yes };
 /// Reads the table cell. O(cells).
 CellRows read_cell_rows(Database& database, WithRecords with = WithRecords::no);
 
-/// Visits every row of `table` (scores, phase, count, note or section) whose cell exists, in order
+/// Visits every row of `table` (phase, count, note, section or trace) whose cell exists, in order
 /// of writing, from its second column; then marks the damaged cells. O(rows).
 void read_details(Database& database,
                   const std::string& table,
                   CellRows& rows,
                   const std::function<void(std::size_t cell, Statement& row)>& each = {});
 
-/// Marks cells whose scores are damaged: their row or its list. O(cells).
-void check_scores(Database& database, const ScoreLists& lists, CellRows& rows);
+/// Marks cells whose scores or definitions of scores are damaged. O(scores).
+void check_scores(Database& database, const ScoreDefinitions& definitions, CellRows& rows);
 
-/// Index of a table (scores, phase, count, note, section or trace) in CellRow::details.
+/// Index of a table (score_value, phase, count, note, section or trace) in CellRow::details.
 std::size_t detail_number(const std::string& table);
 
 /// Throws InputError naming the first damaged cell, or if a cell is missing.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "harness/store/score_lists.hpp"
 #include "harness/store/traces.hpp"
 #include "metrics/numerics/median.hpp"
 
@@ -26,7 +25,7 @@ std::string text_of(const Worker& worker) {
 }  // namespace
 
 void remove_cell(Database& database, std::int64_t id) {
-  for (const char* table : {"scores", "phase", "count", "note", "section", "trace"}) {
+  for (const char* table : {"score_value", "phase", "count", "note", "section", "trace"}) {
     database.prepare(std::string("DELETE FROM ") + table + " WHERE cell = ?").bind(id).run();
   }
   database.prepare("DELETE FROM cell WHERE id = ?").bind(id).run();
@@ -43,7 +42,7 @@ CellWriter::CellWriter(Database& database, std::string provenance_key)
           "seconds_min, seconds_max, cpu_seconds_median, peak_memory, added_memory, allocations, "
           "status, signal, why, failed_scores) VALUES "
           "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
-      scores_(database.prepare("INSERT INTO scores VALUES (?,?,?,?)")),
+      scores_(database),
       phase_(database.prepare("INSERT INTO phase VALUES (?,?,?)")),
       count_(database.prepare("INSERT INTO count VALUES (?,?,?)")),
       note_(database.prepare("INSERT INTO note VALUES (?,?)")),
@@ -53,10 +52,14 @@ CellWriter::CellWriter(Database& database, std::string provenance_key)
 
 void CellWriter::write(const CellResult& result, CellKeys& keys) {
   Transaction transaction(database_);
-  new_list_.clear();
-  write_rows(result, keys);
-  transaction.commit();
-  if (!new_list_.empty()) lists_.insert(new_list_);
+  try {
+    write_rows(result, keys);
+    transaction.commit();
+  } catch (...) {
+    scores_.forget();
+    digests_.forget();
+    throw;
+  }
 }
 
 void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
@@ -74,7 +77,7 @@ void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
 
   if (result.metadata) write_metadata(result.cell, keys, *result.metadata);
   const std::int64_t id = write_cell(result, keys);
-  write_scores(id, result, keys.sweep());
+  scores_.write(id, result, keys.sweep());
   for (const methods::Phase& p : result.report.phases)
     phase_.bind(id).bind(p.name).bind(p.seconds).run();
   for (const methods::Count& c : result.report.counts)
@@ -131,36 +134,6 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
       .bind(static_cast<std::int64_t>(failed_scores))
       .run();
   return database_.last_row();
-}
-
-void CellWriter::write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep) {
-  if (result.scores.empty()) return;
-  ScoreList list;
-  std::string numbers;
-  std::vector<std::string> statuses;
-  for (const ScoreResult& row : result.scores) {
-    const metrics::NamedProtocol& protocol = sweep.protocols[row.protocol];
-    list.push_back({protocol.label(),
-                    protocol.version,
-                    to_text(row.times),
-                    row.metric,
-                    row.label,
-                    row.score.relation,
-                    row.score.axis,
-                    row.score.unit,
-                    to_text(row.score.better),
-                    row.score.target});
-    pack({row.score.statistics,
-          static_cast<std::int64_t>(row.coverage.pairs),
-          static_cast<std::int64_t>(row.coverage.possible),
-          row.coverage.span},
-         numbers);
-    statuses.push_back(to_text(row.status));
-    statuses.push_back(row.why);
-  }
-  const std::string key = key_of(list);
-  if (!lists_.contains(key)) write_list(database_, new_list_ = key, list);
-  scores_.bind(id).bind(key).bind_blob(numbers).bind(joined_statuses(statuses)).run();
 }
 
 void CellWriter::write_metadata(const Cell& cell,

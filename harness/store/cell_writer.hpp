@@ -6,6 +6,7 @@
 
 #include "harness/model/result.hpp"
 #include "harness/provenance/cell_keys.hpp"
+#include "harness/store/score_rows.hpp"
 #include "harness/store/sqlite.hpp"
 #include "harness/store/write_digests.hpp"
 
@@ -24,22 +25,19 @@ class CellWriter {
  private:
   void write_rows(const CellResult& result, CellKeys& keys);
   std::int64_t write_cell(const CellResult& result, CellKeys& keys);
-  void write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep);
   void write_metadata(const Cell& cell, CellKeys& keys, const SequenceMetadata& metadata);
 
   Database& database_;
   std::string provenance_key_;
   Statement remove_;
   Statement cell_;
-  Statement scores_;
+  ScoreWriter scores_;
   Statement phase_;
   Statement count_;
   Statement note_;
   Statement section_;
   Statement trace_;
   DigestWriter digests_;
-  std::set<std::string> lists_;     ///< keys of score lists that are written
-  std::string new_list_;            ///< key of one that the open transaction writes
   std::set<std::string> metadata_;  ///< keys of sequences whose metadata are written
 };
 

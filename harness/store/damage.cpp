@@ -47,6 +47,8 @@ void remove(Database& database, const CheckedStore& found) {
     }
   }
   remove_orphans(database);
+  database.execute(
+      "DELETE FROM score_definition WHERE id NOT IN (SELECT definition FROM score_value)");
   update_sum(database, "cell");
   update_sum(database, "sequence");
 }
@@ -55,7 +57,7 @@ void remove(Database& database, const CheckedStore& found) {
 
 void remove_orphans(Database& database) {
   // They would be assigned to a later cell with the same id.
-  for (const char* table : {"scores", "phase", "count", "note", "section", "trace"}) {
+  for (const char* table : {"score_value", "phase", "count", "note", "section", "trace"}) {
     database.execute(std::string("DELETE FROM ") + table +
                      " WHERE cell NOT IN (SELECT id FROM cell)");
   }
@@ -68,7 +70,7 @@ void remove_orphans(Database& database) {
 CheckedStore check_rows(Database& database, bool traces) {
   CheckedStore out;
   out.cells = read_cell_rows(database);
-  check_scores(database, ScoreLists(database), out.cells);
+  check_scores(database, ScoreDefinitions(database), out.cells);
   for (const char* table : {"phase", "count", "note", "section"}) {
     read_details(database, table, out.cells);
   }
@@ -99,7 +101,6 @@ CheckedStore remove_damaged(Database& database, const std::filesystem::path& fil
   require_intact_texts(database, "run", file);
   require_intact_texts(database, "provenance", file);
   if (traces) database.execute("REINDEX");
-  if (const ScoreLists lists(database); !lists.intact()) rewrite_lists(database, lists);
   CheckedStore found = check_rows(database, traces);
   if (is_intact(found)) return found;
   remove(database, found);

@@ -18,11 +18,11 @@ CellIdentity identity_of(const CellRow& cell) {
 
 std::string differing_part(const CellRow& a, const CellRow& b) {
   if (a.status != b.status) return "status";
-  for (const char* part : {"scores", "count", "note", "section", "trace"}) {
+  for (const char* part : {"score_value", "count", "note", "section", "trace"}) {
     const Hash& own = a.details[detail_number(part)];
     const Hash& other = b.details[detail_number(part)];
     const bool is_optional = part == std::string("trace") && (own == Hash{} || other == Hash{});
-    if (!is_optional && own != other) return part == std::string("scores") ? "score" : part;
+    if (!is_optional && own != other) return part == std::string("score_value") ? "score" : part;
   }
   return "";
 }

@@ -18,6 +18,7 @@
 #include "harness/store/open.hpp"
 #include "harness/store/plan.hpp"
 #include "harness/store/rename_file.hpp"
+#include "harness/store/score_rows.hpp"
 #include "harness/store/write_digests.hpp"
 
 namespace loopbench::harness {
@@ -163,10 +164,7 @@ class Merge {
   }
 
   void add_details() {
-    const ScoreLists lists(database_, "source.");
-    for (const auto& [key, list] : lists.all()) {
-      write_list(database_, key, list);
-    }
+    copy_scores(database_, offset_);
     for (const auto& [table, fields] : kDetails) {
       const std::string name = table;
       const std::string list = fields;

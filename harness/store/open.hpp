@@ -17,7 +17,14 @@ Database open_store(const std::filesystem::path& given);
 /// Creates the tables of an empty store.
 void create_tables(Database& database);
 
-/// Throws InputError naming `file` if the schema differs from this program's.
+/// Whether it has no tables: its writer was killed before the first transaction.
+bool is_empty(Database& database);
+
+/// Whether the file exists and is not empty. Throws InputError if it is not a database.
+bool is_stored(const std::filesystem::path& file);
+
+/// Throws InputError naming `file` if the schema is of another version, or naming the object if the
+/// file has other tables, views, indexes or triggers than this program creates.
 void check_schema(Database& database, const std::filesystem::path& file);
 
 }  // namespace loopbench::harness

@@ -2,20 +2,16 @@
 
 #include <algorithm>
 #include <future>
-#include <set>
 #include <unordered_map>
 
-#include "harness/store/digest.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/recorded_contents.hpp"
-#include "harness/store/row_bytes.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-constexpr const char* kScoresFromCell = "SELECT * FROM scores WHERE cell >= ? ORDER BY cell";
-constexpr int kFewRows = 8;  ///< rows that are passed over faster than a search
-const std::size_t kScores = detail_number("scores");
+constexpr int kFewRows = 32;  ///< rows that are passed over faster than a search
+const std::size_t kScores = detail_number("score_value");
 
 constexpr std::size_t kLeastRecords = 4096;  ///< of a chunk, so that a thread is worth it
 
@@ -33,23 +29,8 @@ void set_cell(Record& r, const CellRow& cell) {
   r.why = cell.why;
 }
 
-void set_definition(Record& r, const ScoreDefinition& d) {
-  r.protocol = d.protocol;
-  r.protocol_version = d.protocol_version;
-  r.times = d.times;
-  r.metric = d.metric;
-  r.label = d.label;
-  r.relation = d.relation;
-  r.axis = d.axis;
-  r.unit = d.unit;
-  r.better = from_text<metrics::Better>(d.better).value_or(metrics::Better::neither);
-  r.target = d.target;
-}
-
 /// A score without relation: its metric failed or was declined completely.
-bool can_be_failed_metric(const ScoreDefinition& d) {
-  return !d.metric.empty() && d.relation.empty();
-}
+bool can_be_failed_metric(const Record& d) { return !d.metric.empty() && d.relation.empty(); }
 
 /// For each position in `order`, whether every sequence that began up to there has ended.
 std::vector<bool> ends_of_chunks(const CellRows& rows, const std::vector<std::size_t>& order) {
@@ -75,49 +56,33 @@ RecordReader::RecordReader(const std::filesystem::path& file)
       database_(open_store(file)),
       rows_(read_cell_rows(database_)),
       sequences_(read_sequence_rows(database_)),
-      lists_(database_) {
+      definitions_(database_) {
   if (!rows_.complete || std::ranges::count(rows_.cells, false, &CellRow::intact) > 0) {
-    check_scores(database_, lists_, rows_);
+    check_scores(database_, definitions_, rows_);
     require_intact(rows_, file_);
   }
   require_intact(sequences_, file_);
   order_ = in_order(rows_);
   join_recorded_contents(database_, rows_, order_, sequences_);
-  can_fail_ = std::ranges::any_of(lists_.all(), [](const auto& entry) {
-    return std::ranges::any_of(entry.second, can_be_failed_metric);
+  can_fail_ = std::ranges::any_of(definitions_.all(), [](const auto& entry) {
+    return can_be_failed_metric(entry.second.record);
   });
   if (can_fail_) find_scores();
 }
 
 /// Adds the scores of all metrics to `failed_metrics_`, in order of first appearance.
 void RecordReader::find_scores() {
-  Statement row = database_.prepare("SELECT list FROM scores WHERE cell = ?");
-  std::set<std::string> seen;
-  for (const std::size_t cell : order_) {
-    row.bind(rows_.cells[cell].id);
-    if (row.step()) {
-      const std::string key = row.text();
-      const ScoreList* list = seen.insert(key).second ? lists_.find(key) : nullptr;
-      if (list != nullptr) {
-        for (const ScoreDefinition& definition : *list) {
-          Record record;
-          set_definition(record, definition);
-          failed_metrics_.add(record);
-        }
-      }
-    }
-    row.reset();
+  Statement row = database_.prepare(
+      "SELECT v.definition FROM score_value v JOIN cell c ON c.id = v.cell WHERE c.position IS NOT "
+      "NULL GROUP BY v.definition ORDER BY min(c.position), min(v.number)");
+  while (row.step()) {
+    const ScoreDefinition* definition = definitions_.find(row.integer());
+    if (definition != nullptr) failed_metrics_.add(definition->record);
   }
 }
 
 void RecordReader::for_each_definition(const std::function<void(const Record&)>& visit) const {
-  for (const auto& [key, list] : lists_.all()) {
-    for (const ScoreDefinition& definition : list) {
-      Record record;
-      set_definition(record, definition);
-      visit(record);
-    }
-  }
+  for (const auto& [id, definition] : definitions_.all()) visit(definition.record);
 }
 
 bool RecordReader::has_several_protocols() const {
@@ -127,27 +92,16 @@ bool RecordReader::has_several_protocols() const {
 }
 
 void RecordReader::fail(const CellRow& cell) {
-  check_scores(database_, lists_, rows_);
+  check_scores(database_, definitions_, rows_);
   require_intact(rows_, file_);
   throw_damaged(file_, label_of(cell) + " is");
 }
 
 void RecordReader::keep_scores(const std::function<bool(const Record&)>& is_kept) {
-  is_kept_ = is_kept;
-  kept_scores_.clear();
-}
-
-const RecordReader::KeptScores& RecordReader::kept_scores(const ScoreList& list) {
-  const auto [place, is_new] = kept_scores_.try_emplace(&list);
-  KeptScores& out = place->second;
-  for (std::size_t i = 0; is_new && i < list.size(); ++i) {
-    Record definition;
-    set_definition(definition, list[i]);
-    if (is_kept_ && !is_kept_(definition)) continue;
-    out.index.push_back(i);
-    out.records.push_back(definition);
+  left_out_.clear();
+  for (const auto& [id, definition] : definitions_.all()) {
+    if (!is_kept(definition.record)) left_out_.insert(id);
   }
-  return out;
 }
 
 void RecordReader::set_run(const SharedText& sequence_key) {
@@ -158,16 +112,14 @@ void RecordReader::set_run(const SharedText& sequence_key) {
   group_ = found == sequences_.by_key.end() ? "" : found->second.group;
 }
 
-std::string_view RecordReader::scores_of(const CellRow& cell) {
+/// Advances to the first score of the cell or of a later one.
+void RecordReader::seek_scores(const CellRow& cell) {
   // Cells are mostly in the order in which they were written.
   for (int i = 0; has_row_ && row_cell_ < cell.id && i < kFewRows; ++i) step_scores();
-  if (!has_row_ || row_cell_ != cell.id) {
-    scores_->reset();
-    scores_->bind(cell.id);
-    step_scores();
-  }
-  if (!has_row_ || row_cell_ != cell.id) return {};
-  return scores_->bytes_of_columns(1, scores_->columns());
+  if (has_row_ && row_cell_ == cell.id) return;
+  scores_->reset();
+  scores_->bind(cell.id);
+  step_scores();
 }
 
 void RecordReader::step_scores() {
@@ -178,10 +130,6 @@ void RecordReader::step_scores() {
 void RecordReader::add_cell(std::size_t index, std::vector<Record>& out) {
   const CellRow& cell = rows_.cells[index];
   set_run(cell.sequence_key);
-  const std::string_view bytes = scores_of(cell);
-  RowsDigest digest;
-  if (!bytes.empty()) digest.add(bytes);
-  if (digest.value() != cell.details[kScores]) fail(cell);
   const auto add = [&](const Record& definition) -> Record& {
     Record& r = out.emplace_back(definition);
     set_cell(r, cell);
@@ -189,43 +137,32 @@ void RecordReader::add_cell(std::size_t index, std::vector<Record>& out) {
     r.group = group_;
     return r;
   };
-  if (bytes.empty()) {  // a declined or failed cell has none
-    add({});
-    return;
-  }
-  RowBytes row(bytes);
-  const std::string_view key = row.view();
-  const std::string_view numbers = row.view();
-  const std::string_view statuses = row.view();
-  const ScoreList* const list = list_of(lists_, key, numbers);
-  if (list == nullptr) fail(cell);
-  std::vector<std::string> own;  // empty: all are ok
-  if (!statuses.empty()) own = split_statuses(statuses, list->size());
+  const bool has_scores = cell.details[kScores] != Hash{};
+  if (!has_scores) add({});  // a declined or failed cell
+  seek_scores(cell);
   // An incomplete cell can be complete at other times, so its scores have their own status.
   const bool is_incomplete = cell.status == Status::incomplete;
   const bool has_status = cell.status == Status::ok || is_incomplete;
   const bool has_reason = cell.why.empty() || is_incomplete;
-  const KeptScores& kept = kept_scores(*list);
-  for (std::size_t i = 0; i < kept.index.size(); ++i) {
-    Record& r = add(kept.records[i]);
-    const std::size_t number = kept.index[i];
-    const ScoreNumbers values = unpacked(numbers, number);
-    r.statistics = values.statistics;
-    r.pairs = values.pairs;
-    r.possible = values.possible;
-    r.span = values.span;
-    if (has_status) {
-      const std::optional<Status> status =
-          own.empty() ? Status::ok : from_text<Status>(own[2 * number]);
-      if (!status) fail(cell);
-      r.status = *status;
-    }
-    if (has_reason) r.why = own.empty() ? SharedText() : SharedText(own[2 * number + 1]);
+  ScoresDigest digest;
+  for (; has_row_ && row_cell_ == cell.id; step_scores()) {
+    scores_->integer();  // number
+    const std::int64_t id = scores_->integer();
+    const ScoreDefinition* const definition = definitions_.find(id);
+    digest.add(*scores_, definition);
+    if (definition == nullptr) fail(cell);
+    if (!left_out_.empty() && left_out_.contains(id)) continue;
+    Record& r = add(definition->record);
+    if (!read_score(*scores_, r)) fail(cell);
+    if (!has_status) r.status = cell.status;
+    if (!has_reason) r.why = cell.why;
   }
+  if (digest.value() != cell.details[kScores]) fail(cell);
 }
 
 void RecordReader::for_each_chunk(const std::function<bool(std::vector<Record>&)>& visit) {
-  scores_.emplace(database_.prepare(kScoresFromCell));
+  scores_.emplace(database_.prepare(std::string("SELECT ") + kScoreColumns +
+                                    " FROM score_value WHERE cell >= ? ORDER BY cell, number"));
   has_row_ = false;
   const std::vector<bool> is_end = ends_of_chunks(rows_, order_);
   std::size_t next = 0;

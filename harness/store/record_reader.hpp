@@ -5,14 +5,13 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <string_view>
-#include <unordered_map>
+#include <set>
 #include <vector>
 
 #include "harness/model/record.hpp"
 #include "harness/store/cell_rows.hpp"
 #include "harness/store/failed_metrics.hpp"
-#include "harness/store/score_lists.hpp"
+#include "harness/store/score_rows.hpp"
 #include "harness/store/sequence_rows.hpp"
 #include "harness/store/sqlite.hpp"
 
@@ -45,18 +44,10 @@ class RecordReader {
   bool has_several_protocols() const;
 
  private:
-  /// The kept scores of a list, with the fields of their definitions.
-  struct KeptScores {
-    std::vector<std::size_t> index;  ///< in the list
-    std::vector<Record> records;
-  };
-
   void add_cell(std::size_t cell, std::vector<Record>& out);
-  /// The serialised row of a cell without its number; empty if it has none.
-  std::string_view scores_of(const CellRow& cell);
+  void seek_scores(const CellRow& cell);
   void step_scores();
   void set_run(const SharedText& sequence_key);
-  const KeptScores& kept_scores(const ScoreList& list);
   [[noreturn]] void fail(const CellRow& cell);
   void find_scores();
 
@@ -64,15 +55,14 @@ class RecordReader {
   Database database_;
   CellRows rows_;
   SequenceRows sequences_;
-  ScoreLists lists_;
+  ScoreDefinitions definitions_;
   std::vector<std::size_t> order_;  ///< in_order(rows_)
   bool can_fail_ = false;           ///< whether a cell can have a metric that failed
   FailedMetrics failed_metrics_;
   std::optional<Statement> scores_;  ///< at the row of cell row_cell_
   bool has_row_ = false;
   std::int64_t row_cell_ = 0;
-  std::function<bool(const Record&)> is_kept_;
-  std::unordered_map<const ScoreList*, KeptScores> kept_scores_;
+  std::set<std::int64_t> left_out_;  ///< definitions that keep_scores() excludes
   SharedText run_;  ///< key of the sequence of the last cell, its content and group
   SharedText content_;
   SharedText group_;

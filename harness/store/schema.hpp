@@ -3,7 +3,7 @@
 namespace loopbench::harness {
 
 /// Incremented when the meaning of a table or column changes; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 8;
+inline constexpr int kSchemaVersion = 9;
 
 /// Creates the tables of a store, readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
@@ -65,61 +65,49 @@ inline constexpr const char* kSchema = R"sql(
     signal TEXT NOT NULL,              -- for example SIGSEGV; empty: not ended by a signal
     why TEXT NOT NULL,
     failed_scores INTEGER NOT NULL,    -- number of failed scores
-    score_digest TEXT NOT NULL DEFAULT '',   -- of its row in scores, etc.; '': none
+    score_digest TEXT NOT NULL DEFAULT '',   -- of its rows in score_value, etc.; '': none
     phase_digest TEXT NOT NULL DEFAULT '',
     count_digest TEXT NOT NULL DEFAULT '',
     note_digest TEXT NOT NULL DEFAULT '',
     section_digest TEXT NOT NULL DEFAULT '',
     trace_digest TEXT NOT NULL DEFAULT '',
     digest TEXT NOT NULL DEFAULT '');        -- of this row
-  CREATE TABLE scores (                -- all scores of a cell in one row; see the view `score`
-    cell INTEGER PRIMARY KEY REFERENCES cell(id),
-    list TEXT NOT NULL,                -- key of table score_list
-    numbers BLOB NOT NULL,             -- 11 per score: doubles, big endian, as in the view
-    statuses TEXT NOT NULL);           -- '': all ok; otherwise status and why of each score,
-                                       -- separated by char(31)
-  CREATE TABLE score_list (            -- what the scores of a cell are; cells share lists
-    list TEXT NOT NULL,                -- hash of the rows of the list
-    number INTEGER NOT NULL,           -- of the score in its cell, from 0
+  CREATE TABLE score_definition (      -- what a score is; many cells share one
+    id INTEGER PRIMARY KEY,
     protocol TEXT NOT NULL,            -- name (changes), for example: evo (align=se3)
     protocol_version TEXT NOT NULL,    -- version of the original tool
     times TEXT NOT NULL,               -- keyframes | dense
     metric TEXT NOT NULL,              -- catalogue name
     label TEXT NOT NULL,               -- label in the config; default: the name
-    relation TEXT NOT NULL,
+    relation TEXT NOT NULL,            -- empty: the metric failed or was declined completely
     axis TEXT NOT NULL,
     unit TEXT NOT NULL,                -- of all statistics but count; sse: squared
     better TEXT NOT NULL,              -- lower | higher | target | neither
     target REAL NOT NULL,              -- best value if better is target
-    PRIMARY KEY (list, number)) WITHOUT ROWID;
-  CREATE TABLE score_list_copy (       -- the same on other pages, because all cells need it
-    number INTEGER NOT NULL, list TEXT NOT NULL, protocol TEXT NOT NULL,
-    protocol_version TEXT NOT NULL, times TEXT NOT NULL, metric TEXT NOT NULL, label TEXT NOT NULL,
-    relation TEXT NOT NULL, axis TEXT NOT NULL, unit TEXT NOT NULL, better TEXT NOT NULL,
-    target REAL NOT NULL, PRIMARY KEY (number, list)) WITHOUT ROWID;
-  -- One row per score. ieee754_from_blob is part of the sqlite3 shell; in other programs, define it:
-  -- the double of 8 bytes, big endian.
-  CREATE VIEW score AS
-    SELECT s.cell, l.protocol, l.protocol_version, l.times, l.metric, l.label, l.relation, l.axis,
-      l.unit, l.better, l.target,
-      CAST(ieee754_from_blob(substr(s.numbers, 88 * l.number + 1, 8)) AS INTEGER) AS count,
-      ieee754_from_blob(substr(s.numbers, 88 * l.number + 9, 8)) AS rmse,
-      ieee754_from_blob(substr(s.numbers, 88 * l.number + 17, 8)) AS mean,
-      ieee754_from_blob(substr(s.numbers, 88 * l.number + 25, 8)) AS median,
-      ieee754_from_blob(substr(s.numbers, 88 * l.number + 33, 8)) AS std,
-      ieee754_from_blob(substr(s.numbers, 88 * l.number + 41, 8)) AS min,
-      ieee754_from_blob(substr(s.numbers, 88 * l.number + 49, 8)) AS max,
-      ieee754_from_blob(substr(s.numbers, 88 * l.number + 57, 8)) AS sse,
-      CAST(ieee754_from_blob(substr(s.numbers, 88 * l.number + 65, 8)) AS INTEGER) AS pairs,
-      CAST(ieee754_from_blob(substr(s.numbers, 88 * l.number + 73, 8)) AS INTEGER) AS possible,
-      ieee754_from_blob(substr(s.numbers, 88 * l.number + 81, 8)) AS span,  -- evaluated share of the
-                                       -- reference's time, 0..1
-      CASE s.statuses WHEN '' THEN 'ok' ELSE json_extract('[' || replace(json_quote(s.statuses),
-        '\u001f', '","') || ']', '$[' || 2 * l.number || ']') END AS status,
-      CASE s.statuses WHEN '' THEN '' ELSE json_extract('[' || replace(json_quote(s.statuses),
-        '\u001f', '","') || ']', '$[' || (2 * l.number + 1) || ']') END AS why,
-      l.number
-    FROM scores s JOIN score_list l ON l.list = s.list;
+    UNIQUE (protocol, protocol_version, times, metric, label, relation, axis, unit, better, target));
+  CREATE TABLE score_value (           -- see the view `score`
+    cell INTEGER NOT NULL REFERENCES cell(id),
+    number INTEGER NOT NULL,           -- of the score in its cell, from 0
+    definition INTEGER NOT NULL REFERENCES score_definition(id),
+    count INTEGER,                     -- this and the statistics are NULL without numbers: if the
+    rmse REAL,                         -- score failed or was declined, or if one is not a number
+    mean REAL,
+    median REAL,
+    std REAL,
+    min REAL,
+    max REAL,
+    sse REAL,
+    pairs INTEGER NOT NULL,            -- evaluated pose pairs
+    possible INTEGER NOT NULL,         -- possible pose pairs
+    span REAL,                         -- evaluated share of the reference's time, 0..1
+    status TEXT NOT NULL,              -- as of a cell
+    why TEXT NOT NULL,
+    PRIMARY KEY (cell, number)) WITHOUT ROWID;
+  CREATE VIEW score AS                 -- one row per score
+    SELECT v.cell, d.protocol, d.protocol_version, d.times, d.metric, d.label, d.relation, d.axis,
+      d.unit, d.better, d.target, v.count, v.rmse, v.mean, v.median, v.std, v.min, v.max, v.sse,
+      v.pairs, v.possible, v.span, v.status, v.why, v.number
+    FROM score_value v JOIN score_definition d ON d.id = v.definition;
   CREATE TABLE phase (cell INTEGER NOT NULL REFERENCES cell(id), name TEXT, seconds REAL);
   CREATE TABLE count (cell INTEGER NOT NULL REFERENCES cell(id), name TEXT, value REAL);
   CREATE TABLE note (cell INTEGER NOT NULL REFERENCES cell(id), text TEXT);

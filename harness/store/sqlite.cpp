@@ -2,27 +2,11 @@
 
 #include <sqlite3.h>
 
-#include <bit>
+#include <limits>
 
 #include "datasets/core/error.hpp"
 
 namespace loopbench::harness {
-
-namespace {
-
-/// The SQL function of the sqlite3 shell, for the view `score`.
-void ieee754_from_blob(sqlite3_context* context, int, sqlite3_value** values) {
-  constexpr int kBytes = 8;
-  if (sqlite3_value_type(values[0]) != SQLITE_BLOB || sqlite3_value_bytes(values[0]) != kBytes) {
-    return;  // NULL
-  }
-  const auto* bytes = static_cast<const unsigned char*>(sqlite3_value_blob(values[0]));
-  std::uint64_t bits = 0;
-  for (int i = 0; i < kBytes; ++i) bits = bits << 8 | bytes[i];
-  sqlite3_result_double(context, std::bit_cast<double>(bits));
-}
-
-}  // namespace
 
 std::string recovery_advice(const std::filesystem::path& file) {
   return "'sqlite3 " + file.string() +
@@ -48,9 +32,9 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file.st
   handle_.reset(handle);
   if (code != SQLITE_OK) fail("cannot be opened");
   sqlite3_busy_timeout(handle, 10000);  // [ms]
-  constexpr int kKind = SQLITE_UTF8 | SQLITE_DETERMINISTIC | SQLITE_INNOCUOUS;
-  sqlite3_create_function(
-      handle, "ieee754_from_blob", 1, kKind, nullptr, ieee754_from_blob, nullptr, nullptr);
+  // Files can come from anyone: no SQL in them changes the file's structure or runs functions.
+  sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
 }
 
 void Database::execute(const std::string& sql) {
@@ -142,7 +126,11 @@ bool Statement::step() {
 }
 
 std::int64_t Statement::integer() { return sqlite3_column_int64(handle_.get(), column_++); }
-double Statement::real() { return sqlite3_column_double(handle_.get(), column_++); }
+double Statement::real() {
+  const bool is_null = sqlite3_column_type(handle_.get(), column_) == SQLITE_NULL;
+  const double value = sqlite3_column_double(handle_.get(), column_++);
+  return is_null ? std::numeric_limits<double>::quiet_NaN() : value;
+}
 
 int Statement::columns() const { return sqlite3_column_count(handle_.get()); }
 

@@ -64,7 +64,7 @@ class Statement {
   /// Advances to the next row; false if there is none.
   bool step();
   std::int64_t integer();
-  double real();
+  double real();  ///< NaN for NULL, as which SQLite stores NaN
   std::string text();
   std::string blob();
   std::string_view view();  ///< text or blob, valid until the next step

@@ -88,12 +88,6 @@ void reject_links(const std::filesystem::path& file) {
   }
 }
 
-/// Whether the process was killed between creating the file and its tables.
-bool is_empty(Database& database) {
-  Statement count = database.prepare("SELECT count(*) FROM sqlite_master");
-  return count.step() && count.integer() == 0;
-}
-
 void write_run(Database& database, const CellKeys& keys) {
   const Sweep& sweep = keys.sweep();
   Statement insert = database.prepare("INSERT OR REPLACE INTO run VALUES (?, ?)");
@@ -162,11 +156,21 @@ Store::Store(std::filesystem::path file,
 }
 
 Store::~Store() {
+  try {
+    close();
+  } catch (const std::exception&) {
+    // Callers that report success call close() before.
+  }
+}
+
+void Store::close() {
   writer_.reset();
   if (!database_) return;
+  const std::unique_ptr<Database> database = std::move(database_);
+  database->execute("PRAGMA wal_checkpoint(PASSIVE)");
   try {
-    database_->execute("PRAGMA journal_mode = DELETE");  // leaves a single file
-  } catch (const std::exception&) {
+    database->execute("PRAGMA journal_mode = DELETE");  // leaves a single file
+  } catch (const InputError&) {
     // Another process reads it: the -wal file remains until the next process opens it.
   }
 }

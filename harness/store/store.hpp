@@ -7,8 +7,8 @@
 ///
 /// Durability: the store is written in WAL mode with `synchronous = NORMAL`. Once write()
 /// has returned, no end of the process can lose the cell. It is on the disk, and survives a power
-/// cut, after the next sync(), which write() calls every 10 s, and after the destructor, so before
-/// `run` reports the end of the sweep. A power cut can lose the cells since the last sync, each
+/// cut, after the next sync(), which write() calls every 10 s, and after close(), so before `run`
+/// reports the end of the sweep. A power cut can lose the cells since the last sync, each
 /// completely; the next `run` recomputes them. It never damages the file, if the disk writes what
 /// it reports as synced. While another program reads the store, syncs can be postponed.
 #pragma once
@@ -80,6 +80,11 @@ class Store {
 
   /// Waits until all written cells are on the disk. Throws InputError.
   void sync();
+
+  /// Ends writing: waits until all written cells are on the disk, and leaves a single file unless
+  /// another program reads it. Throws InputError if the disk does not confirm. Call nothing else
+  /// after it. The destructor does the same without an exception.
+  void close();
 
   /// Records that all derived files are up to date; reset by the next change.
   void exported();

@@ -12,7 +12,11 @@ void set_written(Database& database, const std::string& table, const std::string
 }  // namespace
 
 DigestWriter::DigestWriter(Database& database)
-    : set_details_(database.prepare("UPDATE cell SET score_digest = ?, phase_digest = ?, "
+    : database_(database),
+      definitions_(database),
+      scores_(database.prepare(std::string("SELECT ") + kScoreColumns +
+                               " FROM score_value WHERE cell = ? ORDER BY number")),
+      set_details_(database.prepare("UPDATE cell SET score_digest = ?, phase_digest = ?, "
                                     "count_digest = ?, note_digest = ?, section_digest = ?, "
                                     "trace_digest = ? WHERE id = ?")),
       cell_(database.prepare("SELECT * FROM cell WHERE id = ?")),
@@ -25,7 +29,7 @@ DigestWriter::DigestWriter(Database& database)
       set_sequence_(database.prepare("UPDATE sequence SET digest = ? WHERE sequence_key = ?")),
       sum_(database.prepare("SELECT value FROM digest WHERE name = ?")),
       set_sum_(database.prepare("INSERT OR REPLACE INTO digest VALUES (?,?)")) {
-  for (const char* table : {"scores", "phase", "count", "note", "section", "trace"}) {
+  for (const char* table : {"phase", "count", "note", "section", "trace"}) {
     details_.push_back(
         database.prepare(std::string("SELECT * FROM ") + table + " WHERE cell = ? ORDER BY rowid"));
   }
@@ -42,6 +46,24 @@ std::string DigestWriter::digest_of(Statement& rows, const Key& key) {
   return digest.text();
 }
 
+std::string DigestWriter::digest_of_scores(std::int64_t cell) {
+  ScoresDigest digest;
+  scores_.bind(cell);
+  while (scores_.step()) {
+    scores_.integer();  // cell
+    scores_.integer();  // number
+    const std::int64_t id = scores_.integer();
+    const ScoreDefinition* definition = definitions_.find(id);
+    if (definition == nullptr) {
+      definitions_ = ScoreDefinitions(database_);
+      definition = definitions_.find(id);
+    }
+    digest.add(scores_, definition);
+  }
+  scores_.reset();
+  return digest.text();
+}
+
 template <class Key>
 std::string DigestWriter::update(Statement& row, Statement& set, const Key& key) {
   row.bind(key);
@@ -53,6 +75,7 @@ std::string DigestWriter::update(Statement& row, Statement& set, const Key& key)
 }
 
 void DigestWriter::add_cell(std::int64_t id) {
+  set_details_.bind(digest_of_scores(id));
   for (Statement& rows : details_) set_details_.bind(digest_of(rows, id));
   set_details_.bind(id).run();
   change_sum("cell", update(cell_, set_cell_, id), &SumOfDigests::add);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "harness/store/digest.hpp"
+#include "harness/store/score_rows.hpp"
 #include "harness/store/sqlite.hpp"
 
 namespace loopbench::harness {
@@ -26,7 +27,11 @@ class DigestWriter {
   /// Subtracts a row that will be removed from the sum of its table, cell or sequence.
   void remove(const std::string& table, const std::string& digest);
 
+  /// Call after a transaction was rolled back.
+  void forget() { definitions_ = {}; }
+
  private:
+  std::string digest_of_scores(std::int64_t cell);
   template <class Key>
   std::string digest_of(Statement& rows, const Key& key);
   template <class Key>
@@ -35,7 +40,10 @@ class DigestWriter {
                   const std::string& digest,
                   void (SumOfDigests::*change)(std::string_view));
 
-  std::vector<Statement> details_;  ///< score, phase, count, note, section, trace of a cell
+  Database& database_;
+  ScoreDefinitions definitions_;
+  Statement scores_;
+  std::vector<Statement> details_;  ///< phase, count, note, section, trace of a cell
   Statement set_details_;
   Statement cell_;
   Statement set_cell_;

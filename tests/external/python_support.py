@@ -5,7 +5,6 @@ import importlib
 import json
 import os
 import sqlite3
-import struct
 import subprocess
 import sys
 import tempfile
@@ -43,7 +42,6 @@ def sweep(methods, dataset=SIMULATED, options=(), **settings):
                        check=False)
         database = sqlite3.connect(folder + "/r/results.sqlite")
         database.row_factory = sqlite3.Row
-        database.create_function("ieee754_from_blob", 1, lambda blob: struct.unpack(">d", blob)[0])
         rows = database.execute(
             "SELECT cell.method, cell.status AS cell_status, cell.why AS cell_why, score.metric,"
             " score.axis, score.relation, score.rmse, (SELECT group_concat(text) FROM note WHERE"

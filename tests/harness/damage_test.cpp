@@ -130,10 +130,7 @@ TEST_F(Damage, RunMakesTheDamagedCellsAgain) {
 TEST_F(Damage, NamesTheCellAndWhatToDo) {
   run(kUsual);
   const std::string expected = store_text(file_);
-  change(
-      "UPDATE scores SET numbers = zeroblob(length(numbers)) WHERE cell = (SELECT id FROM cell "
-      "WHERE "
-      "position = 3)");
+  change("UPDATE score_value SET rmse = 0 WHERE cell = (SELECT id FROM cell WHERE position = 3)");
   const std::string said = refusal(file_);
   EXPECT_NE(said.find("results.sqlite: is damaged: b / shifted is corrupted"), std::string::npos)
       << said;
@@ -148,9 +145,12 @@ TEST_F(Damage, ALostRowIsNoticedWhereverItWas) {
   run(kUsual);
   const std::string sound = bytes_of_file(file_);
   const std::string expected = store_text(file_);
-  for (const char* table : {"cell", "scores", "section", "sequence", "trace", "sequence_trace"}) {
+  for (const char* table :
+       {"cell", "score_value", "section", "sequence", "trace", "sequence_trace"}) {
     put(sound);
-    const std::string key = std::string(table).starts_with("sequence") ? "sequence_key" : "rowid";
+    const std::string key = std::string(table).starts_with("sequence") ? "sequence_key"
+                            : table == std::string("score_value")      ? "cell"
+                                                                       : "rowid";
     change(std::string("DELETE FROM ") + table + " WHERE " + key + " = (SELECT max(" + key +
            ") FROM " + table + ")");
     EXPECT_NE(refusal(file_).find("is damaged"), std::string::npos) << table;
@@ -170,29 +170,38 @@ TEST_F(Damage, ALostRowIsNoticedWhereverItWas) {
   }
 }
 
-TEST_F(Damage, OneOfTheTwoListsOfScoresSuffices) {
+TEST_F(Damage, CellsWithADamagedDefinitionOfAScoreAreRecomputed) {
   run(kUsual);
   const std::string sound = bytes_of_file(file_);
   const std::string expected = store_text(file_);
-  for (const char* table : {"score_list", "score_list_copy"}) {
-    for (const std::string& damage : {"UPDATE " + std::string(table) + " SET metric = 'other'",
-                                      "DELETE FROM " + std::string(table)}) {
-      put(sound);
-      change(damage);
-      EXPECT_EQ(store_text(file_), expected) << damage;
-      EXPECT_EQ(run(kUsual).cells, Labels{}) << damage;
-      const std::string other =
-          std::string(table) == "score_list" ? "score_list_copy" : "score_list";
-      change("DELETE FROM " + other);
-      EXPECT_EQ(store_text(file_), expected) << "repaired by the run after: " << damage;
-    }
+  for (const char* damage : {"UPDATE score_definition SET metric = 'other' WHERE id = 1",
+                             "DELETE FROM score_definition WHERE id = 1"}) {
+    put(sound);
+    change(damage);
+    EXPECT_NE(refusal(file_).find("is damaged"), std::string::npos) << damage;
+    EXPECT_EQ(run(kUsual).cells.size(), 4u) << damage;
+    EXPECT_EQ(store_text(file_), expected) << damage;
   }
-  put(sound);
-  change("DELETE FROM score_list");
-  change("DELETE FROM score_list_copy");
-  EXPECT_NE(refusal(file_).find("is damaged"), std::string::npos);
-  EXPECT_EQ(run(kUsual).cells.size(), 4u);
-  EXPECT_EQ(store_text(file_), expected);
+}
+
+TEST_F(Damage, ObjectsOutsideTheSchemaAreRejected) {
+  run(kUsual);
+  const std::string sound = bytes_of_file(file_);
+  const std::pair<const char*, const char*> changes[] = {
+      {"CREATE TRIGGER zero AFTER INSERT ON score_value BEGIN UPDATE score_value SET rmse = 0; END",
+       "trigger zero"},
+      {"CREATE VIEW best AS SELECT min(rmse) FROM score", "view best"},
+      {"CREATE TABLE mine (a)", "table mine"},
+      {"ALTER TABLE note ADD COLUMN author TEXT", "table note"},
+      {"DROP VIEW score; CREATE VIEW score AS SELECT cell, 0.0 AS rmse FROM score_value",
+       "view score"},
+      {"DROP INDEX cell_position", "index cell_position"}};
+  for (const auto& [sql, object] : changes) {
+    put(sound);
+    change(sql);
+    EXPECT_NE(refusal(file_).find(object), std::string::npos) << sql << ": " << refusal(file_);
+    expect_refused(object);
+  }
 }
 
 TEST_F(Damage, ADamagedStoreIsNotMerged) {
@@ -212,7 +221,7 @@ TEST_F(Damage, AReaderSeesOneStateWhileASweepWrites) {
   Database reader = open_store(file_);
   CellRows rows = read_cell_rows(reader);
   EXPECT_EQ(run(kUsual).cells.size(), 2u);
-  check_scores(reader, ScoreLists(reader), rows);
+  check_scores(reader, ScoreDefinitions(reader), rows);
   require_intact(rows, file_);
   EXPECT_EQ(rows.cells.size(), 2u);
   require_intact(read_sequence_rows(reader), file_);
@@ -223,7 +232,7 @@ TEST_F(Damage, AnotherToolMayReadAndPackIt) {
   run(kUsual);
   const std::string expected = answers(file_);
   change("VACUUM");
-  change("CREATE VIEW best AS SELECT min(rmse) FROM score");
+  change("ANALYZE");
   EXPECT_EQ(answers(file_), expected);
   EXPECT_EQ(run(kUsual).cells, Labels{});
 }

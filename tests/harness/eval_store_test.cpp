@@ -8,6 +8,7 @@
 #include "harness/eval/recorded_sweep.hpp"
 #include "harness/store/merge.hpp"
 #include "harness/store/read.hpp"
+#include "harness/store/sqlite.hpp"
 #include "harness/store/store.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/recorded_files.hpp"
@@ -52,6 +53,21 @@ TEST_F(EvalStore, NumbersAreThoseOfEval) {
     }
   }
   FAIL() << "no such record";
+}
+
+TEST_F(EvalStore, AFileThatAKilledProgramLeftWithoutTablesIsNew) {
+  const auto evaluated = [&] {
+    return test::eval(
+        {path("truths/office.txt"), path("systems/good/office/0.txt"), "--store", path("s")});
+  };
+  for (const char* sql : {"", "PRAGMA journal_mode = WAL", "PRAGMA user_version = 0; VACUUM"}) {
+    std::filesystem::remove_all(path("s"));
+    std::filesystem::create_directories(path("s"));
+    Database(path("s") + "/results.sqlite", Database::Mode::create).execute(sql);
+    EXPECT_THROW(read_cells(path("s")), InputError) << sql;
+    EXPECT_THAT(evaluated(), HasSubstr("1 run")) << sql;
+    EXPECT_EQ(read_cells(path("s")).size(), 1u) << sql;
+  }
 }
 
 TEST_F(EvalStore, LaterCallsAddRunsAndKeepTheOthers) {

@@ -179,10 +179,12 @@ void FaultVfs::fail(long number, bool lasting) {
 
 bool FaultVfs::stop() {
   left_ = 0;
+  failing_ = 0;
   return failed_;
 }
 
 int FaultVfs::next_call(int error) {
+  if (failing_ != 0 && error == failing_) return error;
   if (left_ == 0) return SQLITE_OK;
   if (left_ > 1) {
     --left_;

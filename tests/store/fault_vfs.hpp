@@ -24,6 +24,8 @@ class FaultVfs {
 
   /// Lets call `number`, counted from 1 and from now on, fail; with `lasting` all later ones, too.
   void fail(long number, bool lasting);
+  /// Lets every call fail that fails with SQLite's error code `error`, for example every sync.
+  void fail_all(int error) { failing_ = error; }
   /// Ends failing; whether a call failed since fail().
   bool stop();
 
@@ -64,6 +66,7 @@ class FaultVfs {
   sqlite3_vfs shim_{};
   long left_ = 0;  ///< calls until one fails; 0: none
   bool lasting_ = false;
+  int failing_ = 0;  ///< of fail_all(); 0: none
   bool failed_ = false;
   std::map<std::string, Disk> disk_;
   std::function<void()> each_;

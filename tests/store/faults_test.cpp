@@ -1,6 +1,8 @@
 /// Every call of the store to the disk and to malloc fails in turn: the right result or a clear
 /// error, and every cell that was reported as done is kept. LOOPBENCH_LONG=1: without gaps, and
 /// also with disks that fail for good.
+#include <sqlite3.h>
+
 #include <cstdlib>
 #include <set>
 #include <utility>
@@ -39,6 +41,7 @@ class Faults : public TinyStore {
                    sweep.methods[r.cell.method].label);
     });
     if (!resumed.missing.empty()) store.exported();
+    store.close();
   }
 
   std::string names_in(const std::filesystem::path& folder) const {
@@ -173,6 +176,22 @@ TEST_F(Faults, MergeOnADiskThatFailsOnceIsCompleteOrAbsent) {
   };
   in_turn(
       disk, 7, [&] { merge_stores({file_}, target); }, check);
+}
+
+TEST_F(Faults, ADiskThatDoesNotConfirmTheLastWriteIsAnError) {
+  FaultVfs disk;
+  restore();
+  const Sweep plan = parse_sweep(kUsual, folder_.path() / "c.yaml", known_);
+  CellKeys keys(plan, known_, root_, build_);
+  const std::vector<Cell> all = cells(plan, seeded(plan, known_), "");
+  Store store(file_, keys, {{"commit", commit_}});
+  store.resume(all, all, Retry::none);
+  Sequences sequences(plan, known_, root_, all);
+  const StopRequests stop = 0;
+  run_sweep(plan, all, known_, sequences, 1, stop, [&](const CellResult& r) { store.write(r); });
+  disk.fail_all(SQLITE_IOERR_FSYNC);
+  EXPECT_THROW(store.close(), InputError);
+  disk.stop();
 }
 
 TEST_F(Faults, AReaderWithoutDiskOrMemoryReadsTheRightRowsOrNone) {

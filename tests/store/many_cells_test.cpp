@@ -27,8 +27,9 @@ class ManyCells : public TinyStore {
     const std::string numbers =
         "WITH RECURSIVE copy(n) AS (SELECT 1 UNION ALL SELECT n + 1 FROM copy WHERE n < 2499) ";
     database.execute(numbers +
-                     "INSERT INTO scores SELECT cell + 4 * n, list, numbers, statuses "
-                     "FROM copy, scores WHERE cell <= 4");
+                     "INSERT INTO score_value SELECT cell + 4 * n, number, definition, count, "
+                     "rmse, mean, median, std, min, max, sse, pairs, possible, span, status, why "
+                     "FROM copy, score_value WHERE cell <= 4");
     database.execute(numbers + "INSERT INTO cell (id, position, " + columns +
                      ") SELECT id + 4 * n, position + 4 * n, " + columns +
                      " FROM copy, cell WHERE id <= 4");
@@ -67,11 +68,10 @@ TEST_F(ManyCells, DamageIsNoticedInBothHalves) {
   const std::filesystem::path sound = folder_.path() / "sound.sqlite";
   std::filesystem::copy_file(file_, sound);
   for (const std::string cell : {"17", "9983"}) {
-    for (const std::string& damage :
-         {"UPDATE scores SET numbers = zeroblob(length(numbers)) WHERE cell = " + cell,
-          "DELETE FROM scores WHERE cell = " + cell,
-          "UPDATE cell SET seconds_median = 7 WHERE id = " + cell,
-          "DELETE FROM cell WHERE id = " + cell}) {
+    for (const std::string& damage : {"UPDATE score_value SET rmse = 0 WHERE cell = " + cell,
+                                      "DELETE FROM score_value WHERE cell = " + cell,
+                                      "UPDATE cell SET seconds_median = 7 WHERE id = " + cell,
+                                      "DELETE FROM cell WHERE id = " + cell}) {
       std::filesystem::copy_file(sound, file_, std::filesystem::copy_options::overwrite_existing);
       change(damage);
       EXPECT_NE(refusal().find("is damaged"), std::string::npos) << damage;

@@ -6,7 +6,6 @@ import json
 import os
 import shutil
 import sqlite3
-import struct
 import subprocess
 import tempfile
 from dataclasses import dataclass, fields
@@ -68,7 +67,6 @@ def _select(store: str | Path) -> tuple[list[str], list[Any]]:
     if not file.exists():
         raise FileNotFoundError(f"{file}: no such file, expected the store of a sweep")
     database = sqlite3.connect(f"file:{file}?mode=ro", uri=True)
-    database.create_function("ieee754_from_blob", 1, lambda blob: struct.unpack(">d", blob)[0])
     try:
         cursor = database.execute(query)
         return [column[0] for column in cursor.description], cursor.fetchall()
