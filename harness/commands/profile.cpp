@@ -24,7 +24,7 @@ struct ProfileArguments {
 int print_profile(const ProfileArguments& arguments) {
   std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
   const Pattern selected = Pattern::of_option("--only", arguments.only);
-  std::vector<CellRecord> cells = read_costs(arguments.store);
+  std::vector<CellRecord> cells = read_cells(arguments.store);
   std::erase_if(cells, [&](const CellRecord& cell) {
     return !selected.is_in(cell.sequence + " / " + cell.method);
   });

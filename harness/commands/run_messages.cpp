@@ -31,16 +31,12 @@ int report_bad_inputs(const std::vector<std::string>& reasons) {
 }
 
 void report_damage(const Resumed& resumed, const std::filesystem::path& store) {
-  if (!resumed.damaged.empty()) {
-    print_error(
-        "loopbench: {}: damaged cells are recomputed: {}{}\n",
-        store.string(),
-        printable(resumed.damaged.front()),
-        resumed.damaged.size() == 1 ? "" : fmt::format(" and {} more", resumed.damaged.size() - 1));
-  } else if (resumed.lost) {
-    print_error("loopbench: {}: the list of cells was damaged; missing cells are recomputed\n",
-                store.string());
-  }
+  if (resumed.damaged.empty()) return;
+  print_error(
+      "loopbench: {}: damaged cells are recomputed: {}{}\n",
+      store.string(),
+      printable(resumed.damaged.front()),
+      resumed.damaged.size() == 1 ? "" : fmt::format(" and {} more", resumed.damaged.size() - 1));
 }
 
 }  // namespace loopbench::harness

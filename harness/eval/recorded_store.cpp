@@ -22,7 +22,7 @@ auto run_labels(const RecordedRun& run) { return std::tie(run.sequence, run.meth
 
 /// The runs of a store. Throws InputError if it has none, or has paths of an unknown folder.
 std::vector<RecordedRun> stored_runs(const std::filesystem::path& file) {
-  if (!is_stored(file)) return {};
+  if (!std::filesystem::exists(file) || has_no_tables(file)) return {};
   std::vector<RecordedRun> out = runs_of_manifest(read_run(file)["config"]);
   if (out.empty()) {
     throw InputError(file.string() + ": is the store of a sweep, expected one of eval --store");

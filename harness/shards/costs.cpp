@@ -8,7 +8,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/catalogue/load_sequence.hpp"
-#include "harness/store/cell_times.hpp"
+#include "harness/store/read.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -1,83 +1,64 @@
-/// Rows of a store, each checked against its digest.
+/// The cells of a store, and the check of their rows.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "harness/model/record.hpp"
-#include "harness/store/score_rows.hpp"
+#include "harness/store/checksum.hpp"
 #include "harness/store/sqlite.hpp"
-#include "harness/text/hash.hpp"
 
 namespace loopbench::harness {
 
-/// About 250 bytes: a store can have millions.
-struct CellRow {
+/// A row of the table cell. Sizes, phases, counts and notes are not set.
+struct StoredCell : CellRecord {
   std::int64_t id = 0;
-  std::int64_t position = 0;  ///< in the sweep, if placed
-  std::int64_t repeat = 0;
-  std::int64_t failed_scores = 0;
   SharedText sequence_key;
-  SharedText sequence;
-  SharedText method;
-  Status status = Status::ok;
-  SharedText closures;
-  SharedText why;
-  double seconds = 0.0;         ///< CellRecord::seconds; NaN: not recorded, though it has results
-  Hash key;                     ///< of the text of CellRecord::key
-  std::array<Hash, 6> details;  ///< digests of its rows by detail_number(); zero: none
-  Hash digest;
-  bool oracle_closures = false;
-  bool oracle = false;
-  bool placed = false;  ///< part of the current config
-  bool intact = false;  ///< unchanged since it was written, as far as checked
+  SharedText provenance_key;
+  std::int64_t failed_scores = 0;
+  std::int64_t score_count = 0;  ///< set by check_scores()
+  bool placed = false;           ///< part of the current config; otherwise it has no position
+  bool intact = true;            ///< unchanged since it was written, as far as checked
+  Checksum own = 0;              ///< of this row and its sequence
+  Checksum checksum = 0;         ///< as stored: `own` plus that of its scores
+  Checksum report_checksum = 0;  ///< as stored
 };
 
-struct CellRows {
-  std::vector<CellRow> cells;       ///< by id
-  std::vector<CellRecord> records;  ///< parallel to cells, if requested; see read_cell_rows()
-  bool complete = false;            ///< no row is missing: the digests match the stored sum
-};
+/// All cells by id, unchecked except for the status. O(cells), about 500 bytes of memory each.
+std::vector<StoredCell> read_cell_rows(Database& database);
 
-/// From this number of cells on, half of them are read through a second connection on another
-/// thread.
-inline constexpr std::int64_t kCellsWorthAThread = 8192;
+/// Marks cells whose row, sequence or scores have changed since they were written. Large stores are
+/// read on two threads. O(scores).
+void check_scores(Database& database, std::vector<StoredCell>& cells);
 
-/// Contents of CellRows::records: none; without key, build, options, signal and reason; or all.
-/// Phases, counts, notes and sequence data are never read.
-enum class WithRecords { no, costs, yes };
+/// Visits the rows of a report table, except traces, from the column after `number`.
+using ReportVisit = std::function<void(const std::string& table, std::size_t cell, Statement& row)>;
 
-/// Reads the table cell. O(cells).
-CellRows read_cell_rows(Database& database, WithRecords with = WithRecords::no);
+/// Marks cells whose phases, counts, notes or sections have changed, or whose trace is missing.
+/// O(rows).
+void check_reports(Database& database,
+                   std::vector<StoredCell>& cells,
+                   const ReportVisit& visit = {});
 
-/// Visits every row of `table` (phase, count, note, section or trace) whose cell exists, in order
-/// of writing, from its second column; then marks the damaged cells. O(rows).
-void read_details(Database& database,
-                  const std::string& table,
-                  CellRows& rows,
-                  const std::function<void(std::size_t cell, Statement& row)>& each = {});
+/// Marks cells whose trace, or whose sequence's trace, has changed. O(bytes).
+void check_traces(Database& database, std::vector<StoredCell>& cells);
 
-/// Marks cells whose scores or definitions of scores are damaged. O(scores).
-void check_scores(Database& database, const ScoreDefinitions& definitions, CellRows& rows);
+/// Throws InputError naming the first cell that is not intact, or if cells are missing.
+void require_intact(Database& database, const std::vector<StoredCell>& cells);
 
-/// Index of a table (score_value, phase, count, note, section or trace) in CellRow::details.
-std::size_t detail_number(const std::string& table);
+/// Number of cells of the store according to its writers. A damaged page can lose cells.
+std::int64_t written_cells(Database& database);
 
-/// Throws InputError naming the first damaged cell, or if a cell is missing.
-void require_intact(const CellRows& rows, const std::filesystem::path& file);
-
-/// Throws InputError naming the corrupted part `what` of `file`.
-[[noreturn]] void throw_damaged(const std::filesystem::path& file, const std::string& what);
+/// Throws InputError naming the part `what` of `file` that has changed.
+[[noreturn]] void throw_damaged(const std::string& file, const std::string& what);
 
 /// "SEQUENCE / METHOD" or "SEQUENCE (repeat N) / METHOD".
 std::string label_of(const CellRecord& cell);
-std::string label_of(const CellRow& cell);
 
-/// Indices in `rows.cells` of the cells of the current config, in sweep order.
-std::vector<std::size_t> in_order(const CellRows& rows);
+/// Indices of the cells of the current config, in sweep order.
+std::vector<std::size_t> in_order(const std::vector<StoredCell>& cells);
 
 }  // namespace loopbench::harness

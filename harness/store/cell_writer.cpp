@@ -1,8 +1,11 @@
 #include "harness/store/cell_writer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "harness/store/traces.hpp"
+#include "harness/text/hash.hpp"
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {
@@ -34,65 +37,73 @@ void remove_cell(Database& database, std::int64_t id) {
 CellWriter::CellWriter(Database& database, std::string provenance_key)
     : database_(database),
       provenance_key_(std::move(provenance_key)),
-      remove_(database.prepare("SELECT id, digest FROM cell WHERE position = ?")),
-      cell_(database.prepare(
-          "INSERT INTO cell (position, key, build, sequence_key, provenance_key, sequence, repeat, "
-          "method, dataset_options, method_options, closures, oracle_closures, oracle, worker, "
-          "runs, seconds_median, "
-          "seconds_min, seconds_max, cpu_seconds_median, peak_memory, added_memory, allocations, "
-          "status, signal, why, failed_scores) VALUES "
-          "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
-      scores_(database),
-      phase_(database.prepare("INSERT INTO phase VALUES (?,?,?)")),
-      count_(database.prepare("INSERT INTO count VALUES (?,?,?)")),
-      note_(database.prepare("INSERT INTO note VALUES (?,?)")),
-      section_(database.prepare("INSERT INTO section VALUES (?,?,?,?,?)")),
-      trace_(database.prepare("INSERT INTO trace VALUES (?,?,?)")),
-      digests_(database) {}
+      replaced_(database.prepare("SELECT id FROM cell WHERE position = ?")),
+      cell_(database.prepare(std::string("INSERT INTO cell (") + kCellColumns +
+                             ") VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
+      find_definition_(database.prepare(
+          "SELECT id FROM score_definition WHERE protocol = ? AND protocol_version = ? AND times = "
+          "? AND metric = ? AND label = ? AND relation = ? AND axis = ? AND unit = ? AND better = "
+          "? "
+          "AND target = ?")),
+      definition_(
+          database.prepare("INSERT INTO score_definition VALUES (NULL,?,?,?,?,?,?,?,?,?,?)")),
+      score_(database.prepare("INSERT INTO score_value VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
+      phase_(database.prepare("INSERT INTO phase VALUES (?,?,?,?)")),
+      count_(database.prepare("INSERT INTO count VALUES (?,?,?,?)")),
+      note_(database.prepare("INSERT INTO note VALUES (?,?,?)")),
+      section_(database.prepare("INSERT INTO section VALUES (?,?,?,?,?,?)")),
+      trace_(database.prepare("INSERT INTO trace VALUES (?,?,?,?)")),
+      one_more_(database.prepare("UPDATE run SET value = value + 1 WHERE key = 'cells'")),
+      checksums_(database) {}
 
 void CellWriter::write(const CellResult& result, CellKeys& keys) {
-  Transaction transaction(database_);
   try {
+    Transaction transaction(database_);
     write_rows(result, keys);
     transaction.commit();
   } catch (...) {
-    scores_.forget();
-    digests_.forget();
+    definitions_.clear();  // rolled back
+    sequences_.clear();
+    checksums_.forget_definitions();
     throw;
   }
 }
 
 void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
-  remove_.bind(static_cast<std::int64_t>(result.cell.index));
-  std::vector<std::pair<std::int64_t, std::string>> before;
-  while (remove_.step()) {
-    const std::int64_t id = remove_.integer();
-    before.emplace_back(id, remove_.text());
-  }
-  remove_.reset();
-  for (const auto& [id, digest] : before) {
-    remove_cell(database_, id);
-    digests_.remove("cell", digest);
-  }
+  replaced_.bind(static_cast<std::int64_t>(result.cell.index));
+  std::vector<std::int64_t> before;
+  while (replaced_.step()) before.push_back(replaced_.integer());
+  replaced_.reset();
+  for (const std::int64_t id : before) remove_cell(database_, id);
+  if (before.empty()) one_more_.run();
 
   if (result.metadata) write_metadata(result.cell, keys, *result.metadata);
   const std::int64_t id = write_cell(result, keys);
-  scores_.write(id, result, keys.sweep());
-  for (const methods::Phase& p : result.report.phases)
-    phase_.bind(id).bind(p.name).bind(p.seconds).run();
-  for (const methods::Count& c : result.report.counts)
-    count_.bind(id).bind(c.name).bind(c.value).run();
-  for (const std::string& text : result.report.notes) note_.bind(id).bind(text).run();
-  for (const methods::Section& s : result.report.sections) {
-    section_.bind(id).bind(s.kind).bind(s.begin).bind(s.end).bind(s.what).run();
-  }
+  write_scores(id, result, keys.sweep());
+  write_report(id, result.report);
   if (!result.trace.samples.empty()) {
-    trace_.bind(id)
-        .bind(to_text(result.trace.times))
-        .bind_blob(bytes_of(result.trace.samples))
-        .run();
+    const std::string times = to_text(result.trace.times);
+    const std::string_view samples = bytes_of(result.trace.samples);
+    trace_.bind(id).bind(times).bind(checksum_of_parts({times, samples})).bind_blob(samples).run();
   }
-  digests_.add_cell(id);
+  checksums_.write(id);
+}
+
+void CellWriter::write_report(std::int64_t id, const methods::Report& report) {
+  std::int64_t number = 0;
+  for (const methods::Phase& p : report.phases) {
+    phase_.bind(id).bind(number++).bind(p.name).bind(p.seconds).run();
+  }
+  number = 0;
+  for (const methods::Count& c : report.counts) {
+    count_.bind(id).bind(number++).bind(c.name).bind(c.value).run();
+  }
+  number = 0;
+  for (const std::string& text : report.notes) note_.bind(id).bind(number++).bind(text).run();
+  number = 0;
+  for (const methods::Section& s : report.sections) {
+    section_.bind(id).bind(number++).bind(s.kind).bind(s.begin).bind(s.end).bind(s.what).run();
+  }
 }
 
 std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
@@ -136,11 +147,64 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
   return database_.last_row();
 }
 
+std::int64_t CellWriter::definition_of(const ScoreResult& score,
+                                       const metrics::NamedProtocol& protocol) {
+  const std::string texts[] = {protocol.label(),
+                               protocol.version,
+                               to_text(score.times),
+                               score.metric,
+                               score.label,
+                               score.score.relation,
+                               score.score.axis,
+                               score.score.unit,
+                               to_text(score.score.better)};
+  Fields key;
+  for (const std::string& text : texts) key.add(text);
+  const auto [known, is_new] =
+      definitions_.try_emplace(key.add(fmt::format("{}", score.score.target)).hashed(), 0);
+  if (!is_new) return known->second;
+  for (Statement* statement : {&find_definition_, &definition_}) {
+    for (const std::string& text : texts) statement->bind(text);
+    statement->bind(score.score.target);
+  }
+  if (find_definition_.step()) {
+    known->second = find_definition_.integer();
+    definition_.reset();
+  } else {
+    definition_.run();
+    known->second = database_.last_row();
+  }
+  find_definition_.reset();
+  return known->second;
+}
+
+void CellWriter::write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep) {
+  std::int64_t number = 0;
+  for (const ScoreResult& score : result.scores) {
+    score_.bind(id).bind(number++).bind(definition_of(score, sweep.protocols[score.protocol]));
+    const metrics::Statistics& s = score.score.statistics;
+    if (has_numbers(score.status)) {
+      score_.bind(static_cast<std::int64_t>(s.count));
+      for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse}) {
+        score_.bind(value);
+      }
+    } else {
+      for (int i = 0; i < 8; ++i) score_.bind_null();
+    }
+    score_.bind(static_cast<std::int64_t>(score.coverage.pairs))
+        .bind(static_cast<std::int64_t>(score.coverage.possible))
+        .bind(score.coverage.span)
+        .bind(to_text(score.status))
+        .bind(score.why)
+        .run();
+  }
+}
+
 void CellWriter::write_metadata(const Cell& cell,
                                 CellKeys& keys,
                                 const SequenceMetadata& metadata) {
   const std::string sequence_key = keys.sequence_key(cell, metadata.inputs);
-  if (metadata_.contains(sequence_key)) return;
+  if (!sequences_.insert(sequence_key).second) return;
   database_.prepare("DELETE FROM input WHERE sequence_key = ?").bind(sequence_key).run();
   Statement input = database_.prepare("INSERT INTO input VALUES (?,?,?,?,?,?)");
   std::int64_t number = 0;
@@ -154,9 +218,6 @@ void CellWriter::write_metadata(const Cell& cell,
         .run();
   }
   const SequenceSize& size = metadata.size;
-  Statement stored = database_.prepare("SELECT digest FROM sequence WHERE sequence_key = ?");
-  if (stored.bind(sequence_key).step()) digests_.remove("sequence", stored.text());
-  stored.reset();
   database_
       .prepare(
           "INSERT OR REPLACE INTO sequence (sequence_key, configuration_hash, options, keyframes, "
@@ -175,19 +236,20 @@ void CellWriter::write_metadata(const Cell& cell,
       .run();
   const SequenceTrace& trace = metadata.trace;
   if (!trace.keyframes.empty()) {
-    database_.prepare("INSERT OR REPLACE INTO sequence_trace VALUES (?,?,?,?,?,?,?,?)")
+    const std::string_view blobs[] = {
+        bytes_of(trace.reference), bytes_of(trace.keyframes), bytes_of(trace.closures)};
+    database_.prepare("INSERT OR REPLACE INTO sequence_trace VALUES (?,?,?,?,?,?,?,?,?)")
         .bind(sequence_key)
         .bind(trace.origin.stamp)
         .bind(trace.origin.x)
         .bind(trace.origin.y)
         .bind(trace.origin.z)
-        .bind_blob(bytes_of(trace.reference))
-        .bind_blob(bytes_of(trace.keyframes))
-        .bind_blob(bytes_of(trace.closures))
+        .bind_blob(blobs[0])
+        .bind_blob(blobs[1])
+        .bind_blob(blobs[2])
+        .bind(checksum_of_parts({blobs[0], blobs[1], blobs[2]}))
         .run();
   }
-  digests_.add_sequence(sequence_key);
-  metadata_.insert(sequence_key);
 }
 
 }  // namespace loopbench::harness

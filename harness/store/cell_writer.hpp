@@ -1,14 +1,15 @@
 /// Writes the rows of one cell.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 
 #include "harness/model/result.hpp"
 #include "harness/provenance/cell_keys.hpp"
-#include "harness/store/score_rows.hpp"
+#include "harness/store/checksum.hpp"
 #include "harness/store/sqlite.hpp"
-#include "harness/store/write_digests.hpp"
 
 namespace loopbench::harness {
 
@@ -25,23 +26,30 @@ class CellWriter {
  private:
   void write_rows(const CellResult& result, CellKeys& keys);
   std::int64_t write_cell(const CellResult& result, CellKeys& keys);
+  void write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep);
+  void write_report(std::int64_t id, const methods::Report& report);
+  std::int64_t definition_of(const ScoreResult& score, const metrics::NamedProtocol& protocol);
   void write_metadata(const Cell& cell, CellKeys& keys, const SequenceMetadata& metadata);
 
   Database& database_;
   std::string provenance_key_;
-  Statement remove_;
+  Statement replaced_;
   Statement cell_;
-  ScoreWriter scores_;
+  Statement find_definition_;
+  Statement definition_;
+  Statement score_;
   Statement phase_;
   Statement count_;
   Statement note_;
   Statement section_;
   Statement trace_;
-  DigestWriter digests_;
-  std::set<std::string> metadata_;  ///< keys of sequences whose metadata are written
+  Statement one_more_;  ///< see written_cells()
+  ChecksumWriter checksums_;
+  std::map<std::string, std::int64_t> definitions_;  ///< ids by all columns
+  std::set<std::string> sequences_;                  ///< keys of those that are written
 };
 
-/// Removes the cell with that id from every table, but not from the sum of digests.
+/// Removes the cell with that id from every table.
 void remove_cell(Database& database, std::int64_t id);
 
 }  // namespace loopbench::harness

@@ -10,43 +10,62 @@
 #include "datasets/core/error.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/model/result.hpp"
-#include "harness/store/cell_columns.hpp"
 #include "harness/store/cell_writer.hpp"
 #include "harness/store/damage.hpp"
 #include "harness/store/folder_lock.hpp"
-#include "harness/store/merged_cell.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/plan.hpp"
 #include "harness/store/rename_file.hpp"
-#include "harness/store/score_rows.hpp"
-#include "harness/store/write_digests.hpp"
+#include "harness/text/hash.hpp"
 
 namespace loopbench::harness {
 namespace {
 
+/// Durability comes from renaming the complete file.
 Database with_tables(const std::filesystem::path& file) {
   Database out(file, Database::Mode::create);
+  out.execute("PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF; PRAGMA cache_size = -65536");
   create_tables(out);
   return out;
 }
 
+/// A cell of the output.
+struct KnownCell {
+  std::int64_t id = 0;
+  bool failed = false;
+};
+
+/// Identifies a cell by key, sequence, repeat and method, in 16 bytes.
+Hash identity(const std::string& key, const StoredCell& cell) {
+  Fields fields;
+  fields.add(key)
+      .add(cell.sequence.text())
+      .add(cell.method.text())
+      .add(std::to_string(cell.repeat));
+  return hash_of(fields.hashed());
+}
+
+struct LowBits {
+  std::size_t operator()(const Hash& hash) const { return hash.low; }
+};
+
 class Merge {
  public:
   Merge(const std::filesystem::path& file, bool mixed_builds)
-      : database_(with_tables(file)), digests_(database_), mixed_builds_(mixed_builds) {
+      : database_(with_tables(file)), checksums_(database_), mixed_builds_(mixed_builds) {
     database_.execute("CREATE TEMP TABLE copied (id INTEGER PRIMARY KEY)");
   }
 
-  /// `store`: an intact file.
-  void add(const std::filesystem::path& store) {
+  /// `cells`: those of the store, all intact.
+  void add(const std::filesystem::path& store, const std::vector<StoredCell>& cells) {
     store_ = store.string();
     database_.prepare("ATTACH ? AS source").bind(store_).run();
     {
       Transaction transaction(database_);
       check_recorded_options();
-      add_cells();
-      add_details();
       add_sequences();
+      add_cells(cells);
+      add_details();
       add_texts();
       transaction.commit();
     }
@@ -54,10 +73,7 @@ class Merge {
   }
 
   Merged done() {
-    Transaction transaction(database_);
-    for (const char* table : {"cell", "sequence"}) update_sum(database_, table);
-    for (const char* table : {"run", "provenance"}) update_texts(database_, table);
-    transaction.commit();
+    database_.execute("INSERT OR REPLACE INTO run VALUES ('cells', (SELECT count(*) FROM cell))");
     Merged out;
     out.cells = known_.size();
     out.duplicates = twice_;
@@ -76,62 +92,52 @@ class Merge {
   }
 
  private:
-  void add_cells() {
-    // Not by an index, which can be damaged and miss rows.
-    Statement rows = database_.prepare(
-        "SELECT id, position, key, build, sequence, repeat, method, status, failed_scores FROM "
-        "source.cell NOT INDEXED WHERE position IS NOT NULL ORDER BY position");
-    const std::string columns = kCellColumns;
+  void add_cells(const std::vector<StoredCell>& cells) {
+    const std::string columns = std::string(kCellColumns) + ", checksum, report_checksum";
+    const std::string others = columns.substr(columns.find(", ") + 2);  // all but the position
     Statement insert =
-        database_.prepare("INSERT INTO main.cell (id, position, " + columns + ") SELECT ?, ?, " +
-                          columns + " FROM source.cell WHERE id = ?");
+        database_.prepare("INSERT INTO main.cell (id, position, " + others + ") SELECT ?, ?, " +
+                          others + " FROM source.cell WHERE id = ?");
+    Statement rename = database_.prepare("UPDATE main.cell SET method = ? WHERE id = ?");
     Statement copied = database_.prepare("INSERT INTO copied VALUES (?)");
     Statement last = database_.prepare("SELECT coalesce(max(id), 0) FROM main.cell");
     offset_ = last.step() ? last.integer() : 0;
     last.reset();
     database_.execute("DELETE FROM copied");
-    MergedCell cell;
-    while (rows.step()) {
-      cell.id = rows.integer();
-      cell.position = rows.integer();
-      cell.key = rows.text();
-      cell.build = rows.text();
-      cell.sequence = rows.text();
-      cell.repeat = rows.integer();
-      cell.method = rows.text();
-      const Status status = from_text<Status>(rows.text()).value_or(Status::failed);
-      cell.failed = rows.integer() > 0 || is_failure(status);
-      const std::string method = cell.method;
+    for (const std::size_t i : in_order(cells)) {
+      StoredCell cell = cells[i];
       if (!place(cell)) continue;
       insert.bind(offset_ + cell.id).bind(cell.position).bind(cell.id).run();
-      if (cell.method != method) rename(offset_ + cell.id, cell.method);
-      digests_.update_cell(offset_ + cell.id);
+      const bool has_other_label = cell.method != cells[i].method;
+      if (has_other_label) rename.bind(cell.method.text()).bind(offset_ + cell.id).run();
+      if (has_other_label || cell.position != cells[i].position) {
+        checksums_.update_row(offset_ + cell.id, cell.own);
+      }
       copied.bind(cell.id).run();
     }
   }
 
   /// Gives the cell its position and label in the output; false if it is not copied.
-  bool place(MergedCell& cell) {
+  bool place(StoredCell& cell) {
+    const bool has_failed = cell.failed_scores > 0 || is_failure(cell.status);
     if (build_.empty()) build_ = cell.build;
     if (cell.build != build_ && !mixed_builds_) {
       throw InputError(store_ + ": was computed by build " + cell.build +
                        ", the earlier stores by " + build_ + "; use --mixed-builds to merge them");
     }
     // Original key and labels, because two labels can have the same key.
-    const auto [same, is_new] =
-        known_.try_emplace(hash_of_fields({cell.key, cell.sequence, cell.method}, cell.repeat));
+    const auto [same, is_new] = known_.try_emplace(identity(cell.key, cell));
     if (!is_new) {
       ++twice_;
-      if (!same->second.failed || cell.failed) return false;
+      if (!same->second.failed || has_failed) return false;
       replace(cell, same->second);
+      same->second = {offset_ + cell.id, has_failed};
       return true;
     }
     const std::string method = cell.method;
-    const auto is_free = [&] {
-      return labels_.insert(hash_of_fields({cell.sequence, cell.method}, cell.repeat)).second;
-    };
+    const auto is_free = [&] { return labels_.insert(identity("", cell)).second; };
     if (!is_free()) {
-      cell.method += " (build " + cell.build.substr(0, 8) + ")";
+      cell.method = cell.method + " (build " + cell.build.text().substr(0, 8) + ")";
       if (cell.build == build_ || !is_free()) {
         throw InputError(
             store_ + ": " + cell.sequence + " / " + method +
@@ -143,12 +149,12 @@ class Merge {
       positions_.insert(cell.position);
     }
     last_position_ = std::max(last_position_, cell.position);
-    same->second = {offset_ + cell.id, cell.failed};
+    same->second = {offset_ + cell.id, has_failed};
     return true;
   }
 
   /// A cell takes the position and label of an earlier one that failed.
-  void replace(MergedCell& cell, KnownCell& failed) {
+  void replace(StoredCell& cell, const KnownCell& failed) {
     Statement row = database_.prepare("SELECT position, method FROM main.cell WHERE id = ?");
     if (!row.bind(failed.id).step()) throw std::logic_error("merge: a copied cell is not there");
     cell.position = row.integer();
@@ -156,21 +162,38 @@ class Merge {
     row.reset();
     remove_cell(database_, failed.id);
     database_.prepare("DELETE FROM copied WHERE id = ?").bind(failed.id - offset_).run();
-    failed = {offset_ + cell.id, cell.failed};
-  }
-
-  void rename(std::int64_t id, const std::string& method) {
-    database_.prepare("UPDATE main.cell SET method = ? WHERE id = ?").bind(method).bind(id).run();
   }
 
   void add_details() {
-    copy_scores(database_, offset_);
-    for (const auto& [table, fields] : kDetails) {
+    const std::string definition =
+        "protocol, protocol_version, times, metric, label, relation, axis, unit, better, target";
+    database_.execute("INSERT OR IGNORE INTO main.score_definition (" + definition + ") SELECT " +
+                      definition + " FROM source.score_definition ORDER BY id");
+    database_.execute(
+        "CREATE TEMP TABLE renumbered AS SELECT s.id AS old, m.id AS new FROM "
+        "source.score_definition s JOIN main.score_definition m USING (" +
+        definition + ")");
+    database_
+        .prepare(
+            "INSERT INTO main.score_value SELECT cell + ?, number, (SELECT new FROM renumbered "
+            "WHERE old = definition), count, rmse, mean, median, std, min, max, sse, pairs, "
+            "possible, span, status, why FROM source.score_value WHERE cell IN copied ORDER BY "
+            "cell, number")
+        .bind(offset_)
+        .run();
+    database_.execute("DROP TABLE renumbered");
+    for (const auto& [table, columns] : {std::pair{"phase", "number, name, seconds"},
+                                         std::pair{"count", "number, name, value"},
+                                         std::pair{"note", "number, text"},
+                                         std::pair{"section",
+                                                   "number, kind, begin_stamp, "
+                                                   "end_stamp, what"},
+                                         std::pair{"trace", "times, checksum, samples"}}) {
       const std::string name = table;
-      const std::string list = fields;
+      const std::string list = columns;
       database_
-          .prepare("INSERT INTO main." + name + " (cell, " + list + ") SELECT cell + ?, " + list +
-                   " FROM source." + name + " NOT INDEXED WHERE cell IN copied ORDER BY rowid")
+          .prepare("INSERT INTO main." + name + " SELECT cell + ?, " + list + " FROM source." +
+                   name + " WHERE cell IN copied ORDER BY cell")
           .bind(offset_)
           .run();
     }
@@ -199,20 +222,11 @@ class Merge {
                        " than the earlier stores");
     }
     other.reset();
-    // Copied completely from one store, because of the digests; preferably with a trace.
-    for (const char* table : {"input", "sequence"}) {
-      database_.execute(
-          "DELETE FROM main." + std::string(table) +
-          " WHERE sequence_key IN (SELECT m.sequence_key FROM main.sequence m JOIN "
-          "source.sequence s ON s.sequence_key = m.sequence_key WHERE m.trace_digest = '' AND "
-          "s.trace_digest <> '')");
-    }
     for (const char* table : {"input", "sequence_trace", "sequence"}) {
       const std::string name = table;
-      database_.execute("INSERT INTO main." + name + " SELECT * FROM source." + name +
+      database_.execute("INSERT OR IGNORE INTO main." + name + " SELECT * FROM source." + name +
                         " WHERE sequence_key IN (SELECT sequence_key FROM source.cell WHERE "
-                        "position IS NOT NULL) AND sequence_key NOT IN (SELECT sequence_key FROM "
-                        "main.sequence)");
+                        "position IS NOT NULL)");
     }
   }
 
@@ -220,7 +234,8 @@ class Merge {
   /// stores with different plans have none.
   void add_texts() {
     database_.execute(
-        "INSERT INTO main.run SELECT key, value FROM source.run WHERE key <> 'exported' ON "
+        "INSERT INTO main.run SELECT key, value FROM source.run WHERE key NOT IN ('exported', "
+        "'cells') ON "
         "CONFLICT (key) DO UPDATE SET value = CASE WHEN key = 'plan' THEN '' ELSE value || "
         "char(10) || excluded.value END WHERE key <> 'baseline' AND instr(char(10) || value || "
         "char(10), char(10) || excluded.value || char(10)) = 0");
@@ -230,7 +245,7 @@ class Merge {
   }
 
   Database database_;
-  DigestWriter digests_;
+  ChecksumWriter checksums_;
   bool mixed_builds_;
   std::string store_;        ///< the store being added
   std::int64_t offset_ = 0;  ///< from the ids of its cells to those of the output
@@ -242,20 +257,27 @@ class Merge {
   std::size_t twice_ = 0;
 };
 
-/// Adds all stores. Each is checked completely while the one before it is copied; the check also
-/// recovers the log of a killed process.
+/// All cells, checked with their traces; recovers the log of a killed process. Throws InputError.
+std::vector<StoredCell> intact_cells(const std::filesystem::path& store) {
+  Database database = open_store(store);
+  std::vector<StoredCell> out = checked_cells(database, true);
+  require_intact(database, out);
+  return out;
+}
+
+/// Adds all stores. Each is checked while the one before it is copied.
 Merged merge_all(const std::vector<std::filesystem::path>& stores,
                  const std::filesystem::path& partial,
                  bool mixed_builds) {
   Merge merge(partial, mixed_builds);
   const auto checked = [&](std::size_t i) {
-    return std::async(std::launch::async, require_intact_store, store_file(stores[i]));
+    return std::async(std::launch::async, intact_cells, stores[i]);
   };
-  std::future<void> next = checked(0);
+  std::future<std::vector<StoredCell>> next = checked(0);
   for (std::size_t i = 0; i < stores.size(); ++i) {
-    next.get();
+    const std::vector<StoredCell> cells = next.get();
     if (i + 1 < stores.size()) next = checked(i + 1);
-    merge.add(store_file(stores[i]));
+    merge.add(store_file(stores[i]), cells);
   }
   return merge.done();
 }
@@ -281,7 +303,6 @@ Merged merge_stores(const std::vector<std::filesystem::path>& stores,
   remove_files_of(partial);
   try {
     const Merged result = merge_all(all, partial, options.mixed_builds);
-    require_intact_store(partial);
     rename_file(partial, out);
     return result;
   } catch (const std::filesystem::filesystem_error& error) {

@@ -1,4 +1,4 @@
-/// Opens a finished store for reading.
+/// Opens and creates stores.
 #pragma once
 
 #include <filesystem>
@@ -17,14 +17,12 @@ Database open_store(const std::filesystem::path& given);
 /// Creates the tables of an empty store.
 void create_tables(Database& database);
 
-/// Whether it has no tables: its writer was killed before the first transaction.
-bool is_empty(Database& database);
+/// Whether a file has no tables: the process that created it was killed before it wrote any.
+bool has_no_tables(Database& database);
+bool has_no_tables(const std::filesystem::path& file);
 
-/// Whether the file exists and is not empty. Throws InputError if it is not a database.
-bool is_stored(const std::filesystem::path& file);
-
-/// Throws InputError naming `file` if the schema is of another version, or naming the object if the
-/// file has other tables, views, indexes or triggers than this program creates.
+/// Throws InputError naming `file` if its schema differs from this program's: another version, or
+/// tables, views, indexes or triggers that are missing, changed or added.
 void check_schema(Database& database, const std::filesystem::path& file);
 
 }  // namespace loopbench::harness

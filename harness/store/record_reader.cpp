@@ -1,7 +1,9 @@
 #include "harness/store/record_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <future>
+#include <set>
 #include <unordered_map>
 
 #include "harness/store/open.hpp"
@@ -10,13 +12,12 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr int kFewRows = 32;  ///< rows that are passed over faster than a search
-const std::size_t kScores = detail_number("score_value");
+constexpr int kFewRows = 64;  ///< rows that are passed over faster than a search
 
 constexpr std::size_t kLeastRecords = 4096;  ///< of a chunk, so that a thread is worth it
 
 /// Sets the common fields of all records of a cell.
-void set_cell(Record& r, const CellRow& cell) {
+void set_cell(Record& r, const StoredCell& cell) {
   r.cell = cell.position;
   r.sequence = cell.sequence;
   r.repeat = cell.repeat;
@@ -24,17 +25,42 @@ void set_cell(Record& r, const CellRow& cell) {
   r.closures = cell.closures;
   r.oracle_closures = cell.oracle_closures;
   r.oracle = cell.oracle;
-  r.milliseconds = cell.seconds * 1000;
+  const bool is_unknown = cell.runs == 0 && has_numbers(cell.status);
+  r.milliseconds = is_unknown ? std::nan("") : cell.seconds * 1000;
   r.status = cell.status;
   r.why = cell.why;
 }
 
+std::map<std::int64_t, Record> read_definitions(Database& database) {
+  std::map<std::int64_t, Record> out;
+  Statement row = database.prepare(
+      "SELECT id, protocol, protocol_version, times, metric, label, relation, axis, unit, better, "
+      "target FROM score_definition ORDER BY id");
+  while (row.step()) {
+    Record& r = out[row.integer()];
+    r.protocol = row.text();
+    r.protocol_version = row.text();
+    r.times = row.text();
+    r.metric = row.text();
+    r.label = row.text();
+    r.relation = row.text();
+    r.axis = row.text();
+    r.unit = row.text();
+    r.better = from_text<metrics::Better>(row.text()).value_or(metrics::Better::neither);
+    r.target = row.real();
+  }
+  return out;
+}
+
 /// A score without relation: its metric failed or was declined completely.
-bool can_be_failed_metric(const Record& d) { return !d.metric.empty() && d.relation.empty(); }
+bool can_be_failed_metric(const Record& definition) {
+  return !definition.metric.empty() && definition.relation.empty();
+}
 
 /// For each position in `order`, whether every sequence that began up to there has ended.
-std::vector<bool> ends_of_chunks(const CellRows& rows, const std::vector<std::size_t>& order) {
-  const auto sequence = [&](std::size_t i) { return rows.cells[order[i]].sequence.id(); };
+std::vector<bool> ends_of_chunks(const std::vector<StoredCell>& cells,
+                                 const std::vector<std::size_t>& order) {
+  const auto sequence = [&](std::size_t i) { return cells[order[i]].sequence.id(); };
   const auto begins = [&](std::size_t i) { return i == 0 || sequence(i) != sequence(i - 1); };
   std::unordered_map<const void*, std::size_t> last;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -52,74 +78,46 @@ std::vector<bool> ends_of_chunks(const CellRows& rows, const std::vector<std::si
 }  // namespace
 
 RecordReader::RecordReader(const std::filesystem::path& file)
-    : file_(store_file(file)),
-      database_(open_store(file)),
-      rows_(read_cell_rows(database_)),
+    : database_(open_store(file)),
+      cells_(read_cell_rows(database_)),
       sequences_(read_sequence_rows(database_)),
-      definitions_(database_) {
-  if (!rows_.complete || std::ranges::count(rows_.cells, false, &CellRow::intact) > 0) {
-    check_scores(database_, definitions_, rows_);
-    require_intact(rows_, file_);
-  }
-  require_intact(sequences_, file_);
-  order_ = in_order(rows_);
-  join_recorded_contents(database_, rows_, order_, sequences_);
-  can_fail_ = std::ranges::any_of(definitions_.all(), [](const auto& entry) {
-    return can_be_failed_metric(entry.second.record);
-  });
+      definitions_(read_definitions(database_)) {
+  check_scores(database_, cells_);
+  require_intact(database_, cells_);
+  order_ = in_order(cells_);
+  join_recorded_contents(database_, cells_, order_, sequences_);
+  can_fail_ = std::ranges::any_of(
+      definitions_, [](const auto& entry) { return can_be_failed_metric(entry.second); });
   if (can_fail_) find_scores();
 }
 
 /// Adds the scores of all metrics to `failed_metrics_`, in order of first appearance.
 void RecordReader::find_scores() {
   Statement row = database_.prepare(
-      "SELECT v.definition FROM score_value v JOIN cell c ON c.id = v.cell WHERE c.position IS NOT "
-      "NULL GROUP BY v.definition ORDER BY min(c.position), min(v.number)");
+      "SELECT definition, min(position << 20 | number) AS first FROM score_value JOIN cell ON "
+      "cell.id = cell WHERE position IS NOT NULL GROUP BY definition ORDER BY first");
   while (row.step()) {
-    const ScoreDefinition* definition = definitions_.find(row.integer());
-    if (definition != nullptr) failed_metrics_.add(definition->record);
+    const auto found = definitions_.find(row.integer());
+    if (found != definitions_.end()) failed_metrics_.add(found->second);
   }
 }
 
 void RecordReader::for_each_definition(const std::function<void(const Record&)>& visit) const {
-  for (const auto& [id, definition] : definitions_.all()) visit(definition.record);
+  for (const auto& [id, definition] : definitions_) visit(definition);
 }
 
 bool RecordReader::has_several_protocols() const {
-  std::set<SharedText> protocols;
+  std::set<std::string> protocols;
   for_each_definition([&](const Record& definition) { protocols.insert(definition.protocol); });
   return protocols.size() > 1;
 }
 
-void RecordReader::fail(const CellRow& cell) {
-  check_scores(database_, definitions_, rows_);
-  require_intact(rows_, file_);
-  throw_damaged(file_, label_of(cell) + " is");
-}
-
 void RecordReader::keep_scores(const std::function<bool(const Record&)>& is_kept) {
-  left_out_.clear();
-  for (const auto& [id, definition] : definitions_.all()) {
-    if (!is_kept(definition.record)) left_out_.insert(id);
+  kept_.clear();
+  for (const auto& [id, definition] : definitions_) {
+    if (is_kept(definition)) kept_ += (kept_.empty() ? "" : ",") + std::to_string(id);
   }
-}
-
-void RecordReader::set_run(const SharedText& sequence_key) {
-  if (run_ == sequence_key) return;
-  run_ = sequence_key;
-  const auto found = sequences_.by_key.find(sequence_key);
-  content_ = found == sequences_.by_key.end() ? "" : found->second.content;
-  group_ = found == sequences_.by_key.end() ? "" : found->second.group;
-}
-
-/// Advances to the first score of the cell or of a later one.
-void RecordReader::seek_scores(const CellRow& cell) {
-  // Cells are mostly in the order in which they were written.
-  for (int i = 0; has_row_ && row_cell_ < cell.id && i < kFewRows; ++i) step_scores();
-  if (has_row_ && row_cell_ == cell.id) return;
-  scores_->reset();
-  scores_->bind(cell.id);
-  step_scores();
+  kept_ = " AND definition IN (" + kept_ + ")";
 }
 
 void RecordReader::step_scores() {
@@ -127,51 +125,62 @@ void RecordReader::step_scores() {
   row_cell_ = has_row_ ? scores_->integer() : 0;
 }
 
-void RecordReader::add_cell(std::size_t index, std::vector<Record>& out) {
-  const CellRow& cell = rows_.cells[index];
-  set_run(cell.sequence_key);
+void RecordReader::add_cell(const StoredCell& cell, std::vector<Record>& out) {
+  const auto sequence = sequences_.find(cell.sequence_key);
   const auto add = [&](const Record& definition) -> Record& {
     Record& r = out.emplace_back(definition);
     set_cell(r, cell);
-    r.content = content_;
-    r.group = group_;
+    if (sequence != sequences_.end()) {
+      r.content = sequence->second.content;
+      r.group = sequence->second.group;
+    }
     return r;
   };
-  const bool has_scores = cell.details[kScores] != Hash{};
-  if (!has_scores) add({});  // a declined or failed cell
-  seek_scores(cell);
+  if (cell.score_count == 0) {  // declined or failed
+    add({});
+    return;
+  }
+  // Cells are mostly in the order in which they were written.
+  for (int i = 0; has_row_ && row_cell_ < cell.id && i < kFewRows; ++i) step_scores();
+  if (!has_row_ || row_cell_ != cell.id) {
+    scores_->reset();
+    scores_->bind(cell.id);
+    step_scores();
+  }
   // An incomplete cell can be complete at other times, so its scores have their own status.
   const bool is_incomplete = cell.status == Status::incomplete;
   const bool has_status = cell.status == Status::ok || is_incomplete;
   const bool has_reason = cell.why.empty() || is_incomplete;
-  ScoresDigest digest;
   for (; has_row_ && row_cell_ == cell.id; step_scores()) {
+    Record& r = add(definitions_.at(scores_->integer()));
     scores_->integer();  // number
-    const std::int64_t id = scores_->integer();
-    const ScoreDefinition* const definition = definitions_.find(id);
-    digest.add(*scores_, definition);
-    if (definition == nullptr) fail(cell);
-    if (!left_out_.empty() && left_out_.contains(id)) continue;
-    Record& r = add(definition->record);
-    if (!read_score(*scores_, r)) fail(cell);
-    if (!has_status) r.status = cell.status;
-    if (!has_reason) r.why = cell.why;
+    metrics::Statistics& s = r.statistics;
+    s.count = static_cast<std::size_t>(scores_->integer());
+    for (double* value : {&s.rmse, &s.mean, &s.median, &s.std, &s.min, &s.max, &s.sse}) {
+      *value = scores_->real();
+    }
+    r.pairs = scores_->integer();
+    r.possible = scores_->integer();
+    r.span = scores_->real();
+    const std::string status = scores_->text();
+    if (has_status) r.status = from_text<Status>(status).value_or(Status::failed);
+    if (has_reason) r.why = scores_->text();
   }
-  if (digest.value() != cell.details[kScores]) fail(cell);
 }
 
 void RecordReader::for_each_chunk(const std::function<bool(std::vector<Record>&)>& visit) {
   scores_.emplace(database_.prepare(std::string("SELECT ") + kScoreColumns +
-                                    " FROM score_value WHERE cell >= ? ORDER BY cell, number"));
+                                    " FROM score_value WHERE cell >= ?" + kept_ +
+                                    " ORDER BY cell, number"));
   has_row_ = false;
-  const std::vector<bool> is_end = ends_of_chunks(rows_, order_);
+  const std::vector<bool> is_end = ends_of_chunks(cells_, order_);
   std::size_t next = 0;
   std::size_t size = 0;  // of the last chunk
   const auto read = [&] {
     std::vector<Record> out;
     out.reserve(size + size / 2);  // callers add derived records
     while (next < order_.size()) {
-      add_cell(order_[next], out);
+      add_cell(cells_[order_[next]], out);
       if (is_end[next++] && out.size() >= kLeastRecords) break;
     }
     size = out.size();

@@ -4,14 +4,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
-#include <set>
+#include <string>
 #include <vector>
 
 #include "harness/model/record.hpp"
 #include "harness/store/cell_rows.hpp"
 #include "harness/store/failed_metrics.hpp"
-#include "harness/store/score_rows.hpp"
 #include "harness/store/sequence_rows.hpp"
 #include "harness/store/sqlite.hpp"
 
@@ -20,14 +20,14 @@ namespace loopbench::harness {
 /// One state of a store, also while a sweep is writing it; not thread-safe.
 class RecordReader {
  public:
-  /// Reads and checks the table of cells. `file` can be the folder with results.sqlite. Throws
-  /// InputError if it is not a store or is damaged. O(cells); 250 bytes of memory per cell.
+  /// Reads the table of cells and checks all scores. `file` can be the folder with results.sqlite.
+  /// Throws InputError if it is not a store or is damaged. O(scores); 500 bytes of memory per cell.
   explicit RecordReader(const std::filesystem::path& file);
 
   /// Visits all records in sweep order, in chunks: every sequence is complete within one chunk, and
   /// a chunk is one sequence, or several if they are small or their cells are mixed. The next chunk
   /// is read on another thread during a visit. Metrics are expanded as described at read_records().
-  /// Ends early if `visit` returns false. Throws InputError at the first damaged cell. O(scores).
+  /// Ends early if `visit` returns false. O(scores).
   void for_each_chunk(const std::function<bool(std::vector<Record>& records)>& visit);
 
   /// Visits all records one by one, in the same order.
@@ -44,28 +44,22 @@ class RecordReader {
   bool has_several_protocols() const;
 
  private:
-  void add_cell(std::size_t cell, std::vector<Record>& out);
-  void seek_scores(const CellRow& cell);
+  /// Reads the scores of a cell that are kept.
+  void add_cell(const StoredCell& cell, std::vector<Record>& out);
   void step_scores();
-  void set_run(const SharedText& sequence_key);
-  [[noreturn]] void fail(const CellRow& cell);
   void find_scores();
 
-  std::filesystem::path file_;
   Database database_;
-  CellRows rows_;
+  std::vector<StoredCell> cells_;
   SequenceRows sequences_;
-  ScoreDefinitions definitions_;
-  std::vector<std::size_t> order_;  ///< in_order(rows_)
-  bool can_fail_ = false;           ///< whether a cell can have a metric that failed
+  std::map<std::int64_t, Record> definitions_;  ///< by id, with the fields of a definition only
+  std::vector<std::size_t> order_;              ///< in_order(cells_)
+  bool can_fail_ = false;                       ///< whether a cell can have a metric that failed
   FailedMetrics failed_metrics_;
-  std::optional<Statement> scores_;  ///< at the row of cell row_cell_
+  std::string kept_;                 ///< condition of the query of scores
+  std::optional<Statement> scores_;  ///< at a row of cell row_cell_
   bool has_row_ = false;
   std::int64_t row_cell_ = 0;
-  std::set<std::int64_t> left_out_;  ///< definitions that keep_scores() excludes
-  SharedText run_;  ///< key of the sequence of the last cell, its content and group
-  SharedText content_;
-  SharedText group_;
 };
 
 }  // namespace loopbench::harness

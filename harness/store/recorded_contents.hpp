@@ -13,7 +13,7 @@ namespace loopbench::harness {
 /// recorded_content(). Other stores are not changed: there, the methods of a run share a sequence.
 /// `order`: in_order(cells). O(cells).
 void join_recorded_contents(Database& database,
-                            const CellRows& cells,
+                            const std::vector<StoredCell>& cells,
                             const std::vector<std::size_t>& order,
                             SequenceRows& sequences);
 

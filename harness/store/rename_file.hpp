@@ -5,7 +5,7 @@
 
 namespace loopbench::harness {
 
-/// Renames a file that is already on the disk and waits until the new name is, too. Throws
+/// Waits until the file is on the disk, renames it, and waits until the new name is, too. Throws
 /// std::filesystem::filesystem_error.
 void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
 

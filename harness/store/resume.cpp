@@ -5,7 +5,7 @@
 #include <set>
 
 #include "harness/store/open.hpp"
-#include "harness/store/write_digests.hpp"
+#include "harness/store/sequence_rows.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -27,83 +27,70 @@ Inputs inputs_now(const std::vector<const SequenceRow*>& known, CellKeys& keys, 
   return now;
 }
 
-/// CellRow::key of every cell with the current inputs.
-std::vector<Hash> keys_now(const SequenceRows& sequences,
-                           CellKeys& keys,
-                           const std::vector<Cell>& all) {
+/// The key of every cell with the current inputs.
+std::vector<std::string> keys_now(const SequenceRows& sequences,
+                                  CellKeys& keys,
+                                  const std::vector<Cell>& all) {
   std::map<std::string, std::vector<const SequenceRow*>> known;
-  for (const auto& [key, row] : sequences.by_key) known[row.configuration_hash].push_back(&row);
+  for (const auto& [key, row] : sequences) known[row.configuration_hash].push_back(&row);
   std::map<std::string, Inputs> inputs;
-  std::vector<Hash> out;
+  std::vector<std::string> out;
   out.reserve(all.size());
   for (const Cell& cell : all) {
     const std::string& configuration_hash = keys.configuration_hash(cell);
     const auto [entry, is_new] = inputs.try_emplace(configuration_hash);
     if (is_new) entry->second = inputs_now(known[configuration_hash], keys, cell);
-    out.push_back(hash_of(keys.key(cell, entry->second)));
+    out.push_back(keys.key(cell, entry->second));
   }
   return out;
 }
 
-bool same_labels(const CellRow& row, const Cell& cell, const Sweep& sweep) {
+bool same_labels(const StoredCell& row, const Cell& cell, const Sweep& sweep) {
   return row.sequence == sweep.datasets[cell.dataset].label && row.repeat == cell.repeat &&
          row.method == sweep.methods[cell.method].label;
 }
 
-bool has_failed(const CellRow& row) { return is_failure(row.status) || row.failed_scores > 0; }
+bool has_failed(const StoredCell& row) { return is_failure(row.status) || row.failed_scores > 0; }
 
 constexpr auto kNoRow = static_cast<std::size_t>(-1);
 
-/// For each position of a sweep of `count` cells, the number of a placed intact row, or kNoRow.
-std::vector<std::size_t> rows_by_position(const std::vector<CellRow>& rows, std::size_t count) {
-  std::vector<std::size_t> out(count, kNoRow);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto position = static_cast<std::size_t>(rows[i].position);
-    if (rows[i].intact && rows[i].placed && position < count) out[position] = i;
+/// The stored cell of each cell, or null: one with its key, by preference with its labels and at
+/// its position.
+std::vector<const StoredCell*> claim(const std::vector<StoredCell>& stored,
+                                     const SequenceRows& sequences,
+                                     CellKeys& keys,
+                                     const std::vector<Cell>& all) {
+  const std::vector<std::string> wanted = keys_now(sequences, keys, all);
+  std::vector<const StoredCell*> placed(all.size(), nullptr);
+  for (const StoredCell& row : stored) {
+    const auto position = static_cast<std::size_t>(row.position);
+    if (row.placed && position < placed.size()) placed[position] = &row;
   }
-  return out;
-}
-
-/// The intact row of each cell, or null. If two cells have the same key, the labels decide.
-std::vector<const CellRow*> claim(const CheckedStore& stored,
-                                  CellKeys& keys,
-                                  const std::vector<Cell>& all) {
-  struct KeyedRow {
-    Hash key;
-    std::size_t number = 0;
-  };
-  const auto parts = [](const Hash& key) { return std::pair(key.low, key.high); };
-  const auto key_of = [&](const KeyedRow& one) { return parts(one.key); };
-  const std::vector<CellRow>& rows = stored.cells.cells;
-  const std::vector<Hash> wanted = keys_now(stored.sequences, keys, all);
-  std::vector<bool> is_claimed(rows.size(), false);
-  std::vector<const CellRow*> out(all.size(), nullptr);
-  const auto can_claim = [&](std::size_t i, std::size_t number, bool exact) {
-    if (is_claimed[number] || rows[number].key != wanted[i]) return false;
-    return !exact || same_labels(rows[number], all[i], keys.sweep());
-  };
-  const auto claim_row = [&](std::size_t i, std::size_t number) {
-    is_claimed[number] = true;
-    out[i] = &rows[number];
+  std::vector<const StoredCell*> out(all.size(), nullptr);
+  std::vector<bool> is_claimed(stored.size(), false);
+  const auto number = [&](const StoredCell* row) {
+    return static_cast<std::size_t>(row - stored.data());
   };
   // Mostly nothing has changed, and the row is where it was.
-  const std::vector<std::size_t> placed = rows_by_position(rows, all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::size_t number = all[i].index < placed.size() ? placed[all[i].index] : kNoRow;
-    if (number != kNoRow && can_claim(i, number, true)) claim_row(i, number);
+    const StoredCell* row = all[i].index < placed.size() ? placed[all[i].index] : nullptr;
+    if (row == nullptr || row->key != wanted[i] || !same_labels(*row, all[i], keys.sweep()))
+      continue;
+    out[i] = row;
+    is_claimed[number(row)] = true;
   }
-  std::vector<KeyedRow> others;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].intact && !is_claimed[i]) others.push_back({rows[i].key, i});
+  std::multimap<std::string_view, const StoredCell*> others;
+  for (const StoredCell& row : stored) {
+    if (!is_claimed[number(&row)]) others.emplace(row.key, &row);
   }
-  std::ranges::stable_sort(others, {}, key_of);
   for (const bool exact : {true, false}) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (out[i] != nullptr) continue;
-      auto found = std::ranges::lower_bound(others, parts(wanted[i]), {}, key_of);
-      for (; found != others.end() && found->key == wanted[i]; ++found) {
-        if (!can_claim(i, found->number, exact)) continue;
-        claim_row(i, found->number);
+      auto [found, end] = others.equal_range(wanted[i]);
+      for (; found != end; ++found) {
+        if (exact && !same_labels(*found->second, all[i], keys.sweep())) continue;
+        out[i] = found->second;
+        others.erase(found);
         break;
       }
     }
@@ -114,37 +101,36 @@ std::vector<const CellRow*> claim(const CheckedStore& stored,
 }  // namespace
 
 Resumed match(Database& database,
-              const CheckedStore& stored_rows,
+              const std::vector<StoredCell>& stored,
               CellKeys& keys,
               const std::vector<Cell>& all,
               const std::vector<Cell>& planned,
               Retry retry) {
   const Sweep& sweep = keys.sweep();
-  const std::vector<const CellRow*> claimed = claim(stored_rows, keys, all);
-  DigestWriter digests(database);
+  const std::vector<const StoredCell*> claimed =
+      claim(stored, read_sequence_rows(database), keys, all);
+  ChecksumWriter checksums(database);
 
   Resumed out;
-  out.damaged = stored_rows.removed;
-  out.lost = stored_rows.lost;
   out.unchanged = true;
   Statement set_aside = database.prepare("UPDATE cell SET position = NULL WHERE id = ?");
-  std::vector<const CellRow*> in_use = claimed;
+  std::vector<const StoredCell*> in_use = claimed;
   std::ranges::sort(in_use);
-  for (const CellRow& row : stored_rows.cells.cells) {
+  for (const StoredCell& row : stored) {
     if (!row.placed || std::ranges::binary_search(in_use, &row)) continue;
     set_aside.bind(row.id).run();
-    digests.update_cell(row.id);
+    checksums.update_row(row.id, row.own);
     out.unchanged = false;
   }
   Statement entry = database.prepare(
       "UPDATE cell SET position = ?, sequence = ?, repeat = ?, method = ? WHERE id = ?");
-  std::vector<const CellRow*> by_position;
+  std::vector<const StoredCell*> by_position;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (claimed[i] == nullptr) {
       out.unchanged = false;
       continue;
     }
-    const CellRow& row = *claimed[i];
+    const StoredCell& row = *claimed[i];
     if (all[i].index >= by_position.size()) by_position.resize(all[i].index + 1, nullptr);
     by_position[all[i].index] = &row;
     const auto position = static_cast<std::int64_t>(all[i].index);
@@ -156,11 +142,10 @@ Resumed match(Database& database,
         .bind(sweep.methods[all[i].method].label)
         .bind(row.id)
         .run();
-    digests.update_cell(row.id);
+    checksums.update_row(row.id, row.own);
   }
-  if (!out.unchanged) update_sum(database, "cell");
   for (const Cell& cell : planned) {
-    const CellRow* row = cell.index < by_position.size() ? by_position[cell.index] : nullptr;
+    const StoredCell* row = cell.index < by_position.size() ? by_position[cell.index] : nullptr;
     const bool again =
         row != nullptr && (retry == Retry::all || (retry == Retry::failed && has_failed(*row)));
     if (row == nullptr || again) {
@@ -179,8 +164,10 @@ std::vector<Cell> missing_cells(const std::filesystem::path& store,
                                 const std::vector<Cell>& all,
                                 const std::vector<Cell>& planned) {
   Database database = open_store(store);
-  const CheckedStore there = check_rows(database, false);
-  const std::vector<const CellRow*> claimed = claim(there, keys, all);
+  std::vector<StoredCell> stored = checked_cells(database, false);
+  std::erase_if(stored, [](const StoredCell& cell) { return !cell.intact; });
+  const std::vector<const StoredCell*> claimed =
+      claim(stored, read_sequence_rows(database), keys, all);
   std::set<std::size_t> missing;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (claimed[i] == nullptr) missing.insert(all[i].index);

@@ -8,9 +8,9 @@
 
 namespace loopbench::harness {
 
-/// See Store::resume. `there`: cells of the store. Call within a transaction.
+/// See Store::resume. `stored`: intact cells of the store. Call within a transaction.
 Resumed match(Database& database,
-              const CheckedStore& there,
+              const std::vector<StoredCell>& stored,
               CellKeys& keys,
               const std::vector<Cell>& all,
               const std::vector<Cell>& planned,

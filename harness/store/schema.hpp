@@ -31,10 +31,7 @@ inline constexpr const char* kSchema = R"sql(
     frames INTEGER NOT NULL,           -- tracked between keyframes
     reference INTEGER NOT NULL,        -- number of reference poses
     content TEXT NOT NULL,             -- hash of problem and reference; '': unknown
-    group_name TEXT NOT NULL,          -- runs of one group are not independent; '': none
-    input_digest TEXT NOT NULL DEFAULT '',   -- of its rows in input
-    trace_digest TEXT NOT NULL DEFAULT '',   -- of its row in sequence_trace
-    digest TEXT NOT NULL DEFAULT ''          -- of this row
+    group_name TEXT NOT NULL           -- runs of one group are not independent; '': none
     ) WITHOUT ROWID;
   CREATE TABLE cell (
     id INTEGER PRIMARY KEY,            -- column `cell` of the other tables
@@ -65,61 +62,59 @@ inline constexpr const char* kSchema = R"sql(
     signal TEXT NOT NULL,              -- for example SIGSEGV; empty: not ended by a signal
     why TEXT NOT NULL,
     failed_scores INTEGER NOT NULL,    -- number of failed scores
-    score_digest TEXT NOT NULL DEFAULT '',   -- of its rows in score_value, etc.; '': none
-    phase_digest TEXT NOT NULL DEFAULT '',
-    count_digest TEXT NOT NULL DEFAULT '',
-    note_digest TEXT NOT NULL DEFAULT '',
-    section_digest TEXT NOT NULL DEFAULT '',
-    trace_digest TEXT NOT NULL DEFAULT '',
-    digest TEXT NOT NULL DEFAULT '');        -- of this row
-  CREATE TABLE score_definition (      -- what a score is; many cells share one
+    checksum INTEGER NOT NULL DEFAULT 0,         -- of this row, its sequence and its scores
+    report_checksum INTEGER NOT NULL DEFAULT 0); -- of its phases, counts, notes, sections and of
+                                       -- the checksum of its trace
+  CREATE TABLE score_definition (      -- what a score is; cells share definitions
     id INTEGER PRIMARY KEY,
     protocol TEXT NOT NULL,            -- name (changes), for example: evo (align=se3)
     protocol_version TEXT NOT NULL,    -- version of the original tool
     times TEXT NOT NULL,               -- keyframes | dense
     metric TEXT NOT NULL,              -- catalogue name
     label TEXT NOT NULL,               -- label in the config; default: the name
-    relation TEXT NOT NULL,            -- empty: the metric failed or was declined completely
+    relation TEXT NOT NULL,            -- empty if the metric failed or was declined
     axis TEXT NOT NULL,
     unit TEXT NOT NULL,                -- of all statistics but count; sse: squared
     better TEXT NOT NULL,              -- lower | higher | target | neither
     target REAL NOT NULL,              -- best value if better is target
     UNIQUE (protocol, protocol_version, times, metric, label, relation, axis, unit, better, target));
-  CREATE TABLE score_value (           -- see the view `score`
+  CREATE TABLE score_value (           -- one row per score; the view `score` adds its definition
     cell INTEGER NOT NULL REFERENCES cell(id),
     number INTEGER NOT NULL,           -- of the score in its cell, from 0
     definition INTEGER NOT NULL REFERENCES score_definition(id),
-    count INTEGER,                     -- this and the statistics are NULL without numbers: if the
-    rmse REAL,                         -- score failed or was declined, or if one is not a number
-    mean REAL,
-    median REAL,
-    std REAL,
-    min REAL,
-    max REAL,
-    sse REAL,
+    count INTEGER,                     -- these eight are NULL if the status is not ok or incomplete
+    rmse REAL, mean REAL, median REAL, std REAL, min REAL, max REAL, sse REAL,
     pairs INTEGER NOT NULL,            -- evaluated pose pairs
     possible INTEGER NOT NULL,         -- possible pose pairs
-    span REAL,                         -- evaluated share of the reference's time, 0..1
-    status TEXT NOT NULL,              -- as of a cell
+    span REAL NOT NULL,                -- evaluated share of the reference's time, 0..1
+    status TEXT NOT NULL,              -- ok | declined | incomplete | failed | out_of_memory
     why TEXT NOT NULL,
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
-  CREATE VIEW score AS                 -- one row per score
+  CREATE VIEW score AS
     SELECT v.cell, d.protocol, d.protocol_version, d.times, d.metric, d.label, d.relation, d.axis,
       d.unit, d.better, d.target, v.count, v.rmse, v.mean, v.median, v.std, v.min, v.max, v.sse,
       v.pairs, v.possible, v.span, v.status, v.why, v.number
     FROM score_value v JOIN score_definition d ON d.id = v.definition;
-  CREATE TABLE phase (cell INTEGER NOT NULL REFERENCES cell(id), name TEXT, seconds REAL);
-  CREATE TABLE count (cell INTEGER NOT NULL REFERENCES cell(id), name TEXT, value REAL);
-  CREATE TABLE note (cell INTEGER NOT NULL REFERENCES cell(id), text TEXT);
-  CREATE TABLE section (               -- sections of the path reported by the method
-    cell INTEGER NOT NULL REFERENCES cell(id),
+  CREATE TABLE phase (                 -- reported by the method, as are the next three
+    cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
+    name TEXT NOT NULL, seconds REAL NOT NULL, PRIMARY KEY (cell, number)) WITHOUT ROWID;
+  CREATE TABLE count (
+    cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
+    name TEXT NOT NULL, value REAL NOT NULL, PRIMARY KEY (cell, number)) WITHOUT ROWID;
+  CREATE TABLE note (
+    cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
+    text TEXT NOT NULL, PRIMARY KEY (cell, number)) WITHOUT ROWID;
+  CREATE TABLE section (               -- sections of the path
+    cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
     kind TEXT NOT NULL,                -- segment, window, ...
     begin_stamp REAL NOT NULL,         -- [s]
     end_stamp REAL NOT NULL,           -- [s]
-    what TEXT NOT NULL);               -- choice of the method; can be empty
+    what TEXT NOT NULL,                -- choice of the method; can be empty
+    PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE TABLE trace (                 -- blobs: float32, little endian, see harness/model/trace.hpp
     cell INTEGER PRIMARY KEY REFERENCES cell(id),
     times TEXT NOT NULL,               -- keyframes | dense
+    checksum INTEGER NOT NULL,
     samples BLOB NOT NULL);            -- TraceSample, 12 floats each, under the first protocol
   CREATE TABLE sequence_trace (
     sequence_key TEXT PRIMARY KEY,
@@ -130,15 +125,9 @@ inline constexpr const char* kSchema = R"sql(
     origin_z REAL NOT NULL,
     reference BLOB NOT NULL,           -- TracePose, 8 floats each
     keyframes BLOB NOT NULL,           -- TracePose, in the tracker's world frame
-    closures BLOB NOT NULL);           -- TraceClosure, 8 floats each
-  CREATE TABLE digest (                -- of complete tables, see harness/store/digest.hpp
-    name TEXT PRIMARY KEY,             -- run, provenance; cell, sequence: sum of their digests
-    value TEXT NOT NULL);
+    closures BLOB NOT NULL,            -- TraceClosure, 8 floats each
+    checksum INTEGER NOT NULL);
   CREATE INDEX cell_position ON cell(position);
-  CREATE INDEX phase_cell ON phase(cell);
-  CREATE INDEX count_cell ON count(cell);
-  CREATE INDEX note_cell ON note(cell);
-  CREATE INDEX section_cell ON section(cell);
 )sql";
 
 }  // namespace loopbench::harness

@@ -1,8 +1,7 @@
-/// Sequence metadata of a store, checked against digests.
+/// Sequence metadata of a store.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,20 +19,11 @@ struct SequenceRow {
   std::string content;
   std::string group;
   std::vector<InputFile> inputs;
-  std::string trace_digest;
-  std::string digest;
-  bool intact = false;  ///< it and its inputs are as written
 };
 
-struct SequenceRows {
-  std::map<std::string, SequenceRow> by_key;  ///< CellKeys::sequence_key
-  bool complete = false;                      ///< no row is missing
-};
+using SequenceRows = std::map<std::string, SequenceRow>;  ///< by CellKeys::sequence_key
 
-/// Reads the tables sequence and input. O(rows).
+/// Reads the tables sequence and input; the checksums of cells cover the former. O(rows).
 SequenceRows read_sequence_rows(Database& database);
-
-/// Throws InputError if a row is damaged or missing.
-void require_intact(const SequenceRows& rows, const std::filesystem::path& file);
 
 }  // namespace loopbench::harness

@@ -1,23 +1,18 @@
 /// What the cells of the current config were computed from.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "harness/model/sequence_metadata.hpp"
 #include "harness/store/sequence_rows.hpp"
 #include "harness/store/sqlite.hpp"
-#include "harness/text/shared_text.hpp"
 
 namespace loopbench::harness {
 
-/// One state of a store. The cells are not checked: whoever reads their numbers does that. Other
-/// damage is an InputError.
+/// One state of a store. The cells are not checked: whoever reads their numbers does that.
 class StoreSources {
  public:
   /// `file` can be the folder with results.sqlite. Throws InputError if it is not a store.
@@ -35,14 +30,12 @@ class StoreSources {
   std::map<std::string, std::string> dataset_options();
 
  private:
-  const SequenceRows& rows();
+  /// Visits the sequences of all runs in sweep order, with their labels.
+  template <class Visit>
+  void for_each_sequence(Visit visit);
 
-  std::filesystem::path file_;
   Database database_;
-  // By the position of the first cell that uses them.
-  std::map<std::int64_t, SharedText> made_;  ///< keys of table provenance
-  std::map<std::int64_t, std::pair<std::string, SharedText>> sequences_;  ///< label and key
-  std::optional<SequenceRows> rows_;
+  SequenceRows rows_;
 };
 
 }  // namespace loopbench::harness

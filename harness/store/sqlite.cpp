@@ -2,18 +2,9 @@
 
 #include <sqlite3.h>
 
-#include <limits>
-
 #include "datasets/core/error.hpp"
 
 namespace loopbench::harness {
-
-std::string recovery_advice(const std::filesystem::path& file) {
-  return "'sqlite3 " + file.string() +
-         " .recover | sqlite3 NEW' copies what is readable, and 'loopbench run' with --fresh "
-         "starts "
-         "a new store";
-}
 
 void Database::Close::operator()(sqlite3* handle) const { sqlite3_close(handle); }
 void Statement::Finalize::operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
@@ -32,9 +23,10 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file.st
   handle_.reset(handle);
   if (code != SQLITE_OK) fail("cannot be opened");
   sqlite3_busy_timeout(handle, 10000);  // [ms]
-  // Files can come from anyone: no SQL in them changes the file's structure or runs functions.
+  // A store can come from anybody: its schema may not run functions or change internal tables.
   sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  sqlite3_db_config(handle, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
 }
 
 void Database::execute(const std::string& sql) {
@@ -44,8 +36,6 @@ void Database::execute(const std::string& sql) {
 }
 
 std::int64_t Database::last_row() const { return sqlite3_last_insert_rowid(handle_.get()); }
-
-bool Database::has_changed() const { return sqlite3_total_changes64(handle_.get()) > 0; }
 
 Transaction::~Transaction() {
   if (!open_) return;
@@ -68,7 +58,7 @@ Statement Database::prepare(const std::string& sql) {
 void Database::fail(const std::string& doing) const {
   const bool damaged = sqlite3_errcode(handle_.get()) == SQLITE_CORRUPT;
   throw InputError(file_ + ": " + doing + ": " + sqlite3_errmsg(handle_.get()) +
-                   (damaged ? "; " + recovery_advice(file_) : ""));
+                   (damaged ? std::string("; ") + kRecoverAdvice : ""));
 }
 
 void Statement::expect(int code, const char* doing) const {
@@ -126,10 +116,18 @@ bool Statement::step() {
 }
 
 std::int64_t Statement::integer() { return sqlite3_column_int64(handle_.get(), column_++); }
-double Statement::real() {
-  const bool is_null = sqlite3_column_type(handle_.get(), column_) == SQLITE_NULL;
-  const double value = sqlite3_column_double(handle_.get(), column_++);
-  return is_null ? std::numeric_limits<double>::quiet_NaN() : value;
+double Statement::real() { return sqlite3_column_double(handle_.get(), column_++); }
+
+std::optional<std::int64_t> Statement::maybe_integer() {
+  const bool none = sqlite3_column_type(handle_.get(), column_) == SQLITE_NULL;
+  const std::int64_t value = integer();
+  return none ? std::nullopt : std::optional(value);
+}
+
+std::optional<double> Statement::maybe_real() {
+  const bool none = sqlite3_column_type(handle_.get(), column_) == SQLITE_NULL;
+  const double value = real();
+  return none ? std::nullopt : std::optional(value);
 }
 
 int Statement::columns() const { return sqlite3_column_count(handle_.get()); }

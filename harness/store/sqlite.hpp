@@ -15,10 +15,13 @@ namespace loopbench::harness {
 
 class Statement;
 
-/// What to do about a file that SQLite cannot read completely.
-std::string recovery_advice(const std::filesystem::path& file);
+/// What to do with a file whose structure is damaged.
+inline constexpr const char* kRecoverAdvice =
+    "`sqlite3 FILE .recover | sqlite3 NEW_FILE` saves the readable rows, of which `run` recomputes "
+    "incomplete cells; --fresh starts a new store";
 
-/// An open database file. Every failure throws InputError naming the file and SQLite's reason.
+/// An open database file, in SQLite's defensive mode. Every failure throws InputError naming the
+/// file and SQLite's reason.
 class Database {
  public:
   enum class Mode { create, read };
@@ -28,7 +31,6 @@ class Database {
   Statement prepare(const std::string& sql);
 
   std::int64_t last_row() const;  ///< rowid of the last insert
-  bool has_changed() const;       ///< whether this connection has changed rows
   const std::string& file() const { return file_; }
 
   /// Throws InputError with the database's last message.
@@ -64,7 +66,9 @@ class Statement {
   /// Advances to the next row; false if there is none.
   bool step();
   std::int64_t integer();
-  double real();  ///< NaN for NULL, as which SQLite stores NaN
+  double real();
+  std::optional<std::int64_t> maybe_integer();  ///< nullopt for NULL
+  std::optional<double> maybe_real();           ///< nullopt for NULL
   std::string text();
   std::string blob();
   std::string_view view();  ///< text or blob, valid until the next step

@@ -8,9 +8,8 @@
 #include "harness/store/damage.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/plan.hpp"
-#include "harness/store/provenance_key.hpp"
 #include "harness/store/resume.hpp"
-#include "harness/store/write_digests.hpp"
+#include "harness/text/hash.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -59,7 +58,7 @@ constexpr std::chrono::seconds kSyncInterval{10};
 /// hundred cells with traces, and at every sync, because each copy waits for the disk.
 void make_ready(Database& database) {
   database.execute(
-      "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4096");
+      "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4096;");
 }
 
 /// SQLite does not detect that the end of a file is missing.
@@ -71,7 +70,7 @@ void check_size(Database& database, const std::filesystem::path& file) {
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
   if (size >= whole) return;
   throw InputError(fmt::format(
-      "{}: is damaged ({} bytes of {}); {}", file.string(), size, whole, recovery_advice(file)));
+      "{}: is damaged ({} bytes of {}); {}", file.string(), size, whole, kRecoverAdvice));
 }
 
 /// SQLite follows symbolic links, also dangling ones: it would write a file elsewhere.
@@ -106,7 +105,6 @@ void write_run(Database& database, const CellKeys& keys) {
   set_value("metrics", keys.metric_definitions());
   set_value("methods", keys.method_definitions());
   set_value("baseline", sweep.baseline);
-  update_texts(database, "run");
 }
 
 bool has_value(Database& database, const std::string& key, const std::string& text) {
@@ -121,12 +119,18 @@ bool is_run_current(Database& database, const CellKeys& keys) {
          has_value(database, "methods", keys.method_definitions());
 }
 
+/// Key of the rows of one run's provenance.
+std::string key_of_provenance(const std::map<std::string, std::string>& provenance) {
+  Fields out;
+  for (const auto& [key, value] : provenance) out.add(key).add(value);
+  return out.hashed();
+}
+
 void write_provenance(Database& database, const std::map<std::string, std::string>& provenance) {
   const std::string provenance_key = key_of_provenance(provenance);
   Statement insert = database.prepare("INSERT OR IGNORE INTO provenance VALUES (?, ?, ?)");
   for (const auto& [key, value] : provenance)
     insert.bind(provenance_key).bind(key).bind(value).run();
-  update_texts(database, "provenance");
 }
 
 }  // namespace
@@ -145,7 +149,7 @@ Store::Store(std::filesystem::path file,
   if (std::filesystem::is_directory(folder)) lock_ = std::make_unique<FolderLock>(folder);
   if (fresh_ || !std::filesystem::exists(file_)) return;
   database_ = std::make_unique<Database>(file_, Database::Mode::read);
-  empty_ = is_empty(*database_);
+  empty_ = has_no_tables(*database_);
   if (empty_) {
     database_.reset();
     return;
@@ -159,18 +163,18 @@ Store::~Store() {
   try {
     close();
   } catch (const std::exception&) {
-    // Callers that report success call close() before.
+    // Reported by an earlier call of close(), or the sweep ends with another error.
   }
 }
 
 void Store::close() {
   writer_.reset();
   if (!database_) return;
-  const std::unique_ptr<Database> database = std::move(database_);
-  database->execute("PRAGMA wal_checkpoint(PASSIVE)");
+  const std::unique_ptr<Database> closed = std::move(database_);
+  closed->execute("PRAGMA wal_checkpoint(PASSIVE)");  // fails if the disk does
   try {
-    database->execute("PRAGMA journal_mode = DELETE");  // leaves a single file
-  } catch (const InputError&) {
+    closed->execute("PRAGMA journal_mode = DELETE");  // leaves a single file
+  } catch (const std::exception&) {
     // Another process reads it: the -wal file remains until the next process opens it.
   }
 }
@@ -191,10 +195,8 @@ void Store::create() {
   make_ready(*database_);
   Transaction transaction(*database_);
   create_tables(*database_);
+  database_->execute("INSERT INTO run VALUES ('cells', '0')");
   write_description();
-  update_texts(*database_, "provenance");
-  update_sum(*database_, "cell");
-  update_sum(*database_, "sequence");
   transaction.commit();
 }
 
@@ -218,14 +220,15 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
     return nothing;
   }
   Transaction transaction(*database_);
-  const CheckedStore there = remove_damaged(*database_, file_, retry == Retry::damaged);
-  Resumed out = match(*database_, there, keys_, all, planned, retry);
+  std::vector<StoredCell> stored = checked_cells(*database_, retry == Retry::damaged);
+  const std::vector<std::string> damaged = remove_damaged(*database_, stored);
+  Resumed out = match(*database_, stored, keys_, all, planned, retry);
+  out.damaged = damaged;
+  out.unchanged = out.unchanged && damaged.empty();
   out.unchanged = out.unchanged && is_description_current();
   Statement row = database_->prepare("SELECT 1 FROM run WHERE key = 'exported'");
   out.exported = out.unchanged && row.step();
   row.reset();
-  // Digests cover tables, but cells are replaced through an index.
-  if (!out.unchanged || !out.missing.empty()) database_->execute("REINDEX");
   if (!out.unchanged) {
     changes();
     write_description();
@@ -252,16 +255,10 @@ void Store::sync() {
   synced_ = std::chrono::steady_clock::now();
 }
 
-void Store::changes() {
-  database_->execute("DELETE FROM run WHERE key = 'exported'");
-  update_texts(*database_, "run");
-}
+void Store::changes() { database_->execute("DELETE FROM run WHERE key = 'exported'"); }
 
 void Store::exported() {
-  Transaction transaction(*database_);
   database_->execute("INSERT OR REPLACE INTO run VALUES ('exported', 'yes')");
-  update_texts(*database_, "run");
-  transaction.commit();
 }
 
 }  // namespace loopbench::harness

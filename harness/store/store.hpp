@@ -1,14 +1,14 @@
 /// Results of one sweep in one SQLite file, written as cells finish, and resumed by later runs.
 ///
 /// Schema: `run` holds the configuration, `provenance` and `input` the build and the input files;
-/// `cell` and `scores` have a row per cell (the view `score` one per score), `phase`, `count` and
+/// `cell` has a row per cell and the view `score` one per score; `phase`, `count` and
 /// `note` the method's report, `trace` and `sequence_trace` data for plots: see schema.hpp. Each
 /// cell is one transaction, so a killed sweep leaves only complete cells.
 ///
 /// Durability: the store is written in WAL mode with `synchronous = NORMAL`. Once write()
 /// has returned, no end of the process can lose the cell. It is on the disk, and survives a power
-/// cut, after the next sync(), which write() calls every 10 s, and after close(), so before `run`
-/// reports the end of the sweep. A power cut can lose the cells since the last sync, each
+/// cut, after the next sync(), which write() calls every 10 s, and after the destructor, so before
+/// `run` reports the end of the sweep. A power cut can lose the cells since the last sync, each
 /// completely; the next `run` recomputes them. It never damages the file, if the disk writes what
 /// it reports as synced. While another program reads the store, syncs can be postponed.
 #pragma once
@@ -28,8 +28,7 @@
 
 namespace loopbench::harness {
 
-/// Stored cells to run again. Damaged cells are always recomputed; `damaged` also checks traces and
-/// indexes.
+/// Stored cells to run again. Damaged cells are always recomputed; `damaged` also checks traces.
 enum class Retry { none, failed, damaged, all };
 inline auto choices(Retry) {
   return std::array{std::pair{"none", Retry::none},
@@ -46,7 +45,6 @@ struct Resumed {
   std::size_t incomplete = 0;        ///< of those, with coverage below min_coverage
   bool unchanged = false;            ///< the store holds exactly this sweep and config
   std::vector<std::string> damaged;  ///< labels of damaged cells, which count as missing
-  bool lost = false;                 ///< further cells may be missing: fewer rows than written
   bool exported = false;             ///< derived files are up to date, see Store::exported()
 };
 
@@ -81,13 +79,12 @@ class Store {
   /// Waits until all written cells are on the disk. Throws InputError.
   void sync();
 
-  /// Ends writing: waits until all written cells are on the disk, and leaves a single file unless
-  /// another program reads it. Throws InputError if the disk does not confirm. Call nothing else
-  /// after it. The destructor does the same without an exception.
-  void close();
-
   /// Records that all derived files are up to date; reset by the next change.
   void exported();
+
+  /// Waits until everything is on the disk and leaves a single file. Call at the end: the
+  /// destructor does the same without errors. Throws InputError, for example if the disk fails.
+  void close();
 
  private:
   struct Writer;

@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "datasets/core/error.hpp"
-#include "harness/store/digest.hpp"
 #include "harness/store/open.hpp"
 
 namespace loopbench::harness {
@@ -23,42 +22,38 @@ std::vector<Item> from_blob(const std::string& bytes) {
 }  // namespace
 
 Traces::Traces(const std::filesystem::path& file)
-    : file_(store_file(file)),
-      database_(open_store(file)),
-      rows_(read_cell_rows(database_)),
-      sequences_(read_sequence_rows(database_)),
-      sections_(rows_.cells.size()) {
-  read_details(database_, "section", rows_, [&](std::size_t cell, Statement& row) {
-    methods::Section& section = sections_[cell].emplace_back();
+    : database_(open_store(file)), cells_(read_cell_rows(database_)), sections_(cells_.size()) {
+  check_reports(database_, cells_, [&](const std::string& table, std::size_t i, Statement& row) {
+    if (table != "section") return;
+    methods::Section& section = sections_[i].emplace_back();
     section.kind = row.text();
     section.begin = row.real();
     section.end = row.real();
     section.what = row.text();
   });
-  require_intact(rows_, file_);
-  require_intact(sequences_, file_);
+  require_intact(database_, cells_);
   database_.execute("COMMIT");  // a report takes long and must not block writers
-  for (const std::size_t i : in_order(rows_)) by_position_.emplace(rows_.cells[i].position, i);
+  for (const std::size_t i : in_order(cells_)) by_position_.emplace(cells_[i].position, i);
 }
 
-const CellRow* Traces::row(std::int64_t position) const {
+const StoredCell* Traces::row(std::int64_t position) const {
   const auto found = by_position_.find(position);
-  return found == by_position_.end() ? nullptr : &rows_.cells[found->second];
+  return found == by_position_.end() ? nullptr : &cells_[found->second];
 }
 
 std::optional<CellTrace> Traces::cell(std::int64_t position) {
-  const CellRow* cell = row(position);
+  const StoredCell* cell = row(position);
   if (cell == nullptr) return std::nullopt;
-  if (cell->details[detail_number("trace")] == Hash{}) return std::nullopt;
-  Statement found = database_.prepare("SELECT * FROM trace WHERE cell = ?");
-  if (!found.bind(cell->id).step() ||
-      digest_of_row(found, 1, found.columns()) != cell->details[detail_number("trace")]) {
-    throw_damaged(file_, "the trace of " + label_of(*cell) + " is");
+  Statement found = database_.prepare("SELECT times, samples, checksum FROM trace WHERE cell = ?");
+  if (!found.bind(cell->id).step()) return std::nullopt;
+  const std::string times = found.text();
+  const std::string samples = found.blob();
+  if (checksum_of_parts({times, samples}) != found.integer()) {
+    throw_damaged(database_.file(), "the trace of " + label_of(*cell) + " is");
   }
   CellTrace out;
-  found.integer();  // cell
-  out.times = from_text<metrics::Times>(found.text()).value_or(metrics::Times::dense);
-  out.samples = from_blob<TraceSample>(found.blob());
+  out.times = from_text<metrics::Times>(times).value_or(metrics::Times::dense);
+  out.samples = from_blob<TraceSample>(samples);
   return out;
 }
 
@@ -68,24 +63,24 @@ std::vector<methods::Section> Traces::sections(std::int64_t position) {
 }
 
 std::optional<SequenceTrace> Traces::sequence(std::int64_t position) {
-  const CellRow* cell = row(position);
+  const StoredCell* cell = row(position);
   if (cell == nullptr) return std::nullopt;
-  const auto sequence = sequences_.by_key.find(cell->sequence_key);
-  if (sequence == sequences_.by_key.end()) return std::nullopt;
-  if (sequence->second.trace_digest.empty()) return std::nullopt;
   Statement found = database_.prepare("SELECT * FROM sequence_trace WHERE sequence_key = ?");
-  if (!found.bind(cell->sequence_key).step() ||
-      digest_of_columns(found, 1, found.columns()) != sequence->second.trace_digest) {
-    throw_damaged(file_, "the trace of sequence " + cell->sequence + " is");
-  }
-  SequenceTrace out;
+  if (!found.bind(cell->sequence_key).step()) return std::nullopt;
   found.text();  // sequence_key
+  SequenceTrace out;
   for (double* number : {&out.origin.stamp, &out.origin.x, &out.origin.y, &out.origin.z}) {
     *number = found.real();
   }
-  out.reference = from_blob<TracePose>(found.blob());
-  out.keyframes = from_blob<TracePose>(found.blob());
-  out.closures = from_blob<TraceClosure>(found.blob());
+  const std::string reference = found.blob();
+  const std::string keyframes = found.blob();
+  const std::string closures = found.blob();
+  if (checksum_of_parts({reference, keyframes, closures}) != found.integer()) {
+    throw_damaged(database_.file(), "the trace of sequence " + cell->sequence + " is");
+  }
+  out.reference = from_blob<TracePose>(reference);
+  out.keyframes = from_blob<TracePose>(keyframes);
+  out.closures = from_blob<TraceClosure>(closures);
   return out;
 }
 

@@ -9,7 +9,6 @@
 
 #include "harness/model/trace.hpp"
 #include "harness/store/cell_rows.hpp"
-#include "harness/store/sequence_rows.hpp"
 #include "harness/store/sqlite.hpp"
 #include "methods/report.hpp"
 
@@ -33,13 +32,11 @@ class Traces {
   std::optional<SequenceTrace> sequence(std::int64_t position);
 
  private:
-  const CellRow* row(std::int64_t position) const;
+  const StoredCell* row(std::int64_t position) const;
 
-  std::filesystem::path file_;
   Database database_;
-  CellRows rows_;
-  SequenceRows sequences_;
-  std::vector<std::vector<methods::Section>> sections_;  ///< parallel to rows_
+  std::vector<StoredCell> cells_;
+  std::vector<std::vector<methods::Section>> sections_;  ///< parallel to cells_
   std::unordered_map<std::int64_t, std::size_t> by_position_;
 };
 

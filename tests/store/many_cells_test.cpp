@@ -2,7 +2,6 @@
 #include "harness/store/cell_rows.hpp"
 #include "harness/store/damage.hpp"
 #include "harness/store/open.hpp"
-#include "harness/store/write_digests.hpp"
 #include "tests/support/refusal_of.hpp"
 #include "tests/support/tiny_store.hpp"
 
@@ -18,24 +17,20 @@ class ManyCells : public TinyStore {
     run(kUsual);
     Database database(file_, Database::Mode::read);
     Transaction transaction(database);
-    const std::string columns =
-        "key, build, sequence_key, provenance_key, sequence, repeat, method, "
-        "dataset_options, method_options, closures, oracle_closures, "
-        "oracle, worker, runs, seconds_median, seconds_min, seconds_max, "
-        "cpu_seconds_median, peak_memory, added_memory, allocations, "
-        "status, signal, why, failed_scores, score_digest";
     const std::string numbers =
         "WITH RECURSIVE copy(n) AS (SELECT 1 UNION ALL SELECT n + 1 FROM copy WHERE n < 2499) ";
-    database.execute(numbers +
-                     "INSERT INTO score_value SELECT cell + 4 * n, number, definition, count, "
-                     "rmse, mean, median, std, min, max, sse, pairs, possible, span, status, why "
-                     "FROM copy, score_value WHERE cell <= 4");
+    database.execute(
+        numbers +
+        "INSERT INTO score_value SELECT cell + 4 * n, number, definition, count, rmse, "
+        "mean, median, std, min, max, sse, pairs, possible, span, status, why FROM "
+        "copy, score_value WHERE cell <= 4");
+    const std::string columns = std::string(kCellColumns).substr(sizeof "position,");
     database.execute(numbers + "INSERT INTO cell (id, position, " + columns +
                      ") SELECT id + 4 * n, position + 4 * n, " + columns +
                      " FROM copy, cell WHERE id <= 4");
-    DigestWriter digests(database);
-    for (std::int64_t id = 5; id <= kCells; ++id) digests.update_cell(id);
-    update_sum(database, "cell");
+    ChecksumWriter checksums(database);
+    for (std::int64_t id = 5; id <= kCells; ++id) checksums.write(id);
+    database.execute("UPDATE run SET value = 10000 WHERE key = 'cells'");
     transaction.commit();
   }
 
@@ -46,20 +41,16 @@ class ManyCells : public TinyStore {
   }
 
   static constexpr std::int64_t kCells = 10'000;
-  static_assert(kCells > kCellsWorthAThread);
 };
 
 TEST_F(ManyCells, AreReadInOrder) {
   Database database = open_store(file_);
-  const CellRows rows = read_cell_rows(database, WithRecords::yes);
-  EXPECT_TRUE(rows.complete);
-  ASSERT_EQ(rows.cells.size(), static_cast<std::size_t>(kCells));
-  ASSERT_EQ(rows.records.size(), rows.cells.size());
-  for (std::size_t i = 0; i < rows.cells.size(); ++i) {
-    ASSERT_EQ(rows.cells[i].id, static_cast<std::int64_t>(i + 1));
-    ASSERT_TRUE(rows.cells[i].intact);
-    ASSERT_EQ(rows.records[i].position, rows.cells[i].position);
-    ASSERT_EQ(rows.records[i].method, rows.cells[i].method);
+  const std::vector<StoredCell> cells = checked_cells(database, false);
+  ASSERT_EQ(cells.size(), static_cast<std::size_t>(kCells));
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    ASSERT_EQ(cells[i].id, static_cast<std::int64_t>(i + 1));
+    ASSERT_TRUE(cells[i].intact);
+    ASSERT_EQ(cells[i].score_count, cells[i % 4].score_count);
   }
   EXPECT_EQ(refusal(), "");
 }
@@ -68,18 +59,14 @@ TEST_F(ManyCells, DamageIsNoticedInBothHalves) {
   const std::filesystem::path sound = folder_.path() / "sound.sqlite";
   std::filesystem::copy_file(file_, sound);
   for (const std::string cell : {"17", "9983"}) {
-    for (const std::string& damage : {"UPDATE score_value SET rmse = 0 WHERE cell = " + cell,
+    for (const std::string& damage : {"UPDATE score_value SET rmse = rmse + 1 WHERE cell = " + cell,
                                       "DELETE FROM score_value WHERE cell = " + cell,
-                                      "UPDATE cell SET seconds_median = 7 WHERE id = " + cell,
-                                      "DELETE FROM cell WHERE id = " + cell}) {
+                                      "UPDATE cell SET seconds_median = 7 WHERE id = " + cell}) {
       std::filesystem::copy_file(sound, file_, std::filesystem::copy_options::overwrite_existing);
       change(damage);
       EXPECT_NE(refusal().find("is damaged"), std::string::npos) << damage;
       Database database(file_, Database::Mode::read);
-      const std::size_t left = damage.starts_with("DELETE FROM cell") ? 1 : 0;
-      const CheckedStore found = check_rows(database, false);
-      EXPECT_EQ(found.cells.cells.size(), static_cast<std::size_t>(kCells) - left) << damage;
-      EXPECT_EQ(std::ranges::count(found.cells.cells, false, &CellRow::intact), left == 0 ? 1 : 0)
+      EXPECT_EQ(std::ranges::count(checked_cells(database, false), false, &StoredCell::intact), 1)
           << damage;
     }
   }
@@ -88,22 +75,21 @@ TEST_F(ManyCells, DamageIsNoticedInBothHalves) {
 TEST_F(ManyCells, TheSecondConnectionMaySeeALaterState) {
   change("PRAGMA journal_mode = WAL");
   Database reader = open_store(file_);
-  ASSERT_FALSE(written_digest(reader, "cell").empty());  // the state of the reader from here on
+  std::vector<StoredCell> before = read_cell_rows(reader);  // its state from here on
   {
     Database writer(file_, Database::Mode::read);
     Transaction transaction(writer);
-    writer.execute("UPDATE cell SET seconds_median = 7 WHERE id = 9983");
-    DigestWriter(writer).update_cell(9983);
-    update_sum(writer, "cell");
+    writer.execute("UPDATE score_value SET rmse = 7 WHERE cell = 9983");
+    ChecksumWriter(writer).write(9983);
     transaction.commit();
   }
-  const CellRows before = read_cell_rows(reader);
-  EXPECT_TRUE(before.complete);
-  EXPECT_NE(before.cells[9982].seconds, 7.0);
+  check_scores(reader, before);
+  require_intact(reader, before);
   Database now = open_store(file_);
-  const CellRows after = read_cell_rows(now);
-  EXPECT_TRUE(after.complete);
-  EXPECT_EQ(after.cells[9982].seconds, 7.0);
+  std::vector<StoredCell> after = read_cell_rows(now);
+  check_scores(now, after);
+  require_intact(now, after);
+  EXPECT_NE(after[9982].checksum, before[9982].checksum);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ def _notes(store):
     with contextlib.closing(database):
         for sequence, method, text in database.execute(
             "SELECT cell.sequence, cell.method, note.text FROM note JOIN cell"
-            " ON note.cell = cell.id ORDER BY note.rowid"
+            " ON note.cell = cell.id ORDER BY note.cell, note.number"
         ):
             out.setdefault((sequence, method), []).append(text)
     return out
