@@ -10,6 +10,16 @@ file(GLOB loopbench_python_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/harness
   ${PROJECT_SOURCE_DIR}/harness/python/loopbench/*.pyi ${PROJECT_SOURCE_DIR}/harness/python/loopbench/py.typed)
 set(loopbench_site lib/python3/dist-packages/loopbench)
 install(FILES ${loopbench_python_files} DESTINATION ${loopbench_site} COMPONENT python)
+# The program starts render.py for figures.
+install(FILES ${loopbench_python_files} COMPONENT program
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/loopbench/python/loopbench)
+# The package in the build folder links to the Python files; the compiled module is beside them.
+set(loopbench_package ${PROJECT_BINARY_DIR}/python/loopbench)
+file(MAKE_DIRECTORY ${loopbench_package})
+foreach(file IN LISTS loopbench_python_files)
+  get_filename_component(name ${file} NAME)
+  file(CREATE_LINK ${file} ${loopbench_package}/${name} SYMBOLIC)
+endforeach()
 if(NOT LOOPBENCH_PYTHON)
   return()
 endif()
@@ -28,12 +38,5 @@ endif()
 pybind11_add_module(loopbench_python MODULE NO_EXTRAS
   harness/python/module.cpp harness/python/arrays.cpp harness/python/manifold.cpp)
 target_link_libraries(loopbench_python PRIVATE loopbench_warnings loopbench::harness)
-# The package in the build folder: the module beside links to the Python files.
-set(loopbench_package ${PROJECT_BINARY_DIR}/python/loopbench)
 set_target_properties(loopbench_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${loopbench_package})
-file(MAKE_DIRECTORY ${loopbench_package})
-foreach(file IN LISTS loopbench_python_files)
-  get_filename_component(name ${file} NAME)
-  file(CREATE_LINK ${file} ${loopbench_package}/${name} SYMBOLIC)
-endforeach()
 install(TARGETS loopbench_python DESTINATION ${loopbench_site} COMPONENT python)

@@ -11,7 +11,7 @@ packages=(
 compression_packages=(zlib1g-dev libbz2-dev libzstd-dev liblz4-dev)
 # OpenCV's development packages depend on some 280 others, so run.sh installs them when first needed.
 image_packages=(libopencv-features2d-dev libopencv-calib3d-dev)
-plot_packages=(gnuplot-nox)
+plot_packages=(python3-matplotlib)
 get_packages=(curl ca-certificates)
 sanitizer_packages=(libclang-rt-dev llvm)  # llvm: names of functions in reports
 lint_packages=(clang-format clang-tidy shellcheck)

@@ -60,6 +60,27 @@ std::string result_text(const EvalArguments& a, const std::vector<EvaluationResu
   return out + verdict_of(a, all, style);
 }
 
+/// `images`: kErrorFigures of each of `drawn`.
+void write_report(const EvalArguments& a,
+                  const std::vector<EvaluationResult>& all,
+                  const std::vector<DrawnRuns>& drawn,
+                  const std::vector<std::string>& images) {
+  std::vector<PageImage> headed;
+  for (const DrawnRuns& each : drawn) {
+    const std::string sequence = each.sequence.empty() ? "" : each.sequence + ": ";
+    for (const char* const name : kErrorFigures) {
+      headed.push_back({sequence + name, images[headed.size()]});
+    }
+  }
+  const bool is_alone = all.size() == 1;
+  write_eval_report(a.report,
+                    all.front().reference,
+                    is_alone ? std::vector<Table>{} : comparison(all),
+                    is_alone ? text(all.front()) : verdict_of(a, all, TerminalStyle{}),
+                    headed);
+  fmt::print(stderr, "{}\n", printable(a.report));
+}
+
 /// Figures and report of the estimates under the first protocol.
 void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
   if (a.plot.empty() && a.report.empty()) return;
@@ -72,27 +93,24 @@ void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>&
     fmt::print(stderr, "{}\n", printable("loopbench: note: figures: " + sequence + each.note));
   }
   reject_standard_output("--report", a.report);
-  if (!a.report.empty()) {
-    const bool is_alone = all.size() == 1;
-    write_eval_report(a.report,
-                      all.front().reference,
-                      is_alone ? std::vector<Table>{} : comparison(all),
-                      is_alone ? text(all.front()) : verdict_of(a, all, TerminalStyle{}),
-                      drawn);
-    fmt::print(stderr, "{}\n", printable(a.report));
-  }
-  if (a.plot.empty()) return;
   std::set<std::string> prefixes;
-  std::vector<FigureFile> files;
+  std::vector<FigureData> figures;
   for (const DrawnRuns& each : drawn) {
+    FigureData& data = figures.emplace_back(figure_data(each));
+    if (!a.report.empty()) data.figures = figures_for_page();
+    if (a.plot.empty()) continue;
     std::string prefix = a.plot;
     if (!each.sequence.empty()) prefix += "_" + file_stem(each.sequence);
     while (!prefixes.insert(prefix).second) prefix += "_";  // labels that differ in punctuation
-    std::ranges::move(error_figure_files(prefix, each.drawn, each.note, a.plot_size),
-                      std::back_inserter(files));
+    std::ranges::move(figures_for_paper(prefix, a.plot_size), std::back_inserter(data.figures));
   }
-  write_figures(files);
-  for (const FigureFile& each : files) fmt::print(stderr, "{}\n", printable(each.file.string()));
+  const std::vector<std::string> images = draw(figures);
+  if (!a.report.empty()) write_report(a, all, drawn, images);
+  for (const FigureData& data : figures) {
+    for (const DrawnFigure& figure : data.figures) {
+      for (const auto& file : figure.files) fmt::print(stderr, "{}\n", printable(file.string()));
+    }
+  }
 }
 
 /// Rejects options that have no effect on a store, before anything is evaluated.

@@ -179,7 +179,8 @@ void declare(CLI::App& command, EvalArguments& a) {
       ->type_name("PREFIX");
   declare_plot_size(command, a.plot_size);
   command
-      .add_option("--report", a.report, "HTML page with the table and all figures, needs gnuplot")
+      .add_option(
+          "--report", a.report, "HTML page with the table and all figures, needs matplotlib")
       ->type_name("FILE");
   command
       .add_option("--store",

@@ -54,35 +54,41 @@ int write_figures(const PlotArguments& arguments) {
       arguments.sequences.empty()
           ? content.sequences
           : known_labels("sequence", arguments.sequences, content.sequences);
-  const FigureSize size{arguments.size[0], arguments.size[1], arguments.font, true};
   reject_standard_output("-o", arguments.folder);
   const std::filesystem::path folder = arguments.folder;
   Traces traces(arguments.store);
-  std::size_t written = 0;
+  std::vector<FigureData> all;
+  std::string written;
   for (std::size_t s = 0; s < content.sequences.size(); ++s) {
     const std::string& sequence = content.sequences[s];
     if (std::ranges::count(sequences, sequence) == 0) continue;
-    const SequenceFigures figures = sequence_figures(
-        content.cells, traces, sequence, methods, style_order(content), arguments.panels);
-    if (figures.errors.empty() && figures.trajectories.empty()) {
+    FigureData data =
+        sequence_figure_data(content.cells, traces, sequence, methods, style_order(content));
+    if (data.curves.empty()) {
       fmt::print("{}: has no stored trajectories of these methods\n", printable(sequence));
       continue;
     }
-    for (const std::string& format : arguments.formats) {
-      // The index separates labels that map to the same file name.
-      const std::string stem = fmt::format("{:02}_{}", s + 1, file_stem(sequence));
-      const auto write = [&](const char* what, const std::vector<PlotPanel>& panels) {
-        if (panels.empty()) return;
-        const std::filesystem::path file = folder / (stem + "_" + what + "." + format);
-        write_figure(file, panels, std::min(arguments.columns, panels.size()), size);
-        fmt::print("{}\n", printable(file.string()));
-        ++written;
-      };
-      write("trajectories", figures.trajectories);
-      write("errors", figures.errors);
+    // The index separates labels that map to the same file name.
+    const std::string stem = fmt::format("{:02}_{}", s + 1, file_stem(sequence));
+    for (const bool of_errors : {false, true}) {
+      DrawnFigure figure{{}, figure_panels(arguments.panels, of_errors)};
+      if (figure.panels.empty()) continue;
+      for (const std::string& format : arguments.formats) {
+        const char* const what = of_errors ? "_errors." : "_trajectories.";
+        figure.files.push_back(folder / (stem + what + format));
+        written += figure.files.back().string() + "\n";
+      }
+      figure.columns = arguments.columns;
+      figure.width = arguments.size[0];
+      figure.height = arguments.size[1];
+      figure.font = arguments.font;
+      data.figures.push_back(std::move(figure));
     }
+    all.push_back(std::move(data));
   }
-  if (written == 0) throw InputError(arguments.store + ": has no stored trajectories to plot");
+  if (written.empty()) throw InputError(arguments.store + ": has no stored trajectories to plot");
+  draw(all);
+  fmt::print("{}", printable(written));
   write_result(folder / "provenance.json", json(read_store_provenance(arguments.store)));
   return kExitOk;
 }
@@ -114,9 +120,12 @@ void add_plot(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(panel_names()))
       ->type_name("WORDS")
       ->default_str("xy,xyz,x,y,z,angle");
-  command->add_option("--format", arguments->formats, "File formats: svg, pdf, png or several")
+  command
+      ->add_option("--format",
+                   arguments->formats,
+                   "File formats: svg, pdf, png, json (the data of the figure) or several")
       ->delimiter(',')
-      ->check(CLI::IsMember({"svg", "pdf", "png"}))
+      ->check(CLI::IsMember({"svg", "pdf", "png", "json"}))
       ->default_str("svg,pdf");
   command
       ->add_option("--size", arguments->size, "Width and height of a panel [in]; default: 3.5,2.8")

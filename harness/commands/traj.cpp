@@ -249,7 +249,10 @@ int plot_files(const TrajArguments& a) {
   if (!a.reference.empty()) reference = read_named(a.reference, a.reading);
   protect_inputs(a, {a.out});
   reject_standard_output("-o", a.out);
-  write_trajectory_figure(a.out, all, reference);
+  check_figure_name(a.out);
+  FigureData data = trajectory_figure(all, reference);
+  data.figures.front().files = {a.out};
+  draw({data});
   fmt::print("{}\n", printable(a.out));
   return kExitOk;
 }

@@ -141,7 +141,7 @@ const std::vector<VerbInfo>& verb_infos() {
        "Plot trajectories: three planes, position, orientation and speed over time",
        {[](CLI::App& verb, TrajArguments& a) {
          verb.add_option("--ref", a.reference, "Reference trajectory")->type_name("FILE");
-         verb.add_option("-o,--out", a.out, "Output file: .svg, .pdf or .png")->required();
+         verb.add_option("-o,--out", a.out, "Output file: .svg, .pdf, .png or .json")->required();
        }}}};
   return all;
 }

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "metrics/numerics/angle.hpp"
 #include "metrics/trajectory/projection.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-constexpr std::size_t kMostReferencePoses = 1000;  // more are not visible
+constexpr std::size_t kMostRows = 1000;  // of a curve, without its peaks; more are not visible
 
 std::vector<double> path_lengths(const Trajectory& poses) {
   std::vector<double> out(poses.size(), 0.0);
@@ -30,36 +31,48 @@ double length_at(double stamp, const Trajectory& poses, const std::vector<double
   return lengths[i - 1] + share * (lengths[i] - lengths[i - 1]);
 }
 
+/// At most kMostRows values of equal distance in rank.
+std::vector<double> sorted_values(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t kept = std::min(values.size(), kMostRows);
+  std::vector<double> out(kept);
+  for (std::size_t i = 0; i < kept; ++i) {
+    out[i] = values[kept == 1 ? 0 : i * (values.size() - 1) / (kept - 1)];
+  }
+  return out;
+}
+
 }  // namespace
 
 DrawnEvaluation drawn_evaluation(const Trajectory& reference,
                                  const metrics::Evaluation& evaluation) {
-  DrawnEvaluation out;
-  out.reference = evaluation.reference;
-  out.estimate = evaluation.estimate;
   Trajectory complete = reference;
   metrics::project(complete, evaluation.protocol.project);
   const std::vector<double> lengths = path_lengths(complete);
   const double origin = complete.front().stamp;
-  for (const StampedPose& pose : out.reference) {
-    out.times.push_back(pose.stamp - origin);
-    out.distances.push_back(length_at(pose.stamp, complete, lengths));
-  }
-  const std::size_t step = complete.size() / kMostReferencePoses + 1;
-  for (std::size_t i = 0; i < complete.size(); i += step) out.complete.push_back(complete[i]);
-  if ((complete.size() - 1) % step != 0) out.complete.push_back(complete.back());
-  for (StampedPose& pose : out.complete) pose.stamp -= origin;
-  return out;
-}
+  DrawnEvaluation out{{}, reference_curve(), 0.0};
+  add_poses(out.reference, complete, origin);
+  thin(out.reference, kMostRows);
 
-double position_rmse(const DrawnEvaluation& drawn) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < drawn.estimate.size(); ++i) {
-    sum += (drawn.estimate[i].world_from_body.translation -
-            drawn.reference[i].world_from_body.translation)
-               .squaredNorm();
+  add_poses(out.estimate, evaluation.estimate, origin);
+  auto& columns = out.estimate.columns;
+  columns["time"].clear();  // stamps of the pairs are those of the reference
+  for (std::size_t i = 0; i < evaluation.estimate.size(); ++i) {
+    const Pose& expected = evaluation.reference[i].world_from_body;
+    const Pose& found = evaluation.estimate[i].world_from_body;
+    columns["time"].push_back(evaluation.reference[i].stamp - origin);
+    columns["distance"].push_back(length_at(evaluation.reference[i].stamp, complete, lengths));
+    columns["error"].push_back((found.translation - expected.translation).norm());
+    columns["angle"].push_back(metrics::kDegrees *
+                               angle_between(found.rotation, expected.rotation));
+    out.position_rmse += columns["error"].back() * columns["error"].back();
   }
-  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, drawn.estimate.size())));
+  const auto count = static_cast<double>(std::max<std::size_t>(1, evaluation.estimate.size()));
+  out.position_rmse = std::sqrt(out.position_rmse / count);
+  std::vector<double> errors = sorted_values(columns["error"]);
+  thin(out.estimate, kMostRows, {"error", "angle"});
+  columns["sorted_errors"] = std::move(errors);
+  return out;
 }
 
 }  // namespace loopbench::harness

@@ -1,31 +1,23 @@
 /// What the figures of an evaluation need.
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "harness/plot/style.hpp"
+#include "harness/plot/curve.hpp"
 #include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench::harness {
 
 /// One estimate, paired and aligned.
 struct DrawnEvaluation {
-  std::string name;
-  Trajectory reference;  ///< paired with `estimate`
-  Trajectory estimate;   ///< aligned
-  /// Of each pair: time since the first pose of the reference file [s] and distance along the
+  /// Without a name. Times count from the first pose of the reference file [s], distances along the
   /// complete reference [m], so that the curves of all estimates of a reference have one origin.
-  std::vector<double> times, distances;
-  Trajectory complete;  ///< the complete reference, subsampled, stamps as `times`
-  CurveStyle style = curve_style(0);
+  /// Columns of the errors: error [m], angle [deg], and sorted_errors [m] of all poses.
+  DrawnCurve estimate;
+  DrawnCurve reference;        ///< the complete reference, subsampled
+  double position_rmse = 0.0;  ///< [m]
 };
 
-/// Without a name. `reference`: the complete one, ascending stamps. O((n + m) log n).
+/// `reference`: the complete one, ascending stamps. O(n log n + m).
 DrawnEvaluation drawn_evaluation(const Trajectory& reference,
                                  const metrics::Evaluation& evaluation);
-
-/// Root mean square of the position errors [m].
-double position_rmse(const DrawnEvaluation& drawn);
 
 }  // namespace loopbench::harness

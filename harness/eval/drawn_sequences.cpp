@@ -14,7 +14,7 @@ struct RatedRun {
   DrawnEvaluation drawn;
   std::string method;
   bool is_complete = true;
-  double ate = 0.0;  ///< [m]
+  double ate() const { return drawn.position_rmse; }  ///< [m]
 };
 
 /// Best, median and worst of runs of one method, or only the median.
@@ -22,8 +22,8 @@ std::vector<DrawnEvaluation> representative(std::vector<RatedRun> runs, bool is_
   std::ranges::stable_sort(runs, {}, &RatedRun::ate);
   const auto named = [&](std::size_t i, const char* role) {
     DrawnEvaluation out = runs[i].drawn;
-    out.name += role;
-    out.style.dash = 1;  // no other run of its method has its colour
+    out.estimate.name += role;
+    out.estimate.style.dash = 1;  // no other run of its method has its colour
     return out;
   };
   const std::size_t middle = (runs.size() - 1) / 2;
@@ -31,7 +31,7 @@ std::vector<DrawnEvaluation> representative(std::vector<RatedRun> runs, bool is_
   if (!is_only) return {named(middle, " (median)")};
   std::vector<DrawnEvaluation> out{
       named(0, " (best)"), named(middle, " (median)"), named(runs.size() - 1, " (worst)")};
-  for (std::size_t i = 0; i < out.size(); ++i) out[i].style = curve_style(i);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].estimate.style = curve_style(i);
   return out;
 }
 
@@ -96,13 +96,12 @@ std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
       candidates.emplace_back();
     }
     RatedRun& candidate = candidates[place[run.reference]].emplace_back(
-        RatedRun{all[i].drawn, run.method, all[i].incomplete_reason.empty(), 0.0});
-    DrawnEvaluation& drawn = candidate.drawn;
-    candidate.ate = position_rmse(drawn);
+        RatedRun{all[i].drawn, run.method, all[i].incomplete_reason.empty()});
+    DrawnCurve& curve = candidate.drawn.estimate;
     const bool has_repeats = count[{run.reference, run.method}] > 1;
-    drawn.name = run.method + (has_repeats ? " " + run.run : "");
-    drawn.style = curve_style(methods.names.size() > 1 ? methods.number(run.method) : repeat);
-    if (methods.names.size() > 1 && has_repeats) drawn.style.dash = dash_of(repeat);
+    curve.name = run.method + (has_repeats ? " " + run.run : "");
+    curve.style = curve_style(methods.names.size() > 1 ? methods.number(run.method) : repeat);
+    if (methods.names.size() > 1 && has_repeats) curve.style.dash = dash_of(repeat);
   }
   for (std::size_t i = 0; i < out.size(); ++i) choose_drawn(candidates[i], out[i]);
   return out;

@@ -1,30 +1,22 @@
-/// Pictures of one or several evaluations.
+/// Figures of one or several evaluations.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "harness/eval/evaluation_result.hpp"
-#include "harness/plot/gnuplot.hpp"
+#include "harness/eval/drawn_sequences.hpp"
+#include "harness/plot/draw.hpp"
 
 namespace loopbench::harness {
-
-/// A figure with its name: "trajectories", "errors" or "axes".
-struct NamedFigure {
-  std::string name;
-  std::vector<PlotPanel> panels;
-  std::size_t columns = 2;
-};
 
 /// - trajectories: xy, xz, yz and space, start and end marked, coloured by position error for a
 ///   single estimate;
 /// - errors: position and rotation error over time and over distance, and the histogram of the
 ///   position error;
 /// - axes: x, y, z, roll, pitch and yaw over time, with the complete reference.
-/// All estimates have the same reference, whose first pose is the origin of times and distances. An
-/// estimate has the same colour in all of them. O(poses).
-std::vector<NamedFigure> error_figures(const std::vector<DrawnEvaluation>& all);
+inline constexpr std::array kErrorFigures{"trajectories", "errors", "axes"};
 
 /// Size of the figures for a paper.
 struct ErrorFigureSize {
@@ -33,11 +25,13 @@ struct ErrorFigureSize {
   double font = 7.0;          ///< [pt]
 };
 
-/// PREFIX_trajectories.svg and so on, in SVG, PDF and PNG, by default as wide as one column of a
-/// paper (3.5 in). `note`: a line in each figure, or empty.
-std::vector<FigureFile> error_figure_files(const std::string& prefix,
-                                           const std::vector<DrawnEvaluation>& all,
-                                           const std::string& note = "",
-                                           const ErrorFigureSize& size = {});
+/// The curves of estimates of one reference, without figures.
+FigureData figure_data(const DrawnRuns& runs);
+
+/// kErrorFigures as PREFIX_NAME.svg, .pdf and .png, by default as wide as one column of a paper.
+std::vector<DrawnFigure> figures_for_paper(const std::string& prefix, const ErrorFigureSize& size);
+
+/// kErrorFigures without files, for a page.
+std::vector<DrawnFigure> figures_for_page();
 
 }  // namespace loopbench::harness

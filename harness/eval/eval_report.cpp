@@ -1,35 +1,15 @@
 #include "harness/eval/eval_report.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
-#include "harness/eval/error_figures.hpp"
 #include "harness/report/html.hpp"
+#include "harness/report/packed.hpp"
 #include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-std::string base64_of(const std::string& bytes) {
-  constexpr const char* kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned group = 0;
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = (group << 8) | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      out += k <= count ? kDigits[(group >> (18 - 6 * k)) & 63u] : '=';
-    }
-  }
-  return out;
-}
 
 /// The lines of a text, escaped one by one: html_text() drops line breaks.
 std::string html_lines(const std::string& text) {
@@ -39,29 +19,13 @@ std::string html_lines(const std::string& text) {
   return out;
 }
 
-/// The figure as SVG text, through a temporary file next to the page.
-std::string svg_of(const NamedFigure& figure,
-                   const std::string& note,
-                   const std::filesystem::path& page) {
-  const std::filesystem::path file =
-      page.string() + fmt::format(".{}.{}.svg", getpid(), figure.name);
-  write_figure(file, figure.panels, figure.columns, {4.5, 3.6, 11.0, true, note});
-  std::string text;
-  {
-    std::ifstream in(file, std::ios::binary);
-    text.assign(std::istreambuf_iterator<char>(in), {});
-  }
-  std::filesystem::remove(file);
-  return text;
-}
-
 }  // namespace
 
 void write_eval_report(const std::filesystem::path& file,
                        const std::string& reference,
                        const std::vector<Table>& tables,
                        const std::string& text,
-                       const std::vector<DrawnRuns>& drawn) {
+                       const std::vector<PageImage>& images) {
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
@@ -78,13 +42,10 @@ void write_eval_report(const std::filesystem::path& file,
       html_text(reference));
   for (const Table& table : tables) page += html_table(table_view(table));
   if (!text.empty()) page += "<pre>" + html_lines(text) + "</pre>\n";
-  for (const DrawnRuns& each : drawn) {
-    for (const NamedFigure& figure : error_figures(each.drawn)) {
-      page +=
-          fmt::format("<h2>{0}</h2>\n<img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\">\n",
-                      html_text(each.sequence + (each.sequence.empty() ? "" : ": ") + figure.name),
-                      base64_of(svg_of(figure, each.note, file)));
-    }
+  for (const PageImage& image : images) {
+    page += fmt::format("<h2>{0}</h2>\n<img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\">\n",
+                        html_text(image.heading),
+                        base64(image.svg));
   }
   write_file(file, page + "</body>\n</html>\n");
 }

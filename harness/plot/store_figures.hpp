@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/model/record.hpp"
-#include "harness/plot/gnuplot.hpp"
+#include "harness/plot/draw.hpp"
 #include "harness/store/traces.hpp"
 
 namespace loopbench::harness {
@@ -14,21 +14,17 @@ namespace loopbench::harness {
 /// "x", "y", "z" [m] and "angle" [deg] along the path.
 const std::vector<std::string>& panel_names();
 
-/// Panels for one sequence: `methods` on its first repeat, in their order; methods without a trace
-/// are skipped. The style of a method depends on its index in `all_methods` of the sweep, so that
-/// it is the same in every figure.
-struct SequenceFigures {
-  std::vector<PlotPanel> trajectories;  ///< both are empty without a trace
-  std::vector<PlotPanel> errors;
-};
+/// The panels of panel_names() that show trajectories, or else errors, as panels of a DrawnFigure.
+std::vector<std::string> figure_panels(const std::vector<std::string>& names, bool of_errors);
 
-SequenceFigures sequence_figures(const std::vector<CellRecord>& cells,
-                                 Traces& traces,
-                                 const std::string& sequence,
-                                 const std::vector<std::string>& methods,
-                                 const std::vector<std::string>& all_methods,
-                                 const std::vector<std::string>& panels = {
-                                     "xy", "xyz", "x", "y", "z", "angle"});
+/// Curves for one sequence: the reference, and `methods` on its first repeat, in their order;
+/// methods without a trace are skipped. The style of a method depends on its index in `all_methods`
+/// of the sweep, so that it is the same in every figure. No curves without a trace.
+FigureData sequence_figure_data(const std::vector<CellRecord>& cells,
+                                Traces& traces,
+                                const std::string& sequence,
+                                const std::vector<std::string>& methods,
+                                const std::vector<std::string>& all_methods);
 
 /// "closed, 180 keyframes" -> "closed_180_keyframes": a safe file name.
 std::string file_stem(const std::string& label);

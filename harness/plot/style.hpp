@@ -10,7 +10,7 @@ inline constexpr const char* kReferenceColor = "#9aa1ab";
 
 struct CurveStyle {
   const char* color;
-  int dash;  ///< dash type of gnuplot
+  int dash;  ///< 1: solid, 2 to 5: dashed
 };
 
 /// Solid, then four dash types.

@@ -1,4 +1,4 @@
-/// Figures of `eval`: origin of their axes, names, legends, sizes, and which runs they contain.
+/// Data of figures: origin of their axes, peaks, names, sizes, and which runs they contain.
 #include "harness/trajectory/figures.hpp"
 
 #include <gmock/gmock.h>
@@ -8,8 +8,8 @@
 #include "datasets/formats/formats.hpp"
 #include "harness/eval/drawn_sequences.hpp"
 #include "harness/eval/error_figures.hpp"
-#include "harness/plot/legend.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/matplotlib.hpp"
 
 namespace loopbench::figures_test {
 namespace {
@@ -17,7 +17,6 @@ namespace {
 using namespace harness;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 using testing::SizeIs;
 
 /// 1 m/s along x with a bend in z, from `first` to `last` [s], one pose per second.
@@ -29,78 +28,49 @@ Trajectory path(double first, double last, double error = 0.0) {
   return out;
 }
 
-DrawnEvaluation drawn(double first, double last) {
+DrawnEvaluation drawn(const Trajectory& reference, const Trajectory& estimate) {
   metrics::Protocol protocol;
   protocol.align = metrics::Align::none;
-  const Trajectory reference = path(0.0, 50.0);
-  return drawn_evaluation(reference,
-                          metrics::evaluate(reference, path(first, last, 0.1), protocol));
-}
-
-const PlotPanel& panel(const NamedFigure& figure, const std::string& x, const std::string& y) {
-  for (const PlotPanel& each : figure.panels) {
-    if (each.x_label == x && each.y_label == y) return each;
-  }
-  throw std::runtime_error("no panel " + x + ", " + y);
+  return drawn_evaluation(reference, metrics::evaluate(reference, estimate, protocol));
 }
 
 TEST(Figures, AllEstimatesHaveTheOriginOfTheReference) {
-  std::vector<DrawnEvaluation> all{drawn(10.0, 30.0), drawn(20.0, 45.0)};
-  all[0].name = "a";
-  all[1].name = "b";
-  const std::vector<NamedFigure> figures = error_figures(all);
-  for (const char* const x : {"time [s]", "distance [m]"}) {  // equal numbers at 1 m/s
-    const PlotPanel errors = panel(figures[1], x, "position error [m]");
-    EXPECT_NEAR(errors.series[0].points.front().x(), 10.0, 1e-9) << x;
-    EXPECT_NEAR(errors.series[1].points.front().x(), 20.0, 1e-9) << x;
-    EXPECT_NEAR(errors.series[1].points.back().x(), 45.0, 1e-9) << x;
+  const DrawnEvaluation one = drawn(path(0.0, 50.0), path(20.0, 45.0, 0.1));
+  for (const char* const along : {"time", "distance"}) {  // equal numbers at 1 m/s
+    EXPECT_NEAR(one.estimate.columns.at(along).front(), 20.0, 1e-9) << along;
+    EXPECT_NEAR(one.estimate.columns.at(along).back(), 45.0, 1e-9) << along;
   }
-  const PlotPanel axis = panel(figures[2], "time [s]", "x [m]");
-  EXPECT_EQ(axis.series[0].name, "reference");
-  EXPECT_NEAR(axis.series[0].points.front().x(), 0.0, 1e-9);
-  EXPECT_NEAR(axis.series[0].points.back().x(), 50.0, 1e-9);
-  EXPECT_NEAR(axis.series[2].points.front().x(), 20.0, 1e-9);
-  EXPECT_NEAR(figures[0].panels[0].series[0].points.back().x(), 50.0, 1e-9);
+  EXPECT_EQ(one.reference.name, "reference");
+  EXPECT_NEAR(one.reference.columns.at("time").front(), 0.0, 1e-9);
+  EXPECT_NEAR(one.reference.columns.at("time").back(), 50.0, 1e-9);
+  EXPECT_NEAR(one.reference.columns.at("x").back(), 50.0, 1e-9);
+  EXPECT_NEAR(one.position_rmse, std::sqrt(0.5) * 0.1, 1e-9);
 }
 
 TEST(Figures, KeepThePeakOfAnErrorWithFewerPoints) {
-  DrawnEvaluation one;
-  for (int i = 0; i < 5000; ++i) {
-    const StampedPose pose{0.1 * i, {Rotation::Identity(), Vector3(0.1 * i, 0.0, 0.0)}};
-    one.reference.push_back(pose);
-    one.estimate.push_back(pose);
-    one.times.push_back(pose.stamp);
-    one.distances.push_back(pose.stamp);
-  }
-  one.complete = one.reference;
-  one.estimate[3217].world_from_body.translation.y() = 4.0;  // of one pose only
-  const auto largest = [](const PlotSeries& series) {
-    double out = 0.0;
-    for (const Vector3& p : series.points) out = std::max(out, p.y());
-    return out;
-  };
-  const std::vector<NamedFigure> figures = error_figures({one});
-  const PlotSeries errors = panel(figures[1], "time [s]", "position error [m]").series[0];
-  EXPECT_EQ(largest(errors), 4.0);
-  EXPECT_EQ(errors.points.front().x(), 0.0);
-  EXPECT_NEAR(errors.points.back().x(), 499.9, 1e-9);
-  EXPECT_LE(errors.points.size(), 1010u);
+  const Trajectory reference = path(0.0, 4999.0);
+  Trajectory estimate = reference;
+  estimate[3217].world_from_body.translation.y() = 4.0;  // of one pose only
+  const DrawnEvaluation one = drawn(reference, estimate);
+  const std::vector<double>& errors = one.estimate.columns.at("error");
+  EXPECT_EQ(std::ranges::max(errors), 4.0);
+  EXPECT_EQ(one.estimate.columns.at("sorted_errors").back(), 4.0);
+  EXPECT_EQ(one.estimate.columns.at("time").front(), 0.0);
+  EXPECT_EQ(one.estimate.columns.at("time").back(), 4999.0);
+  EXPECT_EQ(one.estimate.columns.at("time").size(), errors.size());
+  EXPECT_LE(errors.size(), 5 * 1000u);
+  EXPECT_LE(one.reference.columns.at("time").size(), 1001u);
 }
 
-TEST(Figures, OfATrajectoryBreakAtWrapsAndHaveNoSpeedOfOnePose) {
-  NamedTrajectory turning{"turning", {}, {}};
-  for (int i = 0; i < 10; ++i) {
-    turning.file.poses.push_back({1.0 * i, {exp_so3({0.0, 0.0, 1.0 * i}), Vector3::Zero()}});
-  }
-  const std::vector<PlotPanel> panels = trajectory_panels({turning}, std::nullopt);
-  const auto yaw = std::ranges::find(panels, "yaw [deg]", &PlotPanel::y_label);
-  ASSERT_NE(yaw, panels.end());
-  const auto is_break = [](const Vector3& p) { return !p.allFinite(); };
-  EXPECT_EQ(std::ranges::count_if(yaw->series[0].points, is_break), 1);  // at 3.14 rad
-  turning.file.poses.resize(1);
-  for (const PlotPanel& panel : trajectory_panels({turning}, std::nullopt)) {
-    EXPECT_NE(panel.y_label, "speed [m/s]");
-  }
+TEST(Figures, OfATrajectoryHaveNoSpeedOfOnePose) {
+  NamedTrajectory one{"turning", {}, {}};
+  one.file.poses = {{1.0, {exp_so3({0.0, 0.0, 0.5}), Vector3::Zero()}},
+                    {2.0, {exp_so3({0.0, 0.0, 1.0}), Vector3::UnitX()}}};
+  const FigureData two = trajectory_figure({one}, std::nullopt);
+  EXPECT_THAT(two.curves[0].columns.at("speed"), ElementsAre(1.0, 1.0));
+  EXPECT_EQ(two.figures[0].panels.back(), "speed by time");
+  one.file.poses.resize(1);
+  EXPECT_EQ(trajectory_figure({one}, std::nullopt).figures[0].panels.back(), "yaw by time");
 }
 
 std::vector<EvaluationResult> results(const std::vector<FilePair>& files,
@@ -109,15 +79,14 @@ std::vector<EvaluationResult> results(const std::vector<FilePair>& files,
   for (std::size_t i = 0; i < files.size(); ++i) {
     EvaluationResult& each = out.emplace_back();
     each.estimate = files[i].estimate;
-    each.drawn.reference = path(0.0, 9.0);
-    each.drawn.estimate = path(0.0, 9.0, errors.empty() ? 0.1 : errors[i]);
+    each.drawn.position_rmse = errors.empty() ? 0.1 : errors[i];
   }
   return out;
 }
 
 std::vector<std::string> names(const DrawnRuns& sequence) {
   std::vector<std::string> out;
-  for (const DrawnEvaluation& each : sequence.drawn) out.push_back(each.name);
+  for (const DrawnEvaluation& each : sequence.drawn) out.push_back(each.estimate.name);
   return out;
 }
 
@@ -126,7 +95,7 @@ TEST(Figures, NamesAreTheShortestThatDiffer) {
   const auto all = drawn_sequences(results(files, {}), labelled_runs(files, ""));
   ASSERT_THAT(all, SizeIs(1));
   EXPECT_THAT(names(all[0]), ElementsAre("ba", "rp"));
-  EXPECT_STRNE(all[0].drawn[0].style.color, all[0].drawn[1].style.color);
+  EXPECT_STRNE(all[0].drawn[0].estimate.style.color, all[0].drawn[1].estimate.style.color);
   const std::vector<FilePair> unusual{{"t.csv", "x/a/e.txt"}, {"t.csv", "y/a/e.txt"}};
   EXPECT_THAT(names(drawn_sequences(results(unusual, {}), labelled_runs(unusual, ""))[0]),
               ElementsAre("x/a/e.txt", "y/a/e.txt"));
@@ -151,8 +120,8 @@ TEST(Figures, ManyRunsAreRepresentedByTheMedianOfEachMethod) {
   EXPECT_THAT(names(all[1]), ElementsAre("ba 0 (median)", "rp 0 (median)"));
   EXPECT_EQ(all[1].note, "8 of 10 estimates are not drawn (chosen by ATE)");
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_STREQ(all[0].drawn[i].style.color, all[1].drawn[i].style.color);
-    EXPECT_EQ(all[0].drawn[i].style.dash, 1);
+    EXPECT_STREQ(all[0].drawn[i].estimate.style.color, all[1].drawn[i].estimate.style.color);
+    EXPECT_EQ(all[0].drawn[i].estimate.style.dash, 1);
   }
 }
 
@@ -166,24 +135,8 @@ TEST(Figures, ManyRunsOfOneMethodAreRepresentedByBestMedianAndWorst) {
   EXPECT_THAT(names(all[0]), ElementsAre("ba 1 (best)", "ba 6 (median)", "ba 2 (worst)"));
 }
 
-TEST(Figures, LegendIsLimitedAndCountsTheRest) {
-  PlotPanel panel;
-  for (int i = 0; i < 20; ++i) {
-    panel.series.push_back({"method " + std::to_string(i), "#000000", false, {{0, 0, 0}}});
-  }
-  const Legend legend({panel, panel}, "a note", 3.5, 8.0);
-  const std::string script = legend.script(5.0);
-  EXPECT_THAT(script, HasSubstr("'method 10'"));
-  EXPECT_THAT(script, Not(HasSubstr("'method 11'")));
-  EXPECT_THAT(script, HasSubstr("'and 9 more'"));
-  EXPECT_THAT(script, HasSubstr("'a note'"));
-  EXPECT_THAT(script, Not(HasSubstr("set arrow")));  // solid in SVG
-  EXPECT_GT(legend.height(), 4.0 * 8.0 / 72.0);      // four rows
-  EXPECT_LT(legend.height(), 8.0 * 1.5 * 8.0 / 72.0);
-}
-
 TEST(Figures, EvalFiguresAreOneColumnWideUnlessASizeIsGiven) {
-  if (std::system("command -v gnuplot >/dev/null") != 0) GTEST_SKIP() << "needs gnuplot";
+  if (!has_matplotlib()) GTEST_SKIP() << "needs python3-matplotlib";
   const TemporaryFolder folder;
   write_tum(folder.path() / "gt.txt", path(0.0, 50.0));
   write_tum(folder.path() / "est.txt", path(5.0, 50.0, 0.1));
@@ -191,15 +144,15 @@ TEST(Figures, EvalFiguresAreOneColumnWideUnlessASizeIsGiven) {
   const std::string eval = "eval gt.txt est.txt --align none ";
   const CommandResult usual = loopbench_command(eval + "--plot a", folder);
   ASSERT_EQ(usual.exit_code, 0) << usual.err;
-  EXPECT_THAT(usual.err, Not(HasSubstr("arning"))) << usual.err;
+  EXPECT_EQ(usual.err.find("arning"), std::string::npos) << usual.err;
   for (const char* const name : {"a_trajectories.svg", "a_errors.svg", "a_axes.svg"}) {
-    EXPECT_THAT(svg(name), HasSubstr("width=\"252\"")) << name;  // 3.5 in of 72 points
+    EXPECT_THAT(svg(name), HasSubstr("width=\"252pt\"")) << name;  // 3.5 in of 72 points
   }
   const CommandResult sized =
       loopbench_command(eval + "--plot b --size 2,1.5 --columns 3 --font 9", folder);
   ASSERT_EQ(sized.exit_code, 0) << sized.err;
-  EXPECT_THAT(svg("b_errors.svg"), HasSubstr("width=\"432\""));
-  EXPECT_THAT(svg("b_errors.svg"), HasSubstr("font-size=\"9.00\""));
+  EXPECT_THAT(svg("b_errors.svg"), HasSubstr("width=\"432pt\""));
+  EXPECT_THAT(svg("b_errors.svg"), HasSubstr("font: 9px"));
   EXPECT_EQ(loopbench_command(eval + "--size 2,1.5", folder).exit_code, 2);
 }
 

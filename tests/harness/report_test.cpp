@@ -147,14 +147,15 @@ TEST_F(OfASweep, MethodsHaveTheStylesAndTheChoiceOfPlot) {
   const nlohmann::json scores = scores_json(content);
   const std::vector<std::string> usual = usual_methods(content);
   Traces traces(content.store);
-  const SequenceFigures figures =
-      sequence_figures(content.cells, traces, "b", usual, style_order(content), {"x"});
-  EXPECT_EQ(figures.errors.at(0).series.empty(), scores["usual"].empty());
-  for (const PlotSeries& series : figures.errors[0].series) {
-    const auto m = static_cast<std::size_t>(std::ranges::find(content.methods, series.name) -
+  const FigureData figures =
+      sequence_figure_data(content.cells, traces, "b", usual, style_order(content));
+  EXPECT_EQ(figures.curves.empty(), scores["usual"].empty());
+  for (const DrawnCurve& curve : figures.curves) {
+    if (curve.name == "reference") continue;
+    const auto m = static_cast<std::size_t>(std::ranges::find(content.methods, curve.name) -
                                             content.methods.begin());
-    EXPECT_EQ(scores["styles"][m]["color"], series.color) << series.name;
-    EXPECT_EQ(scores["styles"][m]["dash"], series.dash) << series.name;
+    EXPECT_EQ(scores["styles"][m]["color"], curve.style.color) << curve.name;
+    EXPECT_EQ(scores["styles"][m]["dash"], curve.style.dash) << curve.name;
   }
   EXPECT_EQ(style_order(content).front(), "straight");  // the baseline
 }
@@ -177,31 +178,15 @@ TEST_F(OfASweep, StaysBelowItsSizeOrNamesTheLeast) {
 
 TEST_F(OfASweep, FiguresHoldWhatHasATrace) {
   Traces traces(folder_->path());
-  const SequenceFigures figures = sequence_figures(
+  const FigureData figures = sequence_figure_data(
       content_->cells, traces, "b", {"straight", "broken", "<i>&"}, content_->methods);
-  ASSERT_EQ(figures.trajectories.size(), 2u);
-  ASSERT_EQ(figures.errors.size(), 4u);
-  EXPECT_EQ(figures.trajectories[0].series.size(), 3u);  // the reference and two methods
-  EXPECT_EQ(figures.errors[0].series.size(), 2u);
-  EXPECT_TRUE(
-      sequence_figures(content_->cells, traces, "b", {"broken"}, content_->methods).errors.empty());
+  ASSERT_EQ(figures.curves.size(), 3u);  // the reference and two methods
+  EXPECT_TRUE(figures.curves[0].columns.contains("x"));
+  EXPECT_TRUE(figures.curves[1].columns.contains("error_x"));
+  EXPECT_TRUE(sequence_figure_data(content_->cells, traces, "b", {"broken"}, content_->methods)
+                  .curves.empty());
   EXPECT_EQ(file_stem("closed, 180 keyframes/../x"), "closed_180_keyframes_x");
   EXPECT_EQ(file_stem("..."), "");
-}
-
-TEST_F(OfASweep, FiguresAreWrittenAsSvgAndPdf) {
-  Traces traces(folder_->path());
-  const SequenceFigures figures =
-      sequence_figures(content_->cells, traces, kAwkward, {"<i>&"}, content_->methods);
-  for (const auto& [name, magic] : {std::pair{"f.svg", "<?xml"}, std::pair{"f.pdf", "%PDF-"}}) {
-    const std::filesystem::path file = folder_->path() / name;
-    write_figure(file, figures.trajectories, 2);
-    std::ifstream in(file);
-    std::string begin(5, ' ');
-    in.read(begin.data(), 5);
-    EXPECT_EQ(begin, magic);
-    EXPECT_GT(std::filesystem::file_size(file), 1000u);
-  }
 }
 
 /// Reads the state of the page, operates its controls, and returns results in its title.

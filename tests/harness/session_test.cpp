@@ -6,6 +6,7 @@
 #include "datasets/formats/formats.hpp"
 #include "tests/support/bag_writer.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/matplotlib.hpp"
 
 namespace loopbench::session_test {
 namespace {
@@ -82,7 +83,7 @@ TEST(Session, FromABagToTheGate) {
     run("eval groundtruth.txt " + name + "/*.txt --sequence day --store next_" + name);
     run("check next_" + name + " --baseline baseline.json --allow-dirty", name == "worse" ? 1 : 0);
   }
-  if (std::system("command -v gnuplot >/dev/null") != 0) GTEST_SKIP() << "needs gnuplot";
+  if (!has_matplotlib()) GTEST_SKIP() << "needs python3-matplotlib";
   run("plot results -o figures --format pdf");
   EXPECT_EQ(read_all(path("figures/01_day_errors.pdf")).substr(0, 5), "%PDF-");
   run("eval groundtruth.txt fixed/good_run0.txt --plot one --report one.html");

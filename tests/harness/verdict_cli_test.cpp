@@ -274,7 +274,7 @@ TEST_F(VerdictCli, PlotWritesFiguresOfChosenMethods) {
   const CommandResult result = run("plot r -o figures --methods raw,uniform --format svg");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(has(read("figures/01_off_ice_b_trajectories.svg"), "uniform"));
-  EXPECT_TRUE(has(read("figures/02_room_errors.svg"), "error angle [deg]"));
+  EXPECT_TRUE(has(read("figures/02_room_errors.svg"), "rotation error [deg]"));
   EXPECT_EQ(read("figures/02_room_errors.pdf"), "");
   const CommandResult slip = run("plot r --methods unifrom");
   EXPECT_EQ(slip.exit_code, 2);
@@ -291,7 +291,7 @@ TEST_F(VerdictCli, PlotSaysWhatStandsInItsWay) {
   const CommandResult alone = run("plot r -o without");
   setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(alone.exit_code, 2);
-  EXPECT_TRUE(has(alone.err, "gnuplot is not installed (package gnuplot-nox)")) << alone.err;
+  EXPECT_TRUE(has(alone.err, "python3 is not installed (package python3-matplotlib)")) << alone.err;
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 (() => {
   "use strict";
   const R = window.R;
-  // Dash types of gnuplot, so that a method has the same style in the figures of `plot`.
+  // Dashes by number, so that a method has the same style in the figures of `plot`.
   const kDashes = [null, "7 3", "2 2", "9 3 2 3", "9 3 2 3 2 3"];
   R.color = (m) => R.scores.styles[m].color;
   R.dash = (m) => kDashes[R.scores.styles[m].dash - 1];

@@ -1,4 +1,4 @@
-#include "harness/plot/run_gnuplot.hpp"
+#include "harness/plot/run_filter.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -8,10 +8,8 @@
 
 #include <array>
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 #include <thread>
-
-#include "datasets/core/error.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -29,19 +27,18 @@ struct Descriptor {
 };
 
 [[noreturn]] void fail_to_start(int reason) {
-  if (reason == ENOENT) throw InputError("gnuplot is not installed (package gnuplot-nox)");
-  throw InputError(std::string("gnuplot cannot be started: ") + std::strerror(reason));
+  throw std::system_error(reason, std::generic_category());
 }
 
-/// Stops early if gnuplot ends, which has then reported why. Blocks SIGPIPE: call it on a thread of
+/// Stops early if the program ends. Blocks SIGPIPE: call it on a thread of
 /// its own, which takes a pending signal with it.
-void send_all_to(Descriptor& out, const std::string& script) {
+void send_all_to(Descriptor& out, const std::string& input) {
   sigset_t broken_pipe;
   sigemptyset(&broken_pipe);
   sigaddset(&broken_pipe, SIGPIPE);
   pthread_sigmask(SIG_BLOCK, &broken_pipe, nullptr);
-  for (std::size_t done = 0; done < script.size();) {
-    const ssize_t count = ::write(out.number, script.data() + done, script.size() - done);
+  for (std::size_t done = 0; done < input.size();) {
+    const ssize_t count = ::write(out.number, input.data() + done, input.size() - done);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
     done += static_cast<std::size_t>(count);
@@ -49,16 +46,17 @@ void send_all_to(Descriptor& out, const std::string& script) {
   out.close_now();
 }
 
-pid_t start_gnuplot(int in, int out) {
+pid_t start(const std::vector<std::string>& words, int in, int out) {
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-  char name[] = "gnuplot";
-  char script[] = "/dev/stdin";  // opened by name it is read in blocks, otherwise byte by byte
-  char* const arguments[] = {name, script, nullptr};
   pid_t process = 0;
-  const int reason = posix_spawnp(&process, name, &actions, nullptr, arguments, environ);
+  const int reason =
+      posix_spawnp(&process, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (reason != 0) fail_to_start(reason);
   return process;
@@ -77,26 +75,26 @@ std::string read_until_end(int descriptor) {
 
 }  // namespace
 
-std::string drawn_by_gnuplot(const std::string& script) {
+FilterResult run_filter(const std::vector<std::string>& words, const std::string& input) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_start(errno);
-  Descriptor script_end{ends[0]};
-  Descriptor to_gnuplot{ends[1]};
+  Descriptor input_end{ends[0]};
+  Descriptor to_program{ends[1]};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_start(errno);
-  Descriptor from_gnuplot{ends[0]};
-  Descriptor drawing_end{ends[1]};
-  const pid_t process = start_gnuplot(script_end.number, drawing_end.number);
-  script_end.close_now();
-  drawing_end.close_now();
-  // In parallel: gnuplot draws before it has read all.
-  std::thread sender([&] { send_all_to(to_gnuplot, script); });
-  const std::string out = read_until_end(from_gnuplot.number);
+  Descriptor from_program{ends[0]};
+  Descriptor output_end{ends[1]};
+  const pid_t process = start(words, input_end.number, output_end.number);
+  input_end.close_now();
+  output_end.close_now();
+  std::thread sender([&] { send_all_to(to_program, input); });
+  FilterResult out;
+  out.output = read_until_end(from_program.number);
   sender.join();
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
-  if (status == 0 && !out.empty()) return out;
-  throw InputError("gnuplot failed (package gnuplot-nox); its messages are above");
+  out.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return out;
 }
 
 }  // namespace loopbench::harness
