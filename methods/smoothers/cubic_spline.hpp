@@ -7,7 +7,7 @@ namespace loopbench::methods {
 
 /// Positions: the interpolating cubic B-spline with natural ends (zero acceleration) and knots at
 /// the keyframes. Rotation: a cumulative cubic B-spline on SO(3) through the keyframes with zero
-/// angular acceleration at the ends (spline_controls.hpp), or great arcs. Both splines are C2 in
+/// angular acceleration at the ends (spline/interpolate.hpp), or great arcs. Both splines are C2 in
 /// time. One keyframe gives a constant, two a straight line and a great arc. O(n) to construct;
 /// O(1) amortised per query for sorted times, O(log n) otherwise.
 class CubicSpline final : public Smoother {

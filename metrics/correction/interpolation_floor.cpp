@@ -2,9 +2,9 @@
 
 #include <stdexcept>
 
+#include "datasets/core/cubic.hpp"
 #include "datasets/core/interpolate.hpp"
 #include "metrics/numerics/angle.hpp"
-#include "metrics/numerics/natural_cubic.hpp"
 #include "metrics/numerics/stamp_rounding.hpp"
 
 namespace loopbench::metrics {
@@ -48,7 +48,11 @@ void add_run(Floor& floor,
   if (nodes.size() < 2) return;
   std::vector<Vector3> points;
   for (const StampedPose& node : nodes) points.push_back(node.world_from_body.translation);
-  const NaturalCubic cubic(stamps(nodes), std::move(points));
+  const std::vector<Vector3> second_derivatives =
+      cubic_second_derivatives<Vector3>(stamps(nodes), points);
+  const auto knot = [&](std::size_t k) -> CubicKnot<Vector3> {
+    return {nodes[k].stamp, points[k], second_derivatives[k]};
+  };
   std::size_t i = 0;
   for (; next < reference.size() && reference[next].stamp <= nodes.back().stamp; ++next) {
     const auto& [stamp, truth] = reference[next];
@@ -59,7 +63,8 @@ void add_run(Floor& floor,
     const Pose line =
         interpolate(a.world_from_body, b.world_from_body, (stamp - a.stamp) / (b.stamp - a.stamp));
     floor.polyline.push_back((line.translation - truth.translation).norm());
-    floor.cubic.push_back((cubic.at(i, stamp) - truth.translation).norm());
+    const auto cubic = cubic_between<Vector3>(knot(i), knot(i + 1), stamp);
+    floor.cubic.push_back((cubic - truth.translation).norm());
     floor.slerp.push_back(kDegrees * angle_between(line.rotation, truth.rotation));
     floor.has_between |= stamp != a.stamp && stamp != b.stamp;
   }

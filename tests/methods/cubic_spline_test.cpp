@@ -5,7 +5,7 @@
 #include <random>
 
 #include "datasets/core/interpolate.hpp"
-#include "methods/smoothers/spline_controls.hpp"
+#include "methods/smoothers/spline/interpolate.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::cubic_spline_test {
@@ -80,30 +80,6 @@ std::vector<double> evenly_spaced(double begin, double end, int count) {
   for (int k = 0; k < count; ++k) out.push_back(begin + (end - begin) * k / count);
   out.push_back(end);
   return out;
-}
-
-TEST(CubicBasis, IsANonNegativePartitionOfUnity) {
-  const CubicBasis basis({0.0, 0.1, 2.0, 2.5, 7.0});
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (const double time : evenly_spaced(basis.stamps()[i], basis.stamps()[i + 1], 20)) {
-      const std::array<double, 4> N = basis.values(i, time);
-      EXPECT_NEAR(N[0] + N[1] + N[2] + N[3], 1.0, 1e-15);
-      for (const double value : N) EXPECT_GE(value, 0.0);
-    }
-  }
-}
-
-TEST(CubicBasis, ReproducesTimeFromTheGrevilleAbscissae) {
-  const CubicBasis basis({0.0, 0.1, 2.0, 2.5, 7.0});
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (const double time : evenly_spaced(basis.stamps()[i], basis.stamps()[i + 1], 7)) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < 4; ++k) {
-        sum += basis.values(i, time)[k] * basis.greville(i + k);
-      }
-      EXPECT_NEAR(sum, time, 1e-14);
-    }
-  }
 }
 
 TEST(CubicSpline, PassesThroughTheKeyframes) {
@@ -271,7 +247,7 @@ TEST(CubicSpline, NeedsFewNewtonStepsForAnySize) {
     const Trajectory keyframes = wandering(n);
     std::vector<Rotation> rotations;
     for (const StampedPose& pose : keyframes) rotations.push_back(pose.world_from_body.rotation);
-    const auto found = interpolating_rotations(CubicBasis(stamps(keyframes)), rotations);
+    const auto found = natural_rotation_controls(SplineBasis(4, stamps(keyframes)), rotations);
     ASSERT_TRUE(found.has_value());
     EXPECT_LE(found->iterations, 8);
   }

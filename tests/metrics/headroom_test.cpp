@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <numbers>
 
+#include "datasets/core/cubic.hpp"
 #include "datasets/formats/formats.hpp"
 #include "metrics/correction/interpolation_floor.hpp"
 #include "metrics/correction/smoothing_headroom.hpp"
 #include "metrics/numerics/low_pass.hpp"
-#include "metrics/numerics/natural_cubic.hpp"
 #include "support.hpp"
 
 namespace loopbench::headroom_test {
@@ -111,14 +111,18 @@ TEST(SmoothingHeadroom, OfRgbdslamOnRoomIsSmall) {
   EXPECT_NEAR(gain(e, {.window = 4.0}), 11.686, 0.05);
 }
 
-TEST(NaturalCubic, ByHand) {
+TEST(Cubic, ByHand) {
   // Second derivative 0, -3, 0 for a unit tent: s(1/2) = 1/2 + 3/16.
-  const NaturalCubic tent({0.0, 1.0, 2.0}, {{0, 0, 0}, {1, 2, 0}, {0, 0, 0}});
-  EXPECT_NEAR((tent.at(0, 0.5) - Vector3(0.6875, 1.375, 0.0)).norm(), 0.0, 1e-15);
-  EXPECT_NEAR((tent.at(1, 1.0) - Vector3(1.0, 2.0, 0.0)).norm(), 0.0, 1e-15);
-  const NaturalCubic straight({0.0, 1.0, 5.0}, {{0, 0, 0}, {1, 0, 0}, {5, 0, 0}});
-  EXPECT_NEAR(straight.at(1, 3.3).x(), 3.3, 1e-15);
-  EXPECT_THROW(NaturalCubic({0.0}, {{0, 0, 0}}), std::invalid_argument);
+  const std::vector<double> stamps{0.0, 1.0, 2.0};
+  const std::vector<double> tent{0.0, 1.0, 0.0};
+  EXPECT_EQ(cubic_second_derivatives<double>(stamps, tent), (std::vector{0.0, -3.0, 0.0}));
+  EXPECT_NEAR(
+      (cubic_between<double, double>({0.0, 0.0, 0.0}, {1.0, 1.0, -3.0}, 0.5)), 0.6875, 1e-15);
+  // The parabola through these values has the second derivative -2 if its velocities are given.
+  const double start = 2.0;
+  const double end = -2.0;
+  const auto parabola = cubic_second_derivatives<double>(stamps, tent, &start, &end);
+  for (const double value : parabola) EXPECT_NEAR(value, -2.0, 1e-14);
 }
 
 /// y = (t - 2)^2 for 4 s, 0.5 s apart, with estimate poses every second.

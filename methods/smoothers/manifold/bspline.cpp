@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "methods/smoothers/manifold/banded.hpp"
+#include "datasets/core/banded.hpp"
 
 namespace loopbench::methods::manifold {
 
@@ -23,7 +23,7 @@ BSpline BSpline::through(std::span<const double> sites,
   }
   out.knots_.insert(out.knots_.end(), k, sites.back());
 
-  Banded<Value> system(count, k - 1, Value::Zero());
+  BandedSystem<double, Value> system(count, k - 1);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t span = out.span(sites[i]);
     const auto N = basis(out.knots_, k, span, sites[i]);
@@ -49,7 +49,7 @@ BSpline BSpline::near(std::span<const double> sites,
   out.knots_.insert(out.knots_.end(), inner_knots.begin(), inner_knots.end());
   out.knots_.insert(out.knots_.end(), k, sites.back());
 
-  Banded<Value> normal(inner_knots.size() + k, k - 1, Value::Zero());
+  BandedSystem<double, Value> normal(inner_knots.size() + k, k - 1);
   for (std::size_t i = 0; i < sites.size(); ++i) {
     const std::size_t span = out.span(sites[i]);
     const auto N = basis(out.knots_, k, span, sites[i]);

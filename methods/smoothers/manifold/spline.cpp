@@ -1,5 +1,7 @@
 #include "methods/smoothers/manifold/spline.hpp"
 
+#include "datasets/core/cubic.hpp"
+
 namespace loopbench::methods::manifold {
 
 NodeSpline::NodeSpline(const Nodes& nodes, Straight) : stamps_(nodes.stamps), knots_(nodes.size()) {
@@ -36,79 +38,46 @@ NodeSpline NodeSpline::of_order(const Nodes& nodes, std::size_t order) {
   return out;
 }
 
-// Solves for continuous second derivatives m: h0 m0 + 2 (h0 + h1) m1 + h1 m2 = 6 (slope1 - slope0);
-// at the ends m = 0, or 2 h m0 + h m1 = 6 (slope - velocity). Thomas algorithm; the matrix is
-// diagonally dominant.
 void NodeSpline::solve_second_derivatives(std::size_t first,
                                           std::size_t last,
                                           const Clamp* start,
                                           const Clamp* end) {
-  const auto duration = [&](std::size_t i) { return stamps_[i + 1] - stamps_[i]; };
-  const auto slope = [&](std::size_t i) -> Value {
-    return (knots_[i + 1].value - knots_[i].value) / duration(i);
-  };
-  const auto velocity = [](const Clamp& clamp) {
+  std::vector<Value> values;
+  for (std::size_t i = first; i <= last; ++i) values.push_back(knots_[i].value);
+  const auto velocity = [](const Clamp* clamp) -> std::optional<Value> {
+    if (clamp == nullptr) return std::nullopt;
     Value out;
-    out << clamp.velocity, clamp.velocity.norm();
+    out << clamp->velocity, clamp->velocity.norm();
     return out;
   };
-  std::vector<double> upper(last - first + 1, 0.0);
-  std::vector<Value> second(last - first + 1, Value::Zero());
-  if (start != nullptr) {
-    upper[0] = 0.5;
-    second[0] = 6.0 * (slope(first) - velocity(*start)) / (2.0 * duration(first));
-  }
-  for (std::size_t i = first + 1; i < last; ++i) {
-    const std::size_t k = i - first;
-    const double h0 = duration(i - 1);
-    const double h1 = duration(i);
-    const double pivot = 2.0 * (h0 + h1) - h0 * upper[k - 1];
-    upper[k] = h1 / pivot;
-    second[k] = (6.0 * (slope(i) - slope(i - 1)) - h0 * second[k - 1]) / pivot;
-  }
-  if (end != nullptr) {
-    const double h = duration(last - 1);
-    const Value right = 6.0 * (velocity(*end) - slope(last - 1));
-    second.back() =
-        (right - h * second[second.size() - 2]) / (2.0 * h - h * upper[upper.size() - 2]);
-  }
-  for (std::size_t k = second.size() - 1; k-- > 0;) second[k] -= upper[k] * second[k + 1];
+  const std::optional<Value> at_start = velocity(start), at_end = velocity(end);
+  const std::vector<Value> second =
+      cubic_second_derivatives<Value>(std::span(stamps_).subspan(first, values.size()),
+                                      values,
+                                      at_start ? &*at_start : nullptr,
+                                      at_end ? &*at_end : nullptr);
   for (std::size_t i = first; i <= last; ++i) {
     if (i > first) knots_[i].before = second[i - first];
     if (i < last) knots_[i].after = second[i - first];
   }
 }
 
-SplinePoint NodeSpline::at(std::size_t edge, double time) const {
-  if (b_spline_) {
-    const Value value = b_spline_->at(time);
-    return {value.head<3>(), value[3], time};
-  }
+template <class Result, class Time>
+Result NodeSpline::value_at(std::size_t edge, const Time& time) const {
+  if (b_spline_) return b_spline_->at(time);
   const Knot& a = knots_[edge];
   const Knot& b = knots_[edge + 1];
-  const double h = stamps_[edge + 1] - stamps_[edge];
-  const double v = (time - stamps_[edge]) / h;
-  const double u = (stamps_[edge + 1] - time) / h;
-  const double sixth = h * h / 6.0;
-  const Value value = u * a.value + v * b.value + (sixth * (u * u - 1.0) * u) * a.after +
-                      (sixth * (v * v - 1.0) * v) * b.before;
+  return cubic_between<Result, Value>(
+      {stamps_[edge], a.value, a.after}, {stamps_[edge + 1], b.value, b.before}, time);
+}
+
+SplinePoint NodeSpline::at(std::size_t edge, double time) const {
+  const auto value = value_at<Value>(edge, time);
   return {value.head<3>(), value[3], time};
 }
 
 SplinePointJet NodeSpline::at(std::size_t edge, const Jet<double>& time) const {
-  Jet<Value> out;
-  if (b_spline_) {
-    out = b_spline_->at(time);
-  } else {
-    const Knot& a = knots_[edge];
-    const Knot& b = knots_[edge + 1];
-    const double h = stamps_[edge + 1] - stamps_[edge];
-    const Jet<double> v = (time - stamps_[edge]) / h;
-    const Jet<double> u = (stamps_[edge + 1] - time) / h;
-    const double sixth = h * h / 6.0;
-    out = u * a.value + v * b.value + (sixth * ((u * u - 1.0) * u)) * a.after +
-          (sixth * ((v * v - 1.0) * v)) * b.before;
-  }
+  const auto out = value_at<Jet<Value>>(edge, time);
   return {{out.value.head<3>(), out.first.head<3>(), out.second.head<3>()},
           {out.value[3], out.first[3], out.second[3]},
           time};

@@ -69,6 +69,8 @@ class NodeSpline {
                                 std::size_t last,
                                 const Clamp* start,
                                 const Clamp* end);
+  template <class Result, class Time>
+  Result value_at(std::size_t edge, const Time& time) const;
 
   std::vector<double> stamps_;
   std::vector<Knot> knots_;

@@ -1,6 +1,6 @@
 #include "methods/smoothers/penalised/trend.hpp"
 
-#include "datasets/core/tridiagonal.hpp"
+#include "datasets/core/banded.hpp"
 #include "methods/smoothers/penalised/trend_dual.hpp"
 
 namespace loopbench::methods {
@@ -45,7 +45,7 @@ std::vector<Vector3> Trend::refitted(const std::vector<Vector3>& y,
   std::vector<std::size_t> knots{0};
   knots.insert(knots.end(), kinks.begin(), kinks.end());
   knots.push_back(y.size() - 1);
-  std::vector<TridiagonalRow<double, Vector3>> rows(knots.size(), {0.0, 0.0, 0.0, Vector3::Zero()});
+  BandedSystem<double, Vector3> system(knots.size(), 1);
   const auto share = [&](std::size_t piece, std::size_t i) {
     return (times_[i] - times_[knots[piece]]) / (times_[knots[piece + 1]] - times_[knots[piece]]);
   };
@@ -60,14 +60,14 @@ std::vector<Vector3> Trend::refitted(const std::vector<Vector3>& y,
   for_each_point([&](std::size_t piece, std::size_t i, double u) {
     const Vector3 value = y[i] - y.front();
     const double v = 1.0 - u;
-    rows[piece].diagonal += v * v;
-    rows[piece].upper += v * u;
-    rows[piece].right += v * value;
-    rows[piece + 1].diagonal += u * u;
-    rows[piece + 1].lower += v * u;
-    rows[piece + 1].right += u * value;
+    system.at(piece, piece) += v * v;
+    system.at(piece, piece + 1) += v * u;
+    system.right(piece) += v * value;
+    system.at(piece + 1, piece + 1) += u * u;
+    system.at(piece + 1, piece) += v * u;
+    system.right(piece + 1) += u * value;
   });
-  const std::vector<Vector3> knot_values = solve_tridiagonal(rows);
+  const std::vector<Vector3> knot_values = system.solve();
   std::vector<Vector3> out(y.size());
   for_each_point([&](std::size_t piece, std::size_t i, double u) {
     out[i] = y.front() + (1.0 - u) * knot_values[piece] + u * knot_values[piece + 1];

@@ -14,6 +14,10 @@ std::vector<Vector3> interpolating_controls(const SplineBasis& basis,
                                             const std::vector<double>& sites,
                                             const std::vector<Vector3>& points);
 
+/// Returns the n + 2 control points of the natural cubic spline through n >= 2 points at the breaks
+/// of a basis of order 4. O(n).
+std::vector<Vector3> natural_controls(const SplineBasis& basis, const std::vector<Vector3>& points);
+
 struct RotationControls {
   std::vector<Rotation> controls;
   int iterations = 0;  ///< number of Newton steps
@@ -27,5 +31,12 @@ std::optional<RotationControls> interpolating_rotation_controls(
     const SplineBasis& basis,
     const std::vector<double>& sites,
     const std::vector<Rotation>& rotations);
+
+/// The same for the n + 2 controls of the natural cubic spline: through n >= 2 rotations at the
+/// breaks of a basis of order 4, with zero angular acceleration at both ends. With end knots
+/// repeated four times this end condition is: C_1 lies on the great arc from C_0 to C_2, and
+/// likewise at the other end. The system is block tridiagonal.
+std::optional<RotationControls> natural_rotation_controls(const SplineBasis& basis,
+                                                          const std::vector<Rotation>& rotations);
 
 }  // namespace loopbench::methods
