@@ -5,7 +5,7 @@
 packages=(
   clang cmake ninja-build
   libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev libre2-dev libceres-dev
-  libstb-dev
+  libstb-dev bubblewrap
 )
 # Compressed files and bags; each is optional: without it, files that need it are rejected (exit code 4).
 compression_packages=(zlib1g-dev libbz2-dev libzstd-dev liblz4-dev)

@@ -103,17 +103,15 @@ int run(const RunArguments& arguments, const Source& source) {
   const std::filesystem::path file = out / "results.sqlite";
   SandboxOptions sandbox;
   sandbox.enabled = !arguments.no_sandbox && !arguments.in_process;
-  sandbox.unreachable = {given};
-  if (!arguments.data.empty()) sandbox.unreachable.emplace_back(arguments.data);
+  sandbox.hidden = {given, given / "results.sqlite"};
+  if (!arguments.data.empty()) sandbox.hidden.emplace_back(arguments.data);
   const ControlGroups groups(sandbox.enabled);
   sandbox.groups = &groups;
   std::map<std::string, std::string> run_provenance = provenance(source, sweep, known);
   if (arguments.save_trajectories) {
     set_estimate_folder(out / "trajectories");
-    sandbox.writable.push_back(out / "trajectories");
   }
   sandbox.pid_namespace = !uses_programs(sweep);  // as run_isolated() does
-  set_dataset_sandbox({sandbox.enabled, false, {out}, {}});
   run_provenance["sandbox"] = sandbox_summary(sandbox);
   std::optional<Store> store(std::in_place, file, keys, run_provenance, arguments.fresh);
   store->set_shard(part.shard);
@@ -134,7 +132,7 @@ int run(const RunArguments& arguments, const Source& source) {
   if (!missing.empty()) {
     if (!arguments.stage.empty()) {
       root = stage_inputs(sweep, missing, known, root, arguments.stage);
-      sandbox.unreachable.push_back(arguments.stage);
+      sandbox.hidden.emplace_back(arguments.stage);
     }
     Progress progress(missing.size());
     ProgressFile progress_file(out);
@@ -276,8 +274,7 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
       ->type_name("DIR");
   command->add_flag("--no-sandbox",
                     arguments->no_sandbox,
-                    "Do not restrict what methods can reach (files, network, other processes) "
-                    "and create no control groups");
+                    "Let programs read all files, and create no namespaces and control groups");
   command->add_option("--data", arguments->data, "Folder with real datasets")
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR");

@@ -71,7 +71,7 @@ int run_verify(const VerifyArguments& arguments, const Source& source) {
       {true, 1}, {true, 1}, {true, 2}, {true, 5}, {false, 1}, {false, 4}};
   const StopRequests& interrupted = install_interrupt_handler();
   SandboxOptions sandbox;
-  if (!arguments.data.empty()) sandbox.unreachable.emplace_back(arguments.data);
+  if (!arguments.data.empty()) sandbox.hidden.emplace_back(arguments.data);
   std::vector<Difference> found;
   {
     Progress progress(planned.size() * modes.size());

@@ -51,6 +51,8 @@ Trajectory run_once(const CommandOptions& options,
                        {"TMPDIR", folder.path().string()}};
   start.scratch = folder.path();
   start.memory = setting.memory;
+  start.sandbox = &program_sandbox();
+  start.writable = folder.path();
 
   const auto started = ExchangeClock::now();
   ProcessTree tree(start);
@@ -61,7 +63,10 @@ Trajectory run_once(const CommandOptions& options,
     throw MemoryLimitExceeded(
         fmt::format("the program grew to {} bytes, limit {}", end.over_memory, setting.memory));
   }
-  if (end.exit_code != 0) throw std::runtime_error(with_output("the program " + text(end), output));
+  const std::string hidden = hidden_note(program_sandbox());
+  if (end.exit_code != 0) {
+    throw std::runtime_error(with_output("the program " + text(end) + hidden, output));
+  }
   ResultMetadata metadata;
   if (std::filesystem::is_regular_file(result.string() + ".json")) {
     metadata = parse_metadata(content(result.string() + ".json"));
@@ -71,7 +76,7 @@ Trajectory run_once(const CommandOptions& options,
   try {
     out = read_result(result, problem, options.output);
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(with_output(error.what(), output));
+    throw std::runtime_error(with_output(error.what() + hidden, output));
   }
   report.counts.insert(
       report.counts.end(), metadata.report.counts.begin(), metadata.report.counts.end());

@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "harness/execution/sandbox/sandbox.hpp"
 #include "harness/external/exchange.hpp"
 #include "methods/method.hpp"
 
@@ -35,7 +34,6 @@ void fields(CommandOptions& o, Visit visit) {
 struct CommandSetting {
   std::filesystem::path folder = ".";  ///< working directory: the folder of the config
   std::int64_t memory = 0;             ///< limit of the resident size of its tree [bytes]; 0: none
-  const Sandbox* sandbox = nullptr;    ///< of serving programs; null: that of this process
 };
 
 /// The tree of a program exceeded the memory limit.

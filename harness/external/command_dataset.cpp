@@ -1,7 +1,5 @@
 #include "harness/external/command_dataset.hpp"
 
-#include <unistd.h>
-
 #include <set>
 
 #include "harness/external/arguments.hpp"
@@ -73,31 +71,24 @@ bool is_own_file(const std::filesystem::path& file) {
   return std::filesystem::is_regular_file(std::filesystem::symlink_status(file, none));
 }
 
-SandboxOptions& dataset_sandbox() {
-  static SandboxOptions options;
-  return options;
-}
-
 std::filesystem::path& uncached_programs() {
   static std::filesystem::path folder;
   return folder;
 }
 
 /// Restrictions of the program: it sees its sequence, but not the reference.
-Sandbox program_sandbox(const CommandDatasetOptions& o,
-                        const DataRoot& root,
-                        const std::filesystem::path& sequence,
-                        const std::filesystem::path& writable) {
-  SandboxOptions options = dataset_sandbox();
+SandboxOptions sandbox_of(const CommandDatasetOptions& o,
+                          const DataRoot& root,
+                          const std::filesystem::path& sequence) {
+  SandboxOptions options = program_sandbox();
   if (!o.trajectory.reference.empty()) {
     const std::filesystem::path reference = root.find(o.trajectory.reference);
     std::error_code none;
     if (!std::filesystem::equivalent(reference, sequence, none)) {
-      options.unreachable.push_back(reference);
+      options.hidden.push_back(reference);
     }
   }
-  options.writable.push_back(writable);
-  return {options, {getpid(), getppid(), -getpgrp(), -1, 1}};
+  return options;
 }
 
 void run_program(const CommandDatasetOptions& o,
@@ -105,10 +96,12 @@ void run_program(const CommandDatasetOptions& o,
                  const std::filesystem::path& folder,
                  const std::filesystem::path& sequence,
                  const std::filesystem::path& trajectory) {
-  const Sandbox sandbox = program_sandbox(o, root, sequence, trajectory.parent_path());
+  const SandboxOptions sandbox = sandbox_of(o, root, sequence);
   ProgramStart start;
   start.folder = folder;
   start.sandbox = &sandbox;
+  start.writable = trajectory.parent_path();
+  if (!sequence.empty()) start.readable.push_back(sequence);
   start.environment = {{"LOOPBENCH_SEQUENCE", sequence.string()},
                        {"LOOPBENCH_TRAJECTORY", trajectory.string()},
                        {"TMPDIR", trajectory.parent_path().string()}};
@@ -120,7 +113,8 @@ void run_program(const CommandDatasetOptions& o,
   std::string output;
   const ProgramEnd end = ProcessTree(start).wait(output);
   if (end.exit_code != 0) {
-    throw InputError(with_output("run: " + o.run + ": the program " + text(end), output));
+    throw InputError(
+        with_output("run: " + o.run + ": the program " + text(end) + hidden_note(sandbox), output));
   }
   if (!is_own_file(trajectory)) {
     throw InputError(with_output("run: " + o.run + ": the program wrote no trajectory", output));
@@ -205,8 +199,6 @@ Sequence load_command(const CommandDatasetOptions& o,
   }
   return loaded;
 }
-
-void set_dataset_sandbox(const SandboxOptions& sandbox) { dataset_sandbox() = sandbox; }
 
 void set_uncached_programs(const std::filesystem::path& folder) { uncached_programs() = folder; }
 

@@ -5,16 +5,10 @@
 #include <vector>
 
 #include "datasets/dataset.hpp"
-#include "harness/execution/sandbox/sandbox.hpp"
 
 namespace loopbench::harness {
 
 inline constexpr const char* kCommandDataset = "command";
-
-/// Sets the restrictions of programs that datasets run, for this process and its workers; default:
-/// enabled. A program cannot reach the sequence's reference either, and writes in its own folder
-/// only.
-void set_dataset_sandbox(const SandboxOptions& sandbox);
 
 /// Sets the folder for outputs of programs if there is no cache, for this process and its workers;
 /// default: loopbench-programs in TMPDIR.

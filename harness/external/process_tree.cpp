@@ -9,7 +9,9 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -34,6 +36,31 @@ std::vector<std::string> environment_of(const ProgramStart& start) {
   }
   for (const auto& [name, value] : start.environment) out.push_back(name + "=" + value);
   return out;
+}
+
+/// Whether the program exists; otherwise bubblewrap would report that it does not.
+bool is_executable(const ProgramStart& start) {
+  const std::string& name = start.arguments.front();
+  if (name.find('/') != std::string::npos) return access((start.folder / name).c_str(), X_OK) == 0;
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "/bin:/usr/bin" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (access((folder + "/" + name).c_str(), X_OK) == 0) return true;
+  }
+  return false;
+}
+
+/// With the command line of the sandbox, or without a sandbox if there is none.
+ProgramStart with_sandbox(ProgramStart start) {
+  const bool is_used = start.sandbox != nullptr && start.sandbox->enabled && is_executable(start) &&
+                       has_bubblewrap();
+  if (!is_used) {
+    start.sandbox = nullptr;
+    return start;
+  }
+  start.arguments = sandboxed_arguments(
+      *start.sandbox, {start.arguments, start.folder, start.readable, start.writable});
+  return start;
 }
 
 /// Two ends that are closed unless they are taken.
@@ -65,7 +92,8 @@ void do_not_block(int file) { fcntl(file, F_SETFL, fcntl(file, F_GETFL) | O_NONB
 
 }  // namespace
 
-ProcessTree::ProcessTree(const ProgramStart& start) : owner_(getpid()) {
+ProcessTree::ProcessTree(const ProgramStart& given) : owner_(getpid()) {
+  const ProgramStart start = with_sandbox(given);
   const std::vector<std::string> environment = environment_of(start);
   Ends control;
   Ends status;

@@ -22,10 +22,12 @@ struct ProgramStart {
   std::vector<std::string> arguments;  ///< the program first; searched in PATH without a slash
   std::filesystem::path folder;        ///< working directory; must exist
   std::vector<std::pair<std::string, std::string>> environment;  ///< variables to set
-  std::filesystem::path scratch;     ///< folder that is removed with the tree; empty: none
-  std::int64_t memory = 0;           ///< limit of the tree's resident size [bytes]; 0: none
-  const Sandbox* sandbox = nullptr;  ///< to enter; null: none, or the one of this process
-  bool serves = false;               ///< standard input and output are connected to this process
+  std::filesystem::path scratch;            ///< folder that is removed with the tree; empty: none
+  std::int64_t memory = 0;                  ///< limit of the tree's resident size [bytes]; 0: none
+  const SandboxOptions* sandbox = nullptr;  ///< null: none
+  std::vector<std::filesystem::path> readable;  ///< what the sandbox shows
+  std::filesystem::path writable;               ///< the only folder that it can write into
+  bool serves = false;  ///< standard input and output are connected to this process
 };
 
 /// Limit of a tree, apart from threads.
@@ -38,7 +40,7 @@ struct ProgramEnd {
   int start_error = 0;              ///< errno if it could not be started
   std::int64_t over_memory = 0;     ///< resident size of the tree that exceeded the limit [bytes]
   std::int64_t over_processes = 0;  ///< processes of the tree that exceeded the limit
-  std::int64_t left_behind = 0;     ///< processes that outlived it and were killed
+  std::int64_t left_behind = 0;     ///< processes that outlived it and were killed; 0 in a sandbox
   double cpu_seconds = 0.0;         ///< of the tree
   std::int64_t peak_memory = 0;     ///< largest resident size of one of its processes [bytes]
 };

@@ -32,7 +32,8 @@ ProgramStart server_start(const CommandOptions& options, const CommandSetting& s
   out.arguments = command_words("serve", options.serve, options.shell);
   out.folder = setting.folder;
   out.memory = setting.memory;
-  out.sandbox = setting.sandbox;
+  out.sandbox = &program_sandbox();
+  out.writable = std::filesystem::temp_directory_path();
   out.serves = true;
   return out;
 }
@@ -193,7 +194,8 @@ Trajectory ask_server(const CommandOptions& options,
   } catch (const metrics::Undefined&) {
     throw;
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(with_output(error.what(), errors));
+    const std::string hidden = hidden_note(program_sandbox());
+    throw std::runtime_error(with_output(error.what() + hidden, errors));
   }
   for (auto& count : metadata.report.counts) report.counts.push_back(std::move(count));
   for (auto& phase : metadata.report.phases) report.phases.push_back(std::move(phase));

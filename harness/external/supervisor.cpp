@@ -180,6 +180,14 @@ bool watch(const ProgramStart& start,
   return true;
 }
 
+/// Bubblewrap exits with 128 + the signal that ended the program.
+void restore_signal(ProgramEnd& end) {
+  constexpr int kSignaled = 128;
+  if (end.exit_code <= kSignaled || end.exit_code >= kSignaled + NSIG) return;
+  end.signal = end.exit_code - kSignaled;
+  end.exit_code = -1;
+}
+
 }  // namespace
 
 void supervise(const ProgramStart& start,
@@ -187,7 +195,6 @@ void supervise(const ProgramStart& start,
                const SupervisorFiles& files) {
   setpgid(0, 0);  // signals of the terminal are for the sweep
   prctl(PR_SET_CHILD_SUBREAPER, 1);
-  if (start.sandbox != nullptr) start.sandbox->enter();
   std::signal(SIGPIPE, SIG_IGN);
   sigset_t child_ends;
   sigemptyset(&child_ends);
@@ -208,9 +215,11 @@ void supervise(const ProgramStart& start,
   int status = 0;
   const bool is_wanted = watch(start, files.control, signals, program, end, has_ended, status);
   end.left_behind = end_tree(program, has_ended, status);
+  if (start.sandbox != nullptr) end.left_behind = 0;  // they ended with their namespace
   if (read(start_error[0], &end.start_error, sizeof end.start_error) <= 0) end.start_error = 0;
   if (has_ended && WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
   if (has_ended && WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  if (start.sandbox != nullptr) restore_signal(end);
   rusage usage{};
   getrusage(RUSAGE_CHILDREN, &usage);
   const auto seconds = [](const timeval& t) {

@@ -81,7 +81,7 @@ RecomputedSample recompute_sample(
     CellKeys own_keys(sweep, catalogue, root, build);
     Store store(file, own_keys, {});
     SandboxOptions sandbox;
-    sandbox.unreachable = {arguments.store};
+    sandbox.hidden = {arguments.store};
     const std::vector<Cell> missing = store.resume(all, sample, Retry::none).missing;
     run_isolated(
         sweep, missing, catalogue, root, arguments.jobs, sandbox, stop, [&](const auto& r) {

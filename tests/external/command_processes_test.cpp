@@ -9,7 +9,7 @@
 #include <csignal>
 
 #include "datasets/formats/formats.hpp"
-#include "harness/execution/sandbox/landlock.hpp"
+#include "harness/execution/sandbox/sandbox.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/program_sweep.hpp"
 
@@ -44,12 +44,16 @@ TEST_F(CommandProcesses, ProcessesThatOutliveTheProgramAreKilled) {
   folder_.file("forks.sh",
                "sleep 8731 &\nsetsid sleep 8732 &\n(setsid sh -c 'sleep 8733 & sleep 8734' &)\n"
                "cp $1/keyframes.txt $2\n");
-  const auto done = cells(entry("forks", "'sh forks.sh {problem} {result}'"));
-  ASSERT_EQ(done.size(), 2u);
-  EXPECT_EQ(done[1].status, Status::ok) << done[1].why;
-  EXPECT_THAT(notes(done[1]), HasSubstr("processes outlived the program and were killed"));
-  for (const char* time : {"8731", "8732", "8733", "8734"}) {
-    EXPECT_FALSE(is_running(std::string("sleep ") + time)) << time;
+  for (const char* option : {"", " --no-sandbox"}) {
+    const auto done = cells(
+        entry("forks", "'sh forks.sh {problem} {result}'"), "", " --fresh" + std::string(option));
+    ASSERT_EQ(done.size(), 2u);
+    EXPECT_EQ(done[1].status, Status::ok) << done[1].why;
+    for (const char* time : {"8731", "8732", "8733", "8734"}) {
+      EXPECT_FALSE(is_running(std::string("sleep ") + time)) << time;
+    }
+    if (*option == '\0') continue;
+    EXPECT_THAT(notes(done[1]), HasSubstr("processes outlived the program and were killed"));
   }
 }
 
@@ -83,7 +87,7 @@ TEST_F(CommandProcesses, AHangingProgramIsKilledWithItsTreeAndItsFiles) {
 }
 
 TEST_F(CommandProcesses, WritesInItsFolderOnlyAndCannotReadTheReference) {
-  if (landlock_version() == 0) GTEST_SKIP() << "no Landlock";
+  if (!has_bubblewrap()) GTEST_SKIP() << "no bubblewrap";
   const Problem problem = test::circle(41);
   write_tum(folder_.path() / "estimate.txt", problem.keyframes);
   write_tum(folder_.path() / "reference.txt", problem.keyframes);
@@ -108,6 +112,32 @@ TEST_F(CommandProcesses, WritesInItsFolderOnlyAndCannotReadTheReference) {
       EXPECT_EQ(said.find("has read the reference") != std::string::npos, is_free) << said;
       EXPECT_EQ(said.find("has written beside the config") != std::string::npos, is_free) << said;
     }
+  }
+}
+
+TEST_F(CommandProcesses, ProgramsOfSeveralFilesRunBesideTheirDataAndResults) {
+  const Problem problem = test::circle(41);
+  write_tum(folder_.path() / "estimate.txt", problem.keyframes);
+  write_tum(folder_.path() / "reference.txt", problem.keyframes);
+  folder_.file("helper.py",
+               "import shutil\n\ndef correct(folder, result):\n"
+               "    shutil.copy(folder + '/keyframes.txt', result)\n");
+  folder_.file("mine.py", "import sys\nfrom helper import correct\ncorrect(*sys.argv[1:])\n");
+  folder_.file("lists.sh", "ls >/dev/null && cp $1/keyframes.txt $2\n");  // as Octave
+  folder_.file("fails.sh", "exit 3\n");
+  folder_.file("c.yaml",
+               "datasets: [{dataset: trajectory, estimate: estimate.txt, reference: reference.txt}]"
+               "\ntimes: keyframes\nmethods:\n" +
+                   entry("mine", "'python3 mine.py {problem} {result}'") +
+                   entry("lists", "'sh lists.sh {problem} {result}'") +
+                   entry("fails", "'sh fails.sh {problem} {result}'") + "metrics: [ate]\n");
+  for (const char* option : {"", " --retry all"}) {
+    loopbench_command("run c.yaml --data . --out r" + std::string(option), folder_);
+    const auto done = read_cells(folder_.path() / "r");
+    ASSERT_EQ(done.size(), 3u);
+    for (const std::size_t i : {0u, 1u}) EXPECT_EQ(done[i].status, Status::ok) << done[i].why;
+    EXPECT_THAT(done[2].why, HasSubstr("exited with code 3"));
+    if (has_bubblewrap()) EXPECT_THAT(done[2].why, HasSubstr("the sandbox hides "));
   }
 }
 

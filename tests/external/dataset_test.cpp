@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "datasets/formats/formats.hpp"
-#include "harness/execution/sandbox/landlock.hpp"
+#include "harness/execution/sandbox/sandbox.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/problems.hpp"
@@ -87,7 +87,7 @@ TEST_F(CommandDataset, ItsClosedTrajectoryIsEvaluatedAsItIs) {
 }
 
 TEST_F(CommandDataset, ItsProgramCannotReadTheReferenceOrWriteElsewhere) {
-  if (landlock_version() == 0) GTEST_SKIP() << "no Landlock";
+  if (!has_bubblewrap()) GTEST_SKIP() << "no bubblewrap";
   folder_.file("reference.txt", read_all(folder_.path() / "recording.txt"));
   folder_.file("curious.sh",
                "cat reference.txt && exit 9\necho x >outside && exit 8\n"

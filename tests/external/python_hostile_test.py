@@ -1,6 +1,6 @@
 """Python methods that misbehave: each costs its cell, with the reason. First argument: loopbench."""
 
-import ctypes
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -74,12 +74,15 @@ class Hostile(unittest.TestCase):
         self.assertEqual(left, [])
 
 
-def has_landlock():
-    create_ruleset, version = 444, 1  # numbers of the system call and its flag
-    return ctypes.CDLL(None).syscall(create_ruleset, None, 0, version) > 0
+def has_bubblewrap():
+    try:
+        return subprocess.run(["bwrap", "--unshare-pid", "--ro-bind", "/", "/", "--proc", "/proc",
+                               "true"], check=False).returncode == 0
+    except OSError:
+        return False
 
 
-@unittest.skipUnless(has_landlock(), "no Landlock")
+@unittest.skipUnless(has_bubblewrap(), "no bubblewrap")
 class Curious(unittest.TestCase):
     """A Python method that searches files, open files and memory of other processes."""
 
@@ -152,7 +155,7 @@ loopbench.serve()
         return list(said.values())
 
     def test_the_reference_is_out_of_reach(self):
-        self.assertEqual(self.seen(), [["True"], ["True"]])
+        self.assertEqual(self.seen(), [["False"], ["False"]])
         for found in self.seen("--no-sandbox"):  # the search is real
             self.assertIn("truth.txt", " ".join(found))
 

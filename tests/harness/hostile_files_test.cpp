@@ -129,22 +129,6 @@ TEST_F(HostileFiles, ClosedStandardStreamsCrashNothing) {
             std::string::npos);
 }
 
-TEST_F(HostileFiles, OtherNamesOfInputsAreReported) {
-  fs::copy_file(poses_, folder_.path() / "truth.txt");
-  folder_.file("l.yaml",
-               "datasets: [{dataset: trajectory, label: my, estimate: a.txt, reference: truth.txt, "
-               "closures: {source: none}}]\nmethods: [raw]\nmetrics: [ate]\n");
-  const std::string note =
-      "truth.txt has 2 names (hard links); methods cannot read it under this name, "
-      "but can under the others";
-  EXPECT_EQ(run("run l.yaml --out one", ">out").err.find("hard links"), std::string::npos);
-  fs::create_hard_link(folder_.path() / "truth.txt", folder_.path() / "other.txt");
-  const std::string err = run("run l.yaml --out two", ">out").err;
-  EXPECT_NE(err.find(note), std::string::npos) << err;
-  EXPECT_EQ(run("run l.yaml --out off --no-sandbox", ">out").err.find("hard links"),
-            std::string::npos);
-}
-
 TEST_F(HostileFiles, NoCommandWaitsForAPipeInPlaceOfAStore) {
   ASSERT_EQ(mkfifo((folder_.path() / "pipe").c_str(), 0600), 0);
   for (const char* arguments : {"table pipe", "report pipe", "check pipe --baseline b"}) {

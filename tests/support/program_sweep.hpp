@@ -28,12 +28,13 @@ class ProgramSweep : public testing::Test {
 
   /// Runs a sweep of one simulated sequence with these method entries; returns its cells.
   std::vector<harness::CellRecord> cells(const std::string& entries,
-                                         const std::string& settings = "") {
+                                         const std::string& settings = "",
+                                         const std::string& options = "") {
     folder_.file(
         "c.yaml",
         "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmethods:\n  - raw\n" +
             entries + "metrics: [ate]\ntimes: keyframes\n" + settings);
-    ran_ = loopbench_command("run c.yaml --out r -j 2", folder_);
+    ran_ = loopbench_command("run c.yaml --out r -j 2" + options, folder_);
     return harness::read_cells(folder_.path() / "r");
   }
 

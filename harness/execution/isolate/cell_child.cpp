@@ -17,7 +17,6 @@
 #include "harness/execution/run/process_usage.hpp"
 #include "harness/execution/run/run_cell.hpp"
 #include "harness/execution/sandbox/system_file.hpp"
-#include "harness/external/external_methods.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -96,8 +95,6 @@ void run_cell_and_exit(const CellChild& child) {
   set_freshly_forked();
   warm_heap();
   const Sweep& sweep = child.context.sweep;
-  child.sandbox.enter(runs_programs(sweep.methods[child.cell.method]) ? Privileges::of_programs
-                                                                      : Privileges::of_methods);
   connect_streams(child.input, child.output, child.kept);
   CellResult result = run_cell(child.cell, sweep, child.sequence, child.context.catalogue);
   result.worker = {true, sweep.serial, is_pinned};

@@ -7,7 +7,6 @@
 
 #include "harness/execution/isolate/result_area.hpp"
 #include "harness/execution/isolate/worker.hpp"
-#include "harness/execution/sandbox/sandbox.hpp"
 
 namespace loopbench::harness {
 
@@ -19,7 +18,6 @@ struct CellChild {
   int core = -1;  ///< to run on; -1: any
   int input = -1;
   int output = -1;  ///< standard output and error
-  const Sandbox& sandbox;
   ResultArea& area;
   std::vector<int> kept;  ///< descriptors to keep open, apart from the standard streams
 };
@@ -27,7 +25,7 @@ struct CellChild {
 /// The highest core this process may use, since the first ones handle most interrupts.
 int last_core();
 
-/// In the forked process: detaches it from the worker, runs the cell in the sandbox and leaves the
+/// In the forked process: detaches it from the worker, runs the cell and leaves the
 /// packed result in the area.
 [[noreturn]] void run_cell_and_exit(const CellChild& child);
 

@@ -101,20 +101,14 @@ CellProcesses::CellProcesses(const WorkerContext& context,
 
 CellProcesses::~CellProcesses() { close(null_); }
 
-const Sandbox& CellProcesses::sandbox_for(const LoadedSequences::Entry& entry) {
+void CellProcesses::hide_inputs(const LoadedSequences::Entry& entry) {
   const std::vector<InputFile>& inputs = entry.metadata.inputs;
-  if (!sandbox_ || !std::ranges::equal(inputs, hidden_, {}, &InputFile::path, &InputFile::path)) {
+  if (!std::ranges::equal(inputs, hidden_, {}, &InputFile::path, &InputFile::path)) {
     hidden_ = inputs;
     end_servers();  // they are in the previous sandbox
-    SandboxOptions options = context_.sandbox;
-    if (scratch_ != nullptr) options.writable.push_back(scratch_->path());
-    for (const InputFile& input : inputs) options.unreachable.emplace_back(input.path);
-    // This process, and without a PID namespace the sweep, their group, all processes, init.
-    std::vector<pid_t> guarded{getpid()};
-    if (getpid() != 1) guarded = {getpid(), context_.sweep_process, -getpgrp(), -1, 1};
-    sandbox_.emplace(options, guarded);
   }
-  return *sandbox_;
+  program_sandbox() = context_.sandbox;
+  for (const InputFile& input : inputs) program_sandbox().hidden.emplace_back(input.path);
 }
 
 std::string CellProcesses::packed_failure(const Cell& cell,
@@ -134,15 +128,13 @@ std::string CellProcesses::packed_failure(const Cell& cell,
 }
 
 std::string CellProcesses::run(const Cell& cell, const LoadedSequences::Entry& entry) {
-  const Sandbox& sandbox = sandbox_for(entry);
+  if (scratch_ != nullptr) hide_inputs(entry);
   area_.clear();
   CellOutput output;
   const Limits& limits = context_.sweep.limits;
   const std::int64_t memory = limits.memory > 0 ? process_memory("self") : 0;
   if (limits.memory > 0) group_.limit_growth(limits.memory + kReserveOfGroup);
-  CommandSetting setting = command_setting(context_.sweep);
-  setting.sandbox = &sandbox;
-  prepare_programs(context_.sweep.methods[cell.method], setting);
+  prepare_programs(context_.sweep.methods[cell.method], command_setting(context_.sweep));
   const RunningServers servers = running_servers();
   const pid_t worker = getpid();
   const pid_t process = fork();
@@ -155,7 +147,6 @@ std::string CellProcesses::run(const Cell& cell, const LoadedSequences::Entry& e
                        core_,
                        null_,
                        output.write_end(),
-                       sandbox,
                        area_,
                        servers.descriptors});
   }

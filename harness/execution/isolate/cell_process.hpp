@@ -1,7 +1,6 @@
 /// Cells in processes of their own, forked from a worker that has loaded the sequence.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,7 +32,8 @@ class CellProcesses {
   std::string run(const Cell& cell, const LoadedSequences::Entry& entry);
 
  private:
-  const Sandbox& sandbox_for(const LoadedSequences::Entry& entry);
+  /// Hides the files of the sequence from programs of its cells.
+  void hide_inputs(const LoadedSequences::Entry& entry);
   /// Packed result of a cell that left none.
   std::string packed_failure(const Cell& cell,
                              Status status,
@@ -48,8 +48,7 @@ class CellProcesses {
   const ControlGroup& group_;
   std::int64_t ended_by_limit_ = 0;  ///< of the group, before the running cell
   ResultArea area_;
-  std::optional<Sandbox> sandbox_;
-  std::vector<InputFile> hidden_;  ///< inputs that the sandbox hides
+  std::vector<InputFile> hidden_;  ///< inputs that running servers cannot read
 };
 
 }  // namespace loopbench::harness

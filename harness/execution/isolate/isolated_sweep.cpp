@@ -11,13 +11,13 @@
 #include "harness/catalogue/loading.hpp"
 #include "harness/execution/isolate/cell_child.hpp"
 #include "harness/execution/isolate/cell_queue.hpp"
-#include "harness/execution/isolate/hard_links.hpp"
 #include "harness/execution/isolate/killed_cells.hpp"
 #include "harness/execution/isolate/subreaper.hpp"
 #include "harness/execution/isolate/unpack_answer.hpp"
 #include "harness/execution/isolate/worker_slot.hpp"
 #include "harness/execution/run/oracle_method.hpp"
 #include "harness/external/external_methods.hpp"
+#include "harness/text/print_error.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -180,8 +180,7 @@ class IsolatedSweep {
                        " or a file read with it changed during the run");
     }
     if (kept) return;  // every worker loads its own copy, but the notes are printed once
-    print_notes(context_.sweep.datasets[context_.cells[cell].dataset].label,
-                printed_notes(*metadata, context_.sandbox.enabled));
+    print_notes(context_.sweep.datasets[context_.cells[cell].dataset].label, metadata->notes);
     kept = std::move(metadata);
   }
 
@@ -293,7 +292,10 @@ void run_isolated(const Sweep& sweep,
   const std::unique_ptr<const ScratchFolder> scratch = scratch_for_programs(sweep);
   SandboxOptions options = sandbox;
   if (scratch) options.pid_namespace = false;  // supervisors of programs use numbers in /proc
-  const WorkerContext context{sweep, cells, catalogue, root, options, getpid()};
+  if (scratch && options.enabled && !has_bubblewrap()) {
+    print_error("loopbench: bubblewrap (bwrap) does not work here: programs can read all files\n");
+  }
+  const WorkerContext context{sweep, cells, catalogue, root, options};
   IsolatedSweep(context, jobs, stop, finished).run();
 }
 

@@ -79,10 +79,13 @@ void set_status(SharedStatus& shared_status, std::uint64_t job, bool loading) {
 }
 
 /// While it loads, the worker ends with the sweep; while a cell runs, it ends the cell first.
-const LoadedSequences::Entry& load(LoadedSequences& loaded, const Cell& cell) {
+const LoadedSequences::Entry& load(LoadedSequences& loaded,
+                                   const Cell& cell,
+                                   const SandboxOptions& sandbox) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const LoadedSequences::Entry& out = [&]() -> const LoadedSequences::Entry& {
     const ProcessState state;
+    program_sandbox() = sandbox;
     return loaded.load(cell);
   }();
   prctl(PR_SET_PDEATHSIG, 0);
@@ -113,7 +116,7 @@ void run_worker(const WorkerContext& context,
       set_status(shared_status, job.cell, true);
       group.remove_limit();
       try {
-        entry = &load(loaded, cell);
+        entry = &load(loaded, cell, context.sandbox);
       } catch (const std::exception& error) {
         answers.send(Header::Kind::cannot_load, job.cell, error.what());
         return;

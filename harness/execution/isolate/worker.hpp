@@ -55,7 +55,6 @@ struct WorkerContext {
   const Catalogue& catalogue;
   const DataRoot& root;
   const SandboxOptions& sandbox;
-  pid_t sweep_process = 0;
 };
 
 /// Reads jobs from `socket` and answers there until it is closed. `core`: the one that cells run

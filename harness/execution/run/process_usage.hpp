@@ -19,8 +19,7 @@ std::optional<std::int64_t> data_memory();
 /// the system does not support it.
 bool reset_peak_memory();
 
-/// Declares that this process was just forked to run one method: its peak needs no reset, which the
-/// sandbox of a cell prevents.
+/// Declares that this process was just forked to run one method: its peak needs no reset.
 void set_freshly_forked();
 
 bool is_freshly_forked();

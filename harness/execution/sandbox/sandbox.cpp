@@ -1,34 +1,174 @@
 #include "harness/execution/sandbox/sandbox.hpp"
 
+#include <fcntl.h>
 #include <sched.h>
-#include <sys/prctl.h>
 #include <unistd.h>
 
-#include "harness/execution/sandbox/landlock.hpp"
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+#include <system_error>
+
 #include "harness/execution/sandbox/system_file.hpp"
 #include "harness/execution/sandbox/try_in_child.hpp"
 
 namespace loopbench::harness {
+namespace {
 
-Sandbox::Sandbox(const SandboxOptions& options, const std::vector<pid_t>& guarded)
-    : enabled_(options.enabled) {
-  if (!enabled_) return;
-  landlock_ = landlock_rules(options.unreachable, options.writable);
-  for_methods_ = system_call_filter(guarded, Privileges::of_methods);
-  for_programs_ = system_call_filter(guarded, Privileges::of_programs);
+namespace fs = std::filesystem;
+
+std::vector<std::string> base_arguments() {
+  return {"bwrap",
+          "--die-with-parent",
+          "--unshare-pid",
+          "--unshare-ipc",
+          "--ro-bind",
+          "/",
+          "/",
+          "--dev-bind",
+          "/dev",
+          "/dev",
+          "--tmpfs",
+          "/dev/shm",
+          "--proc",
+          "/proc"};
 }
 
-Sandbox::~Sandbox() {
-  if (landlock_ >= 0) close(landlock_);
+bool run_bubblewrap() {
+  std::vector<std::string> words = base_arguments();
+  words.insert(words.end(), {"--", "true"});
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return try_in_child([&] {
+    const int null = open("/dev/null", O_RDWR | O_CLOEXEC);
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, stream);
+    execvp("bwrap", pointers.data());
+    return false;
+  });
 }
 
-void Sandbox::enter(Privileges privileges) const {
-  if (!enabled_) return;
-  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  if (landlock_ >= 0) landlock_restrict(landlock_);
-  drop_capabilities();
-  prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);  // hides /proc/PID/mem from programs that it starts
-  restrict_system_calls(privileges == Privileges::of_methods ? for_methods_ : for_programs_);
+fs::path resolved(const fs::path& path) {
+  std::error_code error;
+  const fs::path out = fs::weakly_canonical(fs::absolute(path, error), error);
+  return out.has_filename() ? out : out.parent_path();
+}
+
+bool contains(const fs::path& folder, const fs::path& path) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
+}
+
+/// Programs need the system's folders, and interpreters their packages in the user's home.
+bool is_needed(const fs::path& folder) {
+  std::vector<fs::path> needed{"/usr", "/etc", "/bin", "/lib", "/proc", "/dev"};
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/') {
+    needed.push_back(resolved(home));
+  }
+  return contains("/usr", folder) || contains("/etc", folder) ||
+         std::ranges::any_of(needed, [&](const fs::path& each) { return contains(folder, each); });
+}
+
+enum class View { hidden_file, hidden_folder, readable, writable };
+using Views = std::map<fs::path, View>;  // a folder precedes what is in it
+
+/// Hides an existing path; of a file, its folder, too, unless programs need that.
+void hide(Views& views, const fs::path& path) {
+  std::error_code error;
+  const bool is_folder = fs::is_directory(path, error);
+  if (!is_folder && !fs::exists(path, error)) return;
+  const fs::path folder = is_folder ? path : path.parent_path();
+  if (!is_needed(folder)) views[folder] = View::hidden_folder;
+  if (!is_folder) views[path] = View::hidden_file;
+}
+
+/// Names of files in a command line: its words, and the words of a line for a shell.
+std::vector<fs::path> named_files(const SandboxedProgram& program) {
+  std::vector<fs::path> out;
+  for (const std::string& argument : program.arguments) {
+    std::istringstream words(argument);
+    out.emplace_back(argument);
+    for (std::string word; words >> word;) out.emplace_back(word);
+  }
+  return out;
+}
+
+void show_own_folders(Views& views, const SandboxedProgram& program) {
+  views[resolved(program.folder)] = View::readable;
+  for (const fs::path& name : named_files(program)) {
+    std::error_code error;
+    const fs::path file = resolved(program.folder / name);
+    if (fs::is_directory(file, error)) continue;
+    if (!fs::is_regular_file(file, error)) continue;
+    views[file.parent_path()] = View::readable;
+    views[file] = View::readable;
+  }
+}
+
+/// The view of the closest folder in the list that contains the path.
+View view_of_folder(const Views& views, const fs::path& path) {
+  for (fs::path at = path.parent_path(); at != at.parent_path(); at = at.parent_path()) {
+    if (const auto found = views.find(at); found != views.end()) return found->second;
+  }
+  return View::readable;
+}
+
+void append(std::vector<std::string>& out, const Views& views) {
+  for (const auto& [path, view] : views) {
+    switch (view) {
+      case View::hidden_folder:
+        out.insert(out.end(), {"--tmpfs", path.string()});
+        break;
+      case View::hidden_file:
+        if (view_of_folder(views, path) == View::hidden_folder) break;
+        out.insert(out.end(), {"--ro-bind", "/dev/null", path.string()});
+        break;
+      case View::readable:
+        out.insert(out.end(), {"--ro-bind", path.string(), path.string()});
+        break;
+      case View::writable:
+        out.insert(out.end(), {"--bind", path.string(), path.string()});
+        break;
+    }
+  }
+}
+
+}  // namespace
+
+bool has_bubblewrap() {
+  static const bool out = run_bubblewrap();
+  return out;
+}
+
+std::vector<std::string> sandboxed_arguments(const SandboxOptions& options,
+                                             const SandboxedProgram& program) {
+  Views views;
+  for (const fs::path& path : options.hidden) hide(views, resolved(path));
+  show_own_folders(views, program);
+  for (const fs::path& path : program.readable) views[resolved(path)] = View::readable;
+  if (!program.writable.empty()) views[resolved(program.writable)] = View::writable;
+  std::vector<std::string> out = base_arguments();
+  append(out, views);
+  out.insert(out.end(), {"--chdir", resolved(program.folder).string(), "--"});
+  out.insert(out.end(), program.arguments.begin(), program.arguments.end());
+  return out;
+}
+
+SandboxOptions& program_sandbox() {
+  static SandboxOptions options{.enabled = false};
+  return options;
+}
+
+std::string hidden_note(const SandboxOptions& options) {
+  std::string out;
+  if (!options.enabled || !has_bubblewrap()) return out;
+  for (const fs::path& path : options.hidden) {
+    std::error_code error;
+    if (!fs::exists(path, error)) continue;
+    out += (out.empty() ? "; the sandbox hides " : ", ") + path.string();
+  }
+  return out.empty() ? out : out + " from it";
 }
 
 bool enter_pid_namespace() {
@@ -47,10 +187,10 @@ bool enter_pid_namespace() {
 }
 
 std::string sandbox_summary(const SandboxOptions& options) {
-  const auto state = [&](bool available) { return options.enabled && available ? "on" : "off"; };
-  return std::string("PID namespace ") +
-         state(options.pid_namespace && try_in_child(enter_pid_namespace)) + ", Landlock " +
-         state(landlock_version() > 0) + ", seccomp " + state(has_seccomp()) + ", cgroup v2 " +
+  const bool works = options.enabled &&
+                     (options.pid_namespace ? try_in_child(enter_pid_namespace) : has_bubblewrap());
+  return std::string(options.pid_namespace ? "PID namespace " : "bubblewrap ") +
+         (works ? "on" : "off") + ", cgroup v2 " +
          (options.groups == nullptr ? "off" : options.groups->summary());
 }
 

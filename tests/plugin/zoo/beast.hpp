@@ -11,31 +11,25 @@
 
 namespace loopbench::zoo {
 
-struct Options {
-  std::string path = "/dev/null";
-};
+struct Options {};
 template <class Visit>
-void fields(Options& o, Visit visit) {
-  visit("path", o.path, "file to open");
-}
+void fields(Options&, Visit) {}
 
 struct Scene {
   const Problem& problem;
   Trajectory& estimate;
   methods::Report& report;
-  const std::string& path;
 };
 
 template <void (*deed)(const Scene&)>
 struct Beast final : methods::Corrector {
   using Options = zoo::Options;
-  explicit Beast(const Options& o) : options(o) {}
+  explicit Beast(const Options&) {}
   Trajectory correct(const Problem& problem, methods::Report& report) const override {
     Trajectory estimate = problem.keyframes;
-    deed({problem, estimate, report, options.path});
+    deed({problem, estimate, report});
     return estimate;
   }
-  Options options;
 };
 
 /// Name and deed, for the list of methods.
@@ -49,12 +43,11 @@ inline void require(long result, const char* call) {
   if (result < 0) throw std::runtime_error(std::string(call) + ": " + std::strerror(errno));
 }
 
-std::vector<methods::MethodEntry> crashing();      ///< end their process
-std::vector<methods::MethodEntry> hanging();       ///< never return
-std::vector<methods::MethodEntry> breeding();      ///< start or signal other processes
-std::vector<methods::MethodEntry> meddling();      ///< change the state of their process
-std::vector<methods::MethodEntry> greedy();        ///< memory and output without end
-std::vector<methods::MethodEntry> lying();         ///< return or throw what they should not
-std::vector<methods::MethodEntry> breaking_out();  ///< reach for files, network, other processes
+std::vector<methods::MethodEntry> crashing();  ///< end their process
+std::vector<methods::MethodEntry> hanging();   ///< never return
+std::vector<methods::MethodEntry> breeding();  ///< start or signal other processes
+std::vector<methods::MethodEntry> meddling();  ///< change the state of their process
+std::vector<methods::MethodEntry> greedy();    ///< memory and output without end
+std::vector<methods::MethodEntry> lying();     ///< return or throw what they should not
 
 }  // namespace loopbench::zoo

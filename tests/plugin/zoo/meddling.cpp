@@ -1,5 +1,4 @@
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #ifdef __SSE2__
@@ -40,10 +39,6 @@ void ignore_signals(const Scene&) {
   for (int signal = 1; signal < 32; ++signal) std::signal(signal, SIG_IGN);
 }
 void set_alarm(const Scene&) { alarm(20); }
-void raise_limits(const Scene&) {
-  const rlimit none{RLIM_INFINITY, RLIM_INFINITY};
-  require(setrlimit(RLIMIT_DATA, &none), "setrlimit");
-}
 void leave_threads(const Scene&) {
   for (int i = 0; i < 4; ++i) std::thread([] { pause(); }).detach();
 }
@@ -82,7 +77,6 @@ std::vector<methods::MethodEntry> meddling() {
           beast<change_locale>("change_locale"),
           beast<ignore_signals>("ignore_signals"),
           beast<set_alarm>("set_alarm"),
-          beast<raise_limits>("raise_limits"),
           beast<leave_threads>("leave_threads"),
           beast<close_all>("close_all"),
           beast<write_to_descriptors>("write_to_descriptors"),
