@@ -33,12 +33,16 @@ class Sandboxed : public testing::Test {
     if (!has_bubblewrap()) GTEST_SKIP() << "bubblewrap does not work here";
   }
 
-  /// What `sh -c LINE` prints in `own`.
-  std::string printed(const std::string& line, const std::vector<std::string>& hidden) {
+  /// What a shell script of that line, and files that it is given, prints in `own`.
+  std::string printed(const std::string& line,
+                      const std::vector<std::string>& hidden,
+                      const std::string& file = "") {
+    folder_.file("own/script.sh", line);
     SandboxOptions options;
     for (const std::string& each : hidden) options.hidden.push_back(folder_.path() / each);
     ProgramStart start;
-    start.arguments = {"sh", "-c", line};
+    start.arguments = {"sh", "script.sh"};
+    if (!file.empty()) start.arguments.push_back((folder_.path() / file).string());
     start.folder = folder_.path() / "own";
     start.sandbox = &options;
     start.readable = readable_;
@@ -58,17 +62,18 @@ TEST_F(Sandboxed, HiddenFoldersAreEmptyExceptWhatTheProgramWasGiven) {
   readable_ = {folder_.path() / "data/room/est.txt"};
   EXPECT_EQ(printed("ls ../data ../data/room && cat ../data/room/est.txt", {"data"}),
             "../data:\nroom\n\n../data/room:\nest.txt\ntext\n");
-  EXPECT_EQ(printed("ls ../data ../data/tools", {"data", "data/room"}).find("room"),
-            std::string::npos);
+  EXPECT_EQ(printed("ls ../data/room", {"data", "data/room/truth.txt"}, "data/room/est.txt"),
+            "est.txt\n");
 }
 
 TEST_F(Sandboxed, ItsOwnFolderCanBeListedButNotHiddenFilesInIt) {
   EXPECT_EQ(printed("ls; cat helper.txt", {"own/truth.txt", "own/data"}),
-            "data\nhelper.txt\ntruth.txt\ntext\n");
+            "data\nhelper.txt\nscript.sh\ntruth.txt\ntext\n");
   EXPECT_EQ(printed("cat truth.txt 2>/dev/null; ls data", {"own/truth.txt", "own/data"}), "");
   EXPECT_EQ(printed("ls " + (folder_.path() / "data/tools").string() + "; cat " +
                         (folder_.path() / "data/tools/helper.txt").string(),
-                    {"data"}),
+                    {"data"},
+                    "data/tools/helper.txt"),
             "helper.txt\ntext\n")
       << "the folder of a file in its command line";
 }

@@ -95,14 +95,18 @@ std::vector<fs::path> named_files(const SandboxedProgram& program) {
 }
 
 void show_own_folders(Views& views, const SandboxedProgram& program) {
+  const Views hidden = views;
   views[resolved(program.folder)] = View::readable;
+  bool is_program = true;  // the first file that is not of the system
   for (const fs::path& name : named_files(program)) {
     std::error_code error;
     const fs::path file = resolved(program.folder / name);
     if (fs::is_directory(file, error)) continue;
     if (!fs::is_regular_file(file, error)) continue;
-    views[file.parent_path()] = View::readable;
+    const fs::path folder = file.parent_path();
+    if (is_program || !hidden.contains(folder)) views[folder] = View::readable;
     views[file] = View::readable;
+    if (!is_needed(folder)) is_program = false;
   }
 }
 

@@ -36,8 +36,8 @@ struct SandboxedProgram {
 /// forked processes, return the same.
 bool has_bubblewrap();
 
-/// The command line that runs the program under bubblewrap. Folders of existing files in its
-/// command line are readable.
+/// The command line that runs the program under bubblewrap. Existing files in its command line are
+/// readable, with their folders unless these are hidden; of the program itself, its folder always.
 std::vector<std::string> sandboxed_arguments(const SandboxOptions& options,
                                              const SandboxedProgram& program);
 
