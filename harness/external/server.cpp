@@ -51,7 +51,9 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  bool is_in_step() const { return turn_->requested == turn_->answered && !tree_.has_ended(); }
+  bool is_in_step() const {
+    return turn_->requested == turn_->answered && !tree_.has_ended() && !has_output();
+  }
 
   void append_to(RunningServers& out) const {
     out.processes.push_back(tree_.supervisor());
@@ -74,7 +76,7 @@ class Server {
     std::memcpy(&header, received_.data(), sizeof header);
     check_header(header, number, problem.keyframes.size());
     receive(sizeof header + header.text + header.data, memory);
-    if (received_.size() > sizeof header + header.text + header.data) {
+    if (received_.size() > sizeof header + header.text + header.data || has_output()) {
       throw std::runtime_error("the program wrote more than one answer");
     }
     turn_->answered = number;  // from here on the streams are in step, whatever the answer says
@@ -85,6 +87,12 @@ class Server {
   }
 
  private:
+  /// Whether bytes are there that belong to no answer.
+  bool has_output() const {
+    pollfd file{tree_.output(), POLLIN, 0};
+    return poll(&file, 1, 0) > 0 && (file.revents & POLLIN) != 0;
+  }
+
   /// Sends and receives until at least `size` bytes are here.
   void receive(std::size_t size, std::int64_t memory) {
     while (received_.size() < size) {

@@ -94,13 +94,43 @@ TEST_F(Command, ResultJsonStatesTimeCountsAndRefusals) {
   EXPECT_EQ(done[2].why, "too flat");
 }
 
+TEST_F(Command, AnEstimateThatEqualsTheReferenceIsMarked) {
+  const std::filesystem::path example = std::filesystem::path(LOOPBENCH_CONFIGS) / "example";
+  for (const char* name : {"open.txt", "reference.txt"}) {
+    std::filesystem::copy_file(example / name, folder_.path() / name);
+  }
+  // A second name, under which the reference is not hidden.
+  std::filesystem::create_hard_link(folder_.path() / "reference.txt", folder_.path() / "other.txt");
+  folder_.file("cheat.py",
+               "import sys\n"
+               "poses = {row.split()[0]: row for row in open(sys.argv[2]) if row[0] != '#'}\n"
+               "with open(sys.argv[3], 'w') as out:\n"
+               "    for row in open(sys.argv[1] + '/keyframes.txt'):\n"
+               "        if row[0] != '#':\n"
+               "            out.write(poses['%.3f' % float(row.split()[0])])\n");
+  folder_.file("c.yaml",
+               "datasets: [{dataset: trajectory, estimate: open.txt, reference: reference.txt, "
+               "label: own}]\nmethods:\n  - raw\n" +
+                   entry("cheat",
+                         "'python3 cheat.py {problem} " + (folder_.path() / "other.txt").string() +
+                             " {result}'") +
+                   "metrics: [ate]\ntimes: keyframes\n");
+  ran_ = loopbench_command("run c.yaml --out r", folder_);
+  const auto done = read_cells(folder_.path() / "r");
+  ASSERT_EQ(done.size(), 2u) << ran_.err;
+  EXPECT_FALSE(done[0].oracle);
+  EXPECT_LT(errors().at("cheat"), 1e-9) << done[1].why;
+  EXPECT_TRUE(done[1].oracle);
+  EXPECT_THAT(notes(done[1]), HasSubstr("oracle (equals the reference)"));
+}
+
 TEST_F(Command, AMisbehavingProgramCostsItsOwnCell) {
   const std::vector<std::array<std::string, 4>> all{
       {"crash", R"("sh -c 'kill -SEGV $$' {problem} {result}")", "failed", "ended by SIGSEGV"},
       {"exit",
        R"("sh -c 'echo sorry; exit 3' {problem} {result}")",
        "failed",
-       "exited with code 3; its output ends with: sorry"},
+       "its output ends with: sorry"},
       {"flood", R"("sh -c 'yes | head -c 3000000; exit 1' {problem} {result}")", "failed", "y y"},
       {"half",
        R"("sh -c 'head -n 20 $0/keyframes.txt >$1' {problem} {result}")",

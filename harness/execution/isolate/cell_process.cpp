@@ -137,7 +137,7 @@ std::string CellProcesses::run(const Cell& cell, const LoadedSequences::Entry& e
   prepare_programs(context_.sweep.methods[cell.method], command_setting(context_.sweep));
   const RunningServers servers = running_servers();
   const pid_t worker = getpid();
-  const pid_t process = fork();
+  const pid_t process = fork_when_possible();
   if (process < 0) throw std::runtime_error(fmt::format("fork: {}", std::strerror(errno)));
   if (process == 0) {
     run_cell_and_exit({context_,
@@ -181,7 +181,9 @@ std::string CellProcesses::run(const Cell& cell, const LoadedSequences::Entry& e
         fmt::format("the kernel killed it at its memory limit of {} bytes", limits.memory),
         "SIGKILL");
   }
-  if (const auto result = area_.read()) return std::string(*result);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+    if (const auto result = area_.read(process)) return std::string(*result);
+  }
   if (!WIFSIGNALED(status)) {
     const std::string why = fmt::format("exited, exit code {}", WEXITSTATUS(status));
     return packed_failure(cell, Status::crashed, why, "");

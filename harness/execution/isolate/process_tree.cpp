@@ -48,6 +48,16 @@ std::int64_t kilobytes(const std::string& status, const char* name) {
 
 }  // namespace
 
+pid_t fork_when_possible() {
+  constexpr int kMostAttempts = 100;
+  constexpr useconds_t kPause = 100'000;  // [us]
+  for (int attempt = 1;; ++attempt) {
+    const pid_t out = fork();
+    if (out >= 0 || errno != EAGAIN || attempt == kMostAttempts) return out;
+    usleep(kPause);
+  }
+}
+
 int process_descriptor(pid_t process) {
   return static_cast<int>(syscall(SYS_pidfd_open, process, 0));  // closed on exec
 }

@@ -9,6 +9,9 @@
 
 namespace loopbench::harness {
 
+/// As fork(), but waits some seconds for an end of a lack of processes (EAGAIN).
+pid_t fork_when_possible();
+
 /// Descriptor of a child, readable when it has ended; -1 on failure.
 int process_descriptor(pid_t process);
 

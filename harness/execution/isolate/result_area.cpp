@@ -1,6 +1,7 @@
 #include "harness/execution/isolate/result_area.hpp"
 
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <cstring>
 #include <new>
@@ -19,6 +20,7 @@ constexpr std::size_t kKept = std::size_t{1} << 20;        // [bytes], not retur
 struct ResultArea::Header {
   std::size_t size = 0;
   Hash hash;
+  pid_t writer = 0;
 
   char* bytes() { return reinterpret_cast<char*>(this + 1); }
 };
@@ -43,13 +45,15 @@ bool ResultArea::write(std::string_view bytes) {
   if (bytes.size() > kCapacity - sizeof(Header)) return false;
   std::memcpy(header_->bytes(), bytes.data(), bytes.size());
   header_->hash = hash_of(bytes);
+  header_->writer = getpid();
   header_->size = bytes.size();
   return true;
 }
 
-std::optional<std::string_view> ResultArea::read() const {
+std::optional<std::string_view> ResultArea::read(pid_t writer) const {
   const std::size_t size = header_->size;
-  if (size == 0 || size > kCapacity - sizeof(Header)) return std::nullopt;
+  if (header_->writer != writer || size == 0 || size > kCapacity - sizeof(Header))
+    return std::nullopt;
   const std::string_view bytes(header_->bytes(), size);
   if (hash_of(bytes) != header_->hash) return std::nullopt;
   return bytes;

@@ -1,6 +1,8 @@
 /// Shared memory in which a cell leaves its result for its worker.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -22,8 +24,8 @@ class ResultArea {
   /// False if there are too many bytes.
   bool write(std::string_view bytes);
 
-  /// nullopt unless a complete, unchanged result was written. Valid until clear().
-  std::optional<std::string_view> read() const;
+  /// nullopt unless `writer` wrote a complete result, which is unchanged. Valid until clear().
+  std::optional<std::string_view> read(pid_t writer) const;
 
  private:
   struct Header;

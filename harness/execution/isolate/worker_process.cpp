@@ -45,10 +45,10 @@ int high_descriptor(int socket) {
 pid_t fork_worker(bool pid_namespace) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return -1;
-  const pid_t intermediate = fork();
+  const pid_t intermediate = fork_when_possible();
   if (intermediate == 0) {
     if (pid_namespace) enter_pid_namespace();
-    const pid_t worker = fork();
+    const pid_t worker = fork_when_possible();
     if (worker == 0) return 0;
     [[maybe_unused]] const ssize_t written = write(ends[1], &worker, sizeof worker);
     _exit(0);

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "datasets/core/trajectory.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/model/result.hpp"
 #include "harness/model/sweep.hpp"
@@ -11,6 +12,10 @@ namespace loopbench::harness {
 
 /// Whether a stage is an oracle (MethodEntry::make_oracle).
 bool uses_reference(const MethodChoice& method, const Catalogue& catalogue);
+
+/// Whether all positions are equal to within 1e-9 of the reference's largest distance from its
+/// first one. False for fewer than three poses, and for a reference at rest. O(n).
+bool has_equal_positions(const Trajectory& estimate, const Trajectory& reference);
 
 /// Message naming the calibration if it was trained on the reference or the noise of this sequence;
 /// otherwise empty. Compares sources, see source_of(), and hashes of files, which calibrations of
