@@ -68,7 +68,7 @@ set(order
   "harness/tables"
   "harness/gate harness/profile harness/plot harness/get harness/pages harness/cluster"
   "harness/trajectory"
-  "harness/report harness/calibrate harness/correct"
+  "harness/report harness/correct"
   "harness/eval"
   "harness/commands"
   "harness/program harness/python"

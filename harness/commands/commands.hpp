@@ -25,7 +25,6 @@ void add_table(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code, const Source& source = {});
-void add_calibrate(CLI::App& app, int& exit_code);
 void add_get(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_plot(CLI::App& app, int& exit_code);

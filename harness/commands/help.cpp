@@ -50,12 +50,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench help\n"
      "  loopbench help run\n"
      "  loopbench run --help\n"},
-    {"calibrate",
-     "  loopbench calibrate mine.yaml --train 'my run' --out learnt.yaml\n"
-     "  loopbench calibrate configs/kitti_chains.yaml --train 'viso2 KITTI 0[67]' --data /data "
-     "--out "
-     "learnt.yaml\n"
-     "  loopbench calibrate mine.yaml --draws 500 --out learnt.yaml\n"},
     {"merge",
      "  loopbench merge results/a results/b -o results/all\n"
      "  loopbench table results/all\n"
@@ -151,8 +145,6 @@ const std::map<std::string, std::string> kExamples{
 };
 
 const std::string kUsualExitCodes = "0 success, 2 invalid input or output, 3 internal error.";
-const std::string kComputeExitCodes =
-    "0 success, 2 invalid input or output, 3 internal error, 4 the build lacks a required part.";
 const std::string kSweepExitCodes =
     "0 success, 1 failed cells, 2 invalid input or output, 3 internal error, 4 the build lacks a "
     "required part, 130 interrupted.";
@@ -163,7 +155,6 @@ const std::map<std::string, std::string> kExitCodes{
      "0 success, 1 failed cells or regressions, 2 invalid input or output, 3 internal error, 4 the "
      "build lacks a required part, 130 interrupted."},
     {"run", kSweepExitCodes},
-    {"calibrate", kComputeExitCodes},
     {"verify",
      "0 equal results, 1 differences, 2 invalid input or output, 3 internal error, 4 the build "
      "lacks a required part, 130 interrupted."},

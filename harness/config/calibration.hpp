@@ -1,4 +1,4 @@
-/// Option values from `loopbench calibrate` for an entry of a config.
+/// Option values of methods from a file, for an entry of a config.
 #pragma once
 
 #include <map>

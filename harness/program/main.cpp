@@ -124,7 +124,6 @@ int main(int argc, char** argv) {
   add_compare(app, exit_code);
   add_check(app, exit_code);
   add_eval(app, exit_code, source);
-  add_calibrate(app, exit_code);
   add_correct(app, exit_code);
   add_export(app, exit_code);
   add_merge(app, exit_code);

@@ -185,7 +185,6 @@ TEST_F(OnATerminal, HelpHasThreeExamplesForEachCommand) {
                               "compare",
                               "check",
                               "eval",
-                              "calibrate",
                               "merge",
                               "submit",
                               "watch",

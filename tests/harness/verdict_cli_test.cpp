@@ -258,8 +258,7 @@ TEST_F(VerdictCli, NoCommandWritesOverWhatItReads) {
                                 "profile r -o r/results.sqlite",
                                 "report r -o r/results.sqlite",
                                 "check r --baseline b.json --markdown b.json",
-                                "check r --baseline b.json --junit r/results.sqlite",
-                                "calibrate c.yaml --out c.yaml"}) {
+                                "check r --baseline b.json --junit r/results.sqlite"}) {
     const CommandResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 2) << arguments;
     EXPECT_TRUE(has(result.err, ": is an input of this command and is not overwritten\n"))
