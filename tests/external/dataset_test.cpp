@@ -99,16 +99,35 @@ TEST_F(CommandDataset, ItsProgramCannotReadTheReferenceOrWriteElsewhere) {
   const CommandResult done = loopbench_command("run c.yaml --out r", folder_);
   EXPECT_EQ(done.exit_code, 0) << done.err;
   folder_.file("curious.sh", read_all(folder_.path() / "curious.sh") + "\n");
-  EXPECT_THAT(loopbench_command("run c.yaml --no-sandbox --out r", folder_).err,
-              HasSubstr("exited with code 9"));
+  EXPECT_EQ(loopbench_command("run c.yaml --no-sandbox --out r", folder_).exit_code, 1);
+  EXPECT_THAT(read_cells(folder_.path() / "r").at(0).why.text(), HasSubstr("exited with code 9"));
 }
 
-TEST_F(CommandDataset, FailuresAreReportedWithTheOutput) {
-  EXPECT_THAT(run("run: 'sh -c \"echo no camera; exit 7\" {trajectory}'").err,
-              HasSubstr("exited with code 7; its output ends with: no camera"));
-  EXPECT_THAT(run("run: 'true {trajectory}'").err, HasSubstr("wrote no trajectory"));
+TEST_F(CommandDataset, FailuresCostItsOwnCellsAndHaveTheOutput) {
+  folder_.file("c.yaml",
+               "datasets:\n"
+               "  - {dataset: command, label: exits, sequence: recording.txt, reference: "
+               "recording.txt, run: 'sh -c \"echo no camera; exit 7\" {trajectory}'}\n"
+               "  - {dataset: command, label: writes nothing, sequence: recording.txt, reference: "
+               "recording.txt, run: 'true {trajectory}'}\n"
+               "  - {dataset: simulated, keyframes: 20, label: other}\n"
+               "methods: [raw, uniform]\nmetrics: [ate]\ntimes: keyframes\n");
+  EXPECT_EQ(loopbench_command("run c.yaml --out r", folder_).exit_code, 1);
+  const std::vector<CellRecord> cells = read_cells(folder_.path() / "r");
+  ASSERT_EQ(cells.size(), 6u);
+  for (const std::size_t i : {0u, 1u}) {
+    EXPECT_EQ(cells[i].status, Status::failed);
+    EXPECT_THAT(cells[i].why.text(), HasSubstr("dataset 'exits': "));
+    EXPECT_THAT(cells[i].why.text(), HasSubstr("its output ends with: no camera"));
+  }
+  EXPECT_THAT(cells[2].why.text(), HasSubstr("dataset 'writes nothing': "));
+  EXPECT_THAT(cells[2].why.text(), HasSubstr("wrote no trajectory"));
+  EXPECT_EQ(cells[4].status, Status::ok);
+  EXPECT_EQ(cells[5].status, Status::ok);
+}
+
+TEST_F(CommandDataset, MistakesAreReported) {
   EXPECT_THAT(run("run: 'true {sequence}'").err, HasSubstr("does not contain {trajectory}"));
-  EXPECT_THAT(run("run: './absent {trajectory}'").err, HasSubstr("cannot be started"));
   EXPECT_THAT(run("estimate: a.txt, " + program_).err, HasSubstr("estimate: unknown option"));
 }
 

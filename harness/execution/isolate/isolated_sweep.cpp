@@ -15,7 +15,9 @@
 #include "harness/execution/isolate/subreaper.hpp"
 #include "harness/execution/isolate/unpack_answer.hpp"
 #include "harness/execution/isolate/worker_slot.hpp"
+#include "harness/execution/run/check_output.hpp"
 #include "harness/execution/run/oracle_method.hpp"
+#include "harness/external/external_datasets.hpp"
 #include "harness/external/external_methods.hpp"
 #include "harness/text/print_error.hpp"
 
@@ -141,7 +143,8 @@ class IsolatedSweep {
 
   /// Takes an answer to the first job. False for invalid ones, which only a corrupted worker sends.
   bool take(WorkerSlot& slot, const Header& header, std::string_view body) {
-    if (header.kind == Header::Kind::cannot_load) throw InputError(std::string(body));
+    if (header.kind == Header::Kind::cannot_load)
+      fail_to_load(slot.jobs.front(), std::string(body));
     if (header.kind == Header::Kind::cannot_run) {
       throw std::runtime_error("cannot create a process for a cell: " + std::string(body));
     }
@@ -170,6 +173,21 @@ class IsolatedSweep {
     }
     slot.jobs.pop_front();
     return true;
+  }
+
+  /// A wrong file name ends the sweep before anything runs; a failure of a program or plugin costs
+  /// the cells of its sequence.
+  void fail_to_load(const Job& job, const std::string& why) {
+    const DatasetChoice& choice = context_.sweep.datasets[context_.cells[job.cell].dataset];
+    const std::string& name = choice.dataset.name;
+    const bool is_foreign =
+        name == kCommandDataset || !plugin_version(context_.catalogue, "dataset", name).empty();
+    if (!is_foreign) throw InputError(why);
+    CellResult& result = load_failures_[queue_.group_of(job.cell)];
+    result.status = Status::failed;
+    result.why = stored_reason("dataset '" + choice.label + "': " + why);
+    set_conditions(result, job.cell);
+    if (!job.only_load) finish(result, job.cell);
   }
 
   void keep(std::size_t cell, std::shared_ptr<const SequenceMetadata> metadata) {

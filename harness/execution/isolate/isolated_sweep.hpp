@@ -19,7 +19,8 @@ namespace loopbench::harness {
 /// the status timeout, out_of_memory or crashed; a sequence that does so while it is loaded gives
 /// all its cells that status. If `stop` is 2, running cells are ended with the status interrupted,
 /// otherwise they are finished. Call from a process without threads. Throws InputError for a
-/// sequence that cannot be loaded, std::runtime_error if a process cannot be created.
+/// sequence of a built-in dataset that cannot be loaded (the cells of others fail),
+/// std::runtime_error if a process cannot be created.
 void run_isolated(const Sweep& sweep,
                   const std::vector<Cell>& cells,
                   const Catalogue& catalogue,

@@ -118,8 +118,9 @@ void run_worker(const WorkerContext& context,
       try {
         entry = &load(loaded, cell, context.sandbox);
       } catch (const std::exception& error) {
-        answers.send(Header::Kind::cannot_load, job.cell, error.what());
-        return;
+        set_status(shared_status, SharedStatus::kIdle, false);
+        if (!answers.send(Header::Kind::cannot_load, job.cell, error.what())) return;
+        continue;
       }
       Packer metadata;
       metadata(entry->metadata);
