@@ -9,7 +9,8 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr std::size_t kMostRows = 1000;  // of a curve, without its peaks; more are not visible
+constexpr std::size_t kMostRowsOfErrors =
+    1000;  // of a curve, without its peaks; more are not visible
 
 std::vector<double> path_lengths(const Trajectory& poses) {
   std::vector<double> out(poses.size(), 0.0);
@@ -31,10 +32,10 @@ double length_at(double stamp, const Trajectory& poses, const std::vector<double
   return lengths[i - 1] + share * (lengths[i] - lengths[i - 1]);
 }
 
-/// At most kMostRows values of equal distance in rank.
+/// At most kMostRowsOfErrors values of equal distance in rank.
 std::vector<double> sorted_values(std::vector<double> values) {
   std::ranges::sort(values);
-  const std::size_t kept = std::min(values.size(), kMostRows);
+  const std::size_t kept = std::min(values.size(), kMostRowsOfErrors);
   std::vector<double> out(kept);
   for (std::size_t i = 0; i < kept; ++i) {
     out[i] = values[kept == 1 ? 0 : i * (values.size() - 1) / (kept - 1)];
@@ -52,7 +53,7 @@ DrawnEvaluation drawn_evaluation(const Trajectory& reference,
   const double origin = complete.front().stamp;
   DrawnEvaluation out{{}, reference_curve(), 0.0};
   add_poses(out.reference, complete, origin);
-  thin(out.reference, kMostRows);
+  thin(out.reference, kMostRowsOfErrors);
 
   add_poses(out.estimate, evaluation.estimate, origin);
   auto& columns = out.estimate.columns;
@@ -70,7 +71,7 @@ DrawnEvaluation drawn_evaluation(const Trajectory& reference,
   const auto count = static_cast<double>(std::max<std::size_t>(1, evaluation.estimate.size()));
   out.position_rmse = std::sqrt(out.position_rmse / count);
   std::vector<double> errors = sorted_values(columns["error"]);
-  thin(out.estimate, kMostRows, {"error", "angle"});
+  thin(out.estimate, kMostRowsOfErrors, {"error", "angle"});
   columns["sorted_errors"] = std::move(errors);
   return out;
 }

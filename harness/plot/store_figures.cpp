@@ -8,7 +8,8 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr std::size_t kMostRows = 800;  // of a curve, without its peaks; more are not visible
+constexpr std::size_t kMostRowsOfFigures =
+    800;  // of a curve, without its peaks; more are not visible
 
 Vector3 origin_of(const std::optional<SequenceTrace>& trace) {
   if (!trace) return Vector3::Zero();
@@ -26,7 +27,7 @@ DrawnCurve curve_of(const SequenceTrace& trace) {
   for (const TracePose& p : trace.reference) {
     add_position(out, origin_of(trace) + Vector3(p.x, p.y, p.z));
   }
-  thin(out, kMostRows);
+  thin(out, kMostRowsOfFigures);
   return out;
 }
 
@@ -46,7 +47,7 @@ DrawnCurve curve_of(const CellTrace& trace, const Vector3& origin) {
     out.columns["error_z"].push_back(s.error_z);
     out.columns["angle"].push_back(s.error_angle);
   }
-  thin(out, kMostRows, {"error_x", "error_y", "error_z", "angle"});
+  thin(out, kMostRowsOfFigures, {"error_x", "error_y", "error_z", "angle"});
   return out;
 }
 

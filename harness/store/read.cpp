@@ -26,10 +26,10 @@ std::vector<CellRecord> read_cells(const std::filesystem::path& file) {
   check_scores(database, cells);
   check_reports(database, cells, [&](const std::string& table, std::size_t i, Statement& row) {
     CellRecord& cell = cells[i];
-    std::string text = row.text();
-    if (table == "phase") cell.phases.push_back({std::move(text), row.real()});
-    if (table == "count") cell.counts.push_back({std::move(text), row.real()});
-    if (table == "note") cell.notes.push_back(std::move(text));
+    const std::string text = row.text();
+    if (table == "phase") cell.phases.push_back({text, row.real()});
+    if (table == "count") cell.counts.push_back({text, row.real()});
+    if (table == "note") cell.notes.push_back(text);
   });
   require_intact(database, cells);
   const SequenceRows sequences = read_sequence_rows(database);

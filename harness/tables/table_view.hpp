@@ -3,7 +3,6 @@
 
 #include <concepts>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "harness/tables/mark_best.hpp"
@@ -14,8 +13,8 @@ namespace loopbench::harness {
 struct TableViewEntry {
   TableViewEntry() = default;
   template <std::convertible_to<std::string> Text>
-  TableViewEntry(Text&& own_text, Mark own_mark = Mark::none)
-      : text(std::forward<Text>(own_text)), mark(own_mark) {}
+  TableViewEntry(const Text& own_text, Mark own_mark = Mark::none)
+      : text(own_text), mark(own_mark) {}
 
   std::string text;
   Mark mark = Mark::none;

@@ -5,7 +5,7 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr std::size_t kMostRows = 2000;  // of a curve; more are not visible
+constexpr std::size_t kMostRowsOfTrajectories = 2000;  // of a curve; more are not visible
 
 DrawnCurve curve_of(const std::string& name,
                     const CurveStyle& style,
@@ -24,7 +24,7 @@ DrawnCurve curve_of(const std::string& name,
     }
     speed.insert(speed.begin(), speed.front());
   }
-  thin(out, kMostRows, peaks);
+  thin(out, kMostRowsOfTrajectories, peaks);
   return out;
 }
 
