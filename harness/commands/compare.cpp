@@ -18,19 +18,11 @@ struct CompareArguments {
   OutputOptions output;
 };
 
-std::string text(const std::vector<Comparison>& comparisons, const OutputOptions& output) {
-  if (output.format() == ExportFormat::csv) return csv(comparisons);
-  if (output.format() == ExportFormat::json) return json(comparisons);
-  std::vector<TableView> tables;
-  for (const Comparison& comparison : comparisons) tables.push_back(table_view(comparison));
-  return text(tables, output);
-}
-
 int print_comparison(const CompareArguments& arguments) {
   std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
   const std::vector<Comparison> comparisons =
       compare_store(arguments.store, arguments.metric, arguments.where, arguments.options);
-  write_output(text(comparisons, arguments.output),
+  write_output(text_of(comparisons, arguments.output),
                arguments.output,
                "comparisons",
                std::move(provenance),

@@ -20,14 +20,6 @@ struct TableArguments {
   OutputOptions output;
 };
 
-std::string text(const std::vector<Table>& tables, const OutputOptions& output) {
-  if (output.format() == ExportFormat::csv) return csv(tables);
-  if (output.format() == ExportFormat::json) return json(tables);
-  std::vector<TableView> views;
-  for (const Table& table : tables) views.push_back(table_view(table));
-  return text(views, output);
-}
-
 int print_table(TableArguments arguments) {
   std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
   std::vector<std::string> show;
@@ -45,8 +37,9 @@ int print_table(TableArguments arguments) {
     }
     shown = csv(records);
   } else {
-    shown = text(store_tables(arguments.store, arguments.where, arguments.spec, arguments.ranking),
-                 arguments.output);
+    shown =
+        text_of(store_tables(arguments.store, arguments.where, arguments.spec, arguments.ranking),
+                arguments.output);
   }
   write_output(shown, arguments.output, "tables", std::move(provenance), arguments.store);
   return kExitOk;

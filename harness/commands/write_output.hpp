@@ -29,6 +29,17 @@ void declare(CLI::App& command, OutputOptions& output, const std::vector<ExportF
 /// The tables one below the other: Markdown, LaTeX, CSV, or for the terminal in its width.
 std::string text(const std::vector<TableView>& tables, const OutputOptions& output);
 
+/// The same for tables or comparisons: CSV and JSON from their numbers, the rest from
+/// their table_view().
+template <class Item>
+std::string text_of(const std::vector<Item>& items, const OutputOptions& output) {
+  if (output.format() == ExportFormat::csv) return csv(items);
+  if (output.format() == ExportFormat::json) return json(items);
+  std::vector<TableView> tables;
+  for (const Item& item : items) tables.push_back(table_view(item));
+  return text(tables, output);
+}
+
 /// Reads the provenance on another thread while the output is computed.
 std::future<StoreProvenance> begin_provenance(const std::filesystem::path& store);
 

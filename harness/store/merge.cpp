@@ -11,6 +11,7 @@
 #include "harness/model/recorded_run.hpp"
 #include "harness/model/result.hpp"
 #include "harness/store/cell_writer.hpp"
+#include "harness/store/copy_rows.hpp"
 #include "harness/store/damage.hpp"
 #include "harness/store/folder_lock.hpp"
 #include "harness/store/open.hpp"
@@ -63,10 +64,11 @@ class Merge {
     {
       Transaction transaction(database_);
       check_recorded_options();
-      add_sequences();
+      check_inputs();
+      copy_sequences(database_);
       add_cells(cells);
-      add_details();
-      add_texts();
+      copy_details(database_, offset_);
+      copy_texts(database_);
       transaction.commit();
     }
     database_.execute("DETACH source");
@@ -164,84 +166,27 @@ class Merge {
     database_.prepare("DELETE FROM copied WHERE id = ?").bind(failed.id - offset_).run();
   }
 
-  void add_details() {
-    const std::string definition =
-        "protocol, protocol_version, times, metric, label, relation, axis, unit, better, target";
-    database_.execute("INSERT OR IGNORE INTO main.score_definition (" + definition + ") SELECT " +
-                      definition + " FROM source.score_definition ORDER BY id");
-    database_.execute(
-        "CREATE TEMP TABLE renumbered AS SELECT s.id AS old, m.id AS new FROM "
-        "source.score_definition s JOIN main.score_definition m USING (" +
-        definition + ")");
-    database_
-        .prepare(
-            "INSERT INTO main.score_value SELECT cell + ?, number, (SELECT new FROM renumbered "
-            "WHERE old = definition), count, rmse, mean, median, std, min, max, sse, pairs, "
-            "possible, span, status, why FROM source.score_value WHERE cell IN copied ORDER BY "
-            "cell, number")
-        .bind(offset_)
-        .run();
-    database_.execute("DROP TABLE renumbered");
-    for (const auto& [table, columns] : {std::pair{"phase", "number, name, seconds"},
-                                         std::pair{"count", "number, name, value"},
-                                         std::pair{"note", "number, text"},
-                                         std::pair{"section",
-                                                   "number, kind, begin_stamp, "
-                                                   "end_stamp, what"},
-                                         std::pair{"trace", "times, checksum, samples"}}) {
-      const std::string name = table;
-      const std::string list = columns;
-      database_
-          .prepare("INSERT INTO main." + name + " SELECT cell + ?, " + list + " FROM source." +
-                   name + " WHERE cell IN copied ORDER BY cell")
-          .bind(offset_)
-          .run();
-    }
-  }
-
   void check_recorded_options() {
     const std::string added = run_value("config", "source.run");
     const std::string why = why_other_options(run_value("config"), added);
     if (!why.empty()) throw InputError(store_ + ": " + why);
   }
 
-  std::string run_value(const std::string& key, const std::string& table = "main.run") {
-    Statement row = database_.prepare("SELECT value FROM " + table + " WHERE key = ?");
-    return row.bind(key).step() ? row.text() : "";
-  }
-
-  void add_sequences() {
+  /// Throws InputError if a sequence was read from other files than in the earlier stores.
+  void check_inputs() {
     Statement other = database_.prepare(
         "SELECT s.path FROM source.input s JOIN source.sequence t USING (sequence_key) JOIN "
         "main.sequence n USING (configuration_hash) JOIN main.input m ON m.sequence_key = "
         "n.sequence_key AND m.number = s.number WHERE s.hash <> m.hash AND t.sequence_key IN "
-        "(SELECT sequence_key "
-        "FROM source.cell WHERE position IS NOT NULL) LIMIT 1");
-    if (other.step()) {
-      throw InputError(store_ + ": was computed from a different " + other.text() +
-                       " than the earlier stores");
-    }
-    other.reset();
-    for (const char* table : {"input", "sequence_trace", "sequence"}) {
-      const std::string name = table;
-      database_.execute("INSERT OR IGNORE INTO main." + name + " SELECT * FROM source." + name +
-                        " WHERE sequence_key IN (SELECT sequence_key FROM source.cell WHERE "
-                        "position IS NOT NULL)");
-    }
+        "(SELECT sequence_key FROM source.cell WHERE position IS NOT NULL) LIMIT 1");
+    if (!other.step()) return;
+    throw InputError(store_ + ": was computed from a different " + other.text() +
+                     " than the earlier stores");
   }
 
-  /// Different values are concatenated as lines; the baseline is that of the first store, and
-  /// stores with different plans have none.
-  void add_texts() {
-    database_.execute(
-        "INSERT INTO main.run SELECT key, value FROM source.run WHERE key NOT IN ('exported', "
-        "'cells') ON "
-        "CONFLICT (key) DO UPDATE SET value = CASE WHEN key = 'plan' THEN '' ELSE value || "
-        "char(10) || excluded.value END WHERE key <> 'baseline' AND instr(char(10) || value || "
-        "char(10), char(10) || excluded.value || char(10)) = 0");
-    database_.execute(
-        "INSERT OR IGNORE INTO main.provenance SELECT * FROM source.provenance WHERE "
-        "provenance_key IN (SELECT provenance_key FROM source.cell WHERE id IN copied)");
+  std::string run_value(const std::string& key, const std::string& table = "main.run") {
+    Statement row = database_.prepare("SELECT value FROM " + table + " WHERE key = ?");
+    return row.bind(key).step() ? row.text() : "";
   }
 
   Database database_;

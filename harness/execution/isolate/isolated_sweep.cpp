@@ -1,16 +1,15 @@
 #include "harness/execution/isolate/isolated_sweep.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstring>
 #include <map>
 
-#include "harness/catalogue/loading.hpp"
 #include "harness/execution/isolate/cell_child.hpp"
 #include "harness/execution/isolate/cell_queue.hpp"
+#include "harness/execution/isolate/kept_metadata.hpp"
 #include "harness/execution/isolate/killed_cells.hpp"
 #include "harness/execution/isolate/subreaper.hpp"
 #include "harness/execution/isolate/unpack_answer.hpp"
@@ -23,8 +22,6 @@
 
 namespace loopbench::harness {
 namespace {
-
-constexpr int kMemoryWatch = 20;  // [ms], between memory checks of loading workers
 
 class IsolatedSweep {
  public:
@@ -55,7 +52,7 @@ class IsolatedSweep {
       for (WorkerSlot& slot : slots_) fill(slot);
       const auto is_done = [](const WorkerSlot& slot) { return slot.jobs.empty(); };
       if (std::ranges::all_of(slots_, is_done)) return;
-      wait();
+      wait_for_workers(slots_, context_.sweep.limits.memory > 0);
       for (WorkerSlot& slot : slots_) {
         if (!slot.process) continue;
         const bool has_ended = slot.process->has_ended();  // first: then all answers are there
@@ -108,19 +105,6 @@ class IsolatedSweep {
     return std::nullopt;
   }
 
-  /// Waits until a worker answers or ends, or a limit can be reached.
-  void wait() {
-    std::vector<pollfd> events;
-    int longest = ActiveClock::kTick;
-    for (const WorkerSlot& slot : slots_) {
-      if (!slot.process || slot.jobs.empty()) continue;
-      events.push_back({slot.process->socket(), POLLIN, 0});
-      events.push_back({slot.process->descriptor(), POLLIN, 0});
-      if (slot.is_loading() && context_.sweep.limits.memory > 0) longest = kMemoryWatch;
-    }
-    poll(events.data(), events.size(), longest);  // also ended by an interrupt, which sets `stop`
-  }
-
   void read_answers(WorkerSlot& slot) {
     constexpr const char* kDamage = "its worker process sent a damaged message";
     if (slot.is_lost) return slot.bytes.clear();
@@ -151,7 +135,7 @@ class IsolatedSweep {
     if (header.kind == Header::Kind::loaded) {
       auto metadata = std::make_shared<SequenceMetadata>();
       if (!unpack_answer(body, *metadata)) return false;
-      keep(header.cell, std::move(metadata));
+      metadata_.keep(queue_.group_of(header.cell), dataset_of(header.cell).label, metadata);
       return true;
     }
     if (header.kind == Header::Kind::result) {
@@ -175,10 +159,14 @@ class IsolatedSweep {
     return true;
   }
 
+  const DatasetChoice& dataset_of(std::size_t cell) const {
+    return context_.sweep.datasets[context_.cells[cell].dataset];
+  }
+
   /// A wrong file name ends the sweep before anything runs; a failure of a program or plugin costs
   /// the cells of its sequence.
   void fail_to_load(const Job& job, const std::string& why) {
-    const DatasetChoice& choice = context_.sweep.datasets[context_.cells[job.cell].dataset];
+    const DatasetChoice& choice = dataset_of(job.cell);
     const std::string& name = choice.dataset.name;
     const bool is_foreign =
         name == kCommandDataset || !plugin_version(context_.catalogue, "dataset", name).empty();
@@ -188,18 +176,6 @@ class IsolatedSweep {
     result.why = stored_reason("dataset '" + choice.label + "': " + why);
     set_conditions(result, job.cell);
     if (!job.only_load) finish(result, job.cell);
-  }
-
-  void keep(std::size_t cell, std::shared_ptr<const SequenceMetadata> metadata) {
-    std::shared_ptr<const SequenceMetadata>& kept = metadata_[queue_.group_of(cell)];
-    if (kept && !std::ranges::equal(
-                    kept->inputs, metadata->inputs, {}, &InputFile::hash, &InputFile::hash)) {
-      throw InputError(metadata->inputs.front().path +
-                       " or a file read with it changed during the run");
-    }
-    if (kept) return;  // every worker loads its own copy, but the notes are printed once
-    print_notes(context_.sweep.datasets[context_.cells[cell].dataset].label, metadata->notes);
-    kept = std::move(metadata);
   }
 
   /// What a cell without an answer has in common with the others.
@@ -213,10 +189,10 @@ class IsolatedSweep {
   void finish(CellResult result, std::size_t cell) {
     const std::size_t group = queue_.group_of(cell);
     result.cell = context_.cells[cell];
-    result.metadata = metadata_[group];
+    result.metadata = metadata_.of(group);
     flag_trained_on_evaluated(result, context_.sweep);
     if (stop_ > 0) KilledCells::set_interrupted(result);
-    if (queue_.finish(cell)) metadata_[group].reset();  // no longer needed
+    if (queue_.finish(cell)) metadata_.drop(group);
     finished_(result);
   }
 
@@ -288,7 +264,7 @@ class IsolatedSweep {
   KilledCells killed_;
   std::deque<Job> loads_;
   bool loads_done_ = false;
-  std::vector<std::shared_ptr<const SequenceMetadata>> metadata_;  ///< by group
+  KeptMetadata metadata_;
   /// By group. Not an entry for every group: cells are forked from processes with a copy of this,
   /// and a fork takes time for all memory in use.
   std::map<std::size_t, CellResult> load_failures_;

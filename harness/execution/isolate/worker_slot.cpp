@@ -1,6 +1,7 @@
 #include "harness/execution/isolate/worker_slot.hpp"
 
 #include <fmt/format.h>
+#include <poll.h>
 
 #include <csignal>
 
@@ -10,6 +11,7 @@
 namespace loopbench::harness {
 namespace {
 
+constexpr int kMemoryWatch = 20;          // [ms], between memory checks of loading workers
 constexpr double kGrace = 5.0;            // [s], for the worker to end a cell at its limit
 constexpr double kLongestSilence = 60.0;  // [s], of a worker that has a job and is idle
 
@@ -19,6 +21,18 @@ void limit_silence(WorkerSlot& slot, double most) {
 }
 
 }  // namespace
+
+void wait_for_workers(const std::vector<WorkerSlot>& slots, bool watches_memory) {
+  std::vector<pollfd> events;
+  int longest = ActiveClock::kTick;
+  for (const WorkerSlot& slot : slots) {
+    if (!slot.process || slot.jobs.empty()) continue;
+    events.push_back({slot.process->socket(), POLLIN, 0});
+    events.push_back({slot.process->descriptor(), POLLIN, 0});
+    if (slot.is_loading() && watches_memory) longest = kMemoryWatch;
+  }
+  poll(events.data(), events.size(), longest);  // also ended by an interrupt, which stops the sweep
+}
 
 void give_up(WorkerSlot& slot, const std::string& why) {
   if (!slot.jobs.empty()) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "harness/execution/isolate/active_clock.hpp"
 #include "harness/execution/isolate/worker_process.hpp"
@@ -34,6 +35,10 @@ struct WorkerSlot {
   bool is_idle() const { return process->shared_status().job == SharedStatus::kIdle; }
   bool is_loading() const { return !is_idle() && process->shared_status().loading; }
 };
+
+/// Waits until a worker answers or ends, or a limit can be reached, also of the memory of a loading
+/// worker if `watches_memory`.
+void wait_for_workers(const std::vector<WorkerSlot>& slots, bool watches_memory);
 
 /// Kills a worker that exceeds a limit while loading, that does not end a cell that does, or that
 /// does not begin its job. Sets the verdict.
