@@ -36,6 +36,9 @@ struct DatasetEntry {
   /// same exceptions as load().
   std::function<void(const Params&, const DataRoot&)> inspect = {};
   std::string missing_part = {};  ///< why this build cannot load it; empty: it can
+  /// Computes what sequences with other seeds share, in the process that is copied for each of
+  /// them; null: nothing. Quick, and without threads.
+  std::function<void(const Params&)> prepare = {};
 };
 
 /// Wraps `Sequence load(const Options&, const DataRoot&)` and its Options as an entry. Combinations
@@ -58,6 +61,7 @@ DatasetEntry dataset(std::string name, std::string summary, Load load) {
           [load](const Params& given, const DataRoot& root) {
             return load(with(Options{}, given), root);
           },
+          {},
           {},
           {}};
 }

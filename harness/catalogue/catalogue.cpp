@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "datasets/rgbd/rgbd_datasets.hpp"
-#include "harness/catalogue/libraries.hpp"
 #include "harness/catalogue/loading.hpp"
+#include "harness/catalogue/own_process.hpp"
 #include "harness/catalogue/plugins.hpp"
 #include "harness/external/external_datasets.hpp"
 #include "harness/external/external_methods.hpp"
@@ -26,9 +26,10 @@ const Entry& find(const std::vector<Entry>& entries,
 }
 
 /// Hashes of a plugin's file and of the libraries that it loads.
-std::string version_of(const std::filesystem::path& plugin) {
+std::string version_of(const std::filesystem::path& plugin,
+                       const std::vector<std::filesystem::path>& libraries) {
   std::string out = hex(hash_of_file(plugin));
-  for (const std::filesystem::path& library : plugin_libraries(plugin)) {
+  for (const std::filesystem::path& library : libraries) {
     out += ", " + library.filename().string() + " " + hex(hash_of_file(library));
   }
   return out;
@@ -49,8 +50,8 @@ std::pair<std::vector<metrics::MetricEntry>*, std::string> list_of(Catalogue& ca
 }
 
 void add_plugin(Catalogue& catalogue, const std::filesystem::path& plugin) {
-  std::vector<PluginEntry> loaded = load_plugin(plugin);
-  const std::string version = version_of(plugin);  // after loading: it is a file
+  DescribedPlugin described = describe_plugin(plugin);
+  const std::string version = version_of(plugin, described.libraries);  // it is a file
   const auto add = [&](auto& entry) {
     auto [entries, kind] = list_of(catalogue, entry);
     for (const auto& other : *entries) {
@@ -61,7 +62,7 @@ void add_plugin(Catalogue& catalogue, const std::filesystem::path& plugin) {
     catalogue.versions.emplace(kind + " " + entry.name, version);
     entries->push_back(std::move(entry));
   };
-  for (PluginEntry& entry : loaded) std::visit(add, entry);
+  for (PluginEntry& entry : described.entries) std::visit(add, entry);
 }
 
 }  // namespace
@@ -77,6 +78,20 @@ Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
   for (const ExternalMethod& program : external_methods()) out.methods.push_back(program.listed);
   for (const std::filesystem::path& plugin : plugins) add_plugin(out, plugin);
   return out;
+}
+
+bool is_joint(const Catalogue& catalogue,
+              const methods::MethodEntry& entry,
+              const Params& options) {
+  using Joint = std::unique_ptr<const methods::Estimator>;
+  const auto makes_joint = [&] { return std::holds_alternative<Joint>(entry.make(options)); };
+  if (plugin_version(catalogue, "method", entry.name).empty()) return makes_joint();
+  try {
+    const auto work = [&] { return std::string(makes_joint() ? "joint" : ""); };
+    return in_own_process(work, {.seconds = kLongestCheck}) == "joint";
+  } catch (const ProcessFailure&) {
+    return entry.kind == methods::Kind::joint;
+  }
 }
 
 std::string plugin_version(const Catalogue& catalogue,

@@ -25,6 +25,10 @@ struct Catalogue {
 /// or one of whose names is already taken.
 Catalogue catalogue(const std::vector<std::filesystem::path>& plugins);
 
+/// Whether the method is a joint one with these options. Throws OptionError. A method of a plugin
+/// is made in a process of its own; if that fails, its cells report it.
+bool is_joint(const Catalogue& catalogue, const methods::MethodEntry& entry, const Params& options);
+
 /// Version of an entry, empty unless it is from a plugin. `kind`: method, dataset or metric.
 std::string plugin_version(const Catalogue& catalogue,
                            const std::string& kind,

@@ -212,9 +212,7 @@ std::vector<MethodChoice> method_choices(const YamlNode& entry,
       }
       choice.stages[i].options = to_params(by_stage[i]);
       located(file, entry.line, stages[i]->name, by_stage[i], stages[i]->options, [&] {
-        const methods::Stage stage = stages[i]->make(choice.stages[i].options);
-        if (stages.size() > 1 &&
-            std::holds_alternative<std::unique_ptr<const methods::Estimator>>(stage))
+        if (is_joint(catalogue, *stages[i], choice.stages[i].options) && stages.size() > 1)
           throw OptionError("output",
                             "with these options it is a joint method and has no smoother");
       });

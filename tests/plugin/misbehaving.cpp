@@ -1,8 +1,13 @@
-// A plugin that crashes, hangs, exits and exhausts memory; only its own cells must fail.
+// A plugin that crashes, hangs, exits, exhausts memory and changes what it must not; only its own
+// cells must fail.
 #include <atomic>
+#include <cfenv>
+#include <condition_variable>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <mutex>
+#include <thread>
 #include <vector>
 
 #include "companion.hpp"
@@ -50,9 +55,64 @@ struct Floods {
   }
 };
 
+struct HangsWhenMade final : Corrector {
+  using Options = NoOptions;
+  explicit HangsWhenMade(const Options&) { Loops{}(); }
+  Trajectory correct(const Problem& problem, Report&) const override { return problem.keyframes; }
+};
+
+/// A thread that starts when the plugin is loaded and does all work, as the pool of OpenMP.
+class Pool {
+ public:
+  Pool() : thread_([this] { work(); }) { thread_.detach(); }
+  void run() {
+    std::unique_lock lock(mutex_);
+    wanted_ = true;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return !wanted_; });
+  }
+
+ private:
+  void work() {
+    for (;;) {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [this] { return wanted_; });
+      wanted_ = false;
+      changed_.notify_all();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool wanted_ = false;
+  std::thread thread_;
+};
+Pool& pool = *new Pool;  // NOLINT: used by its thread until the process ends
+
+struct Pooled {
+  void operator()() const { pool.run(); }
+};
+
+std::vector<metrics::Score> rounds_upward(const metrics::Evaluation&, const NoOptions&) {
+  std::fesetround(FE_UPWARD);
+  return {};
+}
+
+std::vector<metrics::Score> moves_estimate(const metrics::Evaluation& evaluation,
+                                           const NoOptions&) {
+  for (const StampedPose& pose : evaluation.estimate) {
+    const_cast<StampedPose&>(pose).world_from_body.translation.x() += 5.0;
+  }
+  return {};
+}
+
 }  // namespace
 
 LOOPBENCH_PLUGIN(method<Bad<Aborts>>("aborts", "calls abort"),
                  method<Bad<Loops>>("loops", "never returns"),
                  method<Bad<Exits>>("exits", "ends the process as if all were well"),
-                 method<Bad<Floods>>("floods", "takes all memory"))
+                 method<Bad<Floods>>("floods", "takes all memory"),
+                 method<Bad<Pooled>>("pooled", "works in a thread of its own"),
+                 method<HangsWhenMade>("hangs_when_made", "never returns from its constructor"),
+                 metric<NoOptions>("rounds_upward", "leaves another rounding", rounds_upward),
+                 metric<NoOptions>("moves_estimate", "writes through const", moves_estimate))

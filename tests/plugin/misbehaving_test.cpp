@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/catalogue/catalogue.hpp"
-#include "harness/catalogue/libraries.hpp"
+#include "harness/catalogue/plugins.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/command.hpp"
 
@@ -42,9 +42,63 @@ TEST(Misbehaving, APluginCostsItsOwnCellsOnly) {
       << again.out;
 }
 
+TEST(Misbehaving, ItsCodeDoesNotRunInTheSweep) {
+  const TemporaryFolder folder;
+  const std::string data = "datasets: [{dataset: simulated, path: room, keyframes: 40}]\n";
+  folder.file("c.yaml", data + "methods: [raw]\nmetrics: [ate]\n");
+  const CommandResult loaded =
+      loopbench_command("run c.yaml --plugin '" LOOPBENCH_EXITS_WHEN_LOADED "'", folder);
+  EXPECT_EQ(loaded.exit_code, 2);
+  EXPECT_NE(loaded.err.find("exits_when_loaded.so: a process that loaded it exited with code 0"),
+            std::string::npos)
+      << loaded.err;
+  // Its constructor hangs: in the check of its options for 10 s, and in its cell.
+  folder.file("h.yaml",
+              data + "methods: [raw, hangs_when_made]\nmetrics: [ate]\nlimits: {seconds: 1}\n");
+  const CommandResult made =
+      loopbench_command("run h.yaml --out h --plugin '" LOOPBENCH_MISBEHAVING "'", folder);
+  const std::vector<CellRecord> cells = read_cells(folder.path() / "h");
+  ASSERT_EQ(cells.size(), 2u) << made.err;
+  EXPECT_EQ(cells[0].status, Status::ok);
+  EXPECT_EQ(cells[1].status, Status::timeout) << cells[1].why;
+}
+
+TEST(Misbehaving, ThreadsOfAPluginRunInItsCells) {
+  const TemporaryFolder folder;
+  folder.file("c.yaml",
+              "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nrepeats: 3\n"
+              "methods: [pooled, raw, {method: pooled, label: b}]\nmetrics: [ate]\n"
+              "limits: {seconds: 20}\n");
+  const CommandResult result =
+      loopbench_command("run c.yaml --out r --plugin '" LOOPBENCH_MISBEHAVING "'", folder);
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  for (const CellRecord& cell : read_cells(folder.path() / "r")) {
+    EXPECT_EQ(cell.status, Status::ok) << cell.method << ": " << cell.why;
+  }
+}
+
+TEST(Misbehaving, AMetricThatChangesWhatOthersReadFailsItsCells) {
+  const TemporaryFolder folder;
+  const std::string config =
+      "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmethods: [raw]\nmetrics: [ate";
+  const auto cell = [&](const std::string& metric) {
+    folder.file("c.yaml", config + metric + "]\n");
+    loopbench_command("run c.yaml --fresh --out r --plugin '" LOOPBENCH_MISBEHAVING "'", folder);
+    const std::vector<CellRecord> cells = read_cells(folder.path() / "r");
+    return cells.size() == 1 ? to_text(cells[0].status) + ": " + std::string(cells[0].why.text())
+                             : "none";
+  };
+  EXPECT_EQ(cell(""), "ok: ");
+  EXPECT_EQ(cell(", moves_estimate"), "failed: metric 'moves_estimate' changed its input");
+  EXPECT_EQ(cell(", rounds_upward"),
+            "failed: metric 'rounds_upward' changed the floating-point mode (rounding, traps or "
+            "denormals)");
+}
+
 TEST(Misbehaving, ItsVersionCoversTheLibrariesThatItBrings) {
   const Catalogue known = catalogue({LOOPBENCH_MISBEHAVING});
-  const std::vector<std::filesystem::path> brought = plugin_libraries(LOOPBENCH_MISBEHAVING);
+  const std::vector<std::filesystem::path> brought =
+      describe_plugin(LOOPBENCH_MISBEHAVING).libraries;
   ASSERT_EQ(brought.size(), 1u);
   EXPECT_EQ(brought[0].filename(), "libcompanion.so");
   EXPECT_NE(known.versions.at("method aborts").find(", libcompanion.so "), std::string::npos);

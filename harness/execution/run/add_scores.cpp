@@ -4,9 +4,9 @@
 #include <iterator>
 
 #include "datasets/core/parallel.hpp"
-#include "harness/catalogue/floating_point_guard.hpp"
 #include "harness/execution/run/catch_errors.hpp"
 #include "harness/execution/run/incomplete.hpp"
+#include "harness/execution/run/input_guard.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -17,25 +17,27 @@ bool is_finite(const metrics::Statistics& s) {
          std::isfinite(s.sse);
 }
 
-}  // namespace
+struct Scores {
+  std::vector<ScoreResult> rows;
+  std::string fault;  ///< what the metric changed
+};
 
-std::vector<ScoreResult> scores_of(const MetricChoice& choice,
-                                   ScoreResult row,
-                                   const metrics::Evaluation& evaluation,
-                                   const Catalogue& catalogue) {
-  std::vector<ScoreResult> out;
+Scores scores_of(const MetricChoice& choice,
+                 ScoreResult row,
+                 const metrics::Evaluation& evaluation,
+                 const Catalogue& catalogue) {
+  Scores out;
   row.metric = choice.metric.name;
   row.label = choice.label;
   row.coverage = evaluation.coverage;
+  const metrics::MetricEntry& metric = find_metric(catalogue, choice.metric.name);
+  const bool is_foreign = !plugin_version(catalogue, "metric", metric.name).empty();
+  const InputGuard guard(is_foreign ? inputs_of(evaluation) : Inputs());
   catch_errors(row, [&] {
-    const metrics::MetricEntry& metric = find_metric(catalogue, choice.metric.name);
-    std::vector<metrics::Score> scores = [&] {
-      const FloatingPointGuard guard;  // for the metrics after it
-      return metric.score(evaluation, choice.metric.options);
-    }();
+    std::vector<metrics::Score> scores = metric.score(evaluation, choice.metric.options);
     check_scores(scores);
     for (metrics::Score& score : scores) {
-      ScoreResult& added = out.emplace_back(row);
+      ScoreResult& added = out.rows.emplace_back(row);
       if (!score.why_undefined.empty()) {
         added.status = Status::declined;
         added.why = score.why_undefined;
@@ -47,9 +49,27 @@ std::vector<ScoreResult> scores_of(const MetricChoice& choice,
       added.score = std::move(score);
     }
   });
+  if (is_foreign) out.fault = guard.fault();
   const bool has_thrown = is_failure(row.status) || row.status == Status::declined;
-  if (has_thrown) out.push_back(row);
+  if (has_thrown) out.rows.push_back(row);
   return out;
+}
+
+void take(Scores scores, const MetricChoice& choice, CellResult& result) {
+  std::ranges::move(scores.rows, std::back_inserter(result.scores));
+  if (scores.fault.empty()) return;
+  result.status = Status::failed;
+  result.why = "metric '" + choice.metric.name + "' " + scores.fault;
+}
+
+}  // namespace
+
+void add_scores_of(CellResult& result,
+                   const MetricChoice& choice,
+                   const ScoreResult& row,
+                   const metrics::Evaluation& evaluation,
+                   const Catalogue& catalogue) {
+  take(scores_of(choice, row, evaluation, catalogue), choice, result);
 }
 
 void add_scores(CellResult& result,
@@ -59,12 +79,12 @@ void add_scores(CellResult& result,
                 const Catalogue& catalogue,
                 bool parallel) {
   row.why = incomplete_reason(evaluation.coverage, sweep.min_coverage);
-  if (!row.why.empty()) {
-    row.status = Status::incomplete;
+  if (!row.why.empty()) row.status = Status::incomplete;
+  if (!row.why.empty() && !is_failure(result.status)) {
     result.status = Status::incomplete;
     result.why = to_text(row.times) + ": " + row.why;
   }
-  std::vector<std::vector<ScoreResult>> scores(sweep.metrics.size());
+  std::vector<Scores> scores(sweep.metrics.size());
   const auto evaluate = [&](std::size_t i) {
     scores[i] = scores_of(sweep.metrics[i], row, evaluation, catalogue);
   };
@@ -74,7 +94,9 @@ void add_scores(CellResult& result,
   } else {
     for (std::size_t i = 0; i < scores.size(); ++i) evaluate(i);
   }
-  for (auto& each : scores) std::ranges::move(each, std::back_inserter(result.scores));
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    take(std::move(scores[i]), sweep.metrics[i], result);
+  }
 }
 
 void add_failure(CellResult& result, ScoreResult failure, const Sweep& sweep) {

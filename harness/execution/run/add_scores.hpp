@@ -8,12 +8,14 @@
 
 namespace loopbench::harness {
 
-/// All scores of one metric, or one row with the reason why there are none: exceptions of the
-/// metric are not thrown. `row` has protocol, times, status and why of the rows.
-std::vector<ScoreResult> scores_of(const MetricChoice& choice,
-                                   ScoreResult row,
-                                   const metrics::Evaluation& evaluation,
-                                   const Catalogue& catalogue);
+/// Adds all scores of one metric, or one row with the reason why there are none: exceptions of the
+/// metric are not thrown. `row` has protocol, times, status and why of the rows. The result fails
+/// if the metric of a plugin changes its input, since other metrics read that.
+void add_scores_of(CellResult& result,
+                   const MetricChoice& choice,
+                   const ScoreResult& row,
+                   const metrics::Evaluation& evaluation,
+                   const Catalogue& catalogue);
 
 /// Adds the scores of all metrics of the sweep to `result`. If the coverage is below the limit of
 /// the sweep, these rows and the result are incomplete. `parallel`: several metrics at a time.

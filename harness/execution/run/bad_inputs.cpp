@@ -5,6 +5,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/catalogue/load_sequence.hpp"
+#include "harness/catalogue/own_process.hpp"
 
 namespace loopbench::harness {
 
@@ -19,11 +20,18 @@ std::vector<std::string> bad_inputs(const Sweep& sweep,
     const DatasetChoice& choice = sweep.datasets[cell.dataset];
     const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
     try {
-      if (entry.inspect) {
-        entry.inspect(choice.dataset.options, root);
-      } else {
-        load_sequence(cell, sweep, catalogue, root);
-      }
+      in_own_process(
+          [&] {
+            if (entry.inspect) {
+              entry.inspect(choice.dataset.options, root);
+            } else {
+              load_sequence(cell, sweep, catalogue, root);
+            }
+            return std::string();
+          },
+          {sweep.limits.seconds, sweep.limits.memory});
+    } catch (const ProcessFailure& error) {
+      out.push_back(choice.label + ": a process that loaded it " + error.what());
     } catch (const std::exception& error) {
       out.push_back(choice.label + ": " + error.what());
     }

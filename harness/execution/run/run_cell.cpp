@@ -11,7 +11,7 @@
 #include "harness/execution/run/checked_curve.hpp"
 #include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/estimate_files.hpp"
-#include "harness/execution/run/method_guard.hpp"
+#include "harness/execution/run/input_guard.hpp"
 #include "harness/execution/run/oracle_method.hpp"
 #include "harness/execution/run/process_usage.hpp"
 #include "harness/external/external_methods.hpp"
@@ -64,7 +64,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
                                    const methods::Estimator& method,
                                    const Problem& problem,
                                    int runs) {
-  const MethodGuard guard(problem);
+  const InputGuard guard(inputs_of(problem));
   const std::optional<std::int64_t> before = reset_peak_memory() ? resident_memory() : std::nullopt;
   TimedRun last;
   for (int run = 0; run < runs; ++run) {
@@ -84,7 +84,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
     result.cpu_seconds.push_back(last.cpu_seconds);
   }
   result.report = std::move(last.report);
-  guard.require_unchanged();
+  if (const std::string fault = guard.fault(); !fault.empty()) throw std::runtime_error(fault);
   if (before) {
     result.peak_memory = peak_memory();
     result.added_memory = std::max<std::int64_t>(0, result.peak_memory.value_or(*before) - *before);
@@ -141,8 +141,7 @@ void add_scores_without_reference(CellResult& result,
     const ScoreResult row{p, metrics::Times::keyframes, "", "", {}, {}, Status::ok, ""};
     for (const MetricChoice& choice : sweep.metrics) {
       if (find_metric(catalogue, choice.metric.name).needs_reference) continue;
-      std::ranges::move(scores_of(choice, row, evaluation, catalogue),
-                        std::back_inserter(result.scores));
+      add_scores_of(result, choice, row, evaluation, catalogue);
     }
   }
 }
