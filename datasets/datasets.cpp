@@ -7,9 +7,7 @@ namespace loopbench {
 
 std::vector<DatasetEntry> datasets() {
   return {
-      dataset<SimulatedOptions>("simulated",
-                                "closed-form paths with simulated odometry and loop closures",
-                                load_simulated),
+      simulated_entry(),
       dataset<TrajectoryOptions>(
           "trajectory",
           "keyframes, odometry and loop closures from an estimated trajectory file",

@@ -23,6 +23,11 @@ concept Walked = requires(Archive& archive, T& value) {
   walk(archive, value);
 };
 
+/// Whether values of T are copied as bytes. Specialise it for types without pointers and padding
+/// whose members have copy constructors of their own, as Eigen's.
+template <class T>
+inline constexpr bool kIsPlain = std::is_trivially_copyable_v<T>;
+
 /// Appends its arguments: numbers, plain data, strings, vectors, optionals, and Walked types.
 class Packer {
  public:
@@ -31,7 +36,7 @@ class Packer {
     if constexpr (Walked<const T, Packer>) {
       walk(*this, value);
     } else {
-      static_assert(std::is_trivially_copyable_v<T>);
+      static_assert(kIsPlain<T>);
       bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
     }
     return *this;
@@ -49,7 +54,7 @@ class Packer {
   template <class T>
   Packer& operator()(const std::vector<T>& items) {
     (*this)(items.size());
-    if constexpr (std::is_trivially_copyable_v<T> && !Walked<const T, Packer>) {
+    if constexpr (kIsPlain<T> && !Walked<const T, Packer>) {
       bytes_.append(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T));
     } else {
       for (const T& item : items) (*this)(item);
@@ -74,8 +79,8 @@ class Unpacker {
     if constexpr (Walked<T, Unpacker>) {
       walk(*this, value);
     } else {
-      static_assert(std::is_trivially_copyable_v<T>);
-      std::memcpy(&value, take(sizeof value), sizeof value);
+      static_assert(kIsPlain<T>);
+      std::memcpy(static_cast<void*>(&value), take(sizeof value), sizeof value);
     }
     return *this;
   }
@@ -99,10 +104,11 @@ class Unpacker {
   }
   template <class T>
   Unpacker& operator()(std::vector<T>& items) {
-    if constexpr (std::is_trivially_copyable_v<T> && !Walked<T, Unpacker>) {
+    if constexpr (kIsPlain<T> && !Walked<T, Unpacker>) {
       items.resize(count(sizeof(T)));
       if (items.empty()) return *this;
-      std::memcpy(items.data(), take(items.size() * sizeof(T)), items.size() * sizeof(T));
+      const std::size_t size = items.size() * sizeof(T);
+      std::memcpy(static_cast<void*>(items.data()), take(size), size);
     } else {
       items.clear();
       for (std::size_t left = count(1); left > 0; --left) (*this)(items.emplace_back());

@@ -13,7 +13,8 @@ namespace loopbench {
 /// Number of hardware threads, limited to 1..16.
 inline std::size_t hardware_threads() {
   constexpr unsigned kMost = 16;
-  return std::clamp(std::thread::hardware_concurrency(), 1u, kMost);
+  static const std::size_t out = std::clamp(std::thread::hardware_concurrency(), 1u, kMost);
+  return out;  // asking the system takes longer than a small loop
 }
 
 /// Minimum number of elements for which an additional thread pays off.

@@ -12,8 +12,7 @@
 namespace loopbench {
 namespace {
 
-constexpr double kMaxPoses = 1e8;            // 6.4 GB
-constexpr std::size_t kMaxCached = 100'000;  // [poses], 6.4 MB
+constexpr double kMaxPoses = 1e8;  // 6.4 GB
 
 Pose flattened(const Pose& pose) {
   const Vector3 ahead = pose.rotation * Vector3::UnitX();
@@ -58,7 +57,7 @@ Trajectory sampled(SimulatedPath which, double rate, double seconds, bool planar
   }
   if (cached) return *cached;
   Trajectory out = sample_path(which, rate, seconds, planar);
-  if (out.size() > kMaxCached) return out;
+  if (out.size() > kMostSamplesKept) return out;
   cached = std::make_shared<const Trajectory>(out);
   const std::lock_guard lock(last.mutex);
   last.arguments = arguments;

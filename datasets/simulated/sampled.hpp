@@ -6,6 +6,8 @@
 
 namespace loopbench {
 
+inline constexpr std::size_t kMostSamplesKept = 100'000;  // [poses], 6.4 MB
+
 /// Returns poses at k / rate from 0 to `seconds`, projected to x, y, yaw if `planar`. The last
 /// result is cached, because repetitions with other noise use the same path and its evaluation
 /// dominates the run time. Thread-safe. Throws OptionError for more than 1e8 poses. O(poses).

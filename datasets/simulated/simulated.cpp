@@ -18,6 +18,22 @@ namespace {
 /// 4 k / (4 frame_rate) are bit-identical and every frame has a reference pose at its stamp.
 constexpr std::size_t kReferencePerFrame = 4;
 
+struct Sampling {
+  double seconds = 0.0;
+  double frame_rate = 0.0;      // [Hz]
+  double reference_rate = 0.0;  // [Hz]
+};
+
+Sampling sampling_of(const SimulatedOptions& options, const Path& path) {
+  Sampling out;
+  out.seconds = path.duration * static_cast<double>(options.laps);
+  out.frame_rate = options.frame_rate > 0.0 ? options.frame_rate : path.frame_rate;
+  out.reference_rate = options.reference_rate == 0.0
+                           ? static_cast<double>(kReferencePerFrame) * out.frame_rate
+                           : options.reference_rate;
+  return out;
+}
+
 Trajectory frames_of(const Trajectory& reference) {
   Trajectory out;
   out.reserve(reference.size() / kReferencePerFrame + 1);
@@ -64,18 +80,16 @@ void add_white_noise(Trajectory& poses, const SimulatedOptions& options) {
 Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
   check_combination(options);
   const Path path = path_of(options.path);
-  const double seconds = path.duration * static_cast<double>(options.laps);
-  const double frame_rate = options.frame_rate > 0.0 ? options.frame_rate : path.frame_rate;
+  const Sampling sampling = sampling_of(options, path);
   const bool default_rate = options.reference_rate == 0.0;
-  const double reference_rate =
-      default_rate ? static_cast<double>(kReferencePerFrame) * frame_rate : options.reference_rate;
   const std::int64_t keyframe_count =
       options.keyframes > 0 ? options.keyframes : path.keyframes * options.laps;
 
-  Trajectory reference = sampled(options.path, reference_rate, seconds, options.planar);
-  const Trajectory truth = default_rate
-                               ? frames_of(reference)
-                               : sampled(options.path, frame_rate, seconds, options.planar);
+  Trajectory reference =
+      sampled(options.path, sampling.reference_rate, sampling.seconds, options.planar);
+  const Trajectory truth =
+      default_rate ? frames_of(reference)
+                   : sampled(options.path, sampling.frame_rate, sampling.seconds, options.planar);
   const std::vector<std::size_t> keyframes =
       even_indices(static_cast<std::size_t>(keyframe_count), truth.size());
   Odometry odometry = simulate_odometry(truth, keyframes, options);
@@ -97,6 +111,19 @@ Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
   out.provenance.closures = out.problem.closures.empty() ? "none" : "simulated";
   out.provenance.licence = "none needed";
   out.provenance.noise = noise_text(options);
+  return out;
+}
+
+void prepare_simulated(const SimulatedOptions& options) {
+  const Sampling sampling = sampling_of(options, path_of(options.path));
+  if (sampling.seconds * sampling.reference_rate > static_cast<double>(kMostSamplesKept)) return;
+  sampled(options.path, sampling.reference_rate, sampling.seconds, options.planar);
+}
+
+DatasetEntry simulated_entry() {
+  DatasetEntry out = dataset<SimulatedOptions>(
+      "simulated", "closed-form paths with simulated odometry and loop closures", load_simulated);
+  out.prepare = [](const Params& given) { prepare_simulated(with(SimulatedOptions{}, given)); };
   return out;
 }
 

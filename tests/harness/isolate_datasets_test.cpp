@@ -1,19 +1,21 @@
-/// Datasets of plugins that change their worker: only their own cells fail.
+/// Datasets of plugins that change their process: nothing of it reaches cells.
 #include <gtest/gtest.h>
+#include <pthread.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/time.h>
+#include <unistd.h>
 
-#include <array>
 #include <cfenv>
 #include <clocale>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <thread>
 
 #include "harness/execution/isolate/cell_output.hpp"
 #include "harness/execution/isolate/pack_result.hpp"
-#include "harness/execution/isolate/worker.hpp"
 #include "harness/execution/run/check_output.hpp"
 #include "tests/support/isolated_fixture.hpp"
 
@@ -47,52 +49,32 @@ void for_sockets(const std::function<void(int)>& work) {
   }
 }
 
-template <class T>
-void write_to_sockets(const T& bytes) {
-  for_sockets([&](int socket) { send(socket, &bytes, sizeof bytes, MSG_NOSIGNAL); });
-}
-
-TEST_F(IsolatedDatasets, ADatasetThatWritesToTheSocketCostsItsCells) {
-  std::array<char, 4096> stray;
-  stray.fill('x');
-  const Load strays = [=] { write_to_sockets(stray); };
-  const Load one_byte = [] { write_to_sockets('\0'); };
-  const Load waits_for_more = [] {
-    write_to_sockets(Header{Header::Kind::loaded, 0, std::uint64_t{1} << 20});
-  };
-  const Load is_too_large = [] {
-    write_to_sockets(Header{Header::Kind::loaded, 0, ~std::uint64_t{0}});
-  };
-  int number = 0;
-  for (const Load& deed : {strays, one_byte, waits_for_more, is_too_large}) {
-    const std::string name = "writes" + std::to_string(number++);
-    known_.datasets.push_back(line_after(name, deed));
-    const std::vector<CellResult> results =
-        run("datasets: [" + name + ", line]\nmethods: [straight, shift]\nmetrics: [ate]\n", 2);
-    ASSERT_EQ(results.size(), 4u);
-    for (std::size_t i = 0; i < 2; ++i) {
-      EXPECT_EQ(results[i].status, Status::crashed) << name;
-      EXPECT_TRUE(results[i].why.starts_with("its worker process sent a damaged message"))
-          << name << ": " << results[i].why;
-      EXPECT_EQ(results[2 + i].status, Status::ok) << name << ": " << results[2 + i].why;
-    }
-  }
-}
-
-TEST_F(IsolatedDatasets, AWorkerThatStopsAnsweringIsEnded) {
-  known_.datasets.push_back(line_after("deaf", [] {
-    static std::array<int, 2> ends;
-    ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
-    for_sockets([&](int socket) {
-      if (socket != ends[0] && socket != ends[1]) dup2(ends[0], socket);
-    });
+TEST_F(IsolatedDatasets, ADatasetHasNoConnectionToTheSweep) {
+  known_.datasets.push_back(line_after("writes", [] {
+    const std::string stray(4096, 'x');
+    for_sockets([&](int socket) { send(socket, stray.data(), stray.size(), MSG_NOSIGNAL); });
+    for_sockets([](int socket) { close(socket); });
   }));
   const std::vector<CellResult> results =
-      run("datasets: [deaf, line]\nmethods: [straight]\nmetrics: [ate]\nlimits: {seconds: 1}\n", 1);
-  ASSERT_EQ(results.size(), 2u);
-  EXPECT_EQ(results[0].status, Status::crashed);
-  EXPECT_TRUE(results[0].why.starts_with("its worker process stopped answering")) << results[0].why;
-  EXPECT_EQ(results[1].status, Status::ok) << results[1].why;
+      run("datasets: [writes, line]\nmethods: [straight, shift]\nmetrics: [ate]\n", 2);
+  ASSERT_EQ(results.size(), 4u);
+  for (const CellResult& result : results) EXPECT_EQ(result.status, Status::ok) << result.why;
+}
+
+TEST_F(IsolatedDatasets, NothingOfADatasetRunsInItsCells) {
+  known_.datasets.push_back(line_after("leaves", [] {
+    std::thread([] {
+      for (;;) pause();
+    }).detach();
+    pthread_atfork(nullptr, nullptr, [] { _exit(9); });
+    itimerval soon{{0, 0}, {0, 1000}};
+    setitimer(ITIMER_REAL, &soon, nullptr);
+    std::signal(SIGALRM, SIG_IGN);
+  }));
+  const std::vector<CellResult> results =
+      run("datasets: [leaves, line]\nmethods: [straight, shift]\nmetrics: [ate]\n", 1);
+  ASSERT_EQ(results.size(), 4u);
+  for (const CellResult& result : results) EXPECT_EQ(result.status, Status::ok) << result.why;
 }
 
 /// Reports the state of its process.

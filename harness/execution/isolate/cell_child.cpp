@@ -44,22 +44,6 @@ void limit_memory(std::int64_t memory) {
   setrlimit(RLIMIT_DATA, &both);
 }
 
-/// Closes all descriptors but the streams and `kept`.
-void connect_streams(int input, int output, std::vector<int> kept) {
-  dup2(input, STDIN_FILENO);
-  dup2(output, STDOUT_FILENO);
-  dup2(output, STDERR_FILENO);
-  std::ranges::sort(kept);
-  auto first = static_cast<unsigned>(STDERR_FILENO + 1);
-  for (const int descriptor : kept) {
-    const auto number = static_cast<unsigned>(descriptor);
-    if (descriptor < 0 || number < first) continue;
-    if (number > first) close_range(first, number - 1, 0);
-    first = number + 1;
-  }
-  close_range(first, ~0u, 0);
-}
-
 /// Detects a method that exceeded the limit between two checks by the worker.
 void apply_memory_limit(const Limits& limits, CellResult& result) {
   if (limits.memory <= 0 || result.added_memory.value_or(0) <= limits.memory) return;
@@ -83,15 +67,34 @@ int last_core() {
   return last;
 }
 
-void run_cell_and_exit(const CellChild& child) {
+void connect_streams(int input, int output, std::vector<int> kept) {
+  dup2(input, STDIN_FILENO);
+  dup2(output, STDOUT_FILENO);
+  dup2(output, STDERR_FILENO);
+  std::ranges::sort(kept);
+  auto first = static_cast<unsigned>(STDERR_FILENO + 1);
+  for (const int descriptor : kept) {
+    const auto number = static_cast<unsigned>(descriptor);
+    if (descriptor < 0 || number < first) continue;
+    if (number > first) close_range(first, number - 1, 0);
+    first = number + 1;
+  }
+  close_range(first, ~0u, 0);
+}
+
+void detach_from_worker(pid_t worker, std::int64_t memory) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != child.worker) _exit(1);  // the worker has ended in the meantime
+  if (getppid() != worker) _exit(1);  // the worker has ended in the meantime
   setpgid(0, 0);
   restore_default_signals();
   // If the system runs out of memory, it should kill the cell, not the worker or the sweep.
   write_system_file("/proc/self/oom_score_adj", "800");
+  limit_memory(memory);
+}
+
+void run_cell_and_exit(const CellChild& child) {
+  detach_from_worker(child.worker, child.context.sweep.limits.memory);
   const bool is_pinned = pin_to(child.core);
-  limit_memory(child.context.sweep.limits.memory);
   set_freshly_forked();
   warm_heap();
   const Sweep& sweep = child.context.sweep;

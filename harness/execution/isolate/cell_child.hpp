@@ -25,8 +25,15 @@ struct CellChild {
 /// The highest core this process may use, since the first ones handle most interrupts.
 int last_core();
 
-/// In the forked process: detaches it from the worker, runs the cell and leaves the
-/// packed result in the area.
+/// In a process that a worker forked: it ends with the worker, has default signals and a process
+/// group of its own, and cannot grow much beyond `memory` [bytes].
+void detach_from_worker(pid_t worker, std::int64_t memory);
+
+/// Sets the standard streams and closes all descriptors but them and `kept`.
+void connect_streams(int input, int output, std::vector<int> kept);
+
+/// In the forked process: detaches it from the worker, runs the cell and leaves the packed result
+/// in the area.
 [[noreturn]] void run_cell_and_exit(const CellChild& child);
 
 }  // namespace loopbench::harness

@@ -52,7 +52,7 @@ class IsolatedSweep {
       for (WorkerSlot& slot : slots_) fill(slot);
       const auto is_done = [](const WorkerSlot& slot) { return slot.jobs.empty(); };
       if (std::ranges::all_of(slots_, is_done)) return;
-      wait_for_workers(slots_, context_.sweep.limits.memory > 0);
+      wait_for_workers(slots_);
       for (WorkerSlot& slot : slots_) {
         if (!slot.process) continue;
         const bool has_ended = slot.process->has_ended();  // first: then all answers are there
@@ -61,7 +61,7 @@ class IsolatedSweep {
         if (has_ended) {
           reap(slot);
         } else {
-          apply_limits(slot, context_.sweep.limits);
+          end_if_stuck(slot, context_.sweep.limits);
         }
       }
       if (stop_ > 1) return abandon();
@@ -86,8 +86,7 @@ class IsolatedSweep {
       if (!job) return;
       if (!slot.process) {
         slot.process = std::make_unique<WorkerProcess>(context_, core_);
-        slot.step = 0;
-        slot.ended_by_limit = 0;
+        slot.is_stuck = false;
       }
       if (slot.jobs.empty()) slot.clock.restart();
       slot.jobs.push_back(*job);
@@ -106,57 +105,72 @@ class IsolatedSweep {
   }
 
   void read_answers(WorkerSlot& slot) {
-    constexpr const char* kDamage = "its worker process sent a damaged message";
-    if (slot.is_lost) return slot.bytes.clear();
     std::size_t at = 0;
     for (;;) {
       Header header;
       if (slot.bytes.size() - at < sizeof header) break;
       std::memcpy(&header, slot.bytes.data() + at, sizeof header);
-      const bool is_expected =
-          header.is_valid() && !slot.jobs.empty() && header.cell == slot.jobs.front().cell;
-      if (!is_expected || slot.process->has_stray_bytes()) return give_up(slot, kDamage);
       if (header.size > slot.bytes.size() - at - sizeof header) break;
-      const std::string_view body(slot.bytes.data() + at + sizeof header, header.size);
-      if (!take(slot, header, body)) return give_up(slot, kDamage);
+      take(slot, header, std::string_view(slot.bytes).substr(at + sizeof header, header.size));
       at += sizeof header + header.size;
     }
     slot.bytes.erase(0, at);
-    if (slot.process->has_stray_bytes()) give_up(slot, kDamage);
   }
 
-  /// Takes an answer to the first job. False for invalid ones, which only a corrupted worker sends.
-  bool take(WorkerSlot& slot, const Header& header, std::string_view body) {
-    if (header.kind == Header::Kind::cannot_load)
-      fail_to_load(slot.jobs.front(), std::string(body));
-    if (header.kind == Header::Kind::cannot_run) {
-      throw std::runtime_error("cannot create a process for a cell: " + std::string(body));
-    }
-    if (header.kind == Header::Kind::loaded) {
-      auto metadata = std::make_shared<SequenceMetadata>();
-      if (!unpack_answer(body, *metadata)) return false;
-      metadata_.keep(queue_.group_of(header.cell), dataset_of(header.cell).label, metadata);
-      return true;
-    }
-    if (header.kind == Header::Kind::result) {
-      CellResult result;
-      if (!unpack_answer(body, result) || !is_valid(result, context_.sweep)) {
-        result = {};
-        result.status = Status::crashed;
-        result.why = "its result is damaged: it wrote over its memory";
-        set_conditions(result, header.cell);
+  /// Takes an answer to the first job.
+  void take(WorkerSlot& slot, const Header& header, std::string_view body) {
+    const Job job = slot.jobs.front();
+    switch (header.kind) {
+      case Header::Kind::cannot_run:
+        throw std::runtime_error("cannot create a process for a cell: " + std::string(body));
+      case Header::Kind::loaded: {
+        auto metadata = std::make_shared<SequenceMetadata>();
+        if (!unpack_answer(body, *metadata)) throw std::runtime_error("metadata are damaged");
+        metadata_.keep(queue_.group_of(job.cell), dataset_of(job.cell).label, metadata);
+        slot.clock.restart();  // now for the cell
+        return;
       }
-      if (result.status == Status::out_of_memory) {
-        slot.ended_by_limit = slot.process->ended_by_limit();
-      }
-      if (result.status == Status::crashed && killed_.runs_again(header.cell, result.signal)) {
-        queue_.requeue(header.cell);
-      } else {
-        finish(result, header.cell);
-      }
+      case Header::Kind::cannot_load:
+        fail_to_load(job, std::string(body));
+        break;
+      case Header::Kind::load_failed:
+        take_failure(job, body);
+        break;
+      case Header::Kind::result:
+        take_result(job, body);
+        break;
+      case Header::Kind::only_loaded:
+        break;
     }
     slot.jobs.pop_front();
-    return true;
+    slot.clock.restart();
+  }
+
+  void take_result(const Job& job, std::string_view body) {
+    CellResult result;
+    if (!unpack_answer(body, result) || !is_valid(result, context_.sweep)) {
+      result = {};
+      result.status = Status::crashed;
+      result.why = "its result is damaged: it wrote over its memory";
+      set_conditions(result, job.cell);
+    }
+    if (result.status == Status::crashed && killed_.runs_again(job.cell, result.signal)) {
+      queue_.requeue(job.cell);
+    } else {
+      finish(result, job.cell);
+    }
+  }
+
+  /// Loading exceeded a limit or ended its process.
+  void take_failure(const Job& job, std::string_view body) {
+    CellResult result;
+    if (!unpack_answer(body, result)) throw std::runtime_error("a failure is damaged");
+    if (result.status == Status::crashed && killed_.runs_again(job.cell, result.signal)) {
+      return requeue(job);
+    }
+    set_conditions(result, job.cell);
+    load_failures_[queue_.group_of(job.cell)] = result;
+    if (!job.only_load) finish(result, job.cell);
   }
 
   const DatasetChoice& dataset_of(std::size_t cell) const {
@@ -196,33 +210,27 @@ class IsolatedSweep {
     finished_(result);
   }
 
-  /// Handles the end of a worker: sets the result of what it did and requeues its other jobs.
+  /// Handles the end of a worker: it runs no foreign code, so something outside ended it. Its first
+  /// job is done once more, then given up; the others are done by the next worker.
   void reap(WorkerSlot& slot) {
-    const bool is_lost = std::exchange(slot.is_lost, false);
-    const bool idle = slot.is_idle();
-    const bool loading = slot.is_loading();
-    const bool by_limit = !loading && slot.process->ended_by_limit() > slot.ended_by_limit;
     const WorkerProcess::End end = slot.process->end();
     slot.process.reset();
     slot.bytes.clear();
     end_strays_of_workers();
     std::deque<Job> jobs = std::exchange(slot.jobs, {});
-    std::optional<CellResult> result = std::exchange(slot.verdict, std::nullopt);
     if (jobs.empty()) return;
     const Job first = jobs.front();
-    // Otherwise it was killed after its last answer, or lost before it got the job.
-    const bool is_to_blame = is_lost ? result.has_value() : !idle || !result;
-    if (is_to_blame) jobs.pop_front();
+    CellResult result = crash_of_worker(slot, end);
+    const bool runs_again = !slot.is_stuck && killed_.runs_again(first.cell, result.signal);
+    if (!runs_again) jobs.pop_front();
     for (auto job = jobs.rbegin(); job != jobs.rend(); ++job) requeue(*job);
-    if (!is_to_blame) return;
-    if (!result) {
-      result = crash_of_worker(end, loading, by_limit);
-      if (!by_limit && killed_.runs_again(first.cell, result->signal)) return requeue(first);
+    if (runs_again) return;
+    set_conditions(result, first.cell);
+    if (first.only_load) {
+      load_failures_[queue_.group_of(first.cell)] = result;
+    } else {
+      finish(result, first.cell);
     }
-    set_conditions(*result, first.cell);
-    if (loading || (is_lost && first.only_load))
-      load_failures_[queue_.group_of(first.cell)] = *result;
-    if (!first.only_load) finish(*result, first.cell);
   }
 
   void end_strays_of_workers() const {
@@ -242,17 +250,16 @@ class IsolatedSweep {
   void abandon() {
     for (WorkerSlot& slot : slots_) {
       if (!slot.process || slot.jobs.empty()) continue;
-      const bool runs = !slot.is_idle() && !slot.is_loading();
-      const double seconds = slot.seconds();
-      const std::size_t cell = slot.jobs.front().cell;  // what the worker reports may be damaged
+      const double seconds = slot.clock.seconds();
+      const Job job = slot.jobs.front();
       slot.process.reset();
       slot.jobs.clear();
-      if (!runs) continue;
+      if (job.only_load) continue;
       CellResult result;
       result.status = Status::interrupted;
       result.why = fmt::format("abandoned after {:.1f} s by a second interrupt", seconds);
-      set_conditions(result, cell);
-      finish(result, cell);
+      set_conditions(result, job.cell);
+      finish(result, job.cell);
     }
     loads_.clear();
   }

@@ -1,14 +1,20 @@
-/// Cache of a worker's loaded sequences.
+/// A worker's loaded sequences.
 #pragma once
 
 #include <list>
-#include <memory>
+#include <optional>
+#include <variant>
 
+#include "datasets/core/sequence.hpp"
+#include "harness/execution/isolate/watched_process.hpp"
 #include "harness/execution/isolate/worker.hpp"
+#include "harness/model/result.hpp"
 #include "harness/model/sequence_metadata.hpp"
 
 namespace loopbench::harness {
 
+/// Each is loaded by a process of its own, so that nothing of a dataset's code remains in the
+/// worker: memory, threads, signal handlers.
 class LoadedSequences {
  public:
   struct Entry {
@@ -17,20 +23,32 @@ class LoadedSequences {
     Sequence sequence;
     SequenceMetadata metadata;
   };
+  /// Why there is no sequence.
+  struct Failure {
+    bool is_input_error = false;  ///< an exception with the message `why`; otherwise it failed
+    Status status = Status::failed;
+    std::string why;
+    std::string signal;
+  };
 
-  explicit LoadedSequences(const WorkerContext& context) : context_(context) {}
+  LoadedSequences(const WorkerContext& context, WatchedProcesses& processes)
+      : context_(context), processes_(processes) {}
 
   /// Null unless it is loaded.
   const Entry* find(const Cell& cell);
 
-  /// Loads it; evicts the least recently used sequences beyond kMostBytes. Throws InputError.
-  const Entry& load(const Cell& cell);
+  /// Loads it; evicts the least recently used sequences beyond kMostBytes. Throws
+  /// std::runtime_error if no process can be created.
+  std::variant<const Entry*, Failure> load(const Cell& cell);
 
  private:
   /// Limit on poses and edges: every cell's process starts as a copy of all of them.
-  static constexpr std::size_t kMostBytes = std::size_t{16} << 20;
+  static constexpr std::size_t kMostBytes = std::size_t{2} << 20;
+
+  const Entry* keep(Entry entry);
 
   const WorkerContext& context_;
+  WatchedProcesses& processes_;
   std::list<Entry> entries_;  ///< most recently used first
 };
 

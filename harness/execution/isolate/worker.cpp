@@ -1,19 +1,15 @@
 #include "harness/execution/isolate/worker.hpp"
 
-#include <malloc.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <optional>
 
+#include "datasets/core/parallel.hpp"
 #include "harness/execution/isolate/cell_process.hpp"
 #include "harness/execution/isolate/loaded_sequences.hpp"
 #include "harness/execution/isolate/pack_result.hpp"
-#include "harness/execution/isolate/process_state.hpp"
-#include "harness/execution/isolate/process_tree.hpp"
 #include "harness/execution/isolate/warm_heap.hpp"
 #include "harness/execution/isolate/worker_signals.hpp"
 #include "harness/external/external_methods.hpp"
@@ -51,11 +47,9 @@ bool receive_all(int socket, void* data, std::size_t size) {
 /// Messages to the sweep.
 struct Answers {
   int socket;
-  SharedStatus& shared_status;
 
   bool send(Header::Kind kind, std::uint64_t cell, const std::string& bytes) const {
     const Header header{kind, cell, bytes.size()};
-    shared_status.sent += sizeof header + bytes.size();
     return send_all(socket, &header, sizeof header) && send_all(socket, bytes.data(), bytes.size());
   }
 };
@@ -72,75 +66,63 @@ struct Programs {
   Programs& operator=(const Programs&) = delete;
 };
 
-void set_status(SharedStatus& shared_status, std::uint64_t job, bool loading) {
-  shared_status.job = job;
-  shared_status.loading = loading;
-  ++shared_status.step;
+template <class T>
+std::string packed(const T& value) {
+  Packer pack;
+  pack(value);
+  return pack.bytes();
 }
 
-/// While it loads, the worker ends with the sweep; while a cell runs, it ends the cell first.
-const LoadedSequences::Entry& load(LoadedSequences& loaded,
-                                   const Cell& cell,
-                                   const SandboxOptions& sandbox) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const LoadedSequences::Entry& out = [&]() -> const LoadedSequences::Entry& {
-    const ProcessState state;
-    program_sandbox() = sandbox;
-    return loaded.load(cell);
-  }();
-  prctl(PR_SET_PDEATHSIG, 0);
-  malloc_trim(0);  // fewer pages to copy for each cell, and none that hide its growth
+CellResult result_of(const LoadedSequences::Failure& failure) {
+  CellResult out;
+  out.status = failure.status;
+  out.why = failure.why;
+  out.signal = failure.signal;
   return out;
+}
+
+/// Answers one job; false if the sweep has closed the socket.
+bool work(const Job& job,
+          const Cell& cell,
+          LoadedSequences& loaded,
+          CellProcesses& cell_processes,
+          const Answers& answers) {
+  const LoadedSequences::Entry* entry = loaded.find(cell);
+  if (entry == nullptr) {
+    const auto outcome = loaded.load(cell);
+    if (const auto* failure = std::get_if<LoadedSequences::Failure>(&outcome)) {
+      if (failure->is_input_error) {
+        return answers.send(Header::Kind::cannot_load, job.cell, failure->why);
+      }
+      return answers.send(Header::Kind::load_failed, job.cell, packed(result_of(*failure)));
+    }
+    entry = std::get<const LoadedSequences::Entry*>(outcome);
+    if (!answers.send(Header::Kind::loaded, job.cell, packed(entry->metadata))) return false;
+  }
+  if (job.only_load) return answers.send(Header::Kind::only_loaded, job.cell, "");
+  return answers.send(Header::Kind::result, job.cell, cell_processes.run(cell, *entry));
 }
 
 }  // namespace
 
-void run_worker(const WorkerContext& context,
-                int socket,
-                SharedStatus& shared_status,
-                int core,
-                const ControlGroup& group) {
+void run_worker(const WorkerContext& context, int socket, int core, const ControlGroup& group) {
   install_worker_signals(socket);
   keep_heap_compact();
+  hardware_threads();  // asks the system once for all cells
   std::optional<Programs> programs;
   if (uses_programs(context.sweep)) programs.emplace();
-  const Answers answers{socket, shared_status};
-  LoadedSequences loaded(context);
+  const Answers answers{socket};
   const ScratchFolder* scratch = programs ? &programs->scratch : nullptr;
-  CellProcesses cell_processes(context, socket, core, scratch, group);
+  WatchedProcesses processes(context.sweep.limits, socket, scratch, group);
+  LoadedSequences loaded(context, processes);
+  CellProcesses cell_processes(context, core, processes);
   for (Job job; receive_all(socket, &job, sizeof job);) {
-    const Cell& cell = context.cells[job.cell];
-    const LoadedSequences::Entry* entry = loaded.find(cell);
-    if (entry == nullptr) {
-      if (context.sweep.limits.memory > 0) shared_status.memory = process_memory("self");
-      set_status(shared_status, job.cell, true);
-      group.remove_limit();
-      try {
-        entry = &load(loaded, cell, context.sandbox);
-      } catch (const std::exception& error) {
-        set_status(shared_status, SharedStatus::kIdle, false);
-        if (!answers.send(Header::Kind::cannot_load, job.cell, error.what())) return;
-        continue;
-      }
-      Packer metadata;
-      metadata(entry->metadata);
-      if (!answers.send(Header::Kind::loaded, job.cell, metadata.bytes())) return;
-    }
-    if (job.only_load) {
-      set_status(shared_status, SharedStatus::kIdle, false);
-      if (!answers.send(Header::Kind::only_loaded, job.cell, "")) return;
-      continue;
-    }
-    set_status(shared_status, job.cell, false);
-    std::string result;
     try {
-      result = cell_processes.run(cell, *entry);
+      if (!work(job, context.cells[job.cell], loaded, cell_processes, answers)) return;
     } catch (const std::exception& error) {
       answers.send(Header::Kind::cannot_run, job.cell, error.what());
       return;
     }
-    set_status(shared_status, SharedStatus::kIdle, false);
-    if (!answers.send(Header::Kind::result, job.cell, result)) return;
   }
 }
 

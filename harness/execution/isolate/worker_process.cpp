@@ -3,19 +3,16 @@
 #include <fcntl.h>
 #include <linux/close_range.h>
 #include <poll.h>
-#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <new>
 #include <stdexcept>
 
 #include "harness/execution/isolate/process_tree.hpp"
@@ -27,16 +24,6 @@ namespace {
 std::runtime_error creation_error(const std::string& what) {
   return std::runtime_error("cannot create a worker process: " + what + ": " +
                             std::strerror(errno));
-}
-
-/// The socket of a worker: far from the lowest descriptors, which careless code writes to or
-/// closes, but so low that the table of descriptors that each cell copies is small.
-int high_descriptor(int socket) {
-  constexpr rlim_t kHighest = 1023;
-  rlimit files{};
-  getrlimit(RLIMIT_NOFILE, &files);
-  const auto wanted = static_cast<int>(std::min(files.rlim_cur - 1, kHighest));
-  return dup3(socket, wanted, O_CLOEXEC) == wanted ? wanted : socket;
 }
 
 /// Returns the worker's number to the sweep, in an own process, and 0 in the worker. An
@@ -67,10 +54,6 @@ pid_t fork_worker(bool pid_namespace) {
 WorkerProcess::WorkerProcess(const WorkerContext& context, int core)
     : group_(context.sandbox.groups == nullptr ? ControlGroup()
                                                : context.sandbox.groups->group_of_worker()) {
-  void* shared = mmap(
-      nullptr, sizeof(SharedStatus), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (shared == MAP_FAILED) throw creation_error("shared memory");
-  shared_status_ = new (shared) SharedStatus;
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
     release();
@@ -97,23 +80,20 @@ void WorkerProcess::release() {
   }
   if (descriptor_ >= 0) close(descriptor_);
   if (socket_ >= 0) close(socket_);
-  munmap(shared_status_, sizeof(SharedStatus));
 }
 
 void WorkerProcess::run_child(const WorkerContext& context, int core, int socket) {
   group_.enter();
   // Close the sweep's files: the store, its lock and the other workers' sockets.
-  const int own = high_descriptor(socket);
-  const auto number = static_cast<unsigned>(own);
+  const auto number = static_cast<unsigned>(socket);
   close_range(STDERR_FILENO + 1, number - 1, 0);
   close_range(number + 1, ~0u, 0);
-  madvise(shared_status_, sizeof(SharedStatus), MADV_DONTFORK);  // not for cells
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   // If the system runs out of memory, it should kill the worker, not the sweep.
   write_system_file("/proc/self/oom_score_adj", "500");
-  run_worker(context, own, *shared_status_, core, group_);
+  run_worker(context, socket, core, group_);
   std::fflush(nullptr);
   _exit(0);  // without running the sweep's destructors
 }
@@ -132,7 +112,6 @@ void WorkerProcess::receive(std::string& bytes) {
     if (got <= 0) return;
     bytes.append(buffer, static_cast<std::size_t>(got));
     count += static_cast<std::size_t>(got);
-    received_ += static_cast<std::uint64_t>(got);
   }
 }
 

@@ -1,4 +1,4 @@
-/// A worker process as seen by the sweep: process, socket, shared status.
+/// A worker process as seen by the sweep: process and socket.
 #pragma once
 
 #include <sys/types.h>
@@ -24,13 +24,7 @@ class WorkerProcess {
   /// Appends received bytes to `bytes`, a few megabytes at most.
   void receive(std::string& bytes);
 
-  /// Whether more was received than the worker has sent: code in its process wrote to the socket.
-  bool has_stray_bytes() const { return received_ > shared_status_->sent; }
-
   void kill() const;
-
-  /// Number of processes killed so far because of the memory limit of its control group.
-  std::int64_t ended_by_limit() const { return group_.ended_by_limit(); }
 
   /// Whether the process has ended, as its descriptor tells: descendants may hold the socket.
   bool has_ended() const;
@@ -42,7 +36,6 @@ class WorkerProcess {
   };
   End end();
 
-  const SharedStatus& shared_status() const { return *shared_status_; }
   int socket() const { return socket_; }
   int descriptor() const { return descriptor_; }  ///< of the process: readable when it has ended
   pid_t process() const { return process_; }      ///< -1 after end()
@@ -52,9 +45,7 @@ class WorkerProcess {
   void release();
 
   ControlGroup group_;
-  SharedStatus* shared_status_ = nullptr;  ///< in shared memory
   int socket_ = -1;
-  std::uint64_t received_ = 0;  ///< [bytes]
   int descriptor_ = -1;
   pid_t process_ = -1;
 };
