@@ -30,6 +30,7 @@ void add_merge(CLI::App& app, int& exit_code);
 void add_plot(CLI::App& app, int& exit_code);
 void add_profile(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
+void add_submit(CLI::App& app, int& exit_code);
 void add_traj(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_verify(CLI::App& app, int& exit_code, const Source& source);

@@ -55,17 +55,9 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench table results/all\n"
      "  loopbench compare results/all\n"},
     {"submit",
-     "  loopbench submit mine.yaml --array 16 --time 2:00:00 --memory 16GiB --dry-run\n"
-     "  loopbench submit mine.yaml --array 16 --time 2:00:00 --memory 16GiB --partition long\n"
-     "  loopbench submit mine.yaml --engine local --array 2\n"},
-    {"watch",
-     "  loopbench watch results/mine\n"
-     "  loopbench watch results/mine --every 60\n"
-     "  loopbench watch results/mine --once\n"},
-    {"cancel",
-     "  loopbench cancel results/mine\n"
-     "  loopbench watch results/mine --once\n"
-     "  loopbench submit mine.yaml\n"},
+     "  loopbench submit mine.yaml --array 16 --print\n"
+     "  loopbench submit mine.yaml --array 16 --header slurm.sh\n"
+     "  loopbench submit mine.yaml --array 4 -- --missing --only room\n"},
     {"correct",
      "  loopbench correct graph.g2o --method pose_graph -o corrected.g2o\n"
      "  loopbench correct run.txt --loops loops.txt --method motion_drift -o corrected.txt\n"
@@ -162,7 +154,6 @@ const std::map<std::string, std::string> kExitCodes{
      "0 success, 1 an estimate failed or covers too little, 2 invalid input or output, 3 internal "
      "error."},
     {"check", "0 passed, 1 regressions, 2 invalid input or output, 3 internal error."},
-    {"watch", "0 all cells are done and merged, 1 otherwise, 2 invalid input, 3 internal error."},
     {"doctor",
      "0 nothing found, 1 mistakes found or nothing could be checked, 2 invalid input or output, 3 "
      "internal error."},

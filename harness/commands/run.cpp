@@ -6,8 +6,6 @@
 #include <thread>
 
 #include "harness/catalogue/load_sequence.hpp"
-#include "harness/cluster/progress_file.hpp"
-#include "harness/cluster/stage.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/config_path.hpp"
 #include "harness/commands/interruption.hpp"
@@ -51,7 +49,6 @@ struct RunArguments {
   bool no_sandbox = false;
   bool save_trajectories = false;
   bool pin_instructions = false;
-  std::filesystem::path stage;
 };
 
 /// Larger sweeps get no tables and no summary after each run, because they take longer than
@@ -79,7 +76,7 @@ int run(const RunArguments& arguments, const Source& source) {
   const Catalogue known =
       catalogue(with_config_plugins(arguments.plugins, config_path(arguments.config)));
   const Sweep sweep = read_sweep(config_path(arguments.config), known, arguments.data);
-  DataRoot root = data_root(sweep, arguments.data);
+  const DataRoot root = data_root(sweep, arguments.data);
   const std::vector<bool> with_seed = seeded(sweep, known);
   const std::vector<Cell> all = cells(sweep, with_seed, "");
   const std::vector<Cell> selected = cells(sweep, with_seed, arguments.only);
@@ -130,12 +127,7 @@ int run(const RunArguments& arguments, const Source& source) {
         resumed.there);
   }
   if (!missing.empty()) {
-    if (!arguments.stage.empty()) {
-      root = stage_inputs(sweep, missing, known, root, arguments.stage);
-      sandbox.hidden.emplace_back(arguments.stage);
-    }
     Progress progress(missing.size());
-    ProgressFile progress_file(out);
     const std::vector<InputFile> no_inputs;
     CellNotes notes;
     const auto finished = [&](const CellResult& r) {
@@ -151,9 +143,6 @@ int run(const RunArguments& arguments, const Source& source) {
       notes.add(sweep.methods[r.cell.method].label, r);
       progress.step(sweep.datasets[r.cell.dataset].label + " / " +
                     sweep.methods[r.cell.method].label);
-      if (!part.shard.empty()) {
-        progress_file.update({done + resumed.there, planned.size(), failed});
-      }
     };
     if (arguments.in_process) {
       Sequences sequences(sweep, known, root, missing);
@@ -176,7 +165,6 @@ int run(const RunArguments& arguments, const Source& source) {
   };
   if (!part.shard.empty()) {
     store->close();
-    ProgressFile(out).write({done + resumed.there, planned.size(), failed});
     fmt::print("shard {}: {} of {} cells done, {} failed\n{}\nnext, with all shards:\n  {}\n",
                arguments.part.shard,
                done + resumed.there,
@@ -269,9 +257,6 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
                     arguments->pin_instructions,
                     "Use the code paths of old processors in the C library and OpenCV, so that "
                     "results are bit-identical on all nodes");
-  command
-      ->add_option("--stage", arguments->stage, "Copy inputs into this folder first, once per node")
-      ->type_name("DIR");
   command->add_flag("--no-sandbox",
                     arguments->no_sandbox,
                     "Let programs read all files, and create no namespaces and control groups");

@@ -17,23 +17,21 @@ namespace {
 
 constexpr std::size_t kLongestConfig = 16'000'000;  // [bytes]
 
-const std::vector<std::string> kKeys{
-    "description",
-    "plugins",
-    "datasets",
-    "methods",
-    "metrics",
-    "times",
-    "protocol",
-    "baseline",
-    "min_coverage",
-    "repeats",
-    "timing",
-    "traces",
-    "limits",
-    "exclude",
-    "table",
-    "cluster"};  // read by `submit`, see harness/cluster/settings.hpp
+const std::vector<std::string> kKeys{"description",
+                                     "plugins",
+                                     "datasets",
+                                     "methods",
+                                     "metrics",
+                                     "times",
+                                     "protocol",
+                                     "baseline",
+                                     "min_coverage",
+                                     "repeats",
+                                     "timing",
+                                     "traces",
+                                     "limits",
+                                     "exclude",
+                                     "table"};
 
 /// With `timing: true`: enough runs for a median that one disturbance does not change.
 constexpr int kRunsWhenAlone = 5;

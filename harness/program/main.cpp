@@ -17,7 +17,6 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/params.hpp"
-#include "harness/commands/cluster.hpp"
 #include "harness/commands/command_line.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/correct.hpp"
@@ -127,9 +126,7 @@ int main(int argc, char** argv) {
   add_correct(app, exit_code);
   add_export(app, exit_code);
   add_merge(app, exit_code);
-  add_submit(app, exit_code, source);
-  add_watch(app, exit_code);
-  add_cancel(app, exit_code);
+  add_submit(app, exit_code);
   add_plot(app, exit_code);
   add_profile(app, exit_code);
   add_report(app, exit_code);

@@ -28,7 +28,6 @@ times: keyframes
 traces: false
 limits: {{seconds: 20, memory: 1GiB}}
 repeats: {repeats}
-cluster: {{array: {shards}, time: "60", memory: 2GiB, signal: 30}}
 """
 CELLS_PER_REPEAT = 20
 HERE = pathlib.Path(__file__).resolve().parent
@@ -114,10 +113,10 @@ def run_alone(processes, loopbench, config, out):
     return {"wall": time.monotonic() - begin, "processor": processor}
 
 
-def run_cluster(processes, cluster, loopbench, config, out):
+def run_cluster(processes, cluster, loopbench, config, shards, out):
     before, daemons = set(processes.ended), cluster.processor_time()
     begin = time.monotonic()
-    processes.run([loopbench, "submit", config, "--out", out])
+    processes.run([loopbench, "submit", config, "--array", str(shards), "--out", out])
     submitted = time.monotonic()
     while not os.path.exists(f"{out}/results.sqlite"):
         processes.reap()
@@ -128,7 +127,7 @@ def run_cluster(processes, cluster, loopbench, config, out):
         time.sleep(0.05)
     logs = [str(file) for file in pathlib.Path(out, "logs").glob("*_*.txt")]
     births = [float(text) for text in subprocess.check_output(["stat", "-c", "%W", *logs], text=True).split()]
-    stores = [os.stat(f"{out}/shards/{i + 1}-of-{len(logs)}/progress").st_mtime for i in range(len(logs))]
+    stores = [os.stat(f"{out}/shards/{i + 1}-of-{len(logs)}/results.sqlite").st_mtime for i in range(len(logs))]
     processor = sum(seconds for process, seconds in processes.ended.items() if process not in before)
     return {"wall": wall, "processor": processor + cluster.processor_time() - daemons,
             "submit": submitted - begin, "shards": max(stores) - min(births)}
@@ -149,13 +148,13 @@ def main():
         for piece in range(pieces):
             config = f"{folder}/piece-{piece}.yaml"
             pathlib.Path(config).write_text(
-                SWEEP.format(seed=1 + piece, repeats=cells // CELLS_PER_REPEAT, shards=shards))
+                SWEEP.format(seed=1 + piece, repeats=cells // CELLS_PER_REPEAT))
             alone, submitted = f"{folder}/alone-{piece}", f"{folder}/slurm-{piece}"
             for side in ("alone", "slurm") if piece % 2 == 0 else ("slurm", "alone"):
                 if side == "alone":
                     a = run_alone(processes, loopbench, config, alone)
                 else:
-                    b = run_cluster(processes, cluster, loopbench, config, submitted)
+                    b = run_cluster(processes, cluster, loopbench, config, shards, submitted)
             ratio = (a["wall"] / b["wall"], a["wall"] / b["shards"], a["processor"] / b["processor"])
             ratios.append(ratio)
             print(f"| {piece + 1} | {os.getloadavg()[0]:.1f} | {a['wall']:.1f} | {a['processor']:.1f} | {b['wall']:.1f} | "

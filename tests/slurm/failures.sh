@@ -24,11 +24,11 @@ times: keyframes
 traces: false
 limits: {seconds: 20, memory: 1GiB}
 repeats: $((cells / 10))
-cluster: {array: $shards, time: "5", memory: 2GiB, signal: 30}
 YAML
+printf '#SBATCH --time=5\n#SBATCH --mem=2048M\n' >"$folder/slurm.sh"
 
-job_of() { sed -n "s/^$2 //p" "$1/submission.txt"; }
-jobs_of() { echo "$(job_of "$1" job),$(job_of "$1" merge)"; }
+job_of() { sed -n "s/^.* shards: job \([0-9]*\), .*/\1/p" "$1/submit.txt"; }
+jobs_of() { sed -n 's/^  squeue --jobs //p' "$1/submit.txt"; }
 
 # Tasks that wait only because Slurm delays requeued ones by two minutes, or holds them if a node could not start them.
 hasten() {
@@ -98,7 +98,7 @@ repair_cluster() {
 # example because no task is running.
 one_failure() {
   local out=$1 kind=$((RANDOM % 12)) choice=$RANDOM job running task node process i code=0
-  job=$(job_of "$out" job)
+  job=$(job_of "$out")
   mapfile -t running < <(squeue --noheader --array --states=RUNNING --jobs="$job" --format='%K %N' 2>/dev/null)
   ((${#running[@]})) || ((kind == 8 || kind == 9)) || return 1
   ((${#running[@]})) && read -r task node <<<"${running[choice % ${#running[@]}]}"
@@ -143,7 +143,7 @@ one_failure() {
         kill_all "$process"
         restart_controller
       else
-        what="cancel all"; "$loopbench" cancel "$out" >/dev/null || return 1
+        what="cancel all"; scancel "${job}" 2>/dev/null || return 1
       fi ;;
   esac
 }
@@ -177,7 +177,8 @@ while ((count < failures)); do
       ((code == 137)) && count=$((count + 1)) && echo "round $round, failure $count: kill \`run --missing\`"
       continue
     fi
-    "$loopbench" submit "$folder/sweep.yaml" --out "$out" >/dev/null
+    "$loopbench" submit "$folder/sweep.yaml" --array "$shards" --header "$folder/slurm.sh" --out "$out" \
+      >"$out/submit.txt"
     submissions=$((submissions + 1)) jobs=$(jobs_of "$out") began=$SECONDS asked=$SECONDS
     while has_jobs "$jobs"; do
       ((SECONDS - asked < 30)) || { repair_cluster; asked=$SECONDS; }

@@ -1,0 +1,124 @@
+/// `submit`: quoting of scripts, jobs and their order.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "harness/shards/slurm_scripts.hpp"
+#include "tests/support/command.hpp"
+
+namespace loopbench::submit_test {
+
+using namespace harness;
+
+namespace {
+
+const std::string kHostile = "a b'; touch pwned; \"$(touch pwned)\" `touch pwned` #\n&";
+
+class Submit : public testing::Test {
+ protected:
+  Submit() {
+    std::filesystem::create_directories(folder_.path() / "logs");
+    std::filesystem::create_directory_symlink(folder_.path(), hostile_);
+    program("program", "printf '%s\\n' \"$@\" >>\"${0%/*}/words\"\n");
+  }
+
+  void program(const std::string& name, const std::string& text) {
+    const std::filesystem::path file = folder_.file(name, "#!/bin/bash\n" + text);
+    std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+  }
+
+  std::string read(const std::string& name) { return read_all(folder_.path() / name); }
+
+  int bash(const std::string& script, const std::string& variables = "") {
+    folder_.file("script.sh", script);
+    const std::string line = "cd '" + folder_.path().string() + "' && PATH=\"$PWD:$PATH\" " +
+                             variables + " bash script.sh >out.txt 2>&1 </dev/null";
+    return WEXITSTATUS(std::system(line.c_str()));
+  }
+
+  SlurmSweep sweep() {
+    return {kHostile,
+            hostile_ / "program",
+            "/configs/" + kHostile + ".yaml",
+            hostile_ / "out",
+            3,
+            {"--only=" + kHostile, "--data", hostile_ / "data"},
+            "#SBATCH --time=2:00:00\nexport LOADED=1"};
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path hostile_ = folder_.path() / kHostile;  ///< another name of the folder
+};
+
+TEST_F(Submit, NoTextBecomesACommand) {
+  EXPECT_EQ(bash(slurm_shard_script(sweep()), "SLURM_ARRAY_TASK_ID=2 SLURM_CPUS_PER_TASK=4"), 0);
+  const std::string out = (hostile_ / "out").string();
+  EXPECT_EQ(read("words"),
+            "run\n/configs/" + kHostile + ".yaml\n--out\n" + out + "\n--only=" + kHostile +
+                "\n--data\n" + (hostile_ / "data").string() + "\n--shard\n2/3\n--jobs\n4\n");
+  folder_.file("words", "");
+  EXPECT_EQ(bash(slurm_merge_script(sweep())), 2) << "no shard has a store";
+  std::filesystem::create_directories(folder_.path() / "out/shards/1-of-3");
+  folder_.file("out/shards/1-of-3/results.sqlite", "");
+  EXPECT_EQ(bash(slurm_merge_script(sweep())), 0) << read("out.txt");
+  EXPECT_EQ(read("words"),
+            "merge\n--add\n" + out + "/shards/1-of-3/results.sqlite\n-o\n" + out + "\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "pwned"));
+}
+
+TEST_F(Submit, TasksFailUnlessTheirCellsHaveRun) {
+  for (const auto& [code, expected] : {std::pair{0, 0}, {1, 0}, {2, 2}, {130, 130}}) {
+    program("program", "exit " + std::to_string(code) + "\n");
+    EXPECT_EQ(bash(slurm_shard_script(sweep()), "SLURM_ARRAY_TASK_ID=1"), expected);
+  }
+}
+
+TEST_F(Submit, TheHeaderFollowsOurOptions) {
+  for (const std::string& script : {slurm_shard_script(sweep()), slurm_merge_script(sweep())}) {
+    const std::size_t header = script.find("#SBATCH --time=2:00:00\nexport LOADED=1\n");
+    EXPECT_NE(header, std::string::npos) << script;
+    EXPECT_LT(script.rfind("#SBATCH"), script.find("export")) << "sbatch reads none after commands";
+    EXPECT_LT(script.find("#SBATCH --job-name=a_b"), header);
+    if (std::system("command -v shellcheck >/dev/null") != 0) continue;
+    folder_.file("checked.sh", script);
+    const std::string line = "shellcheck -e SC2016,SC2289 '" +
+                             (folder_.path() / "checked.sh").string() + "' >'" +
+                             (folder_.path() / "found").string() + "'";
+    EXPECT_EQ(std::system(line.c_str()), 0) << read("found") << script;
+  }
+}
+
+TEST_F(Submit, StartsTheArrayAndThenTheMerge) {
+  folder_.file("c.yaml", "datasets: [simulated]\nmethods: [raw, uniform]\nmetrics: [ate]\n");
+  program("sbatch",
+          "printf '%s ' \"$@\" >>\"${0%/*}/calls\"; echo >>\"${0%/*}/calls\"\n"
+          "echo \"$((40 + $(wc -l <\"${0%/*}/calls\")));cluster\"\n");
+  const std::string path = "PATH='" + folder_.path().string() + "':\"$PATH\" ";
+  const auto submit = [&](const std::string& words) {
+    folder_.file("line.sh",
+                 "export " + path +
+                     "XDG_CONFIG_HOME=/nowhere\nexec '" LOOPBENCH_BINARY "' submit c.yaml " +
+                     words + "\n");
+    const std::string line = "cd '" + folder_.path().string() + "' && bash line.sh >out.txt 2>&1";
+    return WEXITSTATUS(std::system(line.c_str()));
+  };
+  ASSERT_EQ(submit("--array 2 --print"), 0) << read("out.txt");
+  EXPECT_NE(read("out.txt").find("#SBATCH --array=1-2\n"), std::string::npos);
+  EXPECT_EQ(read("calls"), "");
+  ASSERT_EQ(submit("--array 2 --out o -- --only uniform"), 0) << read("out.txt");
+  const std::string out = std::filesystem::canonical(folder_.path() / "o").string();
+  EXPECT_EQ(read("calls"),
+            "--parsable --chdir=" + out + " " + out + "/shards.sh \n--parsable --chdir=" + out +
+                " --dependency=afterany:41 " + out + "/merge.sh \n");
+  EXPECT_NE(read("o/shards.sh").find(" --only uniform --shard "), std::string::npos);
+  EXPECT_NE(read("out.txt").find("2 shards: job 41, then merged by job 42"), std::string::npos);
+  EXPECT_EQ(submit("-- --only nothing"), 2) << "rejected before any job starts";
+  EXPECT_NE(read("out.txt").find("no cells to run"), std::string::npos) << read("out.txt");
+  std::filesystem::remove(folder_.path() / "sbatch");
+  EXPECT_EQ(submit("--out o"), 2);
+  EXPECT_NE(read("out.txt").find("sbatch: cannot be started"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace loopbench::submit_test
