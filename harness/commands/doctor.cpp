@@ -13,7 +13,6 @@
 #include "harness/trajectory/named_trajectory.hpp"
 #include "metrics/doctor/closure_checks.hpp"
 #include "metrics/doctor/diagnose.hpp"
-#include "metrics/doctor/graph_repair.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -23,7 +22,7 @@ struct DoctorArguments {
   std::vector<std::string> estimates;
   ReadArguments reading;
   std::string loops;  ///< closures of a trajectory; empty: none
-  std::string apply;  ///< folder for corrected estimates or graphs; empty: none
+  std::string apply;  ///< folder for corrected estimates; empty: none
   bool json = false;
 };
 
@@ -56,27 +55,6 @@ Problem problem_of(const PoseGraph& graph, const std::string& file) {
   out.closures = std::move(parts.closures);
   out.planar = graph.planar;
   return out;
-}
-
-/// Writes the graph with corrected edges to the folder.
-void apply_to_graph(const DoctorArguments& a,
-                    PoseGraph graph,
-                    Problem problem,
-                    const std::vector<metrics::InputFinding>& findings) {
-  const std::string folder = a.apply.ends_with('/') ? a.apply : a.apply + "/";
-  const std::string out = output_files({a.reference}, folder, Format::g2o).front();
-  reject_overwriting({a.reference}, out);
-  const std::size_t closures = problem.closures.size();
-  metrics::repair(problem, findings);
-  graph.edges = std::move(problem.odometry);
-  graph.edges.insert(graph.edges.end(), problem.closures.begin(), problem.closures.end());
-  write_g2o(out, graph);
-  fmt::print(notes_of(a),
-             "{}: {} findings applied, {} of {} closures kept\n",
-             printable(out),
-             findings.size(),
-             problem.closures.size(),
-             closures);
 }
 
 Diagnosed of_pair(const NamedTrajectory& reference, const NamedTrajectory& estimate) {
@@ -147,14 +125,11 @@ std::string report_json(const std::vector<Diagnosed>& all) {
 }
 
 int doctor(const DoctorArguments& a) {
-  if (!a.apply.empty() && !a.loops.empty() && a.estimates.empty()) {
-    throw InputError(
-        "--apply: expected EST or one pose graph (g2o); files of --loops stay as they are");
+  if (!a.apply.empty() && a.estimates.empty()) {
+    throw InputError("--apply: expected REF and EST; graphs and files of --loops stay as they are");
   }
   std::vector<Diagnosed> all;
   std::vector<NamedTrajectory> estimates;
-  std::optional<PoseGraph> graph;
-  Problem problem;
   if (!a.estimates.empty()) {
     const NamedTrajectory reference = read_named(a.reference, a.reading);
     estimates = read_all_named(a.estimates, a.reading);
@@ -173,16 +148,10 @@ int doctor(const DoctorArguments& a) {
           a.reference +
           ": expected REF and EST, a trajectory with --loops, or one pose graph (g2o)");
     }
-    graph = read_g2o(a.reference);
-    problem = problem_of(*graph, a.reference);
-    all.push_back(of_closures(a.reference, problem));
+    all.push_back(of_closures(a.reference, problem_of(read_g2o(a.reference), a.reference)));
   }
   fmt::print("{}", a.json ? report_json(all) : printable(report_text(all)));
-  if (!a.apply.empty() && graph) {
-    apply_to_graph(a, std::move(*graph), std::move(problem), all.front().result.findings);
-  } else if (!a.apply.empty()) {
-    apply_offsets(a, std::move(estimates), all);
-  }
+  if (!a.apply.empty()) apply_offsets(a, std::move(estimates), all);
   const bool is_clean = std::ranges::all_of(all, [](const Diagnosed& each) {
     return each.result.findings.empty() && each.result.has_checked;
   });
@@ -217,11 +186,7 @@ void add_doctor(CLI::App& app, int& exit_code) {
       ->type_name("WORD");
   command->add_option("--tf", a->reading.tf, "Frames in the TF tree of bags without a topic")
       ->type_name("PARENT.CHILD");
-  command
-      ->add_option(
-          "--apply",
-          a->apply,
-          "Folder for the estimates with corrected stamps, or the graph with corrected edges")
+  command->add_option("--apply", a->apply, "Folder for the estimates with corrected stamps")
       ->type_name("DIR");
   command->add_flag("--json", a->json, "Print JSON");
   command->callback([a, &exit_code] { exit_code = doctor(*a); });

@@ -117,7 +117,7 @@ const std::map<std::string, std::string> kExamples{
     {"doctor",
      "  loopbench doctor reference.txt estimate.txt\n"
      "  loopbench doctor estimate.txt --loops loops.txt\n"
-     "  loopbench doctor graph.g2o --apply corrected\n"},
+     "  loopbench doctor graph.g2o\n"},
     {"plot",
      "  loopbench plot results/quickstart -o figures\n"
      "  loopbench plot results/quickstart -o figures --methods raw,dual --sequences room\n"

@@ -20,8 +20,7 @@ namespace {
 InputFinding inverted_closures(std::string evidence, double confidence, std::size_t inverted) {
   return {Fault::closure_direction,
           std::move(evidence),
-          "doctor GRAPH --apply DIR inverts the closures; in a file of loops exchange the first "
-          "two columns",
+          "exchange the two vertices of each closure; in a file of loops the first two columns",
           confidence,
           static_cast<double>(inverted)};
 }

@@ -61,14 +61,11 @@ std::vector<InputFinding> check_edges(const std::vector<Edge>& closures,
                    stated_deviation(*worst),
                    least,
                    usual),
-       fmt::format("doctor GRAPH --apply DIR multiplies their information by {:.1g}, the median "
-                   "of the ratios to the usual error",
+       fmt::format("check their information, which would fit after multiplication by {:.1g}, the "
+                   "median of the ratios to the usual error",
                    factor),
        1.0 - std::sqrt(least / usual),
-       static_cast<double>(found.size()),
-       {found.begin(), found.end()},
-       1.0,
-       factor}};
+       static_cast<double>(found.size())}};
 }
 
 }  // namespace loopbench::metrics

@@ -1,9 +1,7 @@
 /// A likely mistake in the input of an evaluation.
 #pragma once
 
-#include <cstddef>
 #include <string>
-#include <vector>
 
 namespace loopbench::metrics {
 
@@ -38,11 +36,6 @@ struct InputFinding {
   std::string fix;          ///< what to do, as an option where there is one
   double confidence = 0.0;  ///< 0..1: 1 - residual after / residual before the fix
   double value = 0.0;       ///< offset [s], ratio, or number of edges; see `evidence`
-  /// Indices of the closures that a finding about single closures concerns.
-  std::vector<std::size_t> closures = {};
-  /// On the information of odometry and closures, if it is wrong; 1: as stated.
-  double odometry_factor = 1.0;
-  double closure_factor = 1.0;
 };
 
 /// "time_offset: EVIDENCE; FIX (confidence 0.93)".

@@ -41,25 +41,23 @@ InputFinding wrong_scale(const SquaredError& error,
                          std::size_t count) {
   const double factor = 1.0 / std::max(error.whole, 1e-30);
   const bool is_all = kind == Kind::all;
-  return {Fault::information_scale,
-          fmt::format("squared gaps of {} are {} times the stated variances (median of {})",
-                      measured_on,
-                      text(error),
-                      count),
-          fmt::format("doctor GRAPH --apply DIR multiplies the information of {} by {:.1g}; for a "
-                      "trajectory: options {}",
-                      is_all                   ? "all edges"
-                      : kind == Kind::odometry ? "the odometry"
-                                               : "the closures",
-                      factor,
-                      is_all                   ? "odometry.sigma_*, closures.sigma_*"
-                      : kind == Kind::odometry ? "odometry.sigma_*"
-                                               : "closures.sigma_*"),
-          0.8,
-          error.translation,
-          {},
-          kind == Kind::closures ? 1.0 : factor,
-          kind == Kind::odometry ? 1.0 : factor};
+  return {
+      Fault::information_scale,
+      fmt::format("squared gaps of {} are {} times the stated variances (median of {})",
+                  measured_on,
+                  text(error),
+                  count),
+      fmt::format("check the information of {}, which would fit after multiplication by {:.1g}; "
+                  "for a trajectory: options {}",
+                  is_all                   ? "all edges"
+                  : kind == Kind::odometry ? "the odometry"
+                                           : "the closures",
+                  factor,
+                  is_all                   ? "odometry.sigma_*, closures.sigma_*"
+                  : kind == Kind::odometry ? "odometry.sigma_*"
+                                           : "closures.sigma_*"),
+      0.8,
+      error.translation};
 }
 
 }  // namespace
@@ -82,7 +80,7 @@ std::vector<InputFinding> check_information(const std::vector<Edge>& closures,
                          "exchange of the blocks",
                          text(loops),
                          text(other)),
-             "doctor GRAPH --apply DIR exchanges the blocks; g2o has those of x y z first",
+             "check the order of the blocks: g2o has those of x y z first",
              1.0 - after / before,
              before}};
   }
