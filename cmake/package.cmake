@@ -2,9 +2,13 @@
 
 set(pages ${PROJECT_BINARY_DIR}/pages)
 find_program(gzip gzip REQUIRED)
+find_program(help2man help2man)
+if(NOT help2man)
+  set(help2man "")
+endif()
 add_custom_command(OUTPUT ${pages}/loopbench.bash VERBATIM
   DEPENDS loopbench ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/cmake/package_files.cmake
-  COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:loopbench> -DGZIP=${gzip} -DOUT=${pages}
+  COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:loopbench> -DGZIP=${gzip} -DHELP2MAN=${help2man} -DOUT=${pages}
           -DSOURCE=${PROJECT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION}
           -P ${PROJECT_SOURCE_DIR}/cmake/package_files.cmake)
 add_custom_target(loopbench_pages ALL DEPENDS ${pages}/loopbench.bash)

@@ -1,13 +1,24 @@
 # Writes manual pages, completions, changelog and copyright as Debian expects them.
-# cmake -DPROGRAM=... -DGZIP=... -DOUT=... -DSOURCE=... -DVERSION=... -P package_files.cmake
+# Manual pages are made of --help by help2man, if it is installed.
+# cmake -DPROGRAM=... -DGZIP=... -DHELP2MAN=... -DOUT=... -DSOURCE=... -DVERSION=... -P package_files.cmake
 file(REMOVE_RECURSE ${OUT})
 file(MAKE_DIRECTORY ${OUT}/man1)
 execute_process(COMMAND ${PROGRAM} pages ${OUT} COMMAND_ERROR_IS_FATAL ANY)
 file(COPY_FILE ${SOURCE}/CHANGELOG.md ${OUT}/changelog)
-file(GLOB pages ${OUT}/*.1)
-foreach(page IN LISTS pages)
-  get_filename_component(name ${page} NAME)
-  file(RENAME ${page} ${OUT}/man1/${name})
+file(STRINGS ${OUT}/commands commands)
+file(REMOVE ${OUT}/commands)
+foreach(command IN LISTS commands)
+  if(NOT HELP2MAN)
+    break()
+  endif()
+  string(REGEX MATCH "^([^\t]*)\t(.*)$" found "${command}")
+  set(words "${CMAKE_MATCH_1}")
+  set(summary "${CMAKE_MATCH_2}")
+  string(REPLACE " " "-" page "loopbench ${words}")
+  string(REGEX REPLACE "-$" "" page "${page}")
+  string(STRIP "${words} --help" help)
+  execute_process(COMMAND ${HELP2MAN} --no-info --name "${summary}" --help-option "${help}"
+                  --output ${OUT}/man1/${page}.1 ${PROGRAM} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
 file(GLOB pages ${OUT}/man1/*.1)
 execute_process(COMMAND ${GZIP} -9n ${pages} ${OUT}/changelog COMMAND_ERROR_IS_FATAL ANY)

@@ -3,14 +3,13 @@
 #include "harness/commands/command_texts.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/help.hpp"
-#include "harness/provenance/version.hpp"
 #include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 
 void add_pages(CLI::App& app, int& exit_code) {
   auto folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("pages", "Write manual pages and shell completions");
+  CLI::App* command = app.add_subcommand("pages", "Write shell completions");
   command->group("");  // only for the build
   command->add_option("folder", *folder, "Output folder")->required();
   command->callback([&app, folder, &exit_code] {
@@ -22,7 +21,7 @@ void add_pages(CLI::App& app, int& exit_code) {
         all.push_back(command_text_of(*verb, each->get_name() + " " + verb->get_name()));
       }
     }
-    for (const auto& [name, text] : command_pages(all, kVersion)) {
+    for (const auto& [name, text] : command_pages(all)) {
       write_file(std::filesystem::path(*folder) / name, text);
     }
     exit_code = kExitOk;

@@ -1,4 +1,4 @@
-/// Manual pages and shell completions, from the same texts as `--help`.
+/// Shell completions, from the same texts as `--help`.
 #pragma once
 
 #include <map>
@@ -27,19 +27,13 @@ struct CommandText {
 /// The program first, then its commands, each followed by its subcommands.
 using CommandTexts = std::vector<CommandText>;
 
-/// roff text of loopbench.1 or loopbench-COMMAND.1. `version` appears in the footer.
-std::string manual_page(const CommandTexts& all,
-                        const CommandText& one,
-                        const std::string& version);
-
 /// Completions for commands, options, their choices and files.
 std::string bash_completion(const CommandTexts& all);
 std::string zsh_completion(const CommandTexts& all);
 std::string fish_completion(const CommandTexts& all);
 
-/// All of the above by file name: loopbench.1, loopbench-run.1, loopbench-traj-crop.1,
-/// loopbench.bash, _loopbench, loopbench.fish.
-std::map<std::string, std::string> command_pages(const CommandTexts& all,
-                                                 const std::string& version);
+/// The completions by file name: loopbench.bash, _loopbench, loopbench.fish; and `commands`, a line
+/// "NAME<tab>SUMMARY" for each manual page.
+std::map<std::string, std::string> command_pages(const CommandTexts& all);
 
 }  // namespace loopbench::harness

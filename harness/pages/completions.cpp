@@ -195,4 +195,13 @@ std::string fish_completion(const CommandTexts& all) {
   return out;
 }
 
+std::map<std::string, std::string> command_pages(const CommandTexts& all) {
+  std::string commands;
+  for (const CommandText& one : all) commands += one.name + "\t" + one.summary + "\n";
+  return {{"loopbench.bash", bash_completion(all)},
+          {"_loopbench", zsh_completion(all)},
+          {"loopbench.fish", fish_completion(all)},
+          {"commands", commands}};
+}
+
 }  // namespace loopbench::harness
