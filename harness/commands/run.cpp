@@ -88,11 +88,16 @@ int run(const RunArguments& arguments, const Source& source) {
   const RunPart part = select_part(arguments.part, keys, all, selected, known, root, given);
   const std::vector<Cell>& planned = part.planned;
   const std::filesystem::path& out = part.out;
-  require_parts(sweep, planned, known);
   if (arguments.part.dry_run) {
     print_plan(sweep, planned);
+    try {
+      require_parts(sweep, planned, known);
+    } catch (const MissingPart& missing) {  // the inputs can be checked without it
+      print_error("loopbench: this build cannot run it: {}\n", missing.what());
+    }
     return report_bad_inputs(bad_inputs(sweep, planned, known, root));
   }
+  require_parts(sweep, planned, known);
   if (planned.empty() && !part.shard.empty()) {
     fmt::print("shard {} has no cells\n", arguments.part.shard);
     return kExitOk;
