@@ -1,5 +1,7 @@
 #include "harness/external/command_dataset.hpp"
 
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include "harness/external/arguments.hpp"
@@ -9,11 +11,32 @@
 #include "harness/external/scratch.hpp"
 #include "harness/text/file_lock.hpp"
 #include "harness/text/hash.hpp"
+#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {
 
 constexpr const char* kOpen = "open.txt";
+constexpr const char* kHashes = "hashes";  // of the output, as it was written
+
+/// "NAME HASH" lines of the program's output in a folder.
+std::string output_hashes(const std::filesystem::path& folder) {
+  std::string out;
+  for (const char* suffix : {"", ".frames", ".loops", ".closed"}) {
+    const std::filesystem::path file = folder / (std::string(kOpen) + suffix);
+    if (std::filesystem::is_regular_file(file)) {
+      out += file.filename().string() + " " + hex(hash_of_file(file)) + "\n";
+    }
+  }
+  return out;
+}
+
+/// Whether the folder has what the program wrote, neither incomplete nor changed since.
+bool is_whole(const std::filesystem::path& folder) {
+  std::ifstream in(folder / kHashes, std::ios::binary);
+  const std::string stored{std::istreambuf_iterator<char>(in), {}};
+  return !stored.empty() && stored == output_hashes(folder);
+}
 
 /// The sequence's folder or file in the search folders.
 std::filesystem::path found_sequence(const std::string& sequence, const DataRoot& root) {
@@ -131,10 +154,10 @@ std::filesystem::path program_output(const CommandDatasetOptions& o,
   std::filesystem::path all = cache.empty() ? uncached_programs() : cache / "programs";
   if (all.empty()) all = std::filesystem::temp_directory_path() / "loopbench-programs";
   const std::filesystem::path out = all / key;
-  if (std::filesystem::is_regular_file(out / kOpen)) return out;
+  if (is_whole(out)) return out;
   std::filesystem::create_directories(all);
   const FileLock lock(all / (key + ".lock"));  // a worker that needs the same run waits for it
-  if (std::filesystem::is_regular_file(out / kOpen)) return out;
+  if (is_whole(out)) return out;
   const ExchangeFolder work;
   run_program(o, root, folder, sequence, work.path() / kOpen);
   std::string part = (all / (key + "-XXXXXX")).string();
@@ -146,7 +169,8 @@ std::filesystem::path program_output(const CommandDatasetOptions& o,
         std::filesystem::copy_file(work.path() / name, std::filesystem::path(part) / name);
       }
     }
-    std::filesystem::remove_all(out);  // an incomplete one
+    write_file(std::filesystem::path(part) / kHashes, output_hashes(part));
+    std::filesystem::remove_all(out);  // an incomplete or changed one
     std::filesystem::rename(part, out);
   } catch (...) {
     std::filesystem::remove_all(part);
