@@ -2,6 +2,10 @@
 
 #include <sqlite3.h>
 
+#include <array>
+#include <cstring>
+#include <utility>
+
 #include "datasets/core/error.hpp"
 
 namespace loopbench::harness {
@@ -139,27 +143,35 @@ std::string_view Statement::bytes_of_columns(int from, int to) {
 }
 
 void Statement::append_columns(int from, int to, std::string& bytes) {
-  const auto append = [&](const void* data, std::size_t size) {
-    if (size > 0) bytes.append(static_cast<const char*>(data), size);
+  constexpr std::size_t kNumber = 1 + sizeof(std::int64_t);  // type and value
+  std::array<char, 32 * kNumber> block;  // one append for many columns: a store has 10^8 of them
+  std::size_t size = 0;
+  const auto flush = [&] { bytes.append(block.data(), std::exchange(size, 0)); };
+  const auto add = [&](const auto& value) {
+    std::memcpy(block.data() + size, &value, sizeof value);
+    size += sizeof value;
   };
   for (int i = from; i < to; ++i) {
+    if (size + kNumber > block.size()) flush();
     sqlite3_value* const column = sqlite3_column_value(handle_.get(), i);
     const int type = sqlite3_value_type(column);
-    bytes += static_cast<char>(type);
+    add(static_cast<char>(type));
     if (type == SQLITE_INTEGER) {
-      const std::int64_t value = sqlite3_value_int64(column);
-      append(&value, sizeof value);
+      add(std::int64_t{sqlite3_value_int64(column)});
     } else if (type == SQLITE_FLOAT) {
-      const double value = sqlite3_value_double(column);
-      append(&value, sizeof value);
+      add(sqlite3_value_double(column));
     } else if (type != SQLITE_NULL) {
       const void* data =
           type == SQLITE_TEXT ? sqlite3_value_text(column) : sqlite3_value_blob(column);
-      const std::int64_t size = sqlite3_value_bytes(column);
-      append(&size, sizeof size);
-      append(data, static_cast<std::size_t>(size));
+      const std::int64_t length = sqlite3_value_bytes(column);
+      add(length);
+      flush();
+      if (length > 0) {
+        bytes.append(static_cast<const char*>(data), static_cast<std::size_t>(length));
+      }
     }
   }
+  flush();
 }
 
 std::string Statement::blob() {
