@@ -49,8 +49,6 @@ Trajectory run_once(const CommandOptions& options,
   start.environment = {{"LOOPBENCH_PROBLEM", input.string()},
                        {"LOOPBENCH_RESULT", result.string()},
                        {"TMPDIR", folder.path().string()}};
-  start.scratch = folder.path();
-  start.memory = setting.memory;
   start.sandbox = &program_sandbox();
   start.writable = folder.path();
 
@@ -59,10 +57,6 @@ Trajectory run_once(const CommandOptions& options,
   std::string output;
   const ProgramEnd end = tree.wait(output);
   const double ran = seconds_since(started);
-  if (end.over_memory > 0) {
-    throw MemoryLimitExceeded(
-        fmt::format("the program grew to {} bytes, limit {}", end.over_memory, setting.memory));
-  }
   const std::string hidden = hidden_note(program_sandbox());
   if (end.exit_code != 0) {
     throw std::runtime_error(with_output("the program " + text(end) + hidden, output));
@@ -87,10 +81,6 @@ Trajectory run_once(const CommandOptions& options,
   report.count(kProgramTime, end.cpu_seconds);
   report.count(kProgramMemory, static_cast<double>(end.peak_memory));
   add_output(report, output);
-  if (end.left_behind > 0) {
-    report.notes.push_back(
-        fmt::format("{} processes outlived the program and were killed", end.left_behind));
-  }
   const bool is_stated = metadata.seconds >= 0.0 && metadata.seconds <= ran;
   if (metadata.seconds > ran) {
     report.notes.push_back(fmt::format(

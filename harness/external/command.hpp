@@ -33,13 +33,6 @@ void fields(CommandOptions& o, Visit visit) {
 /// Conditions under which an external program runs.
 struct CommandSetting {
   std::filesystem::path folder = ".";  ///< working directory: the folder of the config
-  std::int64_t memory = 0;             ///< limit of the resident size of its tree [bytes]; 0: none
-};
-
-/// The tree of a program exceeded the memory limit.
-class MemoryLimitExceeded : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 /// Throws OptionError unless exactly one of run and serve is set and can be split, and run names

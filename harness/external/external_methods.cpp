@@ -44,7 +44,7 @@ const ExternalMethod* find_external(const std::string& name) {
 
 CommandSetting command_setting(const Sweep& sweep) {
   const std::filesystem::path folder = sweep.config.parent_path();
-  return {folder.empty() ? "." : folder, sweep.limits.memory};
+  return {folder.empty() ? "." : folder};
 }
 
 bool runs_programs(const MethodChoice& choice) {

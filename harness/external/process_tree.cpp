@@ -2,20 +2,22 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <spawn.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <cstdio>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
-
-#include "harness/external/supervisor.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -88,36 +90,43 @@ class Ends {
   std::array<int, 2> ends_{-1, -1};
 };
 
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> out;
+  for (std::string& text : texts) out.push_back(text.data());
+  out.push_back(nullptr);
+  return out;
+}
+
+double seconds(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
+
+/// Wait status of a process that has ended but has not been waited for, in the last field of its
+/// line: another process, which it is no child of, can only read that. 0 if it cannot be read.
+int status_of_zombie(pid_t process) {
+  std::ifstream in("/proc/" + std::to_string(process) + "/stat");
+  std::string line;
+  std::getline(in, line);
+  const std::size_t last = line.find_last_of(' ');
+  return last == std::string::npos ? 0 : std::atoi(line.c_str() + last);
+}
+
 void do_not_block(int file) { fcntl(file, F_SETFL, fcntl(file, F_GETFL) | O_NONBLOCK); }
 
 }  // namespace
 
 ProcessTree::ProcessTree(const ProgramStart& given) : owner_(getpid()) {
   const ProgramStart start = with_sandbox(given);
-  const std::vector<std::string> environment = environment_of(start);
-  Ends control;
-  Ends status;
+  is_sandboxed_ = start.sandbox != nullptr;
   Ends output;
   Ends input(true);
   Ends errors;
   constexpr int kPipeSize = 1 << 20;  // [bytes], so that a problem is passed in one piece
   fcntl(output[1], F_SETPIPE_SZ, kPipeSize);
-  SupervisorFiles files{control[0], status[1], -1, output[1], -1};
-  if (start.serves) {
-    files.input = input[1];
-    files.errors = errors[1];
-    for (const int end : {input[0], input[1]}) {
-      setsockopt(end, SOL_SOCKET, SO_SNDBUF, &kPipeSize, sizeof kPipeSize);
-    }
+  for (const int end : {input[0], input[1]}) {
+    setsockopt(end, SOL_SOCKET, SO_SNDBUF, &kPipeSize, sizeof kPipeSize);
   }
-  std::fflush(nullptr);
-  supervisor_ = fork();
-  if (supervisor_ == 0) supervise(start, environment, files);
-  if (supervisor_ < 0) {
-    throw std::runtime_error(std::string("cannot start a program: ") + std::strerror(errno));
-  }
-  control_ = control.take(1);
-  status_ = status.take(0);
+  spawn(start, start.serves ? input[1] : -1, output[1], start.serves ? errors[1] : output[1]);
   output_ = output.take(0);
   do_not_block(output_);
   if (!start.serves) return;
@@ -127,36 +136,96 @@ ProcessTree::ProcessTree(const ProgramStart& given) : owner_(getpid()) {
   do_not_block(errors_);
 }
 
+void ProcessTree::spawn(const ProgramStart& start, int input, int output, int errors) {
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addchdir_np(&files, start.folder.c_str());
+  if (input >= 0) {
+    posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
+  } else {
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  }
+  posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&files, errors, STDERR_FILENO);
+  posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t signals;
+  sigemptyset(&signals);
+  posix_spawnattr_setsigmask(&attributes, &signals);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGCHLD}) sigaddset(&signals, signal);
+  posix_spawnattr_setsigdefault(&attributes, &signals);
+  posix_spawnattr_setpgroup(&attributes, 0);  // signals of the terminal are for the sweep
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+  std::vector<std::string> words = start.arguments;
+  std::vector<std::string> variables = environment_of(start);
+  const std::vector<char*> argv = pointers(words);
+  const std::vector<char*> envp = pointers(variables);
+  constexpr int kMostAttempts = 100;
+  constexpr useconds_t kPause = 100'000;  // [us]
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    start_error_ = posix_spawnp(&process_, argv[0], &files, &attributes, argv.data(), envp.data());
+    if (start_error_ != EAGAIN) break;
+    usleep(kPause);  // a short lack of processes
+  }
+  posix_spawn_file_actions_destroy(&files);
+  posix_spawnattr_destroy(&attributes);
+  if (start_error_ == EAGAIN) throw std::runtime_error("cannot start a program: no processes left");
+  if (start_error_ != 0) {
+    process_ = -1;
+    return;
+  }
+  descriptor_ = static_cast<int>(syscall(SYS_pidfd_open, process_, 0));  // closed on exec
+}
+
 ProcessTree::~ProcessTree() {
-  for (const int file : {control_, status_, input_, output_, errors_}) {
+  for (const int file : {descriptor_, input_, output_, errors_}) {
     if (file >= 0) close(file);
   }
-  if (getpid() != owner_) return;
-  while (waitpid(supervisor_, nullptr, 0) < 0 && errno == EINTR) {
+  if (getpid() != owner_ || process_ < 0) return;
+  kill(-process_, SIGKILL);
+  while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
   }
 }
 
 bool ProcessTree::has_ended() const {
-  std::array<pollfd, 1> file{{{status_, POLLIN, 0}}};
-  return poll(file.data(), 1, 0) > 0;
+  pollfd process{descriptor_, POLLIN, 0};
+  return process_ < 0 || poll(&process, 1, 0) > 0;
 }
 
 ProgramEnd ProcessTree::wait(std::string& output) {
-  bool is_open = true;
-  for (;;) {
+  ProgramEnd end;
+  end.start_error = start_error_;
+  bool is_open = process_ >= 0;
+  while (!has_ended()) {
     std::array<pollfd, 3> files{
-        {{status_, POLLIN, 0}, {is_open ? output_ : -1, POLLIN, 0}, {errors_, POLLIN, 0}}};
+        {{descriptor_, POLLIN, 0}, {is_open ? output_ : -1, POLLIN, 0}, {errors_, POLLIN, 0}}};
     if (poll(files.data(), files.size(), -1) < 0) continue;
     if (files[1].revents != 0) is_open = read_available(output_, output);
     if (files[2].revents != 0) read_available(errors_, output);
-    if (files[0].revents != 0) break;
   }
-  ProgramEnd end;
-  const ssize_t got = read(status_, &end, sizeof end);
   if (is_open) read_available(output_, output);
   if (errors_ >= 0) read_available(errors_, output);
-  if (got != static_cast<ssize_t>(sizeof end)) {
-    throw std::runtime_error("the supervisor of the program was killed");
+  if (process_ < 0) return end;
+  int status = 0;
+  if (getpid() == owner_) {
+    rusage usage{};
+    kill(-process_, SIGKILL);  // what is left of its group
+    while (wait4(process_, &status, 0, &usage) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
+    end.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+    end.peak_memory = std::int64_t{1024} * usage.ru_maxrss;
+  } else {
+    status = status_of_zombie(process_);
+  }
+  if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  // Bubblewrap exits with 128 + the signal that ended the program.
+  constexpr int kSignaled = 128;
+  if (is_sandboxed_ && end.exit_code > kSignaled && end.exit_code < kSignaled + NSIG) {
+    end.signal = std::exchange(end.exit_code, -1) - kSignaled;
   }
   return end;
 }
@@ -175,9 +244,6 @@ bool read_available(int file, std::string& text) {
 std::string text(const ProgramEnd& end) {
   if (end.start_error != 0) {
     return std::string("cannot be started: ") + std::strerror(end.start_error);
-  }
-  if (end.over_processes > 0) {
-    return "started more than " + std::to_string(kMostProgramProcesses) + " processes";
   }
   if (end.signal == 0) return "exited with code " + std::to_string(end.exit_code);
   const char* name = sigabbrev_np(end.signal);

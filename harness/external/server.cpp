@@ -31,7 +31,6 @@ ProgramStart server_start(const CommandOptions& options, const CommandSetting& s
   ProgramStart out;
   out.arguments = command_words("serve", options.serve, options.shell);
   out.folder = setting.folder;
-  out.memory = setting.memory;
   out.sandbox = &program_sandbox();
   out.writable = std::filesystem::temp_directory_path();
   out.serves = true;
@@ -56,15 +55,15 @@ class Server {
   }
 
   void append_to(RunningServers& out) const {
-    out.processes.push_back(tree_.supervisor());
-    for (const int descriptor : {tree_.input(), tree_.output(), tree_.errors(), tree_.status()}) {
+    out.processes.push_back(tree_.process());
+    for (const int descriptor :
+         {tree_.input(), tree_.output(), tree_.errors(), tree_.descriptor()}) {
       out.descriptors.push_back(descriptor);
     }
   }
 
   Trajectory ask(const Problem& problem,
                  ResultPoses output,
-                 std::int64_t memory,
                  ResultMetadata& metadata,
                  std::string& errors) {
     const std::uint64_t number = ++turn_->requested;
@@ -72,10 +71,10 @@ class Server {
     received_.clear();
     errors_ = &errors;
     MessageHeader header;
-    receive(sizeof header, memory);
+    receive(sizeof header);
     std::memcpy(&header, received_.data(), sizeof header);
     check_header(header, number, problem.keyframes.size());
-    receive(sizeof header + header.text + header.data, memory);
+    receive(sizeof header + header.text + header.data);
     if (received_.size() > sizeof header + header.text + header.data || has_output()) {
       throw std::runtime_error("the program wrote more than one answer");
     }
@@ -94,7 +93,7 @@ class Server {
   }
 
   /// Sends and receives until at least `size` bytes are here.
-  void receive(std::size_t size, std::int64_t memory) {
+  void receive(std::size_t size) {
     while (received_.size() < size) {
       std::array<pollfd, 3> files{{{tree_.output(), POLLIN, 0},
                                    {tree_.errors(), POLLIN, 0},
@@ -102,7 +101,7 @@ class Server {
       if (poll(files.data(), files.size(), -1) < 0) continue;
       if (files[2].revents != 0) send_some();
       if (files[1].revents != 0) read_available(tree_.errors(), *errors_);
-      if (files[0].revents != 0 && !receive_some()) throw_end(memory);
+      if (files[0].revents != 0 && !receive_some()) throw_end();
     }
   }
 
@@ -119,12 +118,8 @@ class Server {
     return got > 0 || (got < 0 && (errno == EAGAIN || errno == EINTR));
   }
 
-  [[noreturn]] void throw_end(std::int64_t memory) {
+  [[noreturn]] void throw_end() {
     const ProgramEnd end = tree_.wait(*errors_);
-    if (end.over_memory > 0) {
-      throw MemoryLimitExceeded(
-          fmt::format("the program grew to {} bytes, limit {}", end.over_memory, memory));
-    }
     throw std::runtime_error("the program " + text(end) + " before its answer");
   }
 
@@ -147,8 +142,8 @@ std::vector<KnownServer>& known_servers() {
 
 KnownServer& known_server(const CommandOptions& options, const CommandSetting& setting) {
   std::vector<KnownServer>& servers = known_servers();
-  const std::string key = fmt::format(
-      "{}\n{}\n{}\n{}", options.serve, options.shell, setting.folder.string(), setting.memory);
+  const std::string key =
+      fmt::format("{}\n{}\n{}", options.serve, options.shell, setting.folder.string());
   const auto found = std::ranges::find(servers, key, &KnownServer::key);
   return found == servers.end() ? servers.emplace_back(KnownServer{key, nullptr}) : *found;
 }
@@ -193,12 +188,10 @@ Trajectory ask_server(const CommandOptions& options,
   std::string errors;
   Trajectory out;
   try {
-    out = checked_result(server.ask(problem, options.output, setting.memory, metadata, errors),
+    out = checked_result(server.ask(problem, options.output, metadata, errors),
                          problem,
                          options.output,
                          "the answer");
-  } catch (const MemoryLimitExceeded&) {
-    throw;
   } catch (const metrics::Undefined&) {
     throw;
   } catch (const std::runtime_error& error) {

@@ -22,7 +22,7 @@ void prepare_server(const CommandOptions& options, const CommandSetting& setting
 
 /// What a cell in a copy of this process needs to keep: the servers that run in this thread.
 struct RunningServers {
-  std::vector<pid_t> processes;  ///< their supervisors, children of this process
+  std::vector<pid_t> processes;  ///< children of this process
   std::vector<int> descriptors;  ///< their streams
 };
 RunningServers running_servers();
@@ -32,7 +32,7 @@ RunningServers running_servers();
 void end_servers(bool only_stuck = false);
 
 /// Sends the problem and returns the checked answer. Throws std::runtime_error if the program
-/// fails, MemoryLimitExceeded, and Undefined if it declines.
+/// fails, and Undefined if it declines.
 Trajectory ask_server(const CommandOptions& options,
                       const CommandSetting& setting,
                       const Problem& problem,

@@ -52,8 +52,6 @@ TEST_F(CommandProcesses, ProcessesThatOutliveTheProgramAreKilled) {
     for (const char* time : {"8731", "8732", "8733", "8734"}) {
       EXPECT_FALSE(is_running(std::string("sleep ") + time)) << time;
     }
-    if (*option == '\0') continue;
-    EXPECT_THAT(notes(done[1]), HasSubstr("processes outlived the program and were killed"));
   }
 }
 

@@ -292,7 +292,7 @@ void run_isolated(const Sweep& sweep,
                   const std::function<void(const CellResult&)>& finished) {
   const std::unique_ptr<const ScratchFolder> scratch = scratch_for_programs(sweep);
   SandboxOptions options = sandbox;
-  if (scratch) options.pid_namespace = false;  // supervisors of programs use numbers in /proc
+  if (scratch) options.pid_namespace = false;  // programs that serve outlive cells
   if (scratch && options.enabled && !has_bubblewrap()) {
     print_error("loopbench: bubblewrap (bwrap) does not work here: programs can read all files\n");
   }

@@ -89,6 +89,18 @@ TreeUsage descendants_usage(std::int64_t at_fork,
   return out;
 }
 
+std::int64_t tree_memory(pid_t process) {
+  std::int64_t out = 0;
+  std::vector<pid_t> waiting{process};
+  while (!waiting.empty()) {
+    const pid_t next = waiting.back();
+    waiting.pop_back();
+    out += process_memory(std::to_string(next));
+    append_children_of_process(next, waiting);
+  }
+  return out;
+}
+
 int end_cell(pid_t cell, const std::vector<pid_t>& spared) {
   bool is_reaped = false;
   int out = 0;

@@ -31,6 +31,9 @@ TreeUsage descendants_usage(std::int64_t at_fork,
                             int most_processes,
                             const std::vector<pid_t>& spared = {});
 
+/// Memory of a process and all its descendants [bytes].
+std::int64_t tree_memory(pid_t process);
+
 /// Private and shared memory of a process, or "self" [bytes]; without mapped files. 0 if unknown.
 std::int64_t process_memory(const std::string& process);
 

@@ -57,6 +57,12 @@ std::optional<Verdict> exceeded(Watched& watched) {
     return Verdict{Status::failed,
                    fmt::format("{} started more than {} processes", subject, kMostProcesses)};
   }
+  for (const pid_t server : watched.servers) {
+    const std::int64_t memory = limits.memory > 0 ? tree_memory(server) : 0;
+    if (memory <= limits.memory) continue;
+    return Verdict{Status::out_of_memory,
+                   fmt::format("its program grew to {} bytes, limit {}", memory, limits.memory)};
+  }
   if (limits.memory > 0 && usage.memory > limits.memory) {
     return Verdict{
         Status::out_of_memory,

@@ -5,7 +5,6 @@
 #include <new>
 
 #include "harness/execution/run/check_output.hpp"
-#include "harness/external/command.hpp"
 #include "harness/model/status.hpp"
 #include "metrics/evaluation/undefined.hpp"
 
@@ -25,9 +24,6 @@ void catch_errors(Result& result, Work work) {
     work();
   } catch (const metrics::Undefined& reason) {
     result.status = Status::declined;
-    result.why = stored_reason(message_of(reason));
-  } catch (const MemoryLimitExceeded& reason) {
-    result.status = Status::out_of_memory;
     result.why = stored_reason(message_of(reason));
   } catch (const std::bad_alloc&) {
     result.status = Status::out_of_memory;
