@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "datasets/dataset.hpp"
+#include "harness/model/sweep.hpp"
 #include "methods/method.hpp"
 #include "metrics/metric.hpp"
 
@@ -28,6 +29,9 @@ Catalogue catalogue(const std::vector<std::filesystem::path>& plugins);
 /// Whether the method is a joint one with these options. Throws OptionError. A method of a plugin
 /// is made in a process of its own; if that fails, its cells report it.
 bool is_joint(const Catalogue& catalogue, const methods::MethodEntry& entry, const Params& options);
+
+/// Whether loading the dataset runs a program or a plugin of the user.
+bool has_foreign_code(const Catalogue& catalogue, const Choice& dataset);
 
 /// Version of an entry, empty unless it is from a plugin. `kind`: method, dataset or metric.
 std::string plugin_version(const Catalogue& catalogue,

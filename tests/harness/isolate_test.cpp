@@ -12,9 +12,11 @@
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/isolate/cell_queue.hpp"
 #include "harness/execution/isolate/pack_result.hpp"
+#include "harness/execution/isolate/pack_sequence.hpp"
 #include "harness/execution/run/run_sweep.hpp"
 #include "harness/execution/verify/verify.hpp"
 #include "tests/support/isolated_fixture.hpp"
+#include "tests/support/problems.hpp"
 
 namespace loopbench::isolate_test {
 
@@ -241,6 +243,36 @@ TEST(Pack, RefusesAMessageThatIsCutOff) {
     Unpacker cut(std::string_view(whole).substr(0, size));
     EXPECT_THROW(cut(none), std::runtime_error) << size;
   }
+}
+
+TEST(Pack, GivesASequenceBackBitForBit) {
+  Sequence sequence;
+  sequence.name = "s";
+  sequence.problem = test::circle(7);
+  sequence.problem.frames = sequence.problem.keyframes;
+  sequence.problem.planar = true;
+  sequence.problem.shared_landmarks = {3, 1, 4, 1, 5, 9};
+  sequence.problem.closures.back().scale = 1.5;
+  sequence.reference = sequence.problem.keyframes;
+  sequence.provenance.inputs = {{"folder/a b.txt", "estimate"}, {"c.txt"}};
+  sequence.provenance.notes = {"n"};
+  sequence.provenance.body_from_reference = Pose{Rotation(0.5, 0.5, 0.5, 0.5), {1.0, 2.0, 3.0}};
+  sequence.provenance.noise = "stream 1";
+  sequence.loop_candidates = {{1, 2, 0.5, true}};
+  Packer first;
+  first(sequence);
+  Sequence back;
+  Unpacker unpack(first.bytes());
+  unpack(back);
+  Packer second;
+  second(back);
+  EXPECT_EQ(second.bytes(), first.bytes());
+  EXPECT_EQ(back.provenance.inputs[0].path, "folder/a b.txt");
+  const Edge& edge = back.problem.closures.back();
+  EXPECT_EQ(edge.information, sequence.problem.closures.back().information);
+  EXPECT_EQ(edge.from_from_to.rotation.coeffs(),
+            sequence.problem.closures.back().from_from_to.rotation.coeffs());
+  EXPECT_EQ(back.provenance.body_from_reference->translation, Vector3(1.0, 2.0, 3.0));
 }
 
 TEST(Bytes, ReadsSizesAsPeopleWriteThem) {

@@ -16,7 +16,6 @@
 #include "harness/execution/isolate/worker_slot.hpp"
 #include "harness/execution/run/check_output.hpp"
 #include "harness/execution/run/oracle_method.hpp"
-#include "harness/external/external_datasets.hpp"
 #include "harness/external/external_methods.hpp"
 #include "harness/text/print_error.hpp"
 
@@ -181,10 +180,7 @@ class IsolatedSweep {
   /// the cells of its sequence.
   void fail_to_load(const Job& job, const std::string& why) {
     const DatasetChoice& choice = dataset_of(job.cell);
-    const std::string& name = choice.dataset.name;
-    const bool is_foreign =
-        name == kCommandDataset || !plugin_version(context_.catalogue, "dataset", name).empty();
-    if (!is_foreign) throw InputError(why);
+    if (!has_foreign_code(context_.catalogue, choice.dataset)) throw InputError(why);
     CellResult& result = load_failures_[queue_.group_of(job.cell)];
     result.status = Status::failed;
     result.why = stored_reason("dataset '" + choice.label + "': " + why);
