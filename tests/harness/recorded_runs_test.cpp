@@ -1,0 +1,95 @@
+// Methods and runs by the names of recorded files.
+#include "harness/eval/recorded_runs.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "harness/eval/recorded_sweep.hpp"
+#include "tests/support/eval_command.hpp"
+#include "tests/support/recorded_files.hpp"
+
+namespace loopbench::recorded_runs_test {
+namespace {
+
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using namespace harness;
+
+TEST(RecordedRuns, NamesGiveMethodAndRun) {
+  const auto label = [](const std::string& reference, const std::string& estimate) {
+    const RecordedRun run = recorded_runs({{reference, estimate}}, "")[0];
+    return run.sequence + "|" + run.method + "|" + run.run;
+  };
+  EXPECT_EQ(label("t/V102.csv", "vislam/V102/7.txt"), "V102|vislam|7");
+  EXPECT_EQ(label("fr1_room/groundtruth.txt", "x/orb_run1.txt"), "fr1_room|orb|1");
+  EXPECT_EQ(label("t/a.txt", "x/orb-3.txt"), "a|orb|3");
+  EXPECT_EQ(label("t/a.txt", "orb/12.txt"), "a|orb|12");
+  EXPECT_EQ(label("t/a.txt", "x/orbslam2.txt"), "a|orbslam2|0");
+  EXPECT_EQ(label("bag:b.bag#groundtruth", "bag:b.bag#/odom"), "b|odom|0");
+  EXPECT_TRUE(natural_less("run9", "run10"));
+  EXPECT_FALSE(natural_less("run10", "run9"));
+  EXPECT_TRUE(natural_less("run01", "run1"));  // two names, hence two runs
+  EXPECT_FALSE(natural_less("run1", "run01"));
+  EXPECT_FALSE(natural_less("run1", "run1"));
+}
+
+TEST(RecordedRuns, FoldersOfASequenceAreNotMethods) {
+  const auto methods = [](const std::string& reference, const std::string& sequence) {
+    std::vector<std::string> out;
+    for (const RecordedRun& run : recorded_runs({{reference, "est/A/seq1/0.txt"},
+                                                 {reference, "est/A/seq1/1.txt"},
+                                                 {reference, "est/B/seq1/0.txt"}},
+                                                sequence)) {
+      out.push_back(run.method);
+    }
+    return out;
+  };
+  const std::vector<std::string> expected{"A", "A", "B"};
+  EXPECT_EQ(methods("lay/groundtruth.txt", "seq1"), expected);
+  EXPECT_EQ(methods("lay/groundtruth.txt", ""), expected);
+  EXPECT_EQ(methods("seq1/groundtruth.txt", ""), expected);
+  // One file for each method, next to the reference or in a folder of results.
+  EXPECT_EQ(recorded_runs({{"s/groundtruth.txt", "s/orb.txt"}}, "")[0].method, "orb");
+  EXPECT_EQ(recorded_runs({{"s/groundtruth.txt", "out/s/orb.txt"}}, "")[0].method, "orb");
+  EXPECT_EQ(recorded_runs({{"s/groundtruth.txt", "s/0.txt"}}, "")[0].method, "s");
+}
+
+TEST(RecordedRuns, OneFileIsNotTwoMethods) {
+  EXPECT_THROW(recorded_runs({{"t/a.txt", "one/odom.txt"}, {"t/a.txt", "one/./odom.txt"}}, ""),
+               InputError);
+  const auto runs = recorded_runs({{"t/a.txt", "a_1.txt"}, {"t/a.txt", "a_01.txt"}}, "");
+  const auto cells =
+      recorded_cells(runs, recorded_sweep(runs, EvalArguments{}, recorded_catalogue()));
+  EXPECT_NE(cells[0].repeat, cells[1].repeat);
+  EXPECT_EQ(recorded_runs({{"a.txt", "bag:b.bag#/odom"}}, "")[0].estimate,
+            "bag:" + std::filesystem::absolute("b.bag").string() + "#/odom");
+}
+
+TEST(RecordedRuns, EqualNamesInOtherFoldersAreOtherMethods) {
+  const auto runs = recorded_runs({{"t/a.txt", "one/odom.txt"}, {"t/a.txt", "two/odom.txt"}}, "s");
+  EXPECT_EQ(runs[0].method, "one/odom");
+  EXPECT_EQ(runs[1].method, "two/odom");
+  EXPECT_THROW(recorded_runs({{"t/a.txt", "one/odom.txt"}, {"t/a.txt", "one/odom.txt"}}, ""),
+               InputError);
+  EXPECT_EQ(runs_of_manifest(manifest(runs)), runs);
+}
+
+TEST(RecordedRuns, RealRunsOfTwoSystems) {
+  const char* const data = std::getenv("LOOPBENCH_DATA");
+  if (data == nullptr) GTEST_SKIP() << "needs LOOPBENCH_DATA";
+  const TemporaryFolder folder;
+  const std::string root = std::string(data) + "/euroc_repeats";
+  std::vector<std::string> arguments{root + "/truth/V201.csv"};
+  for (int run = 0; run < 10; ++run) {
+    for (const char* const method : {"vislam_ba", "vislam_rp"}) {
+      arguments.push_back(root + "/" + method + "/V201/" + std::to_string(run) + ".txt");
+    }
+  }
+  arguments.insert(arguments.end(), {"--store", (folder.path() / "s").string()});
+  const std::string out = test::eval(arguments);
+  EXPECT_THAT(out, ContainsRegex("\n\\| V201 / vislam_ba +\\| +10 of 10 \\|"));
+  EXPECT_THAT(out, HasSubstr("verdict on ate: "));
+}
+
+}  // namespace
+}  // namespace loopbench::recorded_runs_test
