@@ -50,6 +50,9 @@ ProgramEnd run_program(const std::vector<std::string>& words, std::string& outpu
   ProgramStart start;
   start.arguments = words;
   start.folder = ".";
+  for (const char* name : {"LOOPBENCH_DATA", "LOOPBENCH_CACHE"}) {  // hidden from other programs
+    if (const char* value = std::getenv(name)) start.environment.emplace_back(name, value);
+  }
   return ProcessTree(start).wait(output);
 }
 
@@ -58,11 +61,13 @@ void check_options(const SlurmSweep& sweep) {
   std::vector<std::string> words{sweep.program.string(), "run", sweep.config.string()};
   words.insert(words.end(), sweep.options.begin(), sweep.options.end());
   words.insert(words.end(), {"--out", sweep.out.string(), "--dry-run"});
-  std::string output;
-  if (run_program(words, output).exit_code == 0) return;
+  std::string line;
+  for (const std::string& word : words) line += shell_quoted(word) + " ";
+  std::string errors;
+  if (run_program({"sh", "-c", line + ">/dev/null"}, errors).exit_code == 0) return;
   const std::string prefix = "loopbench: ";
-  const std::size_t at = output.rfind(prefix);
-  throw InputError(at == std::string::npos ? output : output.substr(at + prefix.size()));
+  while (errors.ends_with('\n')) errors.pop_back();
+  throw InputError(errors.starts_with(prefix) ? errors.substr(prefix.size()) : errors);
 }
 
 /// Submits a script and returns Slurm's number of the job.
