@@ -177,6 +177,11 @@ void ProcessTree::spawn(const ProgramStart& start, int input, int output, int er
     return;
   }
   descriptor_ = static_cast<int>(syscall(SYS_pidfd_open, process_, 0));  // closed on exec
+  if (descriptor_ >= 0) return;
+  const int error = errno;
+  kill(-process_, SIGKILL);
+  waitpid(process_, nullptr, 0);
+  throw std::runtime_error(std::string("cannot watch a program: ") + std::strerror(error));
 }
 
 ProcessTree::~ProcessTree() {
