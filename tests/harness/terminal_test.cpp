@@ -187,8 +187,6 @@ TEST_F(OnATerminal, HelpHasThreeExamplesForEachCommand) {
                               "eval",
                               "merge",
                               "submit",
-                              "watch",
-                              "cancel",
                               "correct",
                               "export",
                               "traj",
