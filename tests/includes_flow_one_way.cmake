@@ -63,7 +63,7 @@ set(order
   "harness/config harness/provenance"
   "harness/execution/run"
   "harness/execution/isolate"
-  "harness/execution/verify harness/store"
+  "harness/store"
   "harness/compare harness/shards"
   "harness/tables"
   "harness/gate harness/profile harness/plot harness/get harness/pages"

@@ -33,6 +33,5 @@ void add_report(CLI::App& app, int& exit_code);
 void add_submit(CLI::App& app, int& exit_code);
 void add_traj(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
-void add_verify(CLI::App& app, int& exit_code, const Source& source);
 
 }  // namespace loopbench::harness

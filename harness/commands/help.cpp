@@ -57,7 +57,7 @@ const std::map<std::string, std::string> kExamples{
     {"submit",
      "  loopbench submit mine.yaml --array 16 --print\n"
      "  loopbench submit mine.yaml --array 16 --header slurm.sh\n"
-     "  loopbench submit mine.yaml --array 4 -- --missing --only room\n"},
+     "  loopbench submit mine.yaml --array 4 -- --retry failed --only room\n"},
     {"correct",
      "  loopbench correct graph.g2o --method pose_graph -o corrected.g2o\n"
      "  loopbench correct run.txt --loops loops.txt --method motion_drift -o corrected.txt\n"
@@ -130,10 +130,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench report results/quickstart -o report.html\n"
      "  loopbench report results/quickstart/results.sqlite -o - >report.html\n"
      "  loopbench report results/quickstart -o report.html --size 2\n"},
-    {"verify",
-     "  loopbench verify configs/quickstart.yaml\n"
-     "  loopbench verify mine.yaml --data /data\n"
-     "  loopbench verify mine.yaml --only 'my run / raw'\n"},
 };
 
 const std::string kUsualExitCodes = "0 success, 2 invalid input or output, 3 internal error.";
@@ -147,9 +143,6 @@ const std::map<std::string, std::string> kExitCodes{
      "0 success, 1 failed cells or regressions, 2 invalid input or output, 3 internal error, 4 the "
      "build lacks a required part, 130 interrupted."},
     {"run", kSweepExitCodes},
-    {"verify",
-     "0 equal results, 1 differences, 2 invalid input or output, 3 internal error, 4 the build "
-     "lacks a required part, 130 interrupted."},
     {"eval",
      "0 success, 1 an estimate failed or covers too little, 2 invalid input or output, 3 internal "
      "error."},

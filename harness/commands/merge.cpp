@@ -18,9 +18,7 @@ std::string mixed_text(const Merged& merged) {
   if (merged.instruction_sets.size() < 2) return "";
   std::string out = "computed on processors with different instruction sets:\n";
   for (const std::string& set : merged.instruction_sets) out += "  " + printable(set) + "\n";
-  return out +
-         "`verify CONFIG --sample 0.01` compares a sample with this machine; `run "
-         "--pin-instructions` avoids differences\n";
+  return out + "`run --pin-instructions` avoids differences\n";
 }
 
 /// Lines about the cells that no store has; empty if none is known to be missing.
@@ -64,7 +62,7 @@ void add_merge(CLI::App& app, int& exit_code) {
                     arguments->options.add,
                     "Keep the cells of an existing output store, instead of rejecting it");
   command->footer(
-      "`loopbench run CONFIG --missing` computes the cells that are listed as missing.");
+      "`loopbench run CONFIG --out OUT` computes the cells that are listed as missing.");
   command->callback([arguments, &exit_code] {
     reject_standard_output("-o", arguments->out);
     std::filesystem::path out = arguments->out;

@@ -19,13 +19,12 @@
 #include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/estimate_files.hpp"
 #include "harness/execution/run/progress.hpp"
-#include "harness/execution/run/run_sweep.hpp"
 #include "harness/execution/sandbox/sandbox.hpp"
 #include "harness/external/external_datasets.hpp"
 #include "harness/external/external_methods.hpp"
 #include "harness/provenance/build.hpp"
 #include "harness/provenance/pin_instructions.hpp"
-#include "harness/shards/run_part.hpp"
+#include "harness/shards/shard.hpp"
 #include "harness/store/store.hpp"
 #include "harness/tables/all_records.hpp"
 #include "harness/text/print_error.hpp"
@@ -42,10 +41,10 @@ struct RunArguments {
   std::string out;
   std::vector<std::filesystem::path> plugins;
   int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  PartArguments part;
+  std::string shard;  ///< "3/8"; empty: all cells
+  bool dry_run = false;
   std::string retry = "none";
   bool fresh = false;
-  bool in_process = false;
   bool no_sandbox = false;
   bool save_trajectories = false;
   bool pin_instructions = false;
@@ -85,10 +84,11 @@ int run(const RunArguments& arguments, const Source& source) {
   const std::filesystem::path given(arguments.out.empty() ? "results/" + sweep.name
                                                           : arguments.out);
   CellKeys keys(sweep, known, root, build_id(source.code));
-  const RunPart part = select_part(arguments.part, keys, all, selected, known, root, given);
-  const std::vector<Cell>& planned = part.planned;
-  const std::filesystem::path& out = part.out;
-  if (arguments.part.dry_run) {
+  const bool is_shard = !arguments.shard.empty();
+  const Shard shard = is_shard ? parse_shard(arguments.shard) : Shard{};
+  const std::vector<Cell> planned = cells_of(shard, selected);
+  const std::filesystem::path out = is_shard ? given / "shards" / shard.folder() : given;
+  if (arguments.dry_run) {
     print_plan(sweep, planned);
     try {
       require_parts(sweep, planned, known);
@@ -98,13 +98,13 @@ int run(const RunArguments& arguments, const Source& source) {
     return report_bad_inputs(bad_inputs(sweep, planned, known, root));
   }
   require_parts(sweep, planned, known);
-  if (planned.empty() && !part.shard.empty()) {
-    fmt::print("shard {} has no cells\n", arguments.part.shard);
+  if (planned.empty() && is_shard) {
+    fmt::print("shard {} has no cells\n", arguments.shard);
     return kExitOk;
   }
   const std::filesystem::path file = out / "results.sqlite";
   SandboxOptions sandbox;
-  sandbox.enabled = !arguments.no_sandbox && !arguments.in_process;
+  sandbox.enabled = !arguments.no_sandbox;
   sandbox.hidden = {given, given / "results.sqlite"};
   if (!arguments.data.empty()) sandbox.hidden.emplace_back(arguments.data);
   const ControlGroups groups(sandbox.enabled);
@@ -116,7 +116,7 @@ int run(const RunArguments& arguments, const Source& source) {
   sandbox.pid_namespace = !uses_programs(sweep);  // as run_isolated() does
   run_provenance["sandbox"] = sandbox_summary(sandbox);
   std::optional<Store> store(std::in_place, file, keys, run_provenance, arguments.fresh);
-  store->set_shard(part.shard);
+  if (is_shard) store->set_shard(shard.name() + " " + division_hash(selected));
   const Resumed resumed = store->resume(all, planned, *from_text<Retry>(arguments.retry));
   report_damage(resumed, file);
   const std::vector<Cell>& missing = resumed.missing;
@@ -149,13 +149,7 @@ int run(const RunArguments& arguments, const Source& source) {
       progress.step(sweep.datasets[r.cell.dataset].label + " / " +
                     sweep.methods[r.cell.method].label);
     };
-    if (arguments.in_process) {
-      Sequences sequences(sweep, known, root, missing);
-      const int jobs = sweep.serial ? 1 : arguments.jobs;
-      run_sweep(sweep, missing, known, sequences, jobs, interrupted, finished);
-    } else {
-      run_isolated(sweep, missing, known, root, arguments.jobs, sandbox, interrupted, finished);
-    }
+    run_isolated(sweep, missing, known, root, arguments.jobs, sandbox, interrupted, finished);
     for (const std::string& line : notes.lines()) print_error("{}\n", printable(line));
   }
   if (done + resumed.there == 0) return kExitInterrupted;
@@ -168,10 +162,10 @@ int run(const RunArguments& arguments, const Source& source) {
     print_error("loopbench: interrupted{}; finished cells are kept, the others run next time\n",
                 abandoned == 0 ? "" : fmt::format(", {} running cells abandoned", abandoned));
   };
-  if (!part.shard.empty()) {
+  if (is_shard) {
     store->close();
     fmt::print("shard {}: {} of {} cells done, {} failed\n{}\nnext, with all shards:\n  {}\n",
-               arguments.part.shard,
+               arguments.shard,
                done + resumed.there,
                planned.size(),
                failed,
@@ -233,28 +227,15 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
       ->type_name("REGEX");
   command
       ->add_option("--shard",
-                   arguments->part.shard,
+                   arguments->shard,
                    "Only this part of N, into its own store OUT/shards/I-of-N; see `merge`")
       ->type_name("I/N");
-  command
-      ->add_option("--costs",
-                   arguments->part.costs,
-                   "Balance the shards by the times in an earlier store of the sweep")
-      ->type_name("STORE");
-  command->add_flag("--missing",
-                    arguments->part.missing,
-                    "Complete an existing store, for example after `merge`; with --shard, divide "
-                    "the missing cells");
   command->add_flag("--dry-run",
-                    arguments->part.dry_run,
+                    arguments->dry_run,
                     "Check the config and its input files and list the cells without running them");
   command->add_option("-j,--jobs", arguments->jobs, "Number of workers; does not affect results")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_flag(
-      "--in-process",
-      arguments->in_process,
-      "Use threads instead of worker processes, for debugging: no limits, no sandbox");
   command->add_flag("--save-trajectories",
                     arguments->save_trajectories,
                     "Save every cell's estimate at full length, see `export --what trajectories`");

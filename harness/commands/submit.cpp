@@ -148,7 +148,7 @@ void add_submit(CLI::App& app, int& exit_code) {
   command->add_option("--out", arguments->out, "Output folder (default: results/CONFIG)")
       ->type_name("DIR");
   command->add_option(
-      "options", arguments->options, "After --: options of `run`, for example --only or --missing");
+      "options", arguments->options, "After --: options of `run`, for example --only or --retry");
   command->callback([arguments, &exit_code] { exit_code = submit(*arguments); });
 }
 

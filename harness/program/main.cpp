@@ -132,7 +132,6 @@ int main(int argc, char** argv) {
   add_report(app, exit_code);
   add_traj(app, exit_code);
   add_doctor(app, exit_code);
-  add_verify(app, exit_code, source);
   add_get(app, exit_code);
   add_help(app, exit_code);
   add_pages(app, exit_code);

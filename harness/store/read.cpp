@@ -45,21 +45,6 @@ std::vector<CellRecord> read_cells(const std::filesystem::path& file) {
   return out;
 }
 
-void for_each_time(
-    const std::filesystem::path& store,
-    const std::function<void(const std::string& sequence, const std::string& method, double time)>&
-        visit) {
-  Database database = open_store(store);
-  Statement row = database.prepare(
-      "SELECT sequence, method, runs * coalesce(cpu_seconds_median, seconds_median) FROM cell "
-      "WHERE position IS NOT NULL AND runs > 0");
-  while (row.step()) {
-    const std::string sequence = row.text();
-    const std::string method = row.text();
-    visit(sequence, method, row.real());
-  }
-}
-
 std::map<std::string, std::string> read_run(const std::filesystem::path& file) {
   Database database = open_store(file);
   Statement rows = database.prepare("SELECT key, value FROM run");

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -19,14 +18,6 @@ std::vector<Record> read_records(const std::filesystem::path& file);
 
 /// One row per cell, in sweep order.
 std::vector<CellRecord> read_cells(const std::filesystem::path& file);
-
-/// Visits every cell of the current config that has run: labels of its sequence and method, and the
-/// processor time of all its timed runs, or the wall time if that is unknown [s]. Not checked.
-/// Throws InputError if it is not a store. O(cells).
-void for_each_time(
-    const std::filesystem::path& store,
-    const std::function<void(const std::string& sequence, const std::string& method, double time)>&
-        visit);
 
 /// The `run` table: config text, protocol, baseline, version.
 std::map<std::string, std::string> read_run(const std::filesystem::path& file);

@@ -13,10 +13,9 @@
 #include "harness/execution/isolate/cell_queue.hpp"
 #include "harness/execution/isolate/pack_result.hpp"
 #include "harness/execution/isolate/pack_sequence.hpp"
-#include "harness/execution/run/run_sweep.hpp"
-#include "harness/execution/verify/verify.hpp"
 #include "tests/support/isolated_fixture.hpp"
 #include "tests/support/problems.hpp"
+#include "tests/support/run_here.hpp"
 
 namespace loopbench::isolate_test {
 
@@ -46,13 +45,11 @@ std::string bytes(CellResult result) {
   return pack.bytes();
 }
 
-TEST_F(Isolated, GivesTheSameBitsAsThreads) {
+TEST_F(Isolated, GivesTheSameBitsAsOneProcess) {
   const Sweep sweep = parse_sweep(kConfig, "c.yaml", known_);
   const std::vector<Cell> planned = cells(sweep, seeded(sweep, known_), "");
   std::vector<std::string> in_process;
-  Sequences sequences(sweep, known_, {}, planned);
-  const StopRequests stop = 0;
-  run_sweep(sweep, planned, known_, sequences, 1, stop, [&](const CellResult& result) {
+  run_here(sweep, planned, known_, {}, [&](const CellResult& result) {
     in_process.push_back(bytes(result));
   });
   for (const int jobs : {1, 3, 10}) {
@@ -179,28 +176,6 @@ TEST_F(Isolated, ADatasetThatCrashesCostsItsCells) {
   EXPECT_NE(results[0].why.find("while loading"), std::string::npos) << results[0].why;
   EXPECT_EQ(results[1].status, Status::crashed);
   EXPECT_EQ(results[2].status, Status::ok);
-}
-
-TEST_F(Isolated, VerifyNamesTheCellThatDiffers) {
-  Sweep sweep = parse_sweep(
-      "datasets: [line]\nmethods: [straight, {method: mis, deed: own_process}]\nmetrics: [ate]\n",
-      "c.yaml",
-      known_);
-  const std::vector<Cell> planned = cells(sweep, seeded(sweep, known_), "");
-  const StopRequests stop = 0;
-  const auto differing = verify(sweep,
-                                planned,
-                                known_,
-                                {},
-                                {{true, 1}, {true, 2}, {false, 3}},
-                                sandbox_,
-                                stop,
-                                [](const auto&) {});
-  ASSERT_EQ(differing.size(), 2u);
-  EXPECT_EQ(differing[0].cell, 1u);
-  EXPECT_EQ(differing[0].part, "report");
-  EXPECT_EQ(differing[0].mode, "2 workers");
-  EXPECT_EQ(differing[1].mode, "3 threads");
 }
 
 TEST(CellQueue, KeepsAWorkerAtItsSequenceThenHelpsOut) {

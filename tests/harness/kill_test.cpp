@@ -231,9 +231,6 @@ TEST_F(Ended, MergeAndProfileFromTheCommandLine) {
   }
   EXPECT_EQ(run("profile 3 --value nonsense").exit_code, 2);
   EXPECT_EQ(run("merge 1 2 -o 3").exit_code, 2);
-  const CommandResult verified = run("verify c.yaml --only 'a / (raw|uniform)$'");
-  EXPECT_EQ(verified.exit_code, 0) << verified.out;
-  EXPECT_NE(verified.out.find("bit-identical"), std::string::npos) << verified.out;
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/isolate/isolated_sweep.hpp"
-#include "harness/execution/run/run_sweep.hpp"
+#include "tests/support/run_here.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::oracle_method_test {
@@ -78,10 +78,7 @@ TEST(OracleMethod, OfATrainedCalibrationIsMarkedInItsCells) {
     });
     EXPECT_EQ(seen, 4u);
   };
-  check_all([&](const auto& finished) {
-    Sequences sequences(sweep, known, {}, all);
-    run_sweep(sweep, all, known, sequences, 1, stop, finished);
-  });
+  check_all([&](const auto& finished) { run_here(sweep, all, known, {}, finished); });
   check_all(
       [&](const auto& finished) { run_isolated(sweep, all, known, {}, 1, {}, stop, finished); });
 }

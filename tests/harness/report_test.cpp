@@ -9,7 +9,6 @@
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/execution/run/run_sweep.hpp"
 #include "harness/plot/store_figures.hpp"
 #include "harness/report/data.hpp"
 #include "harness/report/drawn_methods.hpp"
@@ -17,6 +16,7 @@
 #include "harness/report/packed.hpp"
 #include "harness/report/sha256.hpp"
 #include "harness/store/store.hpp"
+#include "tests/support/run_here.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
@@ -58,11 +58,7 @@ class OfASweep : public testing::Test {
     Store store(folder_->path() / "results.sqlite", keys, {{"commit", "<c0ffee>"}});
     const std::vector<Cell> all = cells(sweep, seeded(sweep, catalogue), "");
     store.resume(all, all, Retry::none);
-    Sequences sequences(sweep, catalogue, root, all);
-    const StopRequests stop = 0;
-    run_sweep(sweep, all, catalogue, sequences, 1, stop, [&](const CellResult& result) {
-      store.write(result);
-    });
+    run_here(sweep, all, catalogue, root, [&](const CellResult& result) { store.write(result); });
     content_ = new ReportContent(read_report_content(folder_->path()));
     html_ = new std::string(report_html(*content_));
   }

@@ -6,8 +6,8 @@
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/execution/run/run_sweep.hpp"
 #include "harness/store/store.hpp"
+#include "tests/support/run_here.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
@@ -35,17 +35,13 @@ repeats: 3
 
 class RunSweep : public testing::Test {
  protected:
-  std::vector<Record> run(int jobs) {
-    const std::filesystem::path file = folder_.path() / std::to_string(jobs) / "results.sqlite";
+  std::vector<Record> run() {
+    const std::filesystem::path file = folder_.path() / "out" / "results.sqlite";
     const std::vector<Cell> planned = cells(sweep_, seeded(sweep_, known_), "");
-    Sequences sequences(sweep_, known_, {}, planned);
-    StopRequests stop = 0;
     CellKeys keys(sweep_, known_, {}, "build");
     {
       Store store(file, keys, {}, true);
-      run_sweep(sweep_, planned, known_, sequences, jobs, stop, [&](const CellResult& result) {
-        store.write(result);
-      });
+      run_here(sweep_, planned, known_, {}, [&](const CellResult& result) { store.write(result); });
     }
     return read_records(file);
   }
@@ -56,7 +52,7 @@ class RunSweep : public testing::Test {
 };
 
 TEST_F(RunSweep, EveryCellLeavesItsRow) {
-  const std::vector<Record> records = run(1);
+  const std::vector<Record> records = run();
   // 3 datasets x 3 repeats x (2 methods x 2 metrics + failed + declined)
   EXPECT_EQ(records.size(), 3u * 3u * 6u);
   const auto count = [&](Status status) {
@@ -71,19 +67,8 @@ TEST_F(RunSweep, EveryCellLeavesItsRow) {
   EXPECT_EQ(undefined->why, "set to be undefined");
 }
 
-TEST_F(RunSweep, SameBitsOnAnyNumberOfThreads) {
-  const std::vector<Record> one = run(1);
-  const std::vector<Record> many = run(4);
-  ASSERT_EQ(one.size(), many.size());
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    EXPECT_EQ(one[i].cell, many[i].cell);
-    EXPECT_EQ(one[i].method, many[i].method);
-    EXPECT_EQ(one[i].statistics.rmse, many[i].statistics.rmse) << i;
-  }
-}
-
 TEST_F(RunSweep, RepeatsGetSeedsOfTheirOwn) {
-  const std::vector<Record> records = run(2);
+  const std::vector<Record> records = run();
   EXPECT_NE(records[0].statistics.rmse, records[6].statistics.rmse);
   EXPECT_EQ(records[6].repeat, 1);
 }
@@ -96,7 +81,7 @@ TEST_F(RunSweep, TooLittleCoverageIsIncompleteAndIsNotAveraged) {
     return out;
   };
   sweep_.min_coverage = 0.5;
-  const std::vector<Record> records = run(1);
+  const std::vector<Record> records = run();
   int incomplete = 0;
   for (const Record& r : records) {
     const bool is_short = r.sequence.text().find("0.3") != std::string::npos;
@@ -124,7 +109,7 @@ TEST_F(RunSweep, ACellIsIncompleteOnlyAtTheTimesThatAre) {
   sweep_.protocols.front().rules.align = Align::none;
   sweep_.min_coverage = 0.9;
   sweep_.times = {Times::keyframes, Times::dense};
-  for (const Record& r : run(1)) {
+  for (const Record& r : run()) {
     if (r.method != "straight" || r.label != "ate") continue;
     EXPECT_EQ(r.status, r.times == "dense" ? Status::ok : Status::incomplete);
   }
@@ -135,7 +120,7 @@ TEST_F(RunSweep, AMetricThatMeansNothingHereIsDeclinedNotFailed) {
     throw Undefined("no closures");
   };
   int declined = 0;
-  for (const Record& r : run(1)) {
+  for (const Record& r : run()) {
     if (r.why != "no closures") continue;
     EXPECT_EQ(r.status, Status::declined);
     ++declined;
@@ -151,7 +136,7 @@ TEST_F(RunSweep, AnUndefinedNumberIsDeclinedAloneAndSaysWhy) {
     return std::vector<Score>{{"rotation", "3d", "deg", {}, "positions only"},
                               single("translation", "3d", "m", -2.0)};
   };
-  for (const Record& r : run(1)) {
+  for (const Record& r : run()) {
     if (r.method != "straight" || r.label != "ate") continue;
     EXPECT_EQ(r.status, r.relation == "rotation" ? Status::declined : Status::ok);
     EXPECT_EQ(r.why, r.relation == "rotation" ? "positions only" : "");
@@ -159,41 +144,15 @@ TEST_F(RunSweep, AnUndefinedNumberIsDeclinedAloneAndSaysWhy) {
   }
 }
 
-TEST_F(RunSweep, ABrokenDatasetEndsItBeforeTheFirstCell) {
-  known_.datasets[0].load = [](const Params& given, const DataRoot&) -> Sequence {
-    if (given.at("bias") == Param(0.3)) throw InputError("gone.txt: no such file");
-    return tiny::load_line({}, {});
-  };
-  const std::vector<Cell> planned = cells(sweep_, seeded(sweep_, known_), "");
-  Sequences sequences(sweep_, known_, {}, planned);
-  StopRequests stop = 0;
-  int finished = 0;
-  EXPECT_THROW(
-      run_sweep(sweep_, planned, known_, sequences, 2, stop, [&](const auto&) { ++finished; }),
-      InputError);
-  EXPECT_EQ(finished, 0);
-}
-
-TEST_F(RunSweep, StopLeavesWholeCellsOnly) {
-  const std::vector<Cell> planned = cells(sweep_, seeded(sweep_, known_), "");
-  Sequences sequences(sweep_, known_, {}, planned);
-  StopRequests stop = 0;
-  std::size_t finished = 0;
-  run_sweep(sweep_, planned, known_, sequences, 1, stop, [&](const auto&) {
-    if (++finished == 5) stop = 1;
-  });
-  EXPECT_EQ(finished, 5u);
-}
-
 TEST_F(RunSweep, AStoreKeepsTheOneBefore) {
-  run(1);
-  run(1);
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "1" / "previous-1.sqlite"));
-  EXPECT_EQ(read_records(folder_.path() / "1" / "previous-1.sqlite").size(), 54u);
-  run(1);
-  EXPECT_EQ(read_records(folder_.path() / "1" / "previous-1.sqlite").size(), 54u);
-  EXPECT_EQ(read_records(folder_.path() / "1" / "previous-2.sqlite").size(), 54u);
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "1" / "results.sqlite-wal"));
+  run();
+  run();
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out" / "previous-1.sqlite"));
+  EXPECT_EQ(read_records(folder_.path() / "out" / "previous-1.sqlite").size(), 54u);
+  run();
+  EXPECT_EQ(read_records(folder_.path() / "out" / "previous-1.sqlite").size(), 54u);
+  EXPECT_EQ(read_records(folder_.path() / "out" / "previous-2.sqlite").size(), 54u);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out" / "results.sqlite-wal"));
 }
 
 TEST_F(RunSweep, WhatIsNotAStoreIsRefused) {

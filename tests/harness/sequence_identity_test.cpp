@@ -8,7 +8,7 @@
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/execution/run/sequences.hpp"
+#include "harness/execution/run/describe_sequence.hpp"
 #include "harness/provenance/oracle_closures.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
-#include "harness/shards/costs.hpp"
 #include "harness/store/merge.hpp"
 #include "harness/store/plan.hpp"
 #include "harness/store/resume.hpp"
@@ -31,13 +29,6 @@ std::vector<Cell> grid(std::size_t datasets, std::size_t methods, int repeats) {
   return out;
 }
 
-std::map<std::size_t, double> loads(const std::vector<std::size_t>& shards,
-                                    const CellCosts& costs) {
-  std::map<std::size_t, double> out;
-  for (std::size_t i = 0; i < shards.size(); ++i) out[shards[i]] += costs.cells[i];
-  return out;
-}
-
 TEST(Shards, TextsAreRead) {
   EXPECT_EQ(parse_shard("3/8").number, 3u);
   EXPECT_EQ(parse_shard("3/8").count, 8u);
@@ -47,50 +38,27 @@ TEST(Shards, TextsAreRead) {
     EXPECT_THROW(parse_shard(text), InputError) << text;
 }
 
-TEST(Shards, SequencesStayTogetherAndLoadsAreBalanced) {
-  const std::vector<Cell> cells = grid(40, 7, 3);
-  CellCosts costs{std::vector<double>(cells.size()), 0.01};
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    costs.cells[i] = 0.01 * static_cast<double>(1 + cells[i].method + cells[i].dataset % 5);
+TEST(Shards, SequencesStayTogetherAndEveryCellIsInOneShard) {
+  const std::vector<Cell> cells = grid(5, 7, 3);  // 15 sequences
+  for (const std::size_t count : {1u, 2u, 8u, 15u, 16u, 200u}) {
+    std::map<std::size_t, std::size_t> shard_of;  // by index of the cell
+    std::size_t largest = 0;
+    for (std::size_t i = 1; i <= count; ++i) {
+      const std::vector<Cell> own = cells_of({i, count}, cells);
+      largest = std::max(largest, own.size());
+      EXPECT_TRUE(std::ranges::is_sorted(own, {}, &Cell::index));
+      for (const Cell& cell : own) EXPECT_TRUE(shard_of.emplace(cell.index, i).second);
+    }
+    EXPECT_EQ(shard_of.size(), cells.size());
+    const bool is_split = count > 15;
+    EXPECT_EQ(largest, is_split ? (105 + count - 1) / count : (15 + count - 1) / count * 7);
+    for (std::size_t i = 0; i + 1 < cells.size() && !is_split; ++i) {
+      if (cells[i].dataset == cells[i + 1].dataset && cells[i].repeat == cells[i + 1].repeat) {
+        EXPECT_EQ(shard_of[i], shard_of[i + 1]);
+      }
+    }
   }
-  const std::vector<std::size_t> shards = divide(cells, costs, 8);
-  EXPECT_EQ(shards, divide(cells, costs, 8)) << "depends on nothing else";
-  std::map<std::pair<std::size_t, int>, std::set<std::size_t>> of_sequence;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    of_sequence[{cells[i].dataset, cells[i].repeat}].insert(shards[i]);
-  }
-  for (const auto& [sequence, own] : of_sequence) EXPECT_EQ(own.size(), 1u);
-  double largest = 0.0;
-  double all = 0.0;
-  const auto by_shard = loads(shards, costs);
-  ASSERT_EQ(by_shard.size(), 8u);
-  for (const auto& [shard, load] : by_shard) {
-    largest = std::max(largest, load);
-    all += load;
-  }
-  EXPECT_LE(largest, 1.05 * all / 8.0);
-}
-
-TEST(Shards, ALongSequenceIsSplitIntoConsecutiveCells) {
-  const std::vector<Cell> cells = grid(1, 100, 1);
-  const CellCosts costs{std::vector<double>(cells.size(), 1.0), 0.1};
-  const std::vector<std::size_t> shards = divide(cells, costs, 4);
-  for (const auto& [shard, load] : loads(shards, costs)) EXPECT_EQ(load, 25.0);
-  std::vector<std::size_t> changes = shards;
-  changes.erase(std::unique(changes.begin(), changes.end()), changes.end());
-  EXPECT_EQ(changes.size(), 4u);
-}
-
-TEST(Shards, EveryCellIsInOneShardEvenWithMoreShardsThanCells) {
-  const std::vector<Cell> cells = grid(2, 2, 1);
-  const CellCosts costs{std::vector<double>(cells.size(), 0.0), 0.0};
-  for (const std::size_t count : {1u, 3u, 9u}) {
-    const std::vector<std::size_t> shards = divide(cells, costs, count);
-    std::size_t found = 0;
-    for (std::size_t i = 1; i <= count; ++i) found += cells_of({i, count}, cells, shards).size();
-    EXPECT_EQ(found, cells.size());
-  }
-  EXPECT_TRUE(divide({}, {}, 3).empty());
+  EXPECT_TRUE(cells_of({2, 3}, {}).empty());
 }
 
 TEST_F(ShardTest, ThePlanNamesEveryPosition) {
@@ -144,23 +112,6 @@ TEST_F(ShardTest, MissingShardsAreNamed) {
   EXPECT_EQ(missing_shards("1/3 aa\n3/3 aa\n"), Labels{"2/3"});
   EXPECT_EQ(missing_shards("1/2 aa\n2/2 aa\n1/2 bb"), Labels{"2/2"});
   EXPECT_EQ(missing_shards("nonsense\n/\nx/y"), Labels{});
-}
-
-TEST_F(ShardTest, MeasuredCostsComeFromLabels) {
-  run(kUsual);
-  {
-    Database database(file_, Database::Mode::read);
-    database.execute("UPDATE cell SET runs = 2, cpu_seconds_median = id");
-  }
-  const Sweep sweep = parse_sweep(
-      config("straight, {method: shift, by: 2, label: new}"), folder_.path() / "c.yaml", known_);
-  const std::vector<Cell> all = cells(sweep, seeded(sweep, known_), "");
-  const CellCosts costs = measured_costs(sweep, all, file_);
-  // Ids 1 to 4 are a / straight, a / shifted, b / straight, b / shifted.
-  const double overhead = costs.cells[0] - 2.0;
-  EXPECT_GT(overhead, 0.0);
-  EXPECT_NEAR(costs.cells[2] - overhead, 6.0, 1e-12);
-  EXPECT_NEAR(costs.cells[1] - overhead, 5.0, 1e-12) << "the mean of all cells";
 }
 
 }  // namespace

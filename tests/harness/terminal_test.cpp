@@ -193,8 +193,7 @@ TEST_F(OnATerminal, HelpHasThreeExamplesForEachCommand) {
                               "doctor",
                               "plot",
                               "profile",
-                              "report",
-                              "verify"}) {
+                              "report"}) {
     const CommandResult result = piped(std::string("help ") + command);
     EXPECT_EQ(result.exit_code, 0) << command;
     const std::size_t begin = result.out.find("Examples:\n");

@@ -113,16 +113,12 @@ int main(int count, char** words) {
     return found.there == all.size() ? 0 : 1;
   }
   const std::size_t shards = std::strtoull(mode.c_str(), nullptr, 10);
-  const CellCosts costs{std::vector<double>(all.size(), 1.0), 1.0};
-  const std::vector<std::size_t> division = divide(all, costs, shards);
-  report("divide", all.size(), begin);
-  begin = processor_seconds();
   for (std::size_t i = 1; i <= shards; ++i) {
     const Shard shard{i, shards};
     const std::filesystem::path own = shards == 1 ? folder : folder / "shards" / shard.folder();
-    const std::vector<Cell> planned = cells_of(shard, all, division);
+    const std::vector<Cell> planned = cells_of(shard, all);
     Store store(own / "results.sqlite", keys, {});
-    if (shards > 1) store.set_shard(shard.name() + " " + division_hash(all, division));
+    if (shards > 1) store.set_shard(shard.name() + " " + division_hash(all));
     store.resume(all, planned, Retry::none);
     for (const Cell& cell : planned) store.write(result_of(cell));
   }

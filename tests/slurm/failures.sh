@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Random failures of a real Slurm cluster of four nodes on this machine, in rounds of up to ten. After each round the
-# missing cells are run, by another submission or `run --missing`, and the store must have the rows of an
+# missing cells are run, by another submission or `run`, and the store must have the rows of an
 # undisturbed `loopbench run`, except times.
 # Usage: tests/slurm/failures.sh LOOPBENCH [SEED] [FAILURES] [CELLS]
 # Prints a line per failure. Needs root and the packages slurm-wlm, munge and python3.
@@ -151,7 +151,8 @@ one_failure() {
 # All cells are in the merged store.
 is_complete() {
   [[ -f $1/results.sqlite ]] &&
-    "$loopbench" run "$folder/sweep.yaml" --out "$1" --missing --dry-run 2>/dev/null | grep -q '^0 cells'
+    (($(python3 -c 'import sqlite3, sys; print(sqlite3.connect(sys.argv[1]).execute(
+      "SELECT count(*) FROM cell WHERE position IS NOT NULL").fetchone()[0])' "$1/results.sqlite") == cells))
 }
 
 echo "== undisturbed run of $cells cells"
@@ -170,11 +171,11 @@ while ((count < failures)); do
     ((attempt <= 30)) || { echo "round $round is not complete after 30 submissions"; exit 1; }
     empty_disk
     if ((RANDOM % 3 == 0)) && [[ -f $out/results.sqlite ]]; then
-      "$loopbench" run "$folder/sweep.yaml" --out "$out" --missing >"$out/missing.txt" 2>&1 &
+      "$loopbench" run "$folder/sweep.yaml" --out "$out" >"$out/missing.txt" 2>&1 &
       process=$! code=0
       ((count >= last)) || { sleep "0.$((RANDOM % 10))"; kill_all "$process"; }
       wait "$process" 2>/dev/null || code=$?
-      ((code == 137)) && count=$((count + 1)) && echo "round $round, failure $count: kill \`run --missing\`"
+      ((code == 137)) && count=$((count + 1)) && echo "round $round, failure $count: kill \`run\`"
       continue
     fi
     "$loopbench" submit "$folder/sweep.yaml" --array "$shards" --header "$folder/slurm.sh" --out "$out" \

@@ -9,6 +9,7 @@
 
 #include "harness/store/merge.hpp"
 #include "tests/store/fault_vfs.hpp"
+#include "tests/support/run_here.hpp"
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench::faults_test {
@@ -33,9 +34,7 @@ class Faults : public TinyStore {
     const std::vector<Cell> all = cells(sweep, seeded(sweep, known_), "");
     Store store(file_, keys, {{"commit", commit_}}, fresh);
     const Resumed resumed = store.resume(all, all, retry);
-    Sequences sequences(sweep, known_, root_, resumed.missing);
-    const StopRequests stop = 0;
-    run_sweep(sweep, resumed.missing, known_, sequences, 1, stop, [&](const CellResult& r) {
+    run_here(sweep, resumed.missing, known_, root_, [&](const CellResult& r) {
       store.write(r);
       done_.insert(sweep.datasets[r.cell.dataset].label + " / " +
                    sweep.methods[r.cell.method].label);
@@ -186,9 +185,7 @@ TEST_F(Faults, ADiskThatDoesNotConfirmTheLastWriteIsAnError) {
   const std::vector<Cell> all = cells(plan, seeded(plan, known_), "");
   Store store(file_, keys, {{"commit", commit_}});
   store.resume(all, all, Retry::none);
-  Sequences sequences(plan, known_, root_, all);
-  const StopRequests stop = 0;
-  run_sweep(plan, all, known_, sequences, 1, stop, [&](const CellResult& r) { store.write(r); });
+  run_here(plan, all, known_, root_, [&](const CellResult& r) { store.write(r); });
   disk.fail_all(SQLITE_IOERR_FSYNC);
   EXPECT_THROW(store.close(), InputError);
   disk.stop();
@@ -257,10 +254,8 @@ TEST_F(Faults, APowerCutLosesNoCellThatWasSynced) {
       const std::vector<Cell> all = cells(plan, seeded(plan, known_), "");
       Store store(file_, keys, {{"commit", commit_}});
       const Resumed resumed = store.resume(all, all, Retry::none);
-      Sequences sequences(plan, known_, root_, resumed.missing);
-      const StopRequests stop = 0;
       std::set<std::string> written;
-      run_sweep(plan, resumed.missing, known_, sequences, 1, stop, [&](const CellResult& r) {
+      run_here(plan, resumed.missing, known_, root_, [&](const CellResult& r) {
         store.write(r);
         written.insert(plan.datasets[r.cell.dataset].label + " / " +
                        plan.methods[r.cell.method].label);

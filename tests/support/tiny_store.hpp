@@ -5,8 +5,8 @@
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/execution/run/run_sweep.hpp"
 #include "harness/store/store.hpp"
+#include "tests/support/run_here.hpp"
 #include "tests/support/store_text.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_catalogue.hpp"
@@ -58,9 +58,7 @@ class TinyStore : public testing::Test {
     Store store(file_, keys, {{"commit", commit_}});
     Ran out;
     out.resumed = store.resume(cells(sweep, with_seed, ""), cells(sweep, with_seed, only), retry);
-    Sequences sequences(sweep, known_, root_, out.resumed.missing);
-    const StopRequests stop = 0;
-    run_sweep(sweep, out.resumed.missing, known_, sequences, 1, stop, [&](const CellResult& r) {
+    run_here(sweep, out.resumed.missing, known_, root_, [&](const CellResult& r) {
       store.write(r);
       out.cells.push_back(sweep.datasets[r.cell.dataset].label + " / " +
                           sweep.methods[r.cell.method].label);

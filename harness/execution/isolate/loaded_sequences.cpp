@@ -11,7 +11,7 @@
 #include "harness/execution/isolate/pack_sequence.hpp"
 #include "harness/execution/isolate/warm_heap.hpp"
 #include "harness/execution/run/catch_errors.hpp"
-#include "harness/execution/run/sequences.hpp"
+#include "harness/execution/run/describe_sequence.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -1,9 +1,7 @@
-#include "harness/execution/run/sequences.hpp"
+#include "harness/execution/run/describe_sequence.hpp"
 
 #include <algorithm>
 
-#include "harness/catalogue/load_sequence.hpp"
-#include "harness/catalogue/loading.hpp"
 #include "harness/execution/run/check_output.hpp"
 #include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/evaluation_notes.hpp"
@@ -23,39 +21,6 @@ void limit_texts(SequenceMetadata& metadata) {
 }
 
 }  // namespace
-
-Sequences::Sequences(const Sweep& sweep,
-                     const Catalogue& catalogue,
-                     DataRoot root,
-                     const std::vector<Cell>& cells)
-    : sweep_(sweep), catalogue_(catalogue), root_(std::move(root)) {
-  for (const Cell& cell : cells) ++slots_[{cell.dataset, cell.repeat}].waiting;
-}
-
-std::shared_ptr<const Sequence> Sequences::get(const Cell& cell) {
-  Slot& slot = slots_.at({cell.dataset, cell.repeat});
-  const std::lock_guard lock(slot.mutex);
-  if (!slot.sequence) {
-    slot.sequence =
-        std::make_shared<const Sequence>(load_sequence(cell, sweep_, catalogue_, root_));
-    slot.metadata =
-        std::make_shared<const SequenceMetadata>(metadata_of(*slot.sequence, cell, sweep_));
-    print_notes(sweep_.datasets[cell.dataset].label, slot.metadata->notes);
-  }
-  return slot.sequence;
-}
-
-std::shared_ptr<const SequenceMetadata> Sequences::metadata(const Cell& cell) {
-  Slot& slot = slots_.at({cell.dataset, cell.repeat});
-  const std::lock_guard lock(slot.mutex);
-  return slot.metadata;
-}
-
-void Sequences::done(const Cell& cell) {
-  Slot& slot = slots_.at({cell.dataset, cell.repeat});
-  const std::lock_guard lock(slot.mutex);
-  if (--slot.waiting == 0) slot.sequence.reset();
-}
 
 SequenceMetadata metadata_of(const Sequence& sequence, const Cell& cell, const Sweep& sweep) {
   SequenceMetadata out = sequence_metadata(sequence, sweep.traces);
