@@ -107,14 +107,13 @@ int run(const RunArguments& arguments, const Source& source) {
   sandbox.enabled = !arguments.no_sandbox;
   sandbox.hidden = {given, given / "results.sqlite"};
   if (!arguments.data.empty()) sandbox.hidden.emplace_back(arguments.data);
-  const ControlGroups groups(sandbox.enabled);
-  sandbox.groups = &groups;
   std::map<std::string, std::string> run_provenance = provenance(source, sweep, known);
   if (arguments.save_trajectories) {
     set_estimate_folder(out / "trajectories");
   }
-  sandbox.pid_namespace = !uses_programs(sweep);  // as run_isolated() does
-  run_provenance["sandbox"] = sandbox_summary(sandbox);
+  if (uses_programs(sweep)) {
+    run_provenance["sandbox"] = sandbox.enabled && has_bubblewrap() ? "bubblewrap" : "none";
+  }
   std::optional<Store> store(std::in_place, file, keys, run_provenance, arguments.fresh);
   if (is_shard) store->set_shard(shard.name() + " " + division_hash(selected));
   const Resumed resumed = store->resume(all, planned, *from_text<Retry>(arguments.retry));
@@ -243,9 +242,7 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
                     arguments->pin_instructions,
                     "Use the code paths of old processors in the C library and OpenCV, so that "
                     "results are bit-identical on all nodes");
-  command->add_flag("--no-sandbox",
-                    arguments->no_sandbox,
-                    "Let programs read all files, and create no namespaces and control groups");
+  command->add_flag("--no-sandbox", arguments->no_sandbox, "Let external programs read all files");
   command->add_option("--data", arguments->data, "Folder with real datasets")
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR");

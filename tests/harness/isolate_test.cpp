@@ -122,7 +122,6 @@ TEST_F(Isolated, ACellEndedByASignalFromOutsideRunsAgain) {
   const char* const text = "metrics: [ate]\nmethods: [killed_once, straight]\n";
   for (const std::string dataset : {"line", "killed_line"}) {
     *shared_counter = 0;
-    sandbox_.enabled = false;  // a worker in a PID namespace of its own cannot kill itself
     const std::vector<CellResult> results = run("datasets: [" + dataset + "]\n" + text, 1);
     ASSERT_EQ(results.size(), 2u);
     for (const CellResult& result : results) {

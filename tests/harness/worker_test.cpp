@@ -57,20 +57,17 @@ int processes_named(const std::string& name) {
   return out;
 }
 
-TEST_F(CellProcess, NothingOutlivesItsCellWithAndWithoutPidNamespace) {
-  for (const bool pid_namespace : {true, false}) {
-    sandbox_.enabled = pid_namespace;
-    const std::vector<CellResult> results =
-        run("datasets: [line]\nmethods: [{method: mis, sweep: {deed: [shell, daemon, kill]}}, "
-            "shift]\nmetrics: [ate]\nlimits: {seconds: 5}\n",
-            2);
-    ASSERT_EQ(results.size(), 4u);
-    EXPECT_EQ(results[0].status, Status::timeout) << results[0].why;
-    EXPECT_EQ(results[1].status, Status::ok) << results[1].why;
-    EXPECT_EQ(results[2].signal, "SIGKILL") << results[2].why;
-    EXPECT_EQ(results[3].status, Status::ok) << results[3].why;
-    EXPECT_EQ(processes_named("isolate_stray"), 0);
-  }
+TEST_F(CellProcess, NothingOutlivesItsCell) {
+  const std::vector<CellResult> results =
+      run("datasets: [line]\nmethods: [{method: mis, sweep: {deed: [shell, daemon, kill]}}, "
+          "shift]\nmetrics: [ate]\nlimits: {seconds: 5}\n",
+          2);
+  ASSERT_EQ(results.size(), 4u);
+  EXPECT_EQ(results[0].status, Status::timeout) << results[0].why;
+  EXPECT_EQ(results[1].status, Status::ok) << results[1].why;
+  EXPECT_EQ(results[2].signal, "SIGKILL") << results[2].why;
+  EXPECT_EQ(results[3].status, Status::ok) << results[3].why;
+  EXPECT_EQ(processes_named("isolate_stray"), 0);
 }
 
 TEST_F(CellProcess, ASequenceThatExceedsALimitIsNotLoadedForEachOfItsCells) {

@@ -287,12 +287,10 @@ void run_isolated(const Sweep& sweep,
                   const StopRequests& stop,
                   const std::function<void(const CellResult&)>& finished) {
   const std::unique_ptr<const ScratchFolder> scratch = scratch_for_programs(sweep);
-  SandboxOptions options = sandbox;
-  if (scratch) options.pid_namespace = false;  // programs that serve outlive cells
-  if (scratch && options.enabled && !has_bubblewrap()) {
+  if (scratch && sandbox.enabled && !has_bubblewrap()) {
     print_error("loopbench: bubblewrap (bwrap) does not work here: programs can read all files\n");
   }
-  const WorkerContext context{sweep, cells, catalogue, root, options};
+  const WorkerContext context{sweep, cells, catalogue, root, sandbox};
   IsolatedSweep(context, jobs, stop, finished).run();
 }
 

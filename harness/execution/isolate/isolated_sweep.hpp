@@ -12,10 +12,10 @@
 
 namespace loopbench::harness {
 
-/// As run_sweep, with `jobs` worker processes instead of threads (one if the sweep is serial),
-/// which load sequences and run each cell in a copy of themselves, so that nothing of a cell
+/// Calls `finished` once per cell, in order of completion. Uses `jobs` worker processes (one if the
+/// sweep is serial), which run each cell in a copy of themselves, so that nothing of a cell
 /// remains. Programs that methods and datasets run have temporary files in a folder that is removed
-/// at the end, and no PID namespace. Cells that exceed the sweep's limits or end their process have
+/// at the end. Cells that exceed the sweep's limits or end their process have
 /// the status timeout, out_of_memory or crashed; a sequence that does so while it is loaded gives
 /// all its cells that status. If `stop` is 2, running cells are ended with the status interrupted,
 /// otherwise they are finished. Call from a process without threads. Throws InputError for a

@@ -102,33 +102,13 @@ std::int64_t tree_memory(pid_t process) {
 }
 
 int end_cell(pid_t cell, const std::vector<pid_t>& spared) {
-  bool is_reaped = false;
+  kill(-cell, SIGKILL);  // its process group, also while it forks
+  kill(cell, SIGKILL);
   int out = 0;
-  if (!spared.empty()) {
-    kill(-cell, SIGKILL);
-    kill(cell, SIGKILL);
-    while (waitpid(cell, &out, 0) < 0 && errno == EINTR) {
-    }
-    end_strays(spared);
-    return out;
+  while (waitpid(cell, &out, 0) < 0 && errno == EINTR) {
   }
-  for (;;) {
-    if (getpid() == 1) {
-      kill(-1, SIGKILL);  // everything in the PID namespace but this process
-    } else {
-      if (!is_reaped) kill(-cell, SIGKILL);  // its process group, also while it forks
-      for (const pid_t child : own_children()) kill(child, SIGKILL);
-    }
-    // All children are killed now. Those of a child that ends are adopted before it can be waited
-    // for, so that the next round finds them.
-    int status = 0;
-    const pid_t ended = waitpid(-1, &status, 0);
-    if (ended < 0 && errno != EINTR) return out;
-    if (ended == cell) {
-      is_reaped = true;
-      out = status;
-    }
-  }
+  end_strays(spared);
+  return out;
 }
 
 void end_strays(const std::vector<pid_t>& spared) {

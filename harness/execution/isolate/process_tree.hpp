@@ -15,8 +15,7 @@ pid_t fork_when_possible();
 /// Descriptor of a child, readable when it has ended; -1 on failure.
 int process_descriptor(pid_t process);
 
-/// Children of the calling thread, including adopted ones, as numbered in /proc (which can be the
-/// numbers of an outer PID namespace). Empty without /proc.
+/// Children of the calling thread, including adopted ones. Empty without /proc.
 std::vector<pid_t> own_children();
 
 struct TreeUsage {
@@ -37,14 +36,12 @@ std::int64_t tree_memory(pid_t process);
 /// Private and shared memory of a process, or "self" [bytes]; without mapped files. 0 if unknown.
 std::int64_t process_memory(const std::string& process);
 
-/// In a worker, which is the init of a PID namespace or a subreaper: kills all its descendants and
-/// waits for their end; not `spared` children, for which it must not be the init of a namespace,
-/// whose numbers of processes differ from those of own_children(). Returns the wait status of
-/// `cell`, a child that leads a process group.
-int end_cell(pid_t cell, const std::vector<pid_t>& spared = {});
+/// In a worker, a subreaper: kills all its descendants but `spared` children, and waits for their
+/// end. Returns the wait status of `cell`, a child that leads a process group.
+int end_cell(pid_t cell, const std::vector<pid_t>& spared);
 
-/// In the sweep, a subreaper: kills its children but those in `spared`, with their descendants, and
-/// waits for their end.
+/// In a subreaper: kills its children but those in `spared`, with their descendants, and waits for
+/// their end.
 void end_strays(const std::vector<pid_t>& spared);
 
 }  // namespace loopbench::harness

@@ -11,7 +11,6 @@
 #include <iterator>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "harness/execution/isolate/active_clock.hpp"
@@ -26,9 +25,6 @@ namespace {
 
 constexpr int kMemoryTick = 20;     // [ms], between checks of memory and processes
 constexpr int kMostProcesses = 64;  // of one process, apart from threads
-
-/// What a control group counts beyond the growth of processes: page tables, buffers, files [bytes].
-constexpr std::int64_t kReserveOfGroup = std::int64_t{64} << 20;
 
 /// The reason why a worker ends a process.
 struct Verdict {
@@ -98,7 +94,6 @@ ProcessEnd WatchedProcesses::run(const std::string& subject,
   area_.clear();
   CellOutput output;
   const std::int64_t memory = limits_.memory > 0 ? process_memory("self") : 0;
-  if (limits_.memory > 0) group_.limit_growth(limits_.memory + kReserveOfGroup);
   const RunningServers servers = running_servers();
   const pid_t process = fork_when_possible();
   if (process < 0) throw std::runtime_error(fmt::format("fork: {}", std::strerror(errno)));
@@ -127,14 +122,7 @@ ProcessEnd WatchedProcesses::run(const std::string& subject,
     _exit(0);
   }
   output.forward();
-  const std::int64_t ended_before = std::exchange(ended_by_limit_, group_.ended_by_limit());
   if (verdict) return {{}, verdict->status, verdict->why, "SIGKILL"};
-  if (ended_by_limit_ > ended_before) {
-    return {{},
-            Status::out_of_memory,
-            fmt::format("the kernel killed it at its memory limit of {} bytes", limits_.memory),
-            "SIGKILL"};
-  }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
     if (const auto result = area_.read(process)) return {*result, Status::ok, "", ""};
   }

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "harness/execution/isolate/result_area.hpp"
-#include "harness/execution/sandbox/sandbox.hpp"
 #include "harness/external/scratch.hpp"
 #include "harness/model/status.hpp"
 #include "harness/model/sweep.hpp"
@@ -29,13 +28,10 @@ using ProcessWork = std::function<void(ResultArea& area, int output)>;
 /// ones.
 class WatchedProcesses {
  public:
-  /// `sweep`: socket to it; `scratch`: for programs, or null; `group`: of the worker. Throws
+  /// `sweep`: socket to it; `scratch`: for programs, or null. Throws
   /// std::runtime_error without shared memory.
-  WatchedProcesses(const Limits& limits,
-                   int sweep,
-                   const ScratchFolder* scratch,
-                   const ControlGroup& group)
-      : limits_(limits), sweep_(sweep), scratch_(scratch), group_(group) {}
+  WatchedProcesses(const Limits& limits, int sweep, const ScratchFolder* scratch)
+      : limits_(limits), sweep_(sweep), scratch_(scratch) {}
 
   /// `subject`: what exceeds a limit ("the cell"); `when`: added to how it ended. Ends this process
   /// if the sweep has ended. Throws std::runtime_error if no process can be created.
@@ -45,8 +41,6 @@ class WatchedProcesses {
   const Limits& limits_;
   int sweep_;
   const ScratchFolder* scratch_;
-  const ControlGroup& group_;
-  std::int64_t ended_by_limit_ = 0;  ///< of the group, before the running process
   ResultArea area_;
 };
 

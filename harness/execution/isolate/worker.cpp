@@ -105,7 +105,7 @@ bool work(const Job& job,
 
 }  // namespace
 
-void run_worker(const WorkerContext& context, int socket, int core, const ControlGroup& group) {
+void run_worker(const WorkerContext& context, int socket, int core) {
   install_worker_signals(socket);
   keep_heap_compact();
   hardware_threads();  // asks the system once for all cells
@@ -113,7 +113,7 @@ void run_worker(const WorkerContext& context, int socket, int core, const Contro
   if (uses_programs(context.sweep)) programs.emplace();
   const Answers answers{socket};
   const ScratchFolder* scratch = programs ? &programs->scratch : nullptr;
-  WatchedProcesses processes(context.sweep.limits, socket, scratch, group);
+  WatchedProcesses processes(context.sweep.limits, socket, scratch);
   LoadedSequences loaded(context, processes);
   CellProcesses cell_processes(context, core, processes);
   for (Job job; receive_all(socket, &job, sizeof job);) {

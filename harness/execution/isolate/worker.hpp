@@ -41,7 +41,7 @@ struct WorkerContext {
 };
 
 /// Reads jobs from `socket` and answers there until it is closed. `core`: the one that cells run
-/// on, or -1; `group`: of this process. Does not throw; returns early if it cannot answer.
-void run_worker(const WorkerContext& context, int socket, int core, const ControlGroup& group);
+/// on, or -1. Does not throw; returns early if it cannot answer.
+void run_worker(const WorkerContext& context, int socket, int core);
 
 }  // namespace loopbench::harness

@@ -26,34 +26,9 @@ std::runtime_error creation_error(const std::string& what) {
                             std::strerror(errno));
 }
 
-/// Returns the worker's number to the sweep, in an own process, and 0 in the worker. An
-/// intermediate process enters the namespace, since the sweep could not leave it; the sweep adopts
-/// the worker as subreaper.
-pid_t fork_worker(bool pid_namespace) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return -1;
-  const pid_t intermediate = fork_when_possible();
-  if (intermediate == 0) {
-    if (pid_namespace) enter_pid_namespace();
-    const pid_t worker = fork_when_possible();
-    if (worker == 0) return 0;
-    [[maybe_unused]] const ssize_t written = write(ends[1], &worker, sizeof worker);
-    _exit(0);
-  }
-  close(ends[1]);
-  pid_t worker = -1;
-  if (intermediate > 0 && read(ends[0], &worker, sizeof worker) != sizeof worker) worker = -1;
-  close(ends[0]);
-  while (intermediate > 0 && waitpid(intermediate, nullptr, 0) < 0 && errno == EINTR) {
-  }
-  return worker;
-}
-
 }  // namespace
 
-WorkerProcess::WorkerProcess(const WorkerContext& context, int core)
-    : group_(context.sandbox.groups == nullptr ? ControlGroup()
-                                               : context.sandbox.groups->group_of_worker()) {
+WorkerProcess::WorkerProcess(const WorkerContext& context, int core) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
     release();
@@ -61,7 +36,7 @@ WorkerProcess::WorkerProcess(const WorkerContext& context, int core)
   }
   socket_ = ends[0];
   std::fflush(nullptr);  // otherwise the worker would print buffered output again
-  process_ = fork_worker(context.sandbox.enabled && context.sandbox.pid_namespace);
+  process_ = fork_when_possible();
   if (process_ == 0) run_child(context, core, ends[1]);
   close(ends[1]);
   descriptor_ = process_ > 0 ? process_descriptor(process_) : -1;
@@ -83,7 +58,6 @@ void WorkerProcess::release() {
 }
 
 void WorkerProcess::run_child(const WorkerContext& context, int core, int socket) {
-  group_.enter();
   // Close the sweep's files: the store, its lock and the other workers' sockets.
   const auto number = static_cast<unsigned>(socket);
   close_range(STDERR_FILENO + 1, number - 1, 0);
@@ -93,7 +67,7 @@ void WorkerProcess::run_child(const WorkerContext& context, int core, int socket
   setrlimit(RLIMIT_CORE, &no_core);
   // If the system runs out of memory, it should kill the worker, not the sweep.
   write_system_file("/proc/self/oom_score_adj", "500");
-  run_worker(context, socket, core, group_);
+  run_worker(context, socket, core);
   std::fflush(nullptr);
   _exit(0);  // without running the sweep's destructors
 }
@@ -117,7 +91,6 @@ void WorkerProcess::receive(std::string& bytes) {
 
 void WorkerProcess::kill() const {
   if (process_ > 0) ::kill(process_, SIGKILL);
-  group_.kill();
 }
 
 bool WorkerProcess::has_ended() const {

@@ -11,8 +11,8 @@ namespace loopbench::harness {
 
 class WorkerProcess {
  public:
-  /// Forks, into a new PID namespace if that is permitted. Only from a process without threads that
-  /// is a subreaper. Throws std::runtime_error on failure.
+  /// Forks. Only from a process without threads that is a subreaper. Throws std::runtime_error on
+  /// failure.
   WorkerProcess(const WorkerContext& context, int core);
   ~WorkerProcess();  ///< kills it if it is running
   WorkerProcess(const WorkerProcess&) = delete;
@@ -44,7 +44,6 @@ class WorkerProcess {
   [[noreturn]] void run_child(const WorkerContext& context, int core, int socket);
   void release();
 
-  ControlGroup group_;
   int socket_ = -1;
   int descriptor_ = -1;
   pid_t process_ = -1;

@@ -14,8 +14,8 @@ volatile std::sig_atomic_t running_cell = 0;
 volatile std::sig_atomic_t is_continued = 0;
 volatile std::sig_atomic_t socket_to_sweep = -1;
 
-/// Waits in the handler, so that loading pauses as well: as init of a PID namespace the worker
-/// cannot stop itself. SIGCONT is blocked except while it waits, so that it cannot come too early.
+/// Waits in the handler, so that loading pauses as well, and the worker still notices the end of
+/// the sweep. SIGCONT is blocked except while it waits, so that it cannot come too early.
 void stop_with_cell(int) {
   const int error = errno;
   const pid_t cell = running_cell;

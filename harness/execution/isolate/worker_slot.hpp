@@ -26,7 +26,7 @@ struct WorkerSlot {
 /// Waits until a worker answers or ends, at most as long as the clocks of workers allow.
 void wait_for_workers(const std::vector<WorkerSlot>& slots);
 
-/// Kills a worker that does not end its cell: one that a cell outside a PID namespace stopped.
+/// Kills a worker that does not end its cell: one that a cell stopped.
 void end_if_stuck(WorkerSlot& slot, const Limits& limits);
 
 /// Result of the first job of a worker that has ended.

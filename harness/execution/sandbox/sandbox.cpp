@@ -1,7 +1,6 @@
 #include "harness/execution/sandbox/sandbox.hpp"
 
 #include <fcntl.h>
-#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,7 +9,6 @@
 #include <sstream>
 #include <system_error>
 
-#include "harness/execution/sandbox/system_file.hpp"
 #include "harness/execution/sandbox/try_in_child.hpp"
 
 namespace loopbench::harness {
@@ -173,29 +171,6 @@ std::string hidden_note(const SandboxOptions& options) {
     out += (out.empty() ? "; the sandbox hides " : ", ") + path.string();
   }
   return out.empty() ? out : out + " from it";
-}
-
-bool enter_pid_namespace() {
-  if (unshare(CLONE_NEWPID) == 0) {
-    unshare(CLONE_NEWIPC);
-    return true;
-  }
-  const std::string user = std::to_string(geteuid());
-  const std::string group = std::to_string(getegid());
-  if (unshare(CLONE_NEWUSER | CLONE_NEWPID) != 0) return false;
-  write_system_file("/proc/self/setgroups", "deny");
-  write_system_file("/proc/self/uid_map", user + " " + user + " 1");
-  write_system_file("/proc/self/gid_map", group + " " + group + " 1");
-  unshare(CLONE_NEWIPC);
-  return true;
-}
-
-std::string sandbox_summary(const SandboxOptions& options) {
-  const bool works = options.enabled &&
-                     (options.pid_namespace ? try_in_child(enter_pid_namespace) : has_bubblewrap());
-  return std::string(options.pid_namespace ? "PID namespace " : "bubblewrap ") +
-         (works ? "on" : "off") + ", cgroup v2 " +
-         (options.groups == nullptr ? "off" : options.groups->summary());
 }
 
 }  // namespace loopbench::harness

@@ -13,15 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "harness/execution/sandbox/control_group.hpp"
-
 namespace loopbench::harness {
 
 struct SandboxOptions {
   bool enabled = true;
-  bool pid_namespace = true;                  ///< for each worker; only if enabled
   std::vector<std::filesystem::path> hidden;  ///< files and folders; may not exist
-  const ControlGroups* groups = nullptr;      ///< for workers; null: none
 };
 
 /// A program to be restricted.
@@ -47,13 +43,5 @@ SandboxOptions& program_sandbox();
 
 /// "; the sandbox hides A, B from it" for reasons of failures; "" if nothing is hidden.
 std::string hidden_note(const SandboxOptions& options);
-
-/// Moves the later children of this process to a new PID namespace, whose init is the first of
-/// them, and if possible to a new IPC namespace. False if the first is not permitted.
-bool enter_pid_namespace();
-
-/// Which parts the system has, for example "PID namespace on, cgroup v2 kill, memory, pids"; with
-/// bubblewrap instead of the namespaces of workers if programs run. Creates a short-lived process.
-std::string sandbox_summary(const SandboxOptions& options);
 
 }  // namespace loopbench::harness

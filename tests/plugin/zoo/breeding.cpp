@@ -43,11 +43,6 @@ void fork_bomb(const Scene&) {
 void kill_parent(const Scene&) { kill(getppid(), SIGKILL); }
 void stop_parent(const Scene&) { kill(getppid(), SIGSTOP); }
 void kill_group(const Scene&) { kill(0, SIGKILL); }
-/// Only where it reaches nothing but the cell's own processes.
-void kill_everything(const Scene&) {
-  if (getppid() != 1) throw std::runtime_error("not tried outside a PID namespace");
-  kill(-1, SIGKILL);
-}
 
 }  // namespace
 
@@ -58,8 +53,7 @@ std::vector<methods::MethodEntry> breeding() {
           beast<fork_bomb>("fork_bomb"),
           beast<kill_parent>("kill_parent"),
           beast<stop_parent>("stop_parent"),
-          beast<kill_group>("kill_group"),
-          beast<kill_everything>("kill_everything")};
+          beast<kill_group>("kill_group")};
 }
 
 }  // namespace loopbench::zoo
