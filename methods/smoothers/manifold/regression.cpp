@@ -24,9 +24,9 @@ std::optional<PlanarFit> fit_regression(const Nodes& nodes,
   }
   PlanarFit out;
   const NodeRange all{0, nodes.size() - 1};
-  out.keep({all, all},
-           RegressionPiece{
-               std::make_shared<const BSpline>(BSpline::near(arc_lengths, values, knots, 4))});
+  out.keep(
+      {all, all},
+      RegressionPiece{std::make_shared<const BSpline>(BSpline::near(arc_lengths, values, knots))});
   return out;
 }
 

@@ -7,15 +7,15 @@
 #include <utility>
 #include <vector>
 
-#include "methods/smoothers/manifold/bspline.hpp"
-
 namespace loopbench::methods {
 
 /// m + 1 breaks have m - 1 + k functions. On piece p, breaks[p]..breaks[p + 1], only
-/// N_p..N_{p+k-1} are nonzero. Order k is degree k - 1.
+/// N_p..N_{p+k-1} are nonzero. Order k is degree k - 1. The functions follow the article's equation
+/// (12), corrected: its second numerator is printed as m_{t+k}; it must be m_{t+k} - u, otherwise
+/// they do not sum to 1.
 class SplineBasis {
  public:
-  static constexpr std::size_t kMaxOrder = manifold::kMaxOrder;
+  static constexpr std::size_t kMaxOrder = 6;
   using Values = std::array<double, kMaxOrder>;
 
   /// Requires at least two strictly increasing breaks and an order in 2..6.
@@ -43,10 +43,33 @@ class SplineBasis {
   std::size_t order() const { return order_; }
   std::size_t size() const { return breaks_.size() - 2 + order_; }
   const std::vector<double>& breaks() const { return breaks_; }
+  const std::vector<double>& knots() const { return knots_; }
 
-  /// Returns N_p..N_{p+k-1} at a time in piece p: all >= 0, sum 1. O(k^2).
-  Values values(std::size_t piece, double time) const {
-    return manifold::basis(knots_, order_, piece + order_ - 1, time);
+  /// Returns the piece that contains the time; outside, the first or last one. O(log pieces).
+  std::size_t piece_at(double time) const {
+    const auto after = std::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, time);
+    return static_cast<std::size_t>(after - breaks_.begin()) - 1;
+  }
+
+  /// Returns N_p..N_{p+k-1} at a time, a double or a Jet, in piece p: all >= 0, sum 1. By the
+  /// recursion from order 1, O(k^2).
+  template <class T>
+  std::array<T, kMaxOrder> values(std::size_t piece, const T& time) const {
+    const std::size_t span = piece + order_ - 1;
+    std::array<T, kMaxOrder> out{};
+    out[0] = 0.0 * time + 1.0;
+    for (std::size_t order = 2; order <= order_; ++order) {
+      T carried = 0.0 * time;
+      for (std::size_t r = 0; r + 1 < order; ++r) {
+        const double right = knots_[span + 1 + r];
+        const double left = knots_[span + 2 + r - order];
+        const T part = (1.0 / (right - left)) * out[r];
+        out[r] = carried + (right - time) * part;
+        carried = (time - left) * part;
+      }
+      out[order - 1] = carried;
+    }
+    return out;
   }
 
   /// Returns N_p + .. + N_{p+k-1}, N_{p+1} + .., .., N_{p+k-1}, the cumulative basis. O(k^2).

@@ -4,7 +4,6 @@
 #include <array>
 #include <utility>
 
-#include "datasets/core/banded.hpp"
 #include "datasets/core/interpolate.hpp"
 #include "datasets/core/knot_span.hpp"
 #include "methods/smoothers/spline/rotation_derivative.hpp"
@@ -142,26 +141,6 @@ std::vector<Rotation> initial_controls(const SplineBasis& basis,
 }
 
 }  // namespace
-
-std::vector<Vector3> interpolating_controls(const SplineBasis& basis,
-                                            const std::vector<double>& sites,
-                                            const std::vector<Vector3>& points) {
-  const std::size_t k = basis.order();
-  BandedSystem<double, Vector3> system(sites.size(), k - 1);
-  KnotSpan span(basis.breaks());
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    const std::size_t piece = span.find(sites[i]);
-    const SplineBasis::Values N = basis.values(piece, sites[i]);
-    for (std::size_t j = 0; j < k; ++j) {
-      const std::size_t column = piece + j;
-      if (column + k > i && column < i + k) system.at(i, column) = N[j];
-    }
-    system.right(i) = points[i] - points.front();
-  }
-  std::vector<Vector3> out = system.solve();
-  for (Vector3& point : out) point += points.front();
-  return out;
-}
 
 std::vector<Vector3> natural_controls(const SplineBasis& basis,
                                       const std::vector<Vector3>& points) {

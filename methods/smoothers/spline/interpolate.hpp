@@ -4,15 +4,32 @@
 #include <optional>
 #include <vector>
 
-#include "datasets/core/so3.hpp"
+#include "datasets/core/banded.hpp"
 #include "methods/smoothers/spline/basis.hpp"
 
 namespace loopbench::methods {
 
 /// Solves sum_j N_j(sites[i]) c_j = points[i]; `basis` is SplineBasis::for_sites. O(n k^2).
-std::vector<Vector3> interpolating_controls(const SplineBasis& basis,
-                                            const std::vector<double>& sites,
-                                            const std::vector<Vector3>& points);
+template <class Value>
+std::vector<Value> interpolating_controls(const SplineBasis& basis,
+                                          const std::vector<double>& sites,
+                                          const std::vector<Value>& points) {
+  const std::size_t k = basis.order();
+  BandedSystem<double, Value> system(sites.size(), k - 1);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const std::size_t piece = basis.piece_at(sites[i]);
+    const SplineBasis::Values N = basis.values(piece, sites[i]);
+    for (std::size_t j = 0; j < k; ++j) {
+      // At a site on a knot one function is zero, and its column may lie outside the band.
+      const std::size_t column = piece + j;
+      if (column + k > i && column < i + k) system.at(i, column) = N[j];
+    }
+    system.right(i) = points[i] - points.front();
+  }
+  std::vector<Value> out = system.solve();
+  for (Value& point : out) point += points.front();
+  return out;
+}
 
 /// Returns the n + 2 control points of the natural cubic spline through n >= 2 points at the breaks
 /// of a basis of order 4. O(n).
