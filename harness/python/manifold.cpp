@@ -6,7 +6,6 @@
 
 #include "datasets/core/fields.hpp"
 #include "harness/python/arrays.hpp"
-#include "methods/smoothers/manifold/coefficients.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
 #include "methods/smoothers/manifold/families/polynomial.hpp"
 #include "methods/smoothers/manifold/fit_axes.hpp"
@@ -155,7 +154,7 @@ py::tuple free_joints(const Array& keyframes, std::size_t nodes_per_window) {
 std::string polynomial_text(const std::vector<std::pair<double, double>>& points, int degree) {
   std::vector<Vector2> list;
   for (const auto& [x, y] : points) list.emplace_back(x, y);
-  return text(coefficients(fit_polynomial(list, degree), degree));
+  return coefficient_text(fit_polynomial(list, degree), degree);
 }
 
 /// Upward direction of cameras that are carried level.

@@ -12,10 +12,6 @@ class PolylineSmoother final : public Smoother {
   struct Options {};
   explicit PolylineSmoother(const Options&) {}
 
-  std::string why_declined(const Problem& problem) const override {
-    return problem.keyframes.empty() ? "no keyframes" : "";
-  }
-
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report&) const override {
     return std::make_unique<Polyline>(problem.keyframes);
   }

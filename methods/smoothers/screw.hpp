@@ -19,10 +19,6 @@ class Screw final : public Smoother {
   struct Options {};
   explicit Screw(const Options&) {}
 
-  std::string why_declined(const Problem& problem) const override {
-    return problem.keyframes.empty() ? "no keyframes" : "";
-  }
-
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report&) const override {
     return std::make_unique<ScrewCurve>(problem.keyframes);
   }

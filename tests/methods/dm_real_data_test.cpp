@@ -97,29 +97,6 @@ class DmOnTum : public testing::Test {
   Report report_;
 };
 
-TEST_F(DmOnTum, ReferencesMatchTheDesign) {
-  struct Stats {
-    const char* folder;
-    double length, duration;  // [m], [s]
-    Vector3 low, high;        // [m]
-  };
-  for (const Stats& expected :
-       {Stats{"fr1_room", 17.483, 48.90, {-1.16, -1.35, 1.19}, {1.39, 0.86, 1.70}},
-        Stats{"fr3_office", 22.197, 87.09, {-3.29, -2.17, 1.20}, {1.83, 2.73, 1.74}}}) {
-    const Trajectory poses = read(tum_ / expected.folder / "groundtruth.txt");
-    Vector3 low = poses.front().world_from_body.translation;
-    Vector3 high = low;
-    for (const StampedPose& pose : poses) {
-      low = low.cwiseMin(pose.world_from_body.translation);
-      high = high.cwiseMax(pose.world_from_body.translation);
-    }
-    EXPECT_NEAR(path_length(poses), expected.length, 5e-4) << expected.folder;
-    EXPECT_NEAR(poses.back().stamp - poses.front().stamp, expected.duration, 5e-3);
-    EXPECT_LT((low - expected.low).cwiseAbs().maxCoeff(), 5.1e-3) << low.transpose();
-    EXPECT_LT((high - expected.high).cwiseAbs().maxCoeff(), 5.1e-3) << high.transpose();
-  }
-}
-
 TEST_F(DmOnTum, SegmentCountsMatchTheDesign) {
   load_setting(kRoom);
   EXPECT_NEAR(path_length(problem_.keyframes), 15.836, 5e-4);
@@ -205,16 +182,6 @@ TEST_F(DmOnTum, SegmentCountsOfOtherKappasMatchTheDesign) {
   load_setting(kOffice);
   EXPECT_NEAR(counted_by(manifold::Kappa::menger), 195.0, 1.0);
   EXPECT_NEAR(counted_by(manifold::Kappa::dtheta_dt), 137.0, 1.0);
-}
-
-TEST_F(DmOnTum, QuasiKeyframesComeFromTheTrackedFrames) {
-  problem_.keyframes = read(tum_ / "fr1_room/orbslam2_rgbd_open_keyframes.txt");
-  problem_.frames = read(tum_ / "fr1_room/orbslam2_rgbd_open_frames.txt");
-  options_.gap.time_max = 0.4;
-  const auto dense = manifold::with_quasi_keyframes(problem_, options_.gap);
-  EXPECT_GT(dense.inserted, 0u);
-  EXPECT_EQ(dense.nodes.size(), problem_.keyframes.size() + dense.inserted);
-  check(dense.nodes, "nodes");
 }
 
 }  // namespace

@@ -2,9 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "manifold_paths.hpp"
-#include "methods/smoothers/manifold/continuity.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
-#include "methods/smoothers/manifold/moving_frames.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::dm_switches_test {
@@ -46,7 +44,6 @@ std::vector<Switch> switches() {
   for (const char* v : {"sin1 poly3", "rat02 poly3", "hyperbola poly3", "implicit poly3"}) {
     add({{"families", Text(v)}, {"planar", six}});
   }
-  add({{"families", Text("sin1 rat02")}, {"planar", six}, {"level", true}});
   for (const char* v : {"aicc", "loocv"}) {
     add({{"selection", Text(v)}, {"families", Text("line poly2 poly3 sin1")}, {"planar", six}});
   }
@@ -199,34 +196,6 @@ TEST(DmSwitches, LiteralVariantFitsInWorldAxesAndDependsOnThem) {
     farthest = std::max(farthest, (rotated->at(t).translation - rotation.rotation * p).norm());
   }
   EXPECT_GT(farthest, 1e-3);
-}
-
-TEST(DmSwitches, CoefficientsAreReportedOnRequest) {
-  Dm::Options options{.planar = 4, .spatial = 7};
-  options.report_coefficients = true;
-  options.report_frames = true;
-  Report report;
-  Dm(options).smooth(keyframes_only(wandering(30, 2)), report);
-  std::size_t cubics = 0, quadrics = 0;
-  for (const std::string& note : report.notes) {
-    if (note.find("alpha(3,0) = ") != Text::npos) ++cubics;
-    if (note.find("beta(2,0,0) = ") != Text::npos) ++quadrics;
-  }
-  EXPECT_GT(cubics, 3u);
-  EXPECT_GT(quadrics, 1u);
-}
-
-TEST(DmSwitches, FramesArePropagatedAlongAStraightLine) {
-  std::vector<Vector3> points;
-  for (int i = 0; i < 8; ++i) points.push_back({1.0 * i, 0, 0});
-  Report report;
-  const auto curve = Dm({}).smooth(keyframes_only(through(points)), report);
-  const auto frames = manifold::moving_frames(dynamic_cast<const manifold::ManifoldCurve&>(*curve));
-  EXPECT_EQ(frames.carried, 8u);
-  for (const manifold::Triad& triad : frames.triads) {
-    EXPECT_TRUE(triad.N.isApprox(frames.triads[0].N, 1e-12));
-    EXPECT_TRUE(triad.T.isApprox(Vector3::UnitX(), 1e-12));
-  }
 }
 
 TEST(DmSwitches, RejectsContradictoryOptions) {

@@ -78,11 +78,6 @@ TEST(Quadric, NoiseAcrossAStraightPathIsNotAmplified) {
   for (double x = 0.0; x <= 5.0; x += 0.1) EXPECT_LT(std::abs((*q)(Vector2(x, 0.0))), 0.02);
 }
 
-TEST(Quadric, NeedsSixPointsWithAnExtent) {
-  EXPECT_FALSE(fit_quadric(std::vector<Vector2>(5, Vector2(1, 2)), std::vector<double>(5, 0.0)));
-  EXPECT_FALSE(fit_quadric(std::vector<Vector2>(6, Vector2(1, 2)), std::vector<double>(6, 0.0)));
-}
-
 TEST(Arc, InterpolatesItsPointsAndRejectsCoincidentOnes) {
   const std::array<Vector3, 3> points{Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(1, 2, 0)};
   const auto arc = fit_arc(points, std::array{0.0, 1.0, 3.0});

@@ -27,11 +27,6 @@ TEST(NodeSpline, InterpolatesEveryNodeAndTheArcLength) {
   EXPECT_NEAR(spline.distance(29), path_length, 1e-12);
 }
 
-TEST(NodeSpline, KeepsUniformMotion) {
-  const NodeSpline spline(Nodes(through({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}, {3, 6, 9}})));
-  EXPECT_TRUE(spline.at(1, 1.25).point.isApprox(Vector3(1.25, 2.5, 3.75), 1e-14));
-}
-
 TEST(Joint, WeightIsFlatToSecondOrderAtBothEnds) {
   const Joint joint{2.0, 4.0};
   EXPECT_EQ(joint.weight(1.0), 0.0);

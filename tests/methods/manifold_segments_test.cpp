@@ -88,12 +88,6 @@ TEST(ShortSegments, MergeIntoTheNeighbourOfSimilarSpeed) {
   EXPECT_EQ(merge_short_segments(other, {{0, 3}, {3, 4}, {4, 7}}, 3), (Ranges{{0, 4}, {4, 7}}));
 }
 
-TEST(ShortSegments, MergingStopsWithOneSegment) {
-  const Nodes nodes = with_speeds({1.0, 2.0, 3.0});
-  EXPECT_EQ(merge_short_segments(nodes, {{0, 1}, {1, 2}, {2, 3}}, 9), (Ranges{{0, 3}}));
-  EXPECT_EQ(merge_short_segments(nodes, {{0, 3}}, 9), (Ranges{{0, 3}}));
-}
-
 TEST(ShortSegments, AreFilledFromTrackedFramesOnly) {
   const Trajectory nodes = through({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}});
   Trajectory frames;

@@ -1,6 +1,6 @@
 #include "methods/smoothers/manifold/continuity.hpp"
 
-#include "methods/smoothers/manifold/frenet.hpp"
+#include "methods/smoothers/manifold/curvature.hpp"
 
 namespace loopbench::methods::manifold {
 

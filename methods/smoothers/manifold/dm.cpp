@@ -24,7 +24,6 @@ PlanarRule planar_rule(const DmOptions& o,
           .guarded = o.guard,
           .scheme = o.scheme,
           .families = std::move(families),
-          .family = o.family,
           .selection = o.selection,
           .piece_cost = piece_cost,
           .fallback = o.fallback,
@@ -47,10 +46,8 @@ NodeSpline spline_of(const Nodes& nodes, std::span<const NodeRange> runs, const 
   }
   NodeSpline natural(nodes);
   if (o.psi == PsiUse::none) return natural;
-  return NodeSpline(
-      nodes,
-      segment_end_velocities(
-          nodes, natural, runs, static_cast<std::size_t>(o.psi_half_window), o.psi_mean));
+  constexpr std::size_t kHalfWindow = 2;  // [steps] on each side that determine psi
+  return NodeSpline(nodes, segment_end_velocities(nodes, natural, runs, kHalfWindow, o.psi_mean));
 }
 
 Vector3 up_of(const Trajectory& nodes, const DmOptions& o) {
@@ -88,11 +85,6 @@ Dm::Dm(const Options& options) : options_(options), families_(read_families(opti
   }
 }
 
-std::string Dm::why_declined(const Problem& problem) const {
-  if (problem.keyframes.empty()) return "no keyframes";
-  return "";
-}
-
 std::unique_ptr<const Curve> Dm::smooth(const Problem& problem, Report& report) const {
   const bool is_level = options_.fit_axes == FitAxes::gravity;
   if (!is_level && options_.plane == Plane::xoy) return smooth_in_axes(problem, report);
@@ -103,34 +95,30 @@ std::unique_ptr<const Curve> Dm::smooth(const Problem& problem, Report& report) 
 
 std::unique_ptr<const Curve> Dm::smooth_in_axes(const Problem& problem, Report& report) const {
   NodesWithQuasiKeyframes dense = with_quasi_keyframes(problem, options_.gap);
+  const auto smooth_nodes = [&](NodesWithQuasiKeyframes nodes,
+                                Report& to) -> std::unique_ptr<const Curve> {
+    if (nodes.nodes.size() >= 3) return fit(problem, std::move(nodes), to, {});
+    describe(nodes, to);
+    count(to, "fallbacks", 1);
+    to.notes.push_back("fewer than three nodes: polyline used");
+    return std::make_unique<Polyline>(std::move(nodes.nodes));
+  };
   if (dense.nodes.size() < 2 || !options_.chord_above)
-    return smooth(problem, std::move(dense), report);
+    return smooth_nodes(std::move(dense), report);
   const double median = median_interval(problem.keyframes);
   const auto separate = runs_without_breaks(dense.nodes.size(), [&](std::size_t i) {
     const double interval = dense.nodes[i + 1].stamp - dense.nodes[i].stamp;
     return interval > *options_.chord_above * median || interval < kShortestInterval * median;
   });
-  if (separate.size() == 1) return smooth(problem, std::move(dense), report);
+  if (separate.size() == 1) return smooth_nodes(std::move(dense), report);
   return smooth_segments(dense.nodes,
                          separate,
                          "intervals above chord_above without a tracked frame, or below 0.01 times "
                          "the median",
                          report,
                          [&](Trajectory part, Report& part_report) {
-                           return smooth(problem, {std::move(part)}, part_report);
+                           return smooth_nodes({std::move(part)}, part_report);
                          });
-}
-
-std::unique_ptr<const Curve> Dm::smooth(const Problem& problem,
-                                        NodesWithQuasiKeyframes dense,
-                                        Report& report) const {
-  if (dense.nodes.size() < 3) {
-    describe(dense, report);
-    count(report, "fallbacks", 1);
-    report.notes.push_back("fewer than three nodes: polyline used");
-    return std::make_unique<Polyline>(std::move(dense.nodes));
-  }
-  return fit(problem, std::move(dense), report, {});
 }
 
 std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
@@ -162,7 +150,6 @@ std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
     up = up_of(dense.nodes, options_);
   }
   describe(dense, report);
-  count(report, "segments", runs.size());
   describe(nodes, runs, report);
 
   Parts parts{nodes.base, up, spline_of(nodes, runs, options_), {}, {}};
@@ -177,9 +164,7 @@ std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
     }
     if (!fit)
       fit = fit_planar(nodes, runs, parts.spline, up, planar_rule(options_, families_, piece_cost));
-    describe(*fit, report);
     describe(nodes, *fit, report);
-    if (options_.report_coefficients) add_coefficient_notes(*fit, report);
     parts.planar = join_pieces<Vector3>(
         nodes,
         fit->windows,
@@ -192,9 +177,7 @@ std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
   if (options_.spatial > 0) {
     join.size = static_cast<std::size_t>(options_.spatial);
     SpatialFit fit = fit_spatial(nodes, runs, parts.spline, up, spatial_rule(options_));
-    describe(fit, report);
     describe(nodes, fit, report);
-    if (options_.report_coefficients) add_coefficient_notes(fit, up.dot(nodes.base), report);
     parts.spatial =
         join_pieces<double>(nodes,
                             fit.windows,
@@ -207,7 +190,6 @@ std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
   }
   auto curve = std::make_unique<ManifoldCurve>(dense.nodes, std::move(parts));
   describe(continuity(*curve), report);
-  if (options_.report_frames) describe(moving_frames(*curve), report);
   return curve;
 }
 

@@ -21,8 +21,6 @@ class Dm final : public Smoother {
   /// Throws OptionError for contradictory options or an unknown family.
   explicit Dm(const Options& options);
 
-  std::string why_declined(const Problem& problem) const override;
-
   /// Smooths the keyframes. O(keyframes log frames). Counts: nodes, quasi_keyframes, gaps_left,
   /// segments and, if the stage is enabled, windows, split_windows, fallbacks, refused_families,
   /// mean_window_nodes, spatial_windows, spatial_truncated, spatial_fallbacks; and the largest
@@ -40,9 +38,6 @@ class Dm final : public Smoother {
 
  private:
   std::unique_ptr<const Curve> smooth_in_axes(const Problem& problem, Report& report) const;
-  std::unique_ptr<const Curve> smooth(const Problem& problem,
-                                      manifold::NodesWithQuasiKeyframes dense,
-                                      Report& report) const;
   std::unique_ptr<const manifold::ManifoldCurve> fit(const Problem& problem,
                                                      manifold::NodesWithQuasiKeyframes dense,
                                                      Report& report,

@@ -44,7 +44,6 @@ struct DmOptions {
   bool guard = true;
   manifold::Scheme scheme = manifold::Scheme::consecutive;
   std::string families = "by_n";
-  manifold::FamilyRule family = {};
   manifold::Selection selection = manifold::Selection::fixed;
   double quadric_cut = manifold::kQuadricCut;
   manifold::Abscissa abscissa = manifold::Abscissa::spline;
@@ -54,9 +53,6 @@ struct DmOptions {
   int min_nodes = 0;
   manifold::PsiUse psi = manifold::PsiUse::none;
   manifold::PsiMean psi_mean = manifold::PsiMean::discrete;
-  int psi_half_window = 2;
-  bool report_coefficients = false;
-  bool report_frames = false;
 };
 
 template <class Visit>
@@ -130,10 +126,6 @@ void fields(DmOptions& o, Visit visit) {
   visit("psi_mean",
         o.psi_mean,
         "optimal tangent: best candidate (discrete) or mean direction on the sphere (frechet)");
-  visit("psi_half_window",
-        o.psi_half_window,
-        "steps on each side that determine the optimal tangent",
-        Between{1, 10});
   visit("abscissa", o.abscissa, "curve that provides the x' at which y' is evaluated");
   visit("spline_order",
         o.spline_order,
@@ -152,11 +144,6 @@ void fields(DmOptions& o, Visit visit) {
   visit("selection",
         o.selection,
         "choice of the family: the first that fits (fixed), or the best by aicc or loocv");
-  visit("implicit_order",
-        o.family.implicit_order,
-        "order n of the implicit curve F(x, y) = 0",
-        Between{1, 3});
-  visit("level", o.family.level, "add a constant term to sin1 and rat02");
   visit("fallback",
         o.fallback,
         "curve for nodes that are not a graph: parabola in arc length, or the spline");
@@ -177,10 +164,6 @@ void fields(DmOptions& o, Visit visit) {
         o.joint.c0_below,
         "speed below which pieces are joined in position only [m/s]; none: never",
         GreaterThan{0.0});
-  visit("report_coefficients",
-        o.report_coefficients,
-        "add a note with the coefficients of every window");
-  visit("report_frames", o.report_frames, "count curvature, torsion and undefined Frenet frames");
 }
 
 }  // namespace loopbench::methods

@@ -1,9 +1,5 @@
 #include "methods/smoothers/manifold/dm_report.hpp"
 
-#include <algorithm>
-
-#include "methods/smoothers/manifold/coefficients.hpp"
-
 namespace loopbench::methods::manifold {
 namespace {
 
@@ -13,14 +9,24 @@ double mean_nodes(const std::vector<Window>& windows) {
   return sum / static_cast<double>(windows.size());
 }
 
-std::string nodes_of(const Window& window) {
-  return "nodes " + std::to_string(window.fitted.first) + ".." +
-         std::to_string(window.fitted.last) + ": ";
+void add_section(
+    const char* kind, const Nodes& nodes, NodeRange range, const char* what, Report& report) {
+  report.sections.push_back({kind, nodes.stamps[range.first], nodes.stamps[range.last], what});
 }
 
-Section section(const char* kind, const Nodes& nodes, NodeRange range, std::string what) {
-  return {kind, nodes.stamps[range.first], nodes.stamps[range.last], std::move(what)};
+const char* family_name(const GraphPiece<Polynomial>& piece) {
+  const auto& c = piece.curve.coefficients;
+  return c[3] != 0.0 ? "cubic" : c[2] != 0.0 ? "parabola" : "line";
 }
+const char* family_name(const GraphPiece<Sine>&) { return "sin1"; }
+const char* family_name(const GraphPiece<Rational>&) { return "rat02"; }
+const char* family_name(const GraphPiece<Hyperbola>&) { return "hyperbola"; }
+const char* family_name(const ImplicitPiece&) { return "implicit"; }
+const char* family_name(const ArcPiece&) { return "arc"; }
+const char* family_name(const ArcPolynomialPiece&) { return "arc polynomial"; }
+const char* family_name(const RegressionPiece&) { return "regression spline"; }
+const char* family_name(const ChordPiece&) { return "chord"; }
+const char* family_name(const SplinePiece&) { return "spline"; }
 
 }  // namespace
 
@@ -37,40 +43,32 @@ void describe(const NodesWithQuasiKeyframes& dense, Report& report) {
                            " gaps between keyframes");
 }
 
-void describe(const PlanarFit& fit, Report& report) {
+void describe(const Nodes& nodes, std::span<const NodeRange> segments, Report& report) {
+  count(report, "segments", segments.size());
+  for (const NodeRange& segment : segments) add_section("segment", nodes, segment, "", report);
+}
+
+void describe(const Nodes& nodes, const PlanarFit& fit, Report& report) {
   count(report, "windows", fit.windows.size());
   report.count("mean_window_nodes", mean_nodes(fit.windows));
   count(report, "split_windows", fit.split);
   count(report, "fallbacks", fit.fallbacks);
   count(report, "refused_families", fit.refused);
   if (fit.chords > 0) count(report, "short_chords", fit.chords);
-}
-
-void describe(const SpatialFit& fit, Report& report) {
-  count(report, "spatial_windows", fit.windows.size());
-  count(report, "spatial_truncated", fit.truncated);
-  count(report, "spatial_fallbacks", fit.fallbacks);
-}
-
-void describe(const Nodes& nodes, std::span<const NodeRange> segments, Report& report) {
-  for (const NodeRange& segment : segments) {
-    report.sections.push_back(section("segment", nodes, segment, ""));
-  }
-}
-
-void describe(const Nodes& nodes, const PlanarFit& fit, Report& report) {
   for (std::size_t k = 0; k < fit.windows.size(); ++k) {
-    report.sections.push_back(
-        section("window", nodes, fit.windows[k].owned, family_name(fit.pieces[k])));
+    const char* family =
+        std::visit([](const auto& piece) { return family_name(piece); }, fit.pieces[k]);
+    add_section("window", nodes, fit.windows[k].owned, family, report);
   }
 }
 
 void describe(const Nodes& nodes, const SpatialFit& fit, Report& report) {
+  count(report, "spatial_windows", fit.windows.size());
+  count(report, "spatial_truncated", fit.truncated);
+  count(report, "spatial_fallbacks", fit.fallbacks);
   for (std::size_t k = 0; k < fit.windows.size(); ++k) {
-    report.sections.push_back(section("spatial window",
-                                      nodes,
-                                      fit.windows[k].owned,
-                                      fit.pieces[k].surface ? "quadric" : "own height"));
+    const char* what = fit.pieces[k].surface ? "quadric" : "own height";
+    add_section("spatial window", nodes, fit.windows[k].owned, what, report);
   }
 }
 
@@ -80,28 +78,6 @@ void describe(const Continuity& jumps, Report& report) {
   report.count("jump_acceleration", jumps.acceleration);
   report.count("jump_slope", jumps.slope);
   report.count("jump_curvature", jumps.curvature);
-}
-
-void describe(const CurveFrames& frames, Report& report) {
-  report.count("curvature_max",
-               *std::max_element(frames.curvature.begin(), frames.curvature.end()));
-  report.count("torsion_max", frames.torsion_max);
-  count(report, "frenet_undefined", frames.carried);
-}
-
-void add_coefficient_notes(const PlanarFit& fit, Report& report) {
-  for (std::size_t k = 0; k < fit.windows.size(); ++k) {
-    report.notes.push_back(nodes_of(fit.windows[k]) + description(fit.pieces[k]));
-  }
-}
-
-void add_coefficient_notes(const SpatialFit& fit, double base_height, Report& report) {
-  for (std::size_t k = 0; k < fit.windows.size(); ++k) {
-    const auto& surface = fit.pieces[k].surface;
-    if (!surface) continue;
-    report.notes.push_back(nodes_of(fit.windows[k]) +
-                           "quadric: " + text(coefficients(surface->quadric, base_height)));
-  }
 }
 
 }  // namespace loopbench::methods::manifold

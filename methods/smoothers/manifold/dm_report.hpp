@@ -3,7 +3,6 @@
 
 #include "methods/report.hpp"
 #include "methods/smoothers/manifold/continuity.hpp"
-#include "methods/smoothers/manifold/moving_frames.hpp"
 #include "methods/smoothers/manifold/planar.hpp"
 #include "methods/smoothers/manifold/quasi_keyframes.hpp"
 
@@ -12,18 +11,12 @@ namespace loopbench::methods::manifold {
 void count(Report& report, const char* name, std::size_t value);
 
 void describe(const NodesWithQuasiKeyframes& dense, Report& report);
-void describe(const PlanarFit& fit, Report& report);
-void describe(const SpatialFit& fit, Report& report);
-/// Adds sections: the segments, the planar windows with their families, the spatial windows.
+/// Add counts, and sections: the segments, the planar windows with their families, the spatial
+/// windows.
 void describe(const Nodes& nodes, std::span<const NodeRange> segments, Report& report);
 void describe(const Nodes& nodes, const PlanarFit& fit, Report& report);
 void describe(const Nodes& nodes, const SpatialFit& fit, Report& report);
 
 void describe(const Continuity& jumps, Report& report);
-void describe(const CurveFrames& frames, Report& report);
-
-/// Adds one note per window with its nodes, its family and its coefficients.
-void add_coefficient_notes(const PlanarFit& fit, Report& report);
-void add_coefficient_notes(const SpatialFit& fit, double base_height, Report& report);
 
 }  // namespace loopbench::methods::manifold

@@ -51,28 +51,23 @@ bool is_polynomial(Family family) {
          family == Family::poly3;
 }
 
-std::size_t unknowns(Family family, std::size_t nodes, const FamilyRule& rule) {
+std::size_t unknowns(Family family, std::size_t nodes) {
   if (is_polynomial(family)) return static_cast<std::size_t>(degree(family, nodes)) + 1;
-  if (family == Family::hyperbola) return 3;
-  if (family == Family::implicit) {
-    return static_cast<std::size_t>(implicit_terms(rule.implicit_order)) - 1;
-  }
-  return rule.level ? 4 : 3;
+  return family == Family::implicit ? kImplicitPowers.size() - 1 : 3;
 }
 
 std::optional<PlanarPiece> fit_family(Family family,
                                       const Frame& frame,
-                                      std::span<const Vector2> points,
-                                      const FamilyRule& rule) {
+                                      std::span<const Vector2> points) {
   switch (family) {
     case Family::sin1:
-      return graph(frame, fit_sine(points, rule.level));
+      return graph(frame, fit_sine(points));
     case Family::rat02:
-      return graph(frame, fit_rational(points, rule.level));
+      return graph(frame, fit_rational(points));
     case Family::hyperbola:
       return graph(frame, fit_hyperbola(points));
     case Family::implicit: {
-      const auto curve = fit_implicit(points, rule.implicit_order);
+      const auto curve = fit_implicit(points);
       return curve ? std::optional<PlanarPiece>(ImplicitPiece{frame, *curve}) : std::nullopt;
     }
     default: {

@@ -25,13 +25,8 @@ inline auto choices(Family) {
 /// an empty list.
 std::vector<Family> read_families(const std::string& names);
 
-struct FamilyRule {
-  int implicit_order = 2;  ///< n of F(x, y)
-  bool level = false;      ///< sin1 and rat02 have a constant term; the article has none
-};
-
 /// Returns the number of parameters of the family for this number of nodes, as used by `selection`.
-std::size_t unknowns(Family family, std::size_t nodes, const FamilyRule& rule);
+std::size_t unknowns(Family family, std::size_t nodes);
 
 bool is_polynomial(Family family);
 
@@ -39,8 +34,7 @@ bool is_polynomial(Family family);
 /// pole, an alias, no extent).
 std::optional<PlanarPiece> fit_family(Family family,
                                       const Frame& frame,
-                                      std::span<const Vector2> points,
-                                      const FamilyRule& rule);
+                                      std::span<const Vector2> points);
 
 /// Fits a polynomial family as r(s). Returns nullopt when two nodes coincide.
 std::optional<PlanarPiece> fit_along(Family family,

@@ -25,7 +25,6 @@ struct PlanarRule {
   bool guarded = true;
   Scheme scheme = Scheme::consecutive;
   std::vector<Family> families{Family::by_n};
-  FamilyRule family = {};
   Selection selection = Selection::fixed;
   PieceCost piece_cost = {};  ///< selects the family instead of `selection`; used by an oracle only
   Fallback fallback = Fallback::arc;

@@ -62,7 +62,7 @@ std::optional<PlanarPiece> WindowFitter::fit(Family family,
   std::vector<Vector2> points;
   points.reserve(node_indices.size());
   for (const std::size_t i : node_indices) points.push_back(frame->local(nodes.points[i]));
-  return fit_family(family, *frame, points, rule.family);
+  return fit_family(family, *frame, points);
 }
 
 double WindowFitter::score(Family family,
@@ -72,13 +72,13 @@ double WindowFitter::score(Family family,
   double sum = 0.0;
   if (rule.selection == Selection::aicc) {
     for (const std::size_t i : node_indices) sum += squared_error(piece, i);
-    return aicc(sum, node_indices.size(), unknowns(family, node_indices.size(), rule.family));
+    return aicc(sum, node_indices.size(), unknowns(family, node_indices.size()));
   }
   for (std::size_t k = 0; k < node_indices.size(); ++k) {
     std::vector<std::size_t> rest(node_indices.begin(), node_indices.end());
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
     // With fewer nodes fit_polynomial() would reduce the degree, which is another family.
-    if (unknowns(family, node_indices.size(), rule.family) > rest.size()) {
+    if (unknowns(family, node_indices.size()) > rest.size()) {
       return std::numeric_limits<double>::infinity();
     }
     const auto refitted = fit(family, frame, rest);

@@ -1,4 +1,4 @@
-/// The family F(x, y) = sum over i + j <= n of alpha(i,j) x^i y^j = 0, equation (9).
+/// The family F(x, y) = sum over i + j <= 2 of alpha(i,j) x^i y^j = 0, equation (9).
 #pragma once
 
 #include <array>
@@ -12,15 +12,11 @@
 
 namespace loopbench::methods::manifold {
 
-/// Returns the number of (i, j) with i + j <= n.
-inline Eigen::Index implicit_terms(int order) { return (order + 1) * (order + 2) / 2; }
-
-/// Returns the powers (i, j) of monomial k in the article's order: falling total degree, then
-/// falling power of x; x^2, xy, y^2, x, y, 1 for n = 2.
-std::pair<int, int> implicit_powers(int order, Eigen::Index k);
+/// Powers (i, j) of the monomials in the article's order: x^2, xy, y^2, x, y, 1.
+inline constexpr std::array<std::pair<std::size_t, std::size_t>, 6> kImplicitPowers{
+    {{2, 0}, {1, 1}, {0, 2}, {1, 0}, {0, 1}, {0, 0}}};
 
 struct Implicit {
-  int order = 1;                     ///< n, 1..3
   Vector2 centre = Vector2::Zero();  ///< origin of the scaled coordinates [m]
   double scale = 1.0;                ///< common scale of both coordinates [m]
   Parameters alpha;                  ///< |alpha| = 1
@@ -33,16 +29,14 @@ struct Implicit {
   template <class T>
   Evaluation<T> evaluate(const T& u, const T& v) const {
     const T zero = 0.0 * u;
-    const std::array<T, 4> x{zero + 1.0, u, u * u, u * u * u};
-    const std::array<T, 4> y{zero + 1.0, v, v * v, v * v * v};
+    const std::array<T, 3> x{zero + 1.0, u, u * u};
+    const std::array<T, 3> y{zero + 1.0, v, v * v};
     Evaluation<T> out{zero, zero, zero};
     for (Eigen::Index k = 0; k < alpha.size(); ++k) {
-      const auto [i, j] = implicit_powers(order, k);
-      const auto a = static_cast<std::size_t>(i);
-      const auto b = static_cast<std::size_t>(j);
-      out.f = out.f + alpha[k] * (x[a] * y[b]);
-      if (i > 0) out.by_u = out.by_u + (i * alpha[k]) * (x[a - 1] * y[b]);
-      if (j > 0) out.by_v = out.by_v + (j * alpha[k]) * (x[a] * y[b - 1]);
+      const auto [i, j] = kImplicitPowers[static_cast<std::size_t>(k)];
+      out.f = out.f + alpha[k] * (x[i] * y[j]);
+      if (i > 0) out.by_u = out.by_u + (static_cast<double>(i) * alpha[k]) * (x[i - 1] * y[j]);
+      if (j > 0) out.by_v = out.by_v + (static_cast<double>(j) * alpha[k]) * (x[i] * y[j - 1]);
     }
     return out;
   }
@@ -75,9 +69,8 @@ struct Implicit {
 
 /// Taubin's fit (the eigenvector that minimises F^2 over the squared gradient), followed by
 /// Levenberg-Marquardt on the Sampson distance F / |grad F|, the first-order approximation of the
-/// distance to the curve. Requires at least as many points as unknowns - 1 (2, 5, 9 for n = 1, 2,
-/// 3) and at most twelve. Returns nullopt for fewer points or points without extent. Source:
-/// Taubin, PAMI 13(11) 1991; Sampson, CGIP 18 1982.
-std::optional<Implicit> fit_implicit(std::span<const Vector2> points, int order);
+/// distance to the curve. Requires five to twelve points. Returns nullopt for fewer points or
+/// points without extent. Source: Taubin, PAMI 13(11) 1991; Sampson, CGIP 18 1982.
+std::optional<Implicit> fit_implicit(std::span<const Vector2> points);
 
 }  // namespace loopbench::methods::manifold

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "methods/smoothers/manifold/frame.hpp"
 
@@ -24,5 +25,11 @@ struct Polynomial {
 /// interpolated. The degree (1..3) is reduced to the number of points - 1. Requires two to twelve
 /// points with distinct x.
 Polynomial fit_polynomial(std::span<const Vector2> points, int degree);
+
+/// Coefficients of y = +f(x) in metres of the window's frame, in the article's notation and order:
+/// "alpha(2,0) = 1.238, ..., alpha(0,1) = 1, alpha(0,0) = -0.5163". The article's F = ... + y = 0
+/// would mean y = -f(x), but its printed numbers fit the ground truth with the other sign (design
+/// section 3), which is used here.
+std::string coefficient_text(const Polynomial& curve, int degree);
 
 }  // namespace loopbench::methods::manifold

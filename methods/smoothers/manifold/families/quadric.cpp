@@ -1,7 +1,9 @@
 #include "methods/smoothers/manifold/families/quadric.hpp"
 
 #include <Eigen/SVD>
+#include <numeric>
 
+#include "methods/smoothers/manifold/families/extent.hpp"
 #include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
 
 namespace loopbench::methods::manifold {
@@ -17,18 +19,11 @@ std::optional<Quadric> fit_quadric(std::span<const Vector2> points,
                                    double cut) {
   const auto count = static_cast<Eigen::Index>(points.size());
   if (count < 6) return std::nullopt;
-  Vector2 low = points.front();
-  Vector2 high = points.front();
-  double sum = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    low = low.cwiseMin(points[i]);
-    high = high.cwiseMax(points[i]);
-    sum += z[i];
-  }
+  const Extent extent(points);
   Quadric out;
-  out.centre = 0.5 * (low + high);
-  out.scale = 0.5 * (high - low).maxCoeff();
-  out.level = sum / static_cast<double>(count);
+  out.centre = extent.centre();
+  out.scale = 0.5 * extent.size().maxCoeff();
+  out.level = std::accumulate(z.begin(), z.end(), 0.0) / static_cast<double>(count);
   if (!(out.scale > 0.0)) return std::nullopt;
 
   Eigen::Matrix<double, Eigen::Dynamic, 6, 0, kMaxNodes, 6> design(count, 6);

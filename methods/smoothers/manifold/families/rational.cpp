@@ -17,10 +17,9 @@ bool has_pole(double q1, double q2) {
 
 }  // namespace
 
-std::optional<Rational> fit_rational(std::span<const Vector2> points, bool with_level) {
-  const Eigen::Index unknowns = with_level ? 4 : 3;
+std::optional<Rational> fit_rational(std::span<const Vector2> points) {
   const auto count = static_cast<Eigen::Index>(points.size());
-  if (count < unknowns + 1 || count > kMaxNodes) return std::nullopt;
+  if (count < 4 || count > kMaxNodes) return std::nullopt;
   const Extent extent(points);
   Rational out;
   out.centre = extent.centre().x();
@@ -31,17 +30,16 @@ std::optional<Rational> fit_rational(std::span<const Vector2> points, bool with_
   };
   const auto y = [&](Eigen::Index i) { return points[static_cast<std::size_t>(i)].y(); };
 
-  // y (u^2 + q1 u + q2) = p + d (...): linear in q1, q2 and p if d = 0.
+  // y (u^2 + q1 u + q2) = p: linear in q1, q2 and p.
   Slopes design(count, 3);
   FamilyResiduals right(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     design.row(i) << u(i) * y(i), y(i), -1.0;
     right[i] = -y(i) * u(i) * u(i);
   }
-  Parameters start = Parameters::Zero(unknowns);
-  start.head(3) = design.colPivHouseholderQr().solve(right);
+  Parameters start = design.colPivHouseholderQr().solve(right);
   // Descent cannot cross a pole, so start from a wide bell instead.
-  if (!start.allFinite() || has_pole(start[0], start[1])) start.head(3) << 0.0, 4.0, 4.0 * y(0);
+  if (!start.allFinite() || has_pole(start[0], start[1])) start << 0.0, 4.0, 4.0 * y(0);
 
   const Parameters q = levenberg_marquardt(start, count, [&](const auto& q_, auto& r, auto& J) {
     for (Eigen::Index i = 0; i < count; ++i) {
@@ -51,16 +49,12 @@ std::optional<Rational> fit_rational(std::span<const Vector2> points, bool with_
       J(i, 0) = -value * inverse * u(i);
       J(i, 1) = -value * inverse;
       J(i, 2) = inverse;
-      if (unknowns < 4) continue;
-      r[i] += q_[3];
-      J(i, 3) = 1.0;
     }
   });
   if (!q.allFinite() || has_pole(q[0], q[1])) return std::nullopt;
   out.q1 = q[0];
   out.q2 = q[1];
   out.p = q[2];
-  if (with_level) out.level = q[3];
   return out;
 }
 

@@ -1,4 +1,4 @@
-/// The family rat02: y = p / (x^2 + q1 x + q2) [+ d].
+/// The family rat02: y = p / (x^2 + q1 x + q2).
 #pragma once
 
 #include <optional>
@@ -15,18 +15,17 @@ struct Rational {
   double scale = 1.0;   ///< [m]; u = (x - centre) / scale
   double p = 0.0;       ///< [m]
   double q1 = 0.0, q2 = 1.0;
-  double level = 0.0;  ///< d [m]; 0 in the article
 
   template <class T>
   T operator()(const T& x) const {
     const T u = (x - centre) / scale;
-    return level + p / (u * (u + q1) + q2);
+    return p / (u * (u + q1) + q2);
   }
 };
 
 /// Least-squares fit in y by Levenberg-Marquardt from the linearised solution. Requires at least
-/// four points with distinct x, or five with `with_level`. Returns nullopt when the denominator has
-/// a real root within the range of x or half that range on either side of it.
-std::optional<Rational> fit_rational(std::span<const Vector2> points, bool with_level);
+/// four points with distinct x. Returns nullopt when the denominator has a real root within the
+/// range of x or half that range on either side of it.
+std::optional<Rational> fit_rational(std::span<const Vector2> points);
 
 }  // namespace loopbench::methods::manifold

@@ -13,7 +13,7 @@ constexpr double kLongest = 8.0;   // longest initial wavelength, in ranges of x
 constexpr double kShortest = 4.0;  // shortest wavelength, in point spacings; below it is ambiguous
 constexpr double kTallest = 2.0;   // largest amplitude, in ranges of y
 
-// The parameters are b, a cos c, a sin c [, d]; all but the first are linear.
+// The parameters are b, a cos c, a sin c; all but the first are linear.
 void evaluate(std::span<const Vector2> points,
               double centre,
               const Parameters& q,
@@ -27,16 +27,13 @@ void evaluate(std::span<const Vector2> points,
     J(i, 0) = x * (q[1] * c - q[2] * s);
     J(i, 1) = s;
     J(i, 2) = c;
-    if (q.size() < 4) continue;
-    r[i] += q[3];
-    J(i, 3) = 1.0;
   }
 }
 
 }  // namespace
 
-std::optional<Sine> fit_sine(std::span<const Vector2> points, bool with_level) {
-  const Eigen::Index unknowns = with_level ? 4 : 3;
+std::optional<Sine> fit_sine(std::span<const Vector2> points) {
+  constexpr Eigen::Index unknowns = 3;
   const auto count = static_cast<Eigen::Index>(points.size());
   if (count < unknowns + 1 || count > kMaxNodes) return std::nullopt;
   const Extent extent(points);
@@ -72,7 +69,6 @@ std::optional<Sine> fit_sine(std::span<const Vector2> points, bool with_level) {
   out.rate = std::abs(q[0]);
   out.amplitude = std::hypot(q[1], q[2]);
   out.phase = std::atan2(q[2], sign * q[1]) - out.rate * centre;
-  out.level = with_level ? q[3] : 0.0;
   const bool alias = out.rate > fastest * (1.0 + 1e-9) || out.amplitude > kTallest * size.y();
   if (!q.allFinite() || !(out.rate > 0.0) || alias) return std::nullopt;
   return out;

@@ -1,4 +1,4 @@
-/// The family sin1: y = a sin(b x + c) [+ d].
+/// The family sin1: y = a sin(b x + c).
 #pragma once
 
 #include <optional>
@@ -13,18 +13,17 @@ struct Sine {
   double amplitude = 0.0;  ///< a [m], >= 0
   double rate = 1.0;       ///< b [rad/m], > 0
   double phase = 0.0;      ///< c [rad]
-  double level = 0.0;      ///< d [m]; 0 in the article
 
   template <class T>
   T operator()(const T& x) const {
     using std::sin;
-    return level + amplitude * sin(rate * x + phase);
+    return amplitude * sin(rate * x + phase);
   }
 };
 
-/// Least-squares fit in y from twelve initial rates. Requires at least four points with distinct x,
-/// or five with `with_level`. Returns nullopt when the best curve is an alias: wavelength below 4
-/// mean point spacings, or amplitude above twice the range of y.
-std::optional<Sine> fit_sine(std::span<const Vector2> points, bool with_level);
+/// Least-squares fit in y from twelve initial rates. Requires at least four points with distinct x.
+/// Returns nullopt when the best curve is an alias: wavelength below 4 mean point spacings, or
+/// amplitude above twice the range of y.
+std::optional<Sine> fit_sine(std::span<const Vector2> points);
 
 }  // namespace loopbench::methods::manifold
