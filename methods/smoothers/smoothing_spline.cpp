@@ -3,10 +3,8 @@
 #include <utility>
 
 #include "datasets/core/knot_span.hpp"
-#include "datasets/core/polyline.hpp"
 #include "methods/smoothers/parts.hpp"
 #include "methods/smoothers/penalised/unrolled.hpp"
-#include "methods/smoothers/position_and_rotation_curve.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -30,34 +28,16 @@ Vector3 between(const Knot* knot, double u, double interval) {
          sixth * (v * u * ((1.0 + v) * knot[0].bend + (1.0 + u) * knot[1].bend));
 }
 
-class PositionSpline final : public Curve {
+class SmoothedCurve final : public Curve {
  public:
-  PositionSpline(std::vector<double> stamps, std::vector<Knot> knots)
-      : stamps_(std::move(stamps)), knots_(std::move(knots)) {}
-
-  double start() const override { return stamps_.front(); }
-  double end() const override { return stamps_.back(); }
-
-  using Curve::sample;
-  void sample(std::span<const double> times, std::span<Pose> poses) const override {
-    KnotSpan span(stamps_);
-    for (std::size_t k = 0; k < times.size(); ++k) {
-      const std::size_t i = span.find(times[k]);
-      const double interval = stamps_[i + 1] - stamps_[i];
-      poses[k] = {Rotation::Identity(),
-                  between(&knots_[i], (times[k] - stamps_[i]) / interval, interval)};
-    }
-  }
-
- private:
-  std::vector<double> stamps_;
-  std::vector<Knot> knots_;
-};
-
-class RotationSpline final : public Curve {
- public:
-  RotationSpline(std::vector<double> stamps, UnrolledRotations path, std::vector<Knot> knots)
-      : stamps_(std::move(stamps)), path_(std::move(path)), knots_(std::move(knots)) {}
+  SmoothedCurve(std::vector<double> stamps,
+                std::vector<Knot> points,
+                UnrolledRotations path,
+                std::vector<Knot> unrolled)
+      : stamps_(std::move(stamps)),
+        points_(std::move(points)),
+        path_(std::move(path)),
+        unrolled_(std::move(unrolled)) {}
 
   double start() const override { return stamps_.front(); }
   double end() const override { return stamps_.back(); }
@@ -69,43 +49,17 @@ class RotationSpline final : public Curve {
       const std::size_t i = span.find(times[k]);
       const double interval = stamps_[i + 1] - stamps_[i];
       const double u = (times[k] - stamps_[i]) / interval;
-      poses[k] = {path_.roll(i, u, between(&knots_[i], u, interval)), Vector3::Zero()};
+      poses[k] = {path_.roll(i, u, between(&unrolled_[i], u, interval)),
+                  between(&points_[i], u, interval)};
     }
   }
 
  private:
   std::vector<double> stamps_;
+  std::vector<Knot> points_;
   UnrolledRotations path_;
-  std::vector<Knot> knots_;
+  std::vector<Knot> unrolled_;
 };
-
-/// Fits each world axis with its own lambda.
-Reinsch::Fit axis_by_axis(const Reinsch& reinsch,
-                          const std::vector<double>& stamps,
-                          const std::vector<Vector3>& y,
-                          Criterion criterion,
-                          Report& report) {
-  Reinsch::Fit out;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<Vector3> one_axis(y.size(), Vector3::Zero());
-    for (std::size_t i = 0; i < y.size(); ++i) one_axis[i][axis] = y[i][axis] - y.front()[axis];
-    const double lambda = select_lambda(reinsch, stamps, one_axis, criterion);
-    report.count(std::string("lambda_") + "xyz"[axis], lambda);
-    const Reinsch::Fit fit = reinsch.fit(one_axis, lambda);
-    if (axis == 0) {
-      out = fit;
-      out.free = 0.0;
-      for (Vector3& value : out.values) value += y.front();
-    } else {
-      for (std::size_t i = 0; i < y.size(); ++i) {
-        out.values[i] += fit.values[i];
-        out.bends[i] += fit.bends[i];
-      }
-    }
-    out.free += fit.free / 3.0;
-  }
-  return out;
-}
 
 }  // namespace
 
@@ -120,23 +74,13 @@ std::unique_ptr<const Curve> SmoothingSpline::smooth(const Problem& problem, Rep
   const auto size = static_cast<double>(times.size());
   const Reinsch reinsch(times);
 
-  Reinsch::Fit positions;
   const std::vector<Vector3> points = positions_of(problem.keyframes);
-  if (options_.axes == Axes::each && !options_.lambda_t) {
-    positions = axis_by_axis(reinsch, times, points, options_.criterion, report);
-  } else {
-    const double lambda = options_.lambda_t.value_or(0.0) > 0.0
+  const double lambda_t = options_.lambda_t
                               ? *options_.lambda_t
                               : select_lambda(reinsch, times, points, options_.criterion);
-    report.count("lambda_t", lambda);
-    positions = reinsch.fit(points, lambda);
-  }
+  report.count("lambda_t", lambda_t);
+  const Reinsch::Fit positions = reinsch.fit(points, lambda_t);
   report.count("dof_t", size - positions.free);
-  auto position_curve = std::make_unique<PositionSpline>(times, knots(positions));
-  if (options_.rotation == RotationMode::slerp) {
-    return std::make_unique<PositionAndRotationCurve>(
-        std::move(position_curve), std::make_unique<Polyline>(problem.keyframes));
-  }
 
   // The first rounds change the unrolled data; after kChoices rounds lambda is kept.
   double lambda = options_.lambda_r.value_or(0.0);
@@ -153,9 +97,8 @@ std::unique_ptr<const Curve> SmoothingSpline::smooth(const Problem& problem, Rep
   report.count("dof_r", size - rotation.fit.free);
   report.count("iterations", rotation.iterations);
   if (!rotation.converged) report.notes.push_back("the rotation fit did not converge");
-  return std::make_unique<PositionAndRotationCurve>(
-      std::move(position_curve),
-      std::make_unique<RotationSpline>(times, rotation.path, knots(rotation.fit)));
+  return std::make_unique<SmoothedCurve>(
+      times, knots(positions), rotation.path, knots(rotation.fit));
 }
 
 }  // namespace loopbench::methods

@@ -16,36 +16,23 @@ namespace loopbench::methods {
 /// per query. Sources: Reinsch 1967; Craven & Wahba 1979; Wahba 1985; Jupp & Kent 1987.
 class SmoothingSpline final : public Smoother {
  public:
-  enum class Axes { joint, each };
-  enum class RotationMode { slerp, spline };
   struct Options {
     Criterion criterion = Criterion::gcv;
     std::optional<double> lambda_t = std::nullopt;  ///< [s^3]
     std::optional<double> lambda_r = std::nullopt;  ///< [s^3]
-    Axes axes = Axes::joint;
-    RotationMode rotation = RotationMode::spline;
   };
   explicit SmoothingSpline(const Options& options) : options_(options) {}
 
   std::string why_declined(const Problem& problem) const override;
 
-  /// Counts: `lambda_t`, `lambda_r` [s^3] (`lambda_x`, `_y`, `_z` with axes: each); `dof_t`,
-  /// `dof_r`, effective degrees of freedom of the fit per axis, at most n; `iterations` of the
-  /// rotation fit. Adds a note when the rotation fit does not converge.
+  /// Counts: `lambda_t`, `lambda_r` [s^3]; `dof_t`, `dof_r`, effective degrees of freedom of the
+  /// fit per axis, at most n; `iterations` of the rotation fit. Adds a note when the rotation fit
+  /// does not converge.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:
   Options options_;
 };
-
-inline auto choices(SmoothingSpline::Axes) {
-  return std::array{std::pair{"joint", SmoothingSpline::Axes::joint},
-                    std::pair{"each", SmoothingSpline::Axes::each}};
-}
-inline auto choices(SmoothingSpline::RotationMode) {
-  return std::array{std::pair{"slerp", SmoothingSpline::RotationMode::slerp},
-                    std::pair{"spline", SmoothingSpline::RotationMode::spline}};
-}
 
 template <class Visit>
 void fields(SmoothingSpline::Options& o, Visit visit) {
@@ -61,13 +48,6 @@ void fields(SmoothingSpline::Options& o, Visit visit) {
         o.lambda_r,
         "penalty on angular acceleration [s^3]; none: chosen by the criterion",
         GreaterThan{0.0});
-  visit("axes",
-        o.axes,
-        "joint: one lambda for all position axes; each: one per world axis, so the result depends "
-        "on the world frame");
-  visit("rotation",
-        o.rotation,
-        "slerp: rotations not smoothed, great arcs between keyframes; spline: smoothed");
 }
 
 }  // namespace loopbench::methods

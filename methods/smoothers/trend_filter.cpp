@@ -50,7 +50,6 @@ Trend::Fit line(const Trend& trend, const std::vector<Vector3>& y) {
 TrendChoice choose_fit(const Trend& trend,
                        const std::vector<Vector3>& y,
                        const TrendFilter::Options& options) {
-  const Trend::Settings settings{options.tolerance, options.max_iterations};
   const double extent = extent_of(y);
   const double straight = trend.min_lambda_of_line(y);
   if (straight <= 1e-9 * extent) return {line(trend, y)};
@@ -60,7 +59,7 @@ TrendChoice choose_fit(const Trend& trend,
   TrendChoice best{line(trend, y), top};
   double lowest = score(y, best.fit, extent, options.refit);
   const auto fitted = [&](double lambda) {
-    Trend::Fit fit = trend.fit(y, lambda, settings);
+    Trend::Fit fit = trend.fit(y, lambda, {});
     best.iterations += fit.iterations;
     best.converged = best.converged && fit.converged;
     if (options.refit) trend.refit(y, fit);
@@ -105,35 +104,32 @@ std::unique_ptr<const Curve> TrendFilter::smooth(const Problem& problem, Report&
   int iterations = positions.iterations;
   bool converged = positions.converged;
 
-  if (options_.rotation == RotationMode::filtered) {
-    TrendChoice rotation_choice;
-    int rounds = 0;
-    // The first rounds change the unrolled data; after kChoices rounds lambda, or the kinks, are
-    // kept.
-    const auto fit_points = [&](const std::vector<Vector3>& flat) {
-      constexpr int kChoices = 2;
-      if (rounds++ < kChoices) {
-        rotation_choice = choose_fit(trend, flat, options_);
-        iterations += rotation_choice.iterations;
-        converged = converged && rotation_choice.converged;
-      } else if (options_.refit || rotation_choice.fit.kinks.empty()) {
-        rotation_choice.fit.values = trend.refitted(flat, rotation_choice.fit.kinks);
-      } else {
-        rotation_choice.fit =
-            trend.fit(flat, rotation_choice.lambda, {options_.tolerance, options_.max_iterations});
-        iterations += rotation_choice.fit.iterations;
-      }
-      return rotation_choice.fit;
-    };
-    const double tolerance = options_.refit ? 1e-11 : 1e-2 * options_.tolerance;
-    const auto rotation = smoothed_rotations(attitudes(problem.keyframes), fit_points, tolerance);
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      out[i].world_from_body.rotation = rotation.path.roll(i, 0.0, rotation.fit.values[i]);
+  TrendChoice rotation_choice;
+  int rounds = 0;
+  // The first rounds change the unrolled data; after kChoices rounds lambda, or the kinks, are
+  // kept.
+  const auto fit_points = [&](const std::vector<Vector3>& flat) {
+    constexpr int kChoices = 2;
+    if (rounds++ < kChoices) {
+      rotation_choice = choose_fit(trend, flat, options_);
+      iterations += rotation_choice.iterations;
+      converged = converged && rotation_choice.converged;
+    } else if (options_.refit || rotation_choice.fit.kinks.empty()) {
+      rotation_choice.fit.values = trend.refitted(flat, rotation_choice.fit.kinks);
+    } else {
+      rotation_choice.fit = trend.fit(flat, rotation_choice.lambda, {});
+      iterations += rotation_choice.fit.iterations;
     }
-    report.count("kinks_r", static_cast<double>(rotation.fit.kinks.size()));
-    report.count("lambda_r", rotation_choice.lambda * trend.interval());
-    if (!rotation.converged) report.notes.push_back("the rotation fit did not converge");
+    return rotation_choice.fit;
+  };
+  const double tolerance = options_.refit ? 1e-11 : 1e-2 * Trend::Settings{}.tolerance;
+  const auto rotation = smoothed_rotations(attitudes(problem.keyframes), fit_points, tolerance);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].world_from_body.rotation = rotation.path.roll(i, 0.0, rotation.fit.values[i]);
   }
+  report.count("kinks_r", static_cast<double>(rotation.fit.kinks.size()));
+  report.count("lambda_r", rotation_choice.lambda * trend.interval());
+  if (!rotation.converged) report.notes.push_back("the rotation fit did not converge");
   report.count("iterations", iterations);
   if (!converged) report.notes.push_back("an interior-point solve stopped before convergence");
   return std::make_unique<Polyline>(std::move(out));

@@ -18,13 +18,9 @@ namespace loopbench::methods {
 /// Koh, Boyd & Gorinevsky 2009; Tibshirani 2014 (df); Meinshausen 2007.
 class TrendFilter final : public Smoother {
  public:
-  enum class RotationMode { slerp, filtered };
   struct Options {
     std::optional<double> share = std::nullopt;
     bool refit = false;
-    double tolerance = 1e-4;
-    int max_iterations = 300;
-    RotationMode rotation = RotationMode::filtered;
   };
   explicit TrendFilter(const Options& options) : options_(options) {}
 
@@ -38,11 +34,6 @@ class TrendFilter final : public Smoother {
   Options options_;
 };
 
-inline auto choices(TrendFilter::RotationMode) {
-  return std::array{std::pair{"slerp", TrendFilter::RotationMode::slerp},
-                    std::pair{"filtered", TrendFilter::RotationMode::filtered}};
-}
-
 template <class Visit>
 void fields(TrendFilter::Options& o, Visit visit) {
   visit("share",
@@ -51,17 +42,6 @@ void fields(TrendFilter::Options& o, Visit visit) {
         "by GCV or BIC",
         Between{1e-6, 1});
   visit("refit", o.refit, "keep the kinks found and refit the lines between them without penalty");
-  visit("tolerance",
-        o.tolerance,
-        "convergence threshold: distance from the optimum / distance from the data [-]",
-        Between{1e-12, 0.1});
-  visit("max_iterations",
-        o.max_iterations,
-        "maximum number of Newton steps per lambda",
-        Between{1, 1e6});
-  visit("rotation",
-        o.rotation,
-        "slerp: rotations not filtered, great arcs between keyframes; filtered: like positions");
 }
 
 }  // namespace loopbench::methods

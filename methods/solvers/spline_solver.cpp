@@ -5,21 +5,12 @@
 #include <array>
 #include <stdexcept>
 
+#include "methods/solvers/groups/se3.hpp"
+
 namespace loopbench::methods {
 namespace {
 
-using Block = std::array<double, 7>;
-
-Pose read(const double* block) {
-  return {Rotation(block[3], block[0], block[1], block[2]), {block[4], block[5], block[6]}};
-}
-
-void write(const Pose& pose, double* block) {
-  Eigen::Map<Eigen::Vector4d> rotation(block);
-  Eigen::Map<Vector3> translation(block + 4);
-  rotation = pose.rotation.coeffs();
-  translation = pose.translation;
-}
+using Block = std::array<double, Se3::kSize>;
 
 /// Perturbation [p + d; Exp(a) R]. Cost functions write their derivative with respect to [d; a]
 /// into the first six columns of the ambient Jacobian, so this Jacobian is a projection.
@@ -28,11 +19,11 @@ class SplitPerturbation final : public ceres::Manifold {
   int AmbientSize() const override { return 7; }
   int TangentSize() const override { return 6; }
   bool Plus(const double* x, const double* d, double* out) const override {
-    const Pose pose = read(x);
+    const Pose pose = Se3::read(x);
     const Vector3 rotation(d[3], d[4], d[5]);
-    write({(exp_so3(rotation) * pose.rotation).normalized(),
-           pose.translation + Vector3(d[0], d[1], d[2])},
-          out);
+    Se3::write({(exp_so3(rotation) * pose.rotation).normalized(),
+                pose.translation + Vector3(d[0], d[1], d[2])},
+               out);
     return true;
   }
   bool PlusJacobian(const double*, double* jacobian) const override {
@@ -40,7 +31,7 @@ class SplitPerturbation final : public ceres::Manifold {
     return true;
   }
   bool Minus(const double* y, const double* x, double* d) const override {
-    const Pose to = read(y), from = read(x);
+    const Pose to = Se3::read(y), from = Se3::read(x);
     Eigen::Map<Twist> out(d);
     out =
         twist(to.translation - from.translation, log_so3(to.rotation * from.rotation.conjugate()));
@@ -62,7 +53,7 @@ class SplineCost final : public ceres::CostFunction {
 
   bool Evaluate(double const* const* x, double* residual, double** jacobians) const override {
     std::vector<Pose> controls(factor_.controls().size());
-    for (std::size_t k = 0; k < controls.size(); ++k) controls[k] = read(x[k]);
+    for (std::size_t k = 0; k < controls.size(); ++k) controls[k] = Se3::read(x[k]);
     const SplineFactor::Residual evaluated = factor_.evaluate(controls);
     Eigen::Map<Twist> out(residual);
     out = root_ * evaluated.error;
@@ -102,7 +93,7 @@ SplineSummary solve_spline(const SplineBasis& basis,
   ceres::Problem least_squares(problem_options);
   std::vector<Block> blocks(controls.size());
   for (std::size_t j = 0; j < blocks.size(); ++j) {
-    write(controls[j], blocks[j].data());
+    Se3::write(controls[j], blocks[j].data());
     least_squares.AddParameterBlock(blocks[j].data(), 7, &manifold);
   }
   const auto add = [&](SplineFactor factor, const Matrix6& root) {
@@ -127,7 +118,7 @@ SplineSummary solve_spline(const SplineBasis& basis,
   ceres::Solver::Summary summary;
   ceres::Solve(options, &least_squares, &summary);
   if (!summary.IsSolutionUsable()) throw std::runtime_error("spline fit: " + summary.message);
-  for (std::size_t j = 0; j < blocks.size(); ++j) controls[j] = read(blocks[j].data());
+  for (std::size_t j = 0; j < blocks.size(); ++j) controls[j] = Se3::read(blocks[j].data());
   return {static_cast<int>(summary.iterations.size()),
           summary.initial_cost,
           summary.final_cost,

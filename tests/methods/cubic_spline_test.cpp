@@ -4,7 +4,6 @@
 
 #include <random>
 
-#include "datasets/core/interpolate.hpp"
 #include "methods/smoothers/spline/interpolate.hpp"
 #include "tests/support/problems.hpp"
 
@@ -16,11 +15,11 @@ namespace {
 
 using namespace test;
 
-std::unique_ptr<const Curve> spline(Trajectory keyframes, const Params& params = {}) {
+std::unique_ptr<const Curve> spline(Trajectory keyframes) {
   Report report;
   Problem problem;
   problem.keyframes = std::move(keyframes);
-  auto curve = CubicSpline(with(CubicSpline::Options{}, params)).smooth(problem, report);
+  auto curve = CubicSpline({}).smooth(problem, report);
   EXPECT_TRUE(report.notes.empty());
   return curve;
 }
@@ -197,51 +196,6 @@ TEST(CubicSpline, HasNoAccelerationAtItsEnds) {
   }
 }
 
-TEST(CubicSpline, WithSlerpTheRotationFollowsGreatArcs) {
-  const Trajectory keyframes = wandering(6);
-  const auto curve = spline(keyframes, {{"rotation", std::string("slerp")}});
-  const auto smooth = spline(keyframes);
-  for (std::size_t i = 0; i + 1 < keyframes.size(); ++i) {
-    const double middle = 0.5 * (keyframes[i].stamp + keyframes[i + 1].stamp);
-    const Rotation great_arc = slerp(
-        keyframes[i].world_from_body.rotation, keyframes[i + 1].world_from_body.rotation, 0.5);
-    EXPECT_LT(angle_between(curve->at(middle).rotation, great_arc), 1e-9);
-    EXPECT_EQ(curve->at(middle).translation, smooth->at(middle).translation);
-  }
-}
-
-TEST(CubicSpline, HandlesLargeRotationsBetweenKeyframes) {
-  Trajectory keyframes;
-  for (int i = 0; i < 20; ++i) {  // 1.5 to 2 rad per step about a varying axis
-    const double s = i;
-    keyframes.push_back({s,
-                         {exp_so3({0.3 * std::sin(s), 0.2 * std::cos(2.0 * s), 0.0}) *
-                              exp_so3({0.0, 0.0, 1.75 * s + 0.1 * std::sin(3.0 * s)}),
-                          Vector3::Zero()}});
-  }
-  const auto curve = spline(keyframes);
-  for (const auto& [stamp, pose] : keyframes) {
-    EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-9, 1e-9)) << stamp;
-  }
-}
-
-TEST(CubicSpline, ReportsTheFallbackToGreatArcs) {
-  // Rotations alternate by almost pi, so controls would have to be more than pi apart.
-  Problem problem;
-  for (int i = 0; i < 12; ++i) {
-    problem.keyframes.push_back(
-        {0.5 * i, {exp_so3({0.0, 0.0, i % 2 == 0 ? 0.0 : 3.1}), Vector3::Zero()}});
-  }
-  Report report;
-  const auto curve = CubicSpline({}).smooth(problem, report);
-  ASSERT_EQ(report.notes.size(), 1u);
-  EXPECT_EQ(report.notes[0],
-            "no rotation spline through all keyframes exists: 11 of 11 intervals are great arcs");
-  for (const auto& [stamp, pose] : problem.keyframes) {
-    EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-12, 1e-12));
-  }
-}
-
 TEST(CubicSpline, NeedsFewNewtonStepsForAnySize) {
   for (const std::size_t n : {100u, 100000u}) {
     const Trajectory keyframes = wandering(n);
@@ -250,15 +204,6 @@ TEST(CubicSpline, NeedsFewNewtonStepsForAnySize) {
     const auto found = natural_rotation_controls(SplineBasis(4, stamps(keyframes)), rotations);
     ASSERT_TRUE(found.has_value());
     EXPECT_LE(found->iterations, 8);
-  }
-}
-
-TEST(CubicSpline, ManyKeyframesAreInterpolatedToo) {
-  const Trajectory keyframes = wandering(100000);
-  const auto curve = spline(keyframes);
-  const Trajectory got = curve->sample(stamps(keyframes));
-  for (std::size_t i = 0; i < got.size(); ++i) {
-    ASSERT_TRUE(is_close(got[i].world_from_body, keyframes[i].world_from_body, 1e-9, 1e-9));
   }
 }
 

@@ -187,19 +187,5 @@ TEST(GaussianProcess, HasNoKink) {
   }
 }
 
-TEST(GaussianProcess, KeepsGivenNoise) {
-  Report report;
-  smooth(noisy_path(2, path(20)), {.sigma_t = 0.05, .power_r = 0.125}, &report);
-  EXPECT_EQ(count(report, "sigma_t"), 0.05);
-  EXPECT_NEAR(count(report, "power_r"), 0.125, 1e-15);
-}
-
-TEST(GaussianProcess, DeclinesTooFewKeyframes) {
-  Problem problem;
-  problem.keyframes = path(3);
-  EXPECT_EQ(GaussianProcess({}).why_declined(problem), "");
-  EXPECT_EQ(GaussianProcess(wnoj()).why_declined(problem), "3 keyframes, fewer than 4");
-}
-
 }  // namespace
 }  // namespace loopbench::gp_smoothers_test

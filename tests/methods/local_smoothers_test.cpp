@@ -163,42 +163,6 @@ TEST(BSpline, OfOrderTwoIsThePolyline) {
       *curve, keyframes, [&](double time) { return polyline.at(time); }, 1e-12);
 }
 
-TEST(BSpline, OfAHigherOrderInterpolatesASmoothPathBetter) {
-  // Away from the ends the error of order k decreases like h^k.
-  double before = 1.0;
-  for (int order = 2; order <= 6; order += 2) {
-    const auto truth = [](double time) {
-      const double s = 0.11 * (time - 1000.0);
-      return Pose{exp_so3({0.3 * std::sin(3.0 * s), 0.2 * std::cos(2.0 * s), 2.0 * s}),
-                  {2.0 * std::cos(2.0 * s), 1.5 * std::sin(2.0 * s), 0.4 * std::sin(5.0 * s)}};
-    };
-    const Trajectory keyframes = poses_of(uneven(60), truth);
-    const auto curve = smooth<BSplineThrough>(keyframes, {{"order", std::int64_t{order}}});
-    double largest = 0.0;
-    for (const double time : dense(keyframes)) {
-      if (time < 1003.0 || time > keyframes.back().stamp - 3.0) continue;
-      largest = std::max(largest, (curve->at(time).translation - truth(time).translation).norm());
-      largest = std::max(largest, angle_between(curve->at(time).rotation, truth(time).rotation));
-    }
-    EXPECT_LT(largest, 0.1 * before) << order;
-    before = largest;
-  }
-}
-
-TEST(BSpline, ReportsTheFallbackToGreatArcs) {
-  Problem problem;
-  for (int i = 0; i < 12; ++i) {
-    problem.keyframes.push_back(
-        {0.5 * i, {exp_so3({0.0, 0.0, i % 2 == 0 ? 0.0 : 3.1}), Vector3::Zero()}});
-  }
-  Report report;
-  const auto curve = BSplineThrough({}).smooth(problem, report);
-  ASSERT_EQ(report.notes.size(), 1u);
-  for (const auto& [stamp, pose] : problem.keyframes) {
-    EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-9, 1e-9));
-  }
-}
-
 TEST(Screw, IsExactOnAHelix) {
   // Radius 2 m, 0.5 rad/s, rising 0.3 m/s, tangential heading: body twist ((1, 0, 0.3), (0, 0,
   // 0.5)).

@@ -7,7 +7,6 @@
 #include <Eigen/LU>
 
 #include "methods/smoothers/cubic_spline.hpp"
-#include "methods/smoothers/penalised/lattice.hpp"
 #include "methods/smoothers/penalised/unrolled.hpp"
 #include "tests/support/counts.hpp"
 #include "tests/support/noisy_paths.hpp"
@@ -86,12 +85,6 @@ TEST(Reinsch, GoesFromInterpolationToTheStraightLine) {
     EXPECT_LT((line.row(i).transpose() - stiff.values[static_cast<std::size_t>(i)]).norm(), 1e-6);
   }
   EXPECT_NEAR(12.0 - stiff.free, 2.0, 1e-6);
-}
-
-TEST(Lattice, FindsTheMinimum) {
-  for (const int at : {-20, -3, 0, 7, 31}) {
-    EXPECT_EQ(minimise_on_lattice(-20, 31, 8, [&](int k) { return 1.0 + std::abs(k - at); }), at);
-  }
 }
 
 TEST(UnrolledRotations, ConstantAngularVelocityIsAStraightLine) {
@@ -192,18 +185,6 @@ TEST(SmoothingSpline, HasContinuousAngularVelocity) {
     };
     EXPECT_LT((angular_velocity(h) - angular_velocity(-h)).norm(), 1e-3) << i;
   }
-}
-
-TEST(SmoothingSpline, EachAxisCanHaveItsOwnPenalty) {
-  Report report;
-  const Trajectory keyframes = with_white_noise(hand_held_truth(60), 0.02, 5);
-  smooth<SmoothingSpline>(keyframes, {{"axes", std::string("each")}}, &report);
-  for (const char* name : {"lambda_x", "lambda_y", "lambda_z"}) EXPECT_GT(count(report, name), 0.0);
-}
-
-TEST(SmoothingSpline, DeclinesTwoKeyframes) {
-  EXPECT_EQ(SmoothingSpline({}).why_declined(short_circle(2)), "2 keyframes, fewer than 3");
-  EXPECT_EQ(SmoothingSpline({}).why_declined(short_circle(3)), "");
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "datasets/core/polyline.hpp"
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/smoothers/b_spline.hpp"
@@ -96,11 +95,6 @@ TEST(SplineRegression, WithFewKnotsReproducesSplines) {
   }
 }
 
-TEST(SplineRegression, DeclinesFewerKeyframesThanItsOrder) {
-  EXPECT_EQ(SplineRegression({}).why_declined(short_circle(3)),
-            "3 keyframes, fewer than the order 4");
-}
-
 TEST(SplineFit, WithOneKnotPerKeyframeInterpolatesThePoseGraphOptimum) {
   for (const Problem& problem : {walk(3, 30, 0.02), hand_held()}) {
     Report report, other;
@@ -127,24 +121,6 @@ TEST(SplineFit, WithFewerKnotsHasAHigherCost) {
   // The start is fixed.
   EXPECT_TRUE(
       is_close(curve->at(curve->start()), problem.keyframes[0].world_from_body, 1e-9, 1e-9));
-}
-
-TEST(SplineFit, KeepsPerfectMotion) {
-  const Problem problem = straight();
-  Report report;
-  const auto curve = SplineFit({.order = 6, .knots_per_keyframe = 0.4}).estimate(problem, report);
-  const Polyline truth(problem.keyframes);
-  for (double time = curve->start(); time < curve->end(); time += 0.1) {
-    EXPECT_TRUE(is_close(curve->at(time), truth.at(time), 1e-8, 1e-8)) << time;
-  }
-}
-
-TEST(SplineFit, DeclinesAnIncompleteChain) {
-  Problem problem = hand_held();
-  problem.odometry.pop_back();
-  EXPECT_NE(SplineFit({}).why_declined(problem), "");
-  EXPECT_NE(SplineFit({}).why_declined(short_circle(3)), "");
-  EXPECT_EQ(SplineFit({}).why_declined(hand_held()), "");
 }
 
 }  // namespace

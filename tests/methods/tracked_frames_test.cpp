@@ -54,15 +54,5 @@ TEST(TrackedFrames, StayAttachedToCorrectedKeyframes) {
   EXPECT_GT(moved, 0.01);
 }
 
-TEST(TrackedFrames, DeclineAProblemWithoutFrames) {
-  const TrackedFrames method{TrackedFrames::Options{}};
-  EXPECT_EQ(method.why_declined(circle()), "no tracked frames between the keyframes");
-  Problem outside = circle();
-  outside.frames.push_back({outside.keyframes.back().stamp + 1.0, Pose{}});
-  EXPECT_EQ(method.why_declined(outside), "no tracked frames between the keyframes");
-  EXPECT_EQ(method.why_declined(short_circle(0)), "no keyframes");
-  EXPECT_EQ(method.why_declined(hand_held()), "");
-}
-
 }  // namespace
 }  // namespace loopbench::tracked_frames_test

@@ -62,19 +62,6 @@ class SlopeChange {
     return out;
   }
 
-  /// Returns I + factor D' D, n rows.
-  Pentadiagonal penalty(double factor) const {
-    Pentadiagonal out(rows_.size() + 2, Band{1.0, 0.0, 0.0});
-    for (std::size_t j = 0; j < rows_.size(); ++j) {
-      const Row& r = rows_[j];
-      for (std::size_t k = 0; k < 3; ++k) out[j + k].diagonal += factor * r[k] * r[k];
-      out[j].next += factor * r[0] * r[1];
-      out[j + 1].next += factor * r[1] * r[2];
-      out[j].second += factor * r[0] * r[2];
-    }
-    return out;
-  }
-
  private:
   std::vector<Row> rows_;
 };
