@@ -45,7 +45,7 @@ class PairwiseConsistent final : public Corrector {
   Trajectory correct(const Problem& problem, Report& report) const override {
     Problem reduced{problem.keyframes, problem.odometry, {}, {}, problem.planar};
     const ConsistentClosures found =
-        report.time("check", [&] { return consistent_closures(problem, check_); });
+        report.time("check", [&] { return consistent_closures(problem); });
     for (const std::size_t k : found.kept) reduced.closures.push_back(problem.closures[k]);
     report.count("closures_consistent", static_cast<double>(found.kept.size()));
     if (2 * found.kept.size() < problem.closures.size() && !found.kept.empty()) {
@@ -54,7 +54,7 @@ class PairwiseConsistent final : public Corrector {
                              " closures are pairwise consistent");
     }
     if (!found.is_largest) {
-      report.notes.push_back("the search for the largest consistent set stopped at pcm.most_steps");
+      report.notes.push_back("the search for the largest consistent set was not finished");
     }
     if (reduced.closures.empty()) {
       report.notes.push_back("no two closures are consistent: keyframes returned unchanged");

@@ -12,14 +12,13 @@ namespace {
 /// covariance.
 class CheckedChain {
  public:
-  explicit CheckedChain(const Problem& problem, double odometry_scale) {
-    const double variance = odometry_scale * odometry_scale;
+  explicit CheckedChain(const Problem& problem) {
     poses_.emplace_back();
     noise_.emplace_back(Matrix6::Zero());
     for (const Edge& edge : problem.odometry) {
       poses_.push_back(normalized(poses_.back() * edge.from_from_to));
       const Matrix6 B = adjoint(poses_.back());
-      const Matrix6 S = variance * edge.information.inverse();
+      const Matrix6 S = edge.information.inverse();
       noise_.push_back(noise_.back() + B * S * B.transpose());
     }
   }
@@ -64,21 +63,22 @@ double squared(const PairError& pair) {
 }  // namespace
 
 PairError pair_error(const Problem& problem, const Edge& first, const Edge& second) {
-  return CheckedChain(problem, 1.0).loop(first, second);
+  return CheckedChain(problem).loop(first, second);
 }
 
-ConsistentClosures consistent_closures(const Problem& problem, const ConsistencyOptions& options) {
+ConsistentClosures consistent_closures(const Problem& problem) {
+  constexpr std::size_t kMaxSteps = 100000;  // of the exact clique search
   const std::vector<Edge>& closures = problem.closures;
   if (closures.size() < 2) return {std::vector<std::size_t>(closures.size(), 0), true};
-  const CheckedChain chain(problem, options.odometry_scale);
-  const double threshold = options.chi2.value_or(problem.planar ? 11.345 : 16.812);
+  const CheckedChain chain(problem);
+  const double threshold = problem.planar ? 11.345 : 16.812;  // 99 % quantile
   BitGraph agree(closures.size());
   for (std::size_t k = 0; k < closures.size(); ++k) {
     for (std::size_t l = 0; l < k; ++l) {
       if (squared(chain.loop(closures[k], closures[l])) < threshold) agree.join(k, l);
     }
   }
-  Clique clique = max_clique(agree, static_cast<std::size_t>(options.max_steps));
+  Clique clique = max_clique(agree, kMaxSteps);
   if (clique.members.size() < 2) clique.members.clear();
   return {std::move(clique.members), clique.is_largest};
 }

@@ -7,32 +7,27 @@
 namespace loopbench::methods {
 namespace {
 
-/// Graph of the chain 0 - 1 - ... - n-1 and the closures added so far, with edge lengths.
+/// Graph of the chain 0 - 1 - ... - n-1 and the closures added so far.
 class LoopGraph {
  public:
-  explicit LoopGraph(std::vector<double> steps)
-      : steps_(std::move(steps)), shortcuts_(steps_.size()) {}
+  explicit LoopGraph(std::size_t keyframes) : shortcuts_(keyframes) {}
 
-  void add(const Edge& loop, double length) {
-    shortcuts_[loop.from].push_back({loop.to, length});
-    shortcuts_[loop.to].push_back({loop.from, length});
+  void add(const Edge& loop) {
+    shortcuts_[loop.from].push_back(loop.to);
+    shortcuts_[loop.to].push_back(loop.from);
   }
 
   /// Computes the share of every keyframe in the closing error of a -> b.
   std::vector<double> shares(std::size_t a, std::size_t b) const {
-    std::vector<std::size_t> before(steps_.size());
+    std::vector<std::size_t> before(shortcuts_.size());
     const std::vector<double> from_a = distances({a}, before);
     std::vector<std::size_t> path{b};
     while (path.back() != a) path.push_back(before[path.back()]);
-    std::vector<double> out(steps_.size());
-    const double total = from_a[b];
-    for (std::size_t k = 0; k < path.size(); ++k) {
-      const double by_count = 1.0 - static_cast<double>(k) / static_cast<double>(path.size() - 1);
-      out[path[k]] = total > 0.0 ? from_a[path[k]] / total : by_count;
-    }
+    std::vector<double> out(shortcuts_.size());
+    for (const std::size_t i : path) out[i] = from_a[i] / from_a[b];
     // Every other keyframe gets the share of the nearest path keyframe.
     const std::vector<double> off_path = distances(path, before);
-    std::vector<std::size_t> order(steps_.size());
+    std::vector<std::size_t> order(shortcuts_.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return off_path[i]; });
     for (const std::size_t i : order) {
@@ -42,16 +37,11 @@ class LoopGraph {
   }
 
  private:
-  struct Shortcut {
-    std::size_t to;
-    double length;
-  };
-
   /// Dijkstra's algorithm from several sources. before[i] is the predecessor of i, or i for a
   /// source.
   std::vector<double> distances(const std::vector<std::size_t>& sources,
                                 std::vector<std::size_t>& before) const {
-    std::vector<double> out(steps_.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> out(shortcuts_.size(), std::numeric_limits<double>::infinity());
     using Entry = std::pair<double, std::size_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     for (const std::size_t s : sources) {
@@ -63,38 +53,22 @@ class LoopGraph {
       const auto [distance, i] = queue.top();
       queue.pop();
       if (distance > out[i]) continue;
-      const auto relax = [&, at = i, distance_here = distance](std::size_t to, double length) {
-        if (distance_here + length < out[to]) {
-          out[to] = distance_here + length;
+      const auto relax = [&, at = i, one_farther = distance + 1.0](std::size_t to) {
+        if (one_farther < out[to]) {
+          out[to] = one_farther;
           before[to] = at;
           queue.push({out[to], to});
         }
       };
-      if (i > 0) relax(i - 1, steps_[i]);
-      if (i + 1 < steps_.size()) relax(i + 1, steps_[i + 1]);
-      for (const Shortcut& shortcut : shortcuts_[i]) relax(shortcut.to, shortcut.length);
+      if (i > 0) relax(i - 1);
+      if (i + 1 < shortcuts_.size()) relax(i + 1);
+      for (const std::size_t to : shortcuts_[i]) relax(to);
     }
     return out;
   }
 
-  std::vector<double> steps_;  ///< steps_[i] joins i - 1 and i
-  std::vector<std::vector<Shortcut>> shortcuts_;
+  std::vector<std::vector<std::size_t>> shortcuts_;  ///< ends of the closures of each keyframe
 };
-
-/// Length of a closure in the graph, in the same unit as the steps.
-double shortcut_length(const Edge& loop, StepWeights weights) {
-  switch (weights) {
-    case StepWeights::distance:
-      return loop.from_from_to.translation.norm();
-    case StepWeights::rotation:
-      return log_so3(loop.from_from_to.rotation).norm();
-    case StepWeights::time:  // a closure joins two times at the same location and takes no time
-      return 0.0;
-    case StepWeights::index:
-      break;
-  }
-  return 1.0;
-}
 
 void distribute_error(Trajectory& poses, const Edge& loop, const std::vector<double>& shares) {
   const Pose start = poses[loop.from].world_from_body;
@@ -121,11 +95,11 @@ std::string Elch::why_declined(const Problem& problem) const {
 
 Trajectory Elch::correct(const Problem& problem, Report& report) const {
   check_closures(problem, "elch");
-  LoopGraph graph(step_weights(problem.keyframes, options_.weights));
+  LoopGraph graph(problem.keyframes.size());
   Trajectory out = problem.keyframes;
   for (const Edge& loop : problem.closures) {
     distribute_error(out, loop, graph.shares(loop.from, loop.to));
-    graph.add(loop, shortcut_length(loop, options_.weights));
+    graph.add(loop);
   }
   double gap = 0.0;
   for (const Edge& loop : problem.closures) {

@@ -7,9 +7,9 @@
 namespace loopbench::methods {
 
 /// Processes the closures a -> b in the order (to, from). For each, it finds the shortest path from
-/// a to b in the graph of odometry and earlier closures. A keyframe i on the path gets the share
-/// w_i = d(a, i) / d(a, b); every other keyframe gets the share of the nearest path keyframe. With
-/// the pivot o at the loop's start,
+/// a to b, by number of edges, in the graph of odometry and earlier closures. A keyframe i on the
+/// path gets the share w_i = d(a, i) / d(a, b); every other keyframe gets the share of the nearest
+/// path keyframe. With the pivot o at the loop's start,
 ///
 ///     R_i' = Exp(w_i Log dR) R_i,   p_i' = Exp(w_i Log dR) (p_i - o) + o + w_i dt
 ///
@@ -21,26 +21,17 @@ namespace loopbench::methods {
 /// frame.
 class Elch final : public Corrector {
  public:
-  struct Options {
-    StepWeights weights = StepWeights::index;
-  };
-  explicit Elch(const Options& options) : options_(options) {}
+  struct Options {};
+  explicit Elch(const Options&) {}
 
   std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `closures`, `largest_closing_error` [m]. Throws std::runtime_error when closures are
   /// not sorted by (to, from) or refer to a missing keyframe.
   Trajectory correct(const Problem& problem, Report& report) const override;
-
- private:
-  Options options_;
 };
 
 template <class Visit>
-void fields(Elch::Options& o, Visit visit) {
-  visit("weights",
-        o.weights,
-        "length of a step in the graph: 1 per step, duration, distance or rotation angle");
-}
+void fields(Elch::Options&, Visit) {}
 
 }  // namespace loopbench::methods

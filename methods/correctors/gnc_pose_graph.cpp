@@ -6,6 +6,7 @@
 
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/consistency.hpp"
+#include "methods/correctors/scale_drift.hpp"
 #include "methods/solvers/initial_values.hpp"
 
 namespace loopbench::methods {
@@ -21,18 +22,13 @@ std::size_t kept_count(const std::vector<double>& weights) {
       std::ranges::count_if(weights, [](double weight) { return weight > 0.5; }));
 }
 
-bool any_edge_has_scale(const Problem& problem) {
-  const auto scaled = [](const Edge& edge) { return edge.scale != 1.0; };
-  return std::ranges::any_of(problem.odometry, scaled) ||
-         std::ranges::any_of(problem.closures, scaled);
-}
-
 /// Returns the indices of the consistent closures, or none when the check is not applicable.
 std::vector<std::size_t> indices_of_consistent(const Problem& problem) {
-  const ConsistencyOptions rules;
-  if (problem.closures.size() > static_cast<std::size_t>(rules.max_closures)) return {};
-  if (!chain_fault(problem).empty() || any_edge_has_scale(problem)) return {};
-  std::vector<std::size_t> found = consistent_closures(problem, rules).kept;
+  if (problem.closures.size() > static_cast<std::size_t>(ConsistencyOptions{}.max_closures)) {
+    return {};
+  }
+  if (!chain_fault(problem).empty() || has_scale_drift(problem)) return {};
+  std::vector<std::size_t> found = consistent_closures(problem).kept;
   if (found.size() < 2) found.clear();
   return found;
 }
@@ -125,10 +121,8 @@ class GncRuns {
 
 GncSolution solve_gnc(const GncProblem& of, Report& report) {
   const std::size_t closures = of.problem.closures.size();
-  std::vector<std::size_t> consistent;
-  if (of.consistent) {
-    consistent = report.time("check", [&] { return indices_of_consistent(of.problem); });
-  }
+  const std::vector<std::size_t> consistent =
+      report.time("check", [&] { return indices_of_consistent(of.problem); });
   const GncSolution out = report.time("graduate", [&] {
     GncRuns runs(of);
     if (!consistent.empty()) runs.from_consistent(consistent);
@@ -136,7 +130,7 @@ GncSolution solve_gnc(const GncProblem& of, Report& report) {
       runs.from_all(of.initial(of.problem));
     }
     const bool rejects = kept_count(runs.best().weights) < closures;
-    if (consistent.empty() && of.consistent && rejects) runs.from_all(tree_values(of.problem));
+    if (consistent.empty() && rejects) runs.from_all(tree_values(of.problem));
     return runs.best();
   });
   if (2 * kept_count(out.weights) < closures) {

@@ -14,7 +14,6 @@ struct GncProblem {
   PoseGraphSettings settings;
   Gnc kind = Gnc::tls;
   double inlier_chi2 = 0.0;  ///< largest squared error of an inlier closure [-]
-  bool consistent = true;    ///< start from the largest consistent set of closures
   /// Computes the initial values of a problem. A relaxation treats all its closures as inliers.
   std::function<std::vector<ScaledPose>(const Problem&)> initial;
 };

@@ -67,14 +67,8 @@ Corrections minimum_cost_corrections(const LoopEquations& equations,
 Eigen::VectorXd loop_error_change(const LoopJacobian& jacobian,
                                   const LoopSums& sums,
                                   const std::vector<Twist>& errors) {
-  std::vector<Twist> running;
-  running.reserve(sums.cuts().size());
-  Twist total = Twist::Zero();
-  std::size_t i = 0;
-  for (const std::size_t cut : sums.cuts()) {
-    for (; i < cut; ++i) total += jacobian.edge[i] * errors[i];
-    running.push_back(total);
-  }
+  const std::vector<Twist> running =
+      running_sum(sums, [&](std::size_t i) -> Twist { return jacobian.edge[i] * errors[i]; });
   Eigen::VectorXd out(static_cast<Eigen::Index>(6 * sums.loops()));
   for (std::size_t k = 0; k < sums.loops(); ++k) {
     of_loop(out, k) = jacobian.loop[k] * sums.over(running, k);

@@ -83,10 +83,11 @@ Eigen::MatrixXd propagate_drift(const LoopJacobian& jacobian,
 
 /// Returns the sums of of(i) over the edges before each cut. O(edges).
 template <class Of>
-std::vector<Matrix6> running_sum(const LoopSums& sums, Of of) {
-  std::vector<Matrix6> out;
+auto running_sum(const LoopSums& sums, Of of) {
+  using Sum = decltype(of(std::size_t{0}));
+  std::vector<Sum> out;
   out.reserve(sums.cuts().size());
-  Matrix6 total = Matrix6::Zero();
+  Sum total = Sum::Zero();
   std::size_t i = 0;
   for (const std::size_t cut : sums.cuts()) {
     for (; i < cut; ++i) total += of(i);

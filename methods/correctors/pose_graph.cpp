@@ -6,6 +6,7 @@
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/gnc_pose_graph.hpp"
 #include "methods/correctors/plausibility.hpp"
+#include "methods/correctors/scale_drift.hpp"
 #include "methods/correctors/stiffness.hpp"
 #include "methods/correctors/variance_components.hpp"
 #include "methods/solvers/initial_values.hpp"
@@ -16,16 +17,10 @@ namespace {
 using Poses = PoseGraphOptimizer::Poses;
 using Start = PoseGraphOptimizer::Start;
 
-bool changes_scale(const Problem& problem) {
-  const auto scaled = [](const Edge& edge) { return edge.scale != 1.0; };
-  return std::ranges::any_of(problem.odometry, scaled) ||
-         std::ranges::any_of(problem.closures, scaled);
-}
-
 Group group_of(const Problem& problem, Poses requested) {
   if (requested == Poses::se2) return Group::se2;
   if (requested == Poses::se3) return Group::se3;
-  if (requested == Poses::sim3 || changes_scale(problem)) return Group::sim3;
+  if (requested == Poses::sim3 || has_scale_drift(problem)) return Group::sim3;
   return problem.planar ? Group::se2 : Group::se3;
 }
 
@@ -56,7 +51,7 @@ std::string PoseGraphOptimizer::why_declined(const Problem& problem) const {
   if (options_.group == Poses::se2 && !problem.planar)
     return "group is se2, but the problem is not planar";
   if (options_.rescale) {
-    if (changes_scale(problem))
+    if (has_scale_drift(problem))
       return "rescale requires edges of scale 1, but edges change the scale";
     if (std::string fault = chain_fault(problem); !fault.empty()) return fault;
   }
@@ -105,13 +100,8 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     const auto values = [&](const Problem& of) {
       return initial(of, options_.start, options_.scale_sigma);
     };
-    GncSolution gnc = solve_gnc({problem,
-                                 settings,
-                                 options_.gnc,
-                                 options_.inlier_chi2.value_or(chi2_quantile(settings.group)),
-                                 options_.gnc_start == GncStart::consistent,
-                                 values},
-                                report);
+    GncSolution gnc =
+        solve_gnc({problem, settings, options_.gnc, chi2_quantile(group), values}, report);
     poses = std::move(gnc.poses);
     weights = std::move(gnc.weights);
     iterations = gnc.iterations;

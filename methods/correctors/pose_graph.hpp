@@ -17,12 +17,12 @@ namespace loopbench::methods {
 /// closures where the odometry has drifted by more than a closure's deviations. With `anneal`, the
 /// problem is therefore also solved with a width that shrinks from the largest error, and the
 /// solution of lower cost is kept. (2) Graduated non-convexity (`gnc`), which rejects closures
-/// whose squared error stays above `inlier_chi2`. (3) Pairwise consistency (Checked). Odometry is
-/// assumed to have no outliers.
+/// whose squared error stays above the group's 99 % quantile. (3) Pairwise consistency (Checked).
+/// Odometry is assumed to have no outliers.
 ///
-/// With `gnc_start: consistent` and complete odometry, GNC starts from the largest consistent set
-/// of closures (gnc_pose_graph.hpp), and the initial values are computed from these closures only;
-/// otherwise it starts from all closures. A closure's own information does not describe the
+/// With complete odometry, GNC starts from the largest consistent set of closures
+/// (gnc_pose_graph.hpp), and the initial values are computed from these closures only; otherwise it
+/// starts from all closures. A closure's own information does not describe the
 /// odometry drift between its keyframes, so starting from all closures rejects true closures where
 /// drift is large; the consistency check takes that drift into account. All closures are weighted
 /// in either case. Closures that are stated as almost exact are solved with bounded information
@@ -36,7 +36,6 @@ class PoseGraphOptimizer final : public Corrector {
  public:
   enum class Poses { automatic, se2, se3, sim3 };
   enum class Start { keyframes, odometry, chordal };
-  enum class GncStart { all, consistent };
 
   struct Options {
     Poses group = Poses::automatic;
@@ -45,8 +44,6 @@ class PoseGraphOptimizer final : public Corrector {
     std::optional<double> loss_width = std::nullopt;
     bool anneal = true;
     Gnc gnc = Gnc::off;
-    GncStart gnc_start = GncStart::consistent;
-    std::optional<double> inlier_chi2 = std::nullopt;
     double scale_sigma = 0.01;
     int max_iterations = 1000;
     double tolerance = 1e-14;
@@ -79,10 +76,6 @@ inline auto choices(PoseGraphOptimizer::Start) {
                     std::pair{"odometry", PoseGraphOptimizer::Start::odometry},
                     std::pair{"chordal", PoseGraphOptimizer::Start::chordal}};
 }
-inline auto choices(PoseGraphOptimizer::GncStart) {
-  return std::array{std::pair{"all", PoseGraphOptimizer::GncStart::all},
-                    std::pair{"consistent", PoseGraphOptimizer::GncStart::consistent}};
-}
 
 template <class Visit>
 void fields(PoseGraphOptimizer::Options& o, Visit visit) {
@@ -106,14 +99,6 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
   visit("gnc",
         o.gnc,
         "graduated non-convexity: off, tls (truncated least squares), gm (Geman-McClure)");
-  visit("gnc_start",
-        o.gnc_start,
-        "closures used for the initial values of gnc; consistent: the largest consistent set, if "
-        "any");
-  visit("inlier_chi2",
-        o.inlier_chi2,
-        "maximum squared error of an inlier closure [-]; none: the group's 99 % quantile",
-        GreaterThan{0.0});
   visit("scale_sigma",
         o.scale_sigma,
         "standard deviation of an edge's log scale in sim3 [-]",

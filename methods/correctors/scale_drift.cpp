@@ -10,10 +10,6 @@
 namespace loopbench::methods {
 namespace {
 
-bool has_scale_drift(const std::vector<Edge>& edges) {
-  return std::ranges::any_of(edges, [](const Edge& edge) { return edge.scale != 1.0; });
-}
-
 constexpr double kScaleSigma = 0.01;  // deviation of an edge's log scale, as in pose_graph [-]
 
 /// Log scale of each keyframe relative to the first, given the corrections of the edges' log
@@ -103,13 +99,9 @@ std::vector<double> min_cost_changes(const ScaleLinearisation& chain,
                                      const Eigen::VectorXd& gap,
                                      Eigen::MatrixXd covariance) {
   constexpr double kVariance = kScaleSigma * kScaleSigma;
-  std::vector<Eigen::Matrix4d> running;
-  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
-  std::size_t i = 0;
-  for (const std::size_t cut : sums.cuts()) {
-    for (; i < cut; ++i) sum += chain.ends[i] * chain.ends[i].transpose();
-    running.push_back(sum);
-  }
+  const auto running = running_sum(sums, [&](std::size_t i) -> Eigen::Matrix4d {
+    return chain.ends[i] * chain.ends[i].transpose();
+  });
   for (std::size_t k = 0; k < closures.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(7 * k);
     covariance(row + 6, row + 6) += kVariance;
@@ -189,13 +181,8 @@ ScaleEstimate estimate_at(const Problem& problem, std::vector<double> changes) {
       jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
         return jacobian.edge[i] * noise_model.covariance[i] * jacobian.edge[i].transpose();
       }));
-  std::vector<Point> running;
-  Point moved = Point::Zero();
-  std::size_t i = 0;
-  for (const std::size_t cut : sums.cuts()) {
-    for (; i < cut; ++i) moved += out.changes[i] * linearisation.ends[i];
-    running.push_back(moved);
-  }
+  const auto running = running_sum(
+      sums, [&](std::size_t i) -> Point { return out.changes[i] * linearisation.ends[i]; });
   const auto loops = static_cast<Eigen::Index>(problem.closures.size());
   Eigen::VectorXd gap(7 * loops);
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(7 * loops, 7 * loops);
@@ -215,7 +202,9 @@ ScaleEstimate estimate_at(const Problem& problem, std::vector<double> changes) {
 }  // namespace
 
 bool has_scale_drift(const Problem& problem) {
-  return has_scale_drift(problem.odometry) || has_scale_drift(problem.closures);
+  const auto scaled = [](const Edge& edge) { return edge.scale != 1.0; };
+  return std::ranges::any_of(problem.odometry, scaled) ||
+         std::ranges::any_of(problem.closures, scaled);
 }
 
 Problem remove_scale_drift(const Problem& problem) {

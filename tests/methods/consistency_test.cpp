@@ -93,12 +93,12 @@ TEST(Consistency, KeepsTheLargestConsistentSet) {
   // Three closures agree with the odometry, two with each other on a wrong loop, one with none.
   const Problem problem =
       line({{0, 8, 8.0}, {0, 9, 9.1}, {1, 10, 8.9}, {0, 10, 40.0}, {1, 9, 38.1}, {2, 9, -60.0}});
-  const ConsistentClosures found = consistent_closures(problem, {});
+  const ConsistentClosures found = consistent_closures(problem);
   EXPECT_EQ(found.kept, (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_TRUE(found.is_largest);
   // A closure without any consistent partner is dropped, unless it is the only one.
-  EXPECT_TRUE(consistent_closures(line({{0, 9, 9.0}, {0, 10, 90.0}}), {}).kept.empty());
-  EXPECT_EQ(consistent_closures(line({{0, 9, 90.0}}), {}).kept.size(), 1u);
+  EXPECT_TRUE(consistent_closures(line({{0, 9, 9.0}, {0, 10, 90.0}})).kept.empty());
+  EXPECT_EQ(consistent_closures(line({{0, 9, 90.0}})).kept.size(), 1u);
 }
 
 TEST(Consistency, CheckedCorrectorUsesConsistentClosuresOnly) {

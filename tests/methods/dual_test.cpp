@@ -108,15 +108,6 @@ TEST(Dual, DistributesOneScalarLoopAnalytically) {
   EXPECT_NEAR(report.counts[2].value, 0.5 * 1.0 / 6.0, 1e-12);  // gap^2 / total variance / 2
 }
 
-TEST(Dual, KeepsAConsistentProblemUnchanged) {
-  const Problem problem = walk(3, 20, 0.0);
-  Report report;
-  const Trajectory out = Dual({}).correct(problem, report);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    EXPECT_TRUE(is_close(out[i].world_from_body, problem.keyframes[i].world_from_body, 1e-9, 1e-9));
-  }
-}
-
 TEST(Dual, ResultDoesNotDependOnTheInitialKeyframes) {
   Problem problem = walk(5, 16, 0.05);
   Report report;

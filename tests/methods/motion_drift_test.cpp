@@ -62,14 +62,6 @@ TEST(MotionDrift, EqualsDualForConstantVariancesWithoutDrift) {
   }
 }
 
-TEST(MotionDrift, KeepsAConsistentProblemUnchanged) {
-  const Problem problem = test::perfect();
-  const Trajectory out = corrected({}, problem);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    EXPECT_TRUE(is_close(out[i].world_from_body, problem.keyframes[i].world_from_body, 1e-9, 1e-9));
-  }
-}
-
 TEST(MotionDrift, CorrectsSteadyDriftThatNoiseCannotExplain) {
   // Two nested loops with equal errors of 0.002 to 0.004 m and 0.001 to 0.004 rad in every step.
   // Translation drift of about one percent of the distance must be given as an option

@@ -26,17 +26,6 @@ class FunctionCorrector final : public Corrector {
   std::function<Trajectory(Trajectory)> work_;
 };
 
-TEST(WithKeyframes, KeepsFramesWhenNoKeyframeMoves) {
-  const Problem before = hand_held();
-  const Problem after = with_keyframes(before, before.keyframes);
-  ASSERT_EQ(after.frames.size(), before.frames.size());
-  for (std::size_t i = 0; i < before.frames.size(); ++i) {
-    EXPECT_EQ(after.frames[i].stamp, before.frames[i].stamp);
-    EXPECT_TRUE(
-        is_close(after.frames[i].world_from_body, before.frames[i].world_from_body, 1e-12, 1e-12));
-  }
-}
-
 TEST(WithKeyframes, FramesFollowARigidMotion) {
   const Problem before = hand_held();
   const Pose motion{exp_so3({0.5, 0.2, -0.9}), {3.0, 2.0, 1.0}};
@@ -65,14 +54,6 @@ TEST(WithKeyframes, DropsFramesOutsideTheKeyframes) {
   before.keyframes = {{1.0, {}}, {2.0, {}}};
   before.frames = {{0.5, {}}, {1.5, {}}, {2.5, {}}};
   EXPECT_EQ(stamps(with_keyframes(before, before.keyframes).frames), std::vector{1.5});
-}
-
-TEST(WithKeyframes, KeepsEdgesAsMeasured) {
-  const Problem before = hand_held();
-  const Problem after = with_keyframes(before, before.keyframes);
-  EXPECT_EQ(after.odometry.size(), before.odometry.size());
-  EXPECT_EQ(after.closures.size(), before.closures.size());
-  EXPECT_EQ(after.planar, before.planar);
 }
 
 TEST(Compose, RejectsACorrectorThatDropsAKeyframeOrChangesAStamp) {

@@ -32,30 +32,12 @@ std::vector<Eigen::VectorXd> mean_multipliers(const std::vector<MotionModel>& mo
 std::vector<Twist> edge_forces(const Eigen::VectorXd& multipliers,
                                const LoopJacobian& jacobian,
                                const std::vector<Edge>& closures) {
-  std::vector<Twist> change(jacobian.edge.size() + 1, Twist::Zero());
-  for (std::size_t k = 0; k < closures.size(); ++k) {
-    const Twist force =
-        jacobian.loop[k].transpose() * multipliers.segment<6>(static_cast<Eigen::Index>(6 * k));
-    change[closures[k].from] += force;
-    change[closures[k].to] -= force;
-  }
-  std::vector<Twist> out(jacobian.edge.size());
+  std::vector<Twist> out = constraint_force_increments(jacobian, closures, multipliers);
+  out.pop_back();
   Twist sum = Twist::Zero();
   for (std::size_t i = 0; i < out.size(); ++i) {
-    sum += change[i];
+    sum += out[i];
     out[i] = jacobian.edge[i].transpose() * sum;
-  }
-  return out;
-}
-
-/// Keeps the axes of the term and sets the others to 0.
-Twist on_axes_of(const Term& term, const Twist& all) {
-  Twist out = Twist::Zero();
-  const Eigen::Index at = term.component == Component::translation ? 0 : 3;
-  if (term.axis < 0) {
-    out.segment<3>(at) = all.segment<3>(at);
-  } else {
-    out[at + term.axis] = all[at + term.axis];
   }
   return out;
 }
@@ -87,9 +69,9 @@ std::vector<Twist> mean_errors(const std::vector<MotionModel>& models,
       if (term.kind == TermKind::stated) {
         out[i] -= problem.odometry[i].information.inverse() * force[i];
       } else if (term.kind == TermKind::drift) {
-        out[i] -= drift_regressor_value(term.regressor, motions[i]) * on_axes_of(term, total);
+        out[i] -= drift_regressor_value(term.regressor, motions[i]) * on_axes(term, total);
       } else {
-        out[i] -= regressor_value(term.regressor, motions[i]) * on_axes_of(term, force[i]);
+        out[i] -= regressor_value(term.regressor, motions[i]) * on_axes(term, force[i]);
       }
     }
   }

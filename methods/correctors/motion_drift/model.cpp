@@ -10,18 +10,6 @@ namespace {
 /// motion would otherwise have a singular covariance.
 constexpr double kFloor = 1e-9;
 
-/// `value` on the axes of the term, 0 elsewhere.
-Twist on_axes(const Term& term, double value) {
-  Twist out = Twist::Zero();
-  const Eigen::Index at = term.component == Component::translation ? 0 : 3;
-  if (term.axis < 0) {
-    out.segment<3>(at).setConstant(value);
-  } else {
-    out[at + term.axis] = value;
-  }
-  return out;
-}
-
 void add_odometry(NoiseModel& noise_model,
                   const MotionModel& model,
                   const Problem& problem,
@@ -30,8 +18,8 @@ void add_odometry(NoiseModel& noise_model,
   for (const Term& term : model) {
     for (std::size_t i = 0; i < motions.size(); ++i) {
       if (term.kind == TermKind::noise) {
-        noise_model.covariance[i].diagonal() +=
-            on_axes(term, term.value * regressor_value(term.regressor, motions[i]));
+        const double variance = term.value * regressor_value(term.regressor, motions[i]);
+        noise_model.covariance[i].diagonal() += on_axes(term, Twist::Constant(variance));
       } else if (term.kind == TermKind::stated) {
         noise_model.covariance[i] += term.value * problem.odometry[i].information.inverse();
       }
@@ -48,6 +36,17 @@ void add_odometry(NoiseModel& noise_model,
 }
 
 }  // namespace
+
+Twist on_axes(const Term& term, const Twist& all) {
+  Twist out = Twist::Zero();
+  const Eigen::Index at = term.component == Component::translation ? 0 : 3;
+  if (term.axis < 0) {
+    out.segment<3>(at) = all.segment<3>(at);
+  } else {
+    out[at + term.axis] = all[at + term.axis];
+  }
+  return out;
+}
 
 std::string name_of(const Term& term) {
   const std::string component = term.component == Component::translation ? "t" : "r";
@@ -81,7 +80,7 @@ NoiseModel noise_model_of(const MotionModel& model,
     Twist rates = Twist::Zero();
     for (const Term& term : model) {
       if (term.kind == TermKind::drift && term.regressor == regressor)
-        rates += on_axes(term, term.value);
+        rates += on_axes(term, Twist::Constant(term.value));
     }
     if (rates.isZero(0.0)) continue;
     NoiseModel::Drift drift{{}, rates};

@@ -27,6 +27,9 @@ struct Term {
   int axis = -1;        ///< drift only: 0, 1, 2 for one axis of the component; -1 for all three
 };
 
+/// Keeps the axes of the term and sets the others to 0.
+Twist on_axes(const Term& term, const Twist& all);
+
 /// Option name of a term, for example "noise.r.per_metre". The name of a single-axis drift ends in
 /// ".x", ".y" or ".z".
 std::string name_of(const Term& term);

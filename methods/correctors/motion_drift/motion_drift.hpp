@@ -109,49 +109,6 @@ void fields(MotionDrift::Options& o, Visit visit) {
 
   MotionPriorOptions& p = o.prior;
   const Between share{0.0, 1.0};
-  const Between deviation{0.0, 10.0};
-  visit("prior.noise_ratio",
-        p.noise_ratio,
-        "prior standard deviation of the translation noise along a loop, over its path length [-]",
-        GreaterThan{0.0});
-  visit("prior.stated_fraction",
-        p.stated_fraction,
-        "prior fraction of the rotation noise variance that is proportional to the stated odometry "
-        "covariances [-]",
-        share);
-  visit("prior.drift_after",
-        p.drift_after,
-        "loop duration at which drift and noise contribute equal rotation variance a priori [s]",
-        GreaterThan{0.0});
-  visit("prior.common_dispersion",
-        p.common_dispersion,
-        "standard deviation of the natural log of the factor common to all translation variances, "
-        "and of that common to all rotation variances [-]",
-        deviation);
-  visit("prior.drift_dispersion",
-        p.drift_dispersion,
-        "standard deviation of the natural log of the ratio of drift to noise variance [-]",
-        deviation);
-  visit("prior.axis_dispersion",
-        p.axis_dispersion,
-        "standard deviation of the natural log of the drift variance of one body axis relative to "
-        "the common one; unused if planar [-]",
-        deviation);
-  visit("prior.term_dispersion",
-        p.term_dispersion,
-        "standard deviation of the natural log of the variance of one term (time, distance, "
-        "rotation) relative to the others [-]",
-        deviation);
-  visit(
-      "prior.stated_dispersion",
-      p.stated_dispersion,
-      "standard deviation of the natural log of the factor on the stated odometry covariances [-]",
-      deviation);
-  visit(
-      "prior.closures_dispersion",
-      p.closures_dispersion,
-      "standard deviation of the natural log of the factors on the stated closure covariances [-]",
-      deviation);
   visit("prior.as_stated_probability",
         p.as_stated_probability,
         "prior probability that all stated covariances are correct up to one common factor and no "
@@ -175,21 +132,7 @@ void fields(MotionDrift::Options& o, Visit visit) {
         "number of noise models drawn from the posterior; at most 64 of them are averaged when "
         "there are more than 16 closures",
         Between{1, 10000});
-  visit("thinning",
-        o.sampling.steps,
-        "sampler steps between two draws that are kept",
-        Between{1, 1000});
-  visit("burn_in", o.sampling.burn_in, "sampler steps before the first draw", Between{0, 100000});
   visit("seed", o.sampling.seed, "seed of the sampler's random numbers", Between{0});
-  visit("fit_closures",
-        o.fit_closures,
-        "maximum number of closures used to estimate the variances, evenly subsampled",
-        Between{1, 300});
-  visit("average_closures",
-        o.average_closures,
-        "maximum number of closures for averaging over models; above it one model is used, the "
-        "geometric mean of the draws under the most probable hypothesis",
-        Between{0, 2000});
   visit("max_iterations",
         o.max_iterations,
         "maximum number of relinearisations in each stage: before and after the estimation of the "
