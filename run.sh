@@ -19,7 +19,7 @@ build_program() {
   fi
 }
 
-install_missing "${packages[@]}" "${compression_packages[@]}"
+install_missing "${packages[@]}"
 case "$* " in
   plot\ * | traj\ plot\ * | eval\ *--plot[\ =]* | eval\ *--report[\ =]*)
     install_missing "${plot_packages[@]}" ;;
@@ -28,12 +28,17 @@ esac
 [[ -f $build/build.ninja ]] || configure
 build_program
 
-grep -q '^LOOPBENCH_OPENCV_INCLUDE:PATH=/' "$build/CMakeCache.txt" && exec "$build/loopbench" "$@"
+grep -q '^LOOPBENCH_.*-NOTFOUND$' "$build/CMakeCache.txt" || exec "$build/loopbench" "$@"
+# Exit code 4: a file is compressed or the config reads images, and this build was made without the libraries for it.
 code=0
 "$build/loopbench" "$@" || code=$?
-((code == 4)) || exit "$code"
-# Exit code 4: the config reads images, and this build was made without OpenCV.
-install_missing "${image_packages[@]}"
-configure
-build_program
-exec "$build/loopbench" "$@"
+for group in compression image; do
+  ((code == 4)) || exit "$code"
+  declare -n needed=${group}_packages
+  install_missing "${needed[@]}"
+  configure
+  build_program
+  code=0
+  "$build/loopbench" "$@" || code=$?
+done
+exit "$code"

@@ -5,12 +5,13 @@
 packages=(
   clang cmake ninja-build
   libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev libre2-dev libceres-dev
-  libstb-dev bubblewrap
+  bubblewrap
 )
-# Compressed files and bags; each is optional: without it, files that need it are rejected (exit code 4).
+# Compressed files and bags; each is optional: without it, files that need it are rejected (exit code 4), and run.sh
+# installs all of them.
 compression_packages=(zlib1g-dev libbz2-dev libzstd-dev liblz4-dev)
 # OpenCV's development packages depend on some 280 others, so run.sh installs them when first needed.
-image_packages=(libopencv-features2d-dev libopencv-calib3d-dev)
+image_packages=(libstb-dev libopencv-features2d-dev libopencv-calib3d-dev)
 plot_packages=(python3-matplotlib)
 get_packages=(curl ca-certificates)
 sanitizer_packages=(libclang-rt-dev llvm)  # llvm: names of functions in reports

@@ -1,6 +1,7 @@
 #include "datasets/core/error.hpp"
 #include "datasets/rgbd/features/features.hpp"
 #include "datasets/rgbd/features/matching.hpp"
+#include "datasets/rgbd/folder/read_image.hpp"
 #include "datasets/rgbd/opencv.hpp"
 #include "datasets/rgbd/tracking/camera_pose.hpp"
 
@@ -23,5 +24,9 @@ std::optional<Pose> pose_by_ransac(const std::vector<Observation>&,
                                    const PoseOptions&) {
   throw MissingPart(kWithoutOpencv);
 }
+
+GreyImage read_grey(const std::filesystem::path&) { throw MissingPart(kWithoutOpencv); }
+
+Image<std::uint16_t> read_depth(const std::filesystem::path&) { throw MissingPart(kWithoutOpencv); }
 
 }  // namespace loopbench::rgbd

@@ -26,7 +26,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-enum class Kind { returned, option_error, input_error, out_of_memory, other_error };
+enum class Kind { returned, option_error, input_error, missing_part, out_of_memory, other_error };
 
 struct Answer {
   Kind kind = Kind::returned;
@@ -46,6 +46,8 @@ Answer answer_of(const std::function<std::string()>& work) {
     return {Kind::option_error, error.option(), error.what()};
   } catch (const InputError& error) {
     return {Kind::input_error, "", error.what()};
+  } catch (const MissingPart& error) {
+    return {Kind::missing_part, "", error.what()};
   } catch (const std::bad_alloc&) {
     return {Kind::out_of_memory, "", ""};
   } catch (const std::exception& error) {
@@ -150,6 +152,8 @@ std::string in_own_process(const std::function<std::string()>& work, const Proce
       throw OptionError(answer.option, answer.text);
     case Kind::input_error:
       throw InputError(answer.text);
+    case Kind::missing_part:
+      throw MissingPart(answer.text);
     case Kind::out_of_memory:
       throw ProcessFailure(
           limits.memory > 0

@@ -129,6 +129,8 @@ class IsolatedSweep {
         slot.clock.restart();  // now for the cell
         return;
       }
+      case Header::Kind::missing_part:
+        throw MissingPart(std::string(body));
       case Header::Kind::cannot_load:
         fail_to_load(job, std::string(body));
         break;

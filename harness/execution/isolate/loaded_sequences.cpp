@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "datasets/core/error.hpp"
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/execution/isolate/cell_child.hpp"
 #include "harness/execution/isolate/pack_result.hpp"
@@ -37,15 +38,17 @@ std::size_t bytes_of(const Sequence& s) {
     try {
       const Sequence sequence = load_sequence(cell, context.sweep, context.catalogue, context.root);
       const SequenceMetadata metadata = metadata_of(sequence, cell, context.sweep);
-      pack(false)(Status::ok)(std::string())(sequence)(metadata);
+      pack(failure.kind)(Status::ok)(std::string())(sequence)(metadata);
       failure.status = Status::ok;
     } catch (const std::bad_alloc&) {
       throw;
+    } catch (const MissingPart& error) {
+      failure = {LoadedSequences::Failure::Kind::missing_part, Status::failed, error.what(), ""};
     } catch (const std::exception& error) {
-      failure = {true, Status::failed, error.what(), ""};
+      failure = {LoadedSequences::Failure::Kind::input_error, Status::failed, error.what(), ""};
     }
   });
-  if (failure.status != Status::ok) pack(failure.is_input_error)(failure.status)(failure.why);
+  if (failure.status != Status::ok) pack(failure.kind)(failure.status)(failure.why);
   const bool is_written = area.write(pack.bytes());
   std::fflush(stdout);
   _exit(is_written ? 0 : 1);  // without running the sweep's destructors
@@ -73,10 +76,11 @@ std::variant<const LoadedSequences::Entry*, LoadedSequences::Failure> LoadedSequ
       "loading its sequence", ", while loading its sequence", [&](ResultArea& area, int) {
         load_and_exit(context_, cell, worker, area);
       });
-  if (end.status != Status::ok) return Failure{false, end.status, end.why, end.signal};
+  if (end.status != Status::ok)
+    return Failure{Failure::Kind::ended, end.status, end.why, end.signal};
   Unpacker unpack(end.result);
   Failure failure;
-  unpack(failure.is_input_error)(failure.status)(failure.why);
+  unpack(failure.kind)(failure.status)(failure.why);
   if (failure.status != Status::ok) return failure;
   Entry entry{cell.dataset, cell.repeat, {}, {}};
   unpack(entry.sequence)(entry.metadata);

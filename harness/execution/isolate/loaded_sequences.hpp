@@ -25,7 +25,8 @@ class LoadedSequences {
   };
   /// Why there is no sequence.
   struct Failure {
-    bool is_input_error = false;  ///< an exception with the message `why`; otherwise it failed
+    enum class Kind { ended, input_error, missing_part };
+    Kind kind = Kind::ended;  ///< or an exception with the message `why`
     Status status = Status::failed;
     std::string why;
     std::string signal;

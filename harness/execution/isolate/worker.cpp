@@ -91,8 +91,12 @@ bool work(const Job& job,
   if (entry == nullptr) {
     const auto outcome = loaded.load(cell);
     if (const auto* failure = std::get_if<LoadedSequences::Failure>(&outcome)) {
-      if (failure->is_input_error) {
-        return answers.send(Header::Kind::cannot_load, job.cell, failure->why);
+      using Kind = LoadedSequences::Failure::Kind;
+      if (failure->kind != Kind::ended) {
+        const bool lacks_part = failure->kind == Kind::missing_part;
+        return answers.send(lacks_part ? Header::Kind::missing_part : Header::Kind::cannot_load,
+                            job.cell,
+                            failure->why);
       }
       return answers.send(Header::Kind::load_failed, job.cell, packed(result_of(*failure)));
     }

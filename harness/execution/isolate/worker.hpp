@@ -19,12 +19,13 @@ struct Job {
 /// Header of each message, followed by `size` bytes; sent as raw memory within one program.
 struct Header {
   enum class Kind : std::uint32_t {
-    loaded,       ///< SequenceMetadata of a job's sequence, which was loaded for it
-    cannot_load,  ///< message of an exception; ends the job
-    load_failed,  ///< CellResult: how loading failed otherwise; ends the job
-    cannot_run,   ///< message of the system, which ends the sweep
-    result,       ///< CellResult; ends the job
-    only_loaded,  ///< a job with only_load is done
+    loaded,        ///< SequenceMetadata of a job's sequence, which was loaded for it
+    cannot_load,   ///< message of an exception; ends the job
+    missing_part,  ///< message: the build cannot read the sequence, which ends the sweep
+    load_failed,   ///< CellResult: how loading failed otherwise; ends the job
+    cannot_run,    ///< message of the system, which ends the sweep
+    result,        ///< CellResult; ends the job
+    only_loaded,   ///< a job with only_load is done
   };
   Kind kind = Kind::result;
   std::uint64_t cell = 0;

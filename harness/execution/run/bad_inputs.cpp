@@ -30,6 +30,8 @@ std::vector<std::string> bad_inputs(const Sweep& sweep,
             return std::string();
           },
           {sweep.limits.seconds, sweep.limits.memory});
+    } catch (const MissingPart&) {
+      throw;
     } catch (const ProcessFailure& error) {
       out.push_back(choice.label + ": a process that loaded it " + error.what());
     } catch (const std::exception& error) {

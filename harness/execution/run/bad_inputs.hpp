@@ -11,7 +11,8 @@
 namespace loopbench::harness {
 
 /// Loads every sequence of the cells once (with its first seed), or inspects it if loading is slow.
-/// Returns "LABEL: reason" for each sequence that cannot be loaded.
+/// Returns "LABEL: reason" for each sequence that cannot be loaded. Throws MissingPart if this
+/// build cannot read a file.
 std::vector<std::string> bad_inputs(const Sweep& sweep,
                                     const std::vector<Cell>& cells,
                                     const Catalogue& catalogue,
