@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs the commands of the READMEs as a reader copies them, each line of a block that calls loopbench, in a folder with
 # files of the names that the pages use. A command must exit with 0, or with 1 where its comment mentions "exit 1".
-# Left out are commands that need real data (--data DIR) or a cluster, and quickstart without its results.
+# Left out are commands that need real data (--data DIR), and quickstart without its results.
 # Usage: documented_runs.sh LOOPBENCH ROOT [QUICKSTART], a folder with the results of quickstart.
 set -euo pipefail
 loopbench=$(realpath "$1") root=$(realpath "$2") quickstart=${3:+$(realpath "$3")}
@@ -16,6 +16,9 @@ for name in run.sh bin/loopbench; do
   printf '#!/bin/sh\nexec "%s" "$@"\n' "$loopbench" >$name
   chmod +x $name
 done
+printf '#!/bin/sh\necho 1\n' >bin/sbatch  # the scripts themselves run in tests/slurm
+chmod +x bin/sbatch
+printf '#SBATCH --time=1:00:00\n' >slurm.sh
 export PATH=$work/bin:$PATH LOOPBENCH_NAME=./run.sh
 ln -s "$root/configs" configs
 ln -s "$root/results/reference" results/reference
