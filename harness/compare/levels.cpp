@@ -6,15 +6,12 @@
 #include "harness/statistics/ranks.hpp"
 
 namespace loopbench::harness {
-double zero_floor(double largest) {
-  constexpr double kRounding = 1e-12;  // relative rounding of coordinates
-  return std::max(kRounding, 1e-9 * largest);
-}
+
+double zero_floor(double largest) { return std::clamp(1e-9 * largest, 1e-12, 1e-9); }
 
 Levels::Levels(const GroupedValues& all, double relevant)
     : values_(all.values),
       costs_(all.values),
-      floor_(all.group.size(), zero_floor(0.0)),
       sign_(all.better == metrics::Better::higher ? -1.0 : 1.0),
       relevant_(relevant) {
   for (auto& row : costs_) {
@@ -22,14 +19,13 @@ Levels::Levels(const GroupedValues& all, double relevant)
       if (!row[run]) continue;
       if (all.better == metrics::Better::target) *row[run] = std::abs(*row[run] - all.target);
       is_ratio_ = is_ratio_ && *row[run] >= 0.0;
-      floor_[run] = std::max(floor_[run], zero_floor(std::abs(*row[run])));
     }
   }
   for (const auto& row : costs_) {
     std::vector<double>& own = levels_.emplace_back(row.size(), 0.0);
     for (std::size_t run = 0; run < row.size(); ++run) {
       if (!row[run]) continue;
-      own[run] = sign_ * (is_ratio_ ? std::log(std::max(*row[run], floor_[run])) : *row[run]);
+      own[run] = sign_ * (is_ratio_ ? std::log(std::max(*row[run], zero_floor(0.0))) : *row[run]);
     }
   }
   for (std::size_t run = 0; run < all.group.size(); ++run) {
@@ -38,15 +34,14 @@ Levels::Levels(const GroupedValues& all, double relevant)
   }
 }
 
-bool Levels::is_zero(std::size_t method, std::size_t run) const {
-  return std::abs(*costs_[method][run]) <= floor_[run];
-}
-
 double Levels::difference(std::size_t a, std::size_t b, std::size_t run) const {
+  const double of_a = *costs_[a][run];
+  const double of_b = *costs_[b][run];
   if (tied(*values_[a][run], *values_[b][run], relevant_)) return 0.0;
-  if (tied(*costs_[a][run], *costs_[b][run], relevant_)) return 0.0;
-  const bool a_zero = is_zero(a, run);
-  const bool b_zero = is_zero(b, run);
+  if (tied(of_a, of_b, relevant_)) return 0.0;
+  const double floor = zero_floor(std::max(std::abs(of_a), std::abs(of_b)));
+  const bool a_zero = std::abs(of_a) <= floor;
+  const bool b_zero = std::abs(of_b) <= floor;
   if (a_zero && b_zero) return 0.0;
   if (is_ratio_ && a_zero != b_zero) return sign_ * (a_zero ? -kBeyond : kBeyond);
   return level(a, run) - level(b, run);

@@ -19,7 +19,8 @@ struct GroupedValues {
 /// Difference to a failure or to an error of zero, for which no ratio exists.
 inline constexpr double kBeyond = 1e300;
 
-/// Errors up to this value count as zero, on a run whose largest error is `largest`.
+/// Errors up to this value count as zero beside an error of `largest`: rounding of coordinates,
+/// 1e-9 at most, so that an error of metres is not zero beside that of a method that diverges.
 double zero_floor(double largest);
 
 /// Values as levels: the error itself, its negative if higher is better, or its distance to the
@@ -36,11 +37,8 @@ class Levels {
   const std::vector<std::size_t>& runs_of(std::size_t group) const { return runs_of_[group]; }
   bool has(std::size_t method, std::size_t run) const { return costs_[method][run].has_value(); }
 
-  /// Whether the method's error is zero within rounding.
-  bool is_zero(std::size_t method, std::size_t run) const;
-
   /// Level of `a` minus level of `b` if both have a value: negative if `a` is better, exactly 0 for
-  /// a tie, +-kBeyond if only one of them is zero.
+  /// a tie, +-kBeyond if only one of them is zero. Depends on these two methods only.
   double difference(std::size_t a, std::size_t b, std::size_t run) const;
 
   /// Sort key of methods: mean over groups of the mean level over a group's runs. A failed run
@@ -56,7 +54,6 @@ class Levels {
   std::vector<std::vector<std::optional<double>>> costs_;
   std::vector<std::vector<std::size_t>> runs_of_;
   std::vector<std::vector<double>> levels_;  // of the costs
-  std::vector<double> floor_;                // per run: values up to this count as zero
   double sign_ = 1.0;
   double relevant_ = 0.0;
   bool is_ratio_ = true;

@@ -252,6 +252,31 @@ TEST(Ratio, IsDeclinedWhereTheBaselineIsPerfect) {
           c, "no ratio to uniform where an error is zero (or no run is common): dual, copy, raw"));
 }
 
+/// Eight runs on which dual is 10 % below raw, and a method that diverges on some of them.
+std::vector<Record> with_divergence(double error) {
+  std::vector<Record> out;
+  for (int i = 0; i < 8; ++i) {
+    out.push_back(score("room", i, "raw", 0.1 + 0.01 * i));
+    out.push_back(score("room", i, "dual", (0.9 - 0.001 * i) * (0.1 + 0.01 * i)));
+    if (error > 0.0) out.push_back(score("room", i, "lost", i < 6 ? error : 0.1));
+  }
+  return out;
+}
+
+TEST(ThirdMethods, ThatDivergeChangeNoRatioOfOthers) {
+  const auto dual = [](const Comparison& c) {
+    return *std::ranges::find(c.methods, "dual", &MethodVerdict::method);
+  };
+  const CompareOptions options{.baseline = "raw"};
+  const MethodVerdict alone = dual(compared(with_divergence(0.0), options));
+  const Comparison c = compared(with_divergence(1e12), options);
+  EXPECT_EQ(dual(c).ratio->estimate, alone.ratio->estimate);
+  EXPECT_EQ(dual(c).wins, 8u);
+  const auto lost = std::ranges::find(c.methods, "lost", &MethodVerdict::method);
+  ASSERT_TRUE(lost->ratio);  // its worst runs count, too
+  EXPECT_GT(lost->ratio->estimate, 1e6);
+}
+
 TEST(Compare, KeepsScoresApartAndPassesDescriptionsOver) {
   std::vector<Record> records = sweep();
   for (Record r : sweep()) {
