@@ -43,17 +43,12 @@ bool mean_agrees(Test& test, bool is_ratio, const RankingOptions& options) {
   return test.p <= options.alpha;
 }
 
-void decide(Ranking& out,
-            Test& test,
-            const std::vector<double>& standings,
-            bool is_ratio,
-            const RankingOptions& options) {
+void decide(Ranking& out, Test& test, bool is_ratio, const RankingOptions& options) {
   const bool a_is_better = test.ranks.negative > test.ranks.positive;
   const std::size_t winner = a_is_better ? test.a : test.b;
   const std::size_t loser = a_is_better ? test.b : test.a;
   const bool is_significant = out.can_prove(options.alpha) && test.p <= options.alpha;
-  if (is_significant && mean_agrees(test, is_ratio, options) &&
-      standings[winner] < standings[loser]) {
+  if (is_significant && mean_agrees(test, is_ratio, options)) {
     out.beats[winner][loser] = true;
   } else if (test.p <= options.alpha) {
     test.p = 1.0;  // ranks and ratio contradict each other: not significant
@@ -72,6 +67,32 @@ std::vector<std::size_t> order_of(const std::vector<double>& standings) {
   std::iota(out.begin(), out.end(), std::size_t{0});
   std::ranges::stable_sort(out, {}, [&](std::size_t m) { return standings[m]; });
   return out;
+}
+
+/// By standing, but never before a method that beats it. (Of methods that beat each other in a
+/// circle, the best standing is first.)
+void follow_claims(Ranking& out) {
+  std::vector<std::size_t> left = out.order;
+  for (std::size_t& next : out.order) {
+    const auto is_unbeaten = [&](std::size_t m) {
+      return std::ranges::none_of(left, [&](std::size_t other) { return out.beats[other][m]; });
+    };
+    auto found = std::ranges::find_if(left, is_unbeaten);
+    if (found == left.end()) found = left.begin();
+    next = *found;
+    left.erase(found);
+  }
+}
+
+/// Whether claims can contradict the standings: only failures and errors of zero, which have no
+/// ratio, allow that.
+bool has_failure_or_zero(const GroupedValues& all) {
+  const double target = all.better == metrics::Better::target ? all.target : 0.0;
+  const auto is_one = [&](const std::optional<double>& value) {
+    return !value || std::abs(*value - target) <= zero_floor(1.0);
+  };
+  return std::ranges::any_of(all.values,
+                             [&](const auto& row) { return std::ranges::any_of(row, is_one); });
 }
 
 /// Calls each(0) to each(count - 1), on several threads if there is much to do.
@@ -120,6 +141,7 @@ std::vector<Test> tests(const Levels& levels, Ranking& out) {
 }  // namespace
 
 bool is_surely_unproven(const GroupedValues& values, const RankingOptions& options) {
+  if (has_failure_or_zero(values)) return false;
   const Levels levels(values, options.relevant);
   const std::vector<std::size_t> order = order_of(standings_of(levels));
   const std::size_t first = order.front();
@@ -151,8 +173,7 @@ Ranking rank_methods(const GroupedValues& values, const RankingOptions& options)
   out.beats.assign(k, std::vector<bool>(k));
   out.equal.assign(k, std::vector<bool>(k));
   out.p.assign(k, std::vector<double>(k, 1.0));
-  const std::vector<double> standings = standings_of(levels);
-  out.order = order_of(standings);
+  out.order = order_of(standings_of(levels));
 
   std::vector<Test> all = tests(levels, out);
   std::vector<double> p;
@@ -160,8 +181,9 @@ Ranking rank_methods(const GroupedValues& values, const RankingOptions& options)
   const std::vector<double> adjusted = holm(p);
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i].p = adjusted[i];
-    decide(out, all[i], standings, levels.is_ratio(), options);
+    decide(out, all[i], levels.is_ratio(), options);
   }
+  follow_claims(out);
   while (least_p(out.groups_needed) * static_cast<double>(out.pairs) > options.alpha) {
     ++out.groups_needed;
   }

@@ -5,8 +5,9 @@
 /// Holm's correction covers all pairs, including that of a best method selected from the results. A
 /// method is proven better than another if the corrected p is at most alpha and the geometric mean
 /// ratio over common runs agrees: it has the same sign, exceeds the relevant difference (failures
-/// alone can decide between methods that are otherwise equal), its interval excludes 1 even if it
-/// misses the ratio as often as for the worst of usual distributions, and the order agrees, too.
+/// alone can decide between methods that are otherwise equal), and its interval excludes 1 even
+/// if it misses the ratio as often as for the worst of usual distributions. Errors of other methods
+/// do not matter: they change a pair's p only through the number of pairs.
 /// With fewer groups than an interval needs (8), nothing is proven. If there is no interval for
 /// another reason (equal ratios, failures), the ranks and the direction and size of the ratio
 /// decide; `compare` remarks that groups with equal ratios can be copies.
@@ -28,7 +29,7 @@ struct RankingOptions {
 };
 
 struct Ranking {
-  std::vector<std::size_t> order;        ///< best standing first (Levels::standing)
+  std::vector<std::size_t> order;  ///< by Levels::standing, but no method before one that beats it
   std::vector<std::vector<bool>> beats;  ///< [a][b]: a is proven better than b
   std::vector<std::vector<bool>> equal;  ///< [a][b]: tied on every group
   std::vector<std::vector<double>> p;    ///< [a][b]: at most alpha exactly if one beats the other

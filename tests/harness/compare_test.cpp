@@ -277,6 +277,21 @@ TEST(ThirdMethods, ThatDivergeChangeNoRatioOfOthers) {
   EXPECT_GT(lost->ratio->estimate, 1e6);
 }
 
+TEST(ThirdMethods, DoNotDecideWhatAFailureCosts) {
+  std::vector<Record> records;
+  for (int i = 0; i < 20; ++i) {
+    const double raw = 0.1 + 0.01 * i;
+    records.push_back(score("room", i, "raw", raw));
+    records.push_back(i < 2 ? failed("room", i, "dual")
+                            : score("room", i, "dual", (0.6 - 0.01 * i) * raw));
+    records.push_back(score("room", i, "lost", i < 2 ? 1e6 : 1.2 * raw + 0.001 * i));
+  }
+  const Comparison c = compared(records, {.baseline = "raw"});
+  EXPECT_EQ(c.methods[0].method, "dual") << verdict(c);
+  EXPECT_TRUE(c.methods[0].beats_baseline) << verdict(c);
+  EXPECT_TRUE(c.is_best_proven) << verdict(c);
+}
+
 TEST(Compare, KeepsScoresApartAndPassesDescriptionsOver) {
   std::vector<Record> records = sweep();
   for (Record r : sweep()) {
