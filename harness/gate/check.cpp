@@ -37,6 +37,14 @@ double loss(const GateScore& score, double before, double now) {
   return 0.0;
 }
 
+/// Whether at most a hundredth of an error is left.
+bool has_vanished(const GateScore& score, double before, double now) {
+  if (score.better != metrics::Better::lower && score.better != metrics::Better::target)
+    return false;
+  const double best = score.better == metrics::Better::target ? score.target : 0.0;
+  return std::abs(now - best) <= 0.01 * std::abs(before - best);
+}
+
 /// Reason why the two numbers cannot be compared, or empty.
 std::string why_not_comparable(const GateScore& before, const GateScore& now) {
   if (now.metric != before.metric) {
@@ -72,6 +80,14 @@ class Checker {
     if (unlimited_ > 0) {
       report_.notes.push_back(
           fmt::format("{} {} no limit", unlimited_, unlimited_ == 1 ? "score has" : "scores have"));
+    }
+    if (implausible_ > 0) {
+      report_.notes.push_back(
+          fmt::format("implausible: {} {} hardly any error left (at most 1 % of it; first: {}); "
+                      "does the method read the reference?",
+                      implausible_,
+                      implausible_ == 1 ? "number has" : "numbers have",
+                      first_implausible_));
     }
   }
 
@@ -179,6 +195,9 @@ class Checker {
     const double worse = loss(score, before, now);
     losses_.add(cell, score, statistic, limit, before, now);
     if (std::abs(worse) <= allowed) return;  // NaN exceeds every limit
+    if (has_vanished(score, before, now) && ++implausible_ == 1) {
+      first_implausible_ = name(cell) + ", " + name(score);
+    }
     find(worse < 0.0 ? Finding::Kind::improvement : Finding::Kind::regression,
          name(cell),
          name(score),
@@ -193,6 +212,8 @@ class Checker {
 
   GateExtent extent_;
   LimitOfScore limit_of_;
+  std::size_t implausible_ = 0;  // errors that nearly vanished
+  std::string first_implausible_;
   std::size_t unlimited_ = 0;  // scores without a limit
   std::map<CellKey, const GateCell*> now_;
   std::map<CellKey, bool> seen_;
@@ -210,6 +231,7 @@ GateReport check(const Baseline& baseline, const Snapshot& now, GateExtent exten
   require_used_limits(baseline);
   require_same_definitions(baseline.snapshot, now);
   GateReport out = Checker(baseline, now, extent).report();
+  for (std::string& note : notes_on_limits(baseline.limits)) out.notes.push_back(std::move(note));
   const std::string contents = note_on_contents(baseline.snapshot, now);
   if (!contents.empty()) out.notes.push_back(contents);
   return out;

@@ -6,6 +6,7 @@
 
 #include "datasets/core/fields.hpp"
 #include "harness/gate/formats.hpp"
+#include "harness/text/hash.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -133,7 +134,16 @@ std::string json(const Baseline& baseline) {
   member("protocols", snapshot.protocols);
   member("metrics", snapshot.metrics);
   member("methods", snapshot.methods);
-  return out + lines("scores", scores) + ",\n" + lines("cells", cells) + "\n}\n";
+  out += lines("scores", scores) + ",\n" + lines("cells", cells) + "\n}\n";
+  out.insert(out.find('\n', 2) + 1, "\"digest\": \"" + digest_of(out) + "\",\n");
+  return out;
+}
+
+std::string digest_of(const std::string& text) {
+  Json root = Json::parse(text);
+  root.erase("digest");
+  root.erase("limits");
+  return hex(hash_of(root.dump()));
 }
 
 }  // namespace loopbench::harness

@@ -31,9 +31,7 @@ class BaselineReader {
                          kBaselineFormat));
     }
     Baseline out;
-    // Older baselines call it made_by.
-    const bool has_old_key = root.contains("made_by") && !root.contains("build_summary");
-    out.build_summary = texts(root, has_old_key ? "made_by" : "build_summary");
+    out.build_summary = texts(root, "build_summary");
     out.limits = limits(root);
     out.snapshot.sweep = text(root, "sweep", "");
     out.snapshot.machine = text(root, "machine", "");
@@ -284,7 +282,18 @@ std::string baseline_text(const std::filesystem::path& file) {
 }  // namespace
 
 Baseline parse_baseline(const std::string& text, const std::string& file) {
-  return BaselineReader(file).read(parsed(text, file));
+  const Json root = parsed(text, file);
+  Baseline out = BaselineReader(file).read(root);
+  const std::string digest = digest_of(text);
+  const auto found = root.find("digest");
+  if (found != root.end() && *found == digest) return out;
+  throw InputError(
+      fmt::format("{}: digest: found {}, expected \"{}\": the file was changed since "
+                  "it was written, and not only its limits; restore it, or check the "
+                  "results and write it again with --update",
+                  file,
+                  found == root.end() ? "none" : found->dump(),
+                  digest));
 }
 
 Baseline read_baseline(const std::filesystem::path& file) {

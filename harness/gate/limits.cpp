@@ -19,6 +19,15 @@ bool selects_a_score(const Tolerance& limit, const Snapshot& snapshot) {
   });
 }
 
+std::string numbers_of(const Tolerance& limit) {
+  return fmt::format("{}: relative {:g}, absolute {:g}, tie {:g}, {}",
+                     fmt::join(limit.values, ", "),
+                     limit.relative,
+                     limit.absolute,
+                     limit.tie,
+                     limit.alpha ? fmt::format("alpha {:g}", *limit.alpha) : "no test over runs");
+}
+
 }  // namespace
 
 LimitOfScore::LimitOfScore(const std::vector<Tolerance>& limits) {
@@ -46,6 +55,21 @@ void require_used_limits(const Baseline& baseline) {
                                  i,
                                  fmt::join(limit.where, ", ")));
   }
+}
+
+std::vector<std::string> notes_on_limits(const std::vector<Tolerance>& limits) {
+  const std::string usual = numbers_of({});
+  std::vector<std::string> out;
+  for (const Tolerance& limit : limits) {
+    const std::string own = numbers_of(limit);
+    if (own == usual) continue;
+    out.push_back(fmt::format(
+        "limit of {}: {} (default: {})",
+        limit.where.empty() ? "all scores" : fmt::format("{}", fmt::join(limit.where, ", ")),
+        own,
+        usual));
+  }
+  return out;
 }
 
 }  // namespace loopbench::harness

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "harness/gate/baseline.hpp"
@@ -27,5 +28,8 @@ class LimitOfScore {
 /// such a limit is misspelt and would let every change pass. A baseline without any score is only
 /// about statuses.
 void require_used_limits(const Baseline& baseline);
+
+/// A line for every limit that is not the default, because a wide limit lets changes pass.
+std::vector<std::string> notes_on_limits(const std::vector<Tolerance>& limits);
 
 }  // namespace loopbench::harness

@@ -1,11 +1,13 @@
 /// `check` on real stores: equal labels must have equal definitions.
 #include <gtest/gtest.h>
 
-#include <regex>
-
+#include "harness/gate/formats.hpp"
 #include "tests/support/command.hpp"
 
 namespace loopbench::gate_cli_test {
+
+using namespace harness;
+
 namespace {
 
 class GateCli : public testing::Test {
@@ -73,9 +75,9 @@ TEST_F(GateCli, NamesASequenceWhoseRunsAreInAnotherGroup) {
 }
 
 TEST_F(GateCli, RejectsABaselineOfAnUncommittedBuild) {
-  std::string text = read_all(folder_.path() / "b.json");
-  text = std::regex_replace(text, std::regex("\"source\":\"[a-z]+\""), "\"source\":\"dirty\"");
-  folder_.file("b.json", text);
+  Baseline dirty = read_baseline(folder_.path() / "b.json");
+  dirty.build_summary["source"] = "dirty";
+  folder_.file("b.json", json(dirty));
   const CommandResult result = call("check out --baseline b.json");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("was written by a build with uncommitted changes"), std::string::npos)
@@ -85,7 +87,7 @@ TEST_F(GateCli, RejectsABaselineOfAnUncommittedBuild) {
 
 TEST_F(GateCli, SaysThatAnOldBaselineHasToBeWrittenAnew) {
   folder_.file("b.json", "{\"loopbench_baseline\": 2}");
-  EXPECT_NE(refused().find("found format 2, expected 3"), std::string::npos) << refused();
+  EXPECT_NE(refused().find("found format 2, expected 4"), std::string::npos) << refused();
 }
 
 }  // namespace

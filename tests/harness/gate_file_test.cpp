@@ -1,6 +1,8 @@
 /// Baseline files, and reports of the gate as text.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "datasets/core/error.hpp"
 #include "harness/gate/formats.hpp"
 #include "tests/support/gate_snapshot.hpp"
@@ -35,19 +37,28 @@ TEST(BaselineFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read.limits[0].alpha, before.limits[0].alpha);
 }
 
-TEST(BaselineFile, IsReadWithTheFormerKeyOfItsBuildSummary) {
-  const std::string text = json(baseline());
-  const std::string key = "\"build_summary\"";
-  const std::size_t at = text.find(key);
-  ASSERT_NE(at, std::string::npos) << text;
-  const auto with_key = [&](const std::string& other) {
-    return std::string(text).replace(at, key.size(), other);
+TEST(BaselineFile, IsRejectedAfterAChangeOfAnythingButItsLimits) {
+  const std::string good = json(baseline());
+  const auto refusal = [](const std::string& text) {
+    return refusal_of([&] { parse_baseline(text, "b.json"); });
   };
-  const Baseline read = parse_baseline(with_key("\"made_by\""), "b.json");
-  EXPECT_EQ(read.build_summary, baseline().build_summary);
-  EXPECT_EQ(json(read), text);
-  EXPECT_EQ(refusal_of([&] { parse_baseline(with_key("\"made\""), "b.json"); }),
-            "b.json: build_summary: is missing");
+  const auto without = [&](const std::string& start) {
+    const std::size_t at = good.find("\n" + start);
+    EXPECT_NE(at, std::string::npos) << good;
+    return good.substr(0, at) + good.substr(good.find('\n', at + 1));
+  };
+  const std::string cell = "{\"sequence\":\"room\",\"repeat\":3,\"method\":\"raw\"";
+  EXPECT_EQ(refusal(without(cell)).find("b.json: digest: found \""), 0u) << refusal(without(cell));
+  EXPECT_EQ(refusal(without("\"digest\"")).find("b.json: digest: found none, expected \""), 0u)
+      << refusal(without("\"digest\""));
+  std::string wide = good;
+  wide.replace(wide.find("0.001"), 5, "10.0");
+  const Baseline read = parse_baseline(wide, "b.json");
+  EXPECT_EQ(read.limits[0].relative, 10.0);
+  EXPECT_EQ(check(read, sweep()).notes,
+            std::vector<std::string>{
+                "limit of all scores: rmse: relative 10, absolute 1e-06, tie 1e-06, alpha 0.01 "
+                "(default: rmse, max: relative 0.001, absolute 1e-06, tie 1e-06, alpha 0.01)"});
 }
 
 TEST(BaselineFile, IsRefusedWithItsPlace) {
@@ -62,7 +73,7 @@ TEST(BaselineFile, IsRefusedWithItsPlace) {
   EXPECT_EQ(refusal("[]"), "b.json: baseline: expected an object");
   EXPECT_EQ(refusal("{}"), "b.json: loopbench_baseline: is missing");
   EXPECT_EQ(refusal("{\"loopbench_baseline\": 9}"),
-            "b.json: loopbench_baseline: found format 9, expected 3: it lacks data that format 3 "
+            "b.json: loopbench_baseline: found format 9, expected 4: it lacks data that format 4 "
             "compares; check the results, then write it again with --update (limits are kept)");
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string text = good;
@@ -112,7 +123,22 @@ TEST(GateText, IsMarkdownAndJUnit) {
             std::string::npos);
   EXPECT_EQ(markdown(after([](Snapshot&) {}), "quick"),
             "### quick: passed\n\n"
-            "- 0 regressions, 0 improvements, 0 new cells in 16 cells and 16 scores\n");
+            "- 0 regressions, 0 improvements, 0 new cells in 16 cells and 16 scores\n"
+            "- limit of all scores: rmse: relative 0.001, absolute 1e-06, tie 1e-06, alpha 0.01 "
+            "(default: rmse, max: relative 0.001, absolute 1e-06, tie 1e-06, alpha 0.01)\n");
+}
+
+TEST(GateText, DoubtsErrorsThatVanish) {
+  const auto doubts = [](double factor) {
+    const GateReport report = after([&](Snapshot& now) { rmse(now, 3) *= factor; });
+    return std::ranges::count_if(report.notes, [](const std::string& note) {
+      return note.starts_with(
+          "implausible: 1 number has hardly any error left (at most 1 % of "
+          "it; first: room (repeat 1) / uniform, ate translation 3d, ");
+    });
+  };
+  EXPECT_EQ(doubts(1e-9), 1);
+  EXPECT_EQ(doubts(0.02), 0);
 }
 
 TEST(BaselineFile, KeepsTheLimitsOfFormat2AndComparesMaximaToo) {

@@ -1,6 +1,8 @@
 /// Pass and fail conditions of the gate.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "datasets/core/error.hpp"
 #include "harness/gate/check.hpp"
 #include "tests/support/gate_snapshot.hpp"
@@ -104,7 +106,7 @@ TEST(Gate, CountsRunsOfAGroupOrOfEqualContentOnce) {
        {report([](GateCell& cell) { cell.group = cell.repeat < 4 ? "route 1" : "route 2"; }),
         report([](GateCell& cell) { cell.content = cell.repeat < 4 ? "beef" : "cafe"; })}) {
     EXPECT_TRUE(few.findings.empty());
-    ASSERT_EQ(few.notes.size(), 1u);
+    ASSERT_FALSE(few.notes.empty());
     EXPECT_EQ(few.notes[0],
               "no test for small consistent losses of 2 methods: 2 independent runs or groups "
               "reach at best p = 0.25, level 0.01 needs 7");
@@ -144,7 +146,7 @@ TEST(Gate, CountsScoresWithoutALimit) {
   const GateReport report = check(raw, sweep());
   EXPECT_EQ(report.scores, 1u);
   ASSERT_FALSE(report.notes.empty());
-  EXPECT_EQ(report.notes.back(), "15 scores have no limit");
+  EXPECT_EQ(std::ranges::count(report.notes, "15 scores have no limit"), 1);
 }
 
 TEST(Gate, TakesAnyMoveOfADescriptionForALoss) {

@@ -1,11 +1,16 @@
 /// compare, table and check as processes: formats, exit codes, messages.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
 
+#include "harness/gate/formats.hpp"
 #include "tests/support/command.hpp"
 
 namespace loopbench::verdict_cli_test {
+
+using namespace harness;
+
 namespace {
 
 const char* const kConfig =
@@ -191,14 +196,12 @@ TEST_F(VerdictCli, TheGatePassesItsOwnNumbers) {
 
 TEST_F(VerdictCli, AMovedNumberFailsTheGateAndIsNamed) {
   // The baseline's first error of uniform on the room, reduced by 1 %.
-  std::string text = read("b.json");
-  const std::string cell = "{\"sequence\":\"room\",\"repeat\":0,\"method\":\"uniform\"";
-  const std::size_t begin = text.find("\"rmse\":[", text.find(cell)) + 8;
-  ASSERT_NE(text.find(cell), std::string::npos);
-  const std::size_t end = text.find_first_of(",]", begin);
-  const double value = std::stod(text.substr(begin, end - begin));
-  text.replace(begin, end - begin, std::to_string(0.99 * value));
-  folder_->file("moved.json", text);
+  Baseline moved = read_baseline(folder_->path() / "b.json");
+  const auto cell = std::ranges::find(
+      moved.snapshot.cells, "room / uniform", [](const auto& each) { return name(each); });
+  ASSERT_NE(cell, moved.snapshot.cells.end());
+  cell->scores.front().values.at("rmse") *= 0.99;
+  folder_->file("moved.json", json(moved));
   const CommandResult result = run("check r --baseline moved.json --junit moved.xml");
   EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_TRUE(has(result.out, "### c: FAILED\n")) << result.out;
