@@ -104,4 +104,21 @@ ConstantRotations fit_rotations(const std::vector<Pose>& reference,
   return out;
 }
 
+RotationErrors rotation_errors(const std::vector<Pose>& reference,
+                               const std::vector<Pose>& estimate,
+                               const Rotation& left) {
+  std::vector<Rotation> errors;  // estimate_body_from_reference_body
+  Matrix3 sum = Matrix3::Zero();
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    errors.push_back((left * estimate[i].rotation).conjugate() * reference[i].rotation);
+    sum += errors.back().toRotationMatrix();
+  }
+  const auto median_angle_to = [&](const Rotation& body) {
+    std::vector<double> angles;
+    for (const Rotation& error : errors) angles.push_back(angle_between(error, body));
+    return median_value(std::move(angles));
+  };
+  return {median_angle_to(Rotation::Identity()), median_angle_to(mean_rotation(sum))};
+}
+
 }  // namespace loopbench::metrics

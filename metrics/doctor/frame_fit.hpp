@@ -31,4 +31,15 @@ struct ConstantRotations {
 ConstantRotations fit_rotations(const std::vector<Pose>& reference,
                                 const std::vector<Pose>& estimate);
 
+/// Median angles of R_ref^T R_est in the reference's world [rad].
+struct RotationErrors {
+  double as_read = 3.15;
+  double of_another_body = 3.15;  ///< after the constant rotation of the body that fits best
+};
+
+/// `left`: reference_world_from_estimate_world. O(n).
+RotationErrors rotation_errors(const std::vector<Pose>& reference,
+                               const std::vector<Pose>& estimate,
+                               const Rotation& left);
+
 }  // namespace loopbench::metrics

@@ -82,6 +82,37 @@ TEST(Doctor, QuaternionOrder) {
   EXPECT_THAT(faults(each(truth(), wrong), sampled(20)), ElementsAre(Fault::quaternion_order));
 }
 
+/// A drive in camera axes: right, down, forward. The reference pitches and rolls by `tilt` [rad].
+Trajectory drive(double tilt, double phase) {
+  Trajectory out;
+  for (int i = 0; i < 400; ++i) {
+    const double t = 0.25 * i;
+    const double yaw = 0.06 * t + 0.8 * std::sin(0.11 * t + phase);
+    const Rotation tilted =
+        exp_so3({tilt * std::sin(0.7 * t), 0, tilt * std::cos(1.1 * t + phase)});
+    const Vector3 position{
+        30.0 * std::sin(0.08 * t + phase) + 0.5 * t, 0, 40.0 * std::cos(0.05 * t)};
+    out.push_back({t, {exp_so3({0, yaw, 0}) * tilted, position}});
+  }
+  return out;
+}
+
+TEST(Doctor, PlanarQuaternionsInCameraAxes) {
+  const auto wrong = [](const Pose& p) -> Pose {
+    return {Rotation(p.rotation.z(), p.rotation.w(), p.rotation.x(), p.rotation.y()),
+            p.translation};
+  };
+  for (int i = 0; i < 24; ++i) {
+    const double phase = 0.26 * i;
+    const Trajectory reference = drive(0.002 * (i % 6), phase);
+    const Trajectory estimate = drive(0.0, phase);
+    EXPECT_THAT(faults(reference, estimate), IsEmpty()) << i;
+    EXPECT_THAT(faults(estimate, reference), IsEmpty()) << i;
+    EXPECT_THAT(faults(reference, each(estimate, wrong)), ElementsAre(Fault::quaternion_order))
+        << i;
+  }
+}
+
 TEST(Doctor, InvertedPosesAndRotations) {
   EXPECT_THAT(faults(truth(), each(sampled(20), [](const Pose& p) { return p.inverse(); })),
               ElementsAre(Fault::inverted_poses));
