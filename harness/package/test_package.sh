@@ -4,9 +4,9 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 mirror=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
-build=build/release
+build=build/package
 
-cmake --preset release >/dev/null
+cmake --preset package >/dev/null
 cmake --build $build --target loopbench loopbench_pages
 rm -f $build/loopbench_*.deb
 (cd $build && cpack -G DEB >/dev/null)
