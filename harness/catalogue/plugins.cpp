@@ -27,8 +27,13 @@ std::vector<PluginEntry> load_plugin(const std::filesystem::path& object) {
         "was built for plugin interface {}, this program has {}", interface, Abi{}.interface));
   }
   const auto& plugin = *static_cast<const Plugin*>(exported);
-  if (plugin.abi != Abi{}) {
-    throw refuse("was built with another standard library, Eigen or alignment");
+  const Abi ours;
+  for (std::size_t i = 0; i < ours.properties.size(); ++i) {
+    const auto [name, expected] = ours.properties[i];
+    const long found = plugin.abi.properties[i].value;
+    if (found != expected) {
+      throw refuse(fmt::format("was built with {} = {}, expected {}", name, found, expected));
+    }
   }
   return plugin.entries();
 }

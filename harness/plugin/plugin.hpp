@@ -1,6 +1,7 @@
 /// Header for shared objects outside this repository that provide methods, datasets and metrics.
 #pragma once
 
+#include <array>
 #include <variant>
 #include <vector>
 
@@ -16,21 +17,27 @@ using PluginEntry = std::variant<methods::MethodEntry, DatasetEntry, metrics::Me
 /// Properties that must be equal in both binaries before they exchange our types. `interface` stays
 /// the first member: it is read before the others, whose meaning depends on it.
 struct Abi {
-  int interface = 6;  ///< raise when this file or the headers that it includes change shape
-  long language = __cplusplus;
-  int standard_library = _GLIBCXX_RELEASE;  ///< GCC and clang with the same one fit together
-  int eigen = EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 + EIGEN_MINOR_VERSION;
-  int eigen_alignment = EIGEN_MAX_ALIGN_BYTES;  ///< differs when one side used -march=native
-  int string_size = sizeof(std::string);        ///< differs under another standard library ABI
-  int problem_size = sizeof(Problem);
-  int sequence_size = sizeof(Sequence);
-  int evaluation_size = sizeof(metrics::Evaluation);
-  int score_size = sizeof(metrics::Score);
-  int method_size = sizeof(methods::MethodEntry);
-  int dataset_size = sizeof(DatasetEntry);
-  int metric_size = sizeof(metrics::MetricEntry);
-
-  bool operator==(const Abi&) const = default;
+  int interface = 7;  ///< raise when this file or the headers that it includes change shape
+  struct Property {
+    const char* name;
+    long value;
+  };
+  std::array<Property, 14> properties{{
+      {"__cplusplus", __cplusplus},
+      {"_GLIBCXX_RELEASE", _GLIBCXX_RELEASE},  // GCC and clang with the same one fit together
+      {"EIGEN_WORLD_VERSION", EIGEN_WORLD_VERSION},
+      {"EIGEN_MAJOR_VERSION", EIGEN_MAJOR_VERSION},
+      {"EIGEN_MINOR_VERSION", EIGEN_MINOR_VERSION},
+      {"EIGEN_MAX_ALIGN_BYTES", EIGEN_MAX_ALIGN_BYTES},  // differs when one side has -march=native
+      {"sizeof(std::string)", sizeof(std::string)},      // differs under _GLIBCXX_USE_CXX11_ABI=0
+      {"sizeof(Problem)", sizeof(Problem)},
+      {"sizeof(Sequence)", sizeof(Sequence)},
+      {"sizeof(Evaluation)", sizeof(metrics::Evaluation)},
+      {"sizeof(Score)", sizeof(metrics::Score)},
+      {"sizeof(MethodEntry)", sizeof(methods::MethodEntry)},
+      {"sizeof(DatasetEntry)", sizeof(DatasetEntry)},
+      {"sizeof(MetricEntry)", sizeof(metrics::MetricEntry)},
+  }};
 };
 
 struct Plugin {
