@@ -16,7 +16,7 @@ install_missing "${packages[@]}" "${compression_packages[@]}" "${image_packages[
 lint() {
   install_missing "${lint_packages[@]}"
   shellcheck -x ./*.sh cmake/*.sh harness/package/*.sh tests/*.sh tests/*/*.sh .ci/*
-  find datasets methods metrics harness results tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run --Werror
+  find datasets methods metrics harness include results tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run --Werror
   cmake --preset lint -DLOOPBENCH_BUILD_TESTS=ON >/dev/null
   find build/lint -path '*/Unity/*.cxx' -print0 |
     xargs -0 -P "$(nproc)" -n 1 clang-tidy -p build/lint --quiet 2>/dev/null

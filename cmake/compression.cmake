@@ -1,6 +1,7 @@
 # Compression libraries for compressed files and bags, each optional: without one, files that need it are
 # rejected with exit code 4. Used in datasets/compressed only.
 add_library(loopbench_compression INTERFACE)
+set(loopbench_compression_flags "")  # of loopbench.pc
 foreach(codec "ZLIB z zlib.h" "BZIP2 bz2 bzlib.h" "ZSTD zstd zstd.h" "LZ4 lz4 lz4frame.h")
   separate_arguments(codec)
   list(POP_FRONT codec name library header)
@@ -10,6 +11,7 @@ foreach(codec "ZLIB z zlib.h" "BZIP2 bz2 bzlib.h" "ZSTD zstd zstd.h" "LZ4 lz4 lz
     target_link_libraries(loopbench_compression INTERFACE ${LOOPBENCH_${name}})
     target_include_directories(loopbench_compression SYSTEM INTERFACE ${LOOPBENCH_${name}_INCLUDE})
     target_compile_definitions(loopbench_compression INTERFACE LOOPBENCH_HAS_${name})
+    string(APPEND loopbench_compression_flags " -l${library}")
   else()
     message(STATUS "${library} was not found: building without it")
   endif()

@@ -5,13 +5,16 @@
 file(GLOB loopbench_core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/datasets/core/*.hpp)
 set(loopbench_slow_headers
   <Eigen/Cholesky> <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <algorithm> <filesystem> <fstream> <functional> <map>
-  <memory> <optional> <set> <sstream> <string> <vector> <fmt/format.h> <nlohmann/json.hpp> ${loopbench_core_headers})
+  <memory> <optional> <set> <sstream> <string> <vector> <fmt/format.h> ${loopbench_core_headers})
+if(LOOPBENCH_PROGRAM)
+  list(APPEND loopbench_slow_headers <nlohmann/json.hpp>)
+endif()
 file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/empty.cpp CONTENT "")
 add_library(loopbench_headers OBJECT ${PROJECT_BINARY_DIR}/empty.cpp)
 set_target_properties(loopbench_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_compile_features(loopbench_headers PRIVATE cxx_std_20)
 target_link_libraries(loopbench_headers PRIVATE
-  loopbench_warnings Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)
+  loopbench_warnings Eigen3::Eigen fmt::fmt $<TARGET_NAME_IF_EXISTS:nlohmann_json::nlohmann_json>)
 target_include_directories(loopbench_headers PRIVATE ${PROJECT_SOURCE_DIR})
 target_precompile_headers(loopbench_headers PRIVATE ${loopbench_slow_headers})
 

@@ -32,7 +32,7 @@ set(order
 
   "methods/report"
   "methods/method"
-  "methods/pipeline"
+  "methods/pipeline methods/function_method methods/find_method"
   "methods/smoothers/parts methods/smoothers/pose_runs methods/smoothers/penalised"
   "methods/smoothers/spline"
   "methods/smoothers/manifold/jet methods/smoothers/manifold/nodes"

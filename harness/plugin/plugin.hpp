@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "datasets/dataset.hpp"
-#include "harness/plugin/function_method.hpp"
+#include "methods/function_method.hpp"
 #include "methods/method.hpp"
 #include "metrics/metric.hpp"
 

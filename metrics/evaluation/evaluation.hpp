@@ -53,7 +53,7 @@ struct Evaluation {
 /// positions. O((n + m) log(n + m)) or better.
 Evaluation evaluate(const Trajectory& reference,
                     const Trajectory& estimate,
-                    const Protocol& protocol);
+                    const Protocol& protocol = {});
 
 /// The same for a curve, evaluated at its keyframes or densely at the reference's stamps. Dense
 /// evaluation does not use the association: the curve is evaluated at every reference stamp (minus

@@ -63,18 +63,21 @@ TEST(LoadPlugin, ItsDatasetMethodAndMetricMakeASweep) {
               "plugins: ['" + (kOutside / "half_way.so").string() +
                   "']\ndatasets: [{dataset: straight, keyframes: 7}]\n"
                   "methods: [raw, lifted, thrower]\n"
-                  "metrics: [{metric: max_height, above: 0.5}, unprintable]\n"
+                  "metrics: [{metric: max_height, above: 0.5}, height, unprintable]\n"
                   "protocol: {align: none}\ntimes: keyframes\n");
   const CommandResult ran = loopbench_command("run c.yaml --out r", folder);
   std::map<std::string, double> height;
+  std::map<std::string, double> mean;
   for (const Record& record : read_records(folder.path() / "r")) {
     if (record.metric == "max_height") height[record.method] = record.statistics.rmse;
+    if (record.metric == "height") mean[record.method] = record.statistics.mean;
     if (record.metric == "unprintable") {
       EXPECT_THAT(record.why, HasSubstr("has byte 0x1b"));
     }
   }
   EXPECT_EQ(height["raw"], 1.5) << ran.err;
   EXPECT_EQ(height["lifted"], 2.5);
+  EXPECT_EQ(mean["lifted"], 3.0);
   EXPECT_THAT(loopbench_command("run c.yaml --out r", folder).out,
               HasSubstr("of them in earlier runs)"));
   folder.file("c.yaml",

@@ -112,6 +112,16 @@ std::vector<Score> max_height(const Evaluation& evaluation, const MaxHeightOptio
   return {{"height", "z", "m", {1, height, height, height, 0.0, height, height, height * height}}};
 }
 
+/// Calls functions of the libraries, which are linked into the plugin.
+std::vector<Score> height(const Evaluation& evaluation, const MaxHeightOptions&) {
+  std::vector<double> heights;
+  for (const StampedPose& pose : evaluation.estimate) {
+    heights.push_back(pose.world_from_body.translation.z());
+  }
+  return {{"height", "z", "m", statistics(heights, evaluation.protocol.ddof)},
+          single("top", "z", "m", *std::ranges::max_element(heights))};
+}
+
 std::vector<Score> unprintable(const Evaluation&, const MaxHeightOptions&) {
   return {{"\x1b[31m", "z", "m", {}}};
 }
@@ -130,4 +140,5 @@ LOOPBENCH_PLUGIN(method<HalfWay>("half_way", "only the closing keyframe moves, a
                         }),
                  dataset<StraightOptions>("straight", "a straight line", load_straight),
                  metric<MaxHeightOptions>("max_height", "largest height", max_height),
+                 metric<MaxHeightOptions>("height", "statistics of the heights", height),
                  metric<MaxHeightOptions>("unprintable", "has an invalid name", unprintable))
