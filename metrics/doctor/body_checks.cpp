@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "metrics/checks/extrinsic_offset.hpp"
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/frame_checks.hpp"
+#include "metrics/doctor/frame_fit.hpp"
 #include "metrics/doctor/unit_checks.hpp"
+#include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {
 
@@ -59,6 +62,35 @@ void add_lever_arm(std::vector<InputFinding>& conventions,
     found = find_lever_arm(reference, scaled);
   }
   if (found) conventions.insert(conventions.begin(), std::move(found->finding));
+}
+
+std::optional<InputFinding> find_body_rotation(const Trajectory& reference,
+                                               const Trajectory& estimate) {
+  constexpr double kLarge = 30.0 / kDegrees, kSmall = 15.0 / kDegrees, kLeft = 0.4;
+  const CommonPoses poses = common_poses(reference, estimate, 0.0, kMostFramePoses);
+  if (poses.stamps.size() < kFewestFramePoses) return std::nullopt;
+  const auto is_turned = [&](const Pose& pose) {
+    return angle_between(pose.rotation, poses.reference.front().rotation) > kLarge;
+  };
+  const auto turned = std::ranges::count_if(poses.reference, is_turned);
+  if (10 * static_cast<std::size_t>(turned) < poses.reference.size()) return std::nullopt;
+  const PositionFit positions = fit_positions(poses.reference, poses.estimate);
+  const RotationErrors errors =
+      rotation_errors(poses.reference, poses.estimate, Rotation(positions.rotation));
+  const double angle = angle_between(errors.body_from_reference, Rotation::Identity());
+  const double after = errors.of_another_body;
+  if (angle < kLarge || after > std::min(kSmall, kLeft * errors.as_read)) return std::nullopt;
+  return InputFinding{
+      Fault::body_rotation,
+      fmt::format(
+          "the reference's body is rotated by {:.1f} deg: after alignment of the positions, "
+          "the median rotation error is {:.1f} deg, and {:.1f} deg with this rotation",
+          kDegrees * angle,
+          kDegrees * errors.as_read,
+          kDegrees * after),
+      fmt::format("--ref-body={}", body_option({errors.body_from_reference, Vector3::Zero()})),
+      1.0 - after / errors.as_read,
+      angle};
 }
 
 }  // namespace loopbench::metrics

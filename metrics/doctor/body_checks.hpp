@@ -15,8 +15,8 @@ struct LeverArm {
 };
 
 /// A finding if a lever arm between the bodies explains at least half of the differences of
-/// displacements over rotations, see extrinsic_offset(). A constant rotation alone is none, because
-/// no position error depends on it. The stamps, axes and units must agree. O(1e5).
+/// displacements over rotations, see extrinsic_offset(). The stamps, axes and units must agree.
+/// O(1e5).
 std::optional<LeverArm> find_lever_arm(const Trajectory& reference, const Trajectory& estimate);
 
 /// Adds a lever arm to `conventions`, the findings about frames and units, if these are at most a
@@ -25,5 +25,12 @@ std::optional<LeverArm> find_lever_arm(const Trajectory& reference, const Trajec
 void add_lever_arm(std::vector<InputFinding>& conventions,
                    const Trajectory& reference,
                    const Trajectory& estimate);
+
+/// A finding if rotations agree, after alignment of the positions, only up to a constant rotation
+/// of the body by more than 30 deg: camera axes beside those of a vehicle. No position error
+/// depends on it. Only where rotations vary, since the alignment of a straight path is ambiguous.
+/// The stamps, axes and units must agree. O(1e5).
+std::optional<InputFinding> find_body_rotation(const Trajectory& reference,
+                                               const Trajectory& estimate);
 
 }  // namespace loopbench::metrics

@@ -60,6 +60,8 @@ Diagnosis diagnosis(const Trajectory& reference,
   std::vector<InputFinding> conventions = check_frames(reference, compared);
   add(conventions, check_units(reference, compared));
   add_lever_arm(conventions, reference, compared);
+  const bool is_scaled = conventions.size() == 1 && conventions[0].fault == Fault::scale;
+  if (conventions.empty() || is_scaled) add(conventions, find_body_rotation(reference, compared));
   add(out.findings, std::move(conventions));
   const Unchecked parts = unchecked_parts(reference, compared);
   out.unchecked.insert(out.unchecked.end(), parts.reasons.begin(), parts.reasons.end());

@@ -44,6 +44,8 @@ std::string fault_name(Fault fault) {
       return "edge_covariance";
     case Fault::lever_arm:
       return "lever_arm";
+    case Fault::body_rotation:
+      return "body_rotation";
   }
   return "unknown";
 }

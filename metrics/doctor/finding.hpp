@@ -24,7 +24,8 @@ enum class Fault {
   information_scale,  ///< stated covariances contradict the residuals
   edge_covariance,    ///< stated covariances of single closures contradict the residuals
   nothing_moved,      ///< a correction without effect
-  lever_arm           ///< the reference is that of another body
+  lever_arm,          ///< the reference is that of another body
+  body_rotation       ///< the axes of the reference's body differ from the estimate's
 };
 
 /// "time_offset": short name of a fault.

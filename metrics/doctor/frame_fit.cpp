@@ -118,7 +118,8 @@ RotationErrors rotation_errors(const std::vector<Pose>& reference,
     for (const Rotation& error : errors) angles.push_back(angle_between(error, body));
     return median_value(std::move(angles));
   };
-  return {median_angle_to(Rotation::Identity()), median_angle_to(mean_rotation(sum))};
+  const Rotation body = mean_rotation(sum);
+  return {median_angle_to(Rotation::Identity()), median_angle_to(body), body};
 }
 
 }  // namespace loopbench::metrics

@@ -34,7 +34,8 @@ ConstantRotations fit_rotations(const std::vector<Pose>& reference,
 /// Median angles of R_ref^T R_est in the reference's world [rad].
 struct RotationErrors {
   double as_read = 3.15;
-  double of_another_body = 3.15;  ///< after the constant rotation of the body that fits best
+  double of_another_body = 3.15;                        ///< after `body_from_reference`
+  Rotation body_from_reference = Rotation::Identity();  ///< constant rotation that fits best
 };
 
 /// `left`: reference_world_from_estimate_world. O(n).

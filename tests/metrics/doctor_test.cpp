@@ -113,6 +113,27 @@ TEST(Doctor, PlanarQuaternionsInCameraAxes) {
   }
 }
 
+TEST(Doctor, AxesOfAnotherBody) {
+  const Rotation camera(0.5, -0.5, 0.5, -0.5);
+  const auto turned = [&](const Pose& p) -> Pose { return {p.rotation * camera, p.translation}; };
+  EXPECT_THAT(faults(each(truth(), turned), sampled(20)), ElementsAre(Fault::body_rotation));
+  EXPECT_THAT(faults(drive(0.01, 0.3), each(drive(0.0, 0.3), turned)),
+              ElementsAre(Fault::body_rotation));
+  const auto found = diagnose(each(truth(), turned), truth(), "reference.txt", "run.txt");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].value, 2.0 * M_PI / 3.0, 1e-6);
+  EXPECT_THAT(found[0].fix, testing::StartsWith("--ref-body=0.0,0.0,0.0,"));
+  // The alignment of a straight path leaves the rotation about it open.
+  Trajectory straight, rolled;
+  for (int i = 0; i < 200; ++i) {
+    const double t = 0.1 * i;
+    const Pose pose{exp_so3({0.01 * std::sin(t), 0, 0}), {t * (1.0 + 0.3 * std::sin(t)), 0, 0}};
+    straight.push_back({t, pose});
+    rolled.push_back({t, {exp_so3({2.0, 0, 0}) * pose.rotation, pose.translation}});
+  }
+  EXPECT_THAT(faults(straight, rolled), IsEmpty());
+}
+
 TEST(Doctor, InvertedPosesAndRotations) {
   EXPECT_THAT(faults(truth(), each(sampled(20), [](const Pose& p) { return p.inverse(); })),
               ElementsAre(Fault::inverted_poses));

@@ -58,6 +58,11 @@ Pose x_and_y_exchanged(const Pose& p) {
   return {p.rotation, {p.translation.y(), p.translation.x(), p.translation.z()}};
 }
 
+/// The axes of a camera (right, down, forward) for those of a vehicle (forward, left, up).
+Pose with_body_axes(const Pose& pose) {
+  return {pose.rotation * Rotation(0.5, -0.5, 0.5, -0.5), pose.translation};
+}
+
 /// A lever arm as of a marker on a camera, or of another sensor on a car.
 void to_another_body(Recording& r) {
   const bool is_car = r.estimate_name.find("/kitti/") != std::string::npos;
@@ -99,6 +104,9 @@ std::vector<PlantedFault> faults() {
       {"reference inverted", Fault::inverted_poses, each_pose(true, inverted)},
       {"estimate without scale (x 0.4)", Fault::scale, each_pose(false, lengths_times(0.4))},
       {"estimate of another body (0.44 m; cars 1.75 m)", Fault::lever_arm, to_another_body},
+      {"estimate's body with axes z, -x, -y",
+       Fault::body_rotation,
+       each_pose(false, with_body_axes)},
       {"reference and estimate exchanged", Fault::swapped, [](Recording& r) {
          std::swap(r.reference, r.estimate);
          std::swap(r.reference_name, r.estimate_name);

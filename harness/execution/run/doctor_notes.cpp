@@ -44,6 +44,7 @@ std::vector<metrics::InputFinding> sure_findings(
     }
     return finding.confidence < kSureFinding ||
            finding.fault == metrics::Fault::lever_arm ||  // the evaluation has a note of its own
+           finding.fault == metrics::Fault::body_rotation ||
            (finding.fault == metrics::Fault::scale && is_aligned);
   });
   return out;
