@@ -28,7 +28,6 @@ void add_eval(CLI::App& app, int& exit_code, const Source& source = {});
 void add_get(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_plot(CLI::App& app, int& exit_code);
-void add_profile(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_submit(CLI::App& app, int& exit_code);
 void add_traj(CLI::App& app, int& exit_code);

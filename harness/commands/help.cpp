@@ -122,10 +122,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench plot results/quickstart -o figures\n"
      "  loopbench plot results/quickstart -o figures --methods raw,dual --sequences room\n"
      "  loopbench plot results/quickstart --panels xy,angle --size 3.3,2.4 --format pdf\n"},
-    {"profile",
-     "  loopbench profile results/quickstart\n"
-     "  loopbench profile results/quickstart --only 'driving'\n"
-     "  loopbench profile results/quickstart --format csv -o costs.csv\n"},
     {"report",
      "  loopbench report results/quickstart -o report.html\n"
      "  loopbench report results/quickstart/results.sqlite -o - >report.html\n"

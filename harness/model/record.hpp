@@ -67,7 +67,6 @@ struct CellRecord {
   std::optional<double> cpu_seconds;         ///< median
   std::optional<std::int64_t> peak_memory;   ///< of the process [bytes]
   std::optional<std::int64_t> added_memory;  ///< increase of the resident size [bytes]
-  std::optional<std::int64_t> allocations;
   Status status = Status::ok;
   SharedText signal;
   SharedText why;

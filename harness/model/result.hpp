@@ -45,7 +45,6 @@ struct CellResult {
   std::vector<double> cpu_seconds;  ///< CPU time of the process in these runs; empty: unknown
   std::optional<std::int64_t> peak_memory;   ///< largest resident size of the process [bytes]
   std::optional<std::int64_t> added_memory;  ///< increase of the resident size [bytes]
-  std::optional<std::int64_t> allocations;   ///< memory allocations in one run of the method
   methods::Report report;                    ///< of the last timed run
   std::vector<ScoreResult> scores;
   bool oracle_method = false;  ///< it uses the reference, or was trained on it

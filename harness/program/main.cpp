@@ -23,7 +23,7 @@
 #include "harness/commands/export.hpp"
 #include "harness/commands/help.hpp"
 #include "harness/commands/help_format.hpp"
-#include "harness/program/counted_malloc.hpp"
+#include "harness/program/huge_pages.hpp"
 #include "harness/provenance/source_commit.hpp"
 #include "harness/provenance/version.hpp"
 #include "harness/text/print_error.hpp"
@@ -107,7 +107,6 @@ int run(CLI::App& app,
 // NOLINTNEXTLINE(bugprone-exception-escape): what is outside run() throws only without memory
 int main(int argc, char** argv) {
   reserve_standard_streams();
-  set_allocation_counter(counted_malloc());
   const std::vector<std::string> words{argv + 1, argv + argc};
   const auto is_first = [&](const char* command) { return !words.empty() && words[0] == command; };
   if (is_first("eval") || is_first("traj") || is_first("doctor")) use_huge_pages();
@@ -128,7 +127,6 @@ int main(int argc, char** argv) {
   add_merge(app, exit_code);
   add_submit(app, exit_code);
   add_plot(app, exit_code);
-  add_profile(app, exit_code);
   add_report(app, exit_code);
   add_traj(app, exit_code);
   add_doctor(app, exit_code);

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "datasets/core/error.hpp"
-#include "harness/profile/profile.hpp"
 #include "harness/report/compare_in_parts.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/record_reader.hpp"
@@ -80,13 +79,6 @@ ReportContent read_report_content(const std::filesystem::path& store, std::size_
     add_new(out.sequences, cell.sequence);
     add_new(out.methods, cell.method);
   }
-  out.accuracy_and_time = pareto(
-      out.cells,
-      [&](const auto& visit) {
-        RecordReader reader(store);
-        reader.for_each(visit);
-      },
-      Accuracy{});
   add_derived(out.records, baseline);
   std::set<SharedText> with_records;
   for (const Record& r : out.records) with_records.insert(r.sequence);

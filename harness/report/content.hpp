@@ -23,9 +23,8 @@ struct ReportContent {
   std::vector<CellRecord> cells;
   std::vector<Comparison> comparisons;  ///< one for each score; empty without a baseline
   std::vector<Record> undefined;        ///< scores without a value
-  TableView accuracy_and_time;
-  std::vector<std::string> sequences;  ///< labels in the order of the sweep
-  std::vector<std::string> methods;    ///< likewise
+  std::vector<std::string> sequences;   ///< labels in the order of the sweep
+  std::vector<std::string> methods;     ///< likewise
 
   /// Tables by sequence and figures are of the first sequences, as many as a report can hold.
   std::size_t shown = 0;

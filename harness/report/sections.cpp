@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "harness/profile/profile.hpp"
+#include "harness/report/costs.hpp"
 #include "harness/report/html.hpp"
 #include "harness/tables/comparison.hpp"
 
@@ -163,10 +163,7 @@ std::string scores_html(const ReportContent& content) {
 
 std::string costs_html(const ReportContent& content) {
   std::string out;
-  for (const TableView& listing : {costs(content.cells),
-                                   reported(content.cells),
-                                   scaling(content.cells),
-                                   content.accuracy_and_time}) {
+  for (const TableView& listing : {costs(content.cells), reported(content.cells)}) {
     if (!listing.lines.empty()) out += html_table(listing);
   }
   return out.empty() ? "<p>No run times are recorded.</p>\n" : out;

@@ -60,7 +60,6 @@ class CellReader {
     c.cpu_seconds = row.maybe_real();
     c.peak_memory = row.maybe_integer();
     c.added_memory = row.maybe_integer();
-    c.allocations = row.maybe_integer();
     const std::optional<Status> status = from_text<Status>(row.text());
     c.status = status.value_or(Status::failed);
     c.signal = signal_.read(row);

@@ -39,7 +39,7 @@ CellWriter::CellWriter(Database& database, std::string provenance_key)
       provenance_key_(std::move(provenance_key)),
       replaced_(database.prepare("SELECT id FROM cell WHERE position = ?")),
       cell_(database.prepare(std::string("INSERT INTO cell (") + kCellColumns +
-                             ") VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
+                             ") VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
       find_definition_(database.prepare(
           "SELECT id FROM score_definition WHERE protocol = ? AND protocol_version = ? AND times = "
           "? AND metric = ? AND label = ? AND relation = ? AND axis = ? AND unit = ? AND better = "
@@ -138,7 +138,6 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
       .bind(cpu)
       .bind(result.peak_memory)
       .bind(result.added_memory)
-      .bind(result.allocations)
       .bind(to_text(result.status))
       .bind(result.signal)
       .bind(result.why)

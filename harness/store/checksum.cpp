@@ -29,7 +29,7 @@ const char* const kCellColumns =
     "position, key, build, sequence_key, provenance_key, sequence, repeat, method, "
     "dataset_options, method_options, closures, oracle_closures, oracle, worker, runs, "
     "seconds_median, seconds_min, seconds_max, cpu_seconds_median, peak_memory, added_memory, "
-    "allocations, status, signal, why, failed_scores";
+    "status, signal, why, failed_scores";
 
 std::string report_query(const std::string& table, const std::string& rest) {
   return query(table == "trace" ? "cell, checksum" : "*", table, rest);

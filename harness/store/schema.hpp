@@ -3,7 +3,7 @@
 namespace loopbench::harness {
 
 /// Incremented when the meaning of a table or column changes; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 9;
+inline constexpr int kSchemaVersion = 10;
 
 /// Creates the tables of a store, readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
@@ -56,7 +56,6 @@ inline constexpr const char* kSchema = R"sql(
     cpu_seconds_median REAL,           -- CPU time of the process; NULL: unknown
     peak_memory INTEGER,               -- largest resident size of the process [bytes]
     added_memory INTEGER,              -- increase of the resident size [bytes]
-    allocations INTEGER,               -- allocations in one run; NULL: not counted
     status TEXT NOT NULL,              -- ok | declined | incomplete; failed | crashed | timeout |
                                        -- out_of_memory
     signal TEXT NOT NULL,              -- for example SIGSEGV; empty: not ended by a signal

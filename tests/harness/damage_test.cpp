@@ -56,8 +56,7 @@ class Damage : public TinyStore {
     std::string out = stored_cells(file);
     for (const CellRecord& c : read_cells(file)) {
       out += c.build + std::to_string(c.seconds) + std::to_string(c.peak_memory.value_or(-1)) +
-             std::to_string(c.allocations.value_or(-1)) + std::to_string(c.closure_count) +
-             std::to_string(c.oracle) + "\n";
+             std::to_string(c.closure_count) + std::to_string(c.oracle) + "\n";
       for (const Phase& p : c.phases) out += p.name + std::to_string(p.seconds) + "\n";
     }
     for (const Record& r : read_records(file)) {

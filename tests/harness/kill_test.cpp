@@ -218,18 +218,12 @@ TEST_F(Ended, AFolderThatTakesNoFilesIsOneClearError) {
   EXPECT_NE(result.err.find("results.sqlite: cannot be opened"), std::string::npos) << result.err;
 }
 
-TEST_F(Ended, MergeAndProfileFromTheCommandLine) {
+TEST_F(Ended, MergeFromTheCommandLine) {
   folder_.file("c.yaml", kConfig);
   ASSERT_EQ(run("run c.yaml --out 1 --only 'a / '").exit_code, 0);
   ASSERT_EQ(run("run c.yaml --out 2 --only 'b / '").exit_code, 0);
   const CommandResult merged = run("merge 1 2 -o 3");
   EXPECT_EQ(merged.out, "48 cells in 3/results.sqlite\n") << merged.err;
-  const CommandResult profile = run("profile 3");
-  EXPECT_EQ(profile.exit_code, 0) << profile.err;
-  for (const char* part : {"### costs", "### scaling", "### accuracy and time", "| raw "}) {
-    EXPECT_NE(profile.out.find(part), std::string::npos) << profile.out;
-  }
-  EXPECT_EQ(run("profile 3 --value nonsense").exit_code, 2);
   EXPECT_EQ(run("merge 1 2 -o 3").exit_code, 2);
 }
 

@@ -162,7 +162,6 @@ TEST_F(Output, ADashIsStandardOutput) {
   };
   EXPECT_EQ(printed("table store -o -"), printed("table store"));
   EXPECT_EQ(printed("table store --format csv -o -"), printed("table store --format csv"));
-  EXPECT_EQ(printed("profile store -o -").substr(0, 10), "### costs\n");
   EXPECT_EQ(printed("compare store -o - --where times=dense").substr(0, 3), "###");
   EXPECT_EQ(printed("report store -o -").substr(0, 9), "<!DOCTYPE");
   EXPECT_EQ(printed("check store --update --allow-dirty --baseline -").substr(0, 2), "{\n");

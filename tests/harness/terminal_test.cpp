@@ -192,7 +192,6 @@ TEST_F(OnATerminal, HelpHasThreeExamplesForEachCommand) {
                               "traj",
                               "doctor",
                               "plot",
-                              "profile",
                               "report"}) {
     const CommandResult result = piped(std::string("help ") + command);
     EXPECT_EQ(result.exit_code, 0) << command;

@@ -61,14 +61,6 @@ TEST_F(VerdictCli, CompareGivesAVerdict) {
   EXPECT_TRUE(has(few.out, "nothing is proven: ")) << few.out;
 }
 
-TEST_F(VerdictCli, ProfileRejectsAScoreThatNoCellHas) {
-  for (const char* option : {"--metric atee", "--axis q", "--value count"}) {
-    EXPECT_EQ(run(std::string("profile r ") + option).exit_code, 2) << option;
-  }
-  EXPECT_TRUE(has(run("profile r --axis q").err, "r: no cell has ate translation q"));
-  EXPECT_EQ(run("profile r --metric ate").exit_code, 0);
-}
-
 TEST_F(VerdictCli, CompareSpeaksEveryFormat) {
   EXPECT_EQ(run("compare r --format json").out.rfind("{\n\"provenance\": {\n", 0), 0u);
   const CommandResult printed = run("compare r --format csv");
@@ -258,7 +250,6 @@ TEST_F(VerdictCli, NoCommandWritesOverWhatItReads) {
   const std::string config = read("c.yaml");
   for (const char* arguments : {"table r -o r/results.sqlite",
                                 "compare r -o ./r/../r/results.sqlite",
-                                "profile r -o r/results.sqlite",
                                 "report r -o r/results.sqlite",
                                 "check r --baseline b.json --markdown b.json",
                                 "check r --baseline b.json --junit r/results.sqlite"}) {

@@ -47,7 +47,6 @@ def main():
             "resume": [synthetic, whole, str(cells), "resume"],
             "compare": [loopbench, "compare", whole],
             "table": [loopbench, "table", whole, "-o", f"{folder}/table.md"],
-            "profile": [loopbench, "profile", whole],
             "check --update": [loopbench, "check", whole, "--baseline", f"{folder}/b.json", "--update",
                                "--allow-dirty"],
             "report": [loopbench, "report", whole, "-o", f"{folder}/report.html"],

@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "harness/execution/run/add_scores.hpp"
-#include "harness/execution/run/allocations.hpp"
 #include "harness/execution/run/catch_errors.hpp"
 #include "harness/execution/run/check_output.hpp"
 #include "harness/execution/run/checked_curve.hpp"
@@ -69,9 +68,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
   TimedRun last;
   for (int run = 0; run < runs; ++run) {
     last = {};  // so that the destruction of its curve is not timed with the next run
-    const std::optional<std::int64_t> asked_before = allocations();
     last = timed_run(method, problem);
-    if (asked_before) result.allocations = allocations().value_or(0) - *asked_before;
     check_report(last.report);
     const bool is_first = run == 0 && is_freshly_forked() && !uses_exchange(last.report);
     if (is_first && last.seconds < kShortRun) {

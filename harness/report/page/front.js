@@ -1,5 +1,5 @@
 // Points {error, ms} that no other beats: less is better, and relative differences below 1e-6 count
-// as none, as in pareto_front (harness/profile).
+// as none.
 (() => {
   "use strict";
   const less = (a, b) => b - a > 1e-6 * Math.max(Math.abs(a), Math.abs(b));

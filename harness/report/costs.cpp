@@ -1,17 +1,41 @@
+#include "harness/report/costs.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 #include <map>
 
-#include "harness/profile/grouping.hpp"
-#include "harness/profile/profile.hpp"
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {
 namespace {
 
 constexpr double kMegabyte = 1e6;
+
+/// Cells by method, methods in order of first appearance.
+std::vector<std::pair<std::string, std::vector<const CellRecord*>>> by_method(
+    const std::vector<CellRecord>& cells) {
+  std::vector<std::pair<std::string, std::vector<const CellRecord*>>> out;
+  for (const CellRecord& cell : cells) {
+    auto found = std::ranges::find_if(out, [&](const auto& g) { return g.first == cell.method; });
+    if (found == out.end()) found = out.insert(out.end(), {cell.method, {}});
+    found->second.push_back(&cell);
+  }
+  return out;
+}
+
+/// Name of the method in tables.
+std::string table_name(const std::string& method, const std::vector<const CellRecord*>& cells) {
+  const bool is_oracle = std::ranges::any_of(cells, &CellRecord::oracle);
+  return method + (is_oracle ? " (oracle)" : "");
+}
+
+/// Whether there are results, but all without times.
+bool lacks_times(const std::vector<CellRecord>& cells) {
+  return std::ranges::none_of(cells, [](const auto& cell) { return cell.runs > 0; }) &&
+         std::ranges::any_of(cells, [](const auto& cell) { return has_numbers(cell.status); });
+}
 
 std::string milliseconds(double seconds) { return fmt::format("{:.4g}", 1e3 * seconds); }
 
@@ -41,8 +65,9 @@ std::optional<double> iterations(const CellRecord& cell) {
 
 std::vector<const CellRecord*> timed_of(const std::vector<const CellRecord*>& cells) {
   std::vector<const CellRecord*> out;
-  std::ranges::copy_if(
-      cells, std::back_inserter(out), [](const auto* c) { return is_finished(*c); });
+  std::ranges::copy_if(cells, std::back_inserter(out), [](const CellRecord* cell) {
+    return cell->runs > 0 && has_numbers(cell->status);
+  });
   return out;
 }
 
@@ -81,14 +106,10 @@ TableView costs(const std::vector<CellRecord>& cells) {
                  "CPU [ms]",
                  "peak memory [MB]",
                  "added [MB]",
-                 "allocations",
                  "iterations"},
                 {},
                 {}};
-  if (lacks_times(cells)) {
-    out.notes.push_back(kNoTimes);
-    return out;
-  }
+  if (lacks_times(cells)) return out;
   bool shared = false;
   bool alone = false;
   for (const auto& [method, all] : by_method(cells)) {
@@ -108,8 +129,6 @@ TableView costs(const std::vector<CellRecord>& cells) {
              timed, [](const auto& c) { return c.cpu_seconds; }, milliseconds),
          largest_megabytes(timed, [](const auto& c) { return c.peak_memory; }),
          largest_megabytes(timed, [](const auto& c) { return c.added_memory; }),
-         median_text(
-             timed, [](const auto& c) { return c.allocations; }, plain),
          median_text(timed, iterations, plain)});
   }
   out.notes.push_back(
@@ -121,7 +140,6 @@ TableView costs(const std::vector<CellRecord>& cells) {
         std::string(alone ? "some" : "all") +
         " cells ran in parallel with others; `timing: true` in the config runs them one at a time");
   }
-  std::ranges::move(oracle_notes(cells), std::back_inserter(out.notes));
   return out;
 }
 
@@ -137,7 +155,6 @@ TableView reported(const std::vector<CellRecord>& cells) {
     phases.add_rows(out, table_name(method, all), "phase [ms]", milliseconds);
     counts.add_rows(out, table_name(method, all), "count", plain);
   }
-  std::ranges::move(oracle_notes(cells), std::back_inserter(out.notes));
   return out;
 }
 
