@@ -64,9 +64,15 @@ void add_compare(CLI::App& app, int& exit_code) {
                    "Unit of independent observations: groups of runs, single runs, or sequences")
       ->transform(one_of("observation", units));
   command
+      ->add_option(
+          "--tie", arguments->options.tie, "Largest relative difference that counts as a tie [-]")
+      ->check(finite_number())
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  command
       ->add_option("--relevant",
                    arguments->options.relevant,
-                   "Largest relative difference that counts as a tie [-]")
+                   "Relative difference below which methods share the first place [-]")
       ->check(finite_number())
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();

@@ -87,9 +87,15 @@ void add_table(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
   command
+      ->add_option(
+          "--tie", arguments->ranking.tie, "Largest relative difference that counts as a tie [-]")
+      ->check(finite_number())
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  command
       ->add_option("--relevant",
                    arguments->ranking.relevant,
-                   "Largest relative difference that counts as a tie [-]")
+                   "Relative difference below which methods share the first place [-]")
       ->check(finite_number())
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();

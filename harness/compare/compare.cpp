@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/selection.hpp"
@@ -13,34 +14,45 @@
 namespace loopbench::harness {
 namespace {
 
-void add_ratio(MethodVerdict& method, const PairedMethods& pair, const Comparison& of) {
-  const std::optional<double> middle = mean_difference(pair);
-  if (!of.is_ratio || !middle) return;
+/// None where differences are no ratios, or most runs of one of the methods failed.
+std::optional<Ratio> ratio_of(const Pair& pair, const KeptRuns& kept, const Comparison& of) {
+  if (!pair.is_ratio || pair.values.empty()) return std::nullopt;
   const double sign = of.kind.better == metrics::Better::higher ? -1.0 : 1.0;
-  const double estimate = std::exp(sign * *middle);
-  method.ratio = Interval{estimate, estimate, estimate};
-  method.why_no_interval = why_no_interval(pair.common);
-  const auto found = mean_interval(pair.common, 1.0 - of.options.alpha);
-  if (!found) {
-    const std::size_t groups = pair.common.size();
-    method.has_equal_ratios = groups >= kFewestForInterval && 2 * pair.ties < groups;
-    return;
+  const auto interval = pair.typical(of.options.alpha / static_cast<double>(of.tests));
+  std::vector<double> sorted = pair.values;
+  std::ranges::sort(sorted);
+  const double estimate = interval ? interval->estimate : pseudo_median(sorted);
+  if (std::abs(estimate) > 0.1 * kBeyond) return std::nullopt;
+  Ratio out;
+  out.has_interval = interval.has_value();
+  const double low = std::exp(sign * (interval ? interval->low : estimate));
+  const double high = std::exp(sign * (interval ? interval->high : estimate));
+  out.typical = {std::exp(sign * estimate), std::min(low, high), std::max(low, high)};
+  if (pair.mean && !pair.has_zero) out.geometric_mean = std::exp(sign * *pair.mean);
+  const auto sequences = pair.by_sequence();
+  if (2 * sequences.size() > pair.values.size() || sequences.size() < 2) return out;
+  for (const auto& [sequence, mean] : sequences) {
+    out.by_sequence.emplace_back(kept.sequences[sequence], std::exp(sign * mean));
   }
-  const double one = std::exp(sign * found->interval.low);
-  const double other = std::exp(sign * found->interval.high);
-  method.ratio = Interval{estimate, std::min(one, other), std::max(one, other)};
-  method.has_interval = true;
+  return out;
 }
 
-void add_baseline(MethodVerdict& method, const PairedMethods& pair, const Comparison& of) {
-  add_ratio(method, pair, of);
+void add_baseline(MethodVerdict& method,
+                  const Pair& pair,
+                  const KeptRuns& kept,
+                  const Comparison& of,
+                  bool can_show) {
+  method.ratio = ratio_of(pair, kept, of);
   method.wins = pair.wins;
   method.losses = pair.losses;
   method.ties = pair.ties;
-  method.rank_biserial = -rank_biserial(signed_rank(pair.losses_last));
+  const double p = std::min(1.0, pair.p() * static_cast<double>(of.tests));
+  if (can_show) method.p = p;
+  method.is_contradicted = p <= of.options.alpha && pair.is_contradicted();
+  method.beats_baseline = pair.is_first_ahead() && pair.is_significant(of.options.alpha, of.tests);
 }
 
-MethodVerdict counts_of(const Observations& all, const CommonRuns& kept, std::size_t method_index) {
+MethodVerdict counts_of(const Observations& all, const KeptRuns& kept, std::size_t method_index) {
   MethodVerdict out;
   out.method = all.methods[kept.methods[method_index]];
   std::vector<double> values;
@@ -50,7 +62,7 @@ MethodVerdict counts_of(const Observations& all, const CommonRuns& kept, std::si
     const Observed& one = all.values[kept.methods[method_index]][run];
     if (one.value) values.push_back(*one.value);
     if (one.value) covered += one.coverage;
-    if (!one.value) reasons.push_back(one.status);
+    if (one.is_loss) reasons.push_back(one.status);
   }
   if (!values.empty()) out.coverage = covered / static_cast<double>(values.size());
   out.median = values.empty() ? std::nan("") : metrics::median(values);
@@ -60,18 +72,17 @@ MethodVerdict counts_of(const Observations& all, const CommonRuns& kept, std::si
   return out;
 }
 
-void add_claims(Comparison& out,
-                const Ranking& ranking,
-                std::size_t method_index,
-                std::size_t baseline) {
-  MethodVerdict& method = out.methods.back();
-  const std::size_t first = ranking.order.front();
-  method.is_leader = method_index == first || ranking.equal[first][method_index];
-  method.is_beaten_by_leader = ranking.beats[first][method_index];
-  method.beats_baseline = ranking.beats[method_index][baseline];
-  method.lowest_rank = ranking.lowest_rank(method_index);
-  method.highest_rank = ranking.highest_rank(method_index);
-  if (ranking.can_prove(out.options.alpha)) method.p = ranking.p[method_index][baseline];
+/// The leader, then by the typical ratio to the baseline; methods without one are last.
+void sort_methods(std::vector<MethodVerdict>& methods, metrics::Better better) {
+  const auto key = [&](const MethodVerdict& m) {
+    const double sign = better == metrics::Better::higher ? -1.0 : 1.0;
+    const auto behind = static_cast<double>(m.losses) - static_cast<double>(m.wins);
+    const double ratio = m.ratio        ? sign * m.ratio->typical.estimate
+                         : behind < 0.0 ? -kBeyond
+                                        : kBeyond;
+    return std::tuple(m.standing != Standing::leader, ratio, behind);
+  };
+  std::ranges::stable_sort(methods, {}, key);
 }
 
 Comparison compare_one(const Observations& all, std::size_t copies, const CompareOptions& options) {
@@ -79,25 +90,29 @@ Comparison compare_one(const Observations& all, std::size_t copies, const Compar
   out.kind = all.kind;
   out.options = options;
   out.copies = copies;
-  const CommonRuns kept = select_common(all, out);
+  const KeptRuns kept = select_runs(all, out);
   std::vector<std::string> names;
   for (const std::size_t m : kept.methods) names.push_back(all.methods[m]);
   const auto found = std::ranges::find(names, options.baseline);
   if (out.groups == 0 || names.size() < 2 || found == names.end()) return out;
   const auto baseline = static_cast<std::size_t>(found - names.begin());
-  const Levels levels(kept.values, options.relevant);
-  const Ranking ranking = rank_methods(kept.values, {options.alpha, options.relevant});
-  const std::vector<std::string> shared = letters(ranking);
-  out.is_best_proven = ranking.is_best_proven();
-  out.is_ratio = levels.is_ratio();
-  out.pairs = ranking.pairs;
+  const Levels levels(kept.values, options.tie);
+  const Ranking ranking = rank_methods(levels, {options.alpha, options.tie, options.relevant});
+  out.tests = ranking.tests;
   out.groups_needed = ranking.groups_needed;
-  for (const std::size_t method_index : ranking.order) {
-    out.methods.push_back(counts_of(all, kept, method_index));
-    out.methods.back().letters = shared[method_index];
-    add_baseline(out.methods.back(), paired(levels, method_index, baseline), out);
-    add_claims(out, ranking, method_index, baseline);
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    MethodVerdict& method = out.methods.emplace_back(counts_of(all, kept, m));
+    const Pair pair = compared(levels, m, baseline);
+    out.is_ratio = out.is_ratio && pair.is_ratio;
+    add_baseline(method, pair, kept, out, ranking.can_show());
+    method.standing = ranking.standings[m];
+    if (m != ranking.leader) method.from_leader = ratio_of(ranking.from_leader[m], kept, out);
   }
+  sort_methods(out.methods, out.kind.better);
+  const auto short_of_others = methods_with_less_coverage(out);
+  out.is_best = ranking.is_best() && std::ranges::none_of(out.methods, [&](const MethodVerdict& m) {
+                  return is_leading(m) && std::ranges::count(short_of_others, m.method) > 0;
+                });
   return out;
 }
 
@@ -134,6 +149,8 @@ class OracleMethods {
 };
 
 }  // namespace
+
+bool is_leading(const MethodVerdict& method) { return method.standing < Standing::behind; }
 
 std::vector<std::string> oracle_methods(const std::vector<Record>& records) {
   OracleMethods out;

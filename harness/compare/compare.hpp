@@ -1,15 +1,14 @@
 /// Statistical comparison of the methods of a sweep, one score at a time.
 ///
 /// The observation is a group of dependent runs (one route, one simulated instance); runs of equal
-/// content count once. Log ratios to the other method are averaged within each group; ratios,
-/// intervals, tests and ranks are computed over groups, see ranking.hpp. A run on which a method
-/// fails counts as a loss in the tests and is excluded from its ratio. No correction for multiple
-/// scores.
+/// content count once. Two methods are compared on the groups that both were run on, see pair.hpp,
+/// and the best is found in ranking.hpp. No correction for multiple scores.
 #pragma once
 
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/compare/observations.hpp"
@@ -28,32 +27,36 @@ struct CompareOptions {
   std::string baseline;
   std::string value = "rmse";
   Over over = Over::groups;
-  double alpha = 0.05;          ///< significance level of one comparison; intervals have 1 - alpha
-  double relevant = kRelevant;  ///< relative difference up to which values count as equal
+  double alpha = 0.05;     ///< probability of a false claim among those about a score
+  double tie = kTieShare;  ///< relative difference up to which values are equal
+  double relevant = 0.01;  ///< relative difference from which on a method is better for practice
+};
+
+/// Ratio of two methods, the first by the second.
+struct Ratio {
+  Interval typical;           ///< Hodges-Lehmann, with a simultaneous interval
+  bool has_interval = false;  ///< false: too few groups; typical.low and high equal the estimate
+  std::optional<double> geometric_mean;  ///< over groups on which both have values; none with zeros
+  /// Mean by sequence, if each sequence has several groups.
+  std::vector<std::pair<std::string, double>> by_sequence;
 };
 
 struct MethodVerdict {
   std::string method;
-  double median = 0.0;            ///< of its values
-  std::size_t runs = 0;           ///< runs with a value
-  std::size_t fails = 0;          ///< runs that count as a loss
-  std::string why_fails;          ///< "failed 2, declined 1"
-  double coverage = 1.0;          ///< of the reference, mean over its values, 0..1
-  std::optional<Interval> ratio;  ///< geometric mean of value / baseline over groups
-  bool has_interval = false;      ///< ratio.low and ratio.high are valid
-  std::string why_no_interval;    ///< reason for a ratio without an interval
-  bool has_equal_ratios = false;  ///< no interval, because most ratios are equal but no ties
-  std::size_t wins = 0;           ///< groups better than the baseline
+  double median = 0.0;         ///< of its values
+  std::size_t runs = 0;        ///< runs with a value
+  std::size_t fails = 0;       ///< runs that count as a loss
+  std::string why_fails;       ///< "crashed 1, failed 2"
+  double coverage = 1.0;       ///< of the reference, mean over its values, 0..1
+  std::optional<Ratio> ratio;  ///< to the baseline; none for values below zero, most runs failed
+  std::size_t wins = 0;        ///< groups better than the baseline
   std::size_t losses = 0;
   std::size_t ties = 0;
-  std::optional<double> p;     ///< p value against the baseline; none if no test is possible
-  double rank_biserial = 0.0;  ///< positive: better than the baseline
-  bool beats_baseline = false;
-  bool is_leader = false;  ///< first in the ranking, or equal to the first on every group
-  bool is_beaten_by_leader = false;
-  std::size_t lowest_rank = 1;  ///< best possible rank given the significant differences; 1 is best
-  std::size_t highest_rank = 1;
-  std::string letters;  ///< methods that share a letter do not differ significantly
+  std::optional<double> p;       ///< against the baseline, corrected; none if no test is possible
+  bool beats_baseline = false;   ///< significantly better
+  bool is_contradicted = false;  ///< p is at most alpha, but the geometric mean disagrees
+  Standing standing = Standing::open;  ///< relative to the leader
+  std::optional<Ratio> from_leader;    ///< the leader's ratio to this method
 };
 
 /// A method that lacks values on some or all runs.
@@ -68,21 +71,24 @@ struct Comparison {
   Record kind;  ///< protocol, times, metric, relation, axis, unit
   CompareOptions options;
   std::size_t groups = 0;              ///< observations
-  std::size_t runs = 0;                ///< runs used: every ranked method has a value or failed
+  std::size_t runs = 0;                ///< runs used: two ranked methods have a value or failed
   std::size_t possible = 0;            ///< runs that any method has, or should have
   std::size_t copies = 0;              ///< runs with the same content as another, not counted
   std::size_t sequences = 0;           ///< sequences of the runs used
   std::size_t possible_sequences = 0;  ///< sequences of the possible runs
   std::size_t known_groups = 0;        ///< groups of the runs, for any options.over
-  std::vector<MethodVerdict> methods;  ///< best first
+  std::vector<MethodVerdict> methods;  ///< the leader first, others by their ratio to the baseline
   std::vector<Gap> gaps;
   std::vector<std::string> oracles;          ///< excluded methods that use the reference
   std::vector<std::string> oracle_closures;  ///< sequences with closures from the reference
-  bool is_best_proven = false;    ///< the leaders are significantly better than all others
+  bool is_best = false;           ///< the leading methods are significantly better than all others
   bool is_ratio = true;           ///< false: plain differences, some value is negative
-  std::size_t pairs = 0;          ///< pairs of methods that differ on some group
+  std::size_t tests = 0;          ///< by which p is multiplied
   std::size_t groups_needed = 0;  ///< minimum for a significant difference
 };
+
+/// Whether the method leads: it is first, or as good as the first.
+bool is_leading(const MethodVerdict& method);
 
 /// One comparison for each score that has a direction. Deterministic. Throws InputError if the
 /// baseline is not a method of the records, if `where` leaves no score, and for an unknown

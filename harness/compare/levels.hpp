@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -9,54 +10,59 @@
 
 namespace loopbench::harness {
 
+/// Value of a run on which a method failed.
+inline constexpr double kFailed = std::numeric_limits<double>::quiet_NaN();
+
 struct GroupedValues {
-  std::vector<std::vector<std::optional<double>>> values;  ///< [method][run]; none: failed, a loss
-  std::vector<std::size_t> group;                          ///< of each run, numbered from 0
+  /// [method][run]: a value, kFailed, or none: not run or declined, no observation.
+  std::vector<std::vector<std::optional<double>>> values;
+  std::vector<std::size_t> group;     ///< of each run, numbered from 0
+  std::vector<std::size_t> sequence;  ///< of each run, numbered from 0; empty: one each
   metrics::Better better = metrics::Better::lower;
   double target = 0.0;
 };
-
-/// Difference to a failure or to an error of zero, for which no ratio exists.
-inline constexpr double kBeyond = 1e300;
 
 /// Errors up to this value count as zero beside an error of `largest`: rounding of coordinates,
 /// 1e-9 at most, so that an error of metres is not zero beside that of a method that diverges.
 double zero_floor(double largest);
 
 /// Values as levels: the error itself, its negative if higher is better, or its distance to the
-/// target. Logarithmic if no value is negative, so that runs with errors of metres do not dominate
-/// runs with errors of centimetres.
+/// target.
 class Levels {
  public:
-  /// Differences up to `relevant` times the larger value are ties.
-  Levels(const GroupedValues& all, double relevant);
+  /// Differences up to `tie` times the larger value are ties.
+  Levels(const GroupedValues& all, double tie);
 
-  bool is_ratio() const { return is_ratio_; }
   std::size_t methods() const { return costs_.size(); }
   std::size_t groups() const { return runs_of_.size(); }
   const std::vector<std::size_t>& runs_of(std::size_t group) const { return runs_of_[group]; }
-  bool has(std::size_t method, std::size_t run) const { return costs_[method][run].has_value(); }
+  std::size_t sequence_of(std::size_t group) const;
 
-  /// Level of `a` minus level of `b` if both have a value: negative if `a` is better, exactly 0 for
-  /// a tie, +-kBeyond if only one of them is zero. Depends on these two methods only.
+  /// Whether the method was run: it has a value or failed.
+  bool is_known(std::size_t method, std::size_t run) const {
+    return costs_[method][run].has_value();
+  }
+  bool has_value(std::size_t method, std::size_t run) const;
+
+  /// Whether differences of two methods are logarithms of ratios: neither has a value below zero.
+  bool is_ratio(std::size_t a, std::size_t b) const { return is_positive_[a] && is_positive_[b]; }
+
+  /// Difference of `a` to `b` if both have a value: negative if `a` is better, exactly 0 for a tie,
+  /// +-kBeyond if only one of them is zero. Depends on these two methods only.
   double difference(std::size_t a, std::size_t b, std::size_t run) const;
 
-  /// Sort key of methods: mean over groups of the mean level over a group's runs. A failed run
-  /// counts as twice the worst error on it (without ratios, as far beyond the worst as that is from
-  /// the best). O(runs * methods).
-  double standing(std::size_t method) const;
+  /// Whether two methods are known, fail and are tied on the same runs.
+  bool are_equal(std::size_t a, std::size_t b) const;
 
  private:
-  double level(std::size_t method, std::size_t run) const { return levels_[method][run]; }
-  double level_of_failure(std::size_t run) const;
-
-  std::vector<std::vector<std::optional<double>>> values_;
   std::vector<std::vector<std::optional<double>>> costs_;
+  std::vector<std::vector<double>> logarithms_;  // of the costs of methods without negative ones
+  std::vector<bool> is_positive_;
   std::vector<std::vector<std::size_t>> runs_of_;
-  std::vector<std::vector<double>> levels_;  // of the costs
+  std::vector<std::size_t> sequence_;  // of each run
   double sign_ = 1.0;
-  double relevant_ = 0.0;
-  bool is_ratio_ = true;
+  double tie_ = 0.0;
+  double target_ = 0.0;  // relative to which distances to it are rounded
 };
 
 }  // namespace loopbench::harness

@@ -41,10 +41,7 @@ std::string run_name(const Record& r) {
 
 std::string group_name(const Record& r) { return r.group.empty() ? run_name(r) : r.group.text(); }
 
-bool is_loss(const Record& r) {
-  if (r.status == Status::ok) return false;
-  return r.metric.empty() || r.status != Status::declined;
-}
+bool is_loss(const Record& r) { return r.status != Status::ok && r.status != Status::declined; }
 
 ObservationsBuilder::ObservationsBuilder(std::string value)
     : value_(std::move(value)),

@@ -17,8 +17,8 @@ std::string run_name(const Record& record);
 std::string group_name(const Record& record);
 
 /// Whether a record without a usable value counts as a loss of its method: the method failed,
-/// crashed, exceeded its limits, declined, or its estimate is incomplete or has no score. Undefined
-/// or declined scores are a property of the metric and do not count.
+/// crashed, exceeded its limits, or its estimate is incomplete or has no score. A method or a score
+/// that declines (no loops, no rotations) makes no claim, and is no observation.
 bool is_loss(const Record& record);
 
 inline const SharedText kNotRun = "not run";

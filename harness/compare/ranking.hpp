@@ -1,66 +1,53 @@
-/// Pairwise significance of methods: the procedure behind verdicts, ranks and marks.
+/// The best of several methods.
 ///
-/// Every pair of methods is tested over groups by Wilcoxon's signed-rank test (zeros as in Pratt);
-/// a group on which one method fails more often counts as its loss, with the largest magnitude.
-/// Holm's correction covers all pairs, including that of a best method selected from the results. A
-/// method is proven better than another if the corrected p is at most alpha and the geometric mean
-/// ratio over common runs agrees: it has the same sign, exceeds the relevant difference (failures
-/// alone can decide between methods that are otherwise equal), and its interval excludes 1 even
-/// if it misses the ratio as often as for the worst of usual distributions. Errors of other methods
-/// do not matter: they change a pair's p only through the number of pairs.
-/// With fewer groups than an interval needs (8), nothing is proven. If there is no interval for
-/// another reason (equal ratios, failures), the ranks and the direction and size of the ratio
-/// decide; `compare` remarks that groups with equal ratios can be copies.
+/// A method is significantly better than another if their pair's p, times the number of other
+/// methods (Bonferroni), is at most alpha: that covers each method against the baseline, or each
+/// against the leader. Equal methods count once. The leader is ahead of all others by ranks, if
+/// there is such a method, and best if it is significantly better than all of them; methods behind
+/// it by less than a relevant difference are best with it.
 #pragma once
 
-#include <string>
+#include <cstddef>
 #include <vector>
 
-#include "harness/compare/levels.hpp"
-#include "harness/compare/paired.hpp"
-#include "harness/statistics/mean_interval.hpp"
+#include "harness/compare/pair.hpp"
 #include "harness/statistics/ranks.hpp"
 
 namespace loopbench::harness {
 
 struct RankingOptions {
-  double alpha = 0.05;          ///< probability of any false claim among all pairs
-  double relevant = kRelevant;  ///< relative difference up to which methods are equal
+  double alpha = 0.05;     ///< probability of any false claim about a method and the baseline
+  double tie = kTieShare;  ///< relative difference up to which values are equal
+  double relevant = 0.01;  ///< relative difference from which on a method is better for practice
+};
+
+/// How a method compares with the leader.
+enum class Standing {
+  leader,
+  equal,   ///< on every run
+  near,    ///< significantly worse, but typically by less than a relevant difference
+  behind,  ///< significantly worse
+  open     ///< not significantly different
 };
 
 struct Ranking {
-  std::vector<std::size_t> order;  ///< by Levels::standing, but no method before one that beats it
-  std::vector<std::vector<bool>> beats;  ///< [a][b]: a is proven better than b
-  std::vector<std::vector<bool>> equal;  ///< [a][b]: tied on every group
-  std::vector<std::vector<double>> p;    ///< [a][b]: at most alpha exactly if one beats the other
-  std::size_t pairs = 0;                 ///< number of tested pairs, which are not equal
-  double least_p = 1.0;                  ///< corrected p if all groups have one sign; or 1
-  /// Minimum number of groups for a significant pair.
-  std::size_t groups_needed = kFewestForInterval;
+  std::size_t leader = 0;
+  std::vector<Standing> standings;  ///< of each method
+  std::vector<Pair> from_leader;    ///< the leader against each method
+  std::size_t tests = 1;            ///< different methods, but one
+  std::size_t groups = 0;           ///< most groups of a pair
+  std::size_t groups_needed = 0;    ///< fewest for which p can be small enough
 
-  /// Whether a pair can be significant with this number of groups and methods.
-  bool can_prove(double alpha) const { return least_p <= alpha; }
-  /// The first in order and those equal to it.
-  std::vector<std::size_t> leaders() const;
-  /// Whether the leaders beat every other method.
-  bool is_best_proven() const;
-  /// Range of ranks given the significant pairs: 1 + the number of methods that beat it, to the
-  /// number of methods minus those that it beats.
-  std::size_t lowest_rank(std::size_t method) const;
-  std::size_t highest_rank(std::size_t method) const;
+  bool can_show() const { return groups >= groups_needed; }
+  bool is_leading(std::size_t method) const { return standings[method] < Standing::behind; }
+  /// Whether the leading methods are significantly better than all others; false if all are equal.
+  bool is_best() const;
 };
 
-/// Deterministic. O(methods^2 * (runs + groups^3)) for exact tests.
-Ranking rank_methods(const GroupedValues& values, const RankingOptions& options);
+/// Deterministic. O(methods * (runs log runs + groups^3)), groups^3 for up to 50 groups only.
+Ranking rank_methods(const Levels& levels, const RankingOptions& options);
 
-/// Whether some method is not significantly worse than the first even without a correction,
-/// although the number of groups would suffice: then no best method is proven. Few tests instead of
-/// all pairs; false if that is unknown.
-bool is_surely_unproven(const GroupedValues& values, const RankingOptions& options);
-
-/// Letters for each method; two methods share a letter exactly if neither beats the other (Piepho,
-/// Journal of Computational and Graphical Statistics 13, 2004). The first in order has `a`. Empty
-/// strings if more than 100 letters are needed.
-std::vector<std::string> letters(const Ranking& ranking);
+/// The same without the methods that lead `before`, for a second place.
+Ranking rank_rest(const Levels& levels, const Ranking& before, const RankingOptions& options);
 
 }  // namespace loopbench::harness

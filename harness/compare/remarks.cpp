@@ -10,13 +10,6 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-/// With this share of ties or more, 95 % intervals cover up to 98 % (mean_interval.hpp).
-constexpr double kManyTies = 0.2;
-
-bool is_tied(const MethodVerdict& m, const Comparison& c) {
-  return static_cast<double>(m.ties) >= kManyTies * static_cast<double>(c.groups);
-}
-
 std::string comma_list(const Lines& names) {
   std::string out;
   for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
@@ -26,7 +19,7 @@ std::string comma_list(const Lines& names) {
 Lines about_runs(const Comparison& c) {
   Lines out{"over " + unit_text(c)};
   if (c.runs < c.possible) {
-    out[0] += fmt::format(" of {} possible: those on which every method has a value or failed",
+    out[0] += fmt::format(" of {} possible: those on which two methods have a value or failed",
                           c.possible);
   }
   if (c.copies > 0) {
@@ -42,7 +35,7 @@ Lines about_runs(const Comparison& c) {
   } else if (c.sequences < c.groups) {
     const std::string these =
         c.sequences == 1 ? "this sequence" : fmt::format("these {} sequences", c.sequences);
-    out.push_back("claims hold for other instances of " + these +
+    out.push_back("claims hold for more runs of " + these +
                   "; --over sequences tests whether they hold for other sequences");
   }
   return out;
@@ -58,7 +51,7 @@ Lines about_methods(const Comparison& c) {
     } else if (fails > 0) {
       out.push_back(
           fmt::format("{} fails on {} of {} runs ({}): they count as losses in the tests and are "
-                      "excluded from its median and ratio",
+                      "excluded from its median and mean ratio",
                       gap.method,
                       fails,
                       c.runs,
@@ -82,40 +75,39 @@ Lines about_methods(const Comparison& c) {
   return out;
 }
 
-Lines about_ratios(const Comparison& c) {
-  if (!c.is_ratio) {
-    return {"some values are negative: no ratio; tests on plain differences decide alone"};
-  }
+/// "room 0.52, city 0.61".
+std::string by_sequence(const Ratio& ratio) {
   Lines out;
-  Lines equal;
+  for (const auto& [sequence, value] : ratio.by_sequence) {
+    out.push_back(fmt::format("{} {:.3f}", sequence, value));
+  }
+  return comma_list(out);
+}
+
+Lines about_ratios(const Comparison& c) {
+  Lines out;
+  if (!c.is_ratio) {
+    out.push_back(
+        "some values are negative: no ratio for their methods; tests of plain differences");
+  }
   Lines zero;
-  Lines tied;
-  std::map<std::string, Lines> without;  // by reason
   for (const MethodVerdict& m : c.methods) {
-    if (m.has_interval && is_tied(m, c)) tied.push_back(m.method);
-    if (m.has_equal_ratios) equal.push_back(m.method);
-    if (!m.ratio && m.runs > 0) zero.push_back(m.method);
-    if (m.ratio && !m.has_interval && m.wins + m.losses > 0) {
-      without[m.why_no_interval].push_back(m.method);
+    if (m.ratio && !m.ratio->geometric_mean && m.runs > 0) zero.push_back(m.method);
+    if (m.is_contradicted) {
+      out.push_back(m.method + ": ranks and the geometric mean ratio to " + c.options.baseline +
+                    " contradict each other, so that nothing is claimed");
     }
   }
   if (!zero.empty()) {
-    out.push_back("no ratio to " + c.options.baseline +
+    out.push_back("no geometric mean ratio to " + c.options.baseline +
                   " where an error is zero (or no run is common): " + comma_list(zero));
   }
-  for (const auto& [why, methods] : without) {
-    out.push_back("no interval for " + comma_list(methods) + ": " + why);
-  }
-  if (!equal.empty()) {
-    out.push_back("most ratios to " + c.options.baseline +
-                  " are equal to rounding, so that the groups can be copies of one another: " +
-                  comma_list(equal));
-  }
-  if (!tied.empty()) {
-    out.push_back(
-        "interval too wide (of 95 %, it contains the ratio in up to 98 % of the cases), "
-        "because a fifth of the groups or more tie with " +
-        c.options.baseline + ": " + comma_list(tied));
+  const MethodVerdict& first = c.methods.front();
+  if (first.ratio && !first.ratio->by_sequence.empty() && first.method != c.options.baseline) {
+    out.push_back(fmt::format("mean ratio {} / {} by sequence: {}",
+                              first.method,
+                              c.options.baseline,
+                              by_sequence(*first.ratio)));
   }
   return out;
 }
@@ -133,30 +125,33 @@ Lines remarks(const Comparison& c) {
   if (c.methods.empty()) return out;
   const double level = 100.0 * (1.0 - c.options.alpha);
   out.push_back(fmt::format(
-      "ratio: geometric mean of {} / {}, {:g} % interval (Student's, corrected for "
-      "the skewness of the logarithms, each at this level); effect: rank-biserial, "
-      "positive is better",
+      "ratio: typical {} / {} (Hodges-Lehmann) with its interval, which inverts the test, {:g} % "
+      "for "
+      "all methods together; mean: geometric mean ratio over runs on which both have values; "
+      "behind: "
+      "typical ratio to the first method, less 1",
       c.kind.better == metrics::Better::target ? fmt::format("|value - {:g}|", c.kind.target)
                                                : "value",
       c.options.baseline,
       level));
   out.push_back(fmt::format(
-      "p against {}, ranks, groups and the verdict: one family of {} Wilcoxon signed-rank tests "
-      "(Pratt), Holm-corrected; p is the larger of the test's and, where that is significant, 1.4 "
-      "times that of the interval of the ratio; a method is proven better where p <= {:g} and the "
-      "ratio agrees; fewer than 8 groups prove nothing; rank: range given the "
-      "proven differences; group: methods that share a letter are not "
-      "proven different; differences up to {:g} of a value are ties",
+      "p: Wilcoxon's exact signed-rank test of log ratios against {}, a failure being the largest "
+      "loss, times {} (Bonferroni); significantly better: p <= {:g}, and the geometric mean does "
+      "not "
+      "disagree; differences up to {:g} of a value are ties, up to {:g} are not relevant for "
+      "\"best\"",
       c.options.baseline,
-      c.pairs,
+      c.tests,
       c.options.alpha,
+      c.options.tie,
       c.options.relevant));
-  if (c.pairs > 0 && c.groups < c.groups_needed) {
+  if (c.groups < c.groups_needed) {
     out.push_back(
-        fmt::format("no p: {} cannot prove a difference at {:g} in {} tests, {} are needed",
+        fmt::format("no p: {} cannot show a difference at {:g} in {} test{}, {} are needed",
                     unit_text(c),
                     c.options.alpha,
-                    c.pairs,
+                    c.tests,
+                    c.tests == 1 ? "" : "s",
                     c.groups_needed));
   }
   for (std::string& line : about_ratios(c)) out.push_back(std::move(line));

@@ -72,26 +72,30 @@ std::string counted(const std::vector<std::string>& reasons) {
   return out;
 }
 
-CommonRuns select_common(const Observations& all, Comparison& out) {
-  CommonRuns kept{ranked_methods(all, out), {}, {}};
-  std::set<std::string> sequences;
+KeptRuns select_runs(const Observations& all, Comparison& out) {
+  KeptRuns kept{ranked_methods(all, out), {}, {}, {}};
+  NameOrder sequences;
   std::set<std::string> possible_sequences;
+  const auto fewest = std::min<std::ptrdiff_t>(2, std::ssize(kept.methods));
   std::set<std::string> measured;
   for (std::size_t run = 0; run < all.runs.size(); ++run) {
     const auto at = [&](std::size_t m) -> const Observed& { return all.values[m][run]; };
     possible_sequences.insert(all.runs[run].sequence);
-    const bool is_known = std::ranges::all_of(
+    const auto known = std::ranges::count_if(
         kept.methods, [&](std::size_t m) { return at(m).value || at(m).is_loss; });
     const bool has_value =
         std::ranges::any_of(kept.methods, [&](std::size_t m) { return at(m).value.has_value(); });
-    if (!is_known || !has_value) continue;
+    if (known < fewest || !has_value) continue;
     kept.runs.push_back(run);
-    sequences.insert(all.runs[run].sequence);
+    kept.values.sequence.push_back(sequences.index(all.runs[run].sequence));
     if (all.runs[run].has_oracle_closures) measured.insert(all.runs[run].sequence);
   }
   for (const std::size_t m : kept.methods) {
     std::vector<std::optional<double>>& row = kept.values.values.emplace_back();
-    for (const std::size_t run : kept.runs) row.push_back(all.values[m][run].value);
+    for (const std::size_t run : kept.runs) {
+      const Observed& one = all.values[m][run];
+      row.push_back(one.is_loss ? std::optional(kFailed) : one.value);
+    }
   }
   kept.values.group = groups(all, kept.runs, out.options.over);
   kept.values.better = all.kind.better;
@@ -100,7 +104,8 @@ CommonRuns select_common(const Observations& all, Comparison& out) {
   out.known_groups = count(groups(all, kept.runs, Over::groups));
   out.runs = kept.runs.size();
   out.possible = all.runs.size();
-  out.sequences = sequences.size();
+  kept.sequences = sequences.names();
+  out.sequences = kept.sequences.size();
   out.possible_sequences = possible_sequences.size();
   out.oracle_closures.assign(measured.begin(), measured.end());
   return kept;

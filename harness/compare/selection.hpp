@@ -1,4 +1,4 @@
-/// The subset of a score's values on which all methods can be compared.
+/// The subset of a score's values on which methods can be compared.
 #pragma once
 
 #include <string>
@@ -8,15 +8,16 @@
 
 namespace loopbench::harness {
 
-struct CommonRuns {
-  std::vector<std::size_t> methods;  ///< indices into the observations: methods with any value
-  std::vector<std::size_t> runs;     ///< likewise
-  GroupedValues values;              ///< values of these methods and runs
+struct KeptRuns {
+  std::vector<std::size_t> methods;    ///< indices into the observations: methods with any value
+  std::vector<std::size_t> runs;       ///< likewise
+  GroupedValues values;                ///< values of these methods and runs
+  std::vector<std::string> sequences;  ///< names by GroupedValues::sequence
 };
 
-/// Runs on which every ranked method has a value or failed, and at least one has a value, grouped
+/// Runs on which two ranked methods have a value or failed, and at least one has a value, grouped
 /// by `out.options.over`. Records kept and missing counts in `out`.
-CommonRuns select_common(const Observations& all, Comparison& out);
+KeptRuns select_runs(const Observations& all, Comparison& out);
 
 /// "declined 1, failed 2": each reason with its count.
 std::string counted(const std::vector<std::string>& reasons);

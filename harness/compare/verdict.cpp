@@ -3,18 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/compare/compare.hpp"
+#include "harness/compare/ratio_text.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-std::string joined_names(const std::vector<std::string>& names, const char* last = " and ") {
-  std::string out;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    out += (i == 0 ? "" : i + 1 == names.size() ? last : ", ") + names[i];
-  }
-  return out;
-}
 
 std::string p_sentence(double p) {
   return p < 0.0001 ? "p < 0.0001" : fmt::format("p = {:.2g}", p);
@@ -41,12 +33,6 @@ std::vector<std::string> names_where(const Comparison& c, Holds holds) {
   return out;
 }
 
-/// One decimal, or two digits if that would be 0.0.
-std::string percent_text(double percent) {
-  return std::abs(percent) >= 0.95 || percent == 0.0 ? fmt::format("{:.1f}", percent)
-                                                     : fmt::format("{:.2g}", percent);
-}
-
 /// "better than raw on 14 of 16 groups", where no ratio is defined.
 std::string without_ratio(const MethodVerdict& method, const Comparison& c) {
   const bool is_better = method.wins > method.losses;
@@ -64,32 +50,15 @@ std::string without_ratio(const MethodVerdict& method, const Comparison& c) {
                      groups);
 }
 
-/// "12.3 % below raw [8.1, 15.2]": difference of a method to the baseline. For a score with a
-/// target "12.3 % closer to 1 than raw".
+/// Difference of a method to the baseline.
 std::string distance(const MethodVerdict& method, const Comparison& c) {
   const CompareOptions& options = c.options;
   const bool is_tie = method.ties > 0 && method.wins + method.losses == 0;
   // A method that fails on some runs has losses although its values are equal.
   const bool is_equal = method.ratio && method.fails > 0 &&
-                        std::abs(method.ratio->estimate - 1.0) <= options.relevant;
+                        std::abs(method.ratio->typical.estimate - 1.0) <= options.tie;
   if (is_tie || is_equal) return "equal to " + options.baseline;
-  if (!method.ratio) return without_ratio(method, c);
-  const double sign = method.ratio->estimate <= 1.0 ? -100.0 : 100.0;
-  const auto percent = [&](double ratio) { return sign * (ratio - 1.0); };
-  const bool has_target = c.kind.better == metrics::Better::target;
-  const std::string relation =
-      !has_target
-          ? (sign < 0.0 ? "below" : "above")
-          : fmt::format("{} {:g} than", sign < 0.0 ? "closer to" : "farther from", c.kind.target);
-  std::string out = fmt::format(
-      "{} % {} {}", percent_text(percent(method.ratio->estimate)), relation, options.baseline);
-  if (method.has_interval) {
-    const double low = percent(method.ratio->low);
-    const double high = percent(method.ratio->high);
-    out += fmt::format(
-        " [{}, {}]", percent_text(std::min(low, high)), percent_text(std::max(low, high)));
-  }
-  return out;
+  return method.ratio ? ratio_text(*method.ratio, options.baseline, c) : without_ratio(method, c);
 }
 
 /// ", on 8 of 10 runs; fails 2"; empty without failures.
@@ -98,21 +67,44 @@ std::string failures_text(const Comparison& c, const MethodVerdict& method) {
   return fmt::format(", on {} of {} runs; fails {}", method.runs, c.runs, method.fails);
 }
 
-/// ", but raw fails on 6 of 8 runs": why a method ranks before the baseline although its error is
-/// larger where both have one.
+/// ", raw fails on 6 of 8 runs": a method can rank before the baseline for that reason alone.
 std::string baseline_failures_text(const Comparison& c, const MethodVerdict& method) {
   const MethodVerdict& baseline = *find(c, c.options.baseline);
-  const bool is_worse = method.ratio && method.ratio->estimate > 1.0 + c.options.relevant;
-  if (!is_worse || baseline.fails <= method.fails) return "";
-  return fmt::format(", but {} fails on {} of {} runs", baseline.method, baseline.fails, c.runs);
+  if (baseline.fails <= method.fails) return "";
+  return fmt::format(", {} fails on {} of {} runs", baseline.method, baseline.fails, c.runs);
 }
 
-/// distance() with p and the excluded runs, for a method that ranks before the baseline.
+std::string contradiction_text(const Comparison& c, const MethodVerdict& method) {
+  if (!method.is_contradicted) return "";
+  const bool has_mean = method.ratio && method.ratio->geometric_mean;
+  return has_mean ? fmt::format(" on most {}, but the geometric mean ratio is {:.3f}",
+                                c.groups < c.runs ? "groups" : "runs",
+                                *method.ratio->geometric_mean)
+                  : " on most runs, but not in the mean";
+}
+
+/// distance() with p and the excluded runs.
 std::string result(const Comparison& c, const MethodVerdict& method) {
   std::string out = distance(method, c);
+  if (method.ratio && method.standing == Standing::leader) out += sequences_text(*method.ratio, c);
   if (method.p) out += ", " + p_sentence(*method.p);
-  if (method.p && !method.beats_baseline) out += ", not proven";
-  return out + failures_text(c, method) + baseline_failures_text(c, method);
+  return out + contradiction_text(c, method) + failures_text(c, method) +
+         baseline_failures_text(c, method);
+}
+
+/// "; 5.2 % below dual, the next [2.0, 8.1]": the margin that decides.
+std::string next_text(const Comparison& c) {
+  const MethodVerdict* next = nullptr;
+  for (const MethodVerdict& m : c.methods) {
+    if (is_leading(m) || m.method == c.options.baseline || !m.from_leader) continue;
+    const auto margin = [](const MethodVerdict& of) {
+      return std::abs(std::log(of.from_leader->typical.estimate));
+    };
+    if (next == nullptr || margin(m) < margin(*next)) next = &m;
+  }
+  if (next == nullptr) return "";
+  return "; " + ratio_text(*next->from_leader, next->method + ", the next", c) +
+         sequences_text(*next->from_leader, c);
 }
 
 std::string why_no_comparison(const Comparison& c) {
@@ -121,7 +113,7 @@ std::string why_no_comparison(const Comparison& c) {
       return "the baseline " + gap.method + " has no value on any run: nothing is compared";
     }
   }
-  if (c.runs == 0) return "no run has a value of every method: nothing is compared";
+  if (c.runs == 0) return "no run has values of two methods: nothing is compared";
   return "one method alone has values: nothing is compared";
 }
 
@@ -130,48 +122,70 @@ std::string only_other(const Comparison& c) {
   if (c.methods.size() != 2) return "";
   const bool is_first = c.methods.front().method != c.options.baseline;
   const MethodVerdict& other = is_first ? c.methods.front() : c.methods.back();
-  return ": " + other.method + " is " + distance(other, c) +
-         (other.p ? ", " + p_sentence(*other.p) : "") + failures_text(c, other);
+  return ": " + other.method + " is " + result(c, other);
+}
+
+/// "dual is ", or of several "dual and twin are equal, ".
+std::string leaders_text(const Comparison& c) {
+  const auto equal = names_where(c, [](const MethodVerdict& m) {
+    return m.standing == Standing::leader || m.standing == Standing::equal;
+  });
+  return joined_names(equal) + (equal.size() == 1 ? " is " : " are equal, ");
 }
 
 std::string best_text(const Comparison& c, const std::vector<std::string>& leaders) {
-  const MethodVerdict* baseline = find(c, c.options.baseline);
-  std::string out = joined_names(leaders);
-  out += leaders.size() == 1 ? " is best" : " are best and equal";
-  if (leaders.size() == c.methods.size()) return "all methods are equal";
-  if (baseline->is_leader) {
-    out = (leaders.size() == 1 ? "the baseline " : "") + out + only_other(c);
-  } else {
-    out += ": " + result(c, c.methods.front());
+  const MethodVerdict& baseline = *find(c, c.options.baseline);
+  const std::string better = c.methods.size() - leaders.size() == 1
+                                 ? "significantly better than the other method"
+                                 : "significantly better than each of the other methods";
+  const std::string tail = "; " + better + next_text(c);
+  const std::string names = joined_names(leaders);
+  if (leaders.size() == 1) {
+    return baseline.standing == Standing::leader
+               ? "the baseline " + names + " is best" + only_other(c) + tail
+               : names + " is best: " + result(c, c.methods.front()) + tail;
   }
-  return out + "; proven better than " +
-         (c.methods.size() - leaders.size() == 1 ? "the other method"
-                                                 : "each of the other methods");
+  const bool has_near = std::ranges::any_of(
+      c.methods, [](const MethodVerdict& m) { return m.standing == Standing::near; });
+  std::string out = names + " are best";
+  out += has_near ? fmt::format(", within {:g} % of one another", 100.0 * c.options.relevant)
+                  : " and equal";
+  if (baseline.standing == Standing::leader || baseline.standing == Standing::equal) {
+    return out + tail;
+  }
+  return out + ": " + (has_near ? leaders_text(c) : "") + result(c, c.methods.front()) + tail;
 }
 
-/// Claims that hold although no method is proven best.
-std::string undecided_text(const Comparison& c, const std::vector<std::string>& leaders) {
+/// What holds although no method is best.
+std::string undecided_text(const Comparison& c) {
   const MethodVerdict& first = c.methods.front();
-  const auto others = names_where(c, [](const MethodVerdict& m) { return !m.is_leader; });
   const auto open =
-      names_where(c, [](const MethodVerdict& m) { return !m.is_leader && !m.is_beaten_by_leader; });
+      names_where(c, [](const MethodVerdict& m) { return m.standing == Standing::open; });
   const auto winners = names_where(c, [](const MethodVerdict& m) { return m.beats_baseline; });
-  const std::string rest = open.size() == others.size() && open.size() > 1
-                               ? "any other method"
-                               : joined_names(open, " or ");
-  if (find(c, c.options.baseline)->is_leader) {
-    return "no method is proven better than the baseline " + c.options.baseline +
-           "; it is not proven better than " + rest + only_other(c);
+  constexpr std::size_t kMostNames = 4;
+  std::vector<std::string> named = open;
+  if (open.size() > kMostNames) {
+    named.resize(kMostNames - 1);
+    named.push_back(fmt::format("{} others", open.size() - named.size()));
   }
-  const std::string lead =
-      joined_names(leaders) + (leaders.size() == 1 ? " is " : " are equal, ") + result(c, first);
+  const std::string rest = open.size() + 1 == c.methods.size() && open.size() > 1
+                               ? "any other method"
+                               : joined_names(named, " or ");
+  const Standing baseline = find(c, c.options.baseline)->standing;
+  if (baseline == Standing::leader || baseline == Standing::equal) {
+    return "no method is significantly better than the baseline " + c.options.baseline +
+           ", which is not significantly better than " + rest + only_other(c);
+  }
+  const std::string lead = leaders_text(c) + result(c, first);
   if (first.beats_baseline) {
-    return "no method is proven best: " + lead + ", but not proven better than " + rest;
+    return "no method is significantly best: " + lead + ", but not significantly better than " +
+           rest;
   }
   if (winners.empty()) {
-    return "no method is proven better than the baseline " + c.options.baseline + ": " + lead;
+    return "no method is significantly better than the baseline " + c.options.baseline + ": " +
+           lead;
   }
-  return "no method is proven best: proven better than " + c.options.baseline +
+  return "no method is significantly best: significantly better than " + c.options.baseline +
          (winners.size() == 1 ? " is " : " are ") + joined_names(winners) + "; " + lead;
 }
 
@@ -188,7 +202,8 @@ std::string unit_text(const Comparison& c) {
   // Two runs of one sequence, of which one counts, are not "1 sequence of 2 possible".
   const bool has_one_run_each =
       c.sequences == c.runs && (c.runs == c.possible || c.possible_sequences == c.possible);
-  return plural(c.runs, has_one_run_each ? "sequence" : "run");
+  if (has_one_run_each) return plural(c.runs, "sequence");
+  return plural(c.runs, "run") + (c.runs > 1 ? " of " + plural(c.sequences, "sequence") : "");
 }
 
 std::vector<std::string> methods_with_less_coverage(const Comparison& c) {
@@ -209,20 +224,28 @@ std::string coverage_text(const Comparison& c, const std::vector<std::string>& m
 
 std::string verdict(const Comparison& c) {
   if (c.methods.empty()) return why_no_comparison(c);
-  const auto leaders = names_where(c, [](const MethodVerdict& m) { return m.is_leader; });
+  const auto leaders = names_where(c, is_leading);
+  const std::string over = "; over " + unit_text(c);
+  const auto is_equal = [](const MethodVerdict& m) {
+    return m.standing == Standing::leader || m.standing == Standing::equal;
+  };
+  if (std::ranges::all_of(c.methods, is_equal)) return "all methods are equal" + over;
   std::vector<std::string> partial = methods_with_less_coverage(c);
   std::erase_if(partial, [&](const std::string& m) { return std::ranges::count(leaders, m) == 0; });
   const std::string covered = coverage_text(c, partial);
-  const std::string over = (covered.empty() ? "" : "; but " + covered) + "; over " + unit_text(c);
-  if (c.is_best_proven || leaders.size() == c.methods.size()) return best_text(c, leaders) + over;
-  if (c.groups >= c.groups_needed) return undecided_text(c, leaders) + over;
-  const MethodVerdict& first = c.methods.front();
+  if (c.groups >= c.groups_needed && !covered.empty()) {
+    return "no method is called best: " + covered + "; " + leaders_text(c) +
+           result(c, c.methods.front()) + over;
+  }
+  if (c.groups >= c.groups_needed) {
+    return (c.is_best ? best_text(c, leaders) : undecided_text(c)) + over;
+  }
   const std::string lead =
-      find(c, c.options.baseline)->is_leader
+      is_leading(*find(c, c.options.baseline))
           ? "the baseline " + c.options.baseline + " ranks first" + only_other(c)
-          : joined_names(leaders) + (leaders.size() == 1 ? " is " : " are ") + result(c, first);
+          : leaders_text(c) + result(c, c.methods.front());
   return fmt::format(
-      "nothing is proven: {}{}, but {} cannot prove a difference among {} methods at "
+      "nothing can be shown: {}{}, but {} cannot show a difference among {} methods at "
       "{:g} ({} are needed)",
       lead,
       covered.empty() ? "" : ", and " + covered,

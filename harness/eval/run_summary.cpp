@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "harness/statistics/mean_interval.hpp"
+#include "harness/statistics/typical_difference.hpp"
 #include "harness/text/wrap.hpp"
 
 namespace loopbench::harness {
@@ -56,8 +56,7 @@ std::string content_key(const Record& r) {
 
 RunSummary summary(const std::string& sequence,
                    const std::string& method,
-                   const CountedRuns& counted,
-                   bool is_error) {
+                   const CountedRuns& counted) {
   std::vector<double> values;
   for (const auto& [content, value] : counted.values) values.push_back(value);
   RunSummary out{sequence, method, counted.contents.size(), 0, values.size(), 0, 0, 0, 0, {}};
@@ -70,10 +69,7 @@ RunSummary summary(const std::string& sequence,
       values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
   out.smallest = values.front();
   out.largest = values.back();
-  if (const auto interval = mean_interval(values)) out.interval = interval->interval;
-  const bool is_negative = out.smallest < 0.0;
-  if (out.interval && is_error && !is_negative)
-    out.interval->low = std::max(0.0, out.interval->low);
+  out.interval = shift_interval(values, 0.05);
   return out;
 }
 
@@ -149,8 +145,7 @@ std::vector<RunSummary> summarise_runs(const std::vector<Record>& records, const
   }
   std::vector<RunSummary> out;
   for (const Key& key : order) {
-    const bool is_error = score.better == metrics::Better::lower;
-    out.push_back(summary(key.first, key.second, runs[key], is_error));
+    out.push_back(summary(key.first, key.second, runs[key]));
   }
   return out;
 }

@@ -21,7 +21,7 @@ struct RunSummary {
   double median = 0.0;
   double smallest = 0.0;
   double largest = 0.0;
-  std::optional<Interval> interval;  ///< 95 % of the mean; none below eight successes
+  std::optional<Interval> interval;  ///< 95 % of the pseudo-median; none below six successes
 };
 
 /// Summaries of the score with the protocol, label, relation, axis and unit of `score`, by sequence

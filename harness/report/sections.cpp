@@ -50,23 +50,23 @@ std::string key_figure(const Comparison& c) {
   const MethodVerdict& best = c.methods.front();
   if (best.method == c.options.baseline || !best.ratio) return "";
   const auto percent = [](double ratio) { return fmt::format("{:+.1f}", 100.0 * (ratio - 1.0)); };
-  const bool proven = best.beats_baseline;
-  std::string out = std::string("<div class=\"key") + (proven ? "" : " unproven") +
-                    "\"><span class=\"number\">" + percent(best.ratio->estimate) +
+  const bool is_shown = best.beats_baseline;
+  std::string out = std::string("<div class=\"key") + (is_shown ? "" : " open") +
+                    "\"><span class=\"number\">" + percent(best.ratio->typical.estimate) +
                     " %</span><span class=\"what\">" + html_text(field(c.kind, "score")) +
                     " of <b>" + html_text(best.method) + "</b> against " +
                     html_text(c.options.baseline);
-  if (best.has_interval) {
+  if (best.ratio->has_interval) {
     out += fmt::format("<br>{:g} % interval {} to {} %, ",
                        100.0 * (1.0 - c.options.alpha),
-                       percent(best.ratio->low),
-                       percent(best.ratio->high));
+                       percent(best.ratio->typical.low),
+                       percent(best.ratio->typical.high));
   } else {
-    out += "<br>no interval (" + html_text(best.why_no_interval) + "), ";
+    out += "<br>no interval, too few runs: ";
   }
   out += unit_text(c);
   if (best.fails > 0) out += fmt::format(", {} failed", best.fails);
-  return out + (proven ? "" : ", not proven") + "</span></div>";
+  return out + (is_shown ? "" : ", not significant") + "</span></div>";
 }
 
 }  // namespace

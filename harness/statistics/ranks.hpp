@@ -8,7 +8,7 @@ namespace loopbench::harness {
 
 /// Relative difference up to which two errors count as equal: smaller ones are due to rounding,
 /// summation order or solver, for any p value.
-inline constexpr double kRelevant = 1e-6;
+inline constexpr double kTieShare = 1e-6;
 
 /// Whether |a - b| <= tie * max(|a|, |b|).
 bool tied(double a, double b, double tie);

@@ -104,9 +104,37 @@ SignedRank signed_rank(std::span<const double> differences, const SignedRankOpti
   return out;
 }
 
-double rank_biserial(const SignedRank& test) {
-  const double total = test.positive + test.negative;
-  return total > 0.0 ? (test.positive - test.negative) / total : 0.0;
+std::optional<std::size_t> critical_rank_sum(std::size_t n, double alpha) {
+  const std::size_t most = n * (n + 1) / 4;
+  if (n > SignedRankOptions{}.exact_up_to) {
+    const auto count = static_cast<double>(n);
+    const double center = 0.25 * count * (count + 1.0);
+    const double deviation = std::sqrt(center * (2.0 * count + 1.0) / 6.0);
+    const auto is_rejected = [&](std::size_t sum) {
+      return 2.0 * normal_cdf((static_cast<double>(sum) + 0.5 - center) / deviation) <= alpha;
+    };
+    std::size_t low = 0;
+    for (std::size_t high = most; low < high;) {  // the first sum that is not rejected
+      const std::size_t middle = low + (high - low) / 2;
+      if (is_rejected(middle)) {
+        low = middle + 1;
+      } else {
+        high = middle;
+      }
+    }
+    return low == 0 ? std::nullopt : std::optional(low - 1);
+  }
+  std::vector<double> chance(most + 1, 0.0);
+  chance[0] = 1.0;
+  for (std::size_t rank = 1; rank <= n; ++rank) {
+    for (std::size_t sum = most + 1; sum-- > 0;) {
+      chance[sum] = 0.5 * (chance[sum] + (sum >= rank ? chance[sum - rank] : 0.0));
+    }
+  }
+  double tail = 0.0;
+  std::size_t sum = 0;
+  while (sum <= most && 2.0 * (tail + chance[sum]) <= alpha) tail += chance[sum++];
+  return sum == 0 ? std::nullopt : std::optional(sum - 1);
 }
 
 double least_p(std::size_t n) { return std::min(1.0, std::pow(2.0, 1.0 - static_cast<double>(n))); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace loopbench::harness {
@@ -33,9 +34,9 @@ struct SignedRank {
 /// smaller tail. No NaN. O(n log n), exact O(n^3) with n <= exact_up_to.
 SignedRank signed_rank(std::span<const double> differences, const SignedRankOptions& options = {});
 
-/// Matched-pairs rank-biserial correlation (Kerby 2014): share of the rank sum of positive
-/// differences minus that of negative ones, -1..1; 0 if every difference is zero.
-double rank_biserial(const SignedRank& test);
+/// The largest sum c of the ranks of one sign with 2 P(sum <= c) <= alpha for n differences without
+/// ties; nullopt if there is none. Exact up to 50 differences. O(n^3) then.
+std::optional<std::size_t> critical_rank_sum(std::size_t n, double alpha);
 
 /// The smallest two-sided p for n differences: 2^(1 - n), if all have one sign.
 double least_p(std::size_t n);

@@ -27,9 +27,18 @@ const char* over_name(Over over) {
   return over == Over::groups ? "groups" : over == Over::runs ? "runs" : "sequences";
 }
 
-std::string rank_text(const MethodVerdict& m) {
-  return m.lowest_rank == m.highest_rank ? fmt::format("{}", m.lowest_rank)
-                                         : fmt::format("{}-{}", m.lowest_rank, m.highest_rank);
+std::string interval_text(const Ratio& ratio) {
+  return ratio.has_interval ? fmt::format("{:.4f} .. {:.4f}", ratio.typical.low, ratio.typical.high)
+                            : "-";
+}
+
+/// "+5.2 %" behind the leader; "=" for methods that are equal to it.
+std::string behind_text(const MethodVerdict& m) {
+  if (m.standing == Standing::leader) return "";
+  if (m.standing == Standing::equal) return "=";
+  if (!m.from_leader) return m.standing == Standing::open ? "~" : ">";
+  const double percent = 100.0 * (1.0 / m.from_leader->typical.estimate - 1.0);
+  return fmt::format("{}{:+.2f} %", m.standing == Standing::open ? "~" : "", percent);
 }
 
 /// With the number of runs if not all runs are included.
@@ -39,8 +48,49 @@ std::string median_text(const Comparison& c, const MethodVerdict& m, int digits)
   return fixed(m.median, digits) + over;
 }
 
+const char* standing_name(Standing standing) {
+  switch (standing) {
+    case Standing::leader:
+      return "leader";
+    case Standing::equal:
+      return "equal";
+    case Standing::near:
+      return "near";
+    case Standing::behind:
+      return "behind";
+    case Standing::open:
+      break;
+  }
+  return "open";
+}
+
+std::string number_or_empty(const std::optional<double>& value) {
+  return value ? fmt::format("{}", *value) : "";
+}
+
+/// Estimate and ends of the interval as fields of CSV.
+std::string fields(const std::optional<Ratio>& ratio) {
+  if (!ratio) return ",,";
+  const Interval& i = ratio->typical;
+  return ratio->has_interval ? fmt::format("{},{},{}", i.estimate, i.low, i.high)
+                             : fmt::format("{},,", i.estimate);
+}
+
+nlohmann::ordered_json interval_json(const std::optional<Ratio>& ratio) {
+  if (!ratio || !ratio->has_interval) return nullptr;
+  return {ratio->typical.low, ratio->typical.high};
+}
+
+nlohmann::ordered_json number_or_null(const std::optional<double>& value) {
+  return value ? nlohmann::ordered_json(*value) : nullptr;
+}
+
+std::optional<double> typical_of(const std::optional<Ratio>& ratio) {
+  return ratio ? std::optional(ratio->typical.estimate) : std::nullopt;
+}
+
 Mark mark_of(const Comparison& c, const MethodVerdict& m) {
-  return c.is_best_proven && m.is_leader ? Mark::best : Mark::none;
+  return c.is_best && is_leading(m) ? Mark::best : Mark::none;
 }
 
 }  // namespace
@@ -54,9 +104,8 @@ TableView table_view(const Comparison& c) {
                  fmt::format("{:g} % interval", 100.0 * (1.0 - c.options.alpha)),
                  "better/worse/equal",
                  "p",
-                 "effect",
-                 "rank",
-                 "group"},
+                 "mean",
+                 "behind"},
                 {},
                 {verdict(c)}};
   double largest = 0.0;
@@ -67,14 +116,12 @@ TableView table_view(const Comparison& c) {
     out.lines.push_back(
         {{m.method, mark_of(c, m)},
          {median_text(c, m, decimals(largest))},
-         {m.ratio ? fixed(m.ratio->estimate, 4) : "-"},
-         {unless_baseline(
-             m.has_interval ? fmt::format("{:.4f} .. {:.4f}", m.ratio->low, m.ratio->high) : "-")},
+         {m.ratio ? fixed(m.ratio->typical.estimate, 4) : "-"},
+         {unless_baseline(m.ratio ? interval_text(*m.ratio) : "-")},
          {unless_baseline(fmt::format("{}/{}/{}", m.wins, m.losses, m.ties))},
          {unless_baseline(m.p ? p_text(*m.p) : "-")},
-         {unless_baseline(fixed(m.rank_biserial, 2))},
-         {rank_text(m)},
-         {m.letters}});
+         {m.ratio && m.ratio->geometric_mean ? fixed(*m.ratio->geometric_mean, 4) : "-"},
+         {behind_text(m)}});
   }
   for (const std::string& remark : remarks(c)) out.notes.push_back(remark);
   return out;
@@ -84,13 +131,10 @@ std::string csv(const std::vector<Comparison>& comparisons) {
   std::string out =
       "protocol,times,metric,label,relation,axis,unit,value,baseline,over,groups,runs,method,"
       "median,"
-      "with_value,fails,ratio,ratio_low,ratio_high,better,worse,equal,p,rank_biserial,rank_low,"
-      "rank_high,letters\n";
+      "with_value,fails,ratio,ratio_low,ratio_high,geometric_mean,better,worse,equal,p,standing,"
+      "leader_ratio,leader_low,leader_high\n";
   for (const Comparison& c : comparisons) {
     for (const MethodVerdict& m : c.methods) {
-      const auto bound = [&](double Interval::*end) {
-        return m.has_interval ? fmt::format("{}", (*m.ratio).*end) : "";
-      };
       out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},",
                          quoted(c.kind.protocol),
                          c.kind.times.text(),
@@ -104,22 +148,19 @@ std::string csv(const std::vector<Comparison>& comparisons) {
                          over_name(c.options.over),
                          c.groups,
                          c.runs);
-      out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+      out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n",
                          quoted(m.method),
                          m.runs > 0 ? fmt::format("{}", m.median) : "",
                          m.runs,
                          m.fails,
-                         m.ratio ? fmt::format("{}", m.ratio->estimate) : "",
-                         bound(&Interval::low),
-                         bound(&Interval::high),
+                         fields(m.ratio),
+                         m.ratio ? number_or_empty(m.ratio->geometric_mean) : "",
                          m.wins,
                          m.losses,
                          m.ties,
-                         m.p ? fmt::format("{}", *m.p) : "",
-                         m.rank_biserial,
-                         m.lowest_rank,
-                         m.highest_rank,
-                         m.letters);
+                         number_or_empty(m.p),
+                         standing_name(m.standing),
+                         fields(m.from_leader));
     }
   }
   return out;
@@ -140,13 +181,15 @@ std::string json(const std::vector<Comparison>& comparisons, int indent) {
                {"value", c.options.value},
                {"baseline", c.options.baseline},
                {"alpha", c.options.alpha},
+               {"tie", c.options.tie},
                {"relevant", c.options.relevant},
                {"over", over_name(c.options.over)},
                {"unit_of_observation", unit_text(c)},
                {"groups", c.groups},
                {"runs", c.runs},
                {"possible", c.possible},
-               {"best_is_proven", c.is_best_proven},
+               {"is_best", c.is_best},
+               {"tests", c.tests},
                {"verdict", verdict(c)},
                {"remarks", remarks(c)},
                {"oracle_methods", c.oracles},
@@ -154,25 +197,27 @@ std::string json(const std::vector<Comparison>& comparisons, int indent) {
                {"methods", Json::array()},
                {"gaps", Json::array()}};
     for (const MethodVerdict& m : c.methods) {
-      Json ratio = nullptr;
-      if (m.ratio) ratio = m.ratio->estimate;
-      Json interval = nullptr;
-      if (m.has_interval) interval = {m.ratio->low, m.ratio->high};
-      entry["methods"].push_back({{"method", m.method},
-                                  {"median", m.median},
-                                  {"with_value", m.runs},
-                                  {"fails", m.fails},
-                                  {"coverage", m.coverage},
-                                  {"ratio", ratio},
-                                  {"interval", interval},
-                                  {"why_no_interval", m.why_no_interval},
-                                  {"better", m.wins},
-                                  {"worse", m.losses},
-                                  {"equal", m.ties},
-                                  {"p", m.p ? Json(*m.p) : Json(nullptr)},
-                                  {"rank_biserial", m.rank_biserial},
-                                  {"ranks", {m.lowest_rank, m.highest_rank}},
-                                  {"letters", m.letters}});
+      Json by_sequence = Json::object();
+      if (m.ratio) {
+        for (const auto& [sequence, ratio] : m.ratio->by_sequence) by_sequence[sequence] = ratio;
+      }
+      entry["methods"].push_back(
+          {{"method", m.method},
+           {"median", m.median},
+           {"with_value", m.runs},
+           {"fails", m.fails},
+           {"coverage", m.coverage},
+           {"ratio", number_or_null(typical_of(m.ratio))},
+           {"interval", interval_json(m.ratio)},
+           {"geometric_mean", number_or_null(m.ratio ? m.ratio->geometric_mean : std::nullopt)},
+           {"by_sequence", by_sequence},
+           {"better", m.wins},
+           {"worse", m.losses},
+           {"equal", m.ties},
+           {"p", number_or_null(m.p)},
+           {"standing", standing_name(m.standing)},
+           {"leader_ratio", number_or_null(typical_of(m.from_leader))},
+           {"leader_interval", interval_json(m.from_leader)}});
     }
     for (const Gap& gap : c.gaps) {
       entry["gaps"].push_back({{"method", gap.method},

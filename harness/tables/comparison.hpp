@@ -9,9 +9,9 @@
 
 namespace loopbench::harness {
 
-/// One line per method, best first: median, ratio to the baseline with its interval, wins, losses
-/// and ties against it, p, effect size, range of possible ranks, and letters. The best method is
-/// marked if it is significantly better. Notes: verdict, remarks.
+/// One line per method, the leader first: median, typical ratio to the baseline with its interval,
+/// wins, losses and ties against it, p, geometric mean ratio, and how far it is behind the leader
+/// (~: not significantly). Best methods are marked. Notes: verdict, remarks.
 TableView table_view(const Comparison& comparison);
 
 /// One line per method of every comparison, numbers in full precision; missing values are empty.

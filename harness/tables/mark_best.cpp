@@ -69,7 +69,8 @@ MarkContest mark_contest(const MarkInput& input) {
     std::vector<std::optional<double>>& values = out.values.values.emplace_back();
     values.reserve(common.size());
     for (const auto& [run, value] : own) {
-      if (is_common || common.contains(run)) values.push_back(value);
+      if (is_common || common.contains(run))
+        values.push_back(value ? value : std::optional(kFailed));
     }
   }
   out.values.better = input.better;
@@ -88,27 +89,28 @@ Marks mark_best(const MarkInput& input, const RankingOptions& options) {
   Marks out{std::vector<Mark>(input.competitors.size(), Mark::none), ""};
   const MarkContest all = mark_contest(input);
   if (all.entries.size() < 2 || all.groups == 0) return out;
-  if (is_surely_unproven(all.values, options)) return out;
-  const Ranking ranking = rank_methods(all.values, options);
-  if (ranking.pairs > 0 && !ranking.can_prove(options.alpha)) {
-    out.why_none = fmt::format("{} independent run{} per entry cannot prove a difference at {:g}",
+  const Levels levels(all.values, options.tie);
+  const Ranking ranking = rank_methods(levels, options);
+  const bool has_difference = std::ranges::any_of(
+      ranking.from_leader, [](const Pair& pair) { return pair.ranks.count > 0; });
+  if (has_difference && !ranking.can_show()) {
+    out.why_none = fmt::format("{} independent run{} per entry cannot show a difference at {:g}",
                                all.groups,
                                all.groups == 1 ? "" : "s",
                                options.alpha);
     return out;
   }
-  if (!ranking.is_best_proven()) return out;
-  const auto mark = [&](std::size_t entry, Mark value) {
-    if (all.is_complete[entry]) out.marks[all.entries[entry]] = value;
+  if (!ranking.is_best()) return out;
+  const auto mark = [&](const Ranking& place, Mark value) {
+    for (std::size_t m = 0; m < all.entries.size(); ++m) {
+      if (place.is_leading(m) && all.is_complete[m]) out.marks[all.entries[m]] = value;
+    }
   };
-  const std::vector<std::size_t> best = ranking.leaders();
-  for (const std::size_t entry : best) mark(entry, Mark::best);
-  if (best.size() + 1 >= all.entries.size()) return out;
-  const std::size_t next = ranking.order[best.size()];
-  const auto is_below = [&](std::size_t m) {
-    return m == next || ranking.beats[next][m] || ranking.beats[m][next];
-  };
-  if (std::ranges::all_of(ranking.order, is_below)) mark(next, Mark::second);
+  mark(ranking, Mark::best);
+  const auto rest = std::ranges::count(ranking.standings, Standing::behind);
+  if (rest == 0 || all.entries.size() == 2) return out;
+  const Ranking others = rank_rest(levels, ranking, options);
+  if (rest == 1 || others.is_best()) mark(others, Mark::second);
   return out;
 }
 

@@ -39,10 +39,10 @@ struct Marks {
   std::string why_none;     ///< set if no test was possible for any values
 };
 
-/// Best: significantly better than every other competitor by `rank_methods`, as in verdicts; second
-/// best: significantly better than all except the best. Equal methods share a mark. A competitor
-/// that lacks a run without having failed on it is compared on the common runs, but never marked.
-/// Competitors without values are ignored.
+/// Best: the leading competitors by `rank_methods`, as in verdicts, if they are significantly
+/// better than all others; second best: the same among the others. A competitor that lacks a run
+/// without having failed on it is compared on the common runs, but never marked. Competitors
+/// without values are ignored.
 Marks mark_best(const MarkInput& input, const RankingOptions& options);
 
 }  // namespace loopbench::harness

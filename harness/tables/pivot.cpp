@@ -91,7 +91,7 @@ void mark(Table& out,
   if (is_marked) {
     out.notes.insert(
         out.notes.begin(),
-        "marked: best and second best, if proven better than all others by the tests of "
+        "marked: best and second best, if significantly better than all others by the tests of "
         "compare");
   } else if (!why_none.empty()) {
     out.notes.push_back("no best value is marked: " + why_none);

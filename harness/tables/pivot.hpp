@@ -26,7 +26,7 @@ struct TableEntry {
   std::size_t records = 0;   ///< records with a number (repeats, for example)
   std::size_t averaged = 0;  ///< of these, those on runs that all compared entries finished
   std::string status = {};   ///< "declined", "failed", "no common run", ... if there is no value
-  Mark mark = Mark::none;    ///< proven best or second best of its column or row
+  Mark mark = Mark::none;    ///< significantly best or second best of its column or row
   std::size_t possible = 0;  ///< records including failed and missing ones; 0: none is missing
 };
 

@@ -167,7 +167,7 @@ std::map<std::string, double> mean_ranks(const std::vector<Record>& records,
       }
     }
     if (finished.empty()) continue;
-    const std::vector<double> own = midranks(values, kRelevant);
+    const std::vector<double> own = midranks(values, kTieShare);
     for (std::size_t i = 0; i < own.size(); ++i) ranks[finished[i]].push_back(own[i]);
     const double last =
         static_cast<double>(finished.size()) + 0.5 * (static_cast<double>(lost.size()) + 1.0);

@@ -27,10 +27,10 @@ TEST_F(EvalCopies, TenCopiesAreOneObservation) {
           path("copies/" + std::string(method) + "/office/" + std::to_string(run) + ".txt"));
     }
   }
-  EXPECT_THAT(test::eval(arguments), HasSubstr("but 1 sequence cannot prove a difference"));
+  EXPECT_THAT(test::eval(arguments), HasSubstr("but 1 sequence cannot show a difference"));
   arguments.insert(arguments.end(), {"--store", path("store")});
   const std::string out = test::eval(arguments);
-  EXPECT_THAT(out, HasSubstr("but 1 sequence cannot prove a difference"));
+  EXPECT_THAT(out, HasSubstr("but 1 sequence cannot show a difference"));
   EXPECT_THAT(out, HasSubstr("9 runs repeat the data of another and are not counted"));
   EXPECT_EQ(compared("store").copies, 9u);
 }
@@ -75,7 +75,7 @@ TEST_F(EvalCopies, SequencesWithOneReferenceAreOneGroup) {
   EXPECT_EQ(comparison.copies, 0u);
   EXPECT_EQ(comparison.runs, 10u);
   EXPECT_EQ(comparison.groups, 1u);
-  EXPECT_FALSE(comparison.is_best_proven);
+  EXPECT_FALSE(comparison.is_best);
 }
 
 TEST_F(EvalCopies, AMethodThatIsAddedLaterSeparatesRunsThatWereEqual) {

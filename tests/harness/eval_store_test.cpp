@@ -36,7 +36,7 @@ TEST_F(EvalStore, RunsAreRepeatsAndSystemsAreMethods) {
   const auto comparison = compare_store(path("store"), "ate", {"unit=m"}, options);
   ASSERT_EQ(comparison.size(), 1u);
   EXPECT_EQ(comparison[0].groups, 20u);
-  EXPECT_TRUE(comparison[0].is_best_proven);
+  EXPECT_TRUE(comparison[0].is_best);
   EXPECT_EQ(comparison[0].methods[0].method, "good");
 }
 

@@ -56,12 +56,12 @@ TEST_F(EvalOnATerminal, SeveralEstimatesFitAndEndWithAVerdict) {
     EXPECT_LE(widest(text), columns) << text;
     EXPECT_THAT(text, Not(HasSubstr("|")));
     EXPECT_THAT(text,
-                HasSubstr("\nverdict on ate: nothing is proven: the baseline a ranks first: "
+                HasSubstr("\nverdict on ate: nothing can be shown: the baseline a ranks first: "
                           "b is "));
   }
   const std::string piped = loopbench_command("eval gt.txt a.txt b.txt", folder_).out;
   EXPECT_THAT(piped, HasSubstr("\n| a.txt "));
-  EXPECT_THAT(piped, HasSubstr(" % above a, but 1 sequence cannot prove a difference"));
+  EXPECT_THAT(piped, HasSubstr(" % above a, but 1 sequence cannot show a difference"));
   EXPECT_THAT(run("eval gt.txt a.txt b.txt --protocol evo,tum", 80).out,
               HasSubstr("\nverdict on ate (evo): "));
 }

@@ -79,7 +79,7 @@ TEST(Markdown, IsPaddedAndTellsReasons) {
       "| bad    |  failed |\n"
       "\n"
       "- bad: failed: no such luck\n"
-      "- no best value is marked: 1 independent run per entry cannot prove a difference at 0.05\n");
+      "- no best value is marked: 1 independent run per entry cannot show a difference at 0.05\n");
 }
 
 TEST(Notes, SayAReasonOnce) {

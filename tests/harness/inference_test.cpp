@@ -5,10 +5,10 @@
 #include <numeric>
 
 #include "harness/statistics/average.hpp"
-#include "harness/statistics/holm.hpp"
 #include "harness/statistics/normal.hpp"
 #include "harness/statistics/ranks.hpp"
 #include "harness/statistics/signed_rank.hpp"
+#include "harness/statistics/typical_difference.hpp"
 
 namespace loopbench::inference_test {
 
@@ -119,7 +119,6 @@ TEST(SignedRank, IsExactWithTiesAndZeros) {
 TEST(SignedRank, OfNothingButTiesIsNoDifference) {
   EXPECT_EQ(signed_rank(Numbers{0.0, 0.0, 0.0}).p, 1.0);
   EXPECT_EQ(signed_rank(Numbers{}).p, 1.0);
-  EXPECT_EQ(rank_biserial(signed_rank(Numbers{0.0})), 0.0);
 }
 
 TEST(SignedRank, ReachesItsLeastP) {
@@ -138,20 +137,40 @@ TEST(SignedRank, IsContinuousFromExactToNormal) {
   EXPECT_NEAR(exact.p, normal.p, 1e-3);
 }
 
-TEST(Holm, StepsDown) {
-  // R: p.adjust(c(0.01, 0.04, 0.03, 0.005), "holm"); by hand 4 * 0.005, 3 * 0.01, 2 * 0.03, then
-  // 0.04 raised to the one before it.
-  const Numbers adjusted = holm(Numbers{0.01, 0.04, 0.03, 0.005});
-  const Numbers expected{0.03, 0.06, 0.06, 0.02};
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_DOUBLE_EQ(adjusted[i], expected[i]);
-  EXPECT_EQ(holm(Numbers{0.9, 0.8}), (Numbers{1.0, 1.0}));
-  EXPECT_TRUE(holm(Numbers{}).empty());
+TEST(SignedRank, HasTheCriticalSumsOfTheTables) {
+  // Hollander and Wolfe, table A.4: two-sided 5 % and 1 %.
+  EXPECT_EQ(critical_rank_sum(5, 0.05), std::nullopt);
+  EXPECT_EQ(critical_rank_sum(6, 0.05), 0u);
+  EXPECT_EQ(critical_rank_sum(10, 0.05), 8u);
+  EXPECT_EQ(critical_rank_sum(15, 0.01), 15u);
+  EXPECT_EQ(critical_rank_sum(50, 0.05), 434u);
+  EXPECT_EQ(critical_rank_sum(51, 0.05), 453u);  // normal approximation
 }
 
-TEST(EffectSize, AgreesWithThePackageEffectsize) {
-  // R, effectsize: rank_biserial(depression$first, depression$second, paired = TRUE): 0.78.
-  EXPECT_NEAR(rank_biserial(signed_rank(depression())), 0.78, 0.005);
-  EXPECT_DOUBLE_EQ(rank_biserial(signed_rank(depression())), 35.0 / 45.0);
+TEST(TypicalDifference, IsTheMedianOfMeansOfTwo) {
+  // Means of {1, 2, 6}: 1, 1.5, 2, 3.5, 4, 6.
+  const Numbers values{1.0, 2.0, 6.0};
+  EXPECT_EQ(pseudo_median(values), 2.75);
+  const Numbers sorted{1.0, 1.5, 2.0, 3.5, 4.0, 6.0};
+  for (std::size_t k = 1; k <= 6; ++k) EXPECT_EQ(walsh_average(values, k), sorted[k - 1]);
+  // One failure: six of ten means are finite, and those with the failure are last.
+  const Numbers failure{1.0, 2.0, 6.0, kBeyond};
+  EXPECT_EQ(walsh_average(failure, 6), 6.0);
+  EXPECT_EQ(walsh_average(failure, 7), kBeyond);
+  EXPECT_EQ(pseudo_median(Numbers{-kBeyond, 3.0, kBeyond}), 3.0);
+}
+
+TEST(TypicalDifference, HasTheIntervalOfR) {
+  // R: wilcox.test(x, y, paired = TRUE, conf.int = TRUE) on the depression scores of Hollander and
+  // Wolfe, 3.1: estimate 0.46, interval 0.01 to 0.786; its p is 0.039.
+  Numbers values = depression();
+  std::ranges::sort(values);
+  const auto found = shift_interval(values, 0.05);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->estimate, 0.46, 1e-9);
+  EXPECT_NEAR(found->low, 0.01, 1e-9);
+  EXPECT_NEAR(found->high, 0.786, 1e-9);
+  EXPECT_FALSE(shift_interval(std::span(values).first(5), 0.05));
 }
 
 }  // namespace

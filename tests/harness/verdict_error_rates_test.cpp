@@ -52,20 +52,26 @@ TEST(VerdictErrorRates, LeaveRealDifferencesToBeFound) {
   EXPECT_GT(error_rates(truth, shapes()[0], kRepeats, 11).found, 0.9);
 }
 
-TEST(IntervalCoverage, IsNominalFromEightObservationsOn) {
+TEST(VerdictErrorRates, AreLowForLoneAndFrequentFailures) {
+  const Truth lone{
+      .effects = {0.0, -0.69}, .groups = 8, .runs_in_group = 20, .failures = {0.0, 0.05}};
+  EXPECT_EQ(error_rates(lone, shapes()[0], 20, 11).found, 1.0);
+  const Truth hard{.effects = {0.0, 0.18}, .groups = 20, .hard = 0.33, .fails_hard = 1.0};
+  EXPECT_GT(error_rates(hard, shapes()[0], kRepeats, 11).found, 0.8);
+}
+
+TEST(IntervalCoverage, IsNominalFromSixObservationsOn) {
   for (const Shape& shape : shapes()) {
-    const bool has_ties = shape.name == "half ties";
-    for (const std::size_t n : {8u, 15u}) {
-      const Truth truth{.effects = {0.0, -0.2}, .groups = n, .baseline_is_fixed = true};
-      const IntervalCoverage found = coverage(truth, shape, 1000, 11);
-      const double error = 0.0081 / std::sqrt(1.0 - found.declined);
-      EXPECT_GE(found.covered, 0.93 - 4.0 * error) << shape.name << " " << n;
-      EXPECT_LE(found.covered, (has_ties ? 0.98 : 0.97) + 4.0 * error) << shape.name << " " << n;
-      EXPECT_TRUE(has_ties || found.declined == 0.0) << shape.name << " " << n;
+    for (const std::size_t n : {6u, 15u}) {
+      const IntervalCoverage found =
+          coverage({.effects = {0.0, -0.2}, .groups = n}, shape, 500, 11);
+      EXPECT_GE(found.covered, 0.95 - 4.0 * 0.0097) << shape.name << " " << n;
+      EXPECT_EQ(found.declined, 0.0) << shape.name << " " << n;
     }
-    const Truth few{.effects = {0.0, -0.2}, .groups = 7, .baseline_is_fixed = true};
-    EXPECT_EQ(coverage(few, shape, 10, 11).declined, 1.0);
+    EXPECT_EQ(coverage({.effects = {0.0, -0.2}, .groups = 5}, shape, 10, 11).declined, 1.0);
   }
+  const Truth simultaneous{.effects = {0.0, -0.2, 0.1, 0.0, 0.3}, .groups = 12};
+  EXPECT_GE(coverage(simultaneous, shapes()[0], 500, 11).covered, 0.95 - 4.0 * 0.0097);
 }
 
 TEST(SyntheticStores, AreReadAsTheyWereDrawn) {

@@ -10,7 +10,7 @@ using namespace metrics;
 
 struct ErrorRates {
   double false_best = 0.0;    ///< a method is reported as best that is not
-  double false_better = 0.0;  ///< an equal pair is ordered, or a pair is in the wrong order
+  double false_better = 0.0;  ///< a method is wrongly better or worse than the baseline
   double found = 0.0;         ///< the truly best method is reported as best
   double marked_wrong = 0.0;  ///< a table marks a method as best that is not
 };
@@ -31,11 +31,15 @@ struct IntervalCoverage {
   double declined = 0.0;  ///< share of comparisons without an interval
 };
 
-/// Coverage of the interval of method 1 against the baseline.
+/// Share of draws in which the intervals of all methods hold their typical ratio to the baseline;
+/// of methods that differ by sequence, the mean over the sequences.
 IntervalCoverage coverage(const Truth& truth,
                           const Shape& shape,
                           int repeats,
                           std::uint64_t seed,
                           Through through = Through::memory);
+
+/// Share of draws in which method 1 is significantly better than the baseline.
+double power(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed);
 
 }  // namespace loopbench::synthetic

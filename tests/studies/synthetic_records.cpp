@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "metrics/numerics/median.hpp"
+
 namespace loopbench::synthetic {
 
 using namespace methods;
@@ -46,9 +48,13 @@ double half_ties(std::mt19937_64& bits) {
   return is_tie ? 0.0 : 1.0 + 0.6 * normal(bits);
 }
 
-Record score(std::size_t method, std::size_t group, std::size_t run) {
+Record score(std::size_t method, std::size_t group, std::size_t run, std::size_t sequences) {
   Record out;
   out.sequence = "sequence " + std::to_string(group) + "." + std::to_string(run);
+  if (sequences > 0) {
+    out.sequence = "path " + std::to_string(group % sequences);
+    out.repeat = static_cast<std::int64_t>(group / sequences * 1000 + run);
+  }
   out.method = "m" + std::to_string(method);
   out.protocol = "loopbench";
   out.times = "dense";
@@ -62,15 +68,22 @@ Record score(std::size_t method, std::size_t group, std::size_t run) {
 }  // namespace
 
 std::vector<Shape> shapes() {
-  return {{"normal", 0.0, normal},
-          {"uniform", 0.5, uniform},
-          {"laplace", 0.0, laplace},
-          {"student 3", 0.0, student},
-          {"gamma 4", 4.0, gamma4},
-          {"exponential", 1.0, exponential},
-          {"lognormal 0.5", 1.1331484530668263, mild_lognormal},
-          {"lognormal 1", 1.6487212707001282, lognormal},
-          {"half ties", 0.5, half_ties}};
+  std::vector<Shape> out{{"normal", 0.0, normal},
+                         {"uniform", 0.5, uniform},
+                         {"laplace", 0.0, laplace},
+                         {"student 3", 0.0, student},
+                         {"gamma 4", 4.0, gamma4},
+                         {"exponential", 1.0, exponential},
+                         {"lognormal 0.5", 1.1331484530668263, mild_lognormal},
+                         {"lognormal 1", 1.6487212707001282, lognormal},
+                         {"half ties", 0.5, half_ties}};
+  for (Shape& shape : out) {
+    std::mt19937_64 bits(5);
+    std::vector<double> means(200'000);
+    for (double& mean : means) mean = 0.5 * (shape.draw(bits) + shape.draw(bits));
+    shape.typical = metrics::median(means);
+  }
+  return out;
 }
 
 std::vector<Record> records(const Truth& truth, const Shape& shape, std::mt19937_64& bits) {
@@ -78,19 +91,27 @@ std::vector<Record> records(const Truth& truth, const Shape& shape, std::mt19937
   const std::size_t methods = truth.effects.size();
   std::vector<double> shared(methods);
   for (std::size_t group = 0; group < truth.groups; ++group) {
-    for (double& deviation : shared) deviation = shape.draw(bits) - shape.mean;
+    for (double& deviation : shared) deviation = shape.draw(bits) - shape.typical;
+    const std::size_t sequence = truth.sequences.empty() ? 0 : group % truth.sequences.size();
+    const bool is_hard = truth.hard > 0.0 && uniform(bits) < truth.hard;
     for (std::size_t run = 0; run < truth.runs_in_group; ++run) {
       const double size = std::exp(2.0 * normal(bits));
       const std::size_t begin = out.size();
       for (std::size_t m = 0; m < methods; ++m) {
-        const double own = shape.draw(bits) - shape.mean;
+        const double own = shape.draw(bits) - shape.typical;
         double deviation = truth.shared * shared[m] + (1.0 - truth.shared) * own;
         if (m == 0 && truth.baseline_is_fixed) deviation = 0.0;
-        Record r = score(m, group, run);
+        Record r = score(m, group, run, truth.sequences.size());
         if (truth.states_groups && truth.runs_in_group > 1) r.group = std::to_string(group);
-        r.content = r.sequence;
-        r.statistics.rmse = size * std::exp(truth.effects[m] + truth.dispersion * deviation);
-        const bool fails = !truth.failures.empty() && uniform(bits) < truth.failures[m];
+        r.content = r.sequence + " " + std::to_string(r.repeat);
+        const double effect =
+            truth.effects[m] + (truth.sequences.empty() ? 0.0 : truth.sequences[sequence][m]);
+        r.statistics.rmse = size * std::exp(effect + truth.dispersion * deviation);
+        if (truth.diverges > 0.0 && m + 1 == methods && uniform(bits) < truth.diverges) {
+          r.statistics.rmse *= 1e12;
+        }
+        const bool fails = (!truth.failures.empty() && uniform(bits) < truth.failures[m]) ||
+                           (is_hard && m == 1 && uniform(bits) < truth.fails_hard);
         if (fails) {
           r.status = Status::failed;
           r.metric.clear();

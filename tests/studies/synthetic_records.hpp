@@ -17,6 +17,7 @@ struct Shape {
   std::string name;
   double mean = 0.0;
   double (*draw)(std::mt19937_64&) = nullptr;
+  double typical = mean;  ///< pseudo-median: median of the mean of two draws
 };
 
 /// normal, uniform, Laplace, Student's t with 3 degrees of freedom, gamma with skewness 1,
@@ -34,7 +35,13 @@ struct Truth {
   std::vector<double> failures = {};  ///< probability that a method fails; empty: never
   bool states_groups = true;          ///< false: records without Record::group
   double copies = 0.0;                ///< share of runs repeated with equal content
-  bool baseline_is_fixed = false;     ///< the baseline's deviation is zero
+  bool baseline_is_fixed = false;     ///< no deviation: ratios to it are as skewed as the shape
+  /// Effects by sequence, [sequence][method], added to `effects`; the groups are dealt out to them
+  /// in turn. Empty: each group is a sequence of its own.
+  std::vector<std::vector<double>> sequences = {};
+  double diverges = 0.0;    ///< probability that the last method's error is 1e12 times as large
+  double hard = 0.0;        ///< share of groups that are hard
+  double fails_hard = 0.0;  ///< probability that method 1 fails on each run of a hard group
 };
 
 /// One ATE per method and run.

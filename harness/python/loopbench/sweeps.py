@@ -100,16 +100,17 @@ class ComparedMethod:
     median: float
     with_value: int  #: runs with a value
     fails: int
-    ratio: float | None  #: geometric mean of value / baseline
-    interval: tuple[float, float] | None  #: of the ratio
-    why_no_interval: str
+    ratio: float | None  #: typical value / baseline (Hodges-Lehmann)
+    interval: tuple[float, float] | None  #: of the ratio, simultaneous; None: too few runs
+    geometric_mean: float | None  #: of the ratios
+    by_sequence: dict[str, float]  #: mean ratios, if sequences have several runs
     better: int
     worse: int
     equal: int
     p: float | None
-    rank_biserial: float
-    ranks: tuple[int, int]
-    letters: str  #: methods that share a letter are not proven different
+    standing: str  #: leader, equal, near, behind or open (not significantly different)
+    leader_ratio: float | None  #: typical ratio of the leader to this method
+    leader_interval: tuple[float, float] | None
 
 
 @dataclass(frozen=True)
@@ -130,10 +131,10 @@ class Comparison:
     groups: int
     runs: int  #: compared
     possible: int  #: runs of the store
-    best_is_proven: bool
+    is_best: bool  #: the leading methods are significantly better than all others
     verdict: str
     remarks: list[str]
-    methods: list[ComparedMethod]  #: best first
+    methods: list[ComparedMethod]  #: the leader first
     gaps: list[dict[str, Any]]  #: methods without a value in some run, and why
 
     def __getitem__(self, method: str) -> ComparedMethod:
@@ -148,7 +149,7 @@ def _known(kind: type[Any], entry: Mapping[str, Any]) -> Any:
 
 
 def _compared(entry: dict[str, Any]) -> ComparedMethod:
-    for name in ("interval", "ranks"):
+    for name in ("interval", "leader_interval"):
         entry[name] = entry[name] and tuple(entry[name])
     found: ComparedMethod = _known(ComparedMethod, entry)
     return found

@@ -1,0 +1,20 @@
+/// Parts of verdicts: ratios in words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/compare/compare.hpp"
+
+namespace loopbench::harness {
+
+/// "a, b and c".
+std::string joined_names(const std::vector<std::string>& names, const char* last = " and ");
+
+/// "12.3 % below raw [8.1, 15.2]", for a score with a target "12.3 % closer to 1 than raw".
+std::string ratio_text(const Ratio& ratio, const std::string& other, const Comparison& c);
+
+/// ", all of it on sparse", ", but worse on city": what a ratio below 1 hides.
+std::string sequences_text(const Ratio& ratio, const Comparison& c);
+
+}  // namespace loopbench::harness

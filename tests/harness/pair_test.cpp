@@ -1,0 +1,147 @@
+/// Comparisons of two methods are monotone, and blind to third ones.
+#include "harness/compare/pair.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "harness/compare/ranking.hpp"
+#include "harness/statistics/ranks.hpp"
+
+namespace loopbench::pair_test {
+
+using namespace harness;
+
+namespace {
+
+#ifdef NDEBUG
+constexpr int kStores = 100'000;
+#else
+constexpr int kStores = 5'000;
+#endif
+
+GroupedValues of(std::vector<std::vector<double>> values) {
+  GroupedValues out;
+  for (const std::vector<double>& row : values) out.values.emplace_back(row.begin(), row.end());
+  for (std::size_t i = 0; i < values[0].size(); ++i) out.group.push_back(i);
+  return out;
+}
+
+Pair pair_of(const GroupedValues& all) { return compared(Levels(all, kTieShare), 0, 1); }
+
+bool is_better(const GroupedValues& all, std::size_t tests = 1) {
+  const Pair pair = pair_of(all);
+  return pair.is_first_ahead() && pair.is_significant(0.05, tests);
+}
+
+/// Three methods, of which the first is mostly better; the last is a nuisance.
+GroupedValues random_store(std::mt19937_64& bits) {
+  const auto uniform = [&] { return static_cast<double>(bits() >> 11) * 0x1p-53; };
+  const std::size_t runs = 6 + bits() % 7;
+  const double effect = -0.6 * uniform();
+  const double failures = uniform() < 0.5 ? 0.0 : 0.25 * uniform();
+  GroupedValues out;
+  out.values.resize(3);
+  const std::size_t in_group = 1 + bits() % 2;
+  for (std::size_t run = 0; run < runs * in_group; ++run) {
+    const double size = std::exp(4.0 * uniform());
+    for (std::size_t m = 0; m < 3; ++m) {
+      const double value = size * std::exp((m == 0 ? effect : 0.0) + uniform() - 0.5);
+      const bool fails = uniform() < failures;
+      out.values[m].push_back(fails ? kFailed : value);
+    }
+    if (uniform() < 0.1) out.values[2].back() = 1e12 * size;
+    if (uniform() < 0.1) out.values[2].back() = std::nullopt;
+    out.group.push_back(run / in_group);
+  }
+  return out;
+}
+
+TEST(Pair, IsMonotoneInEveryRun) {
+  std::mt19937_64 bits(17);
+  int claims = 0;
+  for (int i = 0; i < kStores; ++i) {
+    GroupedValues all = random_store(bits);
+    if (!is_better(all)) continue;
+    ++claims;
+    const double before = pair_of(all).p();
+    const std::size_t run = bits() % all.group.size();
+    std::optional<double>& better = all.values[0][run];
+    const double other = *all.values[1][run];
+    const double factor = std::exp(-3.0 * static_cast<double>(bits() >> 11) * 0x1p-53);
+    better = factor * (std::isnan(*better) ? std::isnan(other) ? 1.0 : other : *better);
+    ASSERT_TRUE(is_better(all)) << "store " << i;
+    // Ties of magnitudes, which failures are, can change p in its last digits only.
+    ASSERT_LE(pair_of(all).p(), before * (1.0 + 1e-9)) << "store " << i;
+  }
+  EXPECT_GT(claims, kStores / 10);
+}
+
+TEST(Pair, IsBlindToThirdMethods) {
+  std::mt19937_64 bits(18);
+  for (int i = 0; i < kStores; ++i) {
+    GroupedValues all = random_store(bits);
+    const Pair with = pair_of(all);
+    const bool is_ahead = with.is_first_ahead() && with.is_significant(0.05, 2);
+    all.values.pop_back();
+    const Pair without = pair_of(all);
+    ASSERT_EQ(with.values, without.values);
+    ASSERT_EQ(with.p(), without.p());
+    ASSERT_EQ(with.mean, without.mean);
+    ASSERT_EQ(is_ahead, without.is_first_ahead() && without.is_significant(0.05, 2));
+  }
+}
+
+TEST(Pair, KeepsItsClaimWhereSomeRunsAreFarBetter) {
+  std::vector<double> raw(10, 1.0);
+  std::vector<double> dual(10);
+  for (std::size_t i = 0; i < 10; ++i) dual[i] = 0.95 - 1e-4 * static_cast<double>(i);
+  EXPECT_TRUE(is_better(of({dual, raw})));
+  dual[3] = dual[7] = 0.61;
+  EXPECT_TRUE(is_better(of({dual, raw})));
+  std::vector<double> many(100, 0.955);
+  for (const std::size_t i : {5u, 50u, 95u}) many[i] = 1e-3;
+  EXPECT_TRUE(is_better(of({many, std::vector<double>(100, 1.0)})));
+}
+
+TEST(Pair, CountsWinsAgainstAMethodThatFailsNearlyAlways) {
+  std::vector<double> raw(24, 1.0);
+  std::vector<double> rarely(24, kFailed);
+  rarely[4] = 0.5;  // better on the only run that it ends
+  EXPECT_TRUE(is_better(of({raw, rarely})));
+  EXPECT_FALSE(is_better(of({rarely, raw})));
+}
+
+TEST(Pair, TypicalIntervalExcludesOneExactlyIfPIsSmall) {
+  std::mt19937_64 bits(19);
+  for (int i = 0; i < kStores / 10; ++i) {
+    const Pair pair = pair_of(random_store(bits));
+    const auto typical = pair.typical(0.05);
+    if (!typical) continue;  // both failed too often
+    ASSERT_LE(typical->low, typical->estimate);
+    ASSERT_LE(typical->estimate, typical->high);
+    const bool has_zero = typical->low <= 0.0 && typical->high >= 0.0;
+    const bool has_zero_inside = typical->low < 0.0 && typical->high > 0.0;
+    ASSERT_TRUE(pair.p() > 0.05 ? has_zero : !has_zero_inside);
+  }
+}
+
+TEST(Ranking, CountsEqualMethodsOnce) {
+  std::vector<double> raw{1, 2, 3, 4, 5, 6};
+  std::vector<double> dual;
+  for (const double value : raw) dual.push_back(0.8 * value - 0.01 * value * value);
+  const auto ranked = [](const GroupedValues& all) {
+    return rank_methods(Levels(all, kTieShare), {});
+  };
+  const Ranking two = ranked(of({raw, dual}));
+  EXPECT_TRUE(two.is_best());
+  EXPECT_EQ(two.groups_needed, 6u);
+  const Ranking three = ranked(of({raw, dual, dual}));
+  EXPECT_TRUE(three.is_best());
+  EXPECT_EQ(three.tests, 1u);
+  EXPECT_EQ(three.standings[2], Standing::equal);
+}
+
+}  // namespace
+}  // namespace loopbench::pair_test
