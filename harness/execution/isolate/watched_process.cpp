@@ -115,6 +115,7 @@ ProcessEnd WatchedProcesses::run(const std::string& subject,
   set_running_cell(0);
   const int status = end_cell(process, servers.processes);
   end_servers(true);
+  end_strays(running_servers().processes);  // what ended programs leave is not the next cell's
   if (scratch_ != nullptr) scratch_->remove_exchanges();
   if (has_sweep_ended()) {
     end_servers();
