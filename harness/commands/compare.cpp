@@ -1,5 +1,8 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <regex>
 
+#include "datasets/core/error.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
@@ -12,16 +15,44 @@ namespace {
 
 struct CompareArguments {
   std::string store;
-  std::string metric = "ate";
+  std::string metric;
   std::vector<std::string> where;
   CompareOptions options;
+  std::optional<double> power;  ///< gain
   OutputOptions output;
 };
+
+/// The metric that was asked for, "ate" without any.
+std::string metric_of(const CompareArguments& arguments) {
+  const auto is_chosen = [](const std::string& rule) {
+    return std::regex_search(rule, std::regex("(^|,)(metric|label|score)[=~]"));
+  };
+  if (!arguments.metric.empty()) return arguments.metric;
+  return std::ranges::any_of(arguments.where, is_chosen) ? "" : "ate";
+}
+
+int print_power(const CompareArguments& arguments, const std::vector<Comparison>& comparisons) {
+  std::vector<TableView> tables;
+  for (const Comparison& comparison : comparisons) {
+    tables.push_back(power_table(comparison, *arguments.power));
+  }
+  const ExportFormat format = arguments.output.format();
+  if (format == ExportFormat::json) {
+    throw InputError("--power: cannot be written as json; expected markdown, terminal, latex, csv");
+  }
+  write_output(text(tables, arguments.output),
+               arguments.output,
+               "power",
+               begin_provenance(arguments.store),
+               arguments.store);
+  return kExitOk;
+}
 
 int print_comparison(const CompareArguments& arguments) {
   std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
   const std::vector<Comparison> comparisons =
-      compare_store(arguments.store, arguments.metric, arguments.where, arguments.options);
+      compare_store(arguments.store, metric_of(arguments), arguments.where, arguments.options);
+  if (arguments.power) return print_power(arguments, comparisons);
   write_output(text_of(comparisons, arguments.output),
                arguments.output,
                "comparisons",
@@ -42,10 +73,18 @@ void add_compare(CLI::App& app, int& exit_code) {
       ->add_option(
           "--baseline", arguments->options.baseline, "Method that others are compared with")
       ->type_name("METHOD");
+  command->add_option(
+      "--metric",
+      arguments->metric,
+      "Label or name of a metric, or a score: ate, error x; ate unless --where selects one");
   command
       ->add_option(
-          "--metric", arguments->metric, "Label or name of a metric, or a score: ate, error x")
-      ->capture_default_str();
+          "--power",
+          arguments->power,
+          "Print the smallest gains that this design finds, and the groups for this one [-]")
+      ->type_name("GAIN")
+      ->check(finite_number())
+      ->check(CLI::Range(1e-4, 0.99));
   command
       ->add_option("--value", arguments->options.value, "Statistic: rmse mean median std min max")
       ->capture_default_str();

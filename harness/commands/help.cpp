@@ -33,6 +33,7 @@ const std::map<std::string, std::string> kExamples{
     {"compare",
      "  loopbench compare results/quickstart\n"
      "  loopbench compare results/quickstart --metric 'error x' --where times=dense\n"
+     "  loopbench compare results/quickstart --power 0.05   # groups needed to find 5 %\n"
      "  loopbench compare results/quickstart --over sequences --format csv -o compared.csv\n"},
     {"check",
      "  loopbench check results/quickstart --baseline results/reference/quickstart.json\n"

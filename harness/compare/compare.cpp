@@ -45,6 +45,7 @@ void add_baseline(MethodVerdict& method,
   method.ratio = ratio_of(pair, kept, of);
   method.wins = pair.wins;
   method.losses = pair.losses;
+  if (pair.is_ratio) method.deviation = pair.deviation();
   method.ties = pair.ties;
   const double p = std::min(1.0, pair.p() * static_cast<double>(of.tests));
   if (can_show) method.p = p;

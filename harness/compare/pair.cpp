@@ -57,7 +57,7 @@ std::vector<double> aligned(const Pair& pair) {
 }
 
 /// Median of differences of which some are +-kBeyond.
-double median_of(const std::vector<double>& values) {
+double middle_of(const std::vector<double>& values) {
   const double middle = metrics::median(values);
   return is_finite(middle) ? middle : std::copysign(kBeyond, middle);
 }
@@ -104,6 +104,23 @@ std::vector<std::pair<std::size_t, double>> Pair::by_sequence() const {
   return out;
 }
 
+std::optional<double> Pair::deviation() const {
+  std::vector<double> finite;
+  for (const double value : values) {
+    if (is_finite(value)) finite.push_back(value);
+  }
+  const auto sequences = by_sequence();
+  if (sequences.size() < 2 || 2 * sequences.size() > finite.size()) {
+    return finite.size() < 2 ? std::nullopt : std::optional(sample_deviation(finite));
+  }
+  const std::map<std::size_t, double> means(sequences.begin(), sequences.end());
+  double squares = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (is_finite(values[i])) squares += std::pow(values[i] - means.at(sequence[i]), 2);
+  }
+  return std::sqrt(squares / static_cast<double>(finite.size() - sequences.size()));
+}
+
 Pair compared(const Levels& levels, std::size_t first, std::size_t second) {
   Pair out;
   out.is_ratio = levels.is_ratio(first, second);
@@ -128,7 +145,7 @@ Pair compared(const Levels& levels, std::size_t first, std::size_t second) {
       out.has_zero = out.has_zero || is_zero;
     }
     if (all.empty()) continue;
-    const double value = median_of(all);
+    const double value = middle_of(all);
     out.values.push_back(value);
     out.sequence.push_back(levels.sequence_of(group));
     ++(value < 0.0 ? out.wins : value > 0.0 ? out.losses : out.ties);

@@ -46,6 +46,9 @@ struct Pair {
   /// runs of these sequences.
   std::optional<Interval> typical(double alpha) const;
 
+  /// Standard deviation of the finite values; if every sequence has several, about their means.
+  std::optional<double> deviation() const;
+
   /// Mean of the finite values of each sequence that has one, by number of the sequence.
   std::vector<std::pair<std::size_t, double>> by_sequence() const;
 };

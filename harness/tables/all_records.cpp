@@ -39,17 +39,17 @@ class FilteredRecords {
   void keep_metrics(const std::string& metric, std::size_t own) {
     std::set<std::pair<SharedText, SharedText>> kept;  // metric and label
     reader_.for_each_definition([&](const Record& r) {
-      if (field(r, kMetricFields[own]) == metric) kept.emplace(r.metric, r.label);
+      if (metric.empty() || field(r, kMetricFields[own]) == metric) kept.emplace(r.metric, r.label);
     });
     reader_.keep_scores([kept](const Record& r) { return kept.contains({r.metric, r.label}); });
   }
 
-  /// The first of kMetricFields in which a record has this text; kNoField if there is none.
+  /// The first of kMetricFields in which a record has this text, "" in all; kNoField if none has.
   std::size_t field_of(const std::string& metric, bool derived) {
     std::size_t found = kNoField;
     for_each(derived, [&](const Record& r) {
       for (std::size_t f = 0; f < found && !r.metric.empty(); ++f) {
-        if (field(r, kMetricFields[f]) == metric) found = f;
+        if (metric.empty() || field(r, kMetricFields[f]) == metric) found = f;
       }
       return found > 0;
     });
@@ -71,6 +71,7 @@ class FilteredRecords {
     for (const NameOrder& of_field : known) {
       for (const std::string& name : of_field.names()) all.index(name);
     }
+    if (metric.empty()) throw InputError(none);
     throw InputError("--metric: " + unknown_name("metric", metric, all.names()));
   }
 
@@ -126,7 +127,7 @@ std::vector<Comparison> compare_store(const std::filesystem::path& store,
   if (!derived) all.keep_metrics(metric, own);
   const RecordSource wanted = [&](const auto& visit) {
     all.for_each(derived, [&](const Record& r) {
-      if (r.metric.empty() || field(r, kMetricFields[own]) == metric) visit(r);
+      if (r.metric.empty() || metric.empty() || field(r, kMetricFields[own]) == metric) visit(r);
       return true;
     });
   };

@@ -14,6 +14,10 @@ namespace loopbench::harness {
 /// (~: not significantly). Best methods are marked. Notes: verdict, remarks.
 TableView table_view(const Comparison& comparison);
 
+/// For each method the smallest gain that as many groups would find with 80 %, and the number of
+/// groups that a gain (0..1) needs, given the deviation of its log ratios.
+TableView power_table(const Comparison& comparison, double gain);
+
 /// One line per method of every comparison, numbers in full precision; missing values are empty.
 std::string csv(const std::vector<Comparison>& comparisons);
 

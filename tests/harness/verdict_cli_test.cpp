@@ -62,6 +62,26 @@ TEST_F(VerdictCli, CompareGivesAVerdict) {
   EXPECT_TRUE(has(few.out, "nothing can be shown: ")) << few.out;
 }
 
+TEST_F(VerdictCli, CompareNeedsNoMetricBesideAFilter) {
+  const CommandResult result = run("compare r --where metric=ate,unit=deg");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out.rfind("### ate", 0), 0u) << result.out;
+  const CommandResult none = run("compare r --where metric=rpe");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_TRUE(has(none.err, "r: no score to compare after --where")) << none.err;
+}
+
+TEST_F(VerdictCli, CompareStatesItsPower) {
+  const CommandResult result = run("compare r --where unit=m --power 0.05");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out.rfind("### ate, keyframes: power against raw\n\n| method", 0), 0u)
+      << result.out;
+  EXPECT_TRUE(has(result.out, "| groups for 5 % |")) << result.out;
+  EXPECT_EQ(run("compare r --power 2").exit_code, 2);
+  EXPECT_TRUE(
+      has(run("compare r --power 0.1 --format json").err, "--power: cannot be written as json"));
+}
+
 TEST_F(VerdictCli, CompareSpeaksEveryFormat) {
   EXPECT_EQ(run("compare r --format json").out.rfind("{\n\"provenance\": {\n", 0), 0u);
   const CommandResult printed = run("compare r --format csv");

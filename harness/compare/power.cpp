@@ -1,0 +1,85 @@
+#include "harness/compare/power.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "harness/statistics/normal.hpp"
+#include "harness/statistics/signed_rank.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+constexpr double kWanted = 0.8;
+constexpr int kDraws = 1000;
+constexpr std::size_t kMostSimulated = 200;
+
+double uniform(std::mt19937_64& bits) {
+  return (static_cast<double>(bits() >> 11) + 0.5) * 0x1p-53;
+}
+
+/// Share of the draws whose ranks of positive values sum to `critical` at most.
+double simulated(double effect, std::size_t groups, std::size_t critical) {
+  std::mt19937_64 bits(groups);
+  std::vector<double> values(groups);
+  int found = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    for (double& value : values) {
+      value = std::sqrt(-2.0 * std::log(uniform(bits))) *
+                  std::cos(2.0 * std::numbers::pi * uniform(bits)) -
+              effect;
+    }
+    std::ranges::sort(values, {}, [](double value) { return std::abs(value); });
+    std::size_t sum = 0;
+    for (std::size_t i = 0; i < groups; ++i) sum += values[i] > 0.0 ? i + 1 : 0;
+    found += sum <= critical ? 1 : 0;
+  }
+  return static_cast<double>(found) / kDraws;
+}
+
+/// The z with normal_cdf(z) = p, by bisection.
+double normal_quantile(double p) {
+  double low = -40.0;
+  double high = 40.0;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (normal_cdf(middle) < p ? low : high) = middle;
+  }
+  return high;
+}
+
+}  // namespace
+
+double Power::smallest_effect(std::size_t groups) {
+  const auto [found, is_new] = known_.emplace(groups, std::numeric_limits<double>::infinity());
+  if (!is_new) return found->second;
+  const auto critical = critical_rank_sum(groups, alpha_);
+  if (!critical) return found->second;
+  if (groups > kMostSimulated) {
+    const double efficiency = 3.0 / std::numbers::pi;
+    const double distance = normal_quantile(1.0 - 0.5 * alpha_) + normal_quantile(kWanted);
+    return found->second = distance / std::sqrt(efficiency * static_cast<double>(groups));
+  }
+  double low = 0.0;
+  double high = 10.0;
+  while (high - low > 1e-3 * high) {
+    const double middle = 0.5 * (low + high);
+    (simulated(middle, groups, *critical) < kWanted ? low : high) = middle;
+  }
+  return found->second = high;
+}
+
+std::size_t Power::groups_needed(double effect) {
+  std::size_t low = 0;
+  std::size_t high = kMostGroups;
+  while (low + 1 < high) {
+    const std::size_t middle = low + (high - low) / 2;
+    (smallest_effect(middle) > effect ? low : high) = middle;
+  }
+  return high;
+}
+
+}  // namespace loopbench::harness
