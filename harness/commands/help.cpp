@@ -32,7 +32,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench table results/quickstart --split '' --plus-minus --format latex -o table.tex\n"},
     {"compare",
      "  loopbench compare results/quickstart\n"
-     "  loopbench compare results/quickstart --metric 'error x' --where times=dense\n"
      "  loopbench compare results/quickstart --power 0.05   # groups needed to find 5 %\n"
      "  loopbench compare results/quickstart --over sequences --format csv -o compared.csv\n"},
     {"check",

@@ -40,6 +40,13 @@ bool Levels::has_value(std::size_t method, std::size_t run) const {
   return is_known(method, run) && !std::isnan(*costs_[method][run]);
 }
 
+std::size_t Levels::known_groups(std::size_t method) const {
+  const auto is_known_in = [&](const std::vector<std::size_t>& runs) {
+    return std::ranges::any_of(runs, [&](std::size_t run) { return is_known(method, run); });
+  };
+  return static_cast<std::size_t>(std::ranges::count_if(runs_of_, is_known_in));
+}
+
 double Levels::difference(std::size_t a, std::size_t b, std::size_t run) const {
   const double of_a = *costs_[a][run];
   const double of_b = *costs_[b][run];

@@ -44,6 +44,9 @@ class Levels {
   }
   bool has_value(std::size_t method, std::size_t run) const;
 
+  /// Number of groups with a run that the method was run on.
+  std::size_t known_groups(std::size_t method) const;
+
   /// Whether differences of two methods are logarithms of ratios: neither has a value below zero.
   bool is_ratio(std::size_t a, std::size_t b) const { return is_positive_[a] && is_positive_[b]; }
 

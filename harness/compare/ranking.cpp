@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace loopbench::harness {
 namespace {
@@ -17,13 +18,19 @@ std::size_t count_tests(const Levels& levels) {
   return std::max<std::size_t>(1, different.size() - 1);
 }
 
-/// A method that is ahead of all others is found in any order of them.
+/// Of the methods that were run on half of the groups or more, a method that is ahead of all others
+/// is found in any order of them.
 std::size_t find_leader(const Levels& levels, const std::vector<std::size_t>& methods) {
-  std::size_t leader = methods.front();
-  for (const std::size_t m : methods) {
-    if (m != leader && compared(levels, m, leader).is_first_ahead()) leader = m;
+  constexpr double kMost = 0.5;
+  std::vector<std::size_t> known;  // groups of each method
+  for (const std::size_t m : methods) known.push_back(levels.known_groups(m));
+  const auto most = static_cast<double>(std::ranges::max(known));
+  std::optional<std::size_t> leader;
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    if (static_cast<double>(known[i]) < kMost * most) continue;
+    if (!leader || compared(levels, methods[i], *leader).is_first_ahead()) leader = methods[i];
   }
-  return leader;
+  return *leader;
 }
 
 Standing standing_of(const Pair& from_leader, std::size_t tests, const RankingOptions& options) {

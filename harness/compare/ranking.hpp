@@ -2,9 +2,9 @@
 ///
 /// A method is significantly better than another if their pair's p, times the number of other
 /// methods (Bonferroni), is at most alpha: that covers each method against the baseline, or each
-/// against the leader. Equal methods count once. The leader is ahead of all others by ranks, if
-/// there is such a method, and best if it is significantly better than all of them; methods behind
-/// it by less than a relevant difference are best with it.
+/// against the leader. Equal methods count once. The leader was run on half of the groups or more
+/// and is ahead of all others by ranks, if there is such a method, and best if it is significantly
+/// better than all of them; methods behind it by less than a relevant difference are best with it.
 #pragma once
 
 #include <cstddef>

@@ -10,7 +10,7 @@ namespace {
 
 /// One decimal, or two digits if that would be 0.0.
 std::string percent_text(double percent) {
-  return std::abs(percent) >= 0.95 || percent == 0.0 ? fmt::format("{:.1f}", percent)
+  return std::abs(percent) >= 0.95 || percent == 0.0 ? fmt::format("{:.1f}", percent + 0.0)
                                                      : fmt::format("{:.2g}", percent);
 }
 
@@ -60,6 +60,9 @@ std::string sequences_text(const Ratio& ratio, const Comparison& c) {
     return names.size() <= 3 ? joined_names(names)
                              : fmt::format("{} of {} sequences", names.size(), c.sequences);
   };
+  if (is_gain(1.0 / ratio.typical.estimate, c)) {
+    return better.empty() ? "" : ", but better on " + listed(better);
+  }
   if (!worse.empty()) return ", but worse on " + listed(worse);
   const bool is_everywhere = better.empty() || better.size() == ratio.by_sequence.size();
   return is_everywhere ? "" : ", all of it on " + listed(better);

@@ -127,6 +127,15 @@ TEST(Pair, TypicalIntervalExcludesOneExactlyIfPIsSmall) {
   }
 }
 
+TEST(Ranking, IsNotLedByAMethodOfFewRuns) {
+  GroupedValues all =
+      of({{1, 2, 3, 4, 5, 6}, {0.9, 1.8, 2.6, 3.5, 4.4, 5.1}, {0.1, 1, 1, 1, 1, 1}});
+  for (std::size_t run = 1; run < 6; ++run) all.values[2][run] = std::nullopt;
+  const Ranking ranking = rank_methods(Levels(all, kTieShare), {});
+  EXPECT_EQ(ranking.leader, 1u);
+  EXPECT_EQ(ranking.standings[2], Standing::open);
+}
+
 TEST(Ranking, CountsEqualMethodsOnce) {
   std::vector<double> raw{1, 2, 3, 4, 5, 6};
   std::vector<double> dual;
