@@ -6,7 +6,12 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$here/build/release
 source "$here/cmake/setup.sh"
 export LOOPBENCH_NAME=$0  # for the commands that the program prints
-(($#)) || set -- run "$here/configs/quickstart.yaml"
+needed=("${packages[@]}")
+if (($#)); then
+  needed+=("${sandbox_packages[@]}")
+else
+  set -- run "$here/configs/quickstart.yaml"
+fi
 
 configure() { (cd "$here" && quietly cmake --preset release -DLOOPBENCH_BUILD_TESTS=OFF); }
 
@@ -19,7 +24,7 @@ build_program() {
   fi
 }
 
-install_missing "${packages[@]}"
+install_missing "${needed[@]}"
 case "$* " in
   plot\ * | traj\ plot\ * | eval\ *--plot[\ =]* | eval\ *--report[\ =]*)
     install_missing "${plot_packages[@]}" ;;
@@ -34,8 +39,8 @@ code=0
 "$build/loopbench" "$@" || code=$?
 for group in compression image; do
   ((code == 4)) || exit "$code"
-  declare -n needed=${group}_packages
-  install_missing "${needed[@]}"
+  declare -n more=${group}_packages
+  install_missing "${more[@]}"
   configure
   build_program
   code=0

@@ -5,8 +5,9 @@
 packages=(
   clang cmake ninja-build
   libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev libre2-dev libceres-dev
-  bubblewrap
 )
+sandbox_packages=(bubblewrap)  # hides files from external programs; the default comparison has none
+
 # Compressed files and bags; each is optional: without it, files that need it are rejected (exit code 4), and run.sh
 # installs all of them.
 compression_packages=(zlib1g-dev libbz2-dev libzstd-dev liblz4-dev)
