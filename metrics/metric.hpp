@@ -8,7 +8,6 @@
 #include "datasets/core/fields.hpp"
 #include "metrics/better.hpp"
 #include "metrics/evaluation/evaluation.hpp"
-#include "metrics/evaluation/undefined.hpp"
 #include "metrics/numerics/statistics.hpp"
 
 namespace loopbench::metrics {

@@ -5,12 +5,10 @@
 #include "metrics/checks/diagnostics.hpp"
 #include "metrics/checks/extrinsic_offset.hpp"
 #include "metrics/correction/closure_residual.hpp"
-#include "metrics/correction/gain_along.hpp"
 #include "metrics/correction/graph_cost.hpp"
 #include "metrics/correction/interpolation_floor.hpp"
 #include "metrics/correction/jerk.hpp"
 #include "metrics/correction/jumps.hpp"
-#include "metrics/correction/local_shape.hpp"
 #include "metrics/correction/loop_detection.hpp"
 #include "metrics/correction/path_length.hpp"
 #include "metrics/correction/smoothing_headroom.hpp"
@@ -44,17 +42,11 @@ std::vector<MetricEntry> metrics() {
       metric<AlongCrossOptions>("along_cross",
                                 "position error along, across and above the direction of travel",
                                 along_cross),
-      metric<GainAlongOptions>("gain_along",
-                               "improvement over the raw keyframes, by axis and third of the path",
-                               gain_along),
       metric<ClosureResidualOptions>("closure_residual",
                                      "residuals of the loop closures after the correction",
                                      closure_residual),
       metric_without_reference<GraphCostOptions>(
           "graph_cost", "sum of squared Mahalanobis errors over all edges", graph_cost),
-      metric<LocalShapeOptions>("local_shape",
-                                "change of the relative poses between neighbouring keyframes",
-                                local_shape),
       metric<JumpsOptions>(
           "jumps", "discontinuities of the curve and its derivatives at keyframes", jumps),
       metric<PathLengthOptions>(

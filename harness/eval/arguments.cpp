@@ -13,7 +13,7 @@
 #include "harness/config/source_text.hpp"
 #include "harness/text/numbers.hpp"
 #include "metrics/errors/ape.hpp"
-#include "metrics/pairing/pairs/select_pairs.hpp"
+#include "metrics/pairing/select_pairs.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -11,7 +11,7 @@
 #include "datasets/core/fields.hpp"
 #include "datasets/derive/problem_graph.hpp"
 #include "datasets/formats/formats.hpp"
-#include "metrics/evaluation/undefined.hpp"
+#include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -16,7 +16,7 @@
 
 #include "harness/external/message.hpp"
 #include "harness/external/process_tree.hpp"
-#include "metrics/evaluation/undefined.hpp"
+#include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench::harness {
 namespace {

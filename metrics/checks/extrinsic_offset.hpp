@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "metrics/alignment/hand_eye/hand_eye.hpp"
+#include "metrics/alignment/hand_eye.hpp"
 #include "metrics/metric.hpp"
 
 namespace loopbench::metrics {

@@ -5,7 +5,7 @@
 #include "datasets/core/cubic.hpp"
 #include "datasets/core/interpolate.hpp"
 #include "metrics/numerics/angle.hpp"
-#include "metrics/numerics/stamp_rounding.hpp"
+#include "metrics/pairing/association.hpp"
 
 namespace loopbench::metrics {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "datasets/core/polyline.hpp"
 #include "metrics/numerics/divided_differences.hpp"
-#include "metrics/numerics/stamp_rounding.hpp"
+#include "metrics/pairing/association.hpp"
 
 namespace loopbench::metrics {
 namespace {

@@ -3,7 +3,7 @@
 #include <bit>
 #include <stdexcept>
 
-#include "metrics/numerics/low_pass.hpp"
+#include "metrics/correction/low_pass.hpp"
 
 namespace loopbench::metrics {
 namespace {

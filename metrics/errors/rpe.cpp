@@ -7,7 +7,7 @@
 #include "metrics/errors/printed_motion.hpp"
 #include "metrics/errors/rpy.hpp"
 #include "metrics/numerics/angle.hpp"
-#include "metrics/pairing/pairs/tum_motions.hpp"
+#include "metrics/pairing/tum_motions.hpp"
 
 namespace loopbench::metrics {
 namespace {

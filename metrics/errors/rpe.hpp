@@ -5,7 +5,7 @@
 
 #include "metrics/errors/relation.hpp"
 #include "metrics/metric.hpp"
-#include "metrics/pairing/pairs/select_pairs.hpp"
+#include "metrics/pairing/select_pairs.hpp"
 
 namespace loopbench::metrics {
 

@@ -4,8 +4,6 @@
 
 #include "evaluated_cell.hpp"
 #include "metrics/correction/closure_residual.hpp"
-#include "metrics/correction/gain_along.hpp"
-#include "metrics/correction/local_shape.hpp"
 #include "support.hpp"
 #include "tests/support/problems.hpp"
 
@@ -40,73 +38,6 @@ EvaluatedCell corrected(Problem problem,
           std::make_unique<Polyline>(std::move(keyframes)),
           Times::keyframes,
           rules};
-}
-
-TEST(GainAlong, ByHand) {
-  Problem problem;
-  problem.keyframes = line({0.0, 2.0, 2.0, 4.0, 4.0, 4.0});
-  const EvaluatedCell cell =
-      corrected(problem, line({0.0, 1.0, 2.0, 2.0, 8.0, 0.0}), line({0, 0, 0, 0, 0, 0}));
-  const auto scores = gain_along(cell.evaluation, {});
-  // Squares before 0 4 4 16 16 16, after 0 1 4 4 64 0; each third of the path has two poses.
-  EXPECT_NEAR(
-      find(scores, "translation", "3d").rmse, 100.0 * (1.0 - std::sqrt(73.0 / 56.0)), 1e-12);
-  EXPECT_EQ(find(scores, "translation", "3d").count, 6u);
-  const Protocol by_mean{.align = Align::none, .statistic = Statistic::mean};
-  const EvaluatedCell again =
-      corrected(problem, line({0.0, 1.0, 2.0, 2.0, 8.0, 0.0}), line({0, 0, 0, 0, 0, 0}), by_mean);
-  const auto means = gain_along(again.evaluation, {});
-  EXPECT_NEAR(find(means, "translation", "y").mean, 100.0 * (1.0 - 13.0 / 16.0), 1e-12);
-  EXPECT_NEAR(find(scores, "first_third", "3d").rmse, 50.0, 1e-12);
-  EXPECT_NEAR(
-      find(scores, "middle_third", "3d").rmse, 100.0 * (1.0 - std::sqrt(8.0 / 20.0)), 1e-12);
-  EXPECT_NEAR(find(scores, "last_third", "3d").rmse, 100.0 * (1.0 - std::sqrt(64.0 / 32.0)), 1e-12);
-  EXPECT_NEAR(find(scores, "improved", "").mean, 100.0 * 3.0 / 6.0, 1e-12);
-  EXPECT_NEAR(find(scores, "worsened", "").mean, 100.0 / 6.0, 1e-12);
-}
-
-TEST(GainAlong, OnNoErrorIsUndefinedAndSaysSo) {
-  Problem problem;
-  problem.keyframes = line({0, 1, 0, 1, 0, 1});
-  const EvaluatedCell cell = corrected(problem, line({0, 0, 0, 0, 0, 0}), line({0, 0, 0, 0, 0, 0}));
-  for (const Score& score : gain_along(cell.evaluation, {})) {
-    const bool is_free = score.axis == "x" || score.axis == "z" || score.relation == "angle";
-    EXPECT_EQ(score.why_undefined, is_free ? "the error before correction is zero" : "")
-        << score.axis;
-    if (score.unit == "%" && score.axis != "" && !is_free) {
-      EXPECT_EQ(score.statistics.rmse, 100.0);
-    }
-  }
-}
-
-TEST(GainAlong, WritesNoZeroWhereItIsUndefined) {
-  // Errors before 0 0 0 1 0 0: the rmse has a gain, the median and the minimum have none.
-  Problem problem;
-  problem.keyframes = line({0, 0, 0, 1, 0, 0});
-  const auto gained = [&](Statistic statistic) {
-    const Protocol rules{.align = Align::none, .statistic = statistic};
-    const EvaluatedCell cell =
-        corrected(problem, line({0, 0, 0, 3, 0, 0}), line({0, 0, 0, 0, 0, 0}), rules);
-    return gain_along(cell.evaluation, {}).front();
-  };
-  for (const Statistic statistic : {Statistic::rmse, Statistic::mean}) {
-    const Statistics got = gained(statistic).statistics;
-    for (const double number : {got.rmse, got.mean, got.median, got.min, got.max}) {
-      EXPECT_NEAR(number, -200.0, 1e-12);
-    }
-  }
-  EXPECT_EQ(gained(Statistic::median).why_undefined, "the error before correction is zero");
-}
-
-TEST(GainAlong, IsZeroForTheRawKeyframesWhereverTheyAreEvaluated) {
-  const Trajectory truth = test::hand_held_truth();
-  const Problem problem = test::drifting(truth, twist({0.002, 0, 0}, {0, 0, 0.003}), {{0, 59}});
-  for (const Times times : {Times::keyframes, Times::dense}) {
-    const EvaluatedCell cell(truth, problem, std::make_unique<Polyline>(problem.keyframes), times);
-    for (const Score& score : gain_along(cell.evaluation, {})) {
-      EXPECT_EQ(score.statistics.rmse, 0.0) << score.relation << score.axis;
-    }
-  }
 }
 
 TEST(ClosureResidual, ByHandIncludingMahalanobis) {
@@ -149,9 +80,6 @@ TEST(ClosureResidual, DoesNotCareWhereTheEstimateLies) {
                 residual,
                 1e-10 * residual);
   }
-  for (const Score& score : local_shape(there.evaluation, {})) {
-    EXPECT_LT(score.statistics.max, 1e-10);
-  }
 }
 
 TEST(ClosureResidual, IsZeroForTheTruth) {
@@ -175,29 +103,6 @@ TEST(ClosureResidual, RefusesWhereThereIsNothingToMeasure) {
   problem.closures.push_back({0, 5, {}, Matrix6::Identity(), 3.0});
   const EvaluatedCell scaled = corrected(problem, poses, poses);
   EXPECT_THROW(closure_residual(scaled.evaluation, {}), std::runtime_error);
-}
-
-TEST(LocalShape, ByHand) {
-  Problem problem;
-  problem.keyframes = line({0, 0, 0, 0, 0, 0});
-  Trajectory bent = problem.keyframes;
-  for (std::size_t i = 3; i < 6; ++i) {  // one bend of 90 degrees between 2 and 3, 0.5 m pulled out
-    bent[i].world_from_body.rotation = exp_so3({0.0, 0.0, std::numbers::pi / 2.0});
-    bent[i].world_from_body.translation = Vector3(3.5, static_cast<double>(i) - 3.0, 0.0);
-  }
-  const EvaluatedCell cell = corrected(problem, bent, problem.keyframes);
-  const auto scores = local_shape(cell.evaluation, {});
-  EXPECT_EQ(find(scores, "translation", "3d").count, 5u);
-  EXPECT_NEAR(find(scores, "translation", "3d").max, 0.5, 1e-12);
-  EXPECT_NEAR(find(scores, "translation", "3d").sse, 0.25, 1e-12);
-  EXPECT_NEAR(find(scores, "rotation", "3d").max, 90.0, 1e-12);
-  EXPECT_NEAR(find(scores, "rotation", "3d").median, 0.0, 1e-12);
-}
-
-TEST(LocalShape, RefusesFiles) {
-  const Trajectory poses = line({0, 0, 0, 0, 0, 0});
-  EXPECT_EQ(why<std::runtime_error>([&] { local_shape(evaluate(poses, poses, kAsIs), {}); }),
-            "local_shape: needs keyframes before correction, which files do not have");
 }
 
 }  // namespace

@@ -70,7 +70,6 @@ TEST(Ddof, OfTheProtocolReachesEveryDistribution) {
                            "interpolation_floor",
                            "jerk",
                            "jumps",
-                           "local_shape",
                            "smoothing_headroom"}) {
     EXPECT_TRUE(evaluated.contains(name)) << name;
   }

@@ -20,14 +20,12 @@ using test::EvaluatedCell;
 const std::set<std::string> kErrors{
     "ate", "axis_error", "ape", "rpe", "segments", "along_cross", "jumps"};
 const std::set<std::string> kDescriptions{"closure_residual",
-                                          "local_shape",
                                           "interpolation_floor",
                                           "smoothing_headroom",
                                           "coverage",
                                           "extrinsic_offset",
                                           "diagnostics"};
-const std::set<std::string> kOthers{
-    "gain_along", "path_length", "jerk", "graph_cost", "loop_detection"};
+const std::set<std::string> kOthers{"path_length", "jerk", "graph_cost", "loop_detection"};
 
 /// A circle in steps of 5 cm, back to its start; `stray` bends it upwards.
 Trajectory circle(double stray) {
@@ -87,14 +85,6 @@ TEST(Direction, ErrorsAreBetterLower) {
 
 TEST(Direction, DescriptionsHaveNone) {
   for (const std::string& metric : kDescriptions) expect_all(metric, Better::neither);
-}
-
-TEST(Direction, OfAGainIsHigherAndOfWhatWorsenedLower) {
-  auto found = directions("gain_along");
-  EXPECT_EQ(found.at("worsened ").first, Better::lower);
-  found.erase("worsened ");
-  for (const auto& [score, direction] : found) EXPECT_EQ(direction.first, Better::higher) << score;
-  EXPECT_EQ(found.size(), 9u);
 }
 
 TEST(Direction, OfARatioIsOne) {

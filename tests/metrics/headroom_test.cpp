@@ -7,8 +7,8 @@
 #include "datasets/core/cubic.hpp"
 #include "datasets/formats/formats.hpp"
 #include "metrics/correction/interpolation_floor.hpp"
+#include "metrics/correction/low_pass.hpp"
 #include "metrics/correction/smoothing_headroom.hpp"
-#include "metrics/numerics/low_pass.hpp"
 #include "support.hpp"
 
 namespace loopbench::headroom_test {

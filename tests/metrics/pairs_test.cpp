@@ -6,10 +6,9 @@
 #include <numeric>
 
 #include "metrics/errors/rpe.hpp"
-#include "metrics/pairing/pairs/angle_pairs.hpp"
-#include "metrics/pairing/pairs/consecutive.hpp"
-#include "metrics/pairing/pairs/python_random.hpp"
-#include "metrics/pairing/pairs/tum_motions.hpp"
+#include "metrics/pairing/pair_search.hpp"
+#include "metrics/pairing/python_random.hpp"
+#include "metrics/pairing/tum_motions.hpp"
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 

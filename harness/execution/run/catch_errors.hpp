@@ -6,7 +6,7 @@
 
 #include "harness/execution/run/check_output.hpp"
 #include "harness/model/status.hpp"
-#include "metrics/evaluation/undefined.hpp"
+#include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench::harness {
 

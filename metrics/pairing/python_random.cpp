@@ -1,4 +1,4 @@
-#include "metrics/pairing/pairs/python_random.hpp"
+#include "metrics/pairing/python_random.hpp"
 
 #include <bit>
 #include <numeric>

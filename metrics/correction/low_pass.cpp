@@ -1,10 +1,10 @@
-#include "metrics/numerics/low_pass.hpp"
+#include "metrics/correction/low_pass.hpp"
 
 #include <algorithm>
 #include <complex>
 #include <unsupported/Eigen/FFT>
 
-#include "metrics/numerics/stamp_rounding.hpp"
+#include "metrics/pairing/association.hpp"
 
 namespace loopbench::metrics {
 namespace {

@@ -1,15 +1,108 @@
-#include "metrics/alignment/hand_eye/lever_arm_fit.hpp"
+#include "metrics/alignment/hand_eye.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
+#include <vector>
 
+#include "datasets/core/so3.hpp"
 #include "datasets/core/upper_median.hpp"
 
 namespace loopbench::metrics {
+
 namespace {
+
+struct RotationFit {
+  Rotation body_from_reference = Rotation::Identity();
+  double explained = 0.0;  ///< share of the squared differences of rotations and displacements [-]
+};
+
+constexpr double kExplains = 0.5;  // share of the squares, to accept
+constexpr double kMinRotation =
+    5.0 * std::numbers::pi / 180.0;   // below: a tilt, unobservable in 2-D
+constexpr double kSecondAxis = 0.02;  // of the first singular value
+constexpr double kNothing = 1e-18;    // of the squared motion; below it nothing is explained
+
+/// Sums of squared rotations and displacements, each normalised by its own size.
+struct MotionSizes {
+  double rotations = 0.0;
+  double translations = 0.0;
+};
+
+MotionSizes sizes_of(const std::vector<RelativePosePair>& pairs) {
+  MotionSizes out;
+  for (const auto& [q, z] : pairs) {
+    out.rotations += log_so3(z.rotation).squaredNorm();
+    out.translations += q.translation.squaredNorm() + z.translation.squaredNorm();
+  }
+  return out;
+}
+
+double difference(const std::vector<RelativePosePair>& pairs,
+                  const MotionSizes& sizes,
+                  const Rotation& rotation) {
+  double out = 0.0;
+  for (const auto& [q, z] : pairs) {
+    out += (log_so3(z.rotation) - rotation * log_so3(q.rotation)).squaredNorm() / sizes.rotations;
+    if (sizes.translations > 0.0)
+      out += (z.translation - rotation * q.translation).squaredNorm() / sizes.translations;
+  }
+  return out;
+}
+
+/// The rotation by Kabsch's method.
+Rotation rotation_of(const Eigen::JacobiSVD<Matrix3>& svd) {
+  Matrix3 flip = Matrix3::Identity();
+  flip(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  Rotation rotation(Matrix3(svd.matrixU() * flip * svd.matrixV().transpose()));
+  if (rotation.w() < 0.0) rotation.coeffs() *= -1.0;  // the same rotation with w >= 0, as in files
+  return rotation.normalized();
+}
+
+/// Maps the reference's motions to the estimate's in least squares: Kabsch, of rotation vectors,
+/// and of displacements if all rotations have one axis. Identity if the angle is below 5 degrees or
+/// the rotation does not explain half of the differences. O(pairs).
+RotationFit fit_rotation(const std::vector<RelativePosePair>& pairs) {
+  const MotionSizes sizes = sizes_of(pairs);
+  Matrix3 rotations = Matrix3::Zero();
+  Matrix3 translations = Matrix3::Zero();
+  for (const auto& [q, z] : pairs) {
+    rotations += log_so3(z.rotation) * log_so3(q.rotation).transpose() / sizes.rotations;
+    if (sizes.translations > 0.0)
+      translations += z.translation * q.translation.transpose() / sizes.translations;
+  }
+  constexpr unsigned kFullMatrices = Eigen::ComputeFullU | Eigen::ComputeFullV;
+  Eigen::JacobiSVD<Matrix3> svd(rotations, kFullMatrices);
+  // Displacements also depend on the unknown lever arm: use them only if all rotations share an
+  // axis.
+  const bool about_one_axis = svd.singularValues()[1] <= kSecondAxis * svd.singularValues()[0];
+  if (about_one_axis) svd.compute(rotations + translations, kFullMatrices);
+  const Rotation rotation = rotation_of(svd);
+  const double before = difference(pairs, sizes, Rotation::Identity());
+  if (before <= kNothing || log_so3(rotation).norm() < kMinRotation) return {};
+  const double explained = 1.0 - difference(pairs, sizes, rotation) / before;
+  if (explained < kExplains) return {};
+  return {rotation, explained};
+}
+
+/// One pair of relative poses: difference = rotation_minus_identity c + s translation + k, with
+/// difference = R_C t_Q - t_Z, rotation_minus_identity = R_Z - I and translation = R_C t_Q.
+struct LeverArmEquation {
+  Matrix3 rotation_minus_identity;
+  Vector3 translation;
+  Vector3 difference;
+  double weight = 1.0;
+};
+
+struct LeverArmFit {
+  Vector3 lever_arm = Vector3::Zero();  ///< c in the reference's scale; 0 if not significant [m]
+  Vector3 deviation = Vector3::Zero();  ///< standard deviations [m]; 0: not significant
+  double explained = 0.0;  ///< share of the squared residuals explained by c beyond the scale [-]
+};
 
 constexpr double kMotionRounding = 1e-18;  // of the squared motion; below it nothing is explained
 
@@ -104,8 +197,9 @@ std::vector<LeverArmEquation> evenly_chosen(std::vector<LeverArmEquation> all) {
   return all;
 }
 
-}  // namespace
-
+/// Least squares with Huber weights, free scale, and drift of a few per cent per relative pose.
+/// Directions closer than three standard deviations to zero are set to zero. Of more than 20 000
+/// equations, about so many are used, evenly chosen. See hand_eye(). O(equations).
 LeverArmFit fit_lever_arm(std::vector<LeverArmEquation> all) {
   all = evenly_chosen(std::move(all));
   constexpr int kRounds = 20;
@@ -145,6 +239,49 @@ LeverArmFit fit_lever_arm(std::vector<LeverArmEquation> all) {
   out.lever_arm /= 1.0 - scale;
   out.deviation /= 1.0 - scale;
   return out;
+}
+
+}  // namespace
+
+std::vector<RelativePosePair> rotating_intervals(const Trajectory& reference,
+                                                 const Trajectory& estimate,
+                                                 double angle,
+                                                 double longest) {
+  const double cosine = std::cos(0.5 * angle);
+  const auto has_rotated = [&](const Trajectory& poses, std::size_t from, std::size_t to) {
+    const Rotation& a = poses[from].world_from_body.rotation;
+    return std::abs(a.dot(poses[to].world_from_body.rotation)) <= cosine;
+  };
+  const auto motion = [](const Trajectory& poses, std::size_t from, std::size_t to) {
+    return poses[from].world_from_body.inverse() * poses[to].world_from_body;
+  };
+  std::vector<RelativePosePair> out;
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i < estimate.size(); ++i) {
+    const bool is_late = estimate[i].stamp - estimate[begin].stamp > longest;
+    const bool rotated = has_rotated(estimate, begin, i) && has_rotated(reference, begin, i);
+    if (rotated && !is_late)
+      out.push_back({motion(reference, begin, i), motion(estimate, begin, i)});
+    if (rotated || is_late) begin = i;
+  }
+  return out;
+}
+
+HandEye hand_eye(const std::vector<RelativePosePair>& pairs) {
+  const RotationFit rotation = fit_rotation(pairs);
+  std::vector<LeverArmEquation> equations;
+  equations.reserve(pairs.size());
+  for (const auto& [q, z] : pairs) {
+    const Vector3 translation = rotation.body_from_reference * q.translation;
+    equations.push_back({z.rotation.toRotationMatrix() - Matrix3::Identity(),
+                         translation,
+                         translation - z.translation});
+  }
+  const LeverArmFit lever_arm = fit_lever_arm(std::move(equations));
+  return {{rotation.body_from_reference, lever_arm.lever_arm},
+          lever_arm.deviation,
+          rotation.explained,
+          lever_arm.explained};
 }
 
 }  // namespace loopbench::metrics

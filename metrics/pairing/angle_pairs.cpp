@@ -1,6 +1,6 @@
-#include "metrics/pairing/pairs/angle_pairs.hpp"
-
 #include <algorithm>
+
+#include "metrics/pairing/pair_search.hpp"
 
 namespace loopbench::metrics {
 namespace {

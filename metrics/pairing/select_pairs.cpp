@@ -1,11 +1,10 @@
-#include "metrics/pairing/pairs/select_pairs.hpp"
+#include "metrics/pairing/select_pairs.hpp"
 
 #include <cmath>
 
 #include "metrics/numerics/angle.hpp"
 #include "metrics/pairing/motion.hpp"
-#include "metrics/pairing/pairs/angle_pairs.hpp"
-#include "metrics/pairing/pairs/consecutive.hpp"
+#include "metrics/pairing/pair_search.hpp"
 
 namespace loopbench::metrics {
 namespace {

@@ -1,9 +1,26 @@
 /// Hand-eye calibration: extrinsic offset between two bodies from their motions.
 #pragma once
 
-#include "metrics/alignment/hand_eye/rotating_intervals.hpp"
+#include <vector>
+
+#include "datasets/core/trajectory.hpp"
 
 namespace loopbench::metrics {
+
+/// Relative poses of reference and estimate over the same interval, each in its own body frame at
+/// the start.
+struct RelativePosePair {
+  Pose reference;
+  Pose estimate;
+};
+
+/// From each pose to the first later pose at which both trajectories have rotated by `angle` [rad].
+/// Intervals longer than `longest` [s] are skipped, because odometry has drifted by then. The lists
+/// are paired. O(n).
+std::vector<RelativePosePair> rotating_intervals(const Trajectory& reference,
+                                                 const Trajectory& estimate,
+                                                 double angle,
+                                                 double longest);
 
 /// Solution of the hand-eye equation Z C = C Q for relative poses Q (reference) and Z (estimate).
 struct HandEye {

@@ -3,7 +3,7 @@
 
 #include "metrics/alignment/alignment.hpp"
 #include "metrics/pairing/association.hpp"
-#include "metrics/pairing/pairs/select_pairs.hpp"
+#include "metrics/pairing/select_pairs.hpp"
 
 namespace loopbench::metrics {
 

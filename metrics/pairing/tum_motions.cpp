@@ -1,4 +1,4 @@
-#include "metrics/pairing/pairs/tum_motions.hpp"
+#include "metrics/pairing/tum_motions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "datasets/core/parallel.hpp"
 #include "metrics/numerics/angle.hpp"
 #include "metrics/numerics/statistics.hpp"
-#include "metrics/pairing/pairs/python_random.hpp"
+#include "metrics/pairing/python_random.hpp"
 
 namespace loopbench::metrics {
 namespace {
