@@ -44,11 +44,6 @@ class FunctionMethod final : public Estimator {
   F function_;
 };
 
-struct FunctionOptions {};
-
-template <class Visit>
-void fields(FunctionOptions&, Visit) {}
-
 /// An entry without options: method("mine", "what it computes", [](const Problem& problem) { ...
 /// return poses; }). Throw metrics::Undefined from the function if it is not applicable.
 template <class F>
@@ -60,7 +55,7 @@ requires CorrectingFunction<F> || EstimatingFunction<F> MethodEntry method(std::
   out.kind = CorrectingFunction<F> ? Kind::corrector : Kind::joint;
   out.summary = std::move(summary);
   out.make = [function](const Params& given) -> Stage {
-    with(FunctionOptions{}, given);  // rejects all options
+    with(NoOptions{}, given);  // rejects all options
     if constexpr (CorrectingFunction<F>) {
       return std::unique_ptr<const Corrector>(std::make_unique<FunctionCorrector<F>>(function));
     } else {

@@ -77,6 +77,15 @@ MetricEntry metric(std::string name, std::string summary, Function score) {
   return out;
 }
 
+/// The same for `std::vector<Score> score(const Evaluation&)`, a metric without options.
+template <class Function>
+MetricEntry metric(std::string name, std::string summary, Function score) {
+  return metric<NoOptions>(
+      std::move(name), std::move(summary), [score](const Evaluation& evaluation, const NoOptions&) {
+        return score(evaluation);
+      });
+}
+
 /// The same for a metric that uses only the problem and the estimate.
 template <class Options, class Function>
 MetricEntry metric_without_reference(std::string name, std::string summary, Function score) {

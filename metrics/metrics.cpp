@@ -42,14 +42,14 @@ std::vector<MetricEntry> metrics() {
       metric<AlongCrossOptions>("along_cross",
                                 "position error along, across and above the direction of travel",
                                 along_cross),
-      metric<ClosureResidualOptions>("closure_residual",
-                                     "residuals of the loop closures after the correction",
-                                     closure_residual),
+      metric("closure_residual",
+             "residuals of the loop closures after the correction",
+             closure_residual),
       metric_without_reference<GraphCostOptions>(
           "graph_cost", "sum of squared Mahalanobis errors over all edges", graph_cost),
       metric<JumpsOptions>(
           "jumps", "discontinuities of the curve and its derivatives at keyframes", jumps),
-      metric<PathLengthOptions>(
+      metric(
           "path_length", "ratio of the path lengths of estimate and reference", path_length_ratio),
       metric<JerkOptions>(
           "jerk", "jerk (third derivative) of the curve and of the reference", jerk),
@@ -59,8 +59,7 @@ std::vector<MetricEntry> metrics() {
       metric<SmoothingHeadroomOptions>("smoothing_headroom",
                                        "largest gain possible by removing high-frequency error",
                                        smoothing_headroom),
-      metric<CoverageOptions>(
-          "coverage", "share of the estimate and the reference that was evaluated", coverage),
+      metric("coverage", "share of the estimate and the reference that was evaluated", coverage),
       metric_without_reference<DetectionRule>(
           "loop_detection",
           "place recognition: precision, recall and precision-recall curve",

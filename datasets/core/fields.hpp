@@ -218,4 +218,10 @@ Options with(Options options, Params given) {
                     name + ": unknown option (has: " + (known.empty() ? "none" : known) + ")");
 }
 
+/// Options of methods, datasets and metrics that have none.
+struct NoOptions {};
+
+template <class Visit>
+void fields(NoOptions&, Visit) {}
+
 }  // namespace loopbench

@@ -65,7 +65,7 @@ std::optional<Residuals> residuals(const Problem& problem, const Trajectory& key
   Residuals out;
   try {
     if (!problem.closures.empty()) {
-      const std::vector<metrics::Score> scores = metrics::closure_residual(evaluation, {});
+      const std::vector<metrics::Score> scores = metrics::closure_residual(evaluation);
       out.translation_rms = scores.at(0).statistics.rmse;
       out.translation_max = scores.at(0).statistics.max;
       out.rotation_rms = scores.at(1).statistics.rmse;

@@ -2,7 +2,7 @@
 
 namespace loopbench::metrics {
 
-std::vector<Score> coverage(const Evaluation& evaluation, const CoverageOptions&) {
+std::vector<Score> coverage(const Evaluation& evaluation) {
   const Coverage& found = evaluation.coverage;
   const auto single = [&](const std::string& relation, double value) {
     Score score{relation, "", "1", statistics({value})};

@@ -7,7 +7,7 @@
 
 namespace loopbench::metrics {
 
-std::vector<Score> closure_residual(const Evaluation& evaluation, const ClosureResidualOptions&) {
+std::vector<Score> closure_residual(const Evaluation& evaluation) {
   const Problem& problem = needed(evaluation.context.problem, "closure_residual", "loop closures");
   const Trajectory& poses = needed(evaluation.context.estimate, "closure_residual", "keyframes");
   if (problem.closures.empty()) {

@@ -4,7 +4,7 @@
 
 namespace loopbench::metrics {
 
-std::vector<Score> path_length_ratio(const Evaluation& evaluation, const PathLengthOptions&) {
+std::vector<Score> path_length_ratio(const Evaluation& evaluation) {
   const double estimate = path_length(evaluation.estimate);
   const double reference = path_length(evaluation.reference);
   if (reference == 0.0) throw Undefined("path_length: the reference does not move");

@@ -89,7 +89,7 @@ TEST(AlongCross, RefusesAReferenceThatNeverMoves) {
 
 TEST(PathLength, IsTheRatioOfTheStraightSteps) {
   const Trajectory longer = moved_by({}, 1.5, corner());
-  const auto scores = path_length_ratio(beside(corner(), longer), {});
+  const auto scores = path_length_ratio(beside(corner(), longer));
   EXPECT_DOUBLE_EQ(find(scores, "reference", "").mean, 4.0);
   EXPECT_DOUBLE_EQ(find(scores, "estimate", "").mean, 6.0);
   EXPECT_DOUBLE_EQ(find(scores, "ratio", "").rmse, 1.5);
@@ -98,7 +98,7 @@ TEST(PathLength, IsTheRatioOfTheStraightSteps) {
 TEST(PathLength, RefusesAReferenceThatStandsStill) {
   Trajectory still = corner();
   for (StampedPose& pose : still) pose.world_from_body.translation.setZero();
-  EXPECT_THROW(path_length_ratio(beside(still, corner()), {}), std::runtime_error);
+  EXPECT_THROW(path_length_ratio(beside(still, corner())), std::runtime_error);
 }
 
 }  // namespace

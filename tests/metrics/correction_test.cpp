@@ -52,7 +52,7 @@ TEST(ClosureResidual, ByHandIncludingMahalanobis) {
   measured.rotation = exp_so3({0.0, 0.0, std::numbers::pi / 2.0});
   problem.closures.push_back({0, 3, measured, information});
   const EvaluatedCell cell = corrected(problem, problem.keyframes, problem.keyframes);
-  const auto scores = closure_residual(cell.evaluation, {});
+  const auto scores = closure_residual(cell.evaluation);
   EXPECT_NEAR(find(scores, "translation", "3d").sse, 9.0, 1e-12);
   EXPECT_NEAR(find(scores, "rotation", "3d").max, 90.0, 1e-12);
   // e = (3, 0, 0, 0, 0, 0) has weight 2, e = (0, 0, 0, 0, 0, -pi / 2) has weight 3.
@@ -74,11 +74,10 @@ TEST(ClosureResidual, DoesNotCareWhereTheEstimateLies) {
       std::make_unique<Polyline>(test::moved_by(elsewhere, 1.0, problem.keyframes)),
       Times::keyframes);
   for (const char* relation : {"translation", "rotation", "mahalanobis"}) {
-    const double residual = find(closure_residual(here.evaluation, {}), relation, "3d").rmse;
+    const double residual = find(closure_residual(here.evaluation), relation, "3d").rmse;
     EXPECT_GT(residual, 0.0);
-    EXPECT_NEAR(find(closure_residual(there.evaluation, {}), relation, "3d").rmse,
-                residual,
-                1e-10 * residual);
+    EXPECT_NEAR(
+        find(closure_residual(there.evaluation), relation, "3d").rmse, residual, 1e-10 * residual);
   }
 }
 
@@ -86,7 +85,7 @@ TEST(ClosureResidual, IsZeroForTheTruth) {
   const Trajectory truth = test::hand_held_truth();
   const Problem problem = test::drifting(truth, twist({0.01, 0, 0}, {0, 0, 0}), {{0, 59}});
   const EvaluatedCell cell(truth, problem, std::make_unique<Polyline>(truth), Times::keyframes);
-  for (const Score& score : closure_residual(cell.evaluation, {})) {
+  for (const Score& score : closure_residual(cell.evaluation)) {
     EXPECT_LT(score.statistics.max, 1e-10) << score.relation;
   }
 }
@@ -95,14 +94,14 @@ TEST(ClosureResidual, RefusesWhereThereIsNothingToMeasure) {
   const Trajectory poses = line({0, 0, 0, 0, 0, 0});
   Problem problem;
   problem.keyframes = poses;
-  EXPECT_EQ(why<std::runtime_error>([&] { closure_residual(evaluate(poses, poses, kAsIs), {}); }),
+  EXPECT_EQ(why<std::runtime_error>([&] { closure_residual(evaluate(poses, poses, kAsIs)); }),
             "closure_residual: needs loop closures, which files do not have");
   const EvaluatedCell none = corrected(problem, poses, poses);
-  EXPECT_EQ(why<std::runtime_error>([&] { closure_residual(none.evaluation, {}); }),
+  EXPECT_EQ(why<std::runtime_error>([&] { closure_residual(none.evaluation); }),
             "closure_residual: needs loop closures; the sequence has none");
   problem.closures.push_back({0, 5, {}, Matrix6::Identity(), 3.0});
   const EvaluatedCell scaled = corrected(problem, poses, poses);
-  EXPECT_THROW(closure_residual(scaled.evaluation, {}), std::runtime_error);
+  EXPECT_THROW(closure_residual(scaled.evaluation), std::runtime_error);
 }
 
 }  // namespace

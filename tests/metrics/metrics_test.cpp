@@ -108,7 +108,7 @@ TEST(Rpe, RefusesWhatItCannotMeasure) {
 TEST(CoverageMetric, IsTwoSharesAndTheTimeBridged) {
   Evaluation e = by_hand();
   e.coverage = {.pairs = 3, .possible = 4, .span = 0.5, .bridged = 12.5};
-  const auto scores = coverage(e, {});
+  const auto scores = coverage(e);
   EXPECT_EQ(find(scores, "share", "").mean, 0.75);
   EXPECT_EQ(find(scores, "share", "").count, 3u);
   EXPECT_EQ(find(scores, "span", "").rmse, 0.5);
