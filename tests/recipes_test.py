@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+"""Builds the recipes of CONTRIBUTING.md and uses their results: recipes_test.py PAGE SOURCE BUILD.
+
+The blocks are applied to copies of the files that they change. The copies are compiled and linked before the libraries
+of the build, so that nothing else has to be compiled again.
+"""
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+
+page, source, build = sys.argv[1:]
+PLACE = re.compile(r"^(?:In )?`([\w/]+\.[ch]pp)`(?:, (above|instead of) `(.+)`)?:$")
+
+
+def recipes(text):
+    """Yields (file, "above" or "instead of" or None, anchor, code) of each block with a place."""
+    lines = iter(text.splitlines())
+    place = None
+    for line in lines:
+        place = PLACE.match(line) or (place if line == "" or line.startswith("```") else None)
+        if line.startswith("```") and place:
+            yield *place.groups(), list(iter(lambda: next(lines), "```"))
+            place = None
+
+
+def change(lines, how, anchor, code):
+    """The lines of a file with the code at the line with the anchor, and its includes at the other includes."""
+    at = next((i for i, line in enumerate(lines) if anchor in line), None)
+    if at is None:
+        sys.exit(f"{page}: no line contains {anchor!r}")
+    includes = [line for line in code if line.startswith("#include")]
+    rest = [line for line in code if not line.startswith("#include")]
+    changed = lines[:at] + rest + lines[at + (how == "instead of"):]
+    first = next(i for i, line in enumerate(changed) if line.startswith("#include"))
+    return changed[:first] + includes + changed[first:]
+
+
+def apply_to(copy):
+    """Writes the changed files below `copy`; returns their names."""
+    files = {}
+    for name, how, anchor, code in recipes(open(page).read()):
+        if how is None:
+            files[name] = code
+            continue
+        lines = files.get(name) or open(os.path.join(source, name)).read().splitlines()
+        files[name] = change(lines, how, anchor, code)
+    for name, lines in files.items():
+        path = os.path.join(copy, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, "w") as out:
+            out.write("\n".join(lines) + "\n")
+    return files
+
+
+def compile_flags():
+    """Compiler and include folders of the program's own source."""
+    for entry in json.load(open(os.path.join(build, "compile_commands.json"))):
+        words = shlex.split(entry["command"])
+        if " CMakeFiles/loopbench.dir/" in entry["command"]:
+            compiler = next(word for word in words if re.search(r"(clang\+\+|g\+\+|c\+\+)[-\d.]*$", word))
+            kept = [word for word in words if re.match(r"-(I|D|std=|f)", word)]
+            system = [word for pair in zip(words, words[1:]) if pair[0] == "-isystem" for word in pair]
+            return compiler, kept + system
+    sys.exit("no compile command of the program")
+
+
+def link_command(objects, output):
+    """The program's link command with the objects before its libraries."""
+    commands = subprocess.run(["ninja", "-C", build, "-t", "commands", "loopbench"], check=True, capture_output=True, text=True)
+    words = commands.stdout.strip().splitlines()[-1].split()
+    words = words[words.index("&&") + 1:] if "&&" in words else words
+    words = words[:words.index("&&")] if "&&" in words else words
+    words[words.index("-o") + 1] = output
+    first = next(i for i, word in enumerate(words) if word.endswith(".o"))
+    return words[:first] + objects + ["-Wl,--allow-multiple-definition"] + words[first:]
+
+
+def run(*words):
+    done = subprocess.run(words, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(words)}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def expect(text, part):
+    if part not in text:
+        sys.exit(f"expected {part!r} in\n{text}")
+
+
+with tempfile.TemporaryDirectory() as copy:
+    files = apply_to(copy)
+    compiler, flags = compile_flags()
+
+    def compile_one(name):
+        output = os.path.join(copy, name.replace("/", "_") + ".o")
+        run(compiler, f"-I{copy}", f"-I{source}", *flags, "-O0", "-c", os.path.join(copy, name), "-o", output)
+        return output
+
+    with ThreadPoolExecutor(2) as pool:
+        objects = list(pool.map(compile_one, [name for name in files if name.endswith(".cpp")]))
+    built = os.path.join(copy, "loopbench")
+    done = subprocess.run(link_command(objects, built), cwd=build, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(done.stdout + done.stderr)
+
+    planar = os.path.join(copy, "planar.txt")
+    with open(planar, "w") as out:
+        out.write("0 0 0 0 0\n1 3 4 0 1.5\n2 6 0 0 3\n")
+    config = os.path.join(copy, "circle.yaml")
+    with open(config, "w") as out:
+        out.write("datasets: [circle]\nmethods: [raw, half_way]\nmetrics: [height_error]\nprotocol: strict\n")
+    expect(run(built, "length", planar), "10.000")
+    expect(run(built, "list", "half_way"), "half way")
+    expect(run(built, "eval", planar, planar, "--metric", "height_error"), "height")
+    run(built, "run", config, "--out", os.path.join(copy, "results"), "--jobs", "1")
+    rows = run(built, "export", os.path.join(copy, "results"), "--what", "rows", "-o", "-")
+    for part in ("half_way", "height_error", "circle", "strict"):
+        expect(rows, part)
+    print(f"{len(files)} files of {page}: built and used")
