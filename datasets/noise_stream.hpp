@@ -16,10 +16,17 @@ struct NoiseStream {
   std::uint64_t identity = 0;
 };
 
+/// The name of an option in identity_text(): its first one, so that a renamed option draws the same
+/// numbers.
+inline std::string seeding_name(const std::string& option) {
+  constexpr std::string_view kWhiteNoise = "white_noise.";
+  return option.starts_with(kWhiteNoise) ? "shake." + option.substr(kWhiteNoise.size()) : option;
+}
+
 /// Dataset name and all options that differ from their defaults, as text:
 /// "simulated: noise.gain=2.0, path=office". Seeds, the option `stream` and options accepted by
-/// `ignored` are omitted. Setting an option to its default, adding a new option to the code,
-/// or renaming one does not change the text.
+/// `ignored` are omitted. Setting an option to its default or adding a new option to the code does
+/// not change the text.
 template <class Options, class Ignored>
 std::string identity_text(const std::string& dataset, const Options& options, Ignored ignored) {
   const Params defaults = echo(Options{});
@@ -27,7 +34,7 @@ std::string identity_text(const std::string& dataset, const Options& options, Ig
   for (const auto& [name, value] : echo(options)) {
     const bool is_seed = name == "seed" || name.ends_with(".seed") || name == "stream";
     if (is_seed || ignored(name) || value == defaults.at(name)) continue;
-    changed.emplace(first_name(dataset, name), value);
+    changed.emplace(seeding_name(name), value);
   }
   return dataset + ": " + to_text(changed);
 }

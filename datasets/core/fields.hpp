@@ -23,7 +23,6 @@
 #include <utility>
 
 #include "datasets/core/params.hpp"
-#include "datasets/core/renamed.hpp"
 
 namespace loopbench {
 
@@ -111,10 +110,6 @@ struct FieldType {
     if constexpr (NamedEnum<T>) {
       const std::string* word = std::get_if<std::string>(&given);
       const auto value = word ? from_text<T>(*word) : std::nullopt;
-      const std::string_view now = word ? replaced_value(name, *word) : std::string_view{};
-      if (!value && from_text<T>(std::string(now))) {
-        throw OptionError(name, name + " = " + *word + ": " + renamed_to(now));
-      }
       if (!value) throw mismatch("one of " + choice_list<T>());
       member = *value;
     } else if constexpr (std::same_as<T, bool>) {
@@ -198,11 +193,9 @@ Params echo(Options options) {
 template <class Options>
 Options with(Options options, Params given) {
   std::string known;
-  std::vector<std::string_view> names;
   fields(options, [&](const char* name, auto& member, const char*, const auto&... rule) {
     using Member = std::remove_cvref_t<decltype(member)>;
     known += (known.empty() ? "" : ", ") + std::string(name);
-    names.emplace_back(name);
     if (const auto found = given.find(name); found != given.end()) {
       FieldType<Member>::assign(name, member, found->second);
       given.erase(found);
@@ -211,9 +204,6 @@ Options with(Options options, Params given) {
   });
   if (given.empty()) return options;
   const std::string& name = given.begin()->first;
-  if (const std::string_view now = replacement(name, names); !now.empty()) {
-    throw OptionError(name, name + ": " + renamed_to(now));
-  }
   throw OptionError(name,
                     name + ": unknown option (has: " + (known.empty() ? "none" : known) + ")");
 }

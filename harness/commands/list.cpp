@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "datasets/core/renamed.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/standard_output.hpp"
@@ -113,18 +112,6 @@ void print(const std::string& subject, const std::vector<Item>& all, bool with_o
   print_options(all.front());
 }
 
-/// One line for each old name or value and the one that replaced it.
-std::string renamed_names() {
-  std::string out = "Renamed (old names are rejected):\n";
-  for (const auto& [owner, before, now] : kRenamedNames) {
-    out += fmt::format("  {}{}{} -> {}\n", owner, owner.empty() ? "metric " : ": ", before, now);
-  }
-  for (const auto& [option, before, now] : kRenamedValues) {
-    out += fmt::format("  {0}: {1} -> {0}: {2}\n", option, before, now);
-  }
-  return out;
-}
-
 struct ItemList {
   std::string subject;
   std::vector<Item> items;
@@ -208,7 +195,6 @@ void add_list(CLI::App& app, int& exit_code) {
           "--plugin", arguments->plugins, "Shared object with methods, datasets or metrics")
       ->type_name("FILE");
   command->add_flag("--json", arguments->json, "Print JSON");
-  command->footer(renamed_names() + "\n" + command->get_footer());
   command->callback([arguments, &exit_code] { exit_code = list(*arguments); });
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "datasets/core/renamed.hpp"
 #include "harness/config/calibration.hpp"
 #include "harness/config/grid.hpp"
 #include "harness/config/method_text.hpp"
@@ -30,8 +29,7 @@ void located(const std::string& file,
     }
     std::vector<std::string> known;
     for (const OptionInfo& option : options) known.push_back(option.name);
-    const bool is_explained = std::ranges::count(known, error.option()) > 0 ||
-                              !replacement(error.option(), known).empty();
+    const bool is_explained = std::ranges::count(known, error.option()) > 0;
     const std::string guess = is_explained ? "" : closest(error.option(), known);
     std::string why = error.what();  // the guess precedes the list of all options
     if (!guess.empty()) {

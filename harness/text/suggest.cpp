@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "datasets/core/renamed.hpp"
-
 namespace loopbench::harness {
 namespace {
 
@@ -43,9 +41,6 @@ std::string unknown_name(const std::string& kind,
                          const std::string& given,
                          const std::vector<std::string>& known) {
   const std::string what = "no " + kind + " is named '" + given + "'";
-  if (const std::string_view now = replacement(given, known); !now.empty()) {
-    return what + "; it " + renamed_to(now);
-  }
   if (const std::string best = closest(given, known); !best.empty()) {
     return what + "; did you mean '" + best + "'?";
   }

@@ -10,8 +10,8 @@ namespace loopbench::harness {
 /// Distance: Damerau-Levenshtein (optimal string alignment). O(names * length^2).
 std::string closest(const std::string& given, const std::vector<std::string>& known);
 
-/// "no KIND is named 'x'", followed by the name that replaced it, the closest name ("did you mean
-/// 'y'?") or, without a similar name, the list of all names.
+/// "no KIND is named 'x'", followed by the closest name ("did you mean 'y'?") or, without a similar
+/// name, the list of all names.
 std::string unknown_name(const std::string& kind,
                          const std::string& given,
                          const std::vector<std::string>& known);

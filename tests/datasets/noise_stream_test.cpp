@@ -97,6 +97,8 @@ TEST(NoiseStream, IdentityLeavesOutSeedsAndDefaults) {
   EXPECT_EQ(text(), "simulated: ");
   options.noise.gain = 2.0;
   EXPECT_EQ(text(), "simulated: noise.gain=2.0");
+  options.white_noise.sigma_t = 0.5;  // under its first name
+  EXPECT_EQ(text(), "simulated: noise.gain=2.0, shake.sigma_t=0.5");
 }
 
 TEST(NoiseStream, ClosuresOfTwoChainsDrawIndependentNoise) {

@@ -241,6 +241,13 @@ TEST(Simulated, OptionsAreRefusedByRule) {
             "keyframes = 5000: expected keyframes <= 1468, the number of frames");
   EXPECT_EQ(refusal({{"laps", std::int64_t{1} << 40}}).substr(0, 6), "laps: ");
   EXPECT_NE(refusal({{"keyframe", std::int64_t{5}}}).find("unknown option"), std::string::npos);
+  EXPECT_EQ(refusal({{"planar", true}, {"drift.pitch_per_metre", 0.01}}),
+            "drift.pitch_per_metre = 0.01: causes motion out of the plane, expected 0 with planar "
+            "= true");
+  EXPECT_EQ(refusal({{"planar", true}, {"drift.yaw_per_metre", 0.01}}), "");
+  EXPECT_NE(refusal({{"closures.max", std::int64_t{0}}, {"closures.false_share", 0.5}})
+                .find("expected 0 with closures.max = 0"),
+            std::string::npos);
 }
 
 TEST(Simulated, ShakesEveryFrameAndNothingElse) {

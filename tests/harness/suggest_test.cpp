@@ -29,12 +29,5 @@ TEST(Suggest, DoesNotGuessWildly) {
             "no method is named 'unifrom'; did you mean 'uniform'?");
 }
 
-TEST(Suggest, NamesWhatReplacedAnOldName) {
-  EXPECT_EQ(unknown_name("metric", "body_offset", {"ate", "extrinsic_offset"}),
-            "no metric is named 'body_offset'; it was renamed to 'extrinsic_offset'");
-  EXPECT_EQ(unknown_name("metric", "body_offset", {"ate"}),
-            "no metric is named 'body_offset' (known: ate)");
-}
-
 }  // namespace
 }  // namespace loopbench::suggest_test
