@@ -42,7 +42,9 @@ struct DatasetEntry {
 };
 
 /// Wraps `Sequence load(const Options&, const DataRoot&)` and its Options as an entry. Combinations
-/// of options are checked by `void check_combination(const Options&)`, if it is declared.
+/// of options are checked by `void check_combination(const Options&)` or
+/// `void check_combination(const Options&, const Params& given)`, if one is declared; `given` holds
+/// the options set in the config.
 template <class Options, class Load>
 DatasetEntry dataset(std::string name, std::string summary, Load load) {
   return {std::move(name),
@@ -50,7 +52,11 @@ DatasetEntry dataset(std::string name, std::string summary, Load load) {
           describe(Options{}),
           [](const Params& given) {
             const Options options = with(Options{}, given);
-            if constexpr (requires { check_combination(options); }) check_combination(options);
+            if constexpr (requires { check_combination(options, given); }) {
+              check_combination(options, given);
+            } else if constexpr (requires { check_combination(options); }) {
+              check_combination(options);
+            }
           },
           [load](const Params& given, const DataRoot& root) {
             return load(with(Options{}, given), root);

@@ -7,6 +7,7 @@
 #include "datasets/derive/closures.hpp"
 #include "datasets/derive/compose.hpp"
 #include "datasets/derive/graph_parts.hpp"
+#include "datasets/disabled_options.hpp"
 #include "datasets/formats/formats.hpp"
 
 namespace loopbench {
@@ -88,9 +89,22 @@ std::string closure_provenance(const PoseGraphOptions& o,
 
 }  // namespace
 
-void check_combination(const PoseGraphOptions& o) {
+void check_combination(const PoseGraphOptions& o, const Params& given) {
   if (o.path.empty()) throw OptionError("path", "path: is empty, expected a g2o file");
   pose_of(o.reference_body);  // throws if it is not a valid pose
+  if (o.truth.empty()) {
+    reject_disabled_by_missing(given, "reference_body.", "truth");
+    reject_disabled_by_missing(given, "truth_axes", "truth");
+  }
+  if (o.closures == GraphClosures::none) {
+    reject_disabled(given,
+                    {"closures.max", "closures.skip_placeholders", "closures.true_list"},
+                    "closures.source = none",
+                    "edges");
+    if (o.false_closures.share > 0.0) {
+      reject_disabled(given, {"false_closures.share"}, "closures.source = none", "edges");
+    }
+  }
 }
 
 Problem derive_problem(const PoseGraph& graph,
@@ -132,7 +146,7 @@ Problem derive_problem(const PoseGraph& graph,
 }
 
 Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
-  check_combination(o);
+  check_combination(o, {});
   const bool lists = !o.true_list.empty() && o.closures == GraphClosures::edges;
   Sequence sequence;
   auto& inputs = sequence.provenance.inputs;

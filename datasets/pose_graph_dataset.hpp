@@ -88,8 +88,8 @@ void fields(PoseGraphOptions& o, Visit visit) {
   visit("licence", o.licence, "licence of the data, free text copied to the results");
 }
 
-/// Throws OptionError if there is no path or the reference body is no valid pose.
-void check_combination(const PoseGraphOptions& options);
+/// Throws OptionError if a `given` option has no effect because of another option, naming both.
+void check_combination(const PoseGraphOptions& options, const Params& given);
 
 /// Derives a problem from a pose graph. Keyframes are every k-th pose, the last pose and both ends
 /// of every closure kept; odometry between them is composed from the edges of the file. Other poses

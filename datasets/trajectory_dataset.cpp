@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "datasets/bags/bag_name.hpp"
+#include "datasets/disabled_options.hpp"
 
 namespace loopbench {
 namespace {
@@ -96,9 +97,42 @@ bool same_bits(const Trajectory& a, const Trajectory& b) {
   });
 }
 
+void check_disabled(const TrajectoryOptions& o, const Params& given) {
+  const std::string source = "closures.source = " + to_text(o.closures);
+  const bool measured =
+      o.closures == ClosureSource::reference || o.closures == ClosureSource::estimate;
+  if (!measured) {
+    reject_disabled(given,
+                    {"closures.radius",
+                     "closures.angle",
+                     "closures.min_gap",
+                     "closures.max",
+                     "closures.max_interval"},
+                    source,
+                    "reference or estimate");
+  }
+  if (o.closures == ClosureSource::none) {
+    reject_disabled(given,
+                    {"closures.sigma_t", "closures.sigma_r", "closures.max_diff"},
+                    source,
+                    "file, reference or estimate");
+  }
+  if (o.closures == ClosureSource::none || o.closures == ClosureSource::reference) {
+    reject_disabled(given, {"closures.file"}, source, "file or estimate");
+  }
+  if (o.closures == ClosureSource::none && o.false_closures.share > 0.0) {
+    reject_disabled(given, {"false_closures.share"}, source, "file, reference or estimate");
+  }
+  if (o.reference.empty()) reject_disabled_by_missing(given, "reference_", "reference");
+  if (o.keyframes.rule == KeyframeRule::all) {
+    reject_disabled(
+        given, {"keyframes.value"}, "keyframes.rule = all", "every, seconds, metres or count");
+  }
+}
+
 }  // namespace
 
-void check_combination(const TrajectoryOptions& o) {
+void check_combination(const TrajectoryOptions& o, const Params& given) {
   require(!o.estimate.empty(), "estimate", "is empty, expected a trajectory file");
   const bool needs_file =
       o.closures == ClosureSource::file || o.closures == ClosureSource::estimate;
@@ -112,6 +146,7 @@ void check_combination(const TrajectoryOptions& o) {
           "closures.scale",
           "local has no effect without another run, expected closures.source = estimate");
   pose_of(o.reference_body);  // throws if it is not a valid pose
+  check_disabled(o, given);
 }
 
 Problem derive_problem(const TrajectoryInputs& in,
@@ -155,7 +190,7 @@ Problem derive_problem(const TrajectoryInputs& in,
 }
 
 Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
-  check_combination(o);
+  check_combination(o, {});
   Sequence sequence;
   const auto open = [&](const std::string& path, const std::string& option) {
     return sequence.provenance.inputs.emplace_back(InputPath{root.find(file_of(path)), option})

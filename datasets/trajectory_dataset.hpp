@@ -154,8 +154,9 @@ void fields(TrajectoryOptions& o, Visit visit) {
   visit("licence", o.licence, "licence of the data, free text copied to the results");
 }
 
-/// Throws OptionError if a required file is not set or options contradict each other.
-void check_combination(const TrajectoryOptions& options);
+/// Throws OptionError if a required file is not set, or if a `given` option has no effect because
+/// of another option, naming both.
+void check_combination(const TrajectoryOptions& options, const Params& given);
 
 /// Contents of the input files.
 struct TrajectoryInputs {

@@ -14,7 +14,7 @@ set(order
   "datasets/core"
   "datasets/compressed"
   "datasets/bags"
-  "datasets/hash datasets/revisits datasets/dataset datasets/formats"
+  "datasets/hash datasets/revisits datasets/disabled_options datasets/dataset datasets/formats"
   "datasets/noise_stream datasets/data_root"
   "datasets/random"
   "datasets/derive datasets/simulated"

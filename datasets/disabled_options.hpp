@@ -1,0 +1,37 @@
+/// Rejects options that have no effect because of another option.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include "datasets/core/params.hpp"
+
+namespace loopbench {
+
+/// Throws OptionError if one of `options` is `given` although it has no effect with `disabled_by`
+/// ("closures.source = file"). `expected` lists the values of that option with which it has one.
+inline void reject_disabled(const Params& given,
+                            std::initializer_list<const char*> options,
+                            const std::string& disabled_by,
+                            const std::string& expected) {
+  for (const char* option : options) {
+    if (!given.contains(option)) continue;
+    const std::string other = disabled_by.substr(0, disabled_by.find(' '));
+    throw OptionError(option,
+                      std::string(option) + ": has no effect with " + disabled_by + ", expected " +
+                          other + " = " + expected);
+  }
+}
+
+/// Throws OptionError if an option whose name starts with `prefix` is `given` although the option
+/// `file`, which it depends on, is not set.
+inline void reject_disabled_by_missing(const Params& given,
+                                       const std::string& prefix,
+                                       const std::string& file) {
+  for (const auto& [option, value] : given) {
+    if (!option.starts_with(prefix)) continue;
+    throw OptionError(option, option + ": has no effect without " + file + ", which is empty");
+  }
+}
+
+}  // namespace loopbench
