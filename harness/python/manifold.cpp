@@ -11,7 +11,6 @@
 #include "methods/smoothers/manifold/fit_axes.hpp"
 #include "methods/smoothers/manifold/psi.hpp"
 #include "methods/smoothers/manifold/segments.hpp"
-#include "methods/smoothers/manifold/up.hpp"
 #include "methods/smoothers/manifold/window_fit.hpp"
 
 namespace py = pybind11;

@@ -2,8 +2,123 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "methods/correctors/chain.hpp"
+#include "methods/correctors/consistency.hpp"
+#include "methods/correctors/scale_drift.hpp"
+#include "methods/solvers/initial_values.hpp"
 
 namespace loopbench::methods {
+namespace {
+
+/// Relative cost below which a solution replaces an earlier one; rough solutions of the same
+/// minimum differ by less. [-]
+constexpr double kSameMinimum = 0.999;
+
+/// Number of closures with a weight above one half; the others count as rejected.
+std::size_t kept_count(const std::vector<double>& weights) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(weights, [](double weight) { return weight > 0.5; }));
+}
+
+/// Returns the indices of the consistent closures, or none when the check is not applicable.
+std::vector<std::size_t> indices_of_consistent(const Problem& problem) {
+  if (problem.closures.size() > static_cast<std::size_t>(ConsistencyOptions{}.max_closures)) {
+    return {};
+  }
+  if (!chain_fault(problem).empty() || has_scale_drift(problem)) return {};
+  std::vector<std::size_t> found = consistent_closures(problem).kept;
+  if (found.size() < 2) found.clear();
+  return found;
+}
+
+struct GncStartPoint {
+  std::vector<ScaledPose> poses;
+  std::vector<double> weights;
+  std::optional<double> mu;
+};
+
+class GncRuns {
+ public:
+  explicit GncRuns(const GncProblem& of) : of_(of) {}
+
+  /// The solution with the lowest cost so far.
+  const GncSolution& best() const { return best_; }
+
+  void from_consistent(const std::vector<std::size_t>& consistent) {
+    Problem subset{of_.problem.keyframes, of_.problem.odometry, {}, {}, of_.problem.planar};
+    std::vector<double> weights(of_.problem.closures.size(), 0.0);
+    for (const std::size_t k : consistent) {
+      subset.closures.push_back(of_.problem.closures[k]);
+      weights[k] = 1.0;
+    }
+    // Skips the convex stages, because their purpose is to find initial values like these.
+    run({of_.initial(subset), std::move(weights), of_.kind == Gnc::tls ? 1.0 : 10.0});
+  }
+
+  void from_all(std::vector<ScaledPose> poses) {
+    run({std::move(poses), std::vector<double>(of_.problem.closures.size(), 1.0), std::nullopt});
+  }
+
+ private:
+  void run(GncStartPoint start) {
+    // Until the end only the weights are needed, and rough solutions are sufficient for them.
+    PoseGraphSettings rough = of_.settings;
+    rough.max_iterations = std::min(rough.max_iterations, 30);
+    rough.tolerance = std::max(rough.tolerance, 1e-6);
+    GncSolution out{start.poses, start.weights};
+    const auto solve = [&] {
+      const PoseGraphSummary summary = solve_pose_graph(
+          out.poses, of_.problem.odometry, of_.problem.closures, out.weights, rough);
+      out.iterations += summary.iterations;
+      return summary.cost_before;
+    };
+    const auto squared = [&] {
+      return squared_errors(out.poses, of_.problem.closures, of_.settings);
+    };
+    out.cost_before = solve();
+    if (start.mu) start.poses = out.poses;
+    const auto solved_with = [&](const std::vector<double>& weights) {
+      out.weights = weights;
+      // False closures can wind the chain up, and the solver may not find the minimum from there.
+      out.poses = start.poses;
+      solve();
+      return squared();
+    };
+    const GncResult result =
+        graduate_weights(of_.kind, of_.inlier_chi2, squared(), start.mu, solved_with);
+    out.weights = result.weights;
+    out.rounds = result.rounds;
+    const double cost = cost_of(out.poses);
+    // Restart from the initial poses: at a rough solution the final solver stops too early, because
+    // its first step hardly lowers the cost.
+    out.poses = std::move(start.poses);
+    const int iterations = best_.iterations + out.iterations;
+    if (cost < kSameMinimum * lowest_cost_) {
+      best_ = std::move(out);
+      lowest_cost_ = cost;
+    }
+    best_.iterations = iterations;
+  }
+
+  double cost_of(const std::vector<ScaledPose>& poses) const {
+    const std::vector<double> odometry = squared_errors(poses, of_.problem.odometry, of_.settings);
+    double sum = std::accumulate(odometry.begin(), odometry.end(), 0.0);
+    const double bound = of_.inlier_chi2;
+    for (const double x : squared_errors(poses, of_.problem.closures, of_.settings)) {
+      sum += of_.kind == Gnc::tls ? std::min(x, bound) : bound * x / (bound + x);
+    }
+    return sum;
+  }
+
+  const GncProblem& of_;
+  GncSolution best_;
+  double lowest_cost_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
 
 double gnc_weight(Gnc kind, double squared, double c2, double mu) {
   if (kind == Gnc::gm) {
@@ -38,6 +153,29 @@ GncResult graduate_weights(
         is_tls ? std::ranges::all_of(out.weights, [](double w) { return w == 0.0 || w == 1.0; })
                : mu <= 1.0;
     mu = is_tls ? 1.4 * mu : std::max(1.0, mu / 1.4);
+  }
+  return out;
+}
+
+GncSolution solve_gnc(const GncProblem& of, Report& report) {
+  const std::size_t closures = of.problem.closures.size();
+  const std::vector<std::size_t> consistent =
+      report.time("check", [&] { return indices_of_consistent(of.problem); });
+  const GncSolution out = report.time("graduate", [&] {
+    GncRuns runs(of);
+    if (!consistent.empty()) runs.from_consistent(consistent);
+    if (2 * kept_count(runs.best().weights) < closures || consistent.empty()) {
+      runs.from_all(of.initial(of.problem));
+    }
+    const bool rejects = kept_count(runs.best().weights) < closures;
+    if (consistent.empty() && rejects) runs.from_all(tree_values(of.problem));
+    return runs.best();
+  });
+  if (2 * kept_count(out.weights) < closures) {
+    report.notes.push_back(
+        "graduated non-convexity kept " + std::to_string(kept_count(out.weights)) + " of " +
+        std::to_string(closures) +
+        " closures: either the others are false or the odometry covariances are too small");
   }
   return out;
 }

@@ -21,7 +21,7 @@ namespace loopbench::methods {
 /// Odometry is assumed to have no outliers.
 ///
 /// With complete odometry, GNC starts from the largest consistent set of closures
-/// (gnc_pose_graph.hpp), and the initial values are computed from these closures only; otherwise it
+/// (gnc.hpp), and the initial values are computed from these closures only; otherwise it
 /// starts from all closures. A closure's own information does not describe the
 /// odometry drift between its keyframes, so starting from all closures rejects true closures where
 /// drift is large; the consistency check takes that drift into account. All closures are weighted

@@ -1,8 +1,8 @@
 #include "methods/joint/spline_fit.hpp"
 
 #include "methods/correctors/chain.hpp"
+#include "methods/smoothers/spline/basis.hpp"
 #include "methods/smoothers/spline/curve.hpp"
-#include "methods/smoothers/spline/knots.hpp"
 #include "methods/solvers/spline_solver.hpp"
 
 namespace loopbench::methods {

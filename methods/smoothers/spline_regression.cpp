@@ -1,7 +1,7 @@
 #include "methods/smoothers/spline_regression.hpp"
 
+#include "methods/smoothers/spline/basis.hpp"
 #include "methods/smoothers/spline/curve.hpp"
-#include "methods/smoothers/spline/knots.hpp"
 #include "methods/solvers/spline_solver.hpp"
 
 namespace loopbench::methods {

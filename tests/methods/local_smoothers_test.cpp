@@ -8,7 +8,7 @@
 #include "methods/smoothers/savitzky_golay.hpp"
 #include "methods/smoothers/screw.hpp"
 #include "methods/smoothers/spline/basis.hpp"
-#include "methods/smoothers/spline/rotation_derivative.hpp"
+#include "methods/smoothers/spline/curve.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::local_smoothers_test {

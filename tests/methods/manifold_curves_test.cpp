@@ -5,7 +5,7 @@
 
 #include "datasets/core/fields.hpp"
 #include "methods/smoothers/manifold/family.hpp"
-#include "methods/smoothers/manifold/selection.hpp"
+#include "methods/smoothers/manifold/planar.hpp"
 
 namespace loopbench::methods::manifold::manifold_curves_test {
 namespace {

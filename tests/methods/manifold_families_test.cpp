@@ -6,7 +6,7 @@
 #include "methods/smoothers/manifold/families/arc.hpp"
 #include "methods/smoothers/manifold/families/polynomial.hpp"
 #include "methods/smoothers/manifold/families/quadric.hpp"
-#include "methods/smoothers/manifold/up.hpp"
+#include "methods/smoothers/manifold/fit_axes.hpp"
 
 namespace loopbench::methods::manifold::manifold_families_test {
 namespace {

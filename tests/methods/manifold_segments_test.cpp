@@ -6,7 +6,6 @@
 #include "manifold_paths.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
 #include "methods/smoothers/manifold/segments.hpp"
-#include "methods/smoothers/manifold/short_segments.hpp"
 #include "methods/smoothers/manifold/windows.hpp"
 
 namespace loopbench::methods::manifold::manifold_segments_test {

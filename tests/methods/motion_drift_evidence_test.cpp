@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "methods/correctors/chain.hpp"
-#include "methods/correctors/motion_drift/mean_errors.hpp"
+#include "methods/correctors/motion_drift/evidence.hpp"
 #include "methods/correctors/motion_drift/posterior.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"

@@ -5,8 +5,8 @@
 
 #include "datasets/derive/poses_at.hpp"
 #include "datasets/trajectory_dataset.hpp"
-#include "methods/correctors/motion_drift/drift_reach.hpp"
 #include "methods/correctors/motion_drift/large_moves.hpp"
+#include "methods/correctors/motion_drift/motion.hpp"
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 #include "tests/support/problems.hpp"
 

@@ -6,7 +6,7 @@
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/smoothers/b_spline.hpp"
-#include "methods/smoothers/spline/knots.hpp"
+#include "methods/smoothers/spline/basis.hpp"
 #include "methods/smoothers/spline_regression.hpp"
 #include "methods/solvers/spline_solver.hpp"
 #include "tests/support/counts.hpp"

@@ -24,7 +24,7 @@ struct EdgeMotion {
   double metres = 0.0;   ///< length of the measured translation
   double radians = 0.0;  ///< angle of the measured rotation
   /// Per regressor, the fraction of the edge over which drift is extrapolated: see
-  /// drift_reach.hpp.
+  /// limit_drift().
   std::array<double, kRegressors.size()> drift_part{1.0, 1.0, 1.0, 1.0, 1.0};
 };
 
@@ -61,5 +61,13 @@ inline double regressor_value(Regressor with, const EdgeMotion& motion) {
 inline double drift_regressor_value(Regressor with, const EdgeMotion& motion) {
   return motion.drift_part[static_cast<std::size_t>(with)] * regressor_value(with, motion);
 }
+
+/// Sets `drift_part` of every edge. Loops measure drift only along the edges that they enclose. For
+/// each regressor (edge, time, distance, rotation, speed) the reach is `reach` times the sum of
+/// that regressor over all enclosed edges. Edges outside all loops have full drift while the
+/// regressor accumulated between them and the nearest enclosed edge is within the reach, and no
+/// drift beyond it. A loop of ten seconds therefore does not determine the drift of an hour outside
+/// it. O(edges + closures).
+void limit_drift(std::vector<EdgeMotion>& motions, const Problem& problem, double reach);
 
 }  // namespace loopbench::methods

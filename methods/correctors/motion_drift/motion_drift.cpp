@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "methods/correctors/chain.hpp"
-#include "methods/correctors/motion_drift/drift_reach.hpp"
+#include "methods/correctors/motion_drift/evidence.hpp"
 #include "methods/correctors/motion_drift/large_moves.hpp"
-#include "methods/correctors/motion_drift/mean_errors.hpp"
+#include "methods/correctors/motion_drift/motion.hpp"
 #include "methods/correctors/scale_drift.hpp"
 
 namespace loopbench::methods {

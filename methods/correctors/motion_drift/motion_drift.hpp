@@ -17,11 +17,11 @@ namespace loopbench::methods {
 ///   correlate the errors of the whole chain, and loops far apart in time determine them. Drift
 ///   of translation (a wrong scale) hardly opens a loop, so loops cannot determine it; it is
 ///   used only when its size is given as an option. Outside the loops, drift is extrapolated over
-///   at most `prior.drift_reach` times the motion that the loops enclose (drift_reach.hpp).
+///   at most `prior.drift_reach` times the motion that the loops enclose (limit_drift()).
 ///
 /// A few loops do not determine these variances. The method therefore draws noise models from the
 /// posterior: a prior (prior.hpp) times the likelihood of the loop gaps (posterior.hpp). It
-/// corrects the chain by the expected errors averaged over the drawn models (mean_errors.hpp) and
+/// corrects the chain by the expected errors averaged over the drawn models (mean_errors()) and
 /// relinearises until convergence. No reference is needed. The prior also contains simpler
 /// hypotheses: all covariances as stated, one factor for the odometry and one each for the
 /// closures, no drift. Where the loops carry little information the result stays near that of

@@ -1,8 +1,10 @@
 #include "methods/smoothers/manifold/dm.hpp"
 
+#include <span>
+
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/manifold/dm_report.hpp"
-#include "methods/smoothers/manifold/regression.hpp"
+#include "methods/smoothers/manifold/planar.hpp"
 #include "methods/smoothers/pose_runs.hpp"
 
 namespace loopbench::methods {
@@ -10,6 +12,39 @@ namespace loopbench::methods {
 using namespace manifold;  // NOLINT: most names in this file are from manifold
 
 namespace {
+
+/// Least-squares fit of r(s) in space over the arc length along all nodes, with knots where
+/// consecutive windows of N nodes meet. Equal to the windows' cubics under equality constraints,
+/// without multipliers. For the parametric frame only: with y' = f(x') every window has its own
+/// axes, so C2 continuity is not a linear condition. One piece owns all edges. Returns nullopt when
+/// the path has zero length. O(nodes).
+std::optional<PlanarFit> fit_regression(const Nodes& nodes,
+                                        std::span<const NodeRange> segments,
+                                        const NodeSpline& spline,
+                                        std::size_t N) {
+  std::vector<double> arc_lengths;
+  std::vector<BSpline::Value> values;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    arc_lengths.push_back(spline.distance(i));
+    values.emplace_back();
+    values.back() << nodes.points[i], 0.0;
+  }
+  if (!(arc_lengths.back() > arc_lengths.front())) return std::nullopt;
+  std::vector<double> knots;
+  for (const NodeRange& segment : segments) {
+    for (const Window& window : windows(segment, N, nodes.size())) {
+      const double arc_length = arc_lengths[window.owned.last];
+      const double before = knots.empty() ? arc_lengths.front() : knots.back();
+      if (arc_length > before && arc_length < arc_lengths.back()) knots.push_back(arc_length);
+    }
+  }
+  PlanarFit out;
+  const NodeRange all{0, nodes.size() - 1};
+  out.keep(
+      {all, all},
+      RegressionPiece{std::make_shared<const BSpline>(BSpline::near(arc_lengths, values, knots))});
+  return out;
+}
 
 std::size_t min_segment_nodes(const DmOptions& o) {
   const int nodes = o.min_nodes > 0 ? o.min_nodes : o.planar > 0 ? o.planar : o.spatial;
@@ -189,7 +224,7 @@ std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
                             });
   }
   auto curve = std::make_unique<ManifoldCurve>(dense.nodes, std::move(parts));
-  describe(continuity(*curve), report);
+  describe_jumps(*curve, report);
   return curve;
 }
 

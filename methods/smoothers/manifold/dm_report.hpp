@@ -2,7 +2,7 @@
 #pragma once
 
 #include "methods/report.hpp"
-#include "methods/smoothers/manifold/continuity.hpp"
+#include "methods/smoothers/manifold/curve.hpp"
 #include "methods/smoothers/manifold/planar.hpp"
 #include "methods/smoothers/manifold/quasi_keyframes.hpp"
 
@@ -17,6 +17,8 @@ void describe(const Nodes& nodes, std::span<const NodeRange> segments, Report& r
 void describe(const Nodes& nodes, const PlanarFit& fit, Report& report);
 void describe(const Nodes& nodes, const SpatialFit& fit, Report& report);
 
-void describe(const Continuity& jumps, Report& report);
+/// Adds the largest jumps of position, velocity, acceleration, tangent and curvature over all inner
+/// nodes.
+void describe_jumps(const ManifoldCurve& curve, Report& report);
 
 }  // namespace loopbench::methods::manifold

@@ -6,8 +6,6 @@
 #include <variant>
 
 #include "methods/smoothers/manifold/families/arc.hpp"
-#include "methods/smoothers/manifold/families/arc_polynomial.hpp"
-#include "methods/smoothers/manifold/families/hyperbola.hpp"
 #include "methods/smoothers/manifold/families/implicit.hpp"
 #include "methods/smoothers/manifold/families/polynomial.hpp"
 #include "methods/smoothers/manifold/families/rational.hpp"

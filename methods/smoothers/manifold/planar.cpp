@@ -1,9 +1,136 @@
 #include "methods/smoothers/manifold/planar.hpp"
 
-#include "methods/smoothers/manifold/window_fit.hpp"
-
 namespace loopbench::methods::manifold {
 namespace {
+
+/// Data shared by the steps of fitting a window.
+struct WindowFitter {
+  const Nodes& nodes;
+  const NodeSpline& spline;
+  const Vector3& up;
+  const PlanarRule& rule;
+
+  /// Returns the selected family fitted to the window's nodes, or nullopt if there is no frame, no
+  /// graph, or all families fail.
+  std::optional<PlanarPiece> fit(const Window& window, std::span<const Family> families) const;
+
+  /// Whether a frame exists and, with the guard, whether the nodes are a graph in it.
+  bool admits(const Window& window) const;
+
+ private:
+  std::optional<PlanarPiece> fit(Family family,
+                                 const std::optional<Frame>& frame,
+                                 std::span<const std::size_t> picked) const;
+  double score(Family family,
+               const PlanarPiece& piece,
+               const std::optional<Frame>& frame,
+               std::span<const std::size_t> picked) const;
+  double squared_error(const PlanarPiece& piece, std::size_t node) const;
+  bool stays_near_spline(const PlanarPiece& piece, const Window& window) const;
+};
+
+// Near a pole or a turning point a curve leaves the spline between nodes by multiples of the chord;
+// valid curves of a window that passes the guard stay below a quarter.
+constexpr double kMaxDeviation = 0.25;  // fraction of the chord
+
+bool WindowFitter::admits(const Window& window) const {
+  if (rule.axes == Axes::parametric) return true;
+  const auto frame = fitting_frame(rule.axes, nodes, window.fitted, up);
+  if (!frame) return false;
+  if (!rule.guarded) return true;
+  std::vector<Vector2> points;
+  for (const std::size_t i : picked(window)) points.push_back(frame->local(nodes.points[i]));
+  // World x may run against the motion: a graph in reversed x is valid, too.
+  if (points.back().x() < points.front().x()) {
+    for (Vector2& point : points) point.x() = -point.x();
+  }
+  return is_graph(points);
+}
+
+std::optional<PlanarPiece> WindowFitter::fit(const Window& window,
+                                             std::span<const Family> families) const {
+  std::optional<Frame> frame;
+  if (rule.axes != Axes::parametric) {
+    frame = fitting_frame(rule.axes, nodes, window.fitted, up);
+    if (!frame) return std::nullopt;
+  }
+  const std::vector<std::size_t> node_indices = picked(window);
+  std::optional<PlanarPiece> best;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Family family : families) {
+    auto piece = fit(family, frame, node_indices);
+    if (!piece) continue;
+    if (rule.guarded && !is_polynomial(family) && !stays_near_spline(*piece, window)) continue;
+    if (rule.selection == Selection::fixed && !rule.piece_cost) return piece;
+    const double cost = rule.piece_cost ? rule.piece_cost(*piece, window, nodes, spline)
+                                        : score(family, *piece, frame, node_indices);
+    if (best && !(cost < lowest)) continue;
+    best = piece;
+    lowest = cost;
+  }
+  return best;
+}
+
+std::optional<PlanarPiece> WindowFitter::fit(Family family,
+                                             const std::optional<Frame>& frame,
+                                             std::span<const std::size_t> node_indices) const {
+  if (!frame) {
+    std::vector<Vector3> points;
+    std::vector<double> arc_lengths;
+    for (const std::size_t i : node_indices) {
+      points.push_back(nodes.points[i]);
+      arc_lengths.push_back(spline.distance(i));
+    }
+    return fit_along(family, points, arc_lengths);
+  }
+  std::vector<Vector2> points;
+  points.reserve(node_indices.size());
+  for (const std::size_t i : node_indices) points.push_back(frame->local(nodes.points[i]));
+  return fit_family(family, *frame, points);
+}
+
+double WindowFitter::score(Family family,
+                           const PlanarPiece& piece,
+                           const std::optional<Frame>& frame,
+                           std::span<const std::size_t> node_indices) const {
+  double sum = 0.0;
+  if (rule.selection == Selection::aicc) {
+    for (const std::size_t i : node_indices) sum += squared_error(piece, i);
+    return aicc(sum, node_indices.size(), unknowns(family, node_indices.size()));
+  }
+  for (std::size_t k = 0; k < node_indices.size(); ++k) {
+    std::vector<std::size_t> rest(node_indices.begin(), node_indices.end());
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
+    // With fewer nodes fit_polynomial() would reduce the degree, which is another family.
+    if (unknowns(family, node_indices.size()) > rest.size()) {
+      return std::numeric_limits<double>::infinity();
+    }
+    const auto refitted = fit(family, frame, rest);
+    if (!refitted) return std::numeric_limits<double>::infinity();
+    sum += squared_error(*refitted, node_indices[k]);
+  }
+  return sum;
+}
+
+double WindowFitter::squared_error(const PlanarPiece& piece, std::size_t node) const {
+  const SplinePoint position{nodes.points[node], spline.distance(node), nodes.stamps[node]};
+  return (value_of_piece(piece, position) - nodes.points[node]).squaredNorm();
+}
+
+bool WindowFitter::stays_near_spline(const PlanarPiece& piece, const Window& window) const {
+  const Vector3 chord = nodes.points[window.fitted.last] - nodes.points[window.fitted.first];
+  const double max_deviation = kMaxDeviation * chord.norm();
+  const std::size_t begin = window.owned.first > 0 ? window.owned.first - 1 : 0;
+  const std::size_t end = std::min(window.owned.last + 1, nodes.size() - 1);
+  for (std::size_t edge = begin; edge < end; ++edge) {
+    for (const double u : {0.25, 0.5, 0.75}) {
+      const SplinePoint position = spline.at(edge, nodes.stamps[edge] + u * nodes.duration(edge));
+      if (!((value_of_piece(piece, position) - position.point).norm() <= max_deviation))
+        return false;
+    }
+  }
+  return true;
+}
 
 constexpr std::size_t kSmallest = 3;  // [nodes] smaller windows are not split; two nodes are a line
 constexpr std::array kPolynomial{Family::by_n};

@@ -6,7 +6,7 @@
 
 #include "datasets/core/interpolate.hpp"
 #include "datasets/core/knot_span.hpp"
-#include "methods/smoothers/spline/rotation_derivative.hpp"
+#include "methods/smoothers/spline/curve.hpp"
 
 namespace loopbench::methods {
 namespace {

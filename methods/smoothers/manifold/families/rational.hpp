@@ -1,4 +1,4 @@
-/// The family rat02: y = p / (x^2 + q1 x + q2).
+/// The families rat02, y = p / (x^2 + q1 x + q2), and hyperbola, y = c0 + c1 / (x + q).
 #pragma once
 
 #include <optional>
@@ -27,5 +27,22 @@ struct Rational {
 /// four points with distinct x. Returns nullopt when the denominator has a real root within the
 /// range of x or half that range on either side of it.
 std::optional<Rational> fit_rational(std::span<const Vector2> points);
+
+/// Stored as c0 + c1 scale / (x - pole), so that c0 and c1 are lengths.
+struct Hyperbola {
+  double pole = 0.0;   ///< -q [m]
+  double scale = 1.0;  ///< [m]
+  double c0 = 0.0, c1 = 0.0;
+
+  template <class T>
+  T operator()(const T& x) const {
+    return c0 + (c1 * scale) / (x - pole);
+  }
+};
+
+/// Least-squares fit in y: a grid of poles on both sides, then Levenberg-Marquardt. Requires at
+/// least four points with distinct x. Returns nullopt when the pole is closer to the range of x
+/// than half that range.
+std::optional<Hyperbola> fit_hyperbola(std::span<const Vector2> points);
 
 }  // namespace loopbench::methods::manifold

@@ -1,6 +1,6 @@
-#include "methods/correctors/motion_drift/drift_reach.hpp"
-
 #include <algorithm>
+
+#include "methods/correctors/motion_drift/motion.hpp"
 
 namespace loopbench::methods {
 namespace {
