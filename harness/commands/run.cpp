@@ -255,7 +255,7 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
   command
       ->add_option("--retry",
                    arguments->retry,
-                   "Stored cells to recompute: failed, damaged (also checks traces), or all")
+                   "Stored cells to recompute: failed, damaged (checks all rows), or all")
       ->check(CLI::IsMember({"none", "failed", "damaged", "all"}))
       ->capture_default_str();
   command->add_flag(

@@ -11,7 +11,6 @@
 #include "harness/model/recorded_run.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/record_reader.hpp"
-#include "harness/store/sources.hpp"
 #include "harness/tables/derived.hpp"
 
 namespace loopbench::harness {
@@ -56,8 +55,10 @@ std::string text_of(const std::map<std::string, std::string>& run,
 /// Sequences of a store of evaluated files: the reference and the options of reading. The estimates
 /// are the results that are checked, so neither their files nor the contents of the runs belong to
 /// the definition.
-void add_recorded_sequences(StoreSources& sources, const std::string& options, Snapshot& out) {
-  const auto inputs = sources.inputs();
+void add_recorded_sequences(const std::filesystem::path& store,
+                            const std::string& options,
+                            Snapshot& out) {
+  const auto inputs = read_inputs(store);
   for (const GateCell& cell : out.cells) {
     const std::string label = sequence_name(cell);
     const auto files = inputs.find(label);
@@ -68,9 +69,9 @@ void add_recorded_sequences(StoreSources& sources, const std::string& options, S
   }
 }
 
-void add_sequences(const std::filesystem::path& store, StoreSources& sources, Snapshot& out) {
-  const auto inputs = sources.inputs();
-  const auto options = sources.dataset_options();
+void add_sequences(const std::filesystem::path& store, Snapshot& out) {
+  const auto inputs = read_inputs(store);
+  const auto options = read_dataset_options(store);
   for (const CellRecord& cell : read_cells(store)) {
     GateCell named;
     named.sequence = cell.sequence;
@@ -97,8 +98,7 @@ void add_sequences(const std::filesystem::path& store, StoreSources& sources, Sn
 
 Snapshot snapshot(const std::filesystem::path& store, const std::vector<Tolerance>& limits) {
   const auto run = read_run(store);
-  StoreSources sources(store);
-  const auto provenance = sources.provenance();
+  const auto provenance = read_provenance(store);
   const auto value_of = [&](const std::string& name) {
     const auto found = provenance.find(name);
     return found == provenance.end() ? "unknown" : found->second;
@@ -133,16 +133,16 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
   }
   if (out.cells.empty()) throw InputError(store.string() + ": has no cells to check");
   if (const auto config = run.find("config"); config != run.end() && is_recorded(config->second)) {
-    add_recorded_sequences(sources, recorded_options(config->second), out);
+    add_recorded_sequences(store, recorded_options(config->second), out);
   } else {
-    add_sequences(store, sources, out);
+    add_sequences(store, out);
   }
   return out;
 }
 
 std::map<std::string, std::string> build_summary(const std::filesystem::path& store) {
   std::map<std::string, std::string> out{{"loopbench", read_run(store).at("loopbench")}};
-  for (const auto& [key, value] : StoreSources(store).provenance()) {
+  for (const auto& [key, value] : read_provenance(store)) {
     for (const char* kept : {"commit", "source", "compiler", "flags"}) {
       if (key == kept) out[key] = value;
     }

@@ -7,7 +7,6 @@
 #include "harness/report/compare_in_parts.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/record_reader.hpp"
-#include "harness/store/sources.hpp"
 #include "harness/tables/derived.hpp"
 
 namespace loopbench::harness {
@@ -68,9 +67,8 @@ ReportContent read_report_content(const std::filesystem::path& store, std::size_
   ReportContent out;
   out.store = store;
   out.run = read_run(store);
-  StoreSources sources(store);
-  out.provenance = sources.provenance();
-  out.inputs = sources.inputs();
+  out.provenance = read_provenance(store);
+  out.inputs = read_inputs(store);
   const std::string baseline = out.run["baseline"];
   read_scores(baseline, bytes, out);
   out.cells = read_cells(store);

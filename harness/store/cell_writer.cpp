@@ -1,11 +1,11 @@
 #include "harness/store/cell_writer.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
+#include "harness/store/row_checksum.hpp"
+#include "harness/store/schema.hpp"
+#include "harness/store/stored_cells.hpp"
 #include "harness/store/traces.hpp"
-#include "harness/text/hash.hpp"
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {
@@ -25,36 +25,42 @@ std::string text_of(const Worker& worker) {
          (worker.serial ? ", serial" : "") + (worker.pinned ? ", pinned" : "");
 }
 
-}  // namespace
-
-void remove_cell(Database& database, std::int64_t id) {
-  for (const char* table : {"score_value", "phase", "count", "note", "section", "trace"}) {
-    database.prepare(std::string("DELETE FROM ") + table + " WHERE cell = ?").bind(id).run();
-  }
-  database.prepare("DELETE FROM cell WHERE id = ?").bind(id).run();
+/// "?FROM,?FROM+1,...,?TO".
+std::string parameters(std::ptrdiff_t from, std::ptrdiff_t to) {
+  std::string out;
+  for (std::ptrdiff_t i = from; i <= to; ++i) out += (i > from ? ",?" : "?") + std::to_string(i);
+  return out;
 }
+
+std::ptrdiff_t count_columns(std::string_view columns) {
+  return std::ranges::count(columns, ',') + 1;
+}
+
+/// Inserts the id of a cell and the columns of the table.
+Statement insert_into(Database& database, const CellTable& table) {
+  const std::string values = parameters(2, count_columns(table.columns) + 1);
+  return database.prepare(std::string("INSERT INTO ") + table.name + " (cell, " + table.columns +
+                          ", checksum) VALUES (?1," + values + ",row_checksum(" + values + "))");
+}
+
+}  // namespace
 
 CellWriter::CellWriter(Database& database, std::string provenance_key)
     : database_(database),
       provenance_key_(std::move(provenance_key)),
       replaced_(database.prepare("SELECT id FROM cell WHERE position = ?")),
-      cell_(database.prepare(std::string("INSERT INTO cell (") + kCellColumns +
-                             ") VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
-      find_definition_(database.prepare(
-          "SELECT id FROM score_definition WHERE protocol = ? AND protocol_version = ? AND times = "
-          "? AND metric = ? AND label = ? AND relation = ? AND axis = ? AND unit = ? AND better = "
-          "? "
-          "AND target = ?")),
-      definition_(
-          database.prepare("INSERT INTO score_definition VALUES (NULL,?,?,?,?,?,?,?,?,?,?)")),
-      score_(database.prepare("INSERT INTO score_value VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
-      phase_(database.prepare("INSERT INTO phase VALUES (?,?,?,?)")),
-      count_(database.prepare("INSERT INTO count VALUES (?,?,?,?)")),
-      note_(database.prepare("INSERT INTO note VALUES (?,?,?)")),
-      section_(database.prepare("INSERT INTO section VALUES (?,?,?,?,?,?)")),
-      trace_(database.prepare("INSERT INTO trace VALUES (?,?,?,?)")),
-      one_more_(database.prepare("UPDATE run SET value = value + 1 WHERE key = 'cells'")),
-      checksums_(database) {}
+      cell_(database.prepare("INSERT INTO cell VALUES (NULL," +
+                             parameters(1, count_columns(kCellColumns)) + ",0)")),
+      definition_(database.prepare(
+          "INSERT OR IGNORE INTO score_definition VALUES (?,?,?,?,?,?,?,?,?,?,?)")),
+      score_(insert_into(database, kScoreTable)),
+      phase_(insert_into(database, kPhaseTable)),
+      count_(insert_into(database, kCountTable)),
+      note_(insert_into(database, kNoteTable)),
+      section_(insert_into(database, kSectionTable)),
+      trace_(insert_into(database, kTraceTable)),
+      set_checksum_(checksum_update(database)),
+      one_more_(database.prepare("UPDATE run SET value = value + 1 WHERE key = 'cells'")) {}
 
 void CellWriter::write(const CellResult& result, CellKeys& keys) {
   try {
@@ -64,13 +70,12 @@ void CellWriter::write(const CellResult& result, CellKeys& keys) {
   } catch (...) {
     definitions_.clear();  // rolled back
     sequences_.clear();
-    checksums_.forget_definitions();
     throw;
   }
 }
 
 void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
-  replaced_.bind(static_cast<std::int64_t>(result.cell.index));
+  replaced_.bind(result.cell.index);
   std::vector<std::int64_t> before;
   while (replaced_.step()) before.push_back(replaced_.integer());
   replaced_.reset();
@@ -82,33 +87,27 @@ void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
   write_scores(id, result, keys.sweep());
   write_report(id, result.report);
   if (!result.trace.samples.empty()) {
-    const std::string times = to_text(result.trace.times);
-    const std::string_view samples = bytes_of(result.trace.samples);
-    trace_.bind(id).bind(times).bind(checksum_of_parts({times, samples})).bind_blob(samples).run();
+    trace_.bind(id, to_text(result.trace.times), Blob{bytes_of(result.trace.samples)}).run();
   }
-  checksums_.write(id);
 }
 
 void CellWriter::write_report(std::int64_t id, const methods::Report& report) {
   std::int64_t number = 0;
-  for (const methods::Phase& p : report.phases) {
-    phase_.bind(id).bind(number++).bind(p.name).bind(p.seconds).run();
-  }
+  for (const auto& [name, seconds] : report.phases) phase_.bind(id, number++, name, seconds).run();
   number = 0;
-  for (const methods::Count& c : report.counts) {
-    count_.bind(id).bind(number++).bind(c.name).bind(c.value).run();
-  }
+  for (const auto& [name, value] : report.counts) count_.bind(id, number++, name, value).run();
   number = 0;
-  for (const std::string& text : report.notes) note_.bind(id).bind(number++).bind(text).run();
+  for (const std::string& text : report.notes) note_.bind(id, number++, text).run();
   number = 0;
   for (const methods::Section& s : report.sections) {
-    section_.bind(id).bind(number++).bind(s.kind).bind(s.begin).bind(s.end).bind(s.what).run();
+    section_.bind(id, number++, s.kind, s.begin, s.end, s.what).run();
   }
 }
 
 std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
-  const DatasetChoice& dataset = keys.sweep().datasets[result.cell.dataset];
-  const MethodChoice& method = keys.sweep().methods[result.cell.method];
+  const Cell& cell = result.cell;
+  const DatasetChoice& dataset = keys.sweep().datasets[cell.dataset];
+  const MethodChoice& method = keys.sweep().methods[cell.method];
   const SequenceMetadata none;
   const SequenceMetadata& metadata = result.metadata ? *result.metadata : none;
   const auto [low, high] = std::ranges::minmax_element(result.seconds);
@@ -116,34 +115,25 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
   const auto cpu = result.cpu_seconds.empty()
                        ? std::nullopt
                        : std::optional<double>(metrics::median(result.cpu_seconds));
-  const auto failed_scores = std::ranges::count_if(result.scores, is_failure, &ScoreResult::status);
-  cell_.bind(static_cast<std::int64_t>(result.cell.index))
-      .bind(keys.key(result.cell, metadata.inputs))
-      .bind(keys.build())
-      .bind(keys.sequence_key(result.cell, metadata.inputs))
-      .bind(provenance_key_)
-      .bind(dataset.label)
-      .bind(std::int64_t{result.cell.repeat})
-      .bind(method.label)
-      .bind(option_text({dataset.dataset}))
-      .bind(option_text(method.stages))
-      .bind(metadata.closures)
-      .bind(std::int64_t{metadata.oracle_closures})
-      .bind(std::int64_t{result.oracle_method})
-      .bind(text_of(result.worker))
-      .bind(static_cast<std::int64_t>(result.seconds.size()))
-      .bind(result.seconds.empty() ? 0.0 : metrics::median(result.seconds))
-      .bind(timed ? *low : 0.0)
-      .bind(timed ? *high : 0.0)
-      .bind(cpu)
-      .bind(result.peak_memory)
-      .bind(result.added_memory)
-      .bind(to_text(result.status))
-      .bind(result.signal)
-      .bind(result.why)
-      .bind(static_cast<std::int64_t>(failed_scores))
-      .run();
-  return database_.last_row();
+  const methods::Report& report = result.report;
+  cell_.bind(cell.index, keys.key(cell, metadata.inputs), keys.build());
+  cell_.bind(keys.sequence_key(cell, metadata.inputs), provenance_key_);
+  cell_.bind(dataset.label, cell.repeat, method.label);
+  cell_.bind(option_text({dataset.dataset}), option_text(method.stages));
+  cell_.bind(metadata.closures, metadata.oracle_closures, result.oracle_method);
+  cell_.bind(text_of(result.worker), result.seconds.size());
+  cell_.bind(
+      timed ? metrics::median(result.seconds) : 0.0, timed ? *low : 0.0, timed ? *high : 0.0);
+  cell_.bind(cpu, result.peak_memory, result.added_memory);
+  cell_.bind(to_text(result.status), result.signal, result.why);
+  cell_.bind(std::ranges::count_if(result.scores, is_failure, &ScoreResult::status));
+  cell_.bind(result.scores.size());
+  cell_.bind(report.phases.size() + report.counts.size() + report.notes.size() +
+             report.sections.size());
+  cell_.run();
+  const std::int64_t id = database_.last_row();
+  set_checksum_.bind(id).run();
+  return id;
 }
 
 std::int64_t CellWriter::definition_of(const ScoreResult& score,
@@ -157,45 +147,30 @@ std::int64_t CellWriter::definition_of(const ScoreResult& score,
                                score.score.axis,
                                score.score.unit,
                                to_text(score.score.better)};
-  Fields key;
-  for (const std::string& text : texts) key.add(text);
-  const auto [known, is_new] =
-      definitions_.try_emplace(key.add(fmt::format("{}", score.score.target)).hashed(), 0);
-  if (!is_new) return known->second;
-  for (Statement* statement : {&find_definition_, &definition_}) {
-    for (const std::string& text : texts) statement->bind(text);
-    statement->bind(score.score.target);
-  }
-  if (find_definition_.step()) {
-    known->second = find_definition_.integer();
-    definition_.reset();
-  } else {
-    definition_.run();
-    known->second = database_.last_row();
-  }
-  find_definition_.reset();
-  return known->second;
+  RowChecksum checksum;
+  for (const std::string& text : texts) checksum.add(std::string_view(text));
+  checksum.add(score.score.target);
+  const std::int64_t id = checksum.value();
+  if (!definitions_.insert(id).second) return id;
+  definition_.bind(id);
+  for (const std::string& text : texts) definition_.bind(text);
+  definition_.bind(score.score.target).run();
+  return id;
 }
 
 void CellWriter::write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep) {
   std::int64_t number = 0;
   for (const ScoreResult& score : result.scores) {
-    score_.bind(id).bind(number++).bind(definition_of(score, sweep.protocols[score.protocol]));
+    score_.bind(id, number++, definition_of(score, sweep.protocols[score.protocol]));
     const metrics::Statistics& s = score.score.statistics;
     if (has_numbers(score.status)) {
-      score_.bind(static_cast<std::int64_t>(s.count));
-      for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse}) {
-        score_.bind(value);
-      }
+      score_.bind(s.count, s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse);
     } else {
-      for (int i = 0; i < 8; ++i) score_.bind_null();
+      for (int i = 0; i < 8; ++i) score_.bind(nullptr);
     }
-    score_.bind(static_cast<std::int64_t>(score.coverage.pairs))
-        .bind(static_cast<std::int64_t>(score.coverage.possible))
-        .bind(score.coverage.span)
-        .bind(to_text(score.status))
-        .bind(score.why)
-        .run();
+    const metrics::Coverage& coverage = score.coverage;
+    score_.bind(coverage.pairs, coverage.possible, coverage.span);
+    score_.bind(to_text(score.status), score.why).run();
   }
 }
 
@@ -208,47 +183,26 @@ void CellWriter::write_metadata(const Cell& cell,
   Statement input = database_.prepare("INSERT INTO input VALUES (?,?,?,?,?,?)");
   std::int64_t number = 0;
   for (const InputFile& file : metadata.inputs) {
-    input.bind(sequence_key)
-        .bind(number++)
-        .bind(file.option)
-        .bind(file.path)
-        .bind(static_cast<std::int64_t>(file.bytes))
-        .bind(file.hash)
-        .run();
+    input.bind(sequence_key, number++, file.option, file.path, file.bytes, file.hash).run();
   }
   const SequenceSize& size = metadata.size;
-  database_
-      .prepare(
-          "INSERT OR REPLACE INTO sequence (sequence_key, configuration_hash, options, keyframes, "
-          "odometry, closures, frames, reference, content, group_name) VALUES "
-          "(?,?,?,?,?,?,?,?,?,?)")
-      .bind(sequence_key)
-      .bind(keys.configuration_hash(cell))
-      .bind(keys.dataset_text(cell))
-      .bind(size.keyframes)
-      .bind(size.odometry)
-      .bind(size.closures)
-      .bind(size.frames)
-      .bind(size.reference)
-      .bind(metadata.content)
-      .bind(metadata.group)
+  database_.prepare("INSERT OR REPLACE INTO sequence VALUES (?,?,?,?,?,?,?,?,?,?)")
+      .bind(sequence_key, keys.configuration_hash(cell), keys.dataset_text(cell))
+      .bind(size.keyframes, size.odometry, size.closures, size.frames, size.reference)
+      .bind(metadata.content, metadata.group)
       .run();
   const SequenceTrace& trace = metadata.trace;
-  if (!trace.keyframes.empty()) {
-    const std::string_view blobs[] = {
-        bytes_of(trace.reference), bytes_of(trace.keyframes), bytes_of(trace.closures)};
-    database_.prepare("INSERT OR REPLACE INTO sequence_trace VALUES (?,?,?,?,?,?,?,?,?)")
-        .bind(sequence_key)
-        .bind(trace.origin.stamp)
-        .bind(trace.origin.x)
-        .bind(trace.origin.y)
-        .bind(trace.origin.z)
-        .bind_blob(blobs[0])
-        .bind_blob(blobs[1])
-        .bind_blob(blobs[2])
-        .bind(checksum_of_parts({blobs[0], blobs[1], blobs[2]}))
-        .run();
-  }
+  if (trace.keyframes.empty()) return;
+  const std::string values = parameters(1, count_columns(kSequenceTraceColumns));
+  database_
+      .prepare("INSERT OR REPLACE INTO sequence_trace VALUES (" + values + ",row_checksum(" +
+               values + "))")
+      .bind(sequence_key)
+      .bind(trace.origin.stamp, trace.origin.x, trace.origin.y, trace.origin.z)
+      .bind(Blob{bytes_of(trace.reference)})
+      .bind(Blob{bytes_of(trace.keyframes)})
+      .bind(Blob{bytes_of(trace.closures)})
+      .run();
 }
 
 }  // namespace loopbench::harness

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <set>
 #include <string>
 
 #include "harness/model/result.hpp"
 #include "harness/provenance/cell_keys.hpp"
-#include "harness/store/checksum.hpp"
 #include "harness/store/sqlite.hpp"
 
 namespace loopbench::harness {
@@ -35,7 +33,6 @@ class CellWriter {
   std::string provenance_key_;
   Statement replaced_;
   Statement cell_;
-  Statement find_definition_;
   Statement definition_;
   Statement score_;
   Statement phase_;
@@ -43,13 +40,10 @@ class CellWriter {
   Statement note_;
   Statement section_;
   Statement trace_;
-  Statement one_more_;  ///< see written_cells()
-  ChecksumWriter checksums_;
-  std::map<std::string, std::int64_t> definitions_;  ///< ids by all columns
-  std::set<std::string> sequences_;                  ///< keys of those that are written
+  Statement set_checksum_;
+  Statement one_more_;                  ///< cell of the store
+  std::set<std::int64_t> definitions_;  ///< ids of those that are written
+  std::set<std::string> sequences_;     ///< keys of those that are written
 };
-
-/// Removes the cell with that id from every table.
-void remove_cell(Database& database, std::int64_t id);
 
 }  // namespace loopbench::harness

@@ -1,90 +1,71 @@
 #include "harness/store/merge.hpp"
 
-#include <algorithm>
-#include <future>
 #include <optional>
-#include <stdexcept>
-#include <unordered_map>
 #include <unordered_set>
 
 #include "datasets/core/error.hpp"
 #include "harness/model/recorded_run.hpp"
-#include "harness/model/result.hpp"
-#include "harness/store/cell_writer.hpp"
-#include "harness/store/copy_rows.hpp"
-#include "harness/store/damage.hpp"
-#include "harness/store/folder_lock.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/plan.hpp"
-#include "harness/store/rename_file.hpp"
-#include "harness/text/hash.hpp"
+#include "harness/store/schema.hpp"
+#include "harness/store/stored_cells.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-/// Durability comes from renaming the complete file.
-Database with_tables(const std::filesystem::path& file) {
-  Database out(file, Database::Mode::create);
-  out.execute("PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF; PRAGMA cache_size = -65536");
-  create_tables(out);
-  return out;
-}
-
-/// A cell of the output.
-struct KnownCell {
-  std::int64_t id = 0;
-  bool failed = false;
-};
-
-/// Identifies a cell by key, sequence, repeat and method, in 16 bytes.
-Hash identity(const std::string& key, const StoredCell& cell) {
-  Fields fields;
-  fields.add(key)
-      .add(cell.sequence.text())
-      .add(cell.method.text())
-      .add(std::to_string(cell.repeat));
-  return hash_of(fields.hashed());
-}
-
-struct LowBits {
-  std::size_t operator()(const Hash& hash) const { return hash.low; }
-};
-
+/// Copies stores one after the other, attached as `source`, into the new store `main`.
 class Merge {
  public:
   Merge(const std::filesystem::path& file, bool mixed_builds)
-      : database_(with_tables(file)), checksums_(database_), mixed_builds_(mixed_builds) {
-    database_.execute("CREATE TEMP TABLE copied (id INTEGER PRIMARY KEY)");
+      : database_(file, Database::Mode::create), mixed_builds_(mixed_builds) {
+    // Durability comes from renaming the complete file.
+    database_.execute(
+        "PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF; PRAGMA cache_size = -65536");
+    create_tables(database_);
+    // The cells of `main` with their original and their present labels.
+    database_.execute(
+        "CREATE TEMP TABLE known (id INTEGER PRIMARY KEY, key TEXT, sequence TEXT, repeat INTEGER, "
+        "method TEXT, label TEXT, failed INTEGER); "
+        "CREATE INDEX known_cell ON known(key, sequence, repeat, method); "
+        "CREATE INDEX known_label ON known(sequence, repeat, label); "
+        "CREATE TEMP TABLE added (id INTEGER PRIMARY KEY, place INTEGER, label TEXT, failed "
+        "INTEGER, "
+        "replaced INTEGER)");
   }
 
-  /// `cells`: those of the store, all intact.
-  void add(const std::filesystem::path& store, const std::vector<StoredCell>& cells) {
+  void add(const std::filesystem::path& store) {
     store_ = store.string();
+    require_intact_file(store);
     database_.prepare("ATTACH ? AS source").bind(store_).run();
     {
       Transaction transaction(database_);
       check_recorded_options();
+      check_builds();
       check_inputs();
-      copy_sequences(database_);
-      add_cells(cells);
-      copy_details(database_, offset_);
-      copy_texts(database_);
+      list_cells();
+      replace_failed();
+      choose_labels();
+      choose_positions();
+      copy_cells();
+      copy_descriptions();
       transaction.commit();
     }
     database_.execute("DETACH source");
   }
 
   Merged done() {
-    database_.execute("INSERT OR REPLACE INTO run VALUES ('cells', (SELECT count(*) FROM cell))");
     Merged out;
-    out.cells = known_.size();
-    out.duplicates = twice_;
-    const SweepPlan plan(run_value("plan"));
-    out.planned = static_cast<std::size_t>(plan.size());
-    for (std::int64_t position = 0; position < plan.size(); ++position) {
-      if (positions_.contains(position)) continue;
-      ++out.missing;
-      if (out.missing <= kListedMissing) out.first_missing.push_back(plan.label(position));
+    out.cells = static_cast<std::size_t>(number("SELECT count(*) FROM cell"));
+    database_.prepare("INSERT INTO run VALUES ('cells', ?)").bind(std::to_string(out.cells)).run();
+    out.duplicates = duplicates_;
+    std::unordered_set<std::size_t> present;
+    Statement row = database_.prepare("SELECT position FROM cell");
+    while (row.step()) present.insert(static_cast<std::size_t>(row.integer()));
+    const std::vector<std::string> labels = planned_labels(run_value("plan"));
+    out.planned = labels.size();
+    for (std::size_t position = 0; position < labels.size(); ++position) {
+      if (present.contains(position)) continue;
+      if (++out.missing <= kListedMissing) out.first_missing.push_back(labels[position]);
     }
     Statement sets = database_.prepare(
         "SELECT DISTINCT value FROM provenance WHERE key = 'instructions' ORDER BY value");
@@ -94,82 +75,28 @@ class Merge {
   }
 
  private:
-  void add_cells(const std::vector<StoredCell>& cells) {
-    const std::string columns = std::string(kCellColumns) + ", checksum, report_checksum";
-    const std::string others = columns.substr(columns.find(", ") + 2);  // all but the position
-    Statement insert =
-        database_.prepare("INSERT INTO main.cell (id, position, " + others + ") SELECT ?, ?, " +
-                          others + " FROM source.cell WHERE id = ?");
-    Statement rename = database_.prepare("UPDATE main.cell SET method = ? WHERE id = ?");
-    Statement copied = database_.prepare("INSERT INTO copied VALUES (?)");
-    Statement last = database_.prepare("SELECT coalesce(max(id), 0) FROM main.cell");
-    offset_ = last.step() ? last.integer() : 0;
-    last.reset();
-    database_.execute("DELETE FROM copied");
-    for (const std::size_t i : in_order(cells)) {
-      StoredCell cell = cells[i];
-      if (!place(cell)) continue;
-      insert.bind(offset_ + cell.id).bind(cell.position).bind(cell.id).run();
-      const bool has_other_label = cell.method != cells[i].method;
-      if (has_other_label) rename.bind(cell.method.text()).bind(offset_ + cell.id).run();
-      if (has_other_label || cell.position != cells[i].position) {
-        checksums_.update_row(offset_ + cell.id, cell.own);
-      }
-      copied.bind(cell.id).run();
-    }
-  }
-
-  /// Gives the cell its position and label in the output; false if it is not copied.
-  bool place(StoredCell& cell) {
-    const bool has_failed = cell.failed_scores > 0 || is_failure(cell.status);
-    if (build_.empty()) build_ = cell.build;
-    if (cell.build != build_ && !mixed_builds_) {
-      throw InputError(store_ + ": was computed by build " + cell.build +
-                       ", the earlier stores by " + build_ + "; use --mixed-builds to merge them");
-    }
-    // Original key and labels, because two labels can have the same key.
-    const auto [same, is_new] = known_.try_emplace(identity(cell.key, cell));
-    if (!is_new) {
-      ++twice_;
-      if (!same->second.failed || has_failed) return false;
-      replace(cell, same->second);
-      same->second = {offset_ + cell.id, has_failed};
-      return true;
-    }
-    const std::string method = cell.method;
-    const auto is_free = [&] { return labels_.insert(identity("", cell)).second; };
-    if (!is_free()) {
-      cell.method = cell.method + " (build " + cell.build.text().substr(0, 8) + ")";
-      if (cell.build == build_ || !is_free()) {
-        throw InputError(
-            store_ + ": " + cell.sequence + " / " + method +
-            " is also in an earlier store, with different options, inputs or protocols");
-      }
-    }
-    if (!positions_.insert(cell.position).second) {
-      cell.position = last_position_ + 1;
-      positions_.insert(cell.position);
-    }
-    last_position_ = std::max(last_position_, cell.position);
-    same->second = {offset_ + cell.id, has_failed};
-    return true;
-  }
-
-  /// A cell takes the position and label of an earlier one that failed.
-  void replace(StoredCell& cell, const KnownCell& failed) {
-    Statement row = database_.prepare("SELECT position, method FROM main.cell WHERE id = ?");
-    if (!row.bind(failed.id).step()) throw std::logic_error("merge: a copied cell is not there");
-    cell.position = row.integer();
-    cell.method = row.text();
-    row.reset();
-    remove_cell(database_, failed.id);
-    database_.prepare("DELETE FROM copied WHERE id = ?").bind(failed.id - offset_).run();
+  /// Also recovers the log of a killed process.
+  static void require_intact_file(const std::filesystem::path& store) {
+    Database database = open_store(store);
+    require_intact(database);
   }
 
   void check_recorded_options() {
     const std::string added = run_value("config", "source.run");
     const std::string why = why_other_options(run_value("config"), added);
     if (!why.empty()) throw InputError(store_ + ": " + why);
+  }
+
+  void check_builds() {
+    Statement row =
+        database_.prepare("SELECT DISTINCT build FROM source.cell WHERE position IS NOT NULL");
+    while (row.step()) {
+      const std::string build = row.text();
+      if (build_.empty()) build_ = build;
+      if (build == build_ || mixed_builds_) continue;
+      throw InputError(store_ + ": was computed by build " + build + ", the earlier stores by " +
+                       build_ + "; use --mixed-builds to merge them");
+    }
   }
 
   /// Throws InputError if a sequence was read from other files than in the earlier stores.
@@ -184,46 +111,132 @@ class Merge {
                      " than the earlier stores");
   }
 
+  /// Fills `added` with the cells of the store's config, except those that `main` has. A known cell
+  /// has the same key and, because two labels can have the same key, the same original labels.
+  void list_cells() {
+    database_.execute(
+        "DELETE FROM added; "
+        "INSERT INTO added SELECT s.id, s.position, s.method, s.failed_scores > 0 OR s.status IN "
+        "('failed', 'crashed', 'timeout', 'out_of_memory'), "
+        "k.id FROM source.cell s LEFT JOIN known k ON k.key = s.key AND k.sequence = s.sequence "
+        "AND k.repeat = s.repeat AND k.method = s.method WHERE s.position IS NOT NULL");
+    duplicates_ +=
+        static_cast<std::size_t>(number("SELECT count(*) FROM added WHERE replaced IS NOT NULL"));
+    database_.execute(
+        "DELETE FROM added WHERE replaced IS NOT NULL AND (failed OR NOT (SELECT failed FROM known "
+        "WHERE id = replaced))");
+  }
+
+  /// A cell takes the position and label of an earlier one that failed.
+  void replace_failed() {
+    database_.execute(
+        "UPDATE added SET place = c.position, label = c.method FROM main.cell c WHERE c.id = "
+        "replaced");
+    std::vector<std::int64_t> failed;
+    Statement row = database_.prepare("SELECT replaced FROM added WHERE replaced IS NOT NULL");
+    while (row.step()) failed.push_back(row.integer());
+    for (const std::int64_t id : failed) {
+      remove_cell(database_, id);
+      database_.prepare("DELETE FROM known WHERE id = ?").bind(id).run();
+    }
+  }
+
+  /// Adds the build to the label of a cell that another build also computed.
+  void choose_labels() {
+    const std::string taken =
+        " FROM known k WHERE k.sequence = s.sequence AND k.repeat = s.repeat AND k.label = "
+        "added.label)";
+    const auto reject = [&](const std::string& condition) {
+      Statement row = database_.prepare(
+          "SELECT s.sequence, s.method FROM added JOIN source.cell s USING (id) WHERE " +
+          condition + " AND EXISTS (SELECT 1" + taken);
+      if (!row.bind(build_).step()) return;
+      const std::string sequence = row.text();
+      throw InputError(store_ + ": " + sequence + " / " + row.text() +
+                       " is also in an earlier store, with different options, inputs or protocols");
+    };
+    reject("s.build = ?");
+    database_.execute(
+        "UPDATE added SET label = label || ' (build ' || substr(s.build, 1, 8) || ')' FROM "
+        "source.cell s WHERE s.id = added.id AND EXISTS (SELECT 1" +
+        taken);
+    reject("s.build <> ?");
+  }
+
+  /// Cells keep their positions where these are free; the others come after all of them.
+  void choose_positions() {
+    database_.execute(
+        "UPDATE added SET place = new.place FROM (SELECT id, row_number() OVER (ORDER BY place) + "
+        "max((SELECT max(place) FROM added), (SELECT max(position) FROM main.cell)) AS place FROM "
+        "added WHERE replaced IS NULL AND place IN (SELECT position FROM main.cell)) AS new WHERE "
+        "new.id = added.id");
+  }
+
+  void copy_cells() {
+    const std::string offset =
+        std::to_string(number("SELECT coalesce(max(id), 0) FROM main.cell")) + " + ";
+    std::string columns = kCellColumns;  // with the new position and labels
+    columns.replace(columns.find("position"), 8, "place");
+    columns.replace(columns.find("method"), 6, "label");
+    for (const char* table : {"input", "sequence_trace", "sequence"}) {
+      const std::string name = table;
+      database_.execute("INSERT OR IGNORE INTO main." + name + " SELECT * FROM source." + name +
+                        " WHERE sequence_key IN (SELECT sequence_key FROM source.cell WHERE "
+                        "position IS NOT NULL)");
+    }
+    const std::string rows = "added JOIN source.cell AS cell USING (id)";
+    database_.execute("INSERT INTO main.cell SELECT " + offset + "id, " + columns +
+                      ", row_checksum(" + columns + ", " + kSequenceColumns + ") FROM " + rows +
+                      " LEFT JOIN source.sequence AS sequence USING (sequence_key) ORDER BY id");
+    database_.execute("INSERT INTO known SELECT " + offset +
+                      "id, key, cell.sequence, cell.repeat, cell.method, label, failed FROM " +
+                      rows + " ORDER BY id");
+    for (const CellTable& table : kCellTables) {
+      const std::string name = table.name;
+      database_.execute("INSERT INTO main." + name + " (cell, " + table.columns +
+                        ", checksum) SELECT " + offset + "cell, " + table.columns +
+                        ", checksum FROM source." + name +
+                        " WHERE cell IN (SELECT id FROM added) ORDER BY cell");
+    }
+    database_.execute(
+        "INSERT OR IGNORE INTO main.score_definition SELECT * FROM source.score_definition");
+  }
+
+  /// The table run, and provenance of the cells. Different values of run are concatenated as lines;
+  /// the baseline is that of the first store, and stores with different plans have none.
+  void copy_descriptions() {
+    database_.execute(
+        "INSERT INTO main.run SELECT key, value FROM source.run WHERE key NOT IN ('exported', "
+        "'cells') ON CONFLICT (key) DO UPDATE SET value = CASE WHEN key = 'plan' THEN '' ELSE "
+        "value || char(10) || excluded.value END WHERE key <> 'baseline' AND instr(char(10) || "
+        "value || char(10), char(10) || excluded.value || char(10)) = 0; "
+        "INSERT OR IGNORE INTO main.provenance SELECT * FROM source.provenance WHERE "
+        "provenance_key IN (SELECT provenance_key FROM source.cell WHERE id IN (SELECT id FROM "
+        "added))");
+  }
+
+  std::int64_t number(const std::string& query) {
+    Statement row = database_.prepare(query);
+    return row.step() ? row.integer() : 0;
+  }
+
   std::string run_value(const std::string& key, const std::string& table = "main.run") {
     Statement row = database_.prepare("SELECT value FROM " + table + " WHERE key = ?");
     return row.bind(key).step() ? row.text() : "";
   }
 
   Database database_;
-  ChecksumWriter checksums_;
   bool mixed_builds_;
-  std::string store_;        ///< the store being added
-  std::int64_t offset_ = 0;  ///< from the ids of its cells to those of the output
-  std::string build_;        ///< of the first cell
-  std::unordered_map<Hash, KnownCell, LowBits> known_;
-  std::unordered_set<Hash, LowBits> labels_;
-  std::unordered_set<std::int64_t> positions_;
-  std::int64_t last_position_ = -1;
-  std::size_t twice_ = 0;
+  std::string store_;  ///< the store being added
+  std::string build_;  ///< of the first cell
+  std::size_t duplicates_ = 0;
 };
 
-/// All cells, checked with their traces; recovers the log of a killed process. Throws InputError.
-std::vector<StoredCell> intact_cells(const std::filesystem::path& store) {
-  Database database = open_store(store);
-  std::vector<StoredCell> out = checked_cells(database, true);
-  require_intact(database, out);
-  return out;
-}
-
-/// Adds all stores. Each is checked while the one before it is copied.
 Merged merge_all(const std::vector<std::filesystem::path>& stores,
                  const std::filesystem::path& partial,
                  bool mixed_builds) {
   Merge merge(partial, mixed_builds);
-  const auto checked = [&](std::size_t i) {
-    return std::async(std::launch::async, intact_cells, stores[i]);
-  };
-  std::future<std::vector<StoredCell>> next = checked(0);
-  for (std::size_t i = 0; i < stores.size(); ++i) {
-    const std::vector<StoredCell> cells = next.get();
-    if (i + 1 < stores.size()) next = checked(i + 1);
-    merge.add(store_file(stores[i]), cells);
-  }
+  for (const std::filesystem::path& store : stores) merge.add(store_file(store));
   return merge.done();
 }
 
@@ -239,22 +252,22 @@ Merged merge_stores(const std::vector<std::filesystem::path>& stores,
       throw InputError(out.string() +
                        ": already exists; merge writes a new store, or adds to it with --add");
     }
-    lock.emplace(out.has_parent_path() ? out.parent_path() : ".");
+    lock.emplace(folder_of(out));
     all.insert(all.begin(), out);
   }
   const std::filesystem::path partial = out.string() + ".partial";
   std::error_code none;
   if (out.has_parent_path()) std::filesystem::create_directories(out.parent_path(), none);
-  remove_files_of(partial);
+  remove_database(partial);
   try {
     const Merged result = merge_all(all, partial, options.mixed_builds);
-    rename_file(partial, out);
+    rename_durably(partial, out);
     return result;
   } catch (const std::filesystem::filesystem_error& error) {
-    remove_files_of(partial);
+    remove_database(partial);
     throw InputError(out.string() + ": cannot be written: " + error.code().message());
   } catch (...) {
-    remove_files_of(partial);
+    remove_database(partial);
     throw;
   }
 }

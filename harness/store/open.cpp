@@ -1,6 +1,13 @@
 #include "harness/store/open.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 #include <map>
+#include <system_error>
 
 #include "datasets/core/error.hpp"
 #include "harness/store/schema.hpp"
@@ -40,6 +47,14 @@ void check_objects(Database& database, const std::filesystem::path& file) {
   for (const auto& [name, sql] : kExpected) {
     if (!found.contains(name)) reject(name, "is missing");
   }
+}
+
+void sync_path(const std::filesystem::path& path) {
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool is_synced = descriptor >= 0 && fsync(descriptor) == 0;
+  const std::error_code reason(errno, std::generic_category());
+  if (descriptor >= 0) close(descriptor);
+  if (!is_synced) throw std::filesystem::filesystem_error("cannot be synced", path, reason);
 }
 
 }  // namespace
@@ -95,6 +110,41 @@ Database open_store(const std::filesystem::path& given) {
   check_schema(database, file);
   database.execute("BEGIN");
   return database;
+}
+
+FolderLock::FolderLock(const std::filesystem::path& folder)
+    : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (descriptor_ < 0) {
+    throw InputError(folder.string() + ": cannot be opened: " + std::strerror(errno));
+  }
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+  const int reason = errno;
+  close(descriptor_);
+  if (reason == EWOULDBLOCK) {
+    throw InputError(folder.string() +
+                     ": another sweep is writing its results here; wait for it, "
+                     "or choose another folder with --out");
+  }
+  throw InputError(folder.string() + ": cannot be locked: " + std::strerror(reason));
+}
+
+FolderLock::~FolderLock() { close(descriptor_); }
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : ".";
+}
+
+void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to) {
+  sync_path(from);
+  std::filesystem::rename(from, to);
+  sync_path(folder_of(to));
+}
+
+void remove_database(const std::filesystem::path& file) {
+  std::error_code none;
+  for (const char* tail : {"", "-wal", "-shm", "-journal"}) {
+    std::filesystem::remove(file.string() + tail, none);
+  }
 }
 
 }  // namespace loopbench::harness

@@ -9,6 +9,7 @@ namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kMostShardsListed = 100'000;
+constexpr std::size_t kMostCells = 100'000'000;  // a damaged plan can state any number
 constexpr const char* kMethodLine = "method\t";
 constexpr const char* kDatasetLine = "dataset\t";
 
@@ -17,35 +18,6 @@ std::string one_field(std::string label) {
   std::ranges::replace_if(
       label, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
   return label;
-}
-
-/// "0-3,5": ascending numbers as ranges.
-std::string ranges_text(const std::vector<std::size_t>& numbers) {
-  std::string out;
-  for (std::size_t i = 0; i < numbers.size();) {
-    std::size_t end = i;
-    while (end + 1 < numbers.size() && numbers[end + 1] == numbers[end] + 1) ++end;
-    out += (out.empty() ? "" : ",") + std::to_string(numbers[i]);
-    if (end > i) out += "-" + std::to_string(numbers[end]);
-    i = end + 1;
-  }
-  return out;
-}
-
-/// Numbers up to `most` of ranges_text().
-std::vector<std::size_t> numbers_of(const std::string& ranges, std::size_t most) {
-  std::vector<std::size_t> out;
-  std::istringstream in(ranges);
-  for (std::string range; std::getline(in, range, ',');) {
-    std::istringstream words(range);
-    std::size_t begin = 0;
-    std::size_t end = 0;
-    if (!(words >> begin)) return {};
-    end = begin;
-    if (words.get() == '-') words >> end;
-    for (std::size_t i = begin; i <= std::min(end, most); ++i) out.push_back(i);
-  }
-  return out;
 }
 
 }  // namespace
@@ -57,50 +29,46 @@ std::string plan_text(const Sweep& sweep, const std::vector<Cell>& all) {
   }
   for (std::size_t begin = 0; begin < all.size();) {
     const std::size_t dataset = all[begin].dataset;
-    std::vector<std::size_t> methods;
+    std::string methods;
     std::size_t end = begin;
+    std::size_t count = 0;  // of methods
     for (; end < all.size() && all[end].dataset == dataset; ++end) {
-      if (all[end].repeat == all[begin].repeat) methods.push_back(all[end].method);
+      if (all[end].repeat != all[begin].repeat) continue;
+      methods += (count++ > 0 ? " " : "") + std::to_string(all[end].method);
     }
-    out += kDatasetLine + std::to_string((end - begin) / methods.size()) + "\t" +
-           ranges_text(methods) + "\t" + one_field(sweep.datasets[dataset].label) + "\n";
+    out += kDatasetLine + std::to_string((end - begin) / count) + "\t" + methods + "\t" +
+           one_field(sweep.datasets[dataset].label) + "\n";
     begin = end;
   }
   return out;
 }
 
-SweepPlan::SweepPlan(const std::string& text) {
+std::vector<std::string> planned_labels(const std::string& text) {
+  std::vector<std::string> out;
+  std::vector<std::string> methods;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with(kMethodLine)) methods_.push_back(line.substr(line.find('\t') + 1));
-    if (!line.starts_with(kDatasetLine) || methods_.empty()) continue;
+    if (line.starts_with(kMethodLine)) methods.push_back(line.substr(line.find('\t') + 1));
+    if (!line.starts_with(kDatasetLine)) continue;
     std::istringstream fields(line.substr(line.find('\t') + 1));
-    Dataset dataset;
-    std::string repeats;
-    std::string ranges;
-    std::getline(fields, repeats, '\t');
-    std::getline(fields, ranges, '\t');
-    std::getline(fields, dataset.label);
-    std::istringstream(repeats) >> dataset.repeats;
-    dataset.methods = numbers_of(ranges, methods_.size() - 1);
-    size_ += dataset.repeats * static_cast<std::int64_t>(dataset.methods.size());
-    datasets_.push_back(std::move(dataset));
-  }
-}
-
-std::string SweepPlan::label(std::int64_t position) const {
-  for (const Dataset& dataset : datasets_) {
-    const auto methods = static_cast<std::int64_t>(dataset.methods.size());
-    if (position >= dataset.repeats * methods) {
-      position -= dataset.repeats * methods;
-      continue;
+    int repeats = 0;
+    std::string numbers;
+    std::string dataset;
+    fields >> repeats;
+    fields.ignore();
+    std::getline(fields, numbers, '\t');
+    std::getline(fields, dataset);
+    std::vector<std::string> own;
+    std::istringstream words(numbers);
+    for (std::size_t method = 0; words >> method && method < methods.size();) {
+      own.push_back(methods[method]);
     }
-    const std::int64_t repeat = position / methods;
-    const std::size_t method = dataset.methods[static_cast<std::size_t>(position % methods)];
-    return dataset.label + (repeat > 0 ? " (repeat " + std::to_string(repeat) + ")" : "") + " / " +
-           methods_[method];
+    for (int repeat = 0; repeat < repeats && !own.empty() && out.size() < kMostCells; ++repeat) {
+      const std::string number = repeat > 0 ? " (repeat " + std::to_string(repeat) + ")" : "";
+      for (const std::string& method : own) out.push_back(dataset + number + " / " + method);
+    }
   }
-  return "cell " + std::to_string(position);
+  return out;
 }
 
 std::vector<std::string> missing_shards(const std::string& lines) {

@@ -2,14 +2,71 @@
 
 #include <algorithm>
 #include <iterator>
+#include <sstream>
+#include <unordered_map>
 #include <utility>
 
-#include "harness/store/cell_rows.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/record_reader.hpp"
-#include "harness/store/sequence_rows.hpp"
+#include "harness/store/schema.hpp"
+#include "harness/store/stored_cells.hpp"
 
 namespace loopbench::harness {
+namespace {
+
+/// Appends the lines of `more` that are not in `text`.
+void add_lines(std::string& text, const std::string& more) {
+  std::istringstream lines(more);
+  for (std::string line; std::getline(lines, line);) {
+    if (("\n" + text + "\n").find("\n" + line + "\n") != std::string::npos) continue;
+    if (!text.empty() && !text.ends_with('\n')) text += "\n";
+    text += line;
+  }
+}
+
+/// Selects sequence_key and the label of the sequences of all runs.
+constexpr const char* kRunSequences =
+    "(SELECT sequence_key, sequence || iif(repeat > 0, ' (repeat ' || repeat || ')', '') AS label, "
+    "min(position) AS first FROM cell WHERE position IS NOT NULL GROUP BY sequence, repeat, "
+    "sequence_key)";
+
+/// Adds the rows of a report table to the cells.
+class ReportReader {
+ public:
+  ReportReader(Database& database, std::vector<StoredCell>& cells)
+      : database_(database), cells_(cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i) index_.emplace(cells[i].id, i);
+  }
+
+  /// Calls `add` with the cell and its row from the column after `number` on.
+  template <class Add>
+  void read(const CellTable& table, Add add) {
+    Statement row = database_.prepare(std::string("SELECT cell, ") + table.columns +
+                                      ", checksum FROM " + table.name + " ORDER BY cell, number");
+    while (row.step()) {
+      const auto found = index_.find(row.integer());
+      if (found == index_.end()) continue;
+      StoredCell& cell = cells_[found->second];
+      row.integer();  // number
+      if (row.is_intact(1)) --cell.report_rows;
+      add(cell, row);
+    }
+  }
+
+  /// Throws InputError if a row of a cell was missing or damaged. Call after all tables.
+  void require_all_rows() const {
+    for (const StoredCell& cell : cells_) {
+      if (cell.report_rows != 0) throw_damaged(database_.file(), label_of(cell) + " is");
+    }
+  }
+
+ private:
+  Database& database_;
+  std::vector<StoredCell>& cells_;
+  std::unordered_map<std::int64_t, std::size_t> index_;
+};
+
+}  // namespace
 
 std::vector<Record> read_records(const std::filesystem::path& file) {
   std::vector<Record> out;
@@ -22,27 +79,21 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
 
 std::vector<CellRecord> read_cells(const std::filesystem::path& file) {
   Database database = open_store(file);
-  std::vector<StoredCell> cells = read_cell_rows(database);
-  check_scores(database, cells);
-  check_reports(database, cells, [&](const std::string& table, std::size_t i, Statement& row) {
-    CellRecord& cell = cells[i];
-    const std::string text = row.text();
-    if (table == "phase") cell.phases.push_back({text, row.real()});
-    if (table == "count") cell.counts.push_back({text, row.real()});
-    if (table == "note") cell.notes.push_back(text);
+  std::vector<StoredCell> cells = read_intact_cells(database);
+  ReportReader reader(database, cells);
+  reader.read(kPhaseTable, [](StoredCell& cell, Statement& row) {
+    auto& [name, seconds] = cell.phases.emplace_back();
+    row.read(name, seconds);
   });
-  require_intact(database, cells);
-  const SequenceRows sequences = read_sequence_rows(database);
-  std::vector<CellRecord> out;
-  for (const std::size_t i : in_order(cells)) {
-    const auto sequence = sequences.find(cells[i].sequence_key);
-    if (sequence != sequences.end()) {
-      cells[i].keyframes = sequence->second.keyframes;
-      cells[i].closure_count = sequence->second.closures;
-    }
-    out.push_back(std::move(cells[i]));
-  }
-  return out;
+  reader.read(kCountTable, [](StoredCell& cell, Statement& row) {
+    auto& [name, value] = cell.counts.emplace_back();
+    row.read(name, value);
+  });
+  reader.read(kNoteTable,
+              [](StoredCell& cell, Statement& row) { row.read(cell.notes.emplace_back()); });
+  reader.read(kSectionTable, [](StoredCell&, Statement&) {});
+  reader.require_all_rows();
+  return {std::move_iterator(cells.begin()), std::move_iterator(cells.end())};
 }
 
 std::map<std::string, std::string> read_run(const std::filesystem::path& file) {
@@ -52,6 +103,47 @@ std::map<std::string, std::string> read_run(const std::filesystem::path& file) {
   while (rows.step()) {
     std::string key = rows.text();
     out.emplace(std::move(key), rows.text());
+  }
+  return out;
+}
+
+std::map<std::string, std::string> read_provenance(const std::filesystem::path& file) {
+  Database database = open_store(file);
+  Statement rows = database.prepare(
+      "SELECT p.key, p.value FROM provenance p JOIN (SELECT provenance_key, min(position) AS first "
+      "FROM cell WHERE position IS NOT NULL GROUP BY provenance_key) USING (provenance_key) ORDER "
+      "BY first");
+  std::map<std::string, std::string> out;
+  while (rows.step()) {
+    const std::string key = rows.text();
+    const std::string value = rows.text();
+    const auto [entry, is_new] = out.emplace(key, value);
+    if (!is_new) add_lines(entry->second, value);
+  }
+  return out;
+}
+
+std::map<std::string, std::vector<InputFile>> read_inputs(const std::filesystem::path& file) {
+  Database database = open_store(file);
+  Statement rows =
+      database.prepare(std::string("SELECT label, option, path, bytes, hash FROM ") +
+                       kRunSequences + " JOIN input USING (sequence_key) ORDER BY first, number");
+  std::map<std::string, std::vector<InputFile>> out;
+  while (rows.step()) {
+    InputFile& input = out[rows.text()].emplace_back();
+    rows.read(input.option, input.path, input.bytes, input.hash);
+  }
+  return out;
+}
+
+std::map<std::string, std::string> read_dataset_options(const std::filesystem::path& file) {
+  Database database = open_store(file);
+  Statement rows = database.prepare(std::string("SELECT label, options FROM ") + kRunSequences +
+                                    " JOIN sequence USING (sequence_key) ORDER BY first");
+  std::map<std::string, std::string> out;
+  while (rows.step()) {
+    const std::string label = rows.text();
+    out[label] = rows.text();
   }
   return out;
 }

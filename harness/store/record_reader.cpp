@@ -4,15 +4,15 @@
 #include <cmath>
 #include <future>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 
+#include "harness/model/recorded_run.hpp"
 #include "harness/store/open.hpp"
-#include "harness/store/recorded_contents.hpp"
+#include "harness/store/schema.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-constexpr int kFewRows = 64;  ///< rows that are passed over faster than a search
 
 constexpr std::size_t kLeastRecords = 4096;  ///< of a chunk, so that a thread is worth it
 
@@ -29,47 +29,114 @@ void set_cell(Record& r, const StoredCell& cell) {
   r.milliseconds = is_unknown ? std::nan("") : cell.seconds * 1000;
   r.status = cell.status;
   r.why = cell.why;
+  r.content = cell.content;
+  r.group = cell.group;
 }
 
 std::map<std::int64_t, Record> read_definitions(Database& database) {
   std::map<std::int64_t, Record> out;
-  Statement row = database.prepare(
-      "SELECT id, protocol, protocol_version, times, metric, label, relation, axis, unit, better, "
-      "target FROM score_definition ORDER BY id");
+  Statement row =
+      database.prepare(std::string("SELECT ") + kDefinitionColumns + ", id FROM score_definition");
   while (row.step()) {
-    Record& r = out[row.integer()];
-    r.protocol = row.text();
-    r.protocol_version = row.text();
-    r.times = row.text();
-    r.metric = row.text();
-    r.label = row.text();
-    r.relation = row.text();
-    r.axis = row.text();
-    r.unit = row.text();
-    r.better = from_text<metrics::Better>(row.text()).value_or(metrics::Better::neither);
-    r.target = row.real();
+    if (!row.is_intact(0)) throw_damaged(database.file(), "a definition of a score is");
+    Record r;
+    std::string better;
+    std::int64_t id = 0;
+    row.read(
+        r.protocol, r.protocol_version, r.times, r.metric, r.label, r.relation, r.axis, r.unit);
+    row.read(better, r.target, id);
+    r.better = from_text<metrics::Better>(better).value_or(metrics::Better::neither);
+    out.emplace(id, r);
   }
   return out;
 }
 
-/// A score without relation: its metric failed or was declined completely.
-bool can_be_failed_metric(const Record& definition) {
-  return !definition.metric.empty() && definition.relation.empty();
+/// The definitions of the scores of all placed cells, in order of first appearance.
+std::vector<Record> scores_of_all_cells(Database& database,
+                                        const std::map<std::int64_t, Record>& definitions) {
+  std::vector<Record> out;
+  Statement row = database.prepare(
+      "SELECT definition, min(position << 20 | number) AS first FROM score_value JOIN cell ON "
+      "cell.id = cell WHERE position IS NOT NULL GROUP BY definition ORDER BY first");
+  while (row.step()) {
+    const auto found = definitions.find(row.integer());
+    if (found != definitions.end()) out.push_back(found->second);
+  }
+  return out;
 }
 
-/// For each position in `order`, whether every sequence that began up to there has ended.
-std::vector<bool> ends_of_chunks(const std::vector<StoredCell>& cells,
-                                 const std::vector<std::size_t>& order) {
-  const auto sequence = [&](std::size_t i) { return cells[order[i]].sequence.id(); };
-  const auto begins = [&](std::size_t i) { return i == 0 || sequence(i) != sequence(i - 1); };
-  std::unordered_map<const void*, std::size_t> last;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i + 1 == order.size() || begins(i + 1)) last[sequence(i)] = i;
+/// A metric that failed or was declined has no scores, hence one record without relation.
+bool is_failed_metric(const Record& r) { return !r.metric.empty() && r.relation.empty(); }
+
+bool same_metric(const Record& a, const Record& b) {
+  return a.protocol == b.protocol && a.times == b.times && a.metric == b.metric &&
+         metric_label(a) == metric_label(b);
+}
+
+/// The scores of the failed metric of `r` on its run or, if it has none there, anywhere.
+std::vector<Record> scores_of_metric(const Record& r,
+                                     const std::vector<const Record*>& on_run,
+                                     const std::vector<Record>& anywhere) {
+  std::vector<Record> out;
+  std::set<std::tuple<SharedText, SharedText, SharedText>> known;
+  const auto add = [&](const Record& score) {
+    if (score.relation.empty() || !same_metric(score, r)) return;
+    if (known.emplace(score.relation, score.axis, score.unit).second) out.push_back(score);
+  };
+  for (const Record* score : on_run) add(*score);
+  if (out.empty()) std::ranges::for_each(anywhere, add);
+  return out;
+}
+
+/// Replaces the record of each failed metric by one for every score that the metric has.
+void expand_failed_metrics(std::vector<Record>& records, const std::vector<Record>& anywhere) {
+  const auto is_failed = [](const Record& r) {
+    return r.status != Status::ok && is_failed_metric(r);
+  };
+  if (std::ranges::none_of(records, is_failed)) return;
+  std::map<std::pair<SharedText, std::int64_t>, std::vector<const Record*>> runs;
+  for (const Record& r : records) runs[{r.sequence, r.repeat}].push_back(&r);
+  std::vector<Record> out;
+  for (const Record& r : records) {
+    std::vector<Record> scores;
+    if (is_failed(r)) scores = scores_of_metric(r, runs.at({r.sequence, r.repeat}), anywhere);
+    if (scores.empty()) out.push_back(r);
+    for (const Record& score : scores) {
+      Record& named = out.emplace_back(r);
+      named.relation = score.relation;
+      named.axis = score.axis;
+      named.unit = score.unit;
+      named.better = score.better;
+      named.target = score.target;
+    }
   }
-  std::vector<bool> out(order.size(), false);
+  records = std::move(out);
+}
+
+/// In a store of evaluated files, replaces the content of every file by that of its run, see
+/// recorded_content(). In other stores, the methods of a run share a sequence.
+void join_recorded_contents(Database& database, std::vector<StoredCell>& cells) {
+  Statement config = database.prepare("SELECT value FROM run WHERE key = 'config'");
+  if (!config.step() || !is_recorded(config.text())) return;
+  std::map<std::pair<SharedText, std::int64_t>, std::map<std::string, std::string>> runs;
+  for (const StoredCell& cell : cells) {
+    runs[{cell.sequence, cell.repeat}][cell.method] = cell.content;
+  }
+  for (StoredCell& cell : cells) {
+    cell.content = recorded_content(runs.at({cell.sequence, cell.repeat}));
+  }
+}
+
+/// For each cell, whether every sequence that began up to there has ended.
+std::vector<bool> ends_of_chunks(const std::vector<StoredCell>& cells) {
+  std::unordered_map<std::string_view, std::size_t> last;
+  for (std::size_t i = 0; i < cells.size(); ++i) last[cells[i].sequence.text()] = i;
+  std::vector<bool> out(cells.size(), false);
   std::size_t end = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (begins(i)) end = std::max(end, last.at(sequence(i)));
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i == 0 || cells[i].sequence != cells[i - 1].sequence) {
+      end = std::max(end, last.at(cells[i].sequence.text()));
+    }
     out[i] = i == end;
   }
   return out;
@@ -79,27 +146,13 @@ std::vector<bool> ends_of_chunks(const std::vector<StoredCell>& cells,
 
 RecordReader::RecordReader(const std::filesystem::path& file)
     : database_(open_store(file)),
-      cells_(read_cell_rows(database_)),
-      sequences_(read_sequence_rows(database_)),
+      cells_(read_intact_cells(database_)),
       definitions_(read_definitions(database_)) {
-  check_scores(database_, cells_);
-  require_intact(database_, cells_);
-  order_ = in_order(cells_);
-  join_recorded_contents(database_, cells_, order_, sequences_);
-  can_fail_ = std::ranges::any_of(
-      definitions_, [](const auto& entry) { return can_be_failed_metric(entry.second); });
-  if (can_fail_) find_scores();
-}
-
-/// Adds the scores of all metrics to `failed_metrics_`, in order of first appearance.
-void RecordReader::find_scores() {
-  Statement row = database_.prepare(
-      "SELECT definition, min(position << 20 | number) AS first FROM score_value JOIN cell ON "
-      "cell.id = cell WHERE position IS NOT NULL GROUP BY definition ORDER BY first");
-  while (row.step()) {
-    const auto found = definitions_.find(row.integer());
-    if (found != definitions_.end()) failed_metrics_.add(found->second);
-  }
+  require_all_scores(database_);
+  join_recorded_contents(database_, cells_);
+  const bool can_fail = std::ranges::any_of(
+      definitions_, [](const auto& entry) { return is_failed_metric(entry.second); });
+  if (can_fail) scores_anywhere_ = scores_of_all_cells(database_, definitions_);
 }
 
 void RecordReader::for_each_definition(const std::function<void(const Record&)>& visit) const {
@@ -107,7 +160,7 @@ void RecordReader::for_each_definition(const std::function<void(const Record&)>&
 }
 
 bool RecordReader::has_several_protocols() const {
-  std::set<std::string> protocols;
+  std::set<SharedText> protocols;
   for_each_definition([&](const Record& definition) { protocols.insert(definition.protocol); });
   return protocols.size() > 1;
 }
@@ -120,78 +173,61 @@ void RecordReader::keep_scores(const std::function<bool(const Record&)>& is_kept
   kept_ = " AND definition IN (" + kept_ + ")";
 }
 
-void RecordReader::step_scores() {
-  has_row_ = scores_->step();
-  row_cell_ = has_row_ ? scores_->integer() : 0;
-}
+void RecordReader::step_scores() { row_cell_ = scores_->step() ? scores_->integer() : 0; }
 
 void RecordReader::add_cell(const StoredCell& cell, std::vector<Record>& out) {
-  const auto sequence = sequences_.find(cell.sequence_key);
-  const auto add = [&](const Record& definition) -> Record& {
-    Record& r = out.emplace_back(definition);
-    set_cell(r, cell);
-    if (sequence != sequences_.end()) {
-      r.content = sequence->second.content;
-      r.group = sequence->second.group;
-    }
-    return r;
-  };
-  if (cell.score_count == 0) {  // declined or failed
-    add({});
+  if (cell.scores == 0) {  // declined or failed
+    set_cell(out.emplace_back(), cell);
     return;
-  }
-  // Cells are mostly in the order in which they were written.
-  for (int i = 0; has_row_ && row_cell_ < cell.id && i < kFewRows; ++i) step_scores();
-  if (!has_row_ || row_cell_ != cell.id) {
-    scores_->reset();
-    scores_->bind(cell.id);
-    step_scores();
   }
   // An incomplete cell can be complete at other times, so its scores have their own status.
   const bool is_incomplete = cell.status == Status::incomplete;
   const bool has_status = cell.status == Status::ok || is_incomplete;
   const bool has_reason = cell.why.empty() || is_incomplete;
-  for (; has_row_ && row_cell_ == cell.id; step_scores()) {
-    Record& r = add(definitions_.at(scores_->integer()));
+  for (; row_cell_ == cell.id; step_scores()) {
     scores_->integer();  // number
-    metrics::Statistics& s = r.statistics;
-    s.count = static_cast<std::size_t>(scores_->integer());
-    for (double* value : {&s.rmse, &s.mean, &s.median, &s.std, &s.min, &s.max, &s.sse}) {
-      *value = scores_->real();
+    const auto definition = definitions_.find(scores_->integer());
+    if (definition == definitions_.end() || !scores_->is_intact(1)) {
+      throw_damaged(database_.file(), label_of(cell) + " is");
     }
-    r.pairs = scores_->integer();
-    r.possible = scores_->integer();
-    r.span = scores_->real();
-    const std::string status = scores_->text();
-    if (has_status) r.status = from_text<Status>(status).value_or(Status::failed);
-    if (has_reason) r.why = scores_->text();
+    Record& r = out.emplace_back(definition->second);
+    set_cell(r, cell);
+    metrics::Statistics& s = r.statistics;
+    scores_->read(s.count, s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse);
+    scores_->read(r.pairs, r.possible, r.span);
+    const std::string_view status = scores_->view();
+    if (has_status) r.status = from_text<Status>(std::string(status)).value_or(Status::failed);
+    if (has_reason) scores_->read(r.why);
   }
 }
 
 void RecordReader::for_each_chunk(const std::function<bool(std::vector<Record>&)>& visit) {
-  scores_.emplace(database_.prepare(std::string("SELECT ") + kScoreColumns +
-                                    " FROM score_value WHERE cell >= ?" + kept_ +
-                                    " ORDER BY cell, number"));
-  has_row_ = false;
-  const std::vector<bool> is_end = ends_of_chunks(cells_, order_);
+  // CROSS JOIN: in the order of the cells, by their index.
+  scores_.emplace(database_.prepare(
+      std::string("SELECT score_value.cell, ") + kScoreTable.columns +
+      ", score_value.checksum FROM (SELECT id, position FROM cell WHERE position IS NOT NULL) "
+      "CROSS JOIN score_value ON score_value.cell = id" +
+      kept_ + " ORDER BY position, id, number"));
+  step_scores();
+  const std::vector<bool> is_end = ends_of_chunks(cells_);
   std::size_t next = 0;
   std::size_t size = 0;  // of the last chunk
   const auto read = [&] {
     std::vector<Record> out;
     out.reserve(size + size / 2);  // callers add derived records
-    while (next < order_.size()) {
-      add_cell(cells_[order_[next]], out);
+    while (next < cells_.size()) {
+      add_cell(cells_[next], out);
       if (is_end[next++] && out.size() >= kLeastRecords) break;
     }
     size = out.size();
-    if (can_fail_) failed_metrics_.expand(out);
+    expand_failed_metrics(out, scores_anywhere_);
     return out;
   };
   // One chunk is read while the previous one is visited.
   std::future<std::vector<Record>> coming = std::async(std::launch::deferred, read);
-  for (bool goes_on = next < order_.size(); goes_on;) {
+  for (bool goes_on = next < cells_.size(); goes_on;) {
     std::vector<Record> records = coming.get();
-    goes_on = next < order_.size();
+    goes_on = next < cells_.size();
     if (goes_on) coming = std::async(std::launch::async, read);
     if (!visit(records)) return;  // waits for `coming`
   }

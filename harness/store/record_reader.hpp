@@ -10,24 +10,23 @@
 #include <vector>
 
 #include "harness/model/record.hpp"
-#include "harness/store/cell_rows.hpp"
-#include "harness/store/failed_metrics.hpp"
-#include "harness/store/sequence_rows.hpp"
 #include "harness/store/sqlite.hpp"
+#include "harness/store/stored_cells.hpp"
 
 namespace loopbench::harness {
 
 /// One state of a store, also while a sweep is writing it; not thread-safe.
 class RecordReader {
  public:
-  /// Reads the table of cells and checks all scores. `file` can be the folder with results.sqlite.
-  /// Throws InputError if it is not a store or is damaged. O(scores); 500 bytes of memory per cell.
+  /// Reads the table of cells and counts their scores. `file` can be the folder with
+  /// results.sqlite. Throws InputError if it is not a store or is damaged. O(scores); 500 bytes of
+  /// memory per cell.
   explicit RecordReader(const std::filesystem::path& file);
 
   /// Visits all records in sweep order, in chunks: every sequence is complete within one chunk, and
   /// a chunk is one sequence, or several if they are small or their cells are mixed. The next chunk
   /// is read on another thread during a visit. Metrics are expanded as described at read_records().
-  /// Ends early if `visit` returns false. O(scores).
+  /// Ends early if `visit` returns false. Throws InputError for a damaged score. O(scores).
   void for_each_chunk(const std::function<bool(std::vector<Record>& records)>& visit);
 
   /// Visits all records one by one, in the same order.
@@ -44,22 +43,17 @@ class RecordReader {
   bool has_several_protocols() const;
 
  private:
-  /// Reads the scores of a cell that are kept.
+  /// Appends the scores of a cell that are kept.
   void add_cell(const StoredCell& cell, std::vector<Record>& out);
   void step_scores();
-  void find_scores();
 
   Database database_;
-  std::vector<StoredCell> cells_;
-  SequenceRows sequences_;
+  std::vector<StoredCell> cells_;               ///< in sweep order
   std::map<std::int64_t, Record> definitions_;  ///< by id, with the fields of a definition only
-  std::vector<std::size_t> order_;              ///< in_order(cells_)
-  bool can_fail_ = false;                       ///< whether a cell can have a metric that failed
-  FailedMetrics failed_metrics_;
-  std::string kept_;                 ///< condition of the query of scores
-  std::optional<Statement> scores_;  ///< at a row of cell row_cell_
-  bool has_row_ = false;
-  std::int64_t row_cell_ = 0;
+  std::vector<Record> scores_anywhere_;  ///< definitions of placed cells; empty: no metric failed
+  std::string kept_;                     ///< condition of the query of scores
+  std::optional<Statement> scores_;      ///< at a row of cell row_cell_
+  std::int64_t row_cell_ = 0;            ///< 0: no more rows
 };
 
 }  // namespace loopbench::harness

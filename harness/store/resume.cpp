@@ -2,37 +2,51 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
-
-#include "harness/store/open.hpp"
-#include "harness/store/sequence_rows.hpp"
+#include <unordered_map>
 
 namespace loopbench::harness {
 namespace {
 
 using Inputs = std::vector<InputFile>;
 
-bool same_content(const Inputs& a, const Inputs& b) {
-  return std::ranges::equal(a, b, {}, &InputFile::hash, &InputFile::hash);
+/// The input files of every stored sequence, by its configuration: a store can hold several
+/// versions of a sequence, each with its own files.
+std::map<std::string, std::vector<Inputs>> stored_inputs(Database& database) {
+  std::map<std::string, std::vector<Inputs>> out;
+  Statement row = database.prepare(
+      "SELECT configuration_hash, sequence_key, option IS NOT NULL, option, path, bytes, hash FROM "
+      "sequence LEFT JOIN input USING (sequence_key) ORDER BY sequence_key, number");
+  std::string last;
+  while (row.step()) {
+    std::string configuration_hash, sequence_key;
+    bool has_file = false;
+    InputFile file;
+    row.read(configuration_hash, sequence_key, has_file);
+    row.read(file.option, file.path, file.bytes, file.hash);
+    std::vector<Inputs>& versions = out[configuration_hash];
+    if (sequence_key != last) versions.emplace_back();
+    if (has_file) versions.back().push_back(file);
+    last = sequence_key;
+  }
+  return out;
 }
 
-/// The current inputs of a cell's sequence. A store can hold several versions of a sequence, each
-/// with its own list of files: returns the version that matches the files now, or otherwise any.
-Inputs inputs_now(const std::vector<const SequenceRow*>& known, CellKeys& keys, const Cell& cell) {
+/// The current inputs of a cell's sequence, from the version that matches the files now, or
+/// otherwise any.
+Inputs inputs_now(const std::vector<Inputs>& versions, CellKeys& keys, const Cell& cell) {
   Inputs now;
-  for (const SequenceRow* sequence : known) {
-    now = keys.current_inputs(cell, sequence->inputs);
-    if (same_content(now, sequence->inputs)) break;
+  for (const Inputs& stored : versions) {
+    now = keys.current_inputs(cell, stored);
+    if (std::ranges::equal(now, stored, {}, &InputFile::hash, &InputFile::hash)) break;
   }
   return now;
 }
 
 /// The key of every cell with the current inputs.
-std::vector<std::string> keys_now(const SequenceRows& sequences,
+std::vector<std::string> keys_now(Database& database,
                                   CellKeys& keys,
                                   const std::vector<Cell>& all) {
-  std::map<std::string, std::vector<const SequenceRow*>> known;
-  for (const auto& [key, row] : sequences) known[row.configuration_hash].push_back(&row);
+  std::map<std::string, std::vector<Inputs>> known = stored_inputs(database);
   std::map<std::string, Inputs> inputs;
   std::vector<std::string> out;
   out.reserve(all.size());
@@ -52,47 +66,24 @@ bool same_labels(const StoredCell& row, const Cell& cell, const Sweep& sweep) {
 
 bool has_failed(const StoredCell& row) { return is_failure(row.status) || row.failed_scores > 0; }
 
-constexpr auto kNoRow = static_cast<std::size_t>(-1);
-
-/// The stored cell of each cell, or null: one with its key, by preference with its labels and at
-/// its position.
+/// For each cell the stored cell with its key, by preference with its labels, or null. No stored
+/// cell is returned twice.
 std::vector<const StoredCell*> claim(const std::vector<StoredCell>& stored,
-                                     const SequenceRows& sequences,
+                                     Database& database,
                                      CellKeys& keys,
                                      const std::vector<Cell>& all) {
-  const std::vector<std::string> wanted = keys_now(sequences, keys, all);
-  std::vector<const StoredCell*> placed(all.size(), nullptr);
-  for (const StoredCell& row : stored) {
-    const auto position = static_cast<std::size_t>(row.position);
-    if (row.placed && position < placed.size()) placed[position] = &row;
-  }
+  const std::vector<std::string> wanted = keys_now(database, keys, all);
+  std::unordered_multimap<std::string_view, const StoredCell*> free;
+  for (const StoredCell& row : stored) free.emplace(row.key, &row);
   std::vector<const StoredCell*> out(all.size(), nullptr);
-  std::vector<bool> is_claimed(stored.size(), false);
-  const auto number = [&](const StoredCell* row) {
-    return static_cast<std::size_t>(row - stored.data());
-  };
-  // Mostly nothing has changed, and the row is where it was.
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const StoredCell* row = all[i].index < placed.size() ? placed[all[i].index] : nullptr;
-    if (row == nullptr || row->key != wanted[i] || !same_labels(*row, all[i], keys.sweep()))
-      continue;
-    out[i] = row;
-    is_claimed[number(row)] = true;
-  }
-  std::multimap<std::string_view, const StoredCell*> others;
-  for (const StoredCell& row : stored) {
-    if (!is_claimed[number(&row)]) others.emplace(row.key, &row);
-  }
   for (const bool exact : {true, false}) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (out[i] != nullptr) continue;
-      auto [found, end] = others.equal_range(wanted[i]);
-      for (; found != end; ++found) {
-        if (exact && !same_labels(*found->second, all[i], keys.sweep())) continue;
-        out[i] = found->second;
-        others.erase(found);
-        break;
-      }
+      auto [found, end] = free.equal_range(wanted[i]);
+      while (found != end && exact && !same_labels(*found->second, all[i], keys.sweep())) ++found;
+      if (found == end) continue;
+      out[i] = found->second;
+      free.erase(found);
     }
   }
   return out;
@@ -107,9 +98,8 @@ Resumed match(Database& database,
               const std::vector<Cell>& planned,
               Retry retry) {
   const Sweep& sweep = keys.sweep();
-  const std::vector<const StoredCell*> claimed =
-      claim(stored, read_sequence_rows(database), keys, all);
-  ChecksumWriter checksums(database);
+  const std::vector<const StoredCell*> claimed = claim(stored, database, keys, all);
+  Statement set_checksum = checksum_update(database);
 
   Resumed out;
   out.unchanged = true;
@@ -119,33 +109,32 @@ Resumed match(Database& database,
   for (const StoredCell& row : stored) {
     if (!row.placed || std::ranges::binary_search(in_use, &row)) continue;
     set_aside.bind(row.id).run();
-    checksums.update_row(row.id, row.own);
+    set_checksum.bind(row.id).run();
     out.unchanged = false;
   }
   Statement entry = database.prepare(
       "UPDATE cell SET position = ?, sequence = ?, repeat = ?, method = ? WHERE id = ?");
-  std::vector<const StoredCell*> by_position;
+  std::unordered_map<std::size_t, const StoredCell*> by_index;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (claimed[i] == nullptr) {
+    const StoredCell* row = claimed[i];
+    if (row == nullptr) {
       out.unchanged = false;
       continue;
     }
-    const StoredCell& row = *claimed[i];
-    if (all[i].index >= by_position.size()) by_position.resize(all[i].index + 1, nullptr);
-    by_position[all[i].index] = &row;
-    const auto position = static_cast<std::int64_t>(all[i].index);
-    if (row.placed && row.position == position && same_labels(row, all[i], sweep)) continue;
+    const Cell& cell = all[i];
+    by_index.emplace(cell.index, row);
+    const bool same_position =
+        row->placed && row->position == static_cast<std::int64_t>(cell.index);
+    if (same_position && same_labels(*row, cell, sweep)) continue;
     out.unchanged = false;
-    entry.bind(position)
-        .bind(sweep.datasets[all[i].dataset].label)
-        .bind(std::int64_t{all[i].repeat})
-        .bind(sweep.methods[all[i].method].label)
-        .bind(row.id)
+    entry.bind(cell.index, sweep.datasets[cell.dataset].label, cell.repeat)
+        .bind(sweep.methods[cell.method].label, row->id)
         .run();
-    checksums.update_row(row.id, row.own);
+    set_checksum.bind(row->id).run();
   }
   for (const Cell& cell : planned) {
-    const StoredCell* row = cell.index < by_position.size() ? by_position[cell.index] : nullptr;
+    const auto found = by_index.find(cell.index);
+    const StoredCell* row = found == by_index.end() ? nullptr : found->second;
     const bool again =
         row != nullptr && (retry == Retry::all || (retry == Retry::failed && has_failed(*row)));
     if (row == nullptr || again) {
@@ -164,17 +153,13 @@ std::vector<Cell> missing_cells(const std::filesystem::path& store,
                                 const std::vector<Cell>& all,
                                 const std::vector<Cell>& planned) {
   Database database = open_store(store);
-  std::vector<StoredCell> stored = checked_cells(database, false);
+  std::vector<StoredCell> stored = read_stored_cells(database);
   std::erase_if(stored, [](const StoredCell& cell) { return !cell.intact; });
-  const std::vector<const StoredCell*> claimed =
-      claim(stored, read_sequence_rows(database), keys, all);
-  std::set<std::size_t> missing;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (claimed[i] == nullptr) missing.insert(all[i].index);
-  }
+  const std::vector<const StoredCell*> claimed = claim(stored, database, keys, all);
   std::vector<Cell> out;
-  for (const Cell& cell : planned) {
-    if (missing.contains(cell.index)) out.push_back(cell);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool is_planned = std::ranges::binary_search(planned, all[i].index, {}, &Cell::index);
+    if (claimed[i] == nullptr && is_planned) out.push_back(all[i]);
   }
   return out;
 }

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "harness/provenance/cell_keys.hpp"
-#include "harness/store/damage.hpp"
-#include "harness/store/sqlite.hpp"
 #include "harness/store/store.hpp"
+#include "harness/store/stored_cells.hpp"
 
 namespace loopbench::harness {
 

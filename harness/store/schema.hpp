@@ -1,9 +1,12 @@
+/// Tables of a store.
 #pragma once
+
+#include <string>
 
 namespace loopbench::harness {
 
 /// Incremented when the meaning of a table or column changes; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 10;
+inline constexpr int kSchemaVersion = 11;
 
 /// Creates the tables of a store, readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
@@ -61,11 +64,11 @@ inline constexpr const char* kSchema = R"sql(
     signal TEXT NOT NULL,              -- for example SIGSEGV; empty: not ended by a signal
     why TEXT NOT NULL,
     failed_scores INTEGER NOT NULL,    -- number of failed scores
-    checksum INTEGER NOT NULL DEFAULT 0,         -- of this row, its sequence and its scores
-    report_checksum INTEGER NOT NULL DEFAULT 0); -- of its phases, counts, notes, sections and of
-                                       -- the checksum of its trace
+    scores INTEGER NOT NULL,           -- number of its rows in score_value
+    report_rows INTEGER NOT NULL,      -- number of its rows in phase, count, note and section
+    checksum INTEGER NOT NULL);        -- of this row and its sequence
   CREATE TABLE score_definition (      -- what a score is; cells share definitions
-    id INTEGER PRIMARY KEY,
+    id INTEGER PRIMARY KEY,            -- checksum of the other columns: equal in all stores
     protocol TEXT NOT NULL,            -- name (changes), for example: evo (align=se3)
     protocol_version TEXT NOT NULL,    -- version of the original tool
     times TEXT NOT NULL,               -- keyframes | dense
@@ -75,8 +78,7 @@ inline constexpr const char* kSchema = R"sql(
     axis TEXT NOT NULL,
     unit TEXT NOT NULL,                -- of all statistics but count; sse: squared
     better TEXT NOT NULL,              -- lower | higher | target | neither
-    target REAL NOT NULL,              -- best value if better is target
-    UNIQUE (protocol, protocol_version, times, metric, label, relation, axis, unit, better, target));
+    target REAL NOT NULL);             -- best value if better is target
   CREATE TABLE score_value (           -- one row per score; the view `score` adds its definition
     cell INTEGER NOT NULL REFERENCES cell(id),
     number INTEGER NOT NULL,           -- of the score in its cell, from 0
@@ -88,6 +90,7 @@ inline constexpr const char* kSchema = R"sql(
     span REAL NOT NULL,                -- evaluated share of the reference's time, 0..1
     status TEXT NOT NULL,              -- ok | declined | incomplete | failed | out_of_memory
     why TEXT NOT NULL,
+    checksum INTEGER NOT NULL,
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE VIEW score AS
     SELECT v.cell, d.protocol, d.protocol_version, d.times, d.metric, d.label, d.relation, d.axis,
@@ -96,25 +99,29 @@ inline constexpr const char* kSchema = R"sql(
     FROM score_value v JOIN score_definition d ON d.id = v.definition;
   CREATE TABLE phase (                 -- reported by the method, as are the next three
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
-    name TEXT NOT NULL, seconds REAL NOT NULL, PRIMARY KEY (cell, number)) WITHOUT ROWID;
+    name TEXT NOT NULL, seconds REAL NOT NULL, checksum INTEGER NOT NULL,
+    PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE TABLE count (
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
-    name TEXT NOT NULL, value REAL NOT NULL, PRIMARY KEY (cell, number)) WITHOUT ROWID;
+    name TEXT NOT NULL, value REAL NOT NULL, checksum INTEGER NOT NULL,
+    PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE TABLE note (
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
-    text TEXT NOT NULL, PRIMARY KEY (cell, number)) WITHOUT ROWID;
+    text TEXT NOT NULL, checksum INTEGER NOT NULL,
+    PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE TABLE section (               -- sections of the path
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
     kind TEXT NOT NULL,                -- segment, window, ...
     begin_stamp REAL NOT NULL,         -- [s]
     end_stamp REAL NOT NULL,           -- [s]
     what TEXT NOT NULL,                -- choice of the method; can be empty
+    checksum INTEGER NOT NULL,
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE TABLE trace (                 -- blobs: float32, little endian, see harness/model/trace.hpp
     cell INTEGER PRIMARY KEY REFERENCES cell(id),
     times TEXT NOT NULL,               -- keyframes | dense
-    checksum INTEGER NOT NULL,
-    samples BLOB NOT NULL);            -- TraceSample, 12 floats each, under the first protocol
+    samples BLOB NOT NULL,             -- TraceSample, 12 floats each, under the first protocol
+    checksum INTEGER NOT NULL);
   CREATE TABLE sequence_trace (
     sequence_key TEXT PRIMARY KEY,
     origin_stamp REAL NOT NULL,        -- stamps are relative to it [s]
@@ -128,5 +135,46 @@ inline constexpr const char* kSchema = R"sql(
     checksum INTEGER NOT NULL);
   CREATE INDEX cell_position ON cell(position);
 )sql";
+
+// Checksums are row_checksum() of the other columns of a row, without the id of its cell, so that
+// another store can number its cells differently.
+
+/// A table with rows of cells: column `cell`, these columns, and `checksum`.
+struct CellTable {
+  const char* name;
+  const char* columns;
+};
+inline constexpr CellTable kScoreTable{
+    "score_value",
+    "number, definition, count, rmse, mean, median, std, min, max, sse, pairs, possible, span, "
+    "status, why"};
+inline constexpr CellTable kPhaseTable{"phase", "number, name, seconds"};
+inline constexpr CellTable kCountTable{"count", "number, name, value"};
+inline constexpr CellTable kNoteTable{"note", "number, text"};
+inline constexpr CellTable kSectionTable{"section", "number, kind, begin_stamp, end_stamp, what"};
+inline constexpr CellTable kTraceTable{"trace", "times, samples"};
+inline constexpr CellTable kCellTables[] = {
+    kScoreTable, kPhaseTable, kCountTable, kNoteTable, kSectionTable, kTraceTable};
+
+/// Columns of the table cell between `id` and `checksum`.
+inline constexpr const char* kCellColumns =
+    "position, key, build, cell.sequence_key, provenance_key, cell.sequence, repeat, method, "
+    "dataset_options, method_options, cell.closures, oracle_closures, oracle, worker, runs, "
+    "seconds_median, seconds_min, seconds_max, cpu_seconds_median, peak_memory, added_memory, "
+    "status, signal, why, failed_scores, scores, report_rows";
+
+/// A cell's row and that of its sequence, and their checksum.
+inline constexpr const char* kCellsWithSequences = "cell LEFT JOIN sequence USING (sequence_key)";
+inline constexpr const char* kSequenceColumns =
+    "sequence.sequence_key, configuration_hash, options, keyframes, odometry, sequence.closures, "
+    "frames, reference, content, group_name";
+inline std::string cell_checksum() {
+  return std::string("row_checksum(") + kCellColumns + ", " + kSequenceColumns + ")";
+}
+
+inline constexpr const char* kDefinitionColumns =
+    "protocol, protocol_version, times, metric, label, relation, axis, unit, better, target";
+inline constexpr const char* kSequenceTraceColumns =
+    "sequence_key, origin_stamp, origin_x, origin_y, origin_z, reference, keyframes, closures";
 
 }  // namespace loopbench::harness

@@ -2,13 +2,38 @@
 
 #include <sqlite3.h>
 
-#include <array>
-#include <cstring>
-#include <utility>
-
 #include "datasets/core/error.hpp"
+#include "harness/store/row_checksum.hpp"
 
 namespace loopbench::harness {
+namespace {
+
+std::string_view bytes_of(sqlite3_value* value) {
+  const auto* bytes = static_cast<const char*>(sqlite3_value_blob(value));
+  const auto size = static_cast<std::size_t>(sqlite3_value_bytes(value));
+  return bytes == nullptr ? std::string_view{} : std::string_view(bytes, size);
+}
+
+void add_value(RowChecksum& checksum, sqlite3_value* value) {
+  switch (sqlite3_value_type(value)) {
+    case SQLITE_INTEGER:
+      return checksum.add(std::int64_t{sqlite3_value_int64(value)});
+    case SQLITE_FLOAT:
+      return checksum.add(sqlite3_value_double(value));
+    case SQLITE_NULL:
+      return checksum.add_null();
+    default:
+      return checksum.add(bytes_of(value));
+  }
+}
+
+void row_checksum(sqlite3_context* context, int count, sqlite3_value** values) {
+  RowChecksum checksum;
+  for (int i = 0; i < count; ++i) add_value(checksum, values[i]);
+  sqlite3_result_int64(context, checksum.value());
+}
+
+}  // namespace
 
 void Database::Close::operator()(sqlite3* handle) const { sqlite3_close(handle); }
 void Statement::Finalize::operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
@@ -31,6 +56,17 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file.st
   sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(handle, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+  const int function =
+      sqlite3_create_function_v2(handle,
+                                 "row_checksum",
+                                 -1,
+                                 SQLITE_UTF8 | SQLITE_DETERMINISTIC | SQLITE_DIRECTONLY,
+                                 nullptr,
+                                 row_checksum,
+                                 nullptr,
+                                 nullptr,
+                                 nullptr);
+  if (function != SQLITE_OK) fail("cannot be opened");
 }
 
 void Database::execute(const std::string& sql) {
@@ -69,35 +105,29 @@ void Statement::expect(int code, const char* doing) const {
   if (code != SQLITE_OK) database_->fail(doing);
 }
 
-Statement& Statement::bind(std::int64_t value) {
+void Statement::bind_integer(std::int64_t value) {
   expect(sqlite3_bind_int64(handle_.get(), ++parameter_, value), "cannot bind");
-  return *this;
 }
 
-Statement& Statement::bind(double value) {
+void Statement::bind_one(double value) {
   expect(sqlite3_bind_double(handle_.get(), ++parameter_, value), "cannot bind");
-  return *this;
 }
 
-Statement& Statement::bind(const std::string& value) {
+void Statement::bind_one(std::string_view value) {
   const int size = static_cast<int>(value.size());
-  expect(sqlite3_bind_text(
-             handle_.get(), ++parameter_, value.data(), size, SQLITE_TRANSIENT),  // NOLINT
+  const char* data = value.data() == nullptr ? "" : value.data();  // null would bind NULL
+  expect(sqlite3_bind_text(handle_.get(), ++parameter_, data, size, SQLITE_TRANSIENT),  // NOLINT
          "cannot bind");
-  return *this;
 }
 
-Statement& Statement::bind_blob(std::string_view bytes) {
-  const int size = static_cast<int>(bytes.size());
-  // A null pointer would bind NULL instead of an empty blob.
-  const char* data = bytes.data() == nullptr ? "" : bytes.data();
+void Statement::bind_one(Blob value) {
+  const int size = static_cast<int>(value.bytes.size());
+  const char* data = value.bytes.data() == nullptr ? "" : value.bytes.data();
   expect(sqlite3_bind_blob(handle_.get(), ++parameter_, data, size, SQLITE_STATIC), "cannot bind");
-  return *this;
 }
 
-Statement& Statement::bind_null() {
+void Statement::bind_one(std::nullptr_t) {
   expect(sqlite3_bind_null(handle_.get(), ++parameter_), "cannot bind");
-  return *this;
 }
 
 void Statement::run() {
@@ -119,75 +149,27 @@ bool Statement::step() {
   return code == SQLITE_ROW;
 }
 
+bool Statement::is_null() const {
+  return sqlite3_column_type(handle_.get(), column_) == SQLITE_NULL;
+}
+
 std::int64_t Statement::integer() { return sqlite3_column_int64(handle_.get(), column_++); }
 double Statement::real() { return sqlite3_column_double(handle_.get(), column_++); }
+std::string Statement::text() { return std::string(view()); }
 
-std::optional<std::int64_t> Statement::maybe_integer() {
-  const bool none = sqlite3_column_type(handle_.get(), column_) == SQLITE_NULL;
-  const std::int64_t value = integer();
-  return none ? std::nullopt : std::optional(value);
-}
-
-std::optional<double> Statement::maybe_real() {
-  const bool none = sqlite3_column_type(handle_.get(), column_) == SQLITE_NULL;
-  const double value = real();
-  return none ? std::nullopt : std::optional(value);
-}
-
-int Statement::columns() const { return sqlite3_column_count(handle_.get()); }
-
-std::string_view Statement::bytes_of_columns(int from, int to) {
-  bytes_.clear();
-  append_columns(from, to, bytes_);
-  return bytes_;
-}
-
-void Statement::append_columns(int from, int to, std::string& bytes) {
-  constexpr std::size_t kNumber = 1 + sizeof(std::int64_t);  // type and value
-  std::array<char, 32 * kNumber> block;  // one append for many columns: a store has 10^8 of them
-  std::size_t size = 0;
-  const auto flush = [&] { bytes.append(block.data(), std::exchange(size, 0)); };
-  const auto add = [&](const auto& value) {
-    std::memcpy(block.data() + size, &value, sizeof value);
-    size += sizeof value;
-  };
-  for (int i = from; i < to; ++i) {
-    if (size + kNumber > block.size()) flush();
-    sqlite3_value* const column = sqlite3_column_value(handle_.get(), i);
-    const int type = sqlite3_value_type(column);
-    add(static_cast<char>(type));
-    if (type == SQLITE_INTEGER) {
-      add(std::int64_t{sqlite3_value_int64(column)});
-    } else if (type == SQLITE_FLOAT) {
-      add(sqlite3_value_double(column));
-    } else if (type != SQLITE_NULL) {
-      const void* data =
-          type == SQLITE_TEXT ? sqlite3_value_text(column) : sqlite3_value_blob(column);
-      const std::int64_t length = sqlite3_value_bytes(column);
-      add(length);
-      flush();
-      if (length > 0) {
-        bytes.append(static_cast<const char*>(data), static_cast<std::size_t>(length));
-      }
-    }
-  }
-  flush();
-}
-
-std::string Statement::blob() {
-  const auto* bytes = static_cast<const char*>(sqlite3_column_blob(handle_.get(), column_));
-  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column_++));
-  return bytes == nullptr ? "" : std::string(bytes, size);
-}
 std::string_view Statement::view() {
   const auto* bytes = static_cast<const char*>(sqlite3_column_blob(handle_.get(), column_));
   const auto size = static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column_++));
   return bytes == nullptr ? std::string_view{} : std::string_view(bytes, size);
 }
-std::string Statement::text() {
-  const auto* bytes = sqlite3_column_text(handle_.get(), column_);
-  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column_++));
-  return bytes == nullptr ? "" : std::string(reinterpret_cast<const char*>(bytes), size);
+
+bool Statement::is_intact(int first) const {
+  const int last = sqlite3_column_count(handle_.get()) - 1;
+  RowChecksum checksum;
+  for (int i = first; i < last; ++i) {
+    add_value(checksum, sqlite3_column_value(handle_.get(), i));
+  }
+  return checksum.value() == sqlite3_column_int64(handle_.get(), last);
 }
 
 }  // namespace loopbench::harness

@@ -1,12 +1,15 @@
 /// Thin wrapper around SQLite with exceptions.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "harness/text/shared_text.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -17,11 +20,11 @@ class Statement;
 
 /// What to do with a file whose structure is damaged.
 inline constexpr const char* kRecoverAdvice =
-    "`sqlite3 FILE .recover | sqlite3 NEW_FILE` saves the readable rows, of which `run` recomputes "
-    "incomplete cells; --fresh starts a new store";
+    "`sqlite3 FILE .recover | sqlite3 NEW_FILE` saves the readable rows, of which `run --retry "
+    "damaged` recomputes incomplete cells; --fresh starts a new store";
 
-/// An open database file, in SQLite's defensive mode. Every failure throws InputError naming the
-/// file and SQLite's reason.
+/// An open database file, in SQLite's defensive mode, with the SQL function row_checksum(...), see
+/// RowChecksum. Every failure throws InputError naming the file and SQLite's reason.
 class Database {
  public:
   enum class Mode { create, read };
@@ -44,18 +47,20 @@ class Database {
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
-/// A prepared statement; parameters and columns are accessed in order, starting at 0.
+/// A blob to bind; not copied: must live until the statement has run.
+struct Blob {
+  std::string_view bytes;
+};
+
+/// A prepared statement; parameters and columns are accessed in order, starting at the first.
 class Statement {
  public:
-  Statement& bind(std::int64_t value);
-  Statement& bind(double value);
-  Statement& bind(const std::string& value);
-  Statement& bind_blob(std::string_view bytes);  ///< not copied: must live until run()
-  template <class T>
-  Statement& bind(const std::optional<T>& value) {
-    return value ? bind(*value) : bind_null();
+  /// Binds the next parameters: numbers, texts, blobs, nullptr, or optionals of these.
+  template <class... Values>
+  Statement& bind(const Values&... values) {
+    (bind_one(values), ...);
+    return *this;
   }
-  Statement& bind_null();
 
   /// Runs to completion and resets for the next binding.
   void run();
@@ -65,19 +70,19 @@ class Statement {
 
   /// Advances to the next row; false if there is none.
   bool step();
+
+  /// Reads the next columns.
+  template <class... Values>
+  void read(Values&... values) {
+    (read_one(values), ...);
+  }
   std::int64_t integer();
   double real();
-  std::optional<std::int64_t> maybe_integer();  ///< nullopt for NULL
-  std::optional<double> maybe_real();           ///< nullopt for NULL
-  std::string text();
-  std::string blob();
-  std::string_view view();  ///< text or blob, valid until the next step
+  std::string text();       ///< text or blob
+  std::string_view view();  ///< the same, valid until the next step
 
-  int columns() const;
-  /// Unambiguous serialisation of types and values of the row's columns in [from, to). Valid until
-  /// the next call.
-  std::string_view bytes_of_columns(int from, int to);
-  void append_columns(int from, int to, std::string& bytes);  ///< the same, after `bytes`
+  /// Whether the last column is the row_checksum() of the columns from `first` on.
+  bool is_intact(int first) const;
 
  private:
   friend class Database;
@@ -87,11 +92,42 @@ class Statement {
   Statement(Database& database, sqlite3_stmt* handle) : database_(&database), handle_(handle) {}
   void expect(int code, const char* doing) const;
 
+  template <std::integral Integer>
+  void bind_one(Integer value) {
+    bind_integer(static_cast<std::int64_t>(value));
+  }
+  void bind_integer(std::int64_t value);
+  void bind_one(double value);
+  void bind_one(std::string_view value);
+  void bind_one(Blob value);
+  void bind_one(std::nullptr_t);
+  template <class T>
+  void bind_one(const std::optional<T>& value) {
+    value ? bind_one(*value) : bind_one(nullptr);
+  }
+
+  template <std::integral Integer>
+  void read_one(Integer& value) {
+    value = static_cast<Integer>(integer());
+  }
+  void read_one(double& value) { value = real(); }
+  void read_one(std::string& value) { value = view(); }
+  void read_one(SharedText& value) {
+    const std::string_view now = view();
+    if (value.text() != now) value = now;  // neighbouring rows mostly have the same texts
+  }
+  template <class T>
+  void read_one(std::optional<T>& value) {
+    const bool is_none = is_null();
+    read_one(value.emplace());
+    if (is_none) value.reset();
+  }
+  bool is_null() const;
+
   Database* database_;
   std::unique_ptr<sqlite3_stmt, Finalize> handle_;
   int parameter_ = 0;
   int column_ = 0;
-  std::string bytes_;
 };
 
 /// Transaction that is rolled back on destruction unless committed.

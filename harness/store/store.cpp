@@ -2,21 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "datasets/core/error.hpp"
 #include "harness/provenance/version.hpp"
 #include "harness/store/cell_writer.hpp"
-#include "harness/store/damage.hpp"
-#include "harness/store/open.hpp"
 #include "harness/store/plan.hpp"
 #include "harness/store/resume.hpp"
+#include "harness/store/schema.hpp"
+#include "harness/store/stored_cells.hpp"
 #include "harness/text/hash.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-std::filesystem::path folder_of(const std::filesystem::path& file) {
-  return file.has_parent_path() ? file.parent_path() : ".";
-}
 
 /// previous-1.sqlite, or the next number that is free.
 std::filesystem::path next_previous(const std::filesystem::path& folder) {
@@ -61,18 +59,6 @@ void make_ready(Database& database) {
       "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 4096;");
 }
 
-/// SQLite does not detect that the end of a file is missing.
-void check_size(Database& database, const std::filesystem::path& file) {
-  if (std::filesystem::exists(file.string() + "-wal")) return;  // can hold the end of the file
-  Statement pages =
-      database.prepare("SELECT page_count * page_size FROM pragma_page_count, pragma_page_size");
-  const std::int64_t whole = pages.step() ? pages.integer() : 0;
-  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
-  if (size >= whole) return;
-  throw InputError(fmt::format(
-      "{}: is damaged ({} bytes of {}); {}", file.string(), size, whole, kRecoverAdvice));
-}
-
 /// SQLite follows symbolic links, also dangling ones: it would write a file elsewhere.
 void reject_links(const std::filesystem::path& file) {
   for (const char* tail : {"", "-wal", "-shm", "-journal"}) {
@@ -91,7 +77,7 @@ void write_run(Database& database, const CellKeys& keys) {
   const Sweep& sweep = keys.sweep();
   Statement insert = database.prepare("INSERT OR REPLACE INTO run VALUES (?, ?)");
   const auto set_value = [&](const std::string& key, const std::string& text) {
-    insert.bind(key).bind(text).run();
+    insert.bind(key, text).run();
   };
   set_value("loopbench", kVersion);
   set_value("sweep", sweep.name);
@@ -129,15 +115,34 @@ std::string key_of_provenance(const std::map<std::string, std::string>& provenan
 void write_provenance(Database& database, const std::map<std::string, std::string>& provenance) {
   const std::string provenance_key = key_of_provenance(provenance);
   Statement insert = database.prepare("INSERT OR IGNORE INTO provenance VALUES (?, ?, ?)");
-  for (const auto& [key, value] : provenance)
-    insert.bind(provenance_key).bind(key).bind(value).run();
+  for (const auto& [key, value] : provenance) insert.bind(provenance_key, key, value).run();
+}
+
+/// Removes damaged cells, so that they count as not run, and returns their labels.
+std::vector<std::string> remove_damaged(Database& database,
+                                        std::vector<StoredCell>& cells,
+                                        bool check_all_rows) {
+  std::vector<std::string> out;
+  if (check_all_rows) {
+    const std::vector<std::int64_t> damaged = damaged_cells(database);
+    for (StoredCell& cell : cells) {
+      cell.intact = cell.intact && !std::ranges::binary_search(damaged, cell.id);
+    }
+    // Written again with the cells.
+    database.execute(std::string("DELETE FROM score_definition WHERE id <> row_checksum(") +
+                     kDefinitionColumns + ")");
+  }
+  for (const StoredCell& cell : cells) {
+    if (cell.intact) continue;
+    out.push_back(label_of(cell));
+    remove_cell(database, cell.id);
+  }
+  std::erase_if(cells, [](const StoredCell& cell) { return !cell.intact; });
+  remove_orphans(database);
+  return out;
 }
 
 }  // namespace
-
-struct Store::Writer : CellWriter {
-  using CellWriter::CellWriter;
-};
 
 Store::Store(std::filesystem::path file,
              CellKeys& keys,
@@ -155,7 +160,6 @@ Store::Store(std::filesystem::path file,
     return;
   }
   check_schema(*database_, file_);
-  check_size(*database_, file_);
   make_ready(*database_);
 }
 
@@ -202,8 +206,8 @@ void Store::create() {
 
 void Store::write_description() {
   Statement insert = database_->prepare("INSERT OR REPLACE INTO run VALUES (?, ?)");
-  if (!plan_.empty()) insert.bind("plan").bind(plan_).run();
-  if (!shard_.empty()) insert.bind("shard").bind(shard_).run();
+  if (!plan_.empty()) insert.bind("plan", plan_).run();
+  if (!shard_.empty()) insert.bind("shard", shard_).run();
   write_run(*database_, keys_);
 }
 
@@ -220,8 +224,9 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
     return nothing;
   }
   Transaction transaction(*database_);
-  std::vector<StoredCell> stored = checked_cells(*database_, retry == Retry::damaged);
-  const std::vector<std::string> damaged = remove_damaged(*database_, stored);
+  std::vector<StoredCell> stored = read_stored_cells(*database_);
+  const std::vector<std::string> damaged =
+      remove_damaged(*database_, stored, retry == Retry::damaged);
   Resumed out = match(*database_, stored, keys_, all, planned, retry);
   out.damaged = damaged;
   out.unchanged = out.unchanged && damaged.empty();
@@ -244,7 +249,7 @@ void Store::write(const CellResult& result) {
     changes();
     write_provenance(*database_, provenance_);
     transaction.commit();
-    writer_ = std::make_unique<Writer>(*database_, key_of_provenance(provenance_));
+    writer_ = std::make_unique<CellWriter>(*database_, key_of_provenance(provenance_));
   }
   writer_->write(result, keys_);
   if (std::chrono::steady_clock::now() - synced_ >= kSyncInterval) sync();

@@ -22,13 +22,14 @@
 
 #include "harness/model/result.hpp"
 #include "harness/provenance/cell_keys.hpp"
-#include "harness/store/folder_lock.hpp"
+#include "harness/store/open.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/sqlite.hpp"
 
 namespace loopbench::harness {
 
-/// Stored cells to run again. Damaged cells are always recomputed; `damaged` also checks traces.
+/// Stored cells to run again. Cells whose own row is damaged are always recomputed; `damaged`
+/// checks their scores, reports and traces, too.
 enum class Retry { none, failed, damaged, all };
 inline auto choices(Retry) {
   return std::array{std::pair{"none", Retry::none},
@@ -48,6 +49,8 @@ struct Resumed {
   bool exported = false;             ///< derived files are up to date, see Store::exported()
 };
 
+class CellWriter;
+
 class Store {
  public:
   /// Locks the folder if it exists. Opens an existing store; with `fresh` keeps it as
@@ -63,9 +66,8 @@ class Store {
   Store& operator=(const Store&) = delete;
 
   /// Matches stored cells with the sweep by their keys, and marks the others as unused. Damaged
-  /// cells are removed first, see damage.hpp. `all`: every cell of the sweep; `planned`: those
-  /// selected by
-  /// --only. O(cells + bytes of input).
+  /// cells are removed first. `all`: every cell of the sweep; `planned`: those selected by --only.
+  /// O(cells + bytes of input).
   Resumed resume(const std::vector<Cell>& all, const std::vector<Cell>& planned, Retry retry);
 
   /// Records that this store holds one shard of a sweep: "3/8 DIVISION", see division_hash(). Call
@@ -87,8 +89,6 @@ class Store {
   void close();
 
  private:
-  struct Writer;
-
   void create();
   void changes();
   void write_description();
@@ -104,7 +104,7 @@ class Store {
   std::chrono::steady_clock::time_point synced_ = std::chrono::steady_clock::now();
   std::unique_ptr<FolderLock> lock_;  // released after the database is closed
   std::unique_ptr<Database> database_;
-  std::unique_ptr<Writer> writer_;
+  std::unique_ptr<CellWriter> writer_;
 };
 
 }  // namespace loopbench::harness

@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "harness/store/read.hpp"
-#include "harness/store/sources.hpp"
 #include "harness/tables/table_view.hpp"
 
 namespace loopbench::harness {
@@ -65,8 +64,7 @@ std::string dumped(const ProvenanceJson& value) {
 }  // namespace
 
 StoreProvenance read_store_provenance(const std::filesystem::path& store) {
-  StoreSources sources(store);
-  return {read_run(store), sources.provenance(), sources.inputs()};
+  return {read_run(store), read_provenance(store), read_inputs(store)};
 }
 
 std::string json(const StoreProvenance& provenance) { return dumped(json_of(provenance)) + "\n"; }

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <thread>
 
-#include "harness/store/cell_rows.hpp"
+#include "harness/store/stored_cells.hpp"
 #include "tests/support/store_text.hpp"
 
 namespace loopbench::campaign {

@@ -4,7 +4,6 @@
 #include "harness/report/content.hpp"
 #include "harness/report/report.hpp"
 #include "harness/store/read.hpp"
-#include "harness/store/sources.hpp"
 #include "harness/store/traces.hpp"
 #include "tests/fuzz/scratch_file.hpp"
 #include "tests/fuzz/targets.hpp"
@@ -39,8 +38,8 @@ void fuzz_store(const std::filesystem::path& file) {
     }
     read_records(store);
     read_run(store);
-    StoreSources(store).provenance();
-    StoreSources(store).inputs();
+    read_provenance(store);
+    read_inputs(store);
   });
 }
 

@@ -3,7 +3,6 @@
 
 #include "harness/catalogue/libraries.hpp"
 #include "harness/store/merge.hpp"
-#include "harness/store/sources.hpp"
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench::cell_identity_test {
@@ -39,7 +38,7 @@ class CellIdentity : public TinyStore {
     known_.datasets.push_back(dataset<PairOptions>("pair", "two files", load_pair));
   }
   std::vector<std::string> hashes() const {
-    const std::vector<InputFile> inputs = StoreSources(file_).inputs().at("f");
+    const std::vector<InputFile> inputs = read_inputs(file_).at("f");
     std::vector<std::string> out;
     for (const InputFile& input : inputs) out.push_back(input.hash);
     return out;
@@ -99,7 +98,7 @@ TEST_F(CellIdentity, AFileThatComesBackBringsItsOwnFacts) {
   EXPECT_EQ(run(kFile).cells, Labels{}) << "its scores are still there";
   EXPECT_EQ(rmse(), first_rmse);
   EXPECT_EQ(hashes(), first);
-  EXPECT_EQ(StoreSources(file_).inputs().at("f").at(0).bytes, 3u);
+  EXPECT_EQ(read_inputs(file_).at("f").at(0).bytes, 3u);
 }
 
 TEST_F(CellIdentity, AnEmptyFileIsNotAMissingOne) {
@@ -124,9 +123,9 @@ TEST_F(CellIdentity, ARetryIsRecordedWithItsMachine) {
   run(text);
   commit_ = "on another machine";
   run(text, Retry::failed);
-  EXPECT_EQ(StoreSources(file_).provenance().at("commit"), "c0ffee\non another machine");
+  EXPECT_EQ(read_provenance(file_).at("commit"), "c0ffee\non another machine");
   run(text, Retry::all);
-  EXPECT_EQ(StoreSources(file_).provenance().at("commit"), "on another machine");
+  EXPECT_EQ(read_provenance(file_).at("commit"), "on another machine");
 }
 
 TEST_F(CellIdentity, AChangedGroupReachesTheRecords) {
@@ -145,10 +144,10 @@ TEST_F(CellIdentity, ProvenanceIsThatOfTheCellsWhichAreShown) {
   commit_ = "decaf";
   folder_.file("bias", "0.25");
   run(kFile);
-  EXPECT_EQ(StoreSources(file_).provenance().at("commit"), "decaf");
+  EXPECT_EQ(read_provenance(file_).at("commit"), "decaf");
   folder_.file("bias", "0.1");
   run(kFile);
-  EXPECT_EQ(StoreSources(file_).provenance().at("commit"), "c0ffee");
+  EXPECT_EQ(read_provenance(file_).at("commit"), "c0ffee");
 }
 
 TEST_F(CellIdentity, LibrariesAreNamedWithTheirVersions) {

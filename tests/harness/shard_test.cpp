@@ -68,16 +68,16 @@ TEST_F(ShardTest, ThePlanNamesEveryPosition) {
       "repeats: 2\nexclude: [{dataset: a, method: 'shift .by=2.*'}]\n";
   const Sweep sweep = parse_sweep(text, folder_.path() / "c.yaml", known_);
   const std::vector<Cell> all = cells(sweep, seeded(sweep, known_), "");
-  const SweepPlan plan(plan_text(sweep, all));
-  ASSERT_EQ(plan.size(), static_cast<std::int64_t>(all.size()));
+  const Labels plan = planned_labels(plan_text(sweep, all));
+  ASSERT_EQ(plan.size(), all.size());
   for (const Cell& cell : all) {
     const std::string repeat = cell.repeat == 0 ? "" : " (repeat 1)";
     EXPECT_EQ(
-        plan.label(static_cast<std::int64_t>(cell.index)),
+        plan[cell.index],
         sweep.datasets[cell.dataset].label + repeat + " / " + sweep.methods[cell.method].label);
   }
-  EXPECT_EQ(SweepPlan("").size(), 0);
-  EXPECT_EQ(SweepPlan("dataset\tx\nmethod\ny\t\t").size(), 0);
+  EXPECT_EQ(planned_labels(""), Labels{});
+  EXPECT_EQ(planned_labels("dataset\tx\nmethod\ny\t\t"), Labels{});
 }
 
 TEST_F(ShardTest, MergeListsWhatIsMissingAndRunCompletesIt) {

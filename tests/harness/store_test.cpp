@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "harness/store/sources.hpp"
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench::store_test {
@@ -109,7 +108,7 @@ TEST_F(StoreTest, AnotherBuildRunsEverything) {
   commit_ = "decaf";
   EXPECT_EQ(run(kUsual).cells.size(), 4u);
   EXPECT_EQ(read_cells(file_)[0].build, "build two");
-  EXPECT_EQ(StoreSources(file_).provenance().at("commit"), "decaf");
+  EXPECT_EQ(read_provenance(file_).at("commit"), "decaf");
 }
 
 TEST_F(StoreTest, ProvenanceTellsAllThatMadeIt) {
@@ -117,7 +116,7 @@ TEST_F(StoreTest, ProvenanceTellsAllThatMadeIt) {
   commit_ = "decaf";  // a commit that does not change the code
   EXPECT_EQ(run(kUsual).cells.size(), 2u);
   run(kUsual, Retry::failed);
-  EXPECT_EQ(StoreSources(file_).provenance().at("commit"), "c0ffee\ndecaf");
+  EXPECT_EQ(read_provenance(file_).at("commit"), "c0ffee\ndecaf");
 }
 
 TEST_F(StoreTest, FailuresAreKeptUntilToldOtherwise) {
@@ -147,7 +146,7 @@ TEST_F(StoreTest, KeepsHowAMethodCutUpTheWayAndAllThatADatasetIs) {
   EXPECT_EQ(cut[0].begin, 0.0);
   EXPECT_EQ(cut[0].end, 3.0);
   EXPECT_TRUE(traces.sections(0).empty());
-  EXPECT_EQ(StoreSources(file_).dataset_options().at("b"), "line: bias=0.2, seed=1");
+  EXPECT_EQ(read_dataset_options(file_).at("b"), "line: bias=0.2, seed=1");
 }
 
 TEST_F(StoreTest, ChangedBytesOfAnInputRunItsCells) {
@@ -163,7 +162,7 @@ TEST_F(StoreTest, ChangedBytesOfAnInputRunItsCells) {
   folder_.file("x/bias", "0.2");  // same size and date as before
   std::filesystem::last_write_time(folder_.path() / "x/bias", time);
   EXPECT_EQ(run(text).cells, Labels{"f / straight"});
-  EXPECT_EQ(StoreSources(file_).inputs().at("f").at(0).bytes, 3u);
+  EXPECT_EQ(read_inputs(file_).at("f").at(0).bytes, 3u);
 
   // Equal bytes at another path are the same input; other bytes found first are not.
   std::filesystem::create_directories(folder_.path() / "moved");
@@ -211,7 +210,7 @@ TEST_F(StoreTest, AFileWithoutTablesIsBegunAnew) {
 TEST_F(StoreTest, ASchemaOfAnotherVersionIsRefused) {
   run(kUsual);
   Database(file_, Database::Mode::read).execute("PRAGMA user_version = 2");
-  expect_refused("schema 2, expected 10");
+  expect_refused("schema 2, expected 11");
 }
 
 TEST_F(StoreTest, TracesTellWhereItWasAndHowFarOff) {
