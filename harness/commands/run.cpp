@@ -23,7 +23,6 @@
 #include "harness/external/external_datasets.hpp"
 #include "harness/external/external_methods.hpp"
 #include "harness/provenance/build.hpp"
-#include "harness/provenance/pin_instructions.hpp"
 #include "harness/shards/shard.hpp"
 #include "harness/store/store.hpp"
 #include "harness/tables/all_records.hpp"

@@ -6,7 +6,7 @@
 
 #include "harness/commands/standard_output.hpp"
 #include "harness/model/where.hpp"
-#include "harness/provenance/build_summary.hpp"
+#include "harness/provenance/build.hpp"
 #include "harness/store/store.hpp"
 #include "harness/tables/notes.hpp"
 #include "harness/tables/store_provenance.hpp"

@@ -8,7 +8,7 @@
 
 #include "harness/commands/checks.hpp"
 #include "harness/commands/standard_output.hpp"
-#include "harness/provenance/build_summary.hpp"
+#include "harness/provenance/build.hpp"
 #include "harness/store/open.hpp"
 #include "harness/tables/store_provenance.hpp"
 #include "harness/text/print_error.hpp"

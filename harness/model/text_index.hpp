@@ -1,7 +1,6 @@
 /// Numbers for texts that are derived from records.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -14,8 +13,7 @@
 namespace loopbench::harness {
 
 /// Numbers the texts of records in order of appearance. A text is derived only once from records
-/// whose fields are equal, and records that follow each other in the same order again are found
-/// without a search, so that index() mostly costs a few comparisons of pointers.
+/// whose fields are equal, so that index() mostly costs a comparison of pointers.
 class TextIndex {
  public:
   using Derive = std::function<std::string(const Record&)>;
@@ -30,42 +28,17 @@ class TextIndex {
   const std::vector<std::string>& texts() const { return texts_; }
 
  private:
-  static constexpr std::size_t kParts = 16;
-  static constexpr std::size_t kStatus = kParts - 3, kRepeat = kParts - 2, kOracle = kParts - 1;
-  using Key = std::array<std::uintptr_t, kParts>;  ///< of the members, zeros, and these three
+  using Part = std::function<std::uintptr_t(const Record&)>;
+  using Key = std::vector<std::uintptr_t>;  ///< the value of each part
   struct KeyHash {
     std::size_t operator()(const Key& key) const;
   };
 
-  /// One combination of fields.
-  struct Combination {
-    Key key{};
-    std::size_t index = 0;  ///< of its text
-    std::size_t next = 0;   ///< the combination that followed it last
-  };
-
-  void add_member(SharedText Record::*member);
-  Key key_of(const Record& record) const;
-  bool is_like(const Record& record, const Key& key) const;
-  // 0 if the text does not depend on it.
-  std::uintptr_t repeat_of(const Record& record) const {
-    return has_repeat_ ? static_cast<std::uintptr_t>(record.repeat) : 0;
-  }
-  std::uintptr_t oracle_of(const Record& record) const {
-    return has_oracle_ && record.oracle ? 1 : 0;
-  }
-  std::uintptr_t status_of(const Record& record) const {
-    return has_status_ ? static_cast<std::uintptr_t>(record.status) : 0;
-  }
-  std::size_t combination_of(const Record& record);
+  static std::vector<Part> parts_of(const std::string& field);
 
   Derive derive_;
-  std::vector<SharedText Record::*> members_;
-  bool has_repeat_ = false;
-  bool has_oracle_ = false;
-  bool has_status_ = false;
-  std::vector<Combination> combinations_;
-  std::size_t last_ = 0;  ///< combination of the last record
+  std::vector<Part> parts_;
+  Key key_;  ///< of the last record
   std::unordered_map<Key, std::size_t, KeyHash> by_key_;
   std::unordered_map<std::string, std::size_t> by_text_;
   std::vector<std::string> texts_;

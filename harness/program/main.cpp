@@ -24,8 +24,8 @@
 #include "harness/commands/help.hpp"
 #include "harness/commands/help_format.hpp"
 #include "harness/program/huge_pages.hpp"
+#include "harness/provenance/build.hpp"
 #include "harness/provenance/source_commit.hpp"
-#include "harness/provenance/version.hpp"
 #include "harness/text/print_error.hpp"
 #include "harness/text/printable.hpp"
 

@@ -1,11 +1,15 @@
-/// Identification of this program's build.
+/// Identification of this program's build, and of that of results.
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace loopbench::harness {
+
+/// Version of CMake's project().
+inline constexpr const char* kVersion = LOOPBENCH_VERSION;
 
 /// Version, compiler, flags, versions of the libraries it was built with, by name.
 std::vector<std::pair<std::string, std::string>> build_metadata();
@@ -14,5 +18,9 @@ std::vector<std::pair<std::string, std::string>> build_metadata();
 /// libraries (which contain their versions) and of the C library's version: it differs for every
 /// build that could give other results, and not for changes of commands, tables or reports.
 std::string build_id(const std::string& code);
+
+/// "loopbench 0.3.0 (a9736e1dc55d, dirty), GNU 12.2.0, -O3 -DNDEBUG; AMD EPYC, Linux 6.1 x86_64".
+/// From a store's provenance; values that differ between its cells are separated by slashes.
+std::string build_summary(const std::map<std::string, std::string>& provenance);
 
 }  // namespace loopbench::harness

@@ -31,4 +31,9 @@ inline constexpr const char* kPinnedVariable = "LOOPBENCH_PINNED_INSTRUCTIONS";
 /// /proc/cpuinfo.
 std::string instruction_set();
 
+/// Restarts the program with settings that make the C library and OpenCV use the code paths of the
+/// oldest supported processors (without AVX, AVX2, FMA and AVX-512), unless it was started so.
+/// Eigen's paths are fixed when the program is built. Throws InputError if the restart fails.
+void pin_instructions();
+
 }  // namespace loopbench::harness

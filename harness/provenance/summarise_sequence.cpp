@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include "datasets/derive/poses_at.hpp"
-#include "harness/provenance/copied_reference.hpp"
-#include "harness/provenance/oracle_closures.hpp"
 #include "harness/provenance/sequence_identity.hpp"
 #include "harness/text/hash.hpp"
 #include "metrics/checks/extrinsic_offset.hpp"
@@ -13,6 +11,69 @@
 
 namespace loopbench::harness {
 namespace {
+
+constexpr double kCopyDistance = 1e-4;  // [m]; rounding of trajectory files is at most this
+constexpr double kCopyAngle = 1e-4;     // [rad]
+
+bool is_copy(const Trajectory& poses, const Trajectory& reference) {
+  const auto truth = poses_at(reference, stamps(poses), {});
+  std::optional<std::size_t> first;
+  std::size_t paired = 0;
+  bool moves = false;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (!truth[i]) continue;
+    ++paired;
+    if (!first) first = i;
+    const Pose own = poses[*first].world_from_body.inverse() * poses[i].world_from_body;
+    const Pose same = truth[*first]->inverse() * *truth[i];
+    if (!is_close(own, same, kCopyDistance, kCopyAngle)) return false;
+    moves = moves || !is_close(same, Pose{}, kCopyDistance, kCopyAngle);
+  }
+  return moves && 2 * paired >= poses.size();
+}
+
+/// "the estimate equals the reference" or "the frames equal the reference", if all keyframes (or
+/// frames) have the relative poses of the reference to within 0.1 mm and 0.1 mrad, in any world
+/// frame; otherwise empty. The reference is interpolated at their stamps; at least half of them,
+/// and a motion beyond these limits, are needed. Empty for simulated data, whose odometry can be
+/// noise-free, and for a reference without orientations. O(poses).
+std::string copied_reference(const Sequence& sequence) {
+  const bool measured = sequence.provenance.noise.empty();
+  if (!measured || sequence.reference.empty()) return "";
+  if (metrics::is_position_only(sequence.reference)) return "";
+  if (is_copy(sequence.problem.keyframes, sequence.reference)) {
+    return "the estimate equals the reference";
+  }
+  if (is_copy(sequence.problem.frames, sequence.reference)) return "the frames equal the reference";
+  return "";
+}
+
+/// Number of closures that equal the reference's relative pose to within 0.1 mm and 0.1 mrad, far
+/// below sensor noise; the reference is interpolated at the keyframe stamps. Closures measured as
+/// the identity are not counted (a placeholder, or a body at rest). 0 for simulated data, whose
+/// closures can be noise-free, and for a reference without orientations. O(keyframes + closures).
+std::size_t closures_equal_to_reference(const Sequence& sequence) {
+  const Problem& problem = sequence.problem;
+  const bool measured = sequence.provenance.noise.empty();
+  if (!measured || sequence.reference.empty() || problem.closures.empty()) return 0;
+  if (metrics::is_position_only(sequence.reference)) return 0;
+  const auto truth = poses_at(sequence.reference, stamps(problem.keyframes), {});
+  std::size_t equal = 0;
+  for (const Edge& closure : problem.closures) {
+    if (!truth[closure.from] || !truth[closure.to]) continue;
+    if (is_close(closure.from_from_to, Pose{}, kCopyDistance, kCopyAngle)) continue;
+    const Pose from_from_to = truth[closure.from]->inverse() * *truth[closure.to];
+    if (is_close(closure.from_from_to, from_from_to, kCopyDistance, kCopyAngle)) ++equal;
+  }
+  return equal;
+}
+
+/// Whether at least one in twenty closures equals the reference, so that the others can be added
+/// false closures.
+bool are_oracle_closures(std::size_t equal, std::size_t all) {
+  constexpr std::size_t kOneIn = 20;  // at most 95 % of all closures are false
+  return equal > 0 && kOneIn * equal >= all;
+}
 
 /// Warning if the motion of the raw keyframes indicates another body than the reference's;
 /// otherwise empty.

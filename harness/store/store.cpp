@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "datasets/core/error.hpp"
-#include "harness/provenance/version.hpp"
+#include "harness/provenance/build.hpp"
 #include "harness/store/cell_writer.hpp"
 #include "harness/store/plan.hpp"
 #include "harness/store/resume.hpp"

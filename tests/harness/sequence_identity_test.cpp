@@ -9,7 +9,6 @@
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/run/describe_sequence.hpp"
-#include "harness/provenance/oracle_closures.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::sequence_identity_test {
@@ -197,7 +196,6 @@ TEST(OracleClosures, AreFoundByTheirValues) {
   EXPECT_TRUE(metadata(3).oracle_closures);
   EXPECT_THAT(metadata(3).closures, HasSubstr("which is the reference"));
   EXPECT_TRUE(metadata(4).oracle_closures);
-  EXPECT_FALSE(are_oracle_closures(0, 0));
 }
 
 TEST(OracleClosures, OfASimulatedSensorWithoutNoiseAreNone) {

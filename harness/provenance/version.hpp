@@ -1,8 +1,0 @@
-#pragma once
-
-namespace loopbench::harness {
-
-/// Version of CMake's project().
-inline constexpr const char* kVersion = LOOPBENCH_VERSION;
-
-}  // namespace loopbench::harness
