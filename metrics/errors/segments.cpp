@@ -162,6 +162,12 @@ void append(std::vector<T>& list, const std::vector<T>& more) {
 struct Together {
   SegmentErrors errors;
 
+  /// `most`: number of segments that can be added in all; pages that are not written cost nothing.
+  explicit Together(std::size_t most) {
+    errors.translation_share.reserve(most);
+    errors.rotation_rate.reserve(most);
+  }
+
   void add(const SegmentErrors& more) {
     append(errors.start, more.start);
     append(errors.translation_share, more.translation_share);
@@ -255,7 +261,7 @@ std::vector<Score> segments(const Evaluation& evaluation, const SegmentsOptions&
   if (const std::string why = why_no_attitude(evaluation); !why.empty()) throw Undefined(why);
   const Finder find(evaluation);
   Scores each{evaluation.protocol, {}};
-  Together all;
+  Together all(wanted.size() * evaluation.reference.size());
   for (const Length& length : wanted) {
     const double target = metres(length, evaluation.reference_length);
     if (target <= 0.0) continue;
