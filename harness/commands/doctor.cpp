@@ -9,7 +9,6 @@
 #include "harness/correct/correct.hpp"
 #include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
-#include "harness/trajectory/clocks.hpp"
 #include "harness/trajectory/named_trajectory.hpp"
 #include "metrics/doctor/closure_checks.hpp"
 #include "metrics/doctor/diagnose.hpp"

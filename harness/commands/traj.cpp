@@ -4,15 +4,14 @@
 
 #include "harness/commands/commands.hpp"
 #include "harness/commands/traj_options.hpp"
-#include "harness/commands/traj_pairs.hpp"
 #include "harness/text/printable.hpp"
 #include "harness/text/write_file.hpp"
-#include "harness/trajectory/clocks.hpp"
 #include "harness/trajectory/figures.hpp"
 #include "harness/trajectory/selection.hpp"
 #include "harness/trajectory/summary.hpp"
 #include "harness/trajectory/transformation.hpp"
 #include "metrics/alignment/alignment.hpp"
+#include "metrics/pairing/association.hpp"
 #include "metrics/trajectory/projection.hpp"
 
 namespace loopbench::harness {
@@ -74,6 +73,37 @@ int write_changed(const TrajArguments& a, Change change) {
   return write_all(a, all);
 }
 
+/// Indices of paired poses. Throws InputError if there are none, or no common clock.
+std::vector<metrics::IndexPair> paired_indices(const TrajArguments& a,
+                                               const NamedTrajectory& reference,
+                                               const NamedTrajectory& estimate) {
+  using metrics::Crossing;
+  using metrics::Limit;
+  reject_two_clocks(reference, estimate, a.reading);
+  const std::vector<double> of_reference = stamps(reference.file.poses);
+  const std::vector<double> of_estimate = stamps(estimate.file.poses);
+  const std::vector<metrics::IndexPair> out =
+      a.association == "evo" ? metrics::match_evo(of_reference, of_estimate, a.max_diff, a.offset)
+                             : metrics::match_one_to_one(of_reference,
+                                                         of_estimate,
+                                                         a.max_diff,
+                                                         Limit::inclusive,
+                                                         Crossing::refused,
+                                                         a.offset);
+  if (!out.empty()) return out;
+  throw InputError(fmt::format(
+      "{}: no stamps are within {:g} s of stamps of {}", estimate.name, a.max_diff, a.reference));
+}
+
+/// The paired poses of one trajectory.
+TrajectoryFile paired_part(const TrajectoryFile& file,
+                           const std::vector<metrics::IndexPair>& pairs,
+                           std::size_t metrics::IndexPair::*index) {
+  std::vector<std::size_t> indices;
+  for (const metrics::IndexPair& pair : pairs) indices.push_back(pair.*index);
+  return selected(file, indices);
+}
+
 int info(const TrajArguments& a) {
   std::vector<TrajectorySummary> all;
   for (const NamedTrajectory& each : read_all_named(a.files, a.reading)) {
@@ -81,18 +111,16 @@ int info(const TrajArguments& a) {
     const std::string assumed = assumed_period(each.file, a.reading);
     if (!assumed.empty()) all.back().remarks.push_back("no stamps: " + assumed + " (--period S)");
   }
-  if (a.json) {
-    fmt::print("{}", json(all));
-    return kExitOk;
-  }
-  for (const TrajectorySummary& summary : all) fmt::print("{}", printable(text(summary)));
+  std::string out;
+  for (const TrajectorySummary& summary : all) out += printable(text(summary));
+  fmt::print("{}", a.json ? json(all) : out);
   return kExitOk;
 }
 
 int merge_files(const TrajArguments& a) {
   NamedTrajectories all = read_all_named(a.files, a.reading);
   std::vector<TrajectoryFile> files;
-  for (const NamedTrajectory& each : all) reject_two_clocks(a, all.front(), each);
+  for (const NamedTrajectory& each : all) reject_two_clocks(all.front(), each, a.reading);
   for (NamedTrajectory& each : all) files.push_back(std::move(each.file));
   Repeats repeats = Repeats::keep_first;
   if (!a.reading.repeats.empty()) {
@@ -113,9 +141,7 @@ int merge_files(const TrajArguments& a) {
 int crop(const TrajArguments& a) {
   return write_changed(a, [&](NamedTrajectory& each) {
     const double origin = a.relative ? each.file.poses.front().stamp : 0.0;
-    const auto from = a.start ? std::optional(origin + *a.start) : std::nullopt;
-    const auto to = a.end ? std::optional(origin + *a.end) : std::nullopt;
-    each.file = selected(each.file, within(each.file.poses, from, to));
+    each.file = selected(each.file, within(each.file.poses, origin + a.start, origin + a.end));
     if (each.file.poses.empty()) throw InputError(each.name + ": has no poses in this time range");
   });
 }
@@ -154,29 +180,22 @@ int resample(const TrajArguments& a) {
 }
 
 int transform(const TrajArguments& a) {
-  const bool has_transform = !a.left.empty() || !a.right.empty();
-  if ((!has_transform && !a.conventions.any()) || (!a.left.empty() && !a.right.empty())) {
+  const std::string& given = a.left.empty() ? a.right : a.left;
+  if (given.empty() && (a.invert || !a.conventions.any())) {
     throw InputError(
-        "transform: expected one of --left and --right, or any of --quaternion-order, --conjugate, "
-        "--axes, --scale, --stamp-scale, --invert-poses");
+        "transform: expected --left or --right (also for --invert), or any of --quaternion-order, "
+        "--conjugate, --axes, --scale, --stamp-scale, --invert-poses");
   }
-  if (!has_transform) {
-    if (a.invert)
-      throw InputError("--invert: expected --left or --right; --invert-poses inverts poses");
-    if (a.propagate) throw InputError("--propagate: expected --right");
-    return write_changed(a, [&](NamedTrajectory& each) {
-      each.file = corrected(std::move(each.file), a.conventions);
-    });
-  }
-  if (a.propagate && a.right.empty()) throw InputError("--propagate: expected --right");
-  Similarity similarity = read_similarity(a.left.empty() ? a.right : a.left);
-  if (a.invert) similarity = inverse(similarity);
+  std::optional<Similarity> similarity;
+  if (!given.empty()) similarity = read_similarity(given);
+  if (a.invert) similarity = inverse(*similarity);
   const TransformSide side = a.right.empty() ? TransformSide::left
                              : a.propagate   ? TransformSide::right_propagated
                                              : TransformSide::right;
   return write_changed(a, [&](NamedTrajectory& each) {
     each.file = corrected(std::move(each.file), a.conventions);
-    each.file.poses = transformed(std::move(each.file.poses), similarity, side);
+    if (!similarity) return;
+    each.file.poses = transformed(std::move(each.file.poses), *similarity, side);
     each.file.covariances.clear();
   });
 }
@@ -213,11 +232,10 @@ int align_files(const TrajArguments& a) {
   FieldType<metrics::Align>::assign("align", type, a.align);
   return write_changed(a, [&](NamedTrajectory& each) {
     const auto pairs = paired_indices(a, reference, each);
-    Trajectory of_reference, of_estimate;
-    for (const metrics::IndexPair& pair : pairs) {
-      of_reference.push_back(reference.file.poses[pair.reference]);
-      of_estimate.push_back(each.file.poses[pair.estimate]);
-    }
+    const Trajectory of_reference =
+        paired_part(reference.file, pairs, &metrics::IndexPair::reference).poses;
+    const Trajectory of_estimate =
+        paired_part(each.file, pairs, &metrics::IndexPair::estimate).poses;
     try {
       const metrics::Alignment fit = metrics::align(of_reference, of_estimate, type, a.align_first);
       each.file.poses = metrics::moved(fit, std::move(each.file.poses));

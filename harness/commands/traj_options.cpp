@@ -76,10 +76,14 @@ void declare_crop(CLI::App& verb, TrajArguments& a) {
 void declare_transform(CLI::App& verb, TrajArguments& a) {
   const char* const values =
       "x,y,z [m] or x,y,z,qx,qy,qz,qw, or a JSON file with these keys and scale";
-  verb.add_option("--left", a.left, std::string("Transform to multiply on the left: ") + values);
-  verb.add_option("--right", a.right, std::string("Transform to multiply on the right: ") + values);
+  auto* left = verb.add_option(
+      "--left", a.left, std::string("Transform to multiply on the left: ") + values);
+  auto* right = verb.add_option(
+      "--right", a.right, std::string("Transform to multiply on the right: ") + values);
+  right->excludes(left);
   verb.add_flag("--invert", a.invert, "Use the inverse of the transform");
-  verb.add_flag("--propagate", a.propagate, "Apply --right to each relative pose, as drift");
+  verb.add_flag("--propagate", a.propagate, "Apply --right to each relative pose, as drift")
+      ->needs(right);
   Conventions& c = a.conventions;
   verb.add_option("--quaternion-order",
                   c.quaternion_order,

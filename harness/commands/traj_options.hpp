@@ -2,20 +2,23 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "harness/trajectory/conventions.hpp"
 #include "harness/trajectory/named_trajectory.hpp"
 #include "harness/trajectory/selection.hpp"
+#include "harness/trajectory/transformation.hpp"
 
 namespace CLI {
 class App;
 }
 
 namespace loopbench::harness {
+
+inline constexpr double kForever = std::numeric_limits<double>::infinity();
 
 struct TrajArguments {
   std::vector<std::string> files;
@@ -25,9 +28,9 @@ struct TrajArguments {
   std::string to;         ///< empty: of the extension of `out`
   std::string times_out;  ///< stamps of a KITTI file; empty: none
   bool json = false;
-  std::optional<double> start;  ///< [s]
-  std::optional<double> end;    ///< [s]
-  bool relative = false;        ///< start and end count from the first stamp
+  double start = -kForever;  ///< [s]
+  double end = kForever;     ///< [s]
+  bool relative = false;     ///< start and end count from the first stamp
   std::optional<std::size_t> count;
   MotionStep step;
   std::string left;  ///< transform; empty: none

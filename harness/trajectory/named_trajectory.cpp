@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <set>
 
@@ -76,6 +77,31 @@ std::vector<NamedTrajectory> read_all_named(const std::vector<std::string>& name
     out.push_back(read_named(name, arguments));
   }
   return out;
+}
+
+void shift_stamps(TrajectoryFile& file, double offset) {
+  const auto nanoseconds = static_cast<std::int64_t>(std::llround(offset * 1e9));
+  for (StampedPose& pose : file.poses) pose.stamp += offset;
+  for (std::int64_t& stamp : file.nanoseconds) stamp += nanoseconds;
+}
+
+void reject_two_clocks(const NamedTrajectory& a,
+                       const NamedTrajectory& b,
+                       const ReadArguments& arguments) {
+  if (arguments.period || a.file.has_stamps == b.file.has_stamps) return;
+  const NamedTrajectory& without = a.file.has_stamps ? b : a;
+  const NamedTrajectory& with = a.file.has_stamps ? a : b;
+  throw InputError(fmt::format(
+      "{}: is {}, poses without stamps, and {} has stamps: expected --period S, or a file with "
+      "stamps (traj convert FILE --times TIMES -o NEW)",
+      without.name,
+      to_text(without.file.format),
+      with.name));
+}
+
+std::string assumed_period(const TrajectoryFile& file, const ReadArguments& arguments) {
+  if (file.has_stamps || arguments.period) return "";
+  return fmt::format("assumed {:g} s between poses", ReadOptions{}.period);
 }
 
 std::string output_stem(const std::string& name) {

@@ -36,6 +36,19 @@ NamedTrajectory read_named(const std::string& name, const ReadArguments& argumen
 std::vector<NamedTrajectory> read_all_named(const std::vector<std::string>& names,
                                             const ReadArguments& arguments);
 
+/// Adds `offset` [s] to all stamps; exact ones are shifted by whole nanoseconds.
+void shift_stamps(TrajectoryFile& file, double offset);
+
+/// Throws InputError if two trajectories have no common clock: only one of them has stamps, and
+/// `arguments` state no period for the other one.
+void reject_two_clocks(const NamedTrajectory& a,
+                       const NamedTrajectory& b,
+                       const ReadArguments& arguments);
+
+/// "assumed 0.1 s between poses" for a file without stamps and a period that is not stated;
+/// otherwise empty.
+std::string assumed_period(const TrajectoryFile& file, const ReadArguments& arguments);
+
 /// A file name without folder and extension: "runs/0.txt" -> "0", "bag:a.bag#/odom" -> "odom".
 std::string output_stem(const std::string& name);
 

@@ -35,13 +35,10 @@ std::vector<double> accumulated(const Trajectory& poses, Length length) {
 
 }  // namespace
 
-std::vector<std::size_t> within(const Trajectory& poses,
-                                std::optional<double> start,
-                                std::optional<double> end) {
+std::vector<std::size_t> within(const Trajectory& poses, double start, double end) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const double stamp = poses[i].stamp;
-    if ((!start || stamp >= *start) && (!end || stamp <= *end)) out.push_back(i);
+    if (poses[i].stamp >= start && poses[i].stamp <= end) out.push_back(i);
   }
   return out;
 }

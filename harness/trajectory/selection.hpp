@@ -10,9 +10,7 @@
 namespace loopbench::harness {
 
 /// Indices of the poses with start <= stamp <= end, as evo's --t_start and --t_end. O(n).
-std::vector<std::size_t> within(const Trajectory& poses,
-                                std::optional<double> start,
-                                std::optional<double> end);
+std::vector<std::size_t> within(const Trajectory& poses, double start, double end);
 
 /// `count` evenly spaced indices from the first to the last pose, rounded down as evo's
 /// --downsample (numpy.linspace); all if there are fewer. `count` must be at least 1. O(count).

@@ -18,16 +18,7 @@ using testing::IsEmpty;
 using namespace harness;
 
 using test::traj;
-
-std::string traj_error(const std::vector<std::string>& arguments) {
-  try {
-    traj(arguments);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing thrown";
-  return "";
-}
+using test::traj_refusal;
 
 /// A folder with poses on the x axis.
 class TrajStamps : public testing::Test {
@@ -82,9 +73,9 @@ TEST_F(TrajStamps, PosesWithoutStampsAreNotPairedWithStamps) {
   const std::string why = est + ": is kitti, poses without stamps, and " + ref +
                           " has stamps: expected --period S, or a file with stamps (traj convert "
                           "FILE --times TIMES -o NEW)";
-  EXPECT_EQ(traj_error({"sync", est, "--ref", ref, "-o", path("out")}), why);
-  EXPECT_EQ(traj_error({"align", est, "--ref", ref, "-o", path("a.txt")}), why);
-  EXPECT_EQ(traj_error({"merge", ref, est, "-o", path("a.txt")}), why);
+  EXPECT_EQ(traj_refusal({"sync", est, "--ref", ref, "-o", path("out")}), why);
+  EXPECT_EQ(traj_refusal({"align", est, "--ref", ref, "-o", path("a.txt")}), why);
+  EXPECT_EQ(traj_refusal({"merge", ref, est, "-o", path("a.txt")}), why);
   traj({"sync", est, "--ref", ref, "--period", "0.1", "-o", path("out")});
   EXPECT_EQ(read_trajectory(path("out/est.txt")).size(), 3u);
   traj({"sync", est, "--ref", kitti("other.txt", 3), "-o", path("both")});
@@ -106,7 +97,7 @@ TEST_F(TrajStamps, SyncNeedsAFolder) {
   for (const std::vector<std::string>& out : {std::vector<std::string>{}, {"-o", "-"}}) {
     std::vector<std::string> arguments{"sync", est, "--ref", est};
     arguments.insert(arguments.end(), out.begin(), out.end());
-    EXPECT_EQ(traj_error(arguments), "sync: expected -o FOLDER, it writes two files per input");
+    EXPECT_EQ(traj_refusal(arguments), "sync: expected -o FOLDER, it writes two files per input");
   }
   EXPECT_FALSE(std::filesystem::exists("-"));
 }
@@ -138,7 +129,7 @@ TEST_F(TrajStamps, RepeatsAcrossMergedFilesFollowTheOption) {
   EXPECT_EQ(merged_x({"--repeats", "keep_first"}), merged_x({}));
   EXPECT_EQ(merged_x({"--repeats", "keep_last"}),
             std::pair(std::vector<double>({1, 5, 5, 5}), "loopbench: " + a + why));
-  EXPECT_EQ(traj_error({"merge", a, b, "--repeats", "refuse", "-o", path("out.txt")}),
+  EXPECT_EQ(traj_refusal({"merge", a, b, "--repeats", "refuse", "-o", path("out.txt")}),
             "stamp 1.0 is in two files, expected --repeats keep_first or keep_last");
 }
 
@@ -154,7 +145,7 @@ TEST_F(TrajStamps, TheExtensionOfTheOutputIsItsFormat) {
   traj({"convert", est, "--to", "tum", "-o", path("out.csv")});
   EXPECT_EQ(detect_format(path("out.csv")), Format::tum);
   for (const char* const to : {"auto", "bag", "nonsense"}) {
-    EXPECT_EQ(traj_error({"convert", est, "--to", to}),
+    EXPECT_EQ(traj_refusal({"convert", est, "--to", to}),
               "to = " + std::string(to) + ": expected one of tum | kitti | euroc | g2o | csv");
   }
 }

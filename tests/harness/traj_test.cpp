@@ -21,15 +21,7 @@ using namespace harness;
 /// Output of `loopbench traj ARGS`, which must succeed.
 std::string traj(const std::vector<std::string>& arguments) { return test::traj(arguments).output; }
 
-std::string traj_refusal(const std::vector<std::string>& arguments) {
-  try {
-    traj(arguments);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing thrown";
-  return "";
-}
+using test::traj_refusal;
 
 double ate(const std::string& reference, const std::string& estimate, const std::string& align) {
   const test::Json json = test::eval_json(
@@ -70,16 +62,6 @@ TEST(Traj, SyncRepeatsReferencePosesAsEvoDoes) {
   const std::string text = read_all(out + "/est_burst_reference.txt");
   EXPECT_EQ(std::ranges::count(text, '\n'), 953);
   EXPECT_LT(read_trajectory(out + "/est_burst_reference.txt", keep).size(), 953u);
-}
-
-TEST(Traj, SeveralFilesNeedAFolder) {
-  const TemporaryFolder folder;
-  const std::string out = (folder.path() / "one.txt").string();
-  EXPECT_THAT(traj_refusal({"convert", golden("gt.txt"), golden("est_drift.txt"), "-o", out}),
-              HasSubstr("found several trajectories and the file"));
-  EXPECT_FALSE(std::filesystem::exists(out));
-  traj({"convert", golden("gt.txt"), golden("est_drift.txt"), "-o", out + "/"});
-  EXPECT_TRUE(std::filesystem::exists(out + "/gt.txt"));
 }
 
 TEST(Traj, ImpossibleStepsAreRejectedInOneLine) {
@@ -230,6 +212,12 @@ TEST(Traj, SeveralFilesNeedAFolderWithOneFileEach) {
   EXPECT_THAT(
       traj_refusal({"convert", golden("gt.txt"), golden("gt.txt"), "-o", folder.path().string()}),
       HasSubstr("would be written twice"));
+  const std::string out = (folder.path() / "one.txt").string();
+  EXPECT_THAT(traj_refusal({"convert", golden("gt.txt"), golden("est_drift.txt"), "-o", out}),
+              HasSubstr("found several trajectories and the file"));
+  EXPECT_FALSE(std::filesystem::exists(out));
+  traj({"convert", golden("gt.txt"), golden("est_drift.txt"), "-o", out + "/"});
+  EXPECT_TRUE(std::filesystem::exists(out + "/gt.txt"));
 }
 
 TEST(Traj, PipesConnectVerbs) {

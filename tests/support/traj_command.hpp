@@ -38,4 +38,15 @@ inline Printed traj(std::vector<std::string> arguments) {
   return {testing::internal::GetCapturedStdout(), std::move(errors)};
 }
 
+/// The message of `loopbench traj ARGS`, which must be rejected.
+inline std::string traj_refusal(const std::vector<std::string>& arguments) {
+  try {
+    traj(arguments);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing thrown";
+  return "";
+}
+
 }  // namespace loopbench::test
