@@ -23,6 +23,7 @@ void add_run(CLI::App& app, int& exit_code, const Source& source);
 void add_list(CLI::App& app, int& exit_code);
 void add_table(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
+void add_correct(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code, const Source& source = {});
 void add_get(CLI::App& app, int& exit_code);

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "harness/commands/commands.hpp"
-#include "harness/commands/correct.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/text/printable.hpp"
 

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cmath>
+
 #include "harness/config/choices.hpp"
 #include "harness/config/method_text.hpp"
+#include "harness/config/source_text.hpp"
 #include "harness/config/yaml.hpp"
 
 namespace loopbench::harness {
@@ -61,6 +65,23 @@ std::string add_options(const std::string& text,
   return name;
 }
 
+/// Parses a word as boolean, number or text: true, 7, 0.5 or text.
+Param typed(const std::string& word) {
+  if (word == "true" || word == "false") return word == "true";
+  const char* const end = word.data() + word.size();
+  std::int64_t whole = 0;
+  if (const auto [rest, error] = std::from_chars(word.data(), end, whole);
+      error == std::errc{} && rest == end) {
+    return whole;
+  }
+  double real = 0.0;
+  if (const auto [rest, error] = std::from_chars(word.data(), end, real);
+      error == std::errc{} && rest == end) {
+    return real;
+  }
+  return word;
+}
+
 }  // namespace
 
 MethodChoice parse_method(const std::string& text, const Catalogue& catalogue) {
@@ -87,6 +108,28 @@ MetricChoice parse_metric(const std::string& text,
   entry.map.push_back({"metric", scalar_node(name)});
   entry.map.push_back({"label", scalar_node(text)});
   return metric_choices(entry, kWhere, catalogue, protocols).front();
+}
+
+Params parse_settings(const std::vector<std::string>& settings,
+                      const std::vector<OptionInfo>& options,
+                      const std::string& expected) {
+  Params out;
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) {
+      throw InputError("--set: '" + setting + "': expected " + expected);
+    }
+    const std::string name = setting.substr(0, equals);
+    const std::string text = setting.substr(equals + 1);
+    Param value = typed(text);
+    const auto option = std::ranges::find(options, name, &OptionInfo::name);
+    if (option != options.end()) value = value_for(*option, value, text);
+    if (const double* real = std::get_if<double>(&value); real && !std::isfinite(*real)) {
+      throw InputError("--set: " + setting + ": expected a finite number");
+    }
+    out[name] = value;
+  }
+  return out;
 }
 
 }  // namespace loopbench::harness

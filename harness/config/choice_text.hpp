@@ -19,4 +19,10 @@ MetricChoice parse_metric(const std::string& text,
                           const Catalogue& catalogue,
                           const std::vector<metrics::NamedProtocol>& protocols);
 
+/// The values of `--set NAME=VALUE`; those of text options as written. Names and ranges are checked
+/// by whoever applies them. Throws InputError with what is `expected`.
+Params parse_settings(const std::vector<std::string>& settings,
+                      const std::vector<OptionInfo>& options,
+                      const std::string& expected);
+
 }  // namespace loopbench::harness

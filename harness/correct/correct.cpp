@@ -8,7 +8,6 @@
 #include "datasets/derive/problem_graph.hpp"
 #include "datasets/formats/formats.hpp"
 #include "harness/config/choice_text.hpp"
-#include "harness/config/choices.hpp"
 #include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/run_cell.hpp"
 #include "harness/text/write_file.hpp"
@@ -19,44 +18,6 @@ namespace loopbench::harness {
 namespace {
 
 bool is_graph(const CorrectArguments& a) { return detect_format(a.estimate) == Format::g2o; }
-
-/// The entry that a config would have for these files.
-YamlNode dataset_entry(const CorrectArguments& a, bool graph) {
-  YamlNode out;
-  out.type = YamlNode::Type::map;
-  const auto add = [&](const char* key, const std::string& value) {
-    if (!value.empty()) out.map.push_back({key, scalar_node(value)});
-  };
-  add("dataset", graph ? "pose_graph" : "trajectory");
-  add(graph ? "path" : "estimate", a.estimate);
-  if (graph && !(a.loops.empty() && a.frames.empty())) {
-    throw InputError(a.estimate +
-                     ": is a g2o graph, which contains its closures and has no "
-                     "frames, expected no --loops and no --frames");
-  }
-  add("frames", a.frames);
-  add("closures.file", a.loops);
-  if (!a.loops.empty()) add("closures.source", "file");
-  for (const std::string& setting : a.settings) {
-    const std::size_t equals = std::min(setting.find('='), setting.size());
-    if (equals == setting.size()) {
-      throw InputError("--set: found '" + setting + "', expected OPTION=VALUE");
-    }
-    YamlNode value = parse_yaml(setting.substr(equals + 1), "--set");
-    value.line = 0;
-    out.map.push_back({setting.substr(0, equals), std::move(value)});
-  }
-  return out;
-}
-
-Sequence loaded(const CorrectArguments& a, const Catalogue& catalogue, bool graph) {
-  const DatasetChoice choice =
-      dataset_choices(dataset_entry(a, graph), "--set", catalogue, {}).front();
-  const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
-  Sequence out = entry.load(choice.dataset.options, DataRoot{{"."}});
-  check(out.problem, a.estimate);
-  return out;
-}
 
 std::optional<Residuals> residuals(const Problem& problem, const Trajectory& keyframes) {
   metrics::Evaluation evaluation;
@@ -108,7 +69,7 @@ std::vector<double> output_stamps(const CorrectArguments& a,
   return wanted;
 }
 
-void write(const CorrectArguments& a, const Correction& done, bool graph) {
+void write(const CorrectArguments& a, const Correction& done) {
   if (!a.out.ends_with(".g2o")) {
     return write_tum(a.out, done.output, {"corrected by loopbench: " + done.method});
   }
@@ -116,7 +77,7 @@ void write(const CorrectArguments& a, const Correction& done, bool graph) {
     throw InputError(a.out + ": a graph contains the keyframes, expected no --dense and no --at");
   }
   std::vector<std::int64_t> ids;
-  if (graph) ids = read_g2o(a.estimate).ids;
+  if (is_graph(a)) ids = read_g2o(a.estimate).ids;
   if (ids.size() != done.keyframes.size()) ids.clear();  // some poses are frames
   write_g2o(a.out, problem_graph(done.problem, done.keyframes, std::move(ids)));
 }
@@ -173,20 +134,36 @@ Correction correct(Problem problem,
 }
 
 Problem load_problem(const CorrectArguments& a, const Catalogue& catalogue) {
-  return loaded(a, catalogue, is_graph(a)).problem;
+  const bool graph = is_graph(a);
+  if (graph && !(a.loops.empty() && a.frames.empty())) {
+    throw InputError(a.estimate +
+                     ": is a g2o graph, which contains its closures and has no "
+                     "frames, expected no --loops and no --frames");
+  }
+  const DatasetEntry& dataset = find_dataset(catalogue, graph ? "pose_graph" : "trajectory");
+  Params options = parse_settings(a.settings, dataset.options, "OPTION=VALUE");
+  options[graph ? "path" : "estimate"] = a.estimate;
+  if (!a.frames.empty()) options["frames"] = a.frames;
+  if (!a.loops.empty()) {
+    options["closures.file"] = a.loops;
+    options["closures.source"] = "file";
+  }
+  dataset.check(options);
+  Problem out = dataset.load(options, DataRoot{{"."}}).problem;
+  check(out, a.estimate);
+  return out;
 }
 
 Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   reject_standard_output("-o", a.out);
   if (!a.out.empty()) reject_overwriting({a.estimate, a.loops, a.frames, a.at}, a.out);
   const MethodChoice choice = method_without_reference(a.method, catalogue);
-  const bool graph = is_graph(a);
-  Problem problem = loaded(a, catalogue, graph).problem;
+  Problem problem = load_problem(a, catalogue);
   std::size_t outside = 0;
   const std::vector<double> at = output_stamps(a, problem, outside);
   Correction out = correct(std::move(problem), a.estimate, choice, at, catalogue);
   out.outside = outside;
-  if (!a.out.empty()) write(a, out, graph);
+  if (!a.out.empty()) write(a, out);
   out.out = a.out;
   return out;
 }

@@ -3,37 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 
 #include "datasets/bags/bag_name.hpp"
 #include "harness/config/choice_text.hpp"
 #include "harness/config/protocol_choice.hpp"
-#include "harness/config/source_text.hpp"
 #include "harness/text/numbers.hpp"
 #include "metrics/errors/ape.hpp"
 #include "metrics/pairing/select_pairs.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-/// Parses a word as boolean, number or text: true, 7, 0.5 or text.
-Param typed(const std::string& word) {
-  if (word == "true" || word == "false") return word == "true";
-  const char* const end = word.data() + word.size();
-  std::int64_t whole = 0;
-  if (const auto [rest, error] = std::from_chars(word.data(), end, whole);
-      error == std::errc{} && rest == end) {
-    return whole;
-  }
-  double real = 0.0;
-  if (const auto [rest, error] = std::from_chars(word.data(), end, real);
-      error == std::errc{} && rest == end) {
-    return real;
-  }
-  return word;
-}
 
 /// -s adds a scale to the alignment; without --align it estimates only the scale, as in evo.
 std::string scaled(const std::string& align) {
@@ -43,24 +24,7 @@ std::string scaled(const std::string& align) {
 }
 
 Params changes(const EvalArguments& a, const metrics::Protocol& base) {
-  Params out;
-  const std::vector<OptionInfo> fields = describe(base);
-  for (const std::string& setting : a.settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos) {
-      throw InputError("--set: '" + setting + "': expected FIELD=VALUE, for example ddof=1");
-    }
-    const std::string name = setting.substr(0, equals);
-    const std::string text = setting.substr(equals + 1);
-    Param value = typed(text);
-    for (const OptionInfo& field : fields) {
-      if (field.name == name) value = value_for(field, value, text);
-    }
-    if (const double* real = std::get_if<double>(&value); real && !std::isfinite(*real)) {
-      throw InputError("--set: " + setting + ": expected a finite number");
-    }
-    out[name] = value;
-  }
+  Params out = parse_settings(a.settings, describe(base), "FIELD=VALUE, for example ddof=1");
   if (!a.association.empty()) out["association"] = a.association;
   if (!a.align.empty()) out["align"] = a.align;
   if (a.correct_scale) {

@@ -19,7 +19,6 @@
 #include "datasets/core/params.hpp"
 #include "harness/commands/command_line.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/correct.hpp"
 #include "harness/commands/export.hpp"
 #include "harness/commands/help.hpp"
 #include "harness/commands/help_format.hpp"
