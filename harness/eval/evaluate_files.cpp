@@ -8,8 +8,6 @@
 #include <map>
 
 #include "datasets/core/parallel.hpp"
-#include "harness/eval/recorded_evaluation.hpp"
-#include "harness/eval/recorded_runs.hpp"
 #include "harness/model/cell_records.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/text/write_file.hpp"
@@ -126,37 +124,33 @@ void require_evaluated(const std::vector<EvaluatedFile>& all) {
 std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
   const std::vector<FilePair> files = file_pairs(a);
   reject_overwriting(all_files(a, files), a.per_pose);
-  const std::vector<RecordedRun> runs = runs_of(files, a);
-  const Catalogue known = recorded_catalogue(a.plugins);
-  const Sweep sweep = recorded_sweep(runs, a, known);
-  reference_body(a);  // rejects an invalid one before files are read
+  const RecordedSweep sweep = recorded_sweep(runs_of(files, a), a);
+  const std::vector<RecordedRun>& runs = sweep.runs;
   check_stamp_options(a, runs);
-  std::vector<Cell> cells = recorded_cells(runs, sweep);
+  std::vector<Cell> cells = sweep.cells;
   std::ranges::sort(cells, {}, &Cell::dataset);
   std::vector<EvaluatedFile> all(cells.size());
   for (std::size_t begin = 0, end = 0; begin < runs.size(); begin = end) {
     while (end < runs.size() && runs[end].reference == runs[begin].reference) ++end;
-    const SharedReference reference =
-        shared_reference(sweep.datasets[begin].dataset.options, sweep, a);
+    const SharedReference reference = shared_reference(runs[begin].reference, sweep);
     parallel_for_tasks(end - begin, [&](std::size_t i) {
-      all[begin + i] = evaluate_recorded(cells[begin + i], sweep, reference, known, a);
+      all[begin + i] = evaluate_recorded(cells[begin + i], sweep, reference);
     });
   }
   require_evaluated(all);
   if (!a.min_coverage) compare_coverage(all);
-  return results_of(std::move(all), sweep);
+  return results_of(std::move(all), sweep.sweep);
 }
 
 std::vector<EvaluationResult> evaluate_in_memory(const EvalArguments& a,
                                                  RecordedFile reference,
-                                                 RecordedFile estimate) {
-  const Catalogue known = recorded_catalogue();
-  const Sweep sweep =
-      recorded_sweep({{"reference", "estimate", "0", "reference", "estimate"}}, a, known);
+                                                 const RecordedFile& estimate) {
+  const RecordedSweep sweep =
+      recorded_sweep({{"reference", "estimate", "0", "reference", "estimate"}}, a);
   std::vector<EvaluatedFile> all;
-  all.push_back(evaluate_poses({}, sweep, {std::move(reference)}, std::move(estimate), known, a));
+  all.push_back(evaluate_poses(sweep.cells.front(), sweep, {std::move(reference)}, estimate));
   require_evaluated(all);
-  return results_of(std::move(all), sweep);
+  return results_of(std::move(all), sweep.sweep);
 }
 
 }  // namespace loopbench::harness
