@@ -18,7 +18,7 @@ namespace {
 std::optional<Ratio> ratio_of(const Pair& pair, const KeptRuns& kept, const Comparison& of) {
   if (!pair.is_ratio || pair.values.empty()) return std::nullopt;
   const double sign = of.kind.better == metrics::Better::higher ? -1.0 : 1.0;
-  const auto interval = pair.typical(of.options.alpha / static_cast<double>(of.tests));
+  const auto interval = pair.typical(level_of_one(of.options.alpha, of.tests));
   std::vector<double> sorted = pair.values;
   std::ranges::sort(sorted);
   const double estimate = interval ? interval->estimate : pseudo_median(sorted);
@@ -40,15 +40,14 @@ std::optional<Ratio> ratio_of(const Pair& pair, const KeptRuns& kept, const Comp
 void add_baseline(MethodVerdict& method,
                   const Pair& pair,
                   const KeptRuns& kept,
-                  const Comparison& of,
-                  bool can_show) {
+                  const Comparison& of) {
   method.ratio = ratio_of(pair, kept, of);
   method.wins = pair.wins;
   method.losses = pair.losses;
   if (pair.is_ratio) method.deviation = pair.deviation();
   method.ties = pair.ties;
-  const double p = std::min(1.0, pair.p() * static_cast<double>(of.tests));
-  if (can_show) method.p = p;
+  const double p = corrected(pair.p, of.tests);
+  if (of.can_show) method.p = p;
   method.is_contradicted = p <= of.options.alpha && pair.is_contradicted();
   method.beats_baseline = pair.is_first_ahead() && pair.is_significant(of.options.alpha, of.tests);
 }
@@ -64,6 +63,7 @@ MethodVerdict counts_of(const Observations& all, const KeptRuns& kept, std::size
     if (one.value) values.push_back(*one.value);
     if (one.value) covered += one.coverage;
     if (one.is_loss) reasons.push_back(one.status);
+    if (one.status == to_text(Status::declined)) ++out.declines;
   }
   if (!values.empty()) out.coverage = covered / static_cast<double>(values.size());
   out.median = values.empty() ? std::nan("") : metrics::median(values);
@@ -100,12 +100,14 @@ Comparison compare_one(const Observations& all, std::size_t copies, const Compar
   const Levels levels(kept.values, options.tie);
   const Ranking ranking = rank_methods(levels, {options.alpha, options.tie, options.relevant});
   out.tests = ranking.tests;
+  out.can_show = ranking.can_show;
   out.groups_needed = ranking.groups_needed;
   for (std::size_t m = 0; m < names.size(); ++m) {
     MethodVerdict& method = out.methods.emplace_back(counts_of(all, kept, m));
     const Pair pair = compared(levels, m, baseline);
     out.is_ratio = out.is_ratio && pair.is_ratio;
-    add_baseline(method, pair, kept, out, ranking.can_show());
+    out.has_strata = out.has_strata || !pair.strata.empty();
+    add_baseline(method, pair, kept, out);
     method.standing = ranking.standings[m];
     if (m != ranking.leader) method.from_leader = ratio_of(ranking.from_leader[m], kept, out);
   }

@@ -30,6 +30,7 @@ struct CompareOptions {
   double alpha = 0.05;     ///< probability of a false claim among those about a score
   double tie = kTieShare;  ///< relative difference up to which values are equal
   double relevant = 0.01;  ///< relative difference from which on a method is better for practice
+  bool paired = false;     ///< also pair runs of files, by their names; those of sweeps always are
 };
 
 /// Ratio of two methods, the first by the second.
@@ -47,6 +48,7 @@ struct MethodVerdict {
   std::size_t runs = 0;        ///< runs with a value
   std::size_t fails = 0;       ///< runs that count as a loss
   std::string why_fails;       ///< "crashed 1, failed 2"
+  std::size_t declines = 0;    ///< runs without a claim
   double coverage = 1.0;       ///< of the reference, mean over its values, 0..1
   std::optional<Ratio> ratio;  ///< to the baseline; none for values below zero, most runs failed
   std::size_t wins = 0;        ///< groups better than the baseline
@@ -84,8 +86,11 @@ struct Comparison {
   std::vector<std::string> oracle_closures;  ///< sequences with closures from the reference
   bool is_best = false;           ///< the leading methods are significantly better than all others
   bool is_ratio = true;           ///< false: plain differences, some value is negative
-  std::size_t tests = 0;          ///< by which p is multiplied
-  std::size_t groups_needed = 0;  ///< minimum for a significant difference
+  bool is_paired = true;          ///< false: independent runs of the same sequences
+  bool has_strata = false;        ///< compared by rank sums within sequences
+  std::size_t tests = 0;          ///< for whose number p is corrected
+  bool can_show = false;          ///< whether the observations can be significant at all
+  std::size_t groups_needed = 0;  ///< minimum for that; if has_strata, per method and sequence
 };
 
 /// Whether the method leads: it is first, or as good as the first.
@@ -116,6 +121,9 @@ std::string unit_text(const Comparison& comparison);
 
 /// One-line verdict: the best method, its gain, and the methods that do not differ significantly.
 std::string verdict(const Comparison& comparison);
+
+/// "translation ate, rmse [m], dense, loopbench: " and the verdict.
+std::string statement(const Comparison& comparison);
 
 /// Properties of the data that limit the claims: observations first, then copies, gaps and oracles.
 std::vector<std::string> conditions(const Comparison& comparison);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "harness/statistics/typical_difference.hpp"
+#include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {
 
@@ -14,15 +15,13 @@ Levels::Levels(const GroupedValues& all, double tie)
       sequence_(all.sequence),
       sign_(all.better == metrics::Better::higher ? -1.0 : 1.0),
       tie_(tie),
-      target_(all.better == metrics::Better::target ? std::abs(all.target) : 0.0) {
+      target_(all.better == metrics::Better::target ? std::abs(all.target) : 0.0),
+      is_paired_(all.is_paired) {
   for (auto& row : costs_) {
-    std::vector<double>& logarithms = logarithms_.emplace_back(row.size(), 0.0);
     bool is_positive = true;
-    for (std::size_t run = 0; run < row.size(); ++run) {
-      if (!row[run]) continue;
-      if (all.better == metrics::Better::target) *row[run] = std::abs(*row[run] - all.target);
-      is_positive = is_positive && !(*row[run] < 0.0);
-      logarithms[run] = std::log(std::max(*row[run], zero_floor(0.0)));
+    for (std::optional<double>& cost : row) {
+      if (cost && all.better == metrics::Better::target) cost = std::abs(*cost - all.target);
+      is_positive = is_positive && !(cost && *cost < 0.0);
     }
     is_positive_.push_back(is_positive);
   }
@@ -47,17 +46,31 @@ std::size_t Levels::known_groups(std::size_t method) const {
   return static_cast<std::size_t>(std::ranges::count_if(runs_of_, is_known_in));
 }
 
-double Levels::difference(std::size_t a, std::size_t b, std::size_t run) const {
-  const double of_a = *costs_[a][run];
-  const double of_b = *costs_[b][run];
+std::optional<double> Levels::level(std::size_t method, std::size_t group) const {
+  std::vector<double> known;
+  for (const std::size_t run : runs_of_[group]) {
+    if (!is_known(method, run)) continue;
+    const double worst = sign_ * kBeyond;
+    known.push_back(has_value(method, run) ? *costs_[method][run] : worst);
+  }
+  if (known.empty()) return std::nullopt;
+  const double middle = metrics::median(known);
+  return std::abs(middle) < 0.1 * kBeyond ? middle : kFailed;
+}
+
+double Levels::difference(std::size_t a, std::size_t b, double of_a, double of_b) const {
+  const bool a_fails = std::isnan(of_a);
+  const bool b_fails = std::isnan(of_b);
+  if (a_fails || b_fails) return a_fails == b_fails ? 0.0 : a_fails ? kBeyond : -kBeyond;
   const double largest = std::max(std::abs(of_a), std::abs(of_b));
   if (std::abs(of_a - of_b) <= tie_ * std::max(largest, target_)) return 0.0;
-  const bool a_zero = std::abs(of_a) <= zero_floor(largest);
-  const bool b_zero = std::abs(of_b) <= zero_floor(largest);
+  const double floor = zero_floor(largest);
+  const bool a_zero = std::abs(of_a) <= floor;
+  const bool b_zero = std::abs(of_b) <= floor;
   if (a_zero && b_zero) return 0.0;
   if (!is_ratio(a, b)) return sign_ * (of_a - of_b);
   if (a_zero != b_zero) return sign_ * (a_zero ? -kBeyond : kBeyond);
-  return sign_ * (logarithms_[a][run] - logarithms_[b][run]);
+  return sign_ * (std::log(of_a) - std::log(of_b));
 }
 
 bool Levels::are_equal(std::size_t a, std::size_t b) const {

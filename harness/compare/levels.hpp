@@ -20,6 +20,7 @@ struct GroupedValues {
   std::vector<std::size_t> sequence;  ///< of each run, numbered from 0; empty: one each
   metrics::Better better = metrics::Better::lower;
   double target = 0.0;
+  bool is_paired = true;  ///< false: runs of two methods share a sequence, but nothing else
 };
 
 /// Errors up to this value count as zero beside an error of `largest`: rounding of coordinates,
@@ -47,25 +48,36 @@ class Levels {
   /// Number of groups with a run that the method was run on.
   std::size_t known_groups(std::size_t method) const;
 
+  bool is_paired() const { return is_paired_; }
+
+  /// Median level over the runs of a group that the method was run on, kFailed if it failed on
+  /// most; none without such a run.
+  std::optional<double> level(std::size_t method, std::size_t group) const;
+
   /// Whether differences of two methods are logarithms of ratios: neither has a value below zero.
   bool is_ratio(std::size_t a, std::size_t b) const { return is_positive_[a] && is_positive_[b]; }
 
-  /// Difference of `a` to `b` if both have a value: negative if `a` is better, exactly 0 for a tie,
-  /// +-kBeyond if only one of them is zero. Depends on these two methods only.
-  double difference(std::size_t a, std::size_t b, std::size_t run) const;
+  /// Difference of a level of `a` to one of `b`: negative if `a` is better, exactly 0 for a tie,
+  /// +-kBeyond if only one of them is zero or failed. Depends on these two methods only.
+  double difference(std::size_t a, std::size_t b, double of_a, double of_b) const;
+
+  /// The same on a run on which both were run.
+  double difference(std::size_t a, std::size_t b, std::size_t run) const {
+    return difference(a, b, *costs_[a][run], *costs_[b][run]);
+  }
 
   /// Whether two methods are known, fail and are tied on the same runs.
   bool are_equal(std::size_t a, std::size_t b) const;
 
  private:
   std::vector<std::vector<std::optional<double>>> costs_;
-  std::vector<std::vector<double>> logarithms_;  // of the costs of methods without negative ones
   std::vector<bool> is_positive_;
   std::vector<std::vector<std::size_t>> runs_of_;
   std::vector<std::size_t> sequence_;  // of each run
   double sign_ = 1.0;
   double tie_ = 0.0;
   double target_ = 0.0;  // relative to which distances to it are rounded
+  bool is_paired_ = true;
 };
 
 }  // namespace loopbench::harness

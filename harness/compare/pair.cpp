@@ -5,6 +5,7 @@
 #include <map>
 
 #include "harness/statistics/average.hpp"
+#include "harness/statistics/signed_rank.hpp"
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {
@@ -62,12 +63,143 @@ double middle_of(const std::vector<double>& values) {
   return is_finite(middle) ? middle : std::copysign(kBeyond, middle);
 }
 
+void add(Pair& out, double value, std::size_t sequence) {
+  out.values.push_back(value);
+  out.sequence.push_back(sequence);
+  ++(value < 0.0 ? out.wins : value > 0.0 ? out.losses : out.ties);
+}
+
+/// Collects the mean over groups of the mean over runs.
+class MeanOfMeans {
+ public:
+  explicit MeanOfMeans(Pair& out) : out_(out) {}
+
+  /// Difference on a run of the current group on which both have a value.
+  void add(double difference) {
+    const bool is_zero = !is_finite(difference);
+    group_.push_back(is_zero ? std::copysign(kZeroRatio, difference) : difference);
+    out_.has_zero = out_.has_zero || is_zero;
+  }
+  void end_group() {
+    if (!group_.empty()) groups_.push_back(mean(group_));
+    group_.clear();
+  }
+  void finish() {
+    if (!groups_.empty()) out_.mean = mean(groups_);
+  }
+
+ private:
+  Pair& out_;
+  std::vector<double> group_;
+  std::vector<double> groups_;
+};
+
+void test_signed_ranks(Pair& out) {
+  const SignedRank ranks = signed_rank(out.values);
+  out.lead = ranks.negative - ranks.positive;
+  out.p = ranks.p;
+  out.least_p = least_p(out.values.size());
+}
+
+/// Ties are counted for the method that is behind, which is the order that is worst for the claim.
+void test_rank_sums(Pair& out) {
+  out.lead = static_cast<double>(out.wins) - static_cast<double>(out.losses);
+  const std::size_t against = out.values.size() - std::max(out.wins, out.losses);
+  if (2 * against < out.values.size()) {
+    out.p = std::min(1.0, 2.0 * rank_sum_tail(out.strata, against));
+  }
+  out.least_p = std::min(1.0, 2.0 * rank_sum_tail(out.strata, 0));
+}
+
+Pair of_paired_runs(const Levels& levels, std::size_t first, std::size_t second) {
+  Pair out;
+  MeanOfMeans means(out);
+  std::vector<double> all;  // differences of the runs of a group
+  for (std::size_t group = 0; group < levels.groups(); ++group) {
+    all.clear();
+    for (const std::size_t run : levels.runs_of(group)) {
+      if (!levels.is_known(first, run) || !levels.is_known(second, run)) continue;
+      const bool has_first = levels.has_value(first, run);
+      const bool has_second = levels.has_value(second, run);
+      if (!has_first && !has_second) continue;
+      all.push_back(levels.difference(first, second, run));
+      if (has_first && has_second) means.add(all.back());
+    }
+    if (all.empty()) continue;
+    add(out, middle_of(all), levels.sequence_of(group));
+    means.end_group();
+  }
+  means.finish();
+  test_signed_ranks(out);
+  return out;
+}
+
+/// Levels of a method by sequence. Equal ones are copies of one file and count once.
+using Samples = std::map<std::size_t, std::vector<double>>;
+
+Samples samples_of(const Levels& levels, std::size_t method) {
+  Samples out;
+  for (std::size_t group = 0; group < levels.groups(); ++group) {
+    const std::optional<double> level = levels.level(method, group);
+    if (!level) continue;
+    std::vector<double>& own = out[levels.sequence_of(group)];
+    if (std::isnan(*level) || std::ranges::count(own, *level) == 0) own.push_back(*level);
+  }
+  return out;
+}
+
+/// Where most sequences have one run of either method, a sequence is an observation, as for paired
+/// runs.
+Pair of_independent_runs(const Levels& levels, std::size_t first, std::size_t second) {
+  const Samples firsts = samples_of(levels, first);
+  const Samples seconds = samples_of(levels, second);
+  std::vector<Stratum> strata;
+  std::map<std::size_t, std::vector<double>> differences;
+  Pair out;
+  MeanOfMeans means(out);
+  for (const auto& [sequence, of_first] : firsts) {
+    const auto found = seconds.find(sequence);
+    if (found == seconds.end()) continue;
+    strata.push_back({of_first.size(), found->second.size()});
+    for (const double a : of_first) {
+      for (const double b : found->second) {
+        differences[sequence].push_back(levels.difference(first, second, a, b));
+        if (!std::isnan(a) && !std::isnan(b)) means.add(differences[sequence].back());
+      }
+    }
+    means.end_group();
+  }
+  means.finish();
+  const auto repeated =
+      std::ranges::count_if(strata, [](const Stratum& one) { return one.pairs() > 1; });
+  const bool has_runs = 2 * repeated >= std::ssize(strata);
+  for (const auto& [sequence, of_sequence] : differences) {
+    if (!has_runs) {
+      add(out, middle_of(of_sequence), sequence);
+      continue;
+    }
+    for (const double value : of_sequence) add(out, value, sequence);
+  }
+  if (!has_runs || strata.empty()) {
+    test_signed_ranks(out);
+  } else {
+    out.strata = std::move(strata);
+    test_rank_sums(out);
+  }
+  return out;
+}
+
 }  // namespace
 
-bool Pair::is_first_ahead() const {
-  if (ranks.negative != ranks.positive) return ranks.negative > ranks.positive;
-  return mean && *mean < 0.0;
+double corrected(double p, std::size_t tests) {
+  return tests == 1 ? p : -std::expm1(static_cast<double>(tests) * std::log1p(-p));
 }
+
+double level_of_one(double alpha, std::size_t tests) {
+  return tests == 1 ? alpha : -std::expm1(std::log1p(-alpha) / static_cast<double>(tests));
+}
+
+bool Pair::is_first_ahead() const { return lead != 0.0 ? lead > 0.0 : mean && *mean < 0.0; }
 
 bool Pair::is_contradicted() const {
   if (!mean || *mean == 0.0 || (*mean < 0.0) == is_first_ahead()) return false;
@@ -77,13 +209,19 @@ bool Pair::is_contradicted() const {
 }
 
 bool Pair::is_significant(double alpha, std::size_t tests) const {
-  return p() * static_cast<double>(tests) <= alpha && !is_contradicted();
+  return p <= level_of_one(alpha, tests) && !is_contradicted();
 }
 
 std::optional<Interval> Pair::typical(double alpha) const {
+  if (!strata.empty()) {
+    const std::optional<std::size_t> outside = critical_pairs(strata, alpha);
+    if (!outside) return std::nullopt;
+    const std::vector<double> all = sorted(values);
+    return Interval{middle_of(all), all[*outside], all[all.size() - 1 - *outside]};
+  }
   std::optional<Interval> out = shift_interval(aligned(*this), alpha);
   if (!out) return out;
-  if (p() > alpha) {
+  if (p > alpha) {
     out->low = std::min(out->low, 0.0);
     out->high = std::max(out->high, 0.0);
   } else {  // ties and the differences between sequences can leave 0 inside
@@ -105,6 +243,7 @@ std::vector<std::pair<std::size_t, double>> Pair::by_sequence() const {
 }
 
 std::optional<double> Pair::deviation() const {
+  if (!strata.empty()) return std::nullopt;
   std::vector<double> finite;
   for (const double value : values) {
     if (is_finite(value)) finite.push_back(value);
@@ -122,37 +261,9 @@ std::optional<double> Pair::deviation() const {
 }
 
 Pair compared(const Levels& levels, std::size_t first, std::size_t second) {
-  Pair out;
+  Pair out = levels.is_paired() ? of_paired_runs(levels, first, second)
+                                : of_independent_runs(levels, first, second);
   out.is_ratio = levels.is_ratio(first, second);
-  std::vector<double> all;   // differences of the runs of a group
-  std::vector<double> both;  // of those on which both have a value
-  std::vector<double> means;
-  for (std::size_t group = 0; group < levels.groups(); ++group) {
-    all.clear();
-    both.clear();
-    for (const std::size_t run : levels.runs_of(group)) {
-      if (!levels.is_known(first, run) || !levels.is_known(second, run)) continue;
-      const bool has_first = levels.has_value(first, run);
-      const bool has_second = levels.has_value(second, run);
-      if (!has_first && !has_second) continue;
-      if (has_first != has_second) {
-        all.push_back(has_first ? -kBeyond : kBeyond);
-        continue;
-      }
-      all.push_back(levels.difference(first, second, run));
-      const bool is_zero = !is_finite(all.back());
-      both.push_back(is_zero ? std::copysign(kZeroRatio, all.back()) : all.back());
-      out.has_zero = out.has_zero || is_zero;
-    }
-    if (all.empty()) continue;
-    const double value = middle_of(all);
-    out.values.push_back(value);
-    out.sequence.push_back(levels.sequence_of(group));
-    ++(value < 0.0 ? out.wins : value > 0.0 ? out.losses : out.ties);
-    if (!both.empty()) means.push_back(mean(both));
-  }
-  if (!means.empty()) out.mean = mean(means);
-  out.ranks = signed_rank(out.values);
   return out;
 }
 

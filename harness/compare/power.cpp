@@ -7,7 +7,6 @@
 #include <random>
 #include <vector>
 
-#include "harness/statistics/normal.hpp"
 #include "harness/statistics/signed_rank.hpp"
 
 namespace loopbench::harness {

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <optional>
 
+#include "harness/statistics/signed_rank.hpp"
+
 namespace loopbench::harness {
 namespace {
 
@@ -34,17 +36,23 @@ std::size_t find_leader(const Levels& levels, const std::vector<std::size_t>& me
 }
 
 Standing standing_of(const Pair& from_leader, std::size_t tests, const RankingOptions& options) {
-  if (from_leader.ranks.count == 0) {
+  if (!from_leader.has_difference()) {
     return from_leader.values.empty() ? Standing::open : Standing::equal;
   }
   if (!from_leader.is_first_ahead() || !from_leader.is_significant(options.alpha, tests)) {
     return Standing::open;
   }
-  const auto typical = from_leader.typical(options.alpha / static_cast<double>(tests));
+  const auto typical = from_leader.typical(level_of_one(options.alpha, tests));
   const bool is_near = from_leader.is_ratio && typical &&
                        -typical->estimate < std::log1p(options.relevant) &&
                        std::ranges::count(from_leader.values, -kBeyond) == 0;
   return is_near ? Standing::near : Standing::behind;
+}
+
+/// The smallest p of `groups` groups, or of so many independent runs of each method and sequence.
+double least_p_of(std::size_t groups, std::size_t strata) {
+  if (strata == 0) return least_p(groups);
+  return 2.0 * rank_sum_tail(std::vector<Stratum>(strata, {groups, groups}), 0);
 }
 
 Ranking rank(const Levels& levels,
@@ -56,14 +64,16 @@ Ranking rank(const Levels& levels,
   out.leader = find_leader(levels, methods);
   out.standings.assign(levels.methods(), Standing::behind);
   out.from_leader.resize(levels.methods());
+  std::size_t strata = 0;
   for (const std::size_t m : methods) {
     if (m == out.leader) continue;
     out.from_leader[m] = compared(levels, out.leader, m);
     out.standings[m] = standing_of(out.from_leader[m], tests, options);
-    out.groups = std::max(out.groups, out.from_leader[m].values.size());
+    strata = std::max(strata, out.from_leader[m].strata.size());
+    out.can_show = out.can_show || corrected(out.from_leader[m].least_p, tests) <= options.alpha;
   }
   out.standings[out.leader] = Standing::leader;
-  while (least_p(out.groups_needed) * static_cast<double>(tests) > options.alpha) {
+  while (corrected(least_p_of(out.groups_needed, strata), tests) > options.alpha) {
     ++out.groups_needed;
   }
   return out;

@@ -1,8 +1,8 @@
 /// The best of several methods.
 ///
-/// A method is significantly better than another if their pair's p, times the number of other
-/// methods (Bonferroni), is at most alpha: that covers each method against the baseline, or each
-/// against the leader. Equal methods count once. The leader was run on half of the groups or more
+/// A method is significantly better than another if their pair's p, corrected for the number of
+/// other methods, is at most alpha: that covers each method against the baseline, or each against
+/// the leader. Equal methods count once. The leader was run on half of the groups or more
 /// and is ahead of all others by ranks, if there is such a method, and best if it is significantly
 /// better than all of them; methods behind it by less than a relevant difference are best with it.
 #pragma once
@@ -35,10 +35,10 @@ struct Ranking {
   std::vector<Standing> standings;  ///< of each method
   std::vector<Pair> from_leader;    ///< the leader against each method
   std::size_t tests = 1;            ///< different methods, but one
-  std::size_t groups = 0;           ///< most groups of a pair
-  std::size_t groups_needed = 0;    ///< fewest for which p can be small enough
+  bool can_show = false;            ///< whether p of some pair can be small enough
+  /// Fewest groups for which it can be; of independent runs, fewest of each method and sequence.
+  std::size_t groups_needed = 1;
 
-  bool can_show() const { return groups >= groups_needed; }
   bool is_leading(std::size_t method) const { return standings[method] < Standing::behind; }
   /// Whether the leading methods are significantly better than all others; false if all are equal.
   bool is_best() const;

@@ -17,4 +17,7 @@ std::string ratio_text(const Ratio& ratio, const std::string& other, const Compa
 /// ", all of it on sparse", ", but worse on city": what a ratio below 1 hides.
 std::string sequences_text(const Ratio& ratio, const Comparison& c);
 
+/// "7 are needed": observations for a significant difference.
+std::string needed_text(const Comparison& c);
+
 }  // namespace loopbench::harness

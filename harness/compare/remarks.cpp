@@ -1,20 +1,17 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 
-#include "harness/compare/compare.hpp"
+#include "harness/compare/ratio_text.hpp"
 
 namespace loopbench::harness {
 namespace {
 
 using Lines = std::vector<std::string>;
 
-std::string comma_list(const Lines& names) {
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
-  return out;
-}
+std::string joined(const Lines& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
 Lines about_runs(const Comparison& c) {
   Lines out{"over " + unit_text(c)};
@@ -32,6 +29,16 @@ Lines about_runs(const Comparison& c) {
     out.push_back(fmt::format(
         "assumes that all runs are independent (--over runs), although they form {} groups",
         c.known_groups));
+  } else if (c.has_strata) {
+    out.push_back(
+        fmt::format("the runs of a sequence are independent: methods are compared by rank sums "
+                    "within {}, for more runs of {}; --paired pairs runs of equal names",
+                    c.sequences == 1 ? "it" : "the sequences",
+                    c.sequences == 1 ? "it" : "them"));
+  } else if (!c.is_paired && c.sequences < c.runs) {
+    out.push_back(
+        "the runs of a sequence are independent, and most sequences have one: an "
+        "observation is the median ratio of a sequence");
   } else if (c.sequences < c.groups) {
     const std::string these =
         c.sequences == 1 ? "this sequence" : fmt::format("these {} sequences", c.sequences);
@@ -66,11 +73,11 @@ Lines about_methods(const Comparison& c) {
     out.push_back(coverage + "; errors are over the parts that are covered");
   }
   if (!c.oracles.empty()) {
-    out.push_back("not ranked, use the reference (oracle): " + comma_list(c.oracles));
+    out.push_back("not ranked, use the reference (oracle): " + joined(c.oracles));
   }
   if (!c.oracle_closures.empty()) {
     out.push_back("closures measured in the reference or selected by it (oracle): " +
-                  comma_list(c.oracle_closures));
+                  joined(c.oracle_closures));
   }
   return out;
 }
@@ -81,7 +88,7 @@ std::string by_sequence(const Ratio& ratio) {
   for (const auto& [sequence, value] : ratio.by_sequence) {
     out.push_back(fmt::format("{} {:.3f}", sequence, value));
   }
-  return comma_list(out);
+  return joined(out);
 }
 
 Lines about_ratios(const Comparison& c) {
@@ -100,7 +107,7 @@ Lines about_ratios(const Comparison& c) {
   }
   if (!zero.empty()) {
     out.push_back("no geometric mean ratio to " + c.options.baseline +
-                  " where an error is zero (or no run is common): " + comma_list(zero));
+                  " where an error is zero (or no run is common): " + joined(zero));
   }
   const MethodVerdict& first = c.methods.front();
   if (first.ratio && !first.ratio->by_sequence.empty() && first.method != c.options.baseline) {
@@ -135,24 +142,24 @@ Lines remarks(const Comparison& c) {
       c.options.baseline,
       level));
   out.push_back(fmt::format(
-      "p: Wilcoxon's exact signed-rank test of log ratios against {}, a failure being the largest "
-      "loss, times {} (Bonferroni); significantly better: p <= {:g}, and the geometric mean does "
-      "not "
-      "disagree; differences up to {:g} of a value are ties, up to {:g} are not relevant for "
-      "\"best\"",
+      "p: {} against {}, a failure being the largest loss, corrected for {} test{}; significantly "
+      "better: p <= {:g}, and the geometric mean does not disagree; differences up to {:g} of a "
+      "value are ties, up to {:g} are not relevant for \"best\"",
+      c.has_strata ? "rank sums of runs within sequences"
+                   : "Wilcoxon's exact signed-rank test of log ratios",
       c.options.baseline,
       c.tests,
+      c.tests == 1 ? "" : "s",
       c.options.alpha,
       c.options.tie,
       c.options.relevant));
-  if (c.groups < c.groups_needed) {
-    out.push_back(
-        fmt::format("no p: {} cannot show a difference at {:g} in {} test{}, {} are needed",
-                    unit_text(c),
-                    c.options.alpha,
-                    c.tests,
-                    c.tests == 1 ? "" : "s",
-                    c.groups_needed));
+  if (!c.can_show) {
+    out.push_back(fmt::format("no p: {} cannot show a difference at {:g} in {} test{}, {}",
+                              unit_text(c),
+                              c.options.alpha,
+                              c.tests,
+                              c.tests == 1 ? "" : "s",
+                              needed_text(c)));
   }
   for (std::string& line : about_ratios(c)) out.push_back(std::move(line));
   return out;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "harness/compare/name_order.hpp"
+#include "harness/model/recorded_run.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -42,6 +43,12 @@ std::vector<std::size_t> joined(const std::vector<std::vector<std::string>>& key
   return group;
 }
 
+/// Files of one recording under several names are one sequence.
+std::string sequence_key(const ObservedRun& run) {
+  const std::string_view recording = recording_of(run.group);
+  return recording.empty() ? run.sequence : std::string(recording);
+}
+
 std::vector<std::size_t> groups(const Observations& all,
                                 const std::vector<std::size_t>& runs,
                                 Over over) {
@@ -51,7 +58,7 @@ std::vector<std::size_t> groups(const Observations& all,
     std::vector<std::string>& own = keys.emplace_back();
     if (over == Over::runs) own.push_back("run " + r.name);
     if (over != Over::runs) own.push_back("group " + r.group);
-    if (over == Over::sequences) own.push_back("sequence " + r.sequence);
+    if (over == Over::sequences) own.push_back("sequence " + sequence_key(r));
   }
   return joined(keys);
 }
@@ -76,18 +83,23 @@ KeptRuns select_runs(const Observations& all, Comparison& out) {
   KeptRuns kept{ranked_methods(all, out), {}, {}, {}};
   NameOrder sequences;
   std::set<std::string> possible_sequences;
-  const auto fewest = std::min<std::ptrdiff_t>(2, std::ssize(kept.methods));
+  out.is_paired = out.options.paired || std::ranges::any_of(all.runs, [](const ObservedRun& run) {
+                    return recording_of(run.group).empty();
+                  });
+  const auto fewest = std::min<std::ptrdiff_t>(out.is_paired ? 2 : 1, std::ssize(kept.methods));
   std::set<std::string> measured;
   for (std::size_t run = 0; run < all.runs.size(); ++run) {
     const auto at = [&](std::size_t m) -> const Observed& { return all.values[m][run]; };
-    possible_sequences.insert(all.runs[run].sequence);
+    possible_sequences.insert(sequence_key(all.runs[run]));
     const auto known = std::ranges::count_if(
         kept.methods, [&](std::size_t m) { return at(m).value || at(m).is_loss; });
     const bool has_value =
         std::ranges::any_of(kept.methods, [&](std::size_t m) { return at(m).value.has_value(); });
     if (known < fewest || !has_value) continue;
     kept.runs.push_back(run);
-    kept.values.sequence.push_back(sequences.index(all.runs[run].sequence));
+    const std::size_t sequence = sequences.index(sequence_key(all.runs[run]));
+    if (sequence == kept.sequences.size()) kept.sequences.push_back(all.runs[run].sequence);
+    kept.values.sequence.push_back(sequence);
     if (all.runs[run].has_oracle_closures) measured.insert(all.runs[run].sequence);
   }
   for (const std::size_t m : kept.methods) {
@@ -100,11 +112,11 @@ KeptRuns select_runs(const Observations& all, Comparison& out) {
   kept.values.group = groups(all, kept.runs, out.options.over);
   kept.values.better = all.kind.better;
   kept.values.target = all.kind.target;
+  kept.values.is_paired = out.is_paired;
   out.groups = count(kept.values.group);
   out.known_groups = count(groups(all, kept.runs, Over::groups));
   out.runs = kept.runs.size();
   out.possible = all.runs.size();
-  kept.sequences = sequences.names();
   out.sequences = kept.sequences.size();
   out.possible_sequences = possible_sequences.size();
   out.oracle_closures.assign(measured.begin(), measured.end());

@@ -15,8 +15,8 @@ struct KeptRuns {
   std::vector<std::string> sequences;  ///< names by GroupedValues::sequence
 };
 
-/// Runs on which two ranked methods have a value or failed, and at least one has a value, grouped
-/// by `out.options.over`. Records kept and missing counts in `out`.
+/// Runs on which two ranked methods have a value or failed (one, if runs are independent), and at
+/// least one has a value, grouped by `out.options.over`. Records counts in `out`.
 KeptRuns select_runs(const Observations& all, Comparison& out);
 
 /// "declined 1, failed 2": each reason with its count.

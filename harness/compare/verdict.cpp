@@ -61,17 +61,27 @@ std::string distance(const MethodVerdict& method, const Comparison& c) {
   return method.ratio ? ratio_text(*method.ratio, options.baseline, c) : without_ratio(method, c);
 }
 
-/// ", on 8 of 10 runs; fails 2"; empty without failures.
-std::string failures_text(const Comparison& c, const MethodVerdict& method) {
-  if (method.fails == 0) return "";
-  return fmt::format(", on {} of {} runs; fails {}", method.runs, c.runs, method.fails);
+/// At most three names, and how many others there are.
+std::vector<std::string> shortened(std::vector<std::string> names) {
+  constexpr std::size_t kMost = 4;
+  if (names.size() <= kMost) return names;
+  const std::size_t others = names.size() - (kMost - 1);
+  names.resize(kMost - 1);
+  names.push_back(fmt::format("{} others", others));
+  return names;
 }
 
-/// ", raw fails on 6 of 8 runs": a method can rank before the baseline for that reason alone.
-std::string baseline_failures_text(const Comparison& c, const MethodVerdict& method) {
-  const MethodVerdict& baseline = *find(c, c.options.baseline);
-  if (baseline.fails <= method.fails) return "";
-  return fmt::format(", {} fails on {} of {} runs", baseline.method, baseline.fails, c.runs);
+/// "; fails: dual 2, raw 6 of 8 runs; declines: pcm 3": methods and their numbers of runs.
+std::string missing_text(const Comparison& c) {
+  const auto listed = [&](const char* what, std::size_t MethodVerdict::*count) {
+    std::vector<std::string> named;
+    for (const MethodVerdict& m : c.methods) {
+      if (m.*count > 0) named.push_back(fmt::format("{} {}", m.method, m.*count));
+    }
+    if (named.empty()) return std::string();
+    return fmt::format("; {}: {} of {} runs", what, joined_names(shortened(named)), c.runs);
+  };
+  return listed("fails", &MethodVerdict::fails) + listed("declines", &MethodVerdict::declines);
 }
 
 std::string contradiction_text(const Comparison& c, const MethodVerdict& method) {
@@ -83,13 +93,12 @@ std::string contradiction_text(const Comparison& c, const MethodVerdict& method)
                   : " on most runs, but not in the mean";
 }
 
-/// distance() with p and the excluded runs.
+/// distance() with p.
 std::string result(const Comparison& c, const MethodVerdict& method) {
   std::string out = distance(method, c);
   if (method.ratio && method.standing == Standing::leader) out += sequences_text(*method.ratio, c);
   if (method.p) out += ", " + p_sentence(*method.p);
-  return out + contradiction_text(c, method) + failures_text(c, method) +
-         baseline_failures_text(c, method);
+  return out + contradiction_text(c, method);
 }
 
 /// "; 5.2 % below dual, the next [2.0, 8.1]": the margin that decides.
@@ -130,7 +139,7 @@ std::string leaders_text(const Comparison& c) {
   const auto equal = names_where(c, [](const MethodVerdict& m) {
     return m.standing == Standing::leader || m.standing == Standing::equal;
   });
-  return joined_names(equal) + (equal.size() == 1 ? " is " : " are equal, ");
+  return joined_names(shortened(equal)) + (equal.size() == 1 ? " is " : " are equal, ");
 }
 
 std::string best_text(const Comparison& c, const std::vector<std::string>& leaders) {
@@ -139,7 +148,7 @@ std::string best_text(const Comparison& c, const std::vector<std::string>& leade
                                  ? "significantly better than the other method"
                                  : "significantly better than each of the other methods";
   const std::string tail = "; " + better + next_text(c);
-  const std::string names = joined_names(leaders);
+  const std::string names = joined_names(shortened(leaders));
   if (leaders.size() == 1) {
     return baseline.standing == Standing::leader
                ? "the baseline " + names + " is best" + only_other(c) + tail
@@ -162,15 +171,9 @@ std::string undecided_text(const Comparison& c) {
   const auto open =
       names_where(c, [](const MethodVerdict& m) { return m.standing == Standing::open; });
   const auto winners = names_where(c, [](const MethodVerdict& m) { return m.beats_baseline; });
-  constexpr std::size_t kMostNames = 4;
-  std::vector<std::string> named = open;
-  if (open.size() > kMostNames) {
-    named.resize(kMostNames - 1);
-    named.push_back(fmt::format("{} others", open.size() - named.size()));
-  }
   const std::string rest = open.size() + 1 == c.methods.size() && open.size() > 1
                                ? "any other method"
-                               : joined_names(named, " or ");
+                               : joined_names(shortened(open), " or ");
   const Standing baseline = find(c, c.options.baseline)->standing;
   if (baseline == Standing::leader || baseline == Standing::equal) {
     return "no method is significantly better than the baseline " + c.options.baseline +
@@ -190,6 +193,12 @@ std::string undecided_text(const Comparison& c) {
 }
 
 }  // namespace
+
+std::string needed_text(const Comparison& c) {
+  return c.has_strata
+             ? fmt::format("{} runs of each method and sequence are needed", c.groups_needed)
+             : fmt::format("{} are needed", c.groups_needed);
+}
 
 std::string unit_text(const Comparison& c) {
   const auto plural = [](std::size_t n, const std::string& one) {
@@ -225,7 +234,7 @@ std::string coverage_text(const Comparison& c, const std::vector<std::string>& m
 std::string verdict(const Comparison& c) {
   if (c.methods.empty()) return why_no_comparison(c);
   const auto leaders = names_where(c, is_leading);
-  const std::string over = "; over " + unit_text(c);
+  const std::string over = missing_text(c) + "; over " + unit_text(c);
   const auto is_equal = [](const MethodVerdict& m) {
     return m.standing == Standing::leader || m.standing == Standing::equal;
   };
@@ -233,26 +242,41 @@ std::string verdict(const Comparison& c) {
   std::vector<std::string> partial = methods_with_less_coverage(c);
   std::erase_if(partial, [&](const std::string& m) { return std::ranges::count(leaders, m) == 0; });
   const std::string covered = coverage_text(c, partial);
-  if (c.groups >= c.groups_needed && !covered.empty()) {
+  if (c.can_show && !covered.empty()) {
     return "no method is called best: " + covered + "; " + leaders_text(c) +
            result(c, c.methods.front()) + over;
   }
-  if (c.groups >= c.groups_needed) {
-    return (c.is_best ? best_text(c, leaders) : undecided_text(c)) + over;
-  }
+  if (c.can_show) return (c.is_best ? best_text(c, leaders) : undecided_text(c)) + over;
   const std::string lead =
       is_leading(*find(c, c.options.baseline))
           ? "the baseline " + c.options.baseline + " ranks first" + only_other(c)
           : leaders_text(c) + result(c, c.methods.front());
   return fmt::format(
-      "nothing can be shown: {}{}, but {} cannot show a difference among {} methods at "
-      "{:g} ({} are needed)",
+      "nothing can be shown: {}{}{}, but {} cannot show a difference among {} methods at {:g} ({})",
       lead,
       covered.empty() ? "" : ", and " + covered,
+      missing_text(c),
       unit_text(c),
       c.methods.size(),
       c.options.alpha,
-      c.groups_needed);
+      needed_text(c));
+}
+
+std::string statement(const Comparison& c) {
+  std::string out;
+  for (const std::string& word :
+       {c.kind.relation.text(), c.kind.axis == "3d" ? "" : c.kind.axis.text()}) {
+    if (!word.empty()) out += word + " ";
+  }
+  const std::string unit = c.kind.unit.empty() ? "" : " [" + c.kind.unit + "]";
+  return fmt::format("{}{}, {}{}, {}, {}: {}",
+                     out,
+                     metric_label(c.kind).text(),
+                     c.options.value,
+                     unit,
+                     c.kind.times.text(),
+                     c.kind.protocol.text(),
+                     verdict(c));
 }
 
 }  // namespace loopbench::harness

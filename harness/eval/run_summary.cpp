@@ -177,7 +177,7 @@ std::string report_of(const std::vector<Record>& records,
   CompareOptions options;
   options.baseline = records.front().method;
   for (const Comparison& comparison : compare(scores, options)) {
-    out += "\n" + lines_of("verdict on " + subject + ": " + verdict(comparison), style);
+    out += "\n" + lines_of("verdict: " + statement(comparison), style);
     const std::vector<std::string> limits = conditions(comparison);
     const bool uses_all = comparison.runs == comparison.possible;
     for (std::size_t i = uses_all ? 1 : 0; i < limits.size(); ++i) {  // the verdict has the first

@@ -75,8 +75,7 @@ class Checker {
         find(Finding::Kind::added, name(cell), "", "not in the baseline");
       }
     }
-    for (const Finding& finding : losses_.findings()) report_.findings.push_back(finding);
-    report_.notes = losses_.notes();
+    losses_.report(report_);
     if (unlimited_ > 0) {
       report_.notes.push_back(
           fmt::format("{} {} no limit", unlimited_, unlimited_ == 1 ? "score has" : "scores have"));
@@ -193,7 +192,8 @@ class Checker {
                double now) {
     const double allowed = limit.absolute + limit.relative * std::abs(before);
     const double worse = loss(score, before, now);
-    losses_.add(cell, score, statistic, limit, before, now);
+    const double target = score.better == metrics::Better::target ? score.target : 0.0;
+    losses_.add(cell, score, statistic, limit, before - target, worse);
     if (std::abs(worse) <= allowed) return;  // NaN exceeds every limit
     if (has_vanished(score, before, now) && ++implausible_ == 1) {
       first_implausible_ = name(cell) + ", " + name(score);

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <cstdint>
+#include <random>
 
-#include "harness/statistics/differences.hpp"
+#include "harness/statistics/average.hpp"
 #include "harness/statistics/ranks.hpp"
 
 namespace loopbench::harness {
@@ -15,22 +16,42 @@ namespace {
 /// A change below this share of the absolute limit is a rounding error.
 constexpr double kSmallestChange = 1e-3;
 
-std::string gate_group(const GateCell& cell) {
-  if (!cell.group.empty()) return "group " + cell.group;
-  if (!cell.content.empty()) return "content " + cell.content;
-  return "run " + sequence_name(cell);
-}
+constexpr std::size_t kMostExactGroups = 14;  // 16384 sign flips
+constexpr std::size_t kDraws = 20'000;
 
-std::size_t needed_runs(double level) {
-  std::size_t out = 1;
-  while (out < 1000 && least_sign_flip_p(out) >= level) ++out;
+/// The smallest p over so many groups.
+double least_p_of(std::size_t groups) { return std::pow(0.5, static_cast<double>(groups)); }
+
+/// Signed ranks of one series by group, standardised, without zeros (Pratt).
+std::vector<double> signed_ranks(const std::map<std::size_t, std::vector<double>>& changes,
+                                 std::size_t groups) {
+  std::vector<double> means;
+  std::vector<double> magnitudes;
+  for (const auto& [group, of_group] : changes) {
+    means.push_back(mean(of_group));
+    magnitudes.push_back(std::abs(means.back()));
+  }
+  const std::vector<double> ranks = midranks(magnitudes);
+  std::vector<double> out(groups, 0.0);
+  double variance = 0.0;
+  std::size_t i = 0;
+  for (const auto& [group, of_group] : changes) {
+    if (means[i] != 0.0) variance += ranks[i] * ranks[i];
+    if (means[i] != 0.0) out[group] = std::copysign(ranks[i], means[i]);
+    ++i;
+  }
+  for (double& rank : out) rank /= std::max(std::sqrt(variance), 1e-300);
   return out;
 }
 
-double mean_move(const RunDifferences& differences) {
+/// Sum of the ranks after a flip of the groups whose bit is set.
+double flipped_sum(const std::vector<double>& ranks, const std::vector<std::uint64_t>& flips) {
   double sum = 0.0;
-  for (const auto& [run, difference] : differences) sum += difference;
-  return sum / static_cast<double>(differences.size());
+  for (std::size_t group = 0; group < ranks.size(); ++group) {
+    const bool is_flipped = (flips[group / 64] >> (group % 64) & 1U) != 0;
+    sum += is_flipped ? -ranks[group] : ranks[group];
+  }
+  return sum;
 }
 
 }  // namespace
@@ -40,123 +61,107 @@ void ConsistentLosses::add(const GateCell& cell,
                            const std::string& statistic,
                            const Tolerance& limit,
                            double before,
-                           double now) {
+                           double worse) {
   if (!limit.alpha || score.better == metrics::Better::neither) return;
-  if (!std::isfinite(before) || !std::isfinite(now)) return;  // already reported as a regression
-  const std::size_t group = groups_.try_emplace(gate_group(cell), groups_.size()).first->second;
+  if (!std::isfinite(before) || !std::isfinite(worse)) return;  // already a regression
   Series& series = series_[{cell.method, name(score), statistic}];
-  if (!cell.content.empty() && std::ranges::count(series.contents, cell.content) > 0) return;
+  const bool is_copy = !cell.content.empty() && !series.contents.insert(cell.content).second;
+  if (is_copy) return;
+  const std::string group = !cell.group.empty()     ? "group " + cell.group
+                            : !cell.content.empty() ? "content " + cell.content
+                                                    : "run " + sequence_name(cell);
+  const double size = std::max(std::abs(before), std::abs(worse));
   const bool is_tie =
-      tied(before, now, limit.tie) || std::abs(now - before) <= kSmallestChange * limit.absolute;
-  if (score.better == metrics::Better::target) {
-    before = std::abs(before - score.target);
-    now = std::abs(now - score.target);
-  }
-  series.groups.push_back(group);
-  series.contents.push_back(cell.content);
-  series.before.push_back(before);
-  series.now.push_back(is_tie ? before : now);
-  series.better = score.better;
-  series.limit = limit;
+      std::abs(worse) <= limit.tie * size || std::abs(worse) <= kSmallestChange * limit.absolute;
+  const double relative = worse / (before == 0.0 ? size : std::abs(before));
+  series.changes[groups_.emplace(group, groups_.size()).first->second].push_back(is_tie ? 0.0
+                                                                                        : relative);
+  series.alpha = *limit.alpha;
+  ++series.runs;
 }
 
-ConsistentLosses::Moves ConsistentLosses::moves(const Series& series) {
-  const Differences differences = paired_differences(series.now, series.before, 0.0);
-  std::map<std::size_t, std::pair<double, std::size_t>> sums;
-  for (std::size_t i = 0; i < differences.values.size(); ++i) {
-    auto& [sum, count] = sums[series.groups[i]];
-    sum +=
-        series.better == metrics::Better::higher ? -differences.values[i] : differences.values[i];
-    ++count;
+std::vector<double> ConsistentLosses::p_values() const {
+  std::vector<std::vector<double>> ranks;
+  for (const auto& [key, series] : series_) {
+    ranks.push_back(signed_ranks(series.changes, groups_.size()));
   }
-  Moves out;
-  out.is_ratio = differences.is_ratio;
-  for (const auto& [group, sum] : sums) {
-    out.by_group.emplace_back(group, sum.first / static_cast<double>(sum.second));
+  const bool is_exact = groups_.size() <= kMostExactGroups;
+  const std::size_t flips = is_exact ? std::size_t{1} << groups_.size() : kDraws;
+  std::mt19937_64 random(1);
+  std::vector<std::uint64_t> bits(groups_.size() / 64 + 1, 0);
+  std::vector<double> largest;
+  for (std::size_t flip = 0; flip < flips; ++flip) {
+    for (std::uint64_t& word : bits) word = is_exact || flip == 0 ? flip : random();
+    double most = 0.0;
+    for (const std::vector<double>& of_series : ranks) {
+      most = std::max(most, flipped_sum(of_series, bits));
+    }
+    largest.push_back(most);
+  }
+  std::ranges::sort(largest);
+  const std::vector<std::uint64_t> none(bits.size(), 0);
+  std::vector<double> out;
+  for (const std::vector<double>& of_series : ranks) {
+    constexpr double kRounding = 1e-9;
+    const double own = flipped_sum(of_series, none) - kRounding;
+    const auto as_large = largest.end() - std::ranges::lower_bound(largest, own);
+    out.push_back(static_cast<double>(as_large) / static_cast<double>(flips));
   }
   return out;
 }
 
-std::string ConsistentLosses::text(const ScoreKey& key,
-                                   const Series& series,
-                                   double p,
-                                   std::size_t others) const {
-  const Moves found = moves(series);
-  const std::size_t runs = series.now.size();
-  const std::size_t groups = found.by_group.size();
-  const double middle = std::abs(mean_move(found.by_group));
-  return fmt::format("{} worse over {} runs{}, by {:.3g}{} on average: p = {:.2g}{}",
-                     key.statistic,
-                     runs,
-                     groups == runs ? "" : fmt::format(" in {} independent groups", groups),
-                     found.is_ratio ? 100.0 * std::expm1(middle) : middle,
-                     found.is_ratio ? " %" : "",
-                     p,
-                     others == 0 ? "" : fmt::format("; likewise {} more of its scores", others));
-}
-
-std::vector<Finding> ConsistentLosses::findings() const {
-  std::vector<RunDifferences> comparisons;
-  double level = 1.0;
-  for (const auto& [key, series] : series_) {
-    comparisons.push_back(moves(series).by_group);
-    level = std::min(level, *series.limit.alpha);
-  }
-  const std::vector<double> p = sign_flip_test(comparisons, groups_.size(), level);
+void ConsistentLosses::report(GateReport& out) const {
   struct Loss {
-    const ScoreKey* key;
-    const Series* series;
-    double p;
-    std::size_t others;
+    Finding finding;
+    double p = 1.0;
+    std::size_t scores = 0;
   };
-  std::map<std::string, Loss> losses;  // by method, in its most significant score
+  std::map<std::string, Loss> losses;
+  std::map<std::pair<std::size_t, double>, std::set<std::string>> few;  // by groups and level
+  const std::vector<double> p = p_values();
   std::size_t i = 0;
   for (const auto& [key, series] : series_) {
+    const auto& [method, score, statistic] = key;
     const double own = p[i++];
-    if (own >= *series.limit.alpha) continue;
-    const auto [found, is_new] = losses.try_emplace(key.method, Loss{&key, &series, own, 0});
-    if (is_new) continue;
-    Loss& loss = found->second;
-    const std::size_t others = loss.others + 1;
-    if (own < loss.p) loss = {&key, &series, own, 0};
-    loss.others = others;
+    const std::size_t groups = series.changes.size();
+    if (least_p_of(groups) >= series.alpha) few[{groups, series.alpha}].insert(method);
+    if (own >= series.alpha) continue;
+    Loss& loss = losses[method];
+    ++loss.scores;
+    if (own >= loss.p) continue;
+    std::vector<double> means;
+    for (const auto& [group, of_group] : series.changes) means.push_back(mean(of_group));
+    loss.p = own;
+    loss.finding = {
+        Finding::Kind::regression,
+        method,
+        score,
+        fmt::format("{} worse over {} runs{}, by {:.3g} % on average: p = {:.2g}",
+                    statistic,
+                    series.runs,
+                    groups == series.runs ? "" : fmt::format(" in {} independent groups", groups),
+                    100.0 * mean(means),
+                    own)};
   }
-  std::vector<Finding> out;
-  for (const auto& [method, loss] : losses) {
-    out.push_back({Finding::Kind::regression,
-                   method,
-                   loss.key->score,
-                   text(*loss.key, *loss.series, loss.p, loss.others)});
+  for (auto& [method, loss] : losses) {
+    if (loss.scores > 1) {
+      loss.finding.what += fmt::format("; likewise {} more of its scores", loss.scores - 1);
+    }
+    out.findings.push_back(std::move(loss.finding));
   }
-  return out;
-}
-
-std::vector<std::string> ConsistentLosses::notes() const {
-  std::map<std::string, std::pair<std::size_t, double>> most;  // by method: groups, level
-  for (const auto& [key, series] : series_) {
-    const std::set<std::size_t> groups(series.groups.begin(), series.groups.end());
-    auto& [count, level] = most.try_emplace(key.method, 0, 0.0).first->second;
-    count = std::max(count, groups.size());
-    level = std::max(level, *series.limit.alpha);
-  }
-  std::map<std::pair<std::size_t, double>, std::vector<std::string>> few;
-  for (const auto& [method, reach] : most) {
-    if (least_sign_flip_p(reach.first) >= reach.second) few[reach].push_back(method);
-  }
-  std::vector<std::string> out;
   for (const auto& [reach, methods] : few) {
-    const auto& [count, level] = reach;
-    out.push_back(fmt::format(
+    std::size_t needed = 1;
+    while (least_p_of(needed) >= reach.second && needed < 1000) ++needed;
+    out.notes.push_back(fmt::format(
         "no test for small consistent losses of {}: {} independent {} reach at best p = {:.2g}, "
         "level {} needs {}",
-        methods.size() == 1 ? methods.front() : fmt::format("{} methods", methods.size()),
-        count,
-        count == 1 ? "run" : "runs or groups",
-        least_sign_flip_p(count),
-        level,
-        needed_runs(level)));
+        methods.size() == 1 ? *methods.begin() : fmt::format("{} methods", methods.size()),
+        reach.first,
+        reach.first == 1 ? "run" : "runs or groups",
+        least_p_of(reach.first),
+        reach.second,
+        needed));
   }
-  return out;
 }
 
 }  // namespace loopbench::harness

@@ -37,10 +37,18 @@ inline std::string why_other_options(std::string_view earlier, std::string_view 
   return "its files were read with " + options + ", those of the earlier stores with " + others;
 }
 
-/// Record::group of a run. The reference is identified by its poses, because the same recording
-/// under several names is not several independent sequences.
-inline std::string recorded_group(const std::string& run, const std::string& reference_hash) {
-  return "run " + run + " on reference:" + reference_hash;
+inline constexpr std::string_view kOnRecording = " on recording ";
+
+/// Record::group of a run. The recording is identified by the poses of the reference, because the
+/// same recording under several names is not several independent sequences.
+inline std::string recorded_group(const std::string& run, const std::string& recording) {
+  return "run " + run + std::string(kOnRecording) + recording;
+}
+
+/// The recording of such a group; empty for groups of sweeps.
+inline std::string_view recording_of(std::string_view group) {
+  const std::size_t at = group.starts_with("run ") ? group.rfind(kOnRecording) : group.npos;
+  return at == group.npos ? std::string_view() : group.substr(at + kOnRecording.size());
 }
 
 /// Record::content of a run from the content (estimate and reference) of each of its methods: two

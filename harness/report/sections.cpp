@@ -102,7 +102,8 @@ std::string summary_html(const ReportContent& content) {
            "<p class=\"verdict\">No verdict: the sweep has no baseline, or fewer than two "
            "methods with a common run.</p>\n";
   }
-  out += "<p class=\"verdict\">" + html_text(verdict(*headline)) + "</p>\n" + key_figure(*headline);
+  out +=
+      "<p class=\"verdict\">" + html_text(statement(*headline)) + "</p>\n" + key_figure(*headline);
   if (!headline->oracles.empty()) {
     std::string names;
     for (const std::string& name : headline->oracles) names += (names.empty() ? "" : ", ") + name;

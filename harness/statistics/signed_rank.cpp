@@ -4,38 +4,28 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
+#include <numeric>
 #include <utility>
 #include <vector>
-
-#include "harness/statistics/normal.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-struct Tails {
-  double lower;  ///< P(T <= t)
-  double upper;  ///< P(T >= t)
-};
-
-/// Exact distribution of the sum of ranks with random signs, which is symmetric, so that only the
-/// sums of the smaller tail are needed. Midranks are doubled to be integers. Up to 53 ranks all
-/// probabilities are multiples of 2^-53, without rounding.
-Tails exact_tails(const std::vector<double>& ranks, double t) {
+/// P(T <= t), T being the sum of the ranks with positive sign. The distribution is symmetric, so
+/// that `t` up to half of the sum of all is enough.
+double exact_tail(const std::vector<double>& ranks, double t) {
+  // Midranks are doubled to be integers. Up to 53 ranks all probabilities are multiples of 2^-53,
+  // without rounding.
   const bool is_whole = std::ranges::all_of(ranks, [](double r) { return r == std::floor(r); });
   const double scale = is_whole ? 1.0 : 2.0;
-  const auto scaled = [&](double rank) {
-    return static_cast<std::size_t>(std::lround(scale * rank));
-  };
-  std::size_t total = 0;
-  for (const double rank : ranks) total += scaled(rank);
-  const std::size_t at = scaled(t);
-  const std::size_t most = std::min(at, total - at);
+  const auto most = static_cast<std::size_t>(std::lround(scale * t));
   std::vector<double> chance(most + 1, 0.0);
   std::vector<double> next(most + 1, 0.0);
   chance[0] = 1.0;
   std::size_t reached = 0;
   for (const double rank : ranks) {
-    const std::size_t step = scaled(rank);
+    const auto step = static_cast<std::size_t>(std::lround(scale * rank));
     reached = std::min(reached + step, most);
     for (std::size_t sum = 0; sum < std::min(step, most + 1); ++sum) next[sum] = 0.5 * chance[sum];
     const double* const before = chance.data();
@@ -45,41 +35,30 @@ Tails exact_tails(const std::vector<double>& ranks, double t) {
     }
     std::swap(chance, next);
   }
-  double smaller = 0.0;
-  for (const double one : chance) smaller += one;
-  const double larger = 1.0 - smaller + chance[most];
-  return at == most ? Tails{smaller, larger} : Tails{larger, smaller};
+  return std::accumulate(chance.begin(), chance.end(), 0.0);
 }
 
 /// Variance given the observed ranks, which is correct with ties and dropped zeros.
-Tails normal_tails(const std::vector<double>& ranks, double t, bool continuity) {
+double normal_tail(const std::vector<double>& ranks, double t) {
   double center = 0.0;
   double variance = 0.0;
   for (const double rank : ranks) {
     center += 0.5 * rank;
     variance += 0.25 * rank * rank;
   }
-  const double half = continuity ? 0.5 : 0.0;
-  const double deviation = std::sqrt(variance);
-  return {normal_cdf((t - center + half) / deviation), normal_cdf((center - t + half) / deviation)};
-}
-
-double chosen(const Tails& tails, Alternative alternative) {
-  if (alternative == Alternative::less) return tails.lower;
-  if (alternative == Alternative::greater) return tails.upper;
-  return 2.0 * std::min(tails.lower, tails.upper);
+  return normal_cdf((t + 0.5 - center) / std::sqrt(variance));
 }
 
 }  // namespace
 
-SignedRank signed_rank(std::span<const double> differences, const SignedRankOptions& options) {
+double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+
+SignedRank signed_rank(std::span<const double> differences, std::size_t most_exact) {
   SignedRank out;
   // The bits of magnitudes are ordered as the magnitudes are, and leave room for the sign.
   std::vector<std::uint64_t> ordered;
   ordered.reserve(differences.size());
   for (const double difference : differences) {
-    if (difference == 0.0) ++out.zeros;
-    if (difference == 0.0 && options.zeros == Zeros::wilcoxon) continue;
     const auto magnitude = std::bit_cast<std::uint64_t>(std::abs(difference));
     ordered.push_back(magnitude << 1 | (difference > 0.0 ? 1 : 0));
   }
@@ -97,44 +76,20 @@ SignedRank signed_rank(std::span<const double> differences, const SignedRankOpti
   }
   out.count = ranks.size();
   if (ranks.empty()) return out;
-  out.is_exact = ranks.size() <= options.exact_up_to;
-  const Tails tails = out.is_exact ? exact_tails(ranks, out.positive)
-                                   : normal_tails(ranks, out.positive, options.continuity);
-  out.p = std::min(1.0, chosen(tails, options.alternative));
+  const double smaller = std::min(out.positive, out.negative);
+  const bool is_exact = ranks.size() <= most_exact;
+  out.p =
+      std::min(1.0, 2.0 * (is_exact ? exact_tail(ranks, smaller) : normal_tail(ranks, smaller)));
   return out;
 }
 
 std::optional<std::size_t> critical_rank_sum(std::size_t n, double alpha) {
-  const std::size_t most = n * (n + 1) / 4;
-  if (n > SignedRankOptions{}.exact_up_to) {
-    const auto count = static_cast<double>(n);
-    const double center = 0.25 * count * (count + 1.0);
-    const double deviation = std::sqrt(center * (2.0 * count + 1.0) / 6.0);
-    const auto is_rejected = [&](std::size_t sum) {
-      return 2.0 * normal_cdf((static_cast<double>(sum) + 0.5 - center) / deviation) <= alpha;
-    };
-    std::size_t low = 0;
-    for (std::size_t high = most; low < high;) {  // the first sum that is not rejected
-      const std::size_t middle = low + (high - low) / 2;
-      if (is_rejected(middle)) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
-    }
-    return low == 0 ? std::nullopt : std::optional(low - 1);
-  }
-  std::vector<double> chance(most + 1, 0.0);
-  chance[0] = 1.0;
-  for (std::size_t rank = 1; rank <= n; ++rank) {
-    for (std::size_t sum = most + 1; sum-- > 0;) {
-      chance[sum] = 0.5 * (chance[sum] + (sum >= rank ? chance[sum - rank] : 0.0));
-    }
-  }
-  double tail = 0.0;
-  std::size_t sum = 0;
-  while (sum <= most && 2.0 * (tail + chance[sum]) <= alpha) tail += chance[sum++];
-  return sum == 0 ? std::nullopt : std::optional(sum - 1);
+  std::vector<double> ranks(n);
+  std::iota(ranks.begin(), ranks.end(), 1.0);
+  return largest_rejected(n * (n + 1) / 4, alpha, [&](std::size_t sum) {
+    const auto t = static_cast<double>(sum);
+    return n <= kMostExact ? exact_tail(ranks, t) : normal_tail(ranks, t);
+  });
 }
 
 double least_p(std::size_t n) { return std::min(1.0, std::pow(2.0, 1.0 - static_cast<double>(n))); }

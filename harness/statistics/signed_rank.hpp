@@ -7,38 +7,46 @@
 
 namespace loopbench::harness {
 
-/// Treatment of differences that are exactly zero. Pratt (1959) ranks them with the others and then
-/// drops them, so that many ties make significance harder; Wilcoxon (1945) drops them first.
-enum class Zeros { pratt, wilcoxon };
-
-enum class Alternative { two_sided, less, greater };  ///< of the differences, compared with zero
-
-struct SignedRankOptions {
-  Zeros zeros = Zeros::pratt;
-  Alternative alternative = Alternative::two_sided;
-  std::size_t exact_up_to = 50;  ///< non-zero differences; beyond: normal approximation
-  bool continuity = true;        ///< continuity correction of the normal approximation
-};
+/// More differences use the normal approximation.
+inline constexpr std::size_t kMostExact = 50;
 
 struct SignedRank {
   std::size_t count = 0;  ///< number of non-zero differences
-  std::size_t zeros = 0;
   double positive = 0.0;  ///< sum of the ranks of positive differences
   double negative = 0.0;
-  double p = 1.0;  ///< 1 if every difference is zero
-  bool is_exact = true;
+  double p = 1.0;  ///< two-sided; 1 if every difference is zero
 };
 
-/// Equal magnitudes share their ranks. The exact p enumerates the sign patterns given the observed
-/// ranks, so it is valid with ties and zeros, too (a permutation test); two-sided: twice the
-/// smaller tail. No NaN. O(n log n), exact O(n^3) with n <= exact_up_to.
-SignedRank signed_rank(std::span<const double> differences, const SignedRankOptions& options = {});
+/// Zeros are ranked with the others and then dropped (Pratt, 1959), so that many ties make
+/// significance harder; equal magnitudes share their ranks. The exact p enumerates the sign
+/// patterns given the observed ranks, so it is valid with ties and zeros, too: twice the smaller
+/// tail. The normal approximation has a continuity correction. No NaN. O(n log n), exact O(n^3).
+SignedRank signed_rank(std::span<const double> differences, std::size_t most_exact = kMostExact);
 
 /// The largest sum c of the ranks of one sign with 2 P(sum <= c) <= alpha for n differences without
-/// ties; nullopt if there is none. Exact up to 50 differences. O(n^3) then.
+/// ties; nullopt if there is none. O(n^3 log n) if exact.
 std::optional<std::size_t> critical_rank_sum(std::size_t n, double alpha);
 
 /// The smallest two-sided p for n differences: 2^(1 - n), if all have one sign.
 double least_p(std::size_t n);
+
+/// P(Z <= z) of the standard normal distribution, to a few ulp in both tails.
+double normal_cdf(double z);
+
+/// The largest c in 0..most with 2 tail(c) <= alpha, for a tail that grows with c; nullopt if there
+/// is none. O(log most) calls.
+template <class Tail>
+std::optional<std::size_t> largest_rejected(std::size_t most, double alpha, Tail tail) {
+  std::size_t accepted = most + 1;  // the first that may be accepted
+  for (std::size_t low = 0; low < accepted;) {
+    const std::size_t middle = low + (accepted - low) / 2;
+    if (2.0 * tail(middle) <= alpha) {
+      low = middle + 1;
+    } else {
+      accepted = middle;
+    }
+  }
+  return accepted == 0 ? std::nullopt : std::optional(accepted - 1);
+}
 
 }  // namespace loopbench::harness

@@ -107,7 +107,7 @@ TableView table_view(const Comparison& c) {
                  "mean",
                  "behind"},
                 {},
-                {verdict(c)}};
+                {statement(c)}};
   double largest = 0.0;
   for (const MethodVerdict& m : c.methods) largest = std::max(largest, std::abs(m.median));
   for (const MethodVerdict& m : c.methods) {
@@ -190,7 +190,7 @@ std::string json(const std::vector<Comparison>& comparisons, int indent) {
                {"possible", c.possible},
                {"is_best", c.is_best},
                {"tests", c.tests},
-               {"verdict", verdict(c)},
+               {"verdict", statement(c)},
                {"remarks", remarks(c)},
                {"oracle_methods", c.oracles},
                {"oracle_closures", c.oracle_closures},

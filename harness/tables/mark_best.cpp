@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
+#include <set>
 
 namespace loopbench::harness {
 namespace {
@@ -16,65 +16,35 @@ struct MarkContest {
   std::size_t groups = 0;
 };
 
-/// Numbers small numbers in order of appearance.
-class Renumbered {
- public:
-  std::size_t index(std::size_t number) {
-    if (number >= index_.size()) index_.resize(number + 1, kNone);
-    if (index_[number] == kNone) index_[number] = size_++;
-    return index_[number];
-  }
-  std::size_t size() const { return size_; }
-
- private:
-  static constexpr auto kNone = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> index_;
-  std::size_t size_ = 0;
-};
-
-/// Runs of any of the entries.
-std::size_t count_runs(const MarkInput& input, const std::vector<std::size_t>& entries) {
-  std::vector<bool> is_there(input.group.size(), false);
-  for (const std::size_t i : entries) {
-    for (const auto& [run, value] : input.competitors[i]) is_there[run] = true;
-  }
-  return static_cast<std::size_t>(std::ranges::count(is_there, true));
-}
-
 MarkContest mark_contest(const MarkInput& input) {
   MarkContest out;
+  std::set<std::size_t> runs;
   for (std::size_t i = 0; i < input.competitors.size(); ++i) {
     const ByRun& own = input.competitors[i];
-    if (std::ranges::any_of(own, [](const auto& one) { return one.second.has_value(); })) {
-      out.entries.push_back(i);
-    }
+    if (std::ranges::none_of(own, [](const auto& one) { return one.second.has_value(); })) continue;
+    out.entries.push_back(i);
+    for (const auto& [run, value] : own) runs.insert(run);
   }
-  const std::size_t runs = count_runs(input, out.entries);
-  RunSet common;
-  for (const std::size_t i : out.entries) {
-    RunSet own;
-    for (const auto& [run, value] : input.competitors[i]) own.insert(own.end(), run);
-    out.is_complete.push_back(own.size() == runs);
-    if (i == out.entries.front()) {
-      common = std::move(own);
-    } else {
-      keep_only(common, own);
-    }
+  std::map<std::size_t, std::size_t> groups;
+  for (const std::size_t run : runs) {
+    out.values.group.push_back(groups.emplace(input.group[run], groups.size()).first->second);
+    if (!input.sequence.empty()) out.values.sequence.push_back(input.sequence[run]);
   }
-  Renumbered groups;
-  for (const std::size_t run : common) out.values.group.push_back(groups.index(input.group[run]));
   for (const std::size_t i : out.entries) {
     const ByRun& own = input.competitors[i];
-    const bool is_common = own.size() == common.size();
+    out.is_complete.push_back(!input.is_paired || own.size() == runs.size());
     std::vector<std::optional<double>>& values = out.values.values.emplace_back();
-    values.reserve(common.size());
-    for (const auto& [run, value] : own) {
-      if (is_common || common.contains(run))
-        values.push_back(value ? value : std::optional(kFailed));
+    values.reserve(runs.size());
+    auto next = own.begin();
+    for (const std::size_t run : runs) {
+      const bool is_known = next != own.end() && next->first == run;
+      values.push_back(is_known ? std::optional(next->second.value_or(kFailed)) : std::nullopt);
+      if (is_known) ++next;
     }
   }
   out.values.better = input.better;
   out.values.target = input.target;
+  out.values.is_paired = input.is_paired;
   out.groups = groups.size();
   return out;
 }
@@ -92,8 +62,8 @@ Marks mark_best(const MarkInput& input, const RankingOptions& options) {
   const Levels levels(all.values, options.tie);
   const Ranking ranking = rank_methods(levels, options);
   const bool has_difference = std::ranges::any_of(
-      ranking.from_leader, [](const Pair& pair) { return pair.ranks.count > 0; });
-  if (has_difference && !ranking.can_show()) {
+      ranking.from_leader, [](const Pair& pair) { return pair.has_difference(); });
+  if (has_difference && !ranking.can_show) {
     out.why_none = fmt::format("{} independent run{} per entry cannot show a difference at {:g}",
                                all.groups,
                                all.groups == 1 ? "" : "s",

@@ -32,6 +32,8 @@ struct MarkInput {
   std::vector<std::size_t> group;  ///< of each run
   metrics::Better better = metrics::Better::lower;
   double target = 0.0;
+  std::vector<std::size_t> sequence = {};  ///< of each run; empty: not known
+  bool is_paired = true;                   ///< false: independent runs of the sequences
 };
 
 struct Marks {
@@ -41,7 +43,7 @@ struct Marks {
 
 /// Best: the leading competitors by `rank_methods`, as in verdicts, if they are significantly
 /// better than all others; second best: the same among the others. A competitor that lacks a run
-/// without having failed on it is compared on the common runs, but never marked. Competitors
+/// without having failed on it is compared on the runs that it has, but never marked. Competitors
 /// without values are ignored.
 Marks mark_best(const MarkInput& input, const RankingOptions& options);
 

@@ -31,10 +31,10 @@ TableView power_table(const Comparison& c, double gain) {
       {},
       {}};
   if (c.methods.empty()) {
-    out.notes.push_back(verdict(c));
+    out.notes.push_back(statement(c));
     return out;
   }
-  Power power(c.options.alpha / static_cast<double>(c.tests));
+  Power power(level_of_one(c.options.alpha, c.tests));
   for (const MethodVerdict& m : c.methods) {
     if (m.method == c.options.baseline) continue;
     const std::size_t groups = m.wins + m.losses + m.ties;

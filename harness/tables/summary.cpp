@@ -104,8 +104,7 @@ std::vector<std::string> verdicts(const std::vector<Record>& candidates,
   std::size_t left_out = 0;
   const std::vector<Comparison> all = compare(candidates, how);
   // With too few runs the sentences are the same for all scores.
-  const bool can_prove =
-      std::ranges::any_of(all, [](const Comparison& c) { return c.groups >= c.groups_needed; });
+  const bool can_prove = std::ranges::any_of(all, [](const Comparison& c) { return c.can_show; });
   const std::size_t most = can_prove ? kMostVerdicts : 1;
   for (const Comparison& c : all) {
     const std::string score = field(c.kind, "score");
@@ -113,7 +112,7 @@ std::vector<std::string> verdicts(const std::vector<Record>& candidates,
     if (std::ranges::count(seen, score) > 0) continue;
     seen.push_back(score);
     if (out.size() < most) {
-      out.push_back(score + ": " + verdict(c));
+      out.push_back(statement(c));
     } else {
       ++left_out;
     }

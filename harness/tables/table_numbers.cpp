@@ -1,6 +1,7 @@
 #include "harness/tables/table_numbers.hpp"
 
 #include "harness/compare/observations.hpp"
+#include "harness/model/recorded_run.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -90,10 +91,28 @@ std::vector<TablePosition> entry_indices(const TableNumbers& table,
   return out;
 }
 
+namespace {
+
+/// Runs of recorded files are independent; their sequence is the recording.
+void add_recordings(MarkInput& out, const TableNumbers& table) {
+  std::map<std::string_view, std::size_t> numbers;
+  std::vector<std::size_t> of_group;
+  for (const std::string& group : table.groups.texts()) {
+    const std::string_view recording = recording_of(group);
+    if (recording.empty()) return;
+    of_group.push_back(numbers.emplace(recording, numbers.size()).first->second);
+  }
+  for (const std::size_t group : table.group_of_run) out.sequence.push_back(of_group[group]);
+  out.is_paired = false;
+}
+
+}  // namespace
+
 MarkInput mark_input(const TableNumbers& table,
                      const std::vector<TablePosition>& positions,
                      bool along_columns) {
   MarkInput out{{}, table.group_of_run, metrics::Better::neither, 0.0};
+  add_recordings(out, table);
   std::vector<bool> is_tried(table.group_of_run.size(), false);
   for (const TablePosition& position : positions) {
     ByRun& own = out.competitors.emplace_back();

@@ -34,7 +34,7 @@ TEST(Compare, RejectsStatisticsWithoutADirection) {
 
 TEST(Compare, StatesItsTest) {
   EXPECT_TRUE(
-      has_remark(compared(sweep()), "a failure being the largest loss, times 2 (Bonferroni)"));
+      has_remark(compared(sweep()), "a failure being the largest loss, corrected for 2 tests"));
 }
 
 TEST(Compare, SaysWhereRanksAndTheMeanContradictEachOther) {

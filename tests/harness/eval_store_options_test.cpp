@@ -64,14 +64,14 @@ TEST_F(EvalStoreOptions, PrintsATableAndAVerdictForEachProtocol) {
       {path("truths"), path("systems"), "--protocol", "evo,tum", "--store", path("store")});
   for (const char* const protocol : {"evo", "tum"}) {
     EXPECT_THAT(out, HasSubstr("mean ate (" + std::string(protocol) + ") [m]"));
-    EXPECT_THAT(out, HasSubstr("verdict on ate (" + std::string(protocol) + "): "));
+    EXPECT_THAT(out, HasSubstr(", keyframes, " + std::string(protocol) + ": good is best: "));
   }
 }
 
 TEST_F(EvalStoreOptions, PrintsTheRequestedScoreIfThereIsNoAte) {
   const std::string out =
       test::eval({path("truths"), path("systems"), "-r", "trans_part", "--store", path("store")});
-  EXPECT_THAT(out, HasSubstr("verdict on ape"));
+  EXPECT_THAT(out, HasSubstr("verdict: translation_part ape, rmse [m], keyframes, loopbench: "));
   EXPECT_THAT(out, ContainsRegex("mean ape[^|]* \\[m\\]"));
 }
 

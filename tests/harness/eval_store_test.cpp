@@ -194,6 +194,19 @@ TEST_F(EvalStore, MergedStoresGoOn) {
                InputError);
 }
 
+TEST_F(EvalStore, EvalOfSeveralEstimatesEndsWithTheVerdict) {
+  std::vector<std::string> arguments{path("truths/office.txt")};
+  for (int run = 0; run < 10; ++run) {
+    for (const char* const method : {"good", "bad"}) {
+      arguments.push_back(
+          path("systems/" + std::string(method) + "/office/" + std::to_string(run) + ".txt"));
+    }
+  }
+  EXPECT_THAT(
+      test::eval(arguments),
+      HasSubstr("verdict: translation ate, rmse [m], keyframes, loopbench: the baseline good is best: "));
+}
+
 TEST_F(EvalStore, EvalStatesWhyThereIsNoVerdict) {
   for (const char* const folder : {"x/same", "y/same"}) {
     std::filesystem::create_directories(path(folder));

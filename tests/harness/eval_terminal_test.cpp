@@ -56,14 +56,13 @@ TEST_F(EvalOnATerminal, SeveralEstimatesFitAndEndWithAVerdict) {
     EXPECT_LE(widest(text), columns) << text;
     EXPECT_THAT(text, Not(HasSubstr("|")));
     EXPECT_THAT(text,
-                HasSubstr("\nverdict on ate: nothing can be shown: the baseline a ranks first: "
-                          "b is "));
+                HasSubstr("\nverdict: translation ate, rmse [m], keyframes, loopbench: nothing "));
   }
   const std::string piped = loopbench_command("eval gt.txt a.txt b.txt", folder_).out;
   EXPECT_THAT(piped, HasSubstr("\n| a.txt "));
   EXPECT_THAT(piped, HasSubstr(" % above a, but 1 sequence cannot show a difference"));
   EXPECT_THAT(run("eval gt.txt a.txt b.txt --protocol evo,tum", 80).out,
-              HasSubstr("\nverdict on ate (evo): "));
+              HasSubstr("\nverdict: translation ate, rmse [m], keyframes, evo: "));
 }
 
 TEST_F(EvalOnATerminal, StoresEndWithATableThatFits) {

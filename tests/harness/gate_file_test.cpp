@@ -66,12 +66,14 @@ TEST(BaselineFile, IsRefusedWithItsPlace) {
   const auto refusal = [](const std::string& text) {
     return refusal_of([&] { parse_baseline(text, "b.json"); });
   };
-  EXPECT_EQ(refusal(""), refusal(""));
   EXPECT_EQ(refusal("{\n\"sweep\": \n]").find("b.json:3: is not JSON: "), 0u)
       << refusal("{\n\"sweep\": \n]");
   EXPECT_EQ(refusal("").find("b.json:1: is not JSON: "), 0u);
   EXPECT_EQ(refusal("[]"), "b.json: baseline: expected an object");
-  EXPECT_EQ(refusal("{}"), "b.json: loopbench_baseline: is missing");
+  EXPECT_EQ(
+      refusal("{}"),
+      "b.json: loopbench_baseline: found format null, expected 4: it lacks data that format 4 "
+      "compares; check the results, then write it again with --update (limits are kept)");
   EXPECT_EQ(refusal("{\"loopbench_baseline\": 9}"),
             "b.json: loopbench_baseline: found format 9, expected 4: it lacks data that format 4 "
             "compares; check the results, then write it again with --update (limits are kept)");
@@ -81,20 +83,14 @@ TEST(BaselineFile, IsRefusedWithItsPlace) {
     EXPECT_NE(at, std::string::npos) << from;
     return refusal(text.replace(at, from.size(), to));
   };
-  EXPECT_EQ(changed("\"rmse\":[1.0]", "\"rmse\":[\"1\"]"),
-            "b.json: cells[0].rmse[0]: expected a number, found \"1\"");
-  EXPECT_EQ(changed("\"pairs\":[400]", "\"pairs\":[]"),
-            "b.json: cells[0].pairs: expected a list of 1, as scores");
   EXPECT_EQ(changed("\"values\":[\"rmse\"]", "\"values\":[3]"),
-            "b.json: limits[0].values: expected a list of statistics, found [3]");
+            "b.json: limits[0].values: expected a list of texts, found [3]");
   EXPECT_EQ(changed("\"values\":[\"rmse\"]", "\"values\":[\"rms\"]"),
             "b.json: limits[0]: no statistic is named 'rms'; did you mean 'rmse'?");
   EXPECT_EQ(changed("\"alpha\":", "\"alhpa\":"),
             "b.json: limits[0]: no key of a limit is named 'alhpa'; did you mean 'alpha'?");
   EXPECT_EQ(changed("\"relative\":0.001", "\"relative\":-1"),
             "b.json: limits[0].relative: expected a non-negative number, found -1");
-  EXPECT_EQ(changed("\"sequence\":\"room\"", "\"sequence\":3"),
-            "b.json: cells[0].sequence: expected text, found 3");
 }
 
 TEST(GateText, IsMarkdownAndJUnit) {

@@ -8,6 +8,7 @@
 
 #include "harness/compare/ranking.hpp"
 #include "harness/statistics/ranks.hpp"
+#include "harness/statistics/signed_rank.hpp"
 
 namespace loopbench::pair_test {
 
@@ -65,7 +66,7 @@ TEST(Pair, IsMonotoneInEveryRun) {
     GroupedValues all = random_store(bits);
     if (!is_better(all)) continue;
     ++claims;
-    const double before = pair_of(all).p();
+    const double before = pair_of(all).p;
     const std::size_t run = bits() % all.group.size();
     std::optional<double>& better = all.values[0][run];
     const double other = *all.values[1][run];
@@ -73,7 +74,7 @@ TEST(Pair, IsMonotoneInEveryRun) {
     better = factor * (std::isnan(*better) ? std::isnan(other) ? 1.0 : other : *better);
     ASSERT_TRUE(is_better(all)) << "store " << i;
     // Ties of magnitudes, which failures are, can change p in its last digits only.
-    ASSERT_LE(pair_of(all).p(), before * (1.0 + 1e-9)) << "store " << i;
+    ASSERT_LE(pair_of(all).p, before * (1.0 + 1e-9)) << "store " << i;
   }
   EXPECT_GT(claims, kStores / 10);
 }
@@ -87,7 +88,7 @@ TEST(Pair, IsBlindToThirdMethods) {
     all.values.pop_back();
     const Pair without = pair_of(all);
     ASSERT_EQ(with.values, without.values);
-    ASSERT_EQ(with.p(), without.p());
+    ASSERT_EQ(with.p, without.p);
     ASSERT_EQ(with.mean, without.mean);
     ASSERT_EQ(is_ahead, without.is_first_ahead() && without.is_significant(0.05, 2));
   }
@@ -123,8 +124,75 @@ TEST(Pair, TypicalIntervalExcludesOneExactlyIfPIsSmall) {
     ASSERT_LE(typical->estimate, typical->high);
     const bool has_zero = typical->low <= 0.0 && typical->high >= 0.0;
     const bool has_zero_inside = typical->low < 0.0 && typical->high > 0.0;
-    ASSERT_TRUE(pair.p() > 0.05 ? has_zero : !has_zero_inside);
+    ASSERT_TRUE(pair.p > 0.05 ? has_zero : !has_zero_inside);
   }
+}
+
+/// Ten runs of two systems on one sequence, or of several.
+GroupedValues independent(std::mt19937_64& bits, double effect, std::size_t sequences) {
+  const auto uniform = [&] { return static_cast<double>(bits() >> 11) * 0x1p-53; };
+  GroupedValues out;
+  out.values.resize(2);
+  out.is_paired = false;
+  for (std::size_t sequence = 0; sequence < sequences; ++sequence) {
+    const double size = std::exp(4.0 * uniform());
+    for (std::size_t run = 0; run < 10; ++run) {
+      out.sequence.push_back(sequence);
+      out.group.push_back(out.group.size());
+      out.values[0].push_back(size * std::exp(effect + uniform()));
+      out.values[1].push_back(size * std::exp(uniform()));
+    }
+  }
+  return out;
+}
+
+TEST(IndependentRuns, AreTheSameUnderAnyNumbers) {
+  std::mt19937_64 bits(20);
+  GroupedValues all = independent(bits, -0.3, 3);
+  const Pair before = pair_of(all);
+  for (int i = 0; i < 20; ++i) {
+    for (std::vector<std::optional<double>>& row : all.values) {
+      for (auto run = row.begin(); run != row.end(); run += 10) std::shuffle(run, run + 10, bits);
+    }
+    const Pair after = pair_of(all);
+    EXPECT_EQ(after.p, before.p);
+    EXPECT_EQ(after.typical(0.05)->low, before.typical(0.05)->low);
+    EXPECT_NEAR(*after.mean, *before.mean, 1e-12);
+  }
+}
+
+TEST(IndependentRuns, AreMonotoneAndTheirIntervalFollowsP) {
+  std::mt19937_64 bits(21);
+  int claims = 0;
+  for (std::size_t i = 0; i < kStores / 10; ++i) {
+    GroupedValues all = independent(bits, -0.4, 1 + i % 3);
+    if (i % 4 == 0) all.values[i % 2][3] = kFailed;
+    const Pair pair = pair_of(all);
+    const Interval typical = *pair.typical(0.05);
+    ASSERT_EQ(pair.p > 0.05, typical.low <= 0.0 && typical.high >= 0.0);
+    ASSERT_TRUE(typical.low <= typical.estimate && typical.estimate <= typical.high);
+    if (!is_better(all)) continue;
+    ++claims;
+    all.values[0][bits() % 10] = 1e-3;
+    ASSERT_TRUE(is_better(all)) << "store " << i;
+    ASSERT_LE(pair_of(all).p, pair.p);
+  }
+  EXPECT_GT(claims, kStores / 50);
+}
+
+TEST(IndependentRuns, OfWhichEachSequenceHasOneAreComparedOverSequences) {
+  GroupedValues all = of({{1, 2, 3, 4, 5, 6}, {1.1, 2.3, 3.5, 4.7, 6.1, 7.9}});
+  const double paired = pair_of(all).p;
+  all.is_paired = false;
+  EXPECT_EQ(pair_of(all).p, paired);
+  EXPECT_EQ(pair_of(all).p, least_p(6));
+}
+
+TEST(IndependentRuns, CountCopiesOfAFileOnce) {
+  GroupedValues all = of({std::vector<double>(10, 1.0), {2, 3, 4, 5, 6, 7, 8, 9, 10, 11}});
+  all.is_paired = false;
+  all.sequence.assign(10, 0);
+  EXPECT_DOUBLE_EQ(pair_of(all).p, 2.0 / 11.0);
 }
 
 TEST(Ranking, IsNotLedByAMethodOfFewRuns) {

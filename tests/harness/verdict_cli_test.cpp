@@ -52,7 +52,9 @@ TEST_F(VerdictCli, CompareGivesAVerdict) {
   const CommandResult result = run("compare r --where unit=m");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out.rfind("### ate rmse, keyframes, loopbench\n\n| method", 0), 0u);
-  EXPECT_TRUE(has(result.out, "\n- uniform is best: ")) << result.out;
+  EXPECT_TRUE(
+      has(result.out, "\n- translation ate, rmse [m], keyframes, loopbench: uniform is best: "))
+      << result.out;
   EXPECT_TRUE(
       has(result.out,
           "\n- over 8 runs of 2 sequences\n- claims hold for more runs of these 2 sequences"))
