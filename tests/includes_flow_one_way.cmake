@@ -57,7 +57,7 @@ set(order
 
   "harness/text harness/statistics"
   "harness/model"
-  "harness/execution/sandbox"
+  "harness/process"
   "harness/external harness/plugin"
   "harness/catalogue"
   "harness/config harness/provenance"

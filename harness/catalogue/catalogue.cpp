@@ -4,10 +4,10 @@
 
 #include "datasets/rgbd/rgbd_datasets.hpp"
 #include "harness/catalogue/loading.hpp"
-#include "harness/catalogue/own_process.hpp"
 #include "harness/catalogue/plugins.hpp"
 #include "harness/external/external_datasets.hpp"
 #include "harness/external/external_methods.hpp"
+#include "harness/process/own_process.hpp"
 #include "harness/text/hash.hpp"
 #include "harness/text/suggest.hpp"
 

@@ -5,8 +5,8 @@
 #include "datasets/core/pack.hpp"
 #include "harness/catalogue/floating_point_guard.hpp"
 #include "harness/catalogue/libraries.hpp"
-#include "harness/catalogue/own_process.hpp"
 #include "harness/catalogue/plugins.hpp"
+#include "harness/process/own_process.hpp"
 
 namespace loopbench {
 

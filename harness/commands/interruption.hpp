@@ -1,6 +1,6 @@
 #pragma once
 
-#include "harness/execution/run/stop_requests.hpp"
+#include "harness/execution/isolate/isolated_sweep.hpp"
 
 namespace loopbench::harness {
 

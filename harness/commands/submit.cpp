@@ -11,7 +11,7 @@
 #include "harness/commands/commands.hpp"
 #include "harness/commands/config_path.hpp"
 #include "harness/commands/write_output.hpp"
-#include "harness/external/process_tree.hpp"
+#include "harness/process/program.hpp"
 #include "harness/shards/slurm_scripts.hpp"
 #include "harness/text/shell.hpp"
 
@@ -53,7 +53,7 @@ ProgramEnd run_program(const std::vector<std::string>& words, std::string& outpu
   for (const char* name : {"LOOPBENCH_DATA", "LOOPBENCH_CACHE"}) {  // hidden from other programs
     if (const char* value = std::getenv(name)) start.environment.emplace_back(name, value);
   }
-  return ProcessTree(start).wait(output);
+  return RunningProgram(start).wait(output);
 }
 
 /// What `run` rejects is rejected now, and not by every task.

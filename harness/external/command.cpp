@@ -10,9 +10,9 @@
 
 #include "datasets/core/polyline.hpp"
 #include "harness/external/arguments.hpp"
-#include "harness/external/process_tree.hpp"
 #include "harness/external/scratch.hpp"
 #include "harness/external/server.hpp"
+#include "harness/process/program.hpp"
 #include "harness/text/printable.hpp"
 
 namespace loopbench::harness {
@@ -53,7 +53,7 @@ Trajectory run_once(const CommandOptions& options,
   start.writable = folder.path();
 
   const auto started = ExchangeClock::now();
-  ProcessTree tree(start);
+  RunningProgram tree(start);
   std::string output;
   const ProgramEnd end = tree.wait(output);
   const double ran = seconds_since(started);

@@ -7,8 +7,8 @@
 #include "harness/external/arguments.hpp"
 #include "harness/external/command.hpp"
 #include "harness/external/external_datasets.hpp"
-#include "harness/external/process_tree.hpp"
 #include "harness/external/scratch.hpp"
+#include "harness/process/program.hpp"
 #include "harness/text/file_lock.hpp"
 #include "harness/text/hash.hpp"
 #include "harness/text/write_file.hpp"
@@ -134,7 +134,7 @@ void run_program(const CommandDatasetOptions& o,
                    {"trajectory", o.shell ? "${LOOPBENCH_TRAJECTORY}" : trajectory.string()},
                    {"seed", std::to_string(o.trajectory.seed)}});
   std::string output;
-  const ProgramEnd end = ProcessTree(start).wait(output);
+  const ProgramEnd end = RunningProgram(start).wait(output);
   if (end.exit_code != 0) {
     throw InputError(
         with_output("run: " + o.run + ": the program " + text(end) + hidden_note(sandbox), output));

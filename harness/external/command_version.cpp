@@ -3,7 +3,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/external/arguments.hpp"
 #include "harness/external/command.hpp"
-#include "harness/external/process_tree.hpp"
+#include "harness/process/program.hpp"
 #include "harness/text/hash.hpp"
 
 namespace loopbench::harness {
@@ -38,7 +38,7 @@ std::string command_version(const CommandOptions& options, const CommandSetting&
   start.arguments = split_arguments("version", options.version);
   start.folder = setting.folder;
   std::string output;
-  const ProgramEnd end = ProcessTree(start).wait(output);
+  const ProgramEnd end = RunningProgram(start).wait(output);
   if (end.exit_code != 0) {
     throw InputError(with_output("version: " + options.version + ": " + text(end), output));
   }

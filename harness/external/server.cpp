@@ -15,7 +15,7 @@
 #include <new>
 
 #include "harness/external/message.hpp"
-#include "harness/external/process_tree.hpp"
+#include "harness/process/program.hpp"
 #include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench::harness {
@@ -123,7 +123,7 @@ class Server {
     throw std::runtime_error("the program " + text(end) + " before its answer");
   }
 
-  ProcessTree tree_;
+  RunningProgram tree_;
   SharedTurn* turn_ = nullptr;
   std::string unsent_;
   std::string received_;

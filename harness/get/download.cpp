@@ -1,15 +1,14 @@
 #include "harness/get/download.hpp"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <fstream>
+#include <system_error>
 
 #include "datasets/core/error.hpp"
 #include "harness/get/sha256.hpp"
+#include "harness/process/child_process.hpp"
 #include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
@@ -22,17 +21,13 @@ constexpr int kNoRange = 33;  ///< of curl: the server cannot continue a downloa
 
 /// Exit code of the program `words`, without a shell.
 int exit_code_of(const std::vector<std::string>& words) {
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  pid_t child = 0;
-  if (posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ) != 0) {
+  ProgramCall call;
+  call.arguments = words;
+  try {
+    return ChildProcess(ProcessGroup::shared, call).exit_code();
+  } catch (const std::system_error&) {
     return kNoProgram;
   }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 int curl(const std::string& url, const fs::path& part) {

@@ -2,14 +2,14 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <system_error>
 #include <thread>
+
+#include "harness/process/child_process.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -46,22 +46,6 @@ void send_all_to(Descriptor& out, const std::string& input) {
   out.close_now();
 }
 
-pid_t start(const std::vector<std::string>& words, int in, int out) {
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-  pid_t process = 0;
-  const int reason =
-      posix_spawnp(&process, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (reason != 0) fail_to_start(reason);
-  return process;
-}
-
 std::string read_until_end(int descriptor) {
   std::string out;
   std::array<char, 65536> block;
@@ -83,17 +67,18 @@ FilterResult run_filter(const std::vector<std::string>& words, const std::string
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_start(errno);
   Descriptor from_program{ends[0]};
   Descriptor output_end{ends[1]};
-  const pid_t process = start(words, input_end.number, output_end.number);
+  ProgramCall call;
+  call.arguments = words;
+  call.input = input_end.number;
+  call.output = output_end.number;
+  ChildProcess process(ProcessGroup::shared, call);
   input_end.close_now();
   output_end.close_now();
   std::thread sender([&] { send_all_to(to_program, input); });
   FilterResult out;
   out.output = read_until_end(from_program.number);
   sender.join();
-  int status = 0;
-  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
-  out.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  out.exit_code = process.exit_code();
   return out;
 }
 

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "harness/execution/run/sanitized.hpp"
+#include "harness/process/sanitized.hpp"
 
 #if defined(__GLIBC__) && !defined(LOOPBENCH_SANITIZED)
 

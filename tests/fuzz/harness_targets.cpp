@@ -6,7 +6,7 @@
 #include "harness/eval/arguments.hpp"
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/eval/layout.hpp"
-#include "harness/execution/isolate/pack_result.hpp"
+#include "harness/execution/isolate/pack.hpp"
 #include "harness/gate/formats.hpp"
 #include "harness/model/where.hpp"
 #include "tests/fuzz/scratch_file.hpp"

@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "harness/execution/isolate/cell_output.hpp"
-#include "harness/execution/isolate/pack_result.hpp"
+#include "harness/execution/isolate/pack.hpp"
 #include "harness/execution/run/check_output.hpp"
 #include "tests/support/isolated_fixture.hpp"
 

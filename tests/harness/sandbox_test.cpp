@@ -1,11 +1,11 @@
 /// What a program in bubblewrap can read and write.
-#include "harness/execution/sandbox/sandbox.hpp"
+#include "harness/process/sandbox.hpp"
 
 #include <gtest/gtest.h>
 
 #include <csignal>
 
-#include "harness/external/process_tree.hpp"
+#include "harness/process/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::sandbox_test {
@@ -48,7 +48,7 @@ class Sandboxed : public testing::Test {
     start.readable = readable_;
     start.writable = folder_.path() / "scratch";
     std::string output;
-    end_ = ProcessTree(start).wait(output);
+    end_ = RunningProgram(start).wait(output);
     return output;
   }
 

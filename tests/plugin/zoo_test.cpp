@@ -10,7 +10,7 @@
 #include <numbers>
 #include <thread>
 
-#include "harness/execution/run/sanitized.hpp"
+#include "harness/process/sanitized.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/command.hpp"
 

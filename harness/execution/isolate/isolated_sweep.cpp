@@ -1,22 +1,20 @@
 #include "harness/execution/isolate/isolated_sweep.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstring>
+#include <array>
 #include <map>
+#include <set>
 
-#include "harness/execution/isolate/cell_child.hpp"
+#include "harness/catalogue/loading.hpp"
 #include "harness/execution/isolate/cell_queue.hpp"
-#include "harness/execution/isolate/kept_metadata.hpp"
-#include "harness/execution/isolate/killed_cells.hpp"
-#include "harness/execution/isolate/subreaper.hpp"
-#include "harness/execution/isolate/unpack_answer.hpp"
-#include "harness/execution/isolate/worker_slot.hpp"
+#include "harness/execution/isolate/pack.hpp"
+#include "harness/execution/isolate/worker_process.hpp"
 #include "harness/execution/run/check_output.hpp"
 #include "harness/execution/run/oracle_method.hpp"
 #include "harness/external/external_methods.hpp"
+#include "harness/process/descendants.hpp"
 #include "harness/text/print_error.hpp"
 
 namespace loopbench::harness {
@@ -54,9 +52,10 @@ class IsolatedSweep {
       wait_for_workers(slots_);
       for (WorkerSlot& slot : slots_) {
         if (!slot.process) continue;
-        const bool has_ended = slot.process->has_ended();  // first: then all answers are there
-        slot.process->receive(slot.bytes);
-        read_answers(slot);
+        const bool has_ended =
+            slot.process->child().has_ended();  // first: then all answers are there
+        slot.process->receive();
+        while (const auto answer = slot.process->next_answer()) take(slot, *answer);
         if (has_ended) {
           reap(slot);
         } else {
@@ -103,91 +102,100 @@ class IsolatedSweep {
     return std::nullopt;
   }
 
-  void read_answers(WorkerSlot& slot) {
-    std::size_t at = 0;
-    for (;;) {
-      Header header;
-      if (slot.bytes.size() - at < sizeof header) break;
-      std::memcpy(&header, slot.bytes.data() + at, sizeof header);
-      if (header.size > slot.bytes.size() - at - sizeof header) break;
-      take(slot, header, std::string_view(slot.bytes).substr(at + sizeof header, header.size));
-      at += sizeof header + header.size;
-    }
-    slot.bytes.erase(0, at);
-  }
-
   /// Takes an answer to the first job.
-  void take(WorkerSlot& slot, const Header& header, std::string_view body) {
+  void take(WorkerSlot& slot, const Answer& answer) {
     const Job job = slot.jobs.front();
-    switch (header.kind) {
-      case Header::Kind::cannot_run:
-        throw std::runtime_error("cannot create a process for a cell: " + std::string(body));
-      case Header::Kind::loaded: {
-        auto metadata = std::make_shared<SequenceMetadata>();
-        if (!unpack_answer(body, *metadata)) throw std::runtime_error("metadata are damaged");
-        metadata_.keep(queue_.group_of(job.cell), dataset_of(job.cell).label, metadata);
-        slot.clock.restart();  // now for the cell
-        return;
-      }
-      case Header::Kind::missing_part:
-        throw MissingPart(std::string(body));
-      case Header::Kind::cannot_load:
-        fail_to_load(job, std::string(body));
-        break;
-      case Header::Kind::load_failed:
-        take_failure(job, body);
-        break;
-      case Header::Kind::result:
-        take_result(job, body);
-        break;
+    slot.clock.restart();
+    switch (answer.kind) {
+      case Header::Kind::loaded:
+        return keep_metadata(job.cell, answer.body);  // the cell comes next
       case Header::Kind::only_loaded:
         break;
+      case Header::Kind::failure: {
+        Failure failure;
+        if (!unpack(answer.body, failure)) throw std::runtime_error("a failure is damaged");
+        take_failure(job, failure);
+        break;
+      }
+      case Header::Kind::result: {
+        CellResult result;
+        if (unpack(answer.body, result) && is_valid(result, context_.sweep)) {
+          finish(result, job.cell);
+        } else {
+          fail(job,
+               {Failure::Kind::cell,
+                Status::crashed,
+                "its result is damaged: it wrote over its memory",
+                ""});
+        }
+        break;
+      }
     }
     slot.jobs.pop_front();
-    slot.clock.restart();
   }
 
-  void take_result(const Job& job, std::string_view body) {
-    CellResult result;
-    if (!unpack_answer(body, result) || !is_valid(result, context_.sweep)) {
-      result = {};
-      result.status = Status::crashed;
-      result.why = "its result is damaged: it wrote over its memory";
-      set_conditions(result, job.cell);
+  /// Every worker loads its own copy of a sequence, but one metadata is kept, and its notes are
+  /// printed once.
+  void keep_metadata(std::size_t cell, std::string_view bytes) {
+    auto metadata = std::make_shared<SequenceMetadata>();
+    if (!unpack(bytes, *metadata)) throw std::runtime_error("metadata are damaged");
+    std::shared_ptr<const SequenceMetadata>& kept = metadata_[queue_.group_of(cell)];
+    if (kept && !std::ranges::equal(
+                    kept->inputs, metadata->inputs, {}, &InputFile::hash, &InputFile::hash)) {
+      throw InputError(metadata->inputs.front().path +
+                       " or a file read with it changed during the run");
     }
-    if (result.status == Status::crashed && killed_.runs_again(job.cell, result.signal)) {
-      queue_.requeue(job.cell);
-    } else {
-      finish(result, job.cell);
-    }
+    if (kept) return;
+    print_notes(dataset_of(cell).label, metadata->notes);
+    kept = std::move(metadata);
   }
 
-  /// Loading exceeded a limit or ended its process.
-  void take_failure(const Job& job, std::string_view body) {
-    CellResult result;
-    if (!unpack_answer(body, result)) throw std::runtime_error("a failure is damaged");
-    if (result.status == Status::crashed && killed_.runs_again(job.cell, result.signal)) {
-      return requeue(job);
+  /// A wrong file name ends the sweep before anything runs; a failure of a program or plugin costs
+  /// the cells of its sequence.
+  void take_failure(const Job& job, Failure failure) {
+    const DatasetChoice& choice = dataset_of(job.cell);
+    switch (failure.kind) {
+      case Failure::Kind::system:
+        throw std::runtime_error("cannot create a process for a cell: " + failure.why);
+      case Failure::Kind::missing_part:
+        throw MissingPart(failure.why);
+      case Failure::Kind::input_error:
+        if (!has_foreign_code(context_.catalogue, choice.dataset)) throw InputError(failure.why);
+        failure.why = stored_reason("dataset '" + choice.label + "': " + failure.why);
+        break;
+      case Failure::Kind::cell:
+      case Failure::Kind::loading:
+        break;
     }
+    if (runs_again(job, failure)) return requeue(job);
+    fail(job, failure);
+  }
+
+  /// Whether the job runs again: the first time that a signal ended it which a scheduler or the
+  /// system sends. A scheduler that ends a job sends SIGTERM, later SIGKILL, to all of its
+  /// processes in any order, so a sweep can see a cell end before it is ended itself. That is no
+  /// result of the method.
+  bool runs_again(const Job& job, const Failure& failure) {
+    constexpr std::array<std::string_view, 4> kFromOutside{
+        "SIGTERM", "SIGKILL", "SIGINT", "SIGHUP"};
+    return failure.status == Status::crashed &&
+           std::ranges::count(kFromOutside, failure.signal) > 0 && killed_.insert(job.cell).second;
+  }
+
+  /// Finishes the cell of a job without a result, and with a sequence that cannot be loaded all its
+  /// cells.
+  void fail(const Job& job, const Failure& failure) {
+    CellResult result;
+    result.status = failure.status;
+    result.why = failure.why;
+    result.signal = failure.signal;
     set_conditions(result, job.cell);
-    load_failures_[queue_.group_of(job.cell)] = result;
+    if (failure.kind != Failure::Kind::cell) load_failures_[queue_.group_of(job.cell)] = result;
     if (!job.only_load) finish(result, job.cell);
   }
 
   const DatasetChoice& dataset_of(std::size_t cell) const {
     return context_.sweep.datasets[context_.cells[cell].dataset];
-  }
-
-  /// A wrong file name ends the sweep before anything runs; a failure of a program or plugin costs
-  /// the cells of its sequence.
-  void fail_to_load(const Job& job, const std::string& why) {
-    const DatasetChoice& choice = dataset_of(job.cell);
-    if (!has_foreign_code(context_.catalogue, choice.dataset)) throw InputError(why);
-    CellResult& result = load_failures_[queue_.group_of(job.cell)];
-    result.status = Status::failed;
-    result.why = stored_reason("dataset '" + choice.label + "': " + why);
-    set_conditions(result, job.cell);
-    if (!job.only_load) finish(result, job.cell);
   }
 
   /// What a cell without an answer has in common with the others.
@@ -199,42 +207,36 @@ class IsolatedSweep {
   }
 
   void finish(CellResult result, std::size_t cell) {
-    const std::size_t group = queue_.group_of(cell);
+    std::shared_ptr<const SequenceMetadata>& metadata = metadata_[queue_.group_of(cell)];
     result.cell = context_.cells[cell];
-    result.metadata = metadata_.of(group);
+    result.metadata = metadata;
     flag_trained_on_evaluated(result, context_.sweep);
-    if (stop_ > 0) KilledCells::set_interrupted(result);
-    if (queue_.finish(cell)) metadata_.drop(group);
+    // A request to stop can also have ended a program that the cell runs.
+    const bool has_failed = result.status == Status::crashed || result.status == Status::failed;
+    if (stop_ > 0 && has_failed) result.status = Status::interrupted;
+    if (queue_.finish(cell)) metadata.reset();
     finished_(result);
   }
 
   /// Handles the end of a worker: it runs no foreign code, so something outside ended it. Its first
   /// job is done once more, then given up; the others are done by the next worker.
   void reap(WorkerSlot& slot) {
-    const WorkerProcess::End end = slot.process->end();
+    const Failure failure = failure_of_worker(slot);
     slot.process.reset();
-    slot.bytes.clear();
     end_strays_of_workers();
     std::deque<Job> jobs = std::exchange(slot.jobs, {});
     if (jobs.empty()) return;
     const Job first = jobs.front();
-    CellResult result = crash_of_worker(slot, end);
-    const bool runs_again = !slot.is_stuck && killed_.runs_again(first.cell, result.signal);
-    if (!runs_again) jobs.pop_front();
+    const bool is_again = runs_again(first, failure);
+    if (!is_again) jobs.pop_front();
     for (auto job = jobs.rbegin(); job != jobs.rend(); ++job) requeue(*job);
-    if (runs_again) return;
-    set_conditions(result, first.cell);
-    if (first.only_load) {
-      load_failures_[queue_.group_of(first.cell)] = result;
-    } else {
-      finish(result, first.cell);
-    }
+    if (!is_again) fail(first, failure);
   }
 
   void end_strays_of_workers() const {
     std::vector<pid_t> workers;
     for (const WorkerSlot& slot : slots_) {
-      if (slot.process) workers.push_back(slot.process->process());
+      if (slot.process) workers.push_back(slot.process->child().id());
     }
     reaper_.end_strays_except(workers);
   }
@@ -253,11 +255,11 @@ class IsolatedSweep {
       slot.process.reset();
       slot.jobs.clear();
       if (job.only_load) continue;
-      CellResult result;
-      result.status = Status::interrupted;
-      result.why = fmt::format("abandoned after {:.1f} s by a second interrupt", seconds);
-      set_conditions(result, job.cell);
-      finish(result, job.cell);
+      fail(job,
+           {Failure::Kind::cell,
+            Status::interrupted,
+            fmt::format("abandoned after {:.1f} s by a second interrupt", seconds),
+            ""});
     }
     loads_.clear();
   }
@@ -266,10 +268,11 @@ class IsolatedSweep {
   const StopRequests& stop_;
   const std::function<void(const CellResult&)>& finished_;
   CellQueue queue_;
-  KilledCells killed_;
+  std::set<std::size_t> killed_;  ///< cells that ran again, see runs_again()
   std::deque<Job> loads_;
   bool loads_done_ = false;
-  KeptMetadata metadata_;
+  /// By group, of sequences whose cells are not finished; null if it was not loaded.
+  std::vector<std::shared_ptr<const SequenceMetadata>> metadata_;
   /// By group. Not an entry for every group: cells are forked from processes with a copy of this,
   /// and a fork takes time for all memory in use.
   std::map<std::size_t, CellResult> load_failures_;

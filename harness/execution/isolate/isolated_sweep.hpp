@@ -2,15 +2,19 @@
 /// only one cell.
 #pragma once
 
+#include <atomic>
 #include <functional>
 
 #include "harness/catalogue/catalogue.hpp"
-#include "harness/execution/run/stop_requests.hpp"
-#include "harness/execution/sandbox/sandbox.hpp"
 #include "harness/model/result.hpp"
 #include "harness/model/sweep.hpp"
+#include "harness/process/sandbox.hpp"
 
 namespace loopbench::harness {
+
+/// Requests of the user to end a sweep early. 0: none; 1: start no more cells; 2: also abandon the
+/// running ones.
+using StopRequests = std::atomic<int>;
 
 /// Calls `finished` once per cell, in order of completion. Uses `jobs` worker processes (one if the
 /// sweep is serial), which run each cell in a copy of themselves, so that nothing of a cell

@@ -1,16 +1,10 @@
 #include "harness/execution/isolate/loaded_sequences.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdio>
 
 #include "datasets/core/error.hpp"
 #include "harness/catalogue/load_sequence.hpp"
-#include "harness/execution/isolate/cell_child.hpp"
-#include "harness/execution/isolate/pack_result.hpp"
-#include "harness/execution/isolate/pack_sequence.hpp"
-#include "harness/execution/isolate/warm_heap.hpp"
+#include "harness/execution/isolate/pack.hpp"
 #include "harness/execution/run/catch_errors.hpp"
 #include "harness/execution/run/describe_sequence.hpp"
 
@@ -23,35 +17,24 @@ std::size_t bytes_of(const Sequence& s) {
          sizeof(Edge) * (s.problem.odometry.size() + s.problem.closures.size());
 }
 
-/// In the forked process: leaves the sequence and its metadata, or the reason why there is none.
-[[noreturn]] void load_and_exit(const WorkerContext& context,
-                                const Cell& cell,
-                                pid_t worker,
-                                ResultArea& area) {
-  detach_from_worker(worker, context.sweep.limits.memory);
-  warm_heap();
-  dup2(STDERR_FILENO, STDOUT_FILENO);  // the standard output is the sweep's
-  connect_streams(STDIN_FILENO, STDERR_FILENO, {});
-  LoadedSequences::Failure failure;
-  Packer pack;
+/// The sequence and its metadata, or the reason why there is none.
+std::string packed_sequence(const WorkerContext& context, const Cell& cell) {
+  Failure failure{Failure::Kind::loading, Status::failed, "", ""};
+  std::string sequence_bytes;
   catch_errors(failure, [&] {
     try {
       const Sequence sequence = load_sequence(cell, context.sweep, context.catalogue, context.root);
-      const SequenceMetadata metadata = metadata_of(sequence, cell, context.sweep);
-      pack(failure.kind)(Status::ok)(std::string())(sequence)(metadata);
+      sequence_bytes = packed(sequence, metadata_of(sequence, cell, context.sweep));
       failure.status = Status::ok;
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const MissingPart& error) {
-      failure = {LoadedSequences::Failure::Kind::missing_part, Status::failed, error.what(), ""};
+      failure = {Failure::Kind::missing_part, Status::failed, error.what(), ""};
     } catch (const std::exception& error) {
-      failure = {LoadedSequences::Failure::Kind::input_error, Status::failed, error.what(), ""};
+      failure = {Failure::Kind::input_error, Status::failed, error.what(), ""};
     }
   });
-  if (failure.status != Status::ok) pack(failure.kind)(failure.status)(failure.why);
-  const bool is_written = area.write(pack.bytes());
-  std::fflush(stdout);
-  _exit(is_written ? 0 : 1);  // without running the sweep's destructors
+  return packed(failure) + sequence_bytes;
 }
 
 }  // namespace
@@ -65,25 +48,23 @@ const LoadedSequences::Entry* LoadedSequences::find(const Cell& cell) {
   return &entries_.front();
 }
 
-std::variant<const LoadedSequences::Entry*, LoadedSequences::Failure> LoadedSequences::load(
-    const Cell& cell) {
+const LoadedSequences::Entry* LoadedSequences::load(const Cell& cell, Failure& failure) {
   program_sandbox() = context_.sandbox;
   const Choice& dataset = context_.sweep.datasets[cell.dataset].dataset;
   const DatasetEntry& known = find_dataset(context_.catalogue, dataset.name);
   if (known.prepare) known.prepare(dataset.options);
-  const pid_t worker = getpid();
-  const ProcessEnd end = processes_.run(
-      "loading its sequence", ", while loading its sequence", [&](ResultArea& area, int) {
-        load_and_exit(context_, cell, worker, area);
-      });
-  if (end.status != Status::ok)
-    return Failure{Failure::Kind::ended, end.status, end.why, end.signal};
-  Unpacker unpack(end.result);
-  Failure failure;
-  unpack(failure.kind)(failure.status)(failure.why);
-  if (failure.status != Status::ok) return failure;
+  const ProcessEnd end = processes_.run({.subject = "loading its sequence",
+                                         .when = ", while loading its sequence",
+                                         .is_captured = false,
+                                         .kept = {},
+                                         .run = [&] { return packed_sequence(context_, cell); }});
+  failure = {Failure::Kind::loading, end.status, end.why, end.signal};
+  if (end.status != Status::ok) return nullptr;
+  Unpacker unpacker(end.result);
+  unpacker(failure);
+  if (failure.status != Status::ok) return nullptr;
   Entry entry{cell.dataset, cell.repeat, {}, {}};
-  unpack(entry.sequence)(entry.metadata);
+  unpacker(entry.sequence)(entry.metadata);
   return keep(std::move(entry));
 }
 

@@ -2,13 +2,10 @@
 #pragma once
 
 #include <list>
-#include <optional>
-#include <variant>
 
 #include "datasets/core/sequence.hpp"
 #include "harness/execution/isolate/watched_process.hpp"
 #include "harness/execution/isolate/worker.hpp"
-#include "harness/model/result.hpp"
 #include "harness/model/sequence_metadata.hpp"
 
 namespace loopbench::harness {
@@ -23,24 +20,15 @@ class LoadedSequences {
     Sequence sequence;
     SequenceMetadata metadata;
   };
-  /// Why there is no sequence.
-  struct Failure {
-    enum class Kind { ended, input_error, missing_part };
-    Kind kind = Kind::ended;  ///< or an exception with the message `why`
-    Status status = Status::failed;
-    std::string why;
-    std::string signal;
-  };
-
   LoadedSequences(const WorkerContext& context, WatchedProcesses& processes)
       : context_(context), processes_(processes) {}
 
   /// Null unless it is loaded.
   const Entry* find(const Cell& cell);
 
-  /// Loads it; evicts the least recently used sequences beyond kMostBytes. Throws
-  /// std::runtime_error if no process can be created.
-  std::variant<const Entry*, Failure> load(const Cell& cell);
+  /// Loads it; evicts the least recently used sequences beyond kMostBytes. Null if that fails, with
+  /// the reason in `failure`. Throws std::runtime_error if no process can be created.
+  const Entry* load(const Cell& cell, Failure& failure);
 
  private:
   /// Limit on poses and edges: every cell's process starts as a copy of all of them.

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "harness/execution/run/sanitized.hpp"
+#include "harness/process/sanitized.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -1,30 +1,34 @@
 #include "harness/execution/isolate/watched_process.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/close_range.h>
 #include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
+#include <csignal>
 #include <iterator>
 #include <optional>
-#include <stdexcept>
-#include <vector>
 
 #include "harness/execution/isolate/active_clock.hpp"
 #include "harness/execution/isolate/cell_output.hpp"
-#include "harness/execution/isolate/process_tree.hpp"
-#include "harness/execution/isolate/signal_name.hpp"
+#include "harness/execution/isolate/warm_heap.hpp"
 #include "harness/execution/isolate/worker_signals.hpp"
 #include "harness/external/server.hpp"
+#include "harness/process/child_process.hpp"
+#include "harness/process/descendants.hpp"
+#include "harness/process/system_file.hpp"
 
 namespace loopbench::harness {
 namespace {
 
 constexpr int kMemoryTick = 20;     // [ms], between checks of memory and processes
 constexpr int kMostProcesses = 64;  // of one process, apart from threads
+
+/// Writable memory beyond the limit that a cell may reserve without using it [bytes].
+constexpr std::int64_t kReserve = std::int64_t{1} << 30;
 
 /// The reason why a worker ends a process.
 struct Verdict {
@@ -34,12 +38,25 @@ struct Verdict {
 
 /// A running process as it is watched.
 struct Watched {
+  const ChildProcess& process;
   const std::string& subject;
   const Limits& limits;
-  std::int64_t at_fork = 0;  ///< memory of the worker [bytes]
   const std::vector<pid_t>& servers;
   ActiveClock clock = {};
 };
+
+/// Closes all descriptors but the standard streams and `kept`.
+void close_all_except(std::vector<int> kept) {
+  std::ranges::sort(kept);
+  auto first = static_cast<unsigned>(STDERR_FILENO + 1);
+  for (const int descriptor : kept) {
+    const auto number = static_cast<unsigned>(descriptor);
+    if (descriptor < 0 || number < first) continue;
+    if (number > first) close_range(first, number - 1, 0);
+    first = number + 1;
+  }
+  close_range(first, ~0u, 0);
+}
 
 std::optional<Verdict> exceeded(Watched& watched) {
   const Limits& limits = watched.limits;
@@ -48,7 +65,9 @@ std::optional<Verdict> exceeded(Watched& watched) {
     return Verdict{Status::timeout,
                    fmt::format("{} exceeded the time limit of {} s", subject, limits.seconds)};
   }
-  const TreeUsage usage = descendants_usage(watched.at_fork, kMostProcesses, watched.servers);
+  // The process began as a copy of this one, which has not changed since.
+  const std::int64_t at_fork = limits.memory > 0 ? process_memory("self") : 0;
+  const TreeUsage usage = descendants_usage(at_fork, kMostProcesses, watched.servers);
   if (usage.processes > kMostProcesses) {
     return Verdict{Status::failed,
                    fmt::format("{} started more than {} processes", subject, kMostProcesses)};
@@ -67,14 +86,15 @@ std::optional<Verdict> exceeded(Watched& watched) {
   return std::nullopt;
 }
 
-/// Waits until the process ends or exceeds a limit. `process`: its pidfd; `sweep`: socket to it.
-std::optional<Verdict> watch(int process, int sweep, CellOutput& output, Watched watched) {
+/// Waits until the process ends or exceeds a limit. `sweep`: socket to it.
+std::optional<Verdict> watch(Watched watched, int sweep, CellOutput& output) {
   const Limits& limits = watched.limits;
   const double tick = limits.memory > 0 ? kMemoryTick : ActiveClock::kTick;  // [ms]
   for (;;) {
     const double left =
         limits.seconds > 0.0 ? 1e3 * (limits.seconds - watched.clock.seconds()) : tick;
-    pollfd events[] = {{process, POLLIN, 0}, {output.read_end(), POLLIN, 0}, {sweep, 0, 0}};
+    pollfd events[] = {
+        {watched.process.descriptor(), POLLIN, 0}, {output.read_end(), POLLIN, 0}, {sweep, 0, 0}};
     poll(events, std::size(events), static_cast<int>(std::clamp(left, 0.0, tick)) + 1);
     if (!output.forward()) {
       return Verdict{
@@ -88,32 +108,43 @@ std::optional<Verdict> watch(int process, int sweep, CellOutput& output, Watched
 
 }  // namespace
 
-ProcessEnd WatchedProcesses::run(const std::string& subject,
-                                 const std::string& when,
-                                 const ProcessWork& work) {
+WatchedProcesses::WatchedProcesses(const Limits& limits, int sweep, const ScratchFolder* scratch)
+    : limits_(limits),
+      sweep_(sweep),
+      null_(open("/dev/null", O_RDWR | O_CLOEXEC)),
+      scratch_(scratch) {}
+
+WatchedProcesses::~WatchedProcesses() { close(null_); }
+
+void WatchedProcesses::prepare(const WatchedWork& work, int output) const {
+  restore_default_signals();
+  // If the system runs out of memory, it should kill this process, not the worker or the sweep.
+  write_system_file("/proc/self/oom_score_adj", "800");
+  // Ends growth that is faster than the worker's checks.
+  if (limits_.memory > 0) limit_data_memory(limits_.memory + kReserve);
+  warm_heap();
+  const int target = work.is_captured ? output : STDERR_FILENO;
+  dup2(null_, STDIN_FILENO);
+  dup2(target, STDOUT_FILENO);
+  dup2(target, STDERR_FILENO);
+  close_all_except(work.kept);
+}
+
+ProcessEnd WatchedProcesses::run(const WatchedWork& work) {
   area_.clear();
   CellOutput output;
-  const std::int64_t memory = limits_.memory > 0 ? process_memory("self") : 0;
   const RunningServers servers = running_servers();
-  const pid_t process = fork_when_possible();
-  if (process < 0) throw std::runtime_error(fmt::format("fork: {}", std::strerror(errno)));
-  if (process == 0) {
-    work(area_, output.write_end());
-    _exit(1);
-  }
-  setpgid(process, process);  // both processes do it, so that it is done for both
-  set_running_cell(process);
+  ChildProcess process(ProcessGroup::own, [&] {
+    prepare(work, output.write_end());
+    return area_.write(work.run()) ? 0 : 1;
+  });
+  const pid_t id = process.id();
+  set_running_cell(id);
   output.close_write_end();
-  const int descriptor = process_descriptor(process);
-  if (descriptor < 0) {
-    end_cell(process, servers.processes);
-    throw std::runtime_error(fmt::format("pidfd_open: {}", std::strerror(errno)));
-  }
   const std::optional<Verdict> verdict =
-      watch(descriptor, sweep_, output, {subject, limits_, memory, servers.processes});
-  close(descriptor);
+      watch({process, work.subject, limits_, servers.processes}, sweep_, output);
   set_running_cell(0);
-  const int status = end_cell(process, servers.processes);
+  const int status = process.end();
   end_servers(true);
   end_strays(running_servers().processes);  // what ended programs leave is not the next cell's
   if (scratch_ != nullptr) scratch_->remove_exchanges();
@@ -125,17 +156,17 @@ ProcessEnd WatchedProcesses::run(const std::string& subject,
   output.forward();
   if (verdict) return {{}, verdict->status, verdict->why, "SIGKILL"};
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
-    if (const auto result = area_.read(process)) return {*result, Status::ok, "", ""};
+    if (const auto result = area_.read(id)) return {*result, Status::ok, "", ""};
   }
-  if (!WIFSIGNALED(status)) {
-    return {
-        {}, Status::crashed, fmt::format("exited, exit code {}{}", WEXITSTATUS(status), when), ""};
+  if (WIFEXITED(status)) {
+    const std::string why = fmt::format("exited, exit code {}{}", WEXITSTATUS(status), work.when);
+    return {{}, Status::crashed, why, ""};
   }
   const std::string signal = signal_name(WTERMSIG(status));
   const bool is_kill = WTERMSIG(status) == SIGKILL;
   return {{},
           Status::crashed,
-          "ended by " + signal + when +
+          "ended by " + signal + work.when +
               (is_kill ? ", not by this program (system out of memory?)" : ""),
           signal};
 }

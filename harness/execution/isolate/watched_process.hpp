@@ -5,13 +5,23 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "harness/execution/isolate/result_area.hpp"
 #include "harness/external/scratch.hpp"
 #include "harness/model/status.hpp"
 #include "harness/model/sweep.hpp"
+#include "harness/process/result_area.hpp"
 
 namespace loopbench::harness {
+
+/// What a process does and how reasons describe it.
+struct WatchedWork {
+  std::string subject;               ///< what exceeds a limit: "the cell"
+  std::string when;                  ///< added to how it ended
+  bool is_captured = true;           ///< its output is limited; otherwise it goes to standard error
+  std::vector<int> kept;             ///< descriptors to keep open
+  std::function<std::string()> run;  ///< in the new process; returns its result
+};
 
 /// How a process ended: with a result, or with the reason why it left none.
 struct ProcessEnd {
@@ -21,25 +31,28 @@ struct ProcessEnd {
   std::string signal;  ///< that ended it, for example "SIGSEGV"
 };
 
-/// What the forked process does; does not return. `output`: to the worker, for its streams.
-using ProcessWork = std::function<void(ResultArea& area, int output)>;
-
 /// Forks one process after another; each starts as a copy of the worker, with nothing of earlier
 /// ones.
 class WatchedProcesses {
  public:
-  /// `sweep`: socket to it; `scratch`: for programs, or null. Throws
-  /// std::runtime_error without shared memory.
-  WatchedProcesses(const Limits& limits, int sweep, const ScratchFolder* scratch)
-      : limits_(limits), sweep_(sweep), scratch_(scratch) {}
+  /// `sweep`: socket to it; `scratch`: for programs, or null. Throws std::runtime_error without
+  /// shared memory.
+  WatchedProcesses(const Limits& limits, int sweep, const ScratchFolder* scratch);
+  ~WatchedProcesses();
+  WatchedProcesses(const WatchedProcesses&) = delete;
+  WatchedProcesses& operator=(const WatchedProcesses&) = delete;
 
-  /// `subject`: what exceeds a limit ("the cell"); `when`: added to how it ended. Ends this process
-  /// if the sweep has ended. Throws std::runtime_error if no process can be created.
-  ProcessEnd run(const std::string& subject, const std::string& when, const ProcessWork& work);
+  /// Ends this process if the sweep has ended. Throws std::runtime_error if no process can be
+  /// created.
+  ProcessEnd run(const WatchedWork& work);
 
  private:
+  /// In the new process.
+  void prepare(const WatchedWork& work, int output) const;
+
   const Limits& limits_;
   int sweep_;
+  int null_;  ///< /dev/null
   const ScratchFolder* scratch_;
   ResultArea area_;
 };

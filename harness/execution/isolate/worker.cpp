@@ -1,19 +1,22 @@
 #include "harness/execution/isolate/worker.hpp"
 
+#include <fmt/format.h>
+#include <sched.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <optional>
 
 #include "datasets/core/parallel.hpp"
-#include "harness/execution/isolate/cell_process.hpp"
 #include "harness/execution/isolate/loaded_sequences.hpp"
-#include "harness/execution/isolate/pack_result.hpp"
+#include "harness/execution/isolate/pack.hpp"
 #include "harness/execution/isolate/warm_heap.hpp"
+#include "harness/execution/isolate/watched_process.hpp"
 #include "harness/execution/isolate/worker_signals.hpp"
+#include "harness/execution/run/process_usage.hpp"
+#include "harness/execution/run/run_cell.hpp"
 #include "harness/external/external_methods.hpp"
-#include "harness/external/scratch.hpp"
 #include "harness/external/server.hpp"
 
 namespace loopbench::harness {
@@ -32,27 +35,32 @@ bool send_all(int socket, const void* data, std::size_t size) {
   return true;
 }
 
-bool receive_all(int socket, void* data, std::size_t size) {
-  char* at = static_cast<char*>(data);
-  while (size > 0) {
-    const ssize_t got = recv(socket, at, size, 0);
+bool receive_job(int socket, Job& job) {
+  for (;;) {
+    const ssize_t got = recv(socket, &job, sizeof job, MSG_WAITALL);
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return false;
-    at += got;
-    size -= static_cast<std::size_t>(got);
+    return got == sizeof job;
   }
-  return true;
 }
 
-/// Messages to the sweep.
-struct Answers {
-  int socket;
+/// Pins the process to one core; false if that is not permitted.
+bool pin_to(int core) {
+  if (core < 0) return false;
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(static_cast<std::size_t>(core), &set);
+  return sched_setaffinity(0, sizeof set, &set) == 0;
+}
 
-  bool send(Header::Kind kind, std::uint64_t cell, const std::string& bytes) const {
-    const Header header{kind, cell, bytes.size()};
-    return send_all(socket, &header, sizeof header) && send_all(socket, bytes.data(), bytes.size());
-  }
-};
+/// Detects a method that exceeded the limit between two checks by the worker.
+void apply_memory_limit(const Limits& limits, CellResult& result) {
+  if (limits.memory <= 0 || result.added_memory.value_or(0) <= limits.memory) return;
+  result.status = Status::out_of_memory;
+  result.why =
+      fmt::format("the cell grew by {} bytes, limit {}", *result.added_memory, limits.memory);
+  result.scores.clear();
+  result.trace = {};
+}
 
 /// Temporary files of programs. Programs end before their files are removed.
 struct Programs {
@@ -66,46 +74,80 @@ struct Programs {
   Programs& operator=(const Programs&) = delete;
 };
 
-template <class T>
-std::string packed(const T& value) {
-  Packer pack;
-  pack(value);
-  return pack.bytes();
-}
+class JobRunner {
+ public:
+  JobRunner(const WorkerContext& context, int socket, int core, const ScratchFolder* scratch)
+      : context_(context),
+        socket_(socket),
+        core_(core),
+        processes_(context.sweep.limits, socket, scratch),
+        loaded_(context, processes_) {}
 
-CellResult result_of(const LoadedSequences::Failure& failure) {
-  CellResult out;
-  out.status = failure.status;
-  out.why = failure.why;
-  out.signal = failure.signal;
-  return out;
-}
-
-/// Answers one job; false if the sweep has closed the socket.
-bool work(const Job& job,
-          const Cell& cell,
-          LoadedSequences& loaded,
-          CellProcesses& cell_processes,
-          const Answers& answers) {
-  const LoadedSequences::Entry* entry = loaded.find(cell);
-  if (entry == nullptr) {
-    const auto outcome = loaded.load(cell);
-    if (const auto* failure = std::get_if<LoadedSequences::Failure>(&outcome)) {
-      using Kind = LoadedSequences::Failure::Kind;
-      if (failure->kind != Kind::ended) {
-        const bool lacks_part = failure->kind == Kind::missing_part;
-        return answers.send(lacks_part ? Header::Kind::missing_part : Header::Kind::cannot_load,
-                            job.cell,
-                            failure->why);
-      }
-      return answers.send(Header::Kind::load_failed, job.cell, packed(result_of(*failure)));
+  /// Answers one job; false if the sweep has closed the socket. Throws std::runtime_error if no
+  /// process can be created.
+  bool work(const Job& job) {
+    const Cell& cell = context_.cells[job.cell];
+    const LoadedSequences::Entry* entry = loaded_.find(cell);
+    if (entry == nullptr) {
+      Failure failure;
+      entry = loaded_.load(cell, failure);
+      if (entry == nullptr) return answer(failure);
+      if (!answer(Header::Kind::loaded, packed(entry->metadata))) return false;
     }
-    entry = std::get<const LoadedSequences::Entry*>(outcome);
-    if (!answers.send(Header::Kind::loaded, job.cell, packed(entry->metadata))) return false;
+    if (job.only_load) return answer(Header::Kind::only_loaded, "");
+    const ProcessEnd end = run(cell, *entry);
+    if (end.status == Status::ok) return answer(Header::Kind::result, end.result);
+    return answer({Failure::Kind::cell, end.status, end.why, end.signal});
   }
-  if (job.only_load) return answers.send(Header::Kind::only_loaded, job.cell, "");
-  return answers.send(Header::Kind::result, job.cell, cell_processes.run(cell, *entry));
-}
+
+  bool answer(const Failure& failure) const {
+    return answer(Header::Kind::failure, packed(failure));
+  }
+
+ private:
+  bool answer(Header::Kind kind, std::string_view bytes) const {
+    const Header header{kind, bytes.size()};
+    return send_all(socket_, &header, sizeof header) &&
+           send_all(socket_, bytes.data(), bytes.size());
+  }
+
+  /// Runs a cell in a process of its own; its result is a packed CellResult without metadata.
+  ProcessEnd run(const Cell& cell, const LoadedSequences::Entry& entry) {
+    const Sweep& sweep = context_.sweep;
+    if (uses_programs(sweep)) hide_inputs(entry.metadata.inputs);
+    prepare_programs(sweep.methods[cell.method], command_setting(sweep));
+    const auto run_here = [&] {
+      const bool is_pinned = pin_to(core_);
+      set_freshly_forked();
+      CellResult result = run_cell(cell, sweep, entry.sequence, context_.catalogue);
+      result.worker = {true, sweep.serial, is_pinned};
+      apply_memory_limit(sweep.limits, result);
+      return packed(result);
+    };
+    return processes_.run({.subject = "the cell",
+                           .when = "",
+                           .is_captured = true,
+                           .kept = running_servers().descriptors,
+                           .run = run_here});
+  }
+
+  /// Hides the files of the sequence from programs of its cells.
+  void hide_inputs(const std::vector<InputFile>& inputs) {
+    if (!std::ranges::equal(inputs, hidden_, {}, &InputFile::path, &InputFile::path)) {
+      hidden_ = inputs;
+      end_servers();  // they are in the previous sandbox
+    }
+    program_sandbox() = context_.sandbox;
+    for (const InputFile& input : inputs) program_sandbox().hidden.emplace_back(input.path);
+  }
+
+  const WorkerContext& context_;
+  int socket_;
+  int core_;
+  WatchedProcesses processes_;
+  LoadedSequences loaded_;
+  std::vector<InputFile> hidden_;  ///< inputs that running servers cannot read
+};
 
 }  // namespace
 
@@ -115,16 +157,12 @@ void run_worker(const WorkerContext& context, int socket, int core) {
   hardware_threads();  // asks the system once for all cells
   std::optional<Programs> programs;
   if (uses_programs(context.sweep)) programs.emplace();
-  const Answers answers{socket};
-  const ScratchFolder* scratch = programs ? &programs->scratch : nullptr;
-  WatchedProcesses processes(context.sweep.limits, socket, scratch);
-  LoadedSequences loaded(context, processes);
-  CellProcesses cell_processes(context, core, processes);
-  for (Job job; receive_all(socket, &job, sizeof job);) {
+  JobRunner runner(context, socket, core, programs ? &programs->scratch : nullptr);
+  for (Job job; receive_job(socket, job);) {
     try {
-      if (!work(job, context.cells[job.cell], loaded, cell_processes, answers)) return;
+      if (!runner.work(job)) return;
     } catch (const std::exception& error) {
-      answers.send(Header::Kind::cannot_run, job.cell, error.what());
+      runner.answer({Failure::Kind::system, Status::failed, error.what(), ""});
       return;
     }
   }

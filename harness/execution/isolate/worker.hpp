@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
+#include "datasets/core/pack.hpp"
 #include "harness/catalogue/catalogue.hpp"
-#include "harness/execution/sandbox/sandbox.hpp"
 #include "harness/model/cells.hpp"
+#include "harness/model/status.hpp"
 #include "harness/model/sweep.hpp"
+#include "harness/process/sandbox.hpp"
 
 namespace loopbench::harness {
 
@@ -16,19 +19,35 @@ struct Job {
   bool only_load = false;
 };
 
+/// Why a job has no result.
+struct Failure {
+  enum class Kind : std::uint8_t {
+    cell,          ///< its process ended without a result
+    loading,       ///< the process that loaded its sequence did, or memory was exhausted
+    input_error,   ///< loading threw an exception with the message `why`
+    missing_part,  ///< this build cannot read the sequence, which ends the sweep
+    system         ///< no process can be created, which ends the sweep
+  };
+  Kind kind = Kind::cell;
+  Status status = Status::failed;
+  std::string why;
+  std::string signal;  ///< that ended the process, for example "SIGSEGV"
+};
+
+template <class Archive, Either<Failure> T>
+void walk(Archive& a, T& failure) {
+  a(failure.kind)(failure.status)(failure.why)(failure.signal);
+}
+
 /// Header of each message, followed by `size` bytes; sent as raw memory within one program.
 struct Header {
   enum class Kind : std::uint32_t {
-    loaded,        ///< SequenceMetadata of a job's sequence, which was loaded for it
-    cannot_load,   ///< message of an exception; ends the job
-    missing_part,  ///< message: the build cannot read the sequence, which ends the sweep
-    load_failed,   ///< CellResult: how loading failed otherwise; ends the job
-    cannot_run,    ///< message of the system, which ends the sweep
-    result,        ///< CellResult; ends the job
-    only_loaded,   ///< a job with only_load is done
+    loaded,       ///< SequenceMetadata of the job's sequence, which was loaded for it
+    only_loaded,  ///< nothing; ends a job with only_load
+    result,       ///< CellResult; ends the job
+    failure,      ///< Failure; ends the job
   };
   Kind kind = Kind::result;
-  std::uint64_t cell = 0;
   std::uint64_t size = 0;
 };
 

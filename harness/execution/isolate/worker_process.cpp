@@ -1,8 +1,8 @@
 #include "harness/execution/isolate/worker_process.hpp"
 
-#include <fcntl.h>
 #include <linux/close_range.h>
 #include <poll.h>
+#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -10,54 +10,45 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
 
-#include "harness/execution/isolate/process_tree.hpp"
-#include "harness/execution/sandbox/system_file.hpp"
+#include "harness/process/system_file.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-std::runtime_error creation_error(const std::string& what) {
-  return std::runtime_error("cannot create a worker process: " + what + ": " +
-                            std::strerror(errno));
-}
+constexpr double kGrace = 5.0;  // [s], for the worker to end loading and a cell at their limits
 
 }  // namespace
 
 WorkerProcess::WorkerProcess(const WorkerContext& context, int core) {
+  const auto error = [](const std::string& why) {
+    return std::runtime_error("cannot create a worker process: " + why);
+  };
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-    release();
-    throw creation_error("socket pair");
+    throw error(std::string("socket pair: ") + std::strerror(errno));
   }
   socket_ = ends[0];
   std::fflush(nullptr);  // otherwise the worker would print buffered output again
-  process_ = fork_when_possible();
-  if (process_ == 0) run_child(context, core, ends[1]);
-  close(ends[1]);
-  descriptor_ = process_ > 0 ? process_descriptor(process_) : -1;
-  if (descriptor_ >= 0) return;
-  const std::runtime_error error = creation_error(process_ > 0 ? "pidfd_open" : "fork");
-  release();
-  throw error;
-}
-
-WorkerProcess::~WorkerProcess() { release(); }
-
-void WorkerProcess::release() {
-  if (process_ > 0) {
-    kill();
-    end();
+  try {
+    child_.emplace(ProcessGroup::shared, [&] { return run_child(context, core, ends[1]); });
+  } catch (const std::runtime_error& reason) {
+    close(ends[0]);
+    close(ends[1]);
+    throw error(reason.what());
   }
-  if (descriptor_ >= 0) close(descriptor_);
-  if (socket_ >= 0) close(socket_);
+  close(ends[1]);
 }
 
-void WorkerProcess::run_child(const WorkerContext& context, int core, int socket) {
+WorkerProcess::~WorkerProcess() {
+  child_.reset();
+  close(socket_);
+}
+
+int WorkerProcess::run_child(const WorkerContext& context, int core, int socket) const {
   // Close the sweep's files: the store, its lock and the other workers' sockets.
   const auto number = static_cast<unsigned>(socket);
   close_range(STDERR_FILENO + 1, number - 1, 0);
@@ -68,43 +59,79 @@ void WorkerProcess::run_child(const WorkerContext& context, int core, int socket
   // If the system runs out of memory, it should kill the worker, not the sweep.
   write_system_file("/proc/self/oom_score_adj", "500");
   run_worker(context, socket, core);
-  std::fflush(nullptr);
-  _exit(0);  // without running the sweep's destructors
+  return 0;
 }
 
-void WorkerProcess::send(const Job& job) {
-  // Errors are ignored: the sweep notices that a worker has ended.
+void WorkerProcess::send(const Job& job) const {
   [[maybe_unused]] const ssize_t sent = ::send(socket_, &job, sizeof job, MSG_NOSIGNAL);
 }
 
-void WorkerProcess::receive(std::string& bytes) {
+void WorkerProcess::receive() {
   constexpr std::size_t kMost = std::size_t{4} << 20;  // [bytes], more than a socket holds
   char buffer[1 << 16];
   for (std::size_t count = 0; count < kMost;) {
     const ssize_t got = recv(socket_, buffer, sizeof buffer, MSG_DONTWAIT);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return;
-    bytes.append(buffer, static_cast<std::size_t>(got));
+    bytes_.append(buffer, static_cast<std::size_t>(got));
     count += static_cast<std::size_t>(got);
   }
 }
 
-void WorkerProcess::kill() const {
-  if (process_ > 0) ::kill(process_, SIGKILL);
+std::optional<Answer> WorkerProcess::next_answer() {
+  Header header;
+  if (bytes_.size() < sizeof header) return std::nullopt;
+  std::memcpy(&header, bytes_.data(), sizeof header);
+  if (header.size > bytes_.size() - sizeof header) return std::nullopt;
+  Answer out{header.kind, bytes_.substr(sizeof header, header.size)};
+  bytes_.erase(0, sizeof header + header.size);
+  return out;
 }
 
-bool WorkerProcess::has_ended() const {
-  pollfd event{descriptor_, POLLIN, 0};
-  return poll(&event, 1, 0) > 0;
-}
-
-WorkerProcess::End WorkerProcess::end() {
-  int status = 0;
-  while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+/// The highest core this process may use, since the first ones handle most interrupts.
+int last_core() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof set, &set) != 0) return 0;
+  int last = 0;
+  for (int core = 0; core < CPU_SETSIZE; ++core) {
+    if (CPU_ISSET(static_cast<std::size_t>(core), &set)) last = core;
   }
-  process_ = -1;
-  if (WIFSIGNALED(status)) return {WTERMSIG(status), 0};
-  return {0, WEXITSTATUS(status)};
+  return last;
+}
+
+void wait_for_workers(const std::vector<WorkerSlot>& slots) {
+  std::vector<pollfd> events;
+  for (const WorkerSlot& slot : slots) {
+    if (!slot.process || slot.jobs.empty()) continue;
+    events.push_back({slot.process->socket(), POLLIN, 0});
+    events.push_back({slot.process->child().descriptor(), POLLIN, 0});
+  }
+  // Also ended by an interrupt, which stops the sweep.
+  poll(events.data(), events.size(), ActiveClock::kTick);
+}
+
+void end_if_stuck(WorkerSlot& slot, const Limits& limits) {
+  const double seconds = slot.clock.seconds();
+  if (slot.jobs.empty() || limits.seconds <= 0.0 || slot.is_stuck) return;
+  if (seconds <= 2.0 * limits.seconds + kGrace) return;
+  slot.is_stuck = true;
+  slot.process->child().kill();
+}
+
+Failure failure_of_worker(WorkerSlot& slot) {
+  const int status = slot.process->child().end();
+  const Failure::Kind kind = !slot.jobs.empty() && slot.jobs.front().only_load
+                                 ? Failure::Kind::loading
+                                 : Failure::Kind::cell;
+  if (slot.is_stuck) {
+    return {kind,
+            Status::timeout,
+            "its worker process was stopped and did not end it at its time limit",
+            "SIGKILL"};
+  }
+  const std::string signal = WIFSIGNALED(status) ? signal_name(WTERMSIG(status)) : "";
+  return {kind, Status::crashed, "its worker process " + end_text(status), signal};
 }
 
 }  // namespace loopbench::harness

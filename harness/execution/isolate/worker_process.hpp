@@ -1,13 +1,23 @@
-/// A worker process as seen by the sweep: process and socket.
+/// A worker process as the sweep uses it: jobs, answers and time.
 #pragma once
 
-#include <sys/types.h>
-
+#include <deque>
+#include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "harness/execution/isolate/active_clock.hpp"
 #include "harness/execution/isolate/worker.hpp"
+#include "harness/process/child_process.hpp"
 
 namespace loopbench::harness {
+
+/// A message of a worker.
+struct Answer {
+  Header::Kind kind = Header::Kind::result;
+  std::string body;
+};
 
 class WorkerProcess {
  public:
@@ -18,35 +28,46 @@ class WorkerProcess {
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
-  /// Does not block: a few jobs fit into the socket buffer. Errors are reported by receive().
-  void send(const Job& job);
+  /// Does not block: a few jobs fit into the socket buffer. An error shows as the worker's end.
+  void send(const Job& job) const;
 
-  /// Appends received bytes to `bytes`, a few megabytes at most.
-  void receive(std::string& bytes);
+  /// Reads what is there, a few megabytes at most.
+  void receive();
 
-  void kill() const;
-
-  /// Whether the process has ended, as its descriptor tells: descendants may hold the socket.
-  bool has_ended() const;
-
-  /// After its end or kill(): the signal that ended it, or 0 and its exit code.
-  struct End {
-    int signal = 0;
-    int exit_code = 0;
-  };
-  End end();
+  /// The first received answer that is complete.
+  std::optional<Answer> next_answer();
 
   int socket() const { return socket_; }
-  int descriptor() const { return descriptor_; }  ///< of the process: readable when it has ended
-  pid_t process() const { return process_; }      ///< -1 after end()
+  ChildProcess& child() { return *child_; }
+  const ChildProcess& child() const { return *child_; }
 
  private:
-  [[noreturn]] void run_child(const WorkerContext& context, int core, int socket);
-  void release();
+  int run_child(const WorkerContext& context, int core, int socket) const;
 
   int socket_ = -1;
-  int descriptor_ = -1;
-  pid_t process_ = -1;
+  std::string bytes_;  ///< received, not yet taken
+  std::optional<ChildProcess> child_;
 };
+
+/// A worker and its unanswered jobs in order.
+struct WorkerSlot {
+  std::unique_ptr<WorkerProcess> process;
+  std::deque<Job> jobs;
+  std::optional<std::size_t> group;  ///< of its last cell, see CellQueue
+  ActiveClock clock;                 ///< since its first job became the first
+  bool is_stuck = false;             ///< killed because it did not answer
+};
+
+/// The highest core this process may use, since the first ones handle most interrupts.
+int last_core();
+
+/// Waits until a worker answers or ends, at most as long as the clocks of workers allow.
+void wait_for_workers(const std::vector<WorkerSlot>& slots);
+
+/// Kills a worker that does not end its cell: one that a cell stopped.
+void end_if_stuck(WorkerSlot& slot, const Limits& limits);
+
+/// What the end of a worker means for its first job.
+Failure failure_of_worker(WorkerSlot& slot);
 
 }  // namespace loopbench::harness

@@ -5,7 +5,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/catalogue/load_sequence.hpp"
-#include "harness/catalogue/own_process.hpp"
+#include "harness/process/own_process.hpp"
 
 namespace loopbench::harness {
 

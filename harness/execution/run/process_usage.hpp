@@ -12,9 +12,6 @@ double process_cpu_seconds();
 /// Current resident size [bytes]; nullopt without /proc.
 std::optional<std::int64_t> resident_memory();
 
-/// Size of the private writable memory, used or not [bytes]; nullopt without /proc.
-std::optional<std::int64_t> data_memory();
-
 /// Resets the largest resident size, so that peak_memory() covers the time from now on. False if
 /// the system does not support it.
 bool reset_peak_memory();

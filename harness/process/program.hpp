@@ -6,11 +6,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "harness/execution/sandbox/sandbox.hpp"
+#include "harness/process/child_process.hpp"
+#include "harness/process/sandbox.hpp"
 
 namespace loopbench::harness {
 
@@ -32,16 +34,16 @@ struct ProgramEnd {
   std::int64_t peak_memory = 0;  ///< largest resident size of one of its processes [bytes]
 };
 
-class ProcessTree {
+class RunningProgram {
  public:
   /// Starts the program. Throws std::runtime_error if no process can be created; a program that
   /// cannot be executed is reported by its ProgramEnd.
-  explicit ProcessTree(const ProgramStart& start);
-  /// Ends the program with its process group. Does nothing in a process that was forked after the
+  explicit RunningProgram(const ProgramStart& start);
+  /// Ends the program with its process group, except in a process that was forked after the
   /// constructor.
-  ~ProcessTree();
-  ProcessTree(const ProcessTree&) = delete;
-  ProcessTree& operator=(const ProcessTree&) = delete;
+  ~RunningProgram();
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
 
   /// Waits for its end. `output` receives the end of what it printed. Also from a forked process,
   /// then without times and memory.
@@ -50,20 +52,16 @@ class ProcessTree {
   /// Whether the program has ended, without waiting.
   bool has_ended() const;
 
-  pid_t process() const { return process_; }
+  pid_t process() const { return process_ ? process_->id() : -1; }
   int input() const { return input_; }    ///< socket to its standard input, -1 unless it serves
   int output() const { return output_; }  ///< its standard output; with its errors unless it serves
   int errors() const { return errors_; }  ///< its standard error, -1 unless it serves
-  int descriptor() const { return descriptor_; }  ///< of the process: readable when it has ended
+  int descriptor() const { return process_ ? process_->descriptor() : -1; }  ///< see ChildProcess
 
  private:
-  void spawn(const ProgramStart& start, int input, int output, int errors);
-
-  pid_t owner_ = -1;
-  pid_t process_ = -1;  ///< -1: it could not be started, or its end was taken
+  std::optional<ChildProcess> process_;  ///< none if it could not be started
   int start_error_ = 0;
   bool is_sandboxed_ = false;
-  int descriptor_ = -1;
   int input_ = -1;
   int output_ = -1;
   int errors_ = -1;

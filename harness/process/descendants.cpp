@@ -1,7 +1,7 @@
-#include "harness/execution/isolate/process_tree.hpp"
+#include "harness/process/descendants.hpp"
 
 #include <dirent.h>
-#include <sys/syscall.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,9 +9,8 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 
-#include "harness/execution/sandbox/system_file.hpp"
+#include "harness/process/system_file.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -38,29 +37,7 @@ void append_children_of_process(pid_t process, std::vector<pid_t>& out) {
   closedir(folder);
 }
 
-/// Number of kilobytes after `name`, in bytes.
-std::int64_t kilobytes(const std::string& status, const char* name) {
-  const char* found = std::strstr(status.c_str(), name);
-  return found == nullptr
-             ? 0
-             : 1024 * std::int64_t{std::strtoll(found + std::strlen(name), nullptr, 10)};
-}
-
 }  // namespace
-
-pid_t fork_when_possible() {
-  constexpr int kMostAttempts = 100;
-  constexpr useconds_t kPause = 100'000;  // [us]
-  for (int attempt = 1;; ++attempt) {
-    const pid_t out = fork();
-    if (out >= 0 || errno != EAGAIN || attempt == kMostAttempts) return out;
-    usleep(kPause);
-  }
-}
-
-int process_descriptor(pid_t process) {
-  return static_cast<int>(syscall(SYS_pidfd_open, process, 0));  // closed on exec
-}
 
 std::vector<pid_t> own_children() {
   std::vector<pid_t> out;
@@ -70,7 +47,7 @@ std::vector<pid_t> own_children() {
 
 std::int64_t process_memory(const std::string& process) {
   const std::string status = read_system_file("/proc/" + process + "/status");
-  return kilobytes(status, "RssAnon:") + kilobytes(status, "RssShmem:");
+  return memory_in(status, "RssAnon:").value_or(0) + memory_in(status, "RssShmem:").value_or(0);
 }
 
 TreeUsage descendants_usage(std::int64_t at_fork,
@@ -101,17 +78,10 @@ std::int64_t tree_memory(pid_t process) {
   return out;
 }
 
-int end_cell(pid_t cell, const std::vector<pid_t>& spared) {
-  kill(-cell, SIGKILL);  // its process group, also while it forks
-  kill(cell, SIGKILL);
-  int out = 0;
-  while (waitpid(cell, &out, 0) < 0 && errno == EINTR) {
-  }
-  end_strays(spared);
-  return out;
-}
-
 void end_strays(const std::vector<pid_t>& spared) {
+  siginfo_t none;
+  const int error = waitid(P_ALL, 0, &none, WEXITED | WNOHANG | WNOWAIT) == 0 ? 0 : errno;
+  if (error == ECHILD) return;  // faster than reading the list
   for (;;) {
     std::vector<pid_t> strays = own_children();
     std::erase_if(strays, [&](pid_t child) { return std::ranges::count(spared, child) > 0; });
@@ -122,6 +92,21 @@ void end_strays(const std::vector<pid_t>& spared) {
       }
     }
   }
+}
+
+Subreaper::Subreaper() : others_(own_children()) {
+  prctl(PR_GET_CHILD_SUBREAPER, &before_);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+}
+
+Subreaper::~Subreaper() {
+  end_strays(others_);
+  prctl(PR_SET_CHILD_SUBREAPER, before_);
+}
+
+void Subreaper::end_strays_except(std::vector<pid_t> workers) const {
+  workers.insert(workers.end(), others_.begin(), others_.end());
+  end_strays(workers);
 }
 
 }  // namespace loopbench::harness

@@ -1,11 +1,8 @@
-#include "harness/external/process_tree.hpp"
+#include "harness/process/program.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,10 +11,11 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
+#include <utility>
 
 namespace loopbench::harness {
 namespace {
@@ -90,32 +88,15 @@ class Ends {
   std::array<int, 2> ends_{-1, -1};
 };
 
-std::vector<char*> pointers(std::vector<std::string>& texts) {
-  std::vector<char*> out;
-  for (std::string& text : texts) out.push_back(text.data());
-  out.push_back(nullptr);
-  return out;
-}
-
 double seconds(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-}
-
-/// Wait status of a process that has ended but has not been waited for, in the last field of its
-/// line: another process, which it is no child of, can only read that. 0 if it cannot be read.
-int status_of_zombie(pid_t process) {
-  std::ifstream in("/proc/" + std::to_string(process) + "/stat");
-  std::string line;
-  std::getline(in, line);
-  const std::size_t last = line.find_last_of(' ');
-  return last == std::string::npos ? 0 : std::atoi(line.c_str() + last);
 }
 
 void do_not_block(int file) { fcntl(file, F_SETFL, fcntl(file, F_GETFL) | O_NONBLOCK); }
 
 }  // namespace
 
-ProcessTree::ProcessTree(const ProgramStart& given) : owner_(getpid()) {
+RunningProgram::RunningProgram(const ProgramStart& given) {
   const ProgramStart start = with_sandbox(given);
   is_sandboxed_ = start.sandbox != nullptr;
   Ends output;
@@ -126,7 +107,21 @@ ProcessTree::ProcessTree(const ProgramStart& given) : owner_(getpid()) {
   for (const int end : {input[0], input[1]}) {
     setsockopt(end, SOL_SOCKET, SO_SNDBUF, &kPipeSize, sizeof kPipeSize);
   }
-  spawn(start, start.serves ? input[1] : -1, output[1], start.serves ? errors[1] : output[1]);
+  ProgramCall call;
+  call.arguments = start.arguments;
+  call.folder = start.folder;
+  call.environment = environment_of(start);
+  call.input = start.serves ? input[1] : -1;
+  call.output = output[1];
+  call.errors = start.serves ? errors[1] : output[1];
+  try {
+    process_.emplace(ProcessGroup::own, call);
+  } catch (const std::system_error& error) {
+    if (error.code().value() == EAGAIN) {
+      throw std::runtime_error("cannot start a program: no processes left");
+    }
+    start_error_ = error.code().value();
+  }
   output_ = output.take(0);
   do_not_block(output_);
   if (!start.serves) return;
@@ -136,95 +131,33 @@ ProcessTree::ProcessTree(const ProgramStart& given) : owner_(getpid()) {
   do_not_block(errors_);
 }
 
-void ProcessTree::spawn(const ProgramStart& start, int input, int output, int errors) {
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addchdir_np(&files, start.folder.c_str());
-  if (input >= 0) {
-    posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
-  } else {
-    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  }
-  posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&files, errors, STDERR_FILENO);
-  posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t signals;
-  sigemptyset(&signals);
-  posix_spawnattr_setsigmask(&attributes, &signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGCHLD}) sigaddset(&signals, signal);
-  posix_spawnattr_setsigdefault(&attributes, &signals);
-  posix_spawnattr_setpgroup(&attributes, 0);  // signals of the terminal are for the sweep
-  posix_spawnattr_setflags(&attributes,
-                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-  std::vector<std::string> words = start.arguments;
-  std::vector<std::string> variables = environment_of(start);
-  const std::vector<char*> argv = pointers(words);
-  const std::vector<char*> envp = pointers(variables);
-  constexpr int kMostAttempts = 100;
-  constexpr useconds_t kPause = 100'000;  // [us]
-  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-    start_error_ = posix_spawnp(&process_, argv[0], &files, &attributes, argv.data(), envp.data());
-    if (start_error_ != EAGAIN) break;
-    usleep(kPause);  // a short lack of processes
-  }
-  posix_spawn_file_actions_destroy(&files);
-  posix_spawnattr_destroy(&attributes);
-  if (start_error_ == EAGAIN) throw std::runtime_error("cannot start a program: no processes left");
-  if (start_error_ != 0) {
-    process_ = -1;
-    return;
-  }
-  descriptor_ = static_cast<int>(syscall(SYS_pidfd_open, process_, 0));  // closed on exec
-  if (descriptor_ >= 0) return;
-  const int error = errno;
-  kill(-process_, SIGKILL);
-  waitpid(process_, nullptr, 0);
-  throw std::runtime_error(std::string("cannot watch a program: ") + std::strerror(error));
-}
-
-ProcessTree::~ProcessTree() {
-  for (const int file : {descriptor_, input_, output_, errors_}) {
+RunningProgram::~RunningProgram() {
+  for (const int file : {input_, output_, errors_}) {
     if (file >= 0) close(file);
   }
-  if (getpid() != owner_ || process_ < 0) return;
-  kill(-process_, SIGKILL);
-  while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
-  }
 }
 
-bool ProcessTree::has_ended() const {
-  pollfd process{descriptor_, POLLIN, 0};
-  return process_ < 0 || poll(&process, 1, 0) > 0;
-}
+bool RunningProgram::has_ended() const { return !process_ || process_->has_ended(); }
 
-ProgramEnd ProcessTree::wait(std::string& output) {
+ProgramEnd RunningProgram::wait(std::string& output) {
   ProgramEnd end;
   end.start_error = start_error_;
-  bool is_open = process_ >= 0;
+  bool is_open = process_.has_value();
   while (!has_ended()) {
-    std::array<pollfd, 3> files{
-        {{descriptor_, POLLIN, 0}, {is_open ? output_ : -1, POLLIN, 0}, {errors_, POLLIN, 0}}};
+    std::array<pollfd, 3> files{{{process_->descriptor(), POLLIN, 0},
+                                 {is_open ? output_ : -1, POLLIN, 0},
+                                 {errors_, POLLIN, 0}}};
     if (poll(files.data(), files.size(), -1) < 0) continue;
     if (files[1].revents != 0) is_open = read_available(output_, output);
     if (files[2].revents != 0) read_available(errors_, output);
   }
   if (is_open) read_available(output_, output);
   if (errors_ >= 0) read_available(errors_, output);
-  if (process_ < 0) return end;
-  int status = 0;
-  if (getpid() == owner_) {
-    rusage usage{};
-    kill(-process_, SIGKILL);  // what is left of its group
-    while (wait4(process_, &status, 0, &usage) < 0 && errno == EINTR) {
-    }
-    process_ = -1;
-    end.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
-    end.peak_memory = std::int64_t{1024} * usage.ru_maxrss;
-  } else {
-    status = status_of_zombie(process_);
-  }
+  if (!process_) return end;
+  rusage usage{};
+  const int status = process_->end(&usage);
+  end.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  end.peak_memory = std::int64_t{1024} * usage.ru_maxrss;
   if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
   // Bubblewrap exits with 128 + the signal that ended the program.
@@ -251,9 +184,7 @@ std::string text(const ProgramEnd& end) {
     return std::string("cannot be started: ") + std::strerror(end.start_error);
   }
   if (end.signal == 0) return "exited with code " + std::to_string(end.exit_code);
-  const char* name = sigabbrev_np(end.signal);
-  return "was ended by " +
-         (name == nullptr ? "signal " + std::to_string(end.signal) : "SIG" + std::string(name));
+  return "was ended by " + signal_name(end.signal);
 }
 
 }  // namespace loopbench::harness

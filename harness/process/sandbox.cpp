@@ -1,4 +1,4 @@
-#include "harness/execution/sandbox/sandbox.hpp"
+#include "harness/process/sandbox.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "harness/execution/sandbox/try_in_child.hpp"
+#include "harness/process/child_process.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -34,17 +34,18 @@ std::vector<std::string> base_arguments() {
 }
 
 bool run_bubblewrap() {
-  std::vector<std::string> words = base_arguments();
-  words.insert(words.end(), {"--", "true"});
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  return try_in_child([&] {
-    const int null = open("/dev/null", O_RDWR | O_CLOEXEC);
-    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, stream);
-    execvp("bwrap", pointers.data());
-    return false;
-  });
+  ProgramCall call;
+  call.arguments = base_arguments();
+  call.arguments.insert(call.arguments.end(), {"--", "true"});
+  const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  call.output = call.errors = null;
+  bool out = false;
+  try {
+    out = ChildProcess(ProcessGroup::own, call).exit_code() == 0;
+  } catch (const std::runtime_error&) {  // it is not installed
+  }
+  close(null);
+  return out;
 }
 
 fs::path resolved(const fs::path& path) {

@@ -1,4 +1,4 @@
-#include "harness/execution/isolate/result_area.hpp"
+#include "harness/process/result_area.hpp"
 
 #include <sys/mman.h>
 #include <unistd.h>

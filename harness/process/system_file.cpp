@@ -1,7 +1,11 @@
-#include "harness/execution/sandbox/system_file.hpp"
+#include "harness/process/system_file.hpp"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
 
 namespace loopbench::harness {
 
@@ -23,6 +27,21 @@ bool write_system_file(const std::string& path, const std::string& text) {
   const bool is_written = write(file, text.data(), text.size()) >= 0;
   close(file);
   return is_written;
+}
+
+std::optional<std::int64_t> memory_in(const std::string& status, const char* name) {
+  const char* found = std::strstr(status.c_str(), name);
+  if (found == nullptr) return std::nullopt;
+  return 1024 * std::int64_t{std::strtoll(found + std::strlen(name), nullptr, 10)};
+}
+
+void limit_data_memory(std::int64_t growth) {
+  const std::optional<std::int64_t> now =
+      memory_in(read_system_file("/proc/self/status"), "VmData:");
+  if (!now) return;
+  const auto most = static_cast<rlim_t>(*now + growth);
+  const rlimit both{most, most};
+  setrlimit(RLIMIT_DATA, &both);
 }
 
 }  // namespace loopbench::harness

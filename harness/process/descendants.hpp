@@ -9,12 +9,6 @@
 
 namespace loopbench::harness {
 
-/// As fork(), but waits some seconds for an end of a lack of processes (EAGAIN).
-pid_t fork_when_possible();
-
-/// Descriptor of a child, readable when it has ended; -1 on failure.
-int process_descriptor(pid_t process);
-
 /// Children of the calling thread, including adopted ones. Empty without /proc.
 std::vector<pid_t> own_children();
 
@@ -36,12 +30,25 @@ std::int64_t tree_memory(pid_t process);
 /// Private and shared memory of a process, or "self" [bytes]; without mapped files. 0 if unknown.
 std::int64_t process_memory(const std::string& process);
 
-/// In a worker, a subreaper: kills all its descendants but `spared` children, and waits for their
-/// end. Returns the wait status of `cell`, a child that leads a process group.
-int end_cell(pid_t cell, const std::vector<pid_t>& spared);
-
 /// In a subreaper: kills its children but those in `spared`, with their descendants, and waits for
 /// their end.
 void end_strays(const std::vector<pid_t>& spared);
+
+/// While it exists, this process adopts descendants whose parents have ended. At the end it ends
+/// all that remain.
+class Subreaper {
+ public:
+  Subreaper();
+  ~Subreaper();
+  Subreaper(const Subreaper&) = delete;
+  Subreaper& operator=(const Subreaper&) = delete;
+
+  /// Ends all children but `workers` and those that were there before.
+  void end_strays_except(std::vector<pid_t> workers) const;
+
+ private:
+  std::vector<pid_t> others_;  ///< children that were there before
+  int before_ = 0;             ///< whether it was a subreaper
+};
 
 }  // namespace loopbench::harness
