@@ -28,6 +28,11 @@ void walk(Archive& a, T& f) {
   a(f.points)(f.descriptors)(f.bytes)(f.binary);
 }
 
+template <class Archive, Either<rgbd::FrameFeatures> T>
+void walk(Archive& a, T& frame) {
+  a(frame.why)(frame.features);
+}
+
 template <class Archive, Either<rgbd::Keyframe> T>
 void walk(Archive& a, T& k) {
   a(k.frame)(k.stamp)(k.world_from_camera)(k.features);
@@ -56,7 +61,6 @@ void walk(Archive& a, T& e) {
 }  // namespace loopbench
 
 namespace loopbench::rgbd {
-namespace {
 
 template <class T>
 std::string serialised(const T& value) {
@@ -70,31 +74,13 @@ T deserialised(const std::string& bytes) {
   return out;
 }
 
-}  // namespace
-
-std::string packed(const FrameFeatures& frame) {
-  Packer pack;
-  pack(frame.why)(frame.features);
-  return pack.bytes();
-}
-
-FrameFeatures deserialise_frame(const std::string& bytes) {
-  FrameFeatures out;
-  Unpacker{bytes}(out.why)(out.features);
-  return out;
-}
-
-std::string packed(const TrackingResult& tracked) { return serialised(tracked); }
-TrackingResult deserialise_tracked(const std::string& bytes) {
-  return deserialised<TrackingResult>(bytes);
-}
-std::string packed(const DetectedLoops& loops) { return serialised(loops); }
-DetectedLoops deserialise_loops(const std::string& bytes) {
-  return deserialised<DetectedLoops>(bytes);
-}
-std::string packed(const RefinedEdges& edges) { return serialised(edges); }
-RefinedEdges deserialise_edges(const std::string& bytes) {
-  return deserialised<RefinedEdges>(bytes);
-}
+template std::string serialised(const FrameFeatures&);
+template std::string serialised(const TrackingResult&);
+template std::string serialised(const DetectedLoops&);
+template std::string serialised(const RefinedEdges&);
+template FrameFeatures deserialised<FrameFeatures>(const std::string&);
+template TrackingResult deserialised<TrackingResult>(const std::string&);
+template DetectedLoops deserialised<DetectedLoops>(const std::string&);
+template RefinedEdges deserialised<RefinedEdges>(const std::string&);
 
 }  // namespace loopbench::rgbd

@@ -16,14 +16,11 @@ struct FrameFeatures {
   std::string why = {};
 };
 
-/// The deserialise_* functions throw std::runtime_error for bytes in another layout.
-std::string packed(const FrameFeatures& frame);
-FrameFeatures deserialise_frame(const std::string& bytes);
-std::string packed(const TrackingResult& tracked);
-TrackingResult deserialise_tracked(const std::string& bytes);
-std::string packed(const DetectedLoops& loops);
-DetectedLoops deserialise_loops(const std::string& bytes);
-std::string packed(const RefinedEdges& edges);
-RefinedEdges deserialise_edges(const std::string& bytes);
+/// For FrameFeatures, TrackingResult, DetectedLoops and RefinedEdges. deserialised() throws
+/// std::runtime_error for bytes in another layout.
+template <class T>
+std::string serialised(const T& value);
+template <class T>
+T deserialised(const std::string& bytes);
 
 }  // namespace loopbench::rgbd

@@ -1,7 +1,6 @@
 #include "datasets/rgbd/rgbd_datasets.hpp"
 
 #include "datasets/rgbd/opencv.hpp"
-#include "datasets/rgbd/render/rendered_room.hpp"
 
 namespace loopbench::rgbd {
 

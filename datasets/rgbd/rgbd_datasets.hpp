@@ -7,7 +7,7 @@
 #include "datasets/dataset.hpp"
 #include "datasets/rgbd/folder/folder_source.hpp"
 #include "datasets/rgbd/frontend.hpp"
-#include "datasets/rgbd/render/render_options.hpp"
+#include "datasets/rgbd/render/rendered_room.hpp"
 
 namespace loopbench::rgbd {
 

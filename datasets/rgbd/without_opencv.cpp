@@ -15,13 +15,11 @@ Features find_features(const RgbdFrame&, const Camera&, const FeatureOptions&) {
   throw MissingPart(kWithoutOpencv);
 }
 
-std::vector<Match> match_exhaustive(const Features&, const Features&, const MatchOptions&) {
+std::vector<Match> match_exhaustive(const Features&, const Features&) {
   throw MissingPart(kWithoutOpencv);
 }
 
-std::optional<Pose> pose_by_ransac(const std::vector<Observation>&,
-                                   const Camera&,
-                                   const PoseOptions&) {
+std::optional<Pose> pose_by_ransac(const std::vector<Observation>&, const Camera&) {
   throw MissingPart(kWithoutOpencv);
 }
 

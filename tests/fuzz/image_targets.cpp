@@ -3,7 +3,6 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/rgbd/camera.hpp"
-#include "datasets/rgbd/folder/image_list.hpp"
 #include "datasets/rgbd/folder/layouts.hpp"
 #include "datasets/rgbd/folder/read_image.hpp"
 #include "datasets/rgbd/pack_stages.hpp"
@@ -90,10 +89,10 @@ void fuzz_cache(const std::filesystem::path& file) {
       // bytes in another layout, as expected
     }
   };
-  unpack(deserialise_frame);
-  unpack(deserialise_tracked);
-  unpack(deserialise_loops);
-  unpack(deserialise_edges);
+  unpack(deserialised<FrameFeatures>);
+  unpack(deserialised<TrackingResult>);
+  unpack(deserialised<DetectedLoops>);
+  unpack(deserialised<RefinedEdges>);
 }
 
 }  // namespace loopbench

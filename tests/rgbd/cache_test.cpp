@@ -1,12 +1,11 @@
 // Cache entries are read only under the name and by the build that they were written for.
-#include "datasets/rgbd/cache.hpp"
-
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <fstream>
 #include <iterator>
 
+#include "datasets/rgbd/stage_cache.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::cache_test {

@@ -2,7 +2,7 @@
 #include <fstream>
 
 #include "datasets/rgbd/folder/folder_source.hpp"
-#include "datasets/rgbd/folder/image_list.hpp"
+#include "datasets/rgbd/folder/layouts.hpp"
 #include "datasets/rgbd/folder/register_depth.hpp"
 #include "tests/rgbd/recording.hpp"
 #include "tests/support/refusal_of.hpp"

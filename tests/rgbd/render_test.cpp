@@ -1,9 +1,8 @@
 // Tests of the renderer: exact values in simple cases, and reproducibility.
-#include "datasets/rgbd/render/render.hpp"
-
 #include <cmath>
 
 #include "datasets/rgbd/render/rendered_room.hpp"
+#include "datasets/rgbd/render/scene.hpp"
 #include "datasets/rgbd/render/sensor.hpp"
 
 namespace loopbench::render_test {

@@ -5,7 +5,7 @@
 #include "datasets/random.hpp"
 #include "datasets/rgbd/features/matching.hpp"
 #include "datasets/rgbd/loops/normalised_gap.hpp"
-#include "datasets/rgbd/loops/place_index.hpp"
+#include "datasets/rgbd/loops/retrieval.hpp"
 #include "datasets/rgbd/loops/vocabulary.hpp"
 #include "datasets/rgbd/ordered_pipeline.hpp"
 #include "datasets/rgbd/tracking/camera_pose.hpp"
@@ -38,7 +38,7 @@ std::vector<Observation> observe(std::size_t count, std::size_t wrong) {
 
 TEST(CameraPose, IsFoundAmongOutliersAndThenExact) {
   const std::vector<Observation> all = observe(90, 3);
-  const std::optional<Pose> found = pose_by_ransac(all, {}, {});
+  const std::optional<Pose> found = pose_by_ransac(all, {});
   ASSERT_TRUE(found);
   EXPECT_TRUE(is_close(*found, kTruth, 0.02, 0.01));
   const RefinedPose refined = refine_pose(all, {}, *found, {});
@@ -50,11 +50,11 @@ TEST(CameraPose, IsFoundAmongOutliersAndThenExact) {
 
 TEST(CameraPose, IsTheSameToTheBitAtEveryCall) {
   const std::vector<Observation> all = observe(60, 4);
-  EXPECT_EQ(pose_by_ransac(all, {}, {})->translation, pose_by_ransac(all, {}, {})->translation);
+  EXPECT_EQ(pose_by_ransac(all, {})->translation, pose_by_ransac(all, {})->translation);
 }
 
 TEST(CameraPose, IsNotFoundFromThreePoints) {
-  EXPECT_FALSE(pose_by_ransac(observe(3, 0), {}, {}));
+  EXPECT_FALSE(pose_by_ransac(observe(3, 0), {}));
   EXPECT_EQ(refine_pose(observe(3, 0), {}, kTruth, {}).information, Matrix6::Zero());
 }
 
@@ -202,12 +202,12 @@ TEST(Matching, NearTakesEachFeatureOnceAndTheOneThatLooksLikeIt) {
         query.descriptors.end(), all.descriptor(i), all.descriptor(i) + all.bytes);
   }
   const std::vector<MapPoint> points{{{0.0, 0.0, 2.0}, 0, 1}, {{0.0, 0.0, 2.0}, 0, 0}};
-  const std::vector<Match> matches = match_guided(points, all, query, camera, {}, 10.0, {});
+  const std::vector<Match> matches = match_guided(points, all, query, camera, {}, 10.0);
   ASSERT_EQ(matches.size(), 1u);
   EXPECT_EQ(matches[0].a, 1u);  // descriptor row 0 is equal, row 1 differs slightly
   EXPECT_EQ(matches[0].b, 0u);
   const Pose aside{Rotation::Identity(), Vector3(1.0, 0.0, 0.0)};
-  EXPECT_TRUE(match_guided(points, all, query, camera, aside, 10.0, {}).empty());
+  EXPECT_TRUE(match_guided(points, all, query, camera, aside, 10.0).empty());
 }
 
 TEST(LocalMap, ForgetsWhatNoKeyframeOfTheWindowSaw) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "datasets/core/interpolate.hpp"
-#include "datasets/rgbd/cpu_clock.hpp"
 #include "datasets/rgbd/dense/align_surface.hpp"
 #include "datasets/rgbd/ordered_pipeline.hpp"
 
@@ -28,36 +27,24 @@ bool is_accepted(const SurfaceAlignment& found, const Pose& prior, const RefineO
          log_so3(moved.rotation).norm() < kMaxRotation;
 }
 
-struct TimedDepth {
-  DownsampledDepth image;
-  double seconds = 0.0;
-};
-
 /// Reads downsampled depth images of all keyframes; empty for images that cannot be read.
 std::vector<DownsampledDepth> keyframe_depths(const RgbdSource& source,
                                               const std::vector<Keyframe>& keyframes,
-                                              double depth_max,
-                                              double& seconds) {
+                                              double depth_max) {
   const Camera camera = source.camera();
   const auto read = [&](std::size_t k) {
-    const double begin = cpu_seconds();
-    TimedDepth out;
     std::string why;
-    if (const auto images = source.read(keyframes[k].frame, why)) {
-      out.image = downsample_depth(images->depth, camera, kSurfaceWidth, depth_max);
-    }
-    out.seconds = cpu_seconds() - begin;
-    return out;
+    const auto images = source.read(keyframes[k].frame, why);
+    return images ? downsample_depth(images->depth, camera, kSurfaceWidth, depth_max)
+                  : DownsampledDepth();
   };
   std::vector<DownsampledDepth> out;
-  ordered_pipeline<TimedDepth>(keyframes.size(),
-                               hardware_threads(),
-                               4 * hardware_threads(),
-                               read,
-                               [&](std::size_t, TimedDepth depth) {
-                                 seconds += depth.seconds;
-                                 out.push_back(std::move(depth.image));
-                               });
+  ordered_pipeline<DownsampledDepth>(
+      keyframes.size(),
+      hardware_threads(),
+      4 * hardware_threads(),
+      read,
+      [&](std::size_t, DownsampledDepth depth) { out.push_back(std::move(depth)); });
   return out;
 }
 
@@ -102,7 +89,6 @@ std::vector<Pose> refine_odometry(const std::vector<DownsampledDepth>& depths,
 struct RefinedClosure {
   Edge edge;
   bool refined = false;
-  double seconds = 0.0;
 };
 
 RefinedClosure refine_closure(const Edge& closure,
@@ -110,7 +96,6 @@ RefinedClosure refine_closure(const Edge& closure,
                               const std::vector<Pose>& world_from_keyframe,
                               const PoseOptions& pose,
                               const RefineOptions& options) {
-  const double begin = cpu_seconds();
   RefinedClosure out{closure};
   const std::size_t first = closure.from - std::min(closure.from, kClosureReach);
   const std::size_t last = std::min(closure.from + kClosureReach, closure.to - 1);
@@ -130,7 +115,6 @@ RefinedClosure refine_closure(const Edge& closure,
     out.edge.from_from_to = found.world_from_camera;
     out.edge.information = found.information;
   }
-  out.seconds = cpu_seconds() - begin;
   return out;
 }
 
@@ -145,11 +129,9 @@ RefinedEdges refine_by_depth(const RgbdSource& source,
                              const std::function<void(std::size_t, std::size_t)>& progress) {
   RefinedEdges out{tracked.odometry};
   const std::size_t steps = tracked.keyframes.size() + closures.size();
-  const auto depths = keyframe_depths(source, tracked.keyframes, depth_max, out.seconds);
-  const double begin = cpu_seconds();
+  const auto depths = keyframe_depths(source, tracked.keyframes, depth_max);
   const std::vector<Pose> poses = refine_odometry(
       depths, pose, options, [&](std::size_t k) { progress(k + 1, steps); }, out);
-  out.seconds += cpu_seconds() - begin;
   const auto refine = [&](std::size_t i) {
     return refine_closure(closures[i], depths, poses, pose, options);
   };
@@ -159,7 +141,6 @@ RefinedEdges refine_by_depth(const RgbdSource& source,
                                    refine,
                                    [&](std::size_t i, RefinedClosure one) {
                                      progress(tracked.keyframes.size() + i + 1, steps);
-                                     out.seconds += one.seconds;
                                      out.closures_refined += one.refined ? 1 : 0;
                                      out.closures.push_back(std::move(one.edge));
                                    });

@@ -38,7 +38,6 @@ struct RefinedEdges {
   std::vector<Edge> closures = {};
   std::size_t odometry_refined = 0;
   std::size_t closures_refined = 0;
-  double seconds = 0.0;  ///< CPU time of all threads [s]
 };
 
 /// Aligns the surface of each keyframe with those of the previous `window` keyframes by

@@ -19,6 +19,13 @@ struct Feature {
   std::int32_t octave = 0;
 };
 
+/// Position of a feature with depth, in camera axes [m].
+inline Vector3 point_of(const Feature& feature, const Camera& camera) {
+  return camera.back_project(static_cast<double>(feature.u),
+                             static_cast<double>(feature.v),
+                             static_cast<double>(feature.depth));
+}
+
 /// Row i of `descriptors` (`bytes` long) belongs to points[i].
 struct Features {
   std::vector<Feature> points = {};
@@ -42,7 +49,6 @@ inline auto choices(FeatureKind) {
 struct FeatureOptions {
   FeatureKind kind = FeatureKind::orb;
   std::int64_t count = 800;
-  std::int64_t cells = 12;
   double depth_max = 5.0;  ///< [m]
 };
 
@@ -50,10 +56,6 @@ template <class Visit>
 void fields(FeatureOptions& o, Visit visit) {
   visit("features.kind", o.kind, "detector and descriptor");
   visit("features.count", o.count, "maximum number of features per image", Between{50, 10000});
-  visit("features.cells",
-        o.cells,
-        "number of grid columns for an even distribution of features",
-        Between{1, 100});
   visit("features.depth_max", o.depth_max, "maximum depth that is used [m]", GreaterThan{0});
 }
 

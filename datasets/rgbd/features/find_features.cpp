@@ -11,6 +11,7 @@ namespace {
 
 constexpr float kOctave = 1.2f;      // scale factor of the ORB pyramid
 constexpr int kMinLevelSize = 60;    // [px]; smaller levels contain no complete patch
+constexpr int kCells = 12;           // columns of the grid for an even distribution
 constexpr int kBorder = 19;          // ORB patch at the finest level [px]
 constexpr float kDepthEdge = 0.06f;  // maximum relative depth difference around a feature
 
@@ -34,14 +35,13 @@ cv::Ptr<cv::Feature2D> detector(const FeatureOptions& o, int count, int shorter_
 /// strongest, and so on.
 std::vector<std::size_t> distribute(const std::vector<cv::KeyPoint>& points,
                                     std::size_t count,
-                                    int cells,
                                     int width) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return points[a].response > points[b].response;
   });
-  const float side = static_cast<float>(width) / static_cast<float>(cells);
+  const float side = static_cast<float>(width) / static_cast<float>(kCells);
   std::map<std::pair<int, int>, std::size_t> filled;
   std::vector<std::pair<std::size_t, std::size_t>> ranked;  // rank in its cell, index
   for (const std::size_t i : order) {
@@ -102,7 +102,7 @@ Features find_features(const RgbdFrame& frame, const Camera& camera, const Featu
   std::vector<cv::KeyPoint> all;
   algorithm->detect(image, all);
   std::vector<cv::KeyPoint> kept;
-  for (const std::size_t i : distribute(all, count, static_cast<int>(o.cells), image.cols)) {
+  for (const std::size_t i : distribute(all, count, image.cols)) {
     kept.push_back(all[i]);
   }
   cv::Mat rows;

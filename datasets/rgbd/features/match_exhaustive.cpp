@@ -14,14 +14,13 @@ cv::Mat rows(const Features& features) {
 
 /// Returns for each row of `from` its nearest neighbour in `to`, -1 if it is too far or fails the
 /// ratio test.
-std::vector<int> nearest(
-    const cv::Mat& from, const cv::Mat& to, double unit, int norm, const MatchOptions& o) {
+std::vector<int> nearest(const cv::Mat& from, const cv::Mat& to, double unit, int norm) {
   std::vector<std::vector<cv::DMatch>> found;
   cv::BFMatcher(norm).knnMatch(from, to, found, 2);
   std::vector<int> out(static_cast<std::size_t>(from.rows), -1);
   for (const std::vector<cv::DMatch>& pair : found) {
-    if (pair.empty() || pair[0].distance > o.distance_max * unit) continue;
-    if (pair.size() > 1 && pair[0].distance > o.ratio * pair[1].distance) continue;
+    if (pair.empty() || pair[0].distance > kMaxDistance * unit) continue;
+    if (pair.size() > 1 && pair[0].distance > kMaxRatio * pair[1].distance) continue;
     out[static_cast<std::size_t>(pair[0].queryIdx)] = pair[0].trainIdx;
   }
   return out;
@@ -29,12 +28,12 @@ std::vector<int> nearest(
 
 }  // namespace
 
-std::vector<Match> match_exhaustive(const Features& a, const Features& b, const MatchOptions& o) {
+std::vector<Match> match_exhaustive(const Features& a, const Features& b) {
   if (a.size() == 0 || b.size() == 0) return {};
   const int norm = a.binary ? cv::NORM_HAMMING : cv::NORM_L2;
   const double unit = a.binary ? 8.0 * a.bytes : 1024.0;
-  const std::vector<int> forward = nearest(rows(a), rows(b), unit, norm, o);
-  const std::vector<int> backward = nearest(rows(b), rows(a), unit, norm, o);
+  const std::vector<int> forward = nearest(rows(a), rows(b), unit, norm);
+  const std::vector<int> backward = nearest(rows(b), rows(a), unit, norm);
   std::vector<Match> out;
   for (std::size_t i = 0; i < forward.size(); ++i) {
     if (forward[i] < 0) continue;

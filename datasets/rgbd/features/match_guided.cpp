@@ -51,8 +51,7 @@ std::vector<Match> match_guided(const std::vector<MapPoint>& points,
                                 const Features& features,
                                 const Camera& camera,
                                 const Pose& world_from_camera,
-                                double radius,
-                                const MatchOptions& o) {
+                                double radius) {
   constexpr float kNone = std::numeric_limits<float>::infinity();
   const Grid grid(features, camera);
   const Pose camera_from_world = world_from_camera.inverse();
@@ -88,7 +87,7 @@ std::vector<Match> match_guided(const std::vector<MapPoint>& points,
         second = std::min(second, distance);
       }
     });
-    if (best > static_cast<float>(o.distance_max) || best > static_cast<float>(o.ratio) * second) {
+    if (best > static_cast<float>(kMaxDistance) || best > static_cast<float>(kMaxRatio) * second) {
       continue;
     }
     if (best < owners[best_feature].distance) owners[best_feature] = {p, best};

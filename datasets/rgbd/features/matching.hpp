@@ -15,30 +15,12 @@ struct Match {
   float distance = 0.0f;  ///< 0..1
 };
 
-struct MatchOptions {
-  double distance_max = 0.25;
-  double ratio = 0.85;
-  double radius = 0.06;
-};
-
-template <class Visit>
-void fields(MatchOptions& o, Visit visit) {
-  visit("match.distance_max",
-        o.distance_max,
-        "maximum descriptor distance of a match, 0..1 [-]",
-        Between{0, 1});
-  visit("match.ratio",
-        o.ratio,
-        "maximum ratio of best and second best descriptor distance [-]",
-        Between{0, 1});
-  visit("match.radius",
-        o.radius,
-        "radius of the guided search relative to the image width [-]",
-        Between{0, 1});
-}
+inline constexpr double kMaxDistance = 0.25;  ///< of the descriptors of a match, 0..1 [-]
+inline constexpr double kMaxRatio = 0.85;     ///< of best and second best descriptor distance [-]
+inline constexpr double kMatchRadius = 0.06;  ///< of the guided search / image width [-]
 
 /// Matches features by descriptor with ratio test and mutual check. Sorted by a. O(|a| |b|).
-std::vector<Match> match_exhaustive(const Features& a, const Features& b, const MatchOptions& o);
+std::vector<Match> match_exhaustive(const Features& a, const Features& b);
 
 /// A map point.
 struct MapPoint {
@@ -56,7 +38,6 @@ std::vector<Match> match_guided(const std::vector<MapPoint>& points,
                                 const Features& features,
                                 const Camera& camera,
                                 const Pose& world_from_camera,
-                                double radius,
-                                const MatchOptions& o);
+                                double radius);
 
 }  // namespace loopbench::rgbd

@@ -4,7 +4,6 @@
 
 #include "datasets/core/params.hpp"
 #include "datasets/hash.hpp"
-#include "datasets/rgbd/render/render.hpp"
 #include "datasets/rgbd/render/scene.hpp"
 #include "datasets/rgbd/render/sensor.hpp"
 #include "datasets/simulated/path.hpp"

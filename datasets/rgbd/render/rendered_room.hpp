@@ -1,12 +1,43 @@
 /// Frame source that renders a hand-held camera in a synthetic room, without downloads.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
-#include "datasets/rgbd/render/render_options.hpp"
+#include "datasets/core/fields.hpp"
 #include "datasets/rgbd/rgbd_source.hpp"
 
 namespace loopbench::rgbd {
+
+/// Scene, camera motion and sensor noise.
+struct RenderOptions {
+  std::int64_t seed = 1;
+  std::int64_t width = 320;
+  double rate = 8.0;
+  double laps = 1.06;
+  double blur = 0.012;       ///< exposure time [s]
+  double noise = 3.0;        ///< [grey levels]
+  double exposure = 0.25;    ///< amplitude of slow brightness changes [-]
+  double depth_noise = 1.0;  ///< relative to a Kinect [-]
+  double dropouts = 1.0;     ///< relative to a Kinect [-]
+};
+
+template <class Visit>
+void fields(RenderOptions& o, Visit visit) {
+  visit("seed", o.seed, "random seed of room, textures and noise", Between{0});
+  visit("width", o.width, "image width [px]; the height is 3/4 of it", Between{64, 1920});
+  visit("rate", o.rate, "frame rate of the camera [Hz]", Between{0.1, 120});
+  visit("laps", o.laps, "number of laps around the room", Between{0.001, 100});
+  visit("blur", o.blur, "exposure time of motion blur [s]", Between{0, 0.1});
+  visit("noise", o.noise, "standard deviation of image noise [grey levels]", Between{0, 50});
+  visit(
+      "exposure", o.exposure, "relative amplitude of slow brightness changes [-]", Between{0, 0.8});
+  visit("depth_noise",
+        o.depth_noise,
+        "depth noise relative to a Kinect (1.4 mm/m^2) [-]",
+        Between{0, 20});
+  visit("dropouts", o.dropouts, "rate of missing depth relative to a Kinect [-]", Between{0, 20});
+}
 
 /// The camera follows the simulated path `room` (datasets/simulated/path.hpp) and looks along the x
 /// axis of the body, with a horizontal field of view of 62 degrees. Frames have stamps k / rate.

@@ -1,11 +1,14 @@
-/// Scene of a furnished room made of axis-aligned boxes.
+/// Scene of a furnished room made of axis-aligned boxes, and its rendering without sensor noise.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "datasets/core/pose.hpp"
 #include "datasets/core/so3.hpp"
+#include "datasets/rgbd/camera.hpp"
+#include "datasets/rgbd/image.hpp"
 #include "datasets/rgbd/render/texture.hpp"
 
 namespace loopbench::rgbd {
@@ -37,5 +40,14 @@ struct Hit {
 
 /// First intersection of a ray that starts inside the room. O(furniture).
 Hit cast_ray(const Scene& scene, const Vector3& origin, const Vector3& direction);
+
+struct RenderedImage {
+  Image<float> grey;              ///< 0..255
+  DepthImage depth;               ///< depth of every pixel [m]
+  Image<float> incidence_cosine;  ///< cosine of the angle between ray and surface normal [-]
+};
+
+/// Casts one ray through the centre of each pixel. O(pixels * furniture).
+RenderedImage render(const Scene& scene, const Camera& camera, const Pose& world_from_camera);
 
 }  // namespace loopbench::rgbd

@@ -6,8 +6,8 @@
 #include "datasets/core/pose.hpp"
 #include "datasets/rgbd/camera.hpp"
 #include "datasets/rgbd/image.hpp"
-#include "datasets/rgbd/render/render.hpp"
-#include "datasets/rgbd/render/render_options.hpp"
+#include "datasets/rgbd/render/rendered_room.hpp"
+#include "datasets/rgbd/render/scene.hpp"
 
 namespace loopbench::rgbd {
 

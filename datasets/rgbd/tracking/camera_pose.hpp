@@ -7,6 +7,7 @@
 #include "datasets/core/fields.hpp"
 #include "datasets/core/se3.hpp"
 #include "datasets/rgbd/camera.hpp"
+#include "datasets/rgbd/features/matching.hpp"
 
 namespace loopbench::rgbd {
 
@@ -21,8 +22,6 @@ struct Observation {
 struct PoseOptions {
   double pixel_sigma = 1.0;
   double inverse_depth_sigma = 0.003;
-  std::int64_t ransac_iterations = 200;
-  double ransac_pixels = 4.0;
   double information_scale = 0.1;
 };
 
@@ -36,14 +35,6 @@ void fields(PoseOptions& o, Visit visit) {
         o.inverse_depth_sigma,
         "standard deviation of the inverse depth [1/m]",
         GreaterThan{0});
-  visit("pose.ransac_iterations",
-        o.ransac_iterations,
-        "maximum number of RANSAC iterations",
-        Between{1, 100000});
-  visit("pose.ransac_pixels",
-        o.ransac_pixels,
-        "maximum reprojection error of a RANSAC inlier [px]",
-        GreaterThan{0});
   visit("pose.information_scale",
         o.information_scale,
         "factor on the information of a pose, below 1 because residuals are correlated [-]",
@@ -54,8 +45,7 @@ void fields(PoseOptions& o, Visit visit) {
 /// cv::solvePnPRansac with a fixed random seed, so that results are bit-identical. Returns nothing
 /// if no pose is found or if there are fewer than four observations.
 std::optional<Pose> pose_by_ransac(const std::vector<Observation>& observations,
-                                   const Camera& camera,
-                                   const PoseOptions& options);
+                                   const Camera& camera);
 
 struct RefinedPose {
   Pose world_from_camera;
@@ -74,5 +64,10 @@ RefinedPose refine_pose(const std::vector<Observation>& observations,
                         const Camera& camera,
                         const Pose& begin,
                         const PoseOptions& options);
+
+/// Converts matches to observations of map points in an image, in the same order. O(matches).
+std::vector<Observation> observations(const std::vector<MapPoint>& points,
+                                      const Features& features,
+                                      const std::vector<Match>& matches);
 
 }  // namespace loopbench::rgbd

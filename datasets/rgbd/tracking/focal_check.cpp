@@ -27,15 +27,7 @@ struct KeyframePair {
   Pose first_from_second;
 };
 
-Vector3 point_of(const Feature& f, const Camera& camera) {
-  return camera.back_project(
-      static_cast<double>(f.u), static_cast<double>(f.v), static_cast<double>(f.depth));
-}
-
-KeyframePair match_pair(const Keyframe& a,
-                        const Keyframe& b,
-                        const Camera& camera,
-                        const TrackOptions& options) {
+KeyframePair match_pair(const Keyframe& a, const Keyframe& b, const Camera& camera) {
   KeyframePair out;
   out.first_from_second = a.world_from_camera.inverse() * b.world_from_camera;
   const Features& features = a.features;
@@ -52,8 +44,7 @@ KeyframePair match_pair(const Keyframe& a,
                                          b.features,
                                          camera,
                                          out.first_from_second,
-                                         kSearchRadius * camera.width,
-                                         options.match)) {
+                                         kSearchRadius * camera.width)) {
     out.matches.push_back({features.points[rows[match.a]], b.features.points[match.b]});
   }
   return out;
@@ -126,7 +117,7 @@ FocalCheck check_focal(const std::vector<Keyframe>& keyframes,
                        const TrackOptions& options) {
   std::vector<KeyframePair> pairs;
   for (std::size_t k = 1; k < keyframes.size(); ++k) {
-    KeyframePair pair = match_pair(keyframes[k - 1], keyframes[k], camera, options);
+    KeyframePair pair = match_pair(keyframes[k - 1], keyframes[k], camera);
     if (pair.matches.size() >= kMinPairMatches) pairs.push_back(std::move(pair));
   }
   FocalCheck out;

@@ -22,9 +22,7 @@ void LocalMap::add(std::size_t keyframe,
   features_.binary = features.binary;
   const auto bytes = static_cast<std::size_t>(features.bytes);
   const auto position = [&](const Feature& f) {
-    return world_from_camera * camera.back_project(static_cast<double>(f.u),
-                                                   static_cast<double>(f.v),
-                                                   static_cast<double>(f.depth));
+    return world_from_camera * point_of(f, camera);
   };
   std::vector<bool> matched(features.size(), false);
   for (const Match& match : matches) {

@@ -3,10 +3,15 @@
 #include "datasets/rgbd/tracking/camera_pose.hpp"
 
 namespace loopbench::rgbd {
+namespace {
+
+constexpr int kIterations = 200;
+constexpr float kMaxReprojection = 4.0f;  // of an inlier [px]
+
+}  // namespace
 
 std::optional<Pose> pose_by_ransac(const std::vector<Observation>& observations,
-                                   const Camera& camera,
-                                   const PoseOptions& options) {
+                                   const Camera& camera) {
   if (observations.size() < 4) return std::nullopt;
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> pixels;
@@ -27,8 +32,8 @@ std::optional<Pose> pose_by_ransac(const std::vector<Observation>& observations,
                                           rotation,
                                           translation,
                                           false,
-                                          static_cast<int>(options.ransac_iterations),
-                                          static_cast<float>(options.ransac_pixels),
+                                          kIterations,
+                                          kMaxReprojection,
                                           0.999,
                                           inliers,
                                           cv::SOLVEPNP_AP3P);

@@ -6,7 +6,7 @@
 
 #include "datasets/core/upper_median.hpp"
 #include "datasets/derive/odometry.hpp"
-#include "datasets/rgbd/tracking/observations.hpp"
+#include "datasets/rgbd/tracking/camera_pose.hpp"
 
 namespace loopbench::rgbd {
 namespace {
@@ -44,19 +44,14 @@ std::optional<Tracker::Located> Tracker::estimate_pose(const Features& features,
   const auto min_inliers = static_cast<std::size_t>(options_.inliers_min);
   if (matches.size() < min_inliers) return std::nullopt;
   const std::vector<Observation> first = observations(map_.points(), features, matches);
-  const std::optional<Pose> found = pose_by_ransac(first, camera_, options_.pose);
+  const std::optional<Pose> found = pose_by_ransac(first, camera_);
   if (!found) return std::nullopt;
   const RefinedPose initial = refine_pose(first, camera_, *found, options_.pose);
   if (initial.inliers < min_inliers / 2) return std::nullopt;
 
-  const double radius = kNarrower * options_.match.radius * camera_.width;
-  std::vector<Match> guided = match_guided(map_.points(),
-                                           map_.descriptors(),
-                                           features,
-                                           camera_,
-                                           initial.world_from_camera,
-                                           radius,
-                                           options_.match);
+  const double radius = kNarrower * kMatchRadius * camera_.width;
+  std::vector<Match> guided = match_guided(
+      map_.points(), map_.descriptors(), features, camera_, initial.world_from_camera, radius);
   const RefinedPose pose = refine_pose(observations(map_.points(), features, guided),
                                        camera_,
                                        initial.world_from_camera,
@@ -79,8 +74,7 @@ std::optional<Tracker::Located> Tracker::locate(const Features& features,
                         features,
                         camera_,
                         prediction,
-                        wider * options_.match.radius * camera_.width,
-                        options_.match);
+                        wider * kMatchRadius * camera_.width);
   };
   std::vector<Match> matches = near(1.0);
   if (matches.size() < kFewMatches) matches = near(kWider);
@@ -98,7 +92,7 @@ std::vector<Match> Tracker::match_last_keyframe(const Features& features) const 
     candidates.points.push_back(map_.descriptors().points[k]);
     candidates.descriptors.insert(candidates.descriptors.end(), row, row + candidates.bytes);
   }
-  std::vector<Match> out = match_exhaustive(candidates, features, options_.match);
+  std::vector<Match> out = match_exhaustive(candidates, features);
   for (Match& match : out) match.a = recent[match.a];
   return out;
 }

@@ -19,7 +19,6 @@ struct TrackOptions {
   std::int64_t window = 10;
   std::int64_t inliers_min = 25;
   double restart_after = 1.0;  ///< [s]
-  MatchOptions match;
   PoseOptions pose;
   KeyframeOptions keyframes;
 };
@@ -35,7 +34,6 @@ void fields(TrackOptions& o, Visit visit) {
         o.restart_after,
         "duration of a tracking loss after which a new map is started [s]",
         Between{0});
-  fields(o.match, visit);
   fields(o.pose, visit);
   fields(o.keyframes, visit);
 }
