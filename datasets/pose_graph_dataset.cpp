@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "datasets/derive/closures.hpp"
-#include "datasets/derive/compose.hpp"
 #include "datasets/derive/graph_parts.hpp"
 #include "datasets/disabled_options.hpp"
 #include "datasets/formats/formats.hpp"

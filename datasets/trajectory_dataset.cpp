@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "datasets/bags/bag_name.hpp"
+#include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/disabled_options.hpp"
 
 namespace loopbench {
@@ -75,14 +75,6 @@ std::string closure_provenance(const TrajectoryOptions& o, std::size_t count) {
 
 void require(bool condition, const std::string& option, const std::string& message) {
   if (!condition) throw OptionError(option, option + ": " + message);
-}
-
-/// Rejects a period for files that all have stamps.
-void reject_period(const TrajectoryOptions& o) {
-  if (o.period == TrajectoryOptions{}.period) return;
-  throw InputError(
-      o.estimate + ": period = " + to_text(o.period) +
-      " has no effect on files with stamps, expected KITTI poses without times, or g2o");
 }
 
 std::uint64_t identity(const TrajectoryOptions& o, const Trajectory& keyframes) {
@@ -196,7 +188,6 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
     return sequence.provenance.inputs.emplace_back(InputPath{root.find(file_of(path)), option})
         .path;
   };
-  bool all_have_stamps = true;
   ReadOptions options;
   options.period = o.period;
   options.repeats = o.repeats;
@@ -209,7 +200,6 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
     ReadFindings findings;
     options.findings = &findings;
     Trajectory out = read_trajectory(file, options);
-    all_have_stamps &= findings.has_stamps;
     if (!findings.damage.empty()) {
       sequence.provenance.notes.push_back(path + ": " + findings.damage);
     }
@@ -224,7 +214,6 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   if (o.closures == ClosureSource::estimate) {
     in.other_run = read(o.closures_file, "closures.file", o.format);
   }
-  if (all_have_stamps) reject_period(o);
   const bool run_is_reference = o.closures == ClosureSource::estimate && !in.reference.empty() &&
                                 same_bits(in.other_run, in.reference);
   in.reference = to_estimate_body(std::move(in.reference), o.reference_body);

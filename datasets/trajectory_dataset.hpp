@@ -2,7 +2,6 @@
 #pragma once
 
 #include "datasets/dataset.hpp"
-#include "datasets/derive/closure_file.hpp"
 #include "datasets/derive/closures.hpp"
 #include "datasets/derive/false_closures.hpp"
 #include "datasets/derive/keyframes.hpp"

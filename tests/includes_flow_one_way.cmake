@@ -15,7 +15,7 @@ set(order
   "datasets/compressed"
   "datasets/bags"
   "datasets/hash datasets/revisits datasets/disabled_options datasets/dataset datasets/formats"
-  "datasets/noise_stream datasets/data_root"
+  "datasets/noise_stream"
   "datasets/random"
   "datasets/derive datasets/simulated"
   "datasets/trajectory_dataset datasets/pose_graph_dataset"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "datasets/bags/byte_reader.hpp"
 #include "datasets/bags/transform_tree.hpp"
@@ -145,6 +146,8 @@ Decoded read_tf(const std::string& file, const std::string& frames) {
   throw InputError(file + ": tf:" + frames + ": expected tf:PARENT.CHILD");
 }
 
+constexpr std::string_view kBagPrefix = "bag:";
+
 }  // namespace
 
 BagTrajectory read_bag_trajectory(const BagName& name) {
@@ -157,12 +160,11 @@ BagTrajectory read_bag_trajectory(const BagName& name) {
   });
   out.poses = std::move(read.poses);
   std::ranges::stable_sort(out.poses, {}, &PoseMessage::nanoseconds);
-  out.damage = read.summary.damage;
   const std::size_t skipped = read.damaged + invalid;
   if (skipped > 0) {
-    out.damage += fmt::format(
-        "{}{} messages without a valid pose were skipped", out.damage.empty() ? "" : "; ", skipped);
+    read.summary.add_damage(fmt::format("{} messages without a valid pose were skipped", skipped));
   }
+  out.damage = read.summary.damage;
   if (!out.poses.empty()) return out;
   throw InputError(name.file + ": has no poses in '" + out.topic + "'" +
                    (out.damage.empty() ? "" : " (" + out.damage + ")"));
@@ -173,6 +175,25 @@ BagSummary bag_topics(const std::string& file) {
       file, [](const BagTopic&) { return false; }, [](const BagTopic&, std::string_view) {});
   std::erase_if(out.topics, [](const BagTopic& topic) { return topic.type == MessageType::other; });
   return out;
+}
+
+bool names_bag(const std::string& name) { return name.starts_with(kBagPrefix); }
+
+BagName bag_name(const std::string& name) {
+  const std::string rest = names_bag(name) ? name.substr(kBagPrefix.size()) : name;
+  const std::size_t hash = rest.rfind('#');
+  if (hash == rest.npos) return {rest};
+  std::string topic = rest.substr(hash + 1);
+  if (topic.starts_with("/tf:")) topic.erase(0, 1);  // as evo writes it
+  return {rest.substr(0, hash), topic};
+}
+
+std::string to_text(const BagName& name) {
+  return std::string(kBagPrefix) + name.file + (name.topic.empty() ? "" : "#" + name.topic);
+}
+
+std::string file_of(const std::string& name) {
+  return names_bag(name) ? bag_name(name).file : name;
 }
 
 }  // namespace loopbench

@@ -1,12 +1,16 @@
-/// Little-endian or big-endian values from a byte string, with bounds checks.
+/// Bytes of a bag: values from a byte string with bounds checks, and a file read through a window.
 #pragma once
 
 #include <bit>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include "datasets/compressed/input_file.hpp"
 
 namespace loopbench {
 
@@ -16,6 +20,7 @@ class DamagedRecord final : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Reads little-endian or big-endian values.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
@@ -51,6 +56,28 @@ class ByteReader {
   std::string_view bytes_;
   std::size_t at_ = 0;
   bool is_big_ = false;
+};
+
+/// A file read through a window.
+class BagSource {
+ public:
+  explicit BagSource(const OpenedFile& file);
+
+  std::uint64_t size() const { return size_; }
+
+  /// Bytes [at, at + count), valid until the next call. Throws DamagedRecord if the file ends
+  /// before, InputError if it cannot be read.
+  std::string_view bytes(std::uint64_t at, std::uint64_t count);
+
+ private:
+  struct CloseHandle {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  OpenedFile file_;
+  std::uint64_t size_ = 0;
+  std::unique_ptr<std::FILE, CloseHandle> handle_;
+  std::uint64_t begin_ = 0;  ///< file offset of the window
+  std::string window_;
 };
 
 }  // namespace loopbench

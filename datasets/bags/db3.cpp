@@ -169,12 +169,9 @@ BagSummary read_db3(const OpenedFile& file, const WantsTopic& wants, const Visit
       ++damaged;
     }
   }
-  const auto also = [&](const std::string& what) {
-    out.damage += (out.damage.empty() ? "" : "; ") + what;
-  };
-  if (damaged > 0) also(fmt::format("{} messages are damaged", damaged));
+  if (damaged > 0) out.add_damage(fmt::format("{} messages are damaged", damaged));
   if (code != SQLITE_DONE) {
-    also(fmt::format("stops after {} messages: {}", read, sqlite3_errmsg(db.get())));
+    out.add_damage(fmt::format("stops after {} messages: {}", read, sqlite3_errmsg(db.get())));
   }
   return out;
 }

@@ -75,14 +75,11 @@ class McapReader {
                             lost,
                             source_.size());
     }
-    const auto also = [&](const std::string& what) {
-      summary_.damage += (summary_.damage.empty() ? "" : "; ") + what;
-    };
     if (damaged_chunks_ > 0) {
-      also(fmt::format("{} of {} chunks are damaged", damaged_chunks_, chunks_));
+      summary_.add_damage(fmt::format("{} of {} chunks are damaged", damaged_chunks_, chunks_));
     }
     if (stated_messages_ > messages_) {
-      also(fmt::format(
+      summary_.add_damage(fmt::format(
           "{} of {} messages are missing", stated_messages_ - messages_, stated_messages_));
     }
     return std::move(summary_);

@@ -1,13 +1,15 @@
-/// Messages of a bag, as recorded.
+/// Messages of a bag, as recorded, and the poses in them.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "datasets/bags/bag_source.hpp"
+#include "datasets/bags/byte_reader.hpp"
+#include "datasets/core/se3.hpp"
 
 namespace loopbench {
 
@@ -42,6 +44,8 @@ using WantsTopic = std::function<bool(const BagTopic&)>;
 struct BagSummary {
   std::vector<BagTopic> topics;  ///< sorted by name, each once
   std::string damage;            ///< what is missing; empty: intact
+
+  void add_damage(const std::string& what) { damage += (damage.empty() ? "" : "; ") + what; }
 };
 
 /// Readers of the three containers. They visit all messages that can be read. Throw InputError if
@@ -63,5 +67,17 @@ BagSummary read_bag(const std::string& file, const WantsTopic& wants, const Visi
 
 /// Adds a topic unless one of that name is known.
 void add_topic(BagSummary& summary, const BagTopic& topic);
+
+/// A pose of `child` in `frame`; the quaternion as recorded, not normalised.
+struct PoseMessage {
+  std::int64_t nanoseconds = 0;  ///< of the message's header
+  std::string frame;             ///< without leading '/'
+  std::string child;             ///< "" for poses without child frame
+  Pose frame_from_child;
+  std::optional<Matrix6> covariance = {};  ///< order x y z, rotations about x y z
+};
+
+/// The poses of one message: several for Path and TF. Throws DamagedRecord. O(bytes).
+std::vector<PoseMessage> decode(const BagTopic& topic, std::string_view message);
 
 }  // namespace loopbench

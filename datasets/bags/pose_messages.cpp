@@ -1,6 +1,5 @@
-#include "datasets/bags/pose_messages.hpp"
-
 #include "datasets/bags/byte_reader.hpp"
+#include "datasets/bags/messages.hpp"
 
 namespace loopbench {
 namespace {

@@ -55,8 +55,7 @@ BagSummary read_bag(const std::string& name, const WantsTopic& wants, const Visi
   for (const std::filesystem::path& part : parts) {
     const BagSummary read = read_bag_file(part.string(), wants, visit);
     for (const BagTopic& topic : read.topics) add_topic(out, topic);
-    if (read.damage.empty()) continue;
-    out.damage += (out.damage.empty() ? "" : "; ") + part.filename().string() + ": " + read.damage;
+    if (!read.damage.empty()) out.add_damage(part.filename().string() + ": " + read.damage);
   }
   return out;
 }

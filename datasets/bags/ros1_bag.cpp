@@ -169,10 +169,9 @@ class Ros1Reader {
     const std::uint64_t lost =
         damaged_chunks_ + (chunk_count_ > chunks_ ? chunk_count_ - chunks_ : 0);
     if (lost > 0) {
-      summary_.damage += fmt::format("{}{} of {} chunks are missing or damaged",
-                                     summary_.damage.empty() ? "" : "; ",
-                                     lost,
-                                     std::max<std::uint64_t>(chunk_count_, chunks_));
+      summary_.add_damage(fmt::format("{} of {} chunks are missing or damaged",
+                                      lost,
+                                      std::max<std::uint64_t>(chunk_count_, chunks_)));
     }
   }
 

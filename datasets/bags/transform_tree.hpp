@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "datasets/bags/pose_messages.hpp"
+#include "datasets/bags/messages.hpp"
 
 namespace loopbench {
 

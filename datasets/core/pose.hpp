@@ -1,6 +1,8 @@
 /// A rigid transform. Names state both frames: `world_from_body * body_from_camera`.
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "datasets/core/so3.hpp"
 
 namespace loopbench {
@@ -40,5 +42,10 @@ inline bool is_close(const Pose& a, const Pose& b, double metres, double radians
   return (a.translation - b.translation).norm() <= metres &&
          angle_between(a.rotation, b.rotation) <= radians;
 }
+
+/// A pose with the digits of its file: the upper 3 x 4 block of world_from_body [m]. Its left 3 x 3
+/// block is orthonormal only to the printed digits. It is needed to reproduce tools that use the
+/// matrix without normalising it (KITTI devkit); otherwise use Pose.
+using PoseMatrix = Eigen::AffineCompact3d;
 
 }  // namespace loopbench

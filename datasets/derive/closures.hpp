@@ -1,7 +1,10 @@
-/// Loop closures measured in another trajectory of the same sequence: the reference or another run.
+/// Loop closures measured in another trajectory of the same sequence (the reference or another run)
+/// or stated in a text file.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "datasets/core/problem.hpp"
@@ -51,5 +54,28 @@ std::vector<Edge> with_local_scale(std::vector<Edge> edges,
 
 /// Sorts closures by (to, from), as required by Problem.
 void sort_closures(std::vector<Edge>& closures);
+
+struct StampedClosure {
+  double stamp_from = 0.0;  ///< [s]
+  double stamp_to = 0.0;    ///< [s]
+  Pose from_from_to;
+  ClosureNoise noise;
+  std::size_t line = 0;  ///< line number in the file
+};
+
+/// Reads one closure per line: `stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r]` in [s],
+/// [m], [rad]. The pose is that of the body at stamp_to in the frame of the body at stamp_from;
+/// either stamp may be the later one. Lines that start with `#` are comments. Lines without sigmas
+/// use `noise`. Throws InputError `file:line: what`. O(size of the file).
+std::vector<StampedClosure> read_closure_file(const std::filesystem::path& file,
+                                              const ClosureNoise& noise);
+
+/// Converts closures to edges between the nearest poses in time, at most `max_diff` [s] away. Edges
+/// have from < to and are sorted by (to, from). Throws InputError `file:line: what` if there is no
+/// such pose or if both stamps match the same pose.
+std::vector<Edge> as_edges(const std::vector<StampedClosure>& closures,
+                           const Trajectory& poses,
+                           double max_diff,
+                           const std::filesystem::path& file);
 
 }  // namespace loopbench

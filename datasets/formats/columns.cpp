@@ -45,13 +45,15 @@ std::size_t count_columns(const TextFile& file, const Line& line) {
   return columns.index();
 }
 
+std::string columns_text(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " column" : " columns");
+}
+
 InputError wrong_columns(const TextFile& file,
                          const Line& line,
                          Format reading,
                          const std::string& expected) {
-  const std::size_t count = count_columns(file, line);
-  std::string what = "has " + std::to_string(count) + (count == 1 ? " column" : " columns") +
-                     ", expected " + expected;
+  std::string what = "has " + columns_text(count_columns(file, line)) + ", expected " + expected;
   if (line.unterminated) {
     what += " (the file ends in the middle of this line)";
   } else if (const auto format = guess(file, line); format && *format != reading) {

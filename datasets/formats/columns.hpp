@@ -87,6 +87,9 @@ class Columns {
 /// Returns the number of columns of a line.
 std::size_t count_columns(const TextFile& file, const Line& line);
 
+/// "1 column", "8 columns"
+std::string columns_text(std::size_t count);
+
 /// Error "has 7 columns, expected `expected`", with a hint if the line is truncated or looks like
 /// another format than `reading`.
 InputError wrong_columns(const TextFile& file,

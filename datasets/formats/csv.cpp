@@ -1,29 +1,24 @@
-#include "datasets/formats/csv.hpp"
-
 #include <array>
 #include <cmath>
 #include <vector>
 
 #include "datasets/formats/columns.hpp"
 #include "datasets/formats/detect_format.hpp"
-#include "datasets/formats/euroc.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
+#include "datasets/formats/text_formats.hpp"
 
 namespace loopbench {
 namespace {
 
 using CsvRow = std::vector<std::string_view>;
 
-constexpr std::array kCsvNames{"time", "x", "y", "z", "qw", "qx", "qy", "qz"};
-
 void split_row(const TextFile& file, const Line& line, const CsvColumns& columns, CsvRow& row) {
   split_columns(line.text, row);
   if (row.size() + 1 == columns.width && line.text.ends_with(',')) row.emplace_back();
   if (row.size() == columns.width) return;
   throw file.error(line.number,
-                   "has " + std::to_string(row.size()) +
-                       (row.size() == 1 ? " column" : " columns") + ", expected " +
+                   "has " + columns_text(row.size()) + ", expected " +
                        std::to_string(columns.width) + " as in the header" +
                        (line.unterminated ? " (the file ends in the middle of this line)" : ""));
 }
@@ -66,7 +61,7 @@ ReadStamp stamp_of_row(const TextFile& file,
                        const CsvRow& row) {
   const std::string_view text = row[columns.index[0]];
   if (columns.nanoseconds) return split_stamp(file, line, text, row[*columns.nanoseconds]);
-  const double number = csv_number(file, line, text, kCsvNames[0]);
+  const double number = csv_number(file, line, text, kPoseColumns[0]);
   int exponent = columns.time_exponent.value_or(0);
   if (exponent == 0 && is_in_nanoseconds(number, false)) exponent = -9;
   const auto exact = exact_nanoseconds(text, exponent);
@@ -78,12 +73,12 @@ Trajectory read_csv_part(TextFile& file, const CsvColumns& columns, const ReadOp
   Trajectory out;
   StampOrder order(file, options.repeats);
   CsvRow row;
-  std::array<double, kCsvNames.size()> v{};
+  std::array<double, kPoseColumns.size()> v{};
   for (Line line; file.next(line);) {
     split_row(file, line, columns, row);
     const double stamp = stamp_of_row(file, line, columns, row).seconds;
     for (std::size_t i = 1; i < v.size(); ++i) {
-      v[i] = csv_number(file, line, row[columns.index[i]], kCsvNames[i]);
+      v[i] = csv_number(file, line, row[columns.index[i]], kPoseColumns[i]);
     }
     for (std::size_t i = 0; i < columns.per_metre.size(); ++i) v[1 + i] /= columns.per_metre[i];
     const Rotation rotation = normalized_rotation(file, line.number, {v[4], v[5], v[6], v[7]});

@@ -9,7 +9,6 @@
 namespace loopbench {
 namespace {
 
-constexpr std::array kPoseColumns{"time", "x", "y", "z", "qw", "qx", "qy", "qz"};
 constexpr std::string_view kBlanks = " \t";
 
 std::vector<std::string> header_names(std::string_view header) {

@@ -10,9 +10,12 @@
 
 namespace loopbench {
 
-/// Indices of the columns t, x, y, z, qw, qx, qy, qz in a row with `width` columns.
+/// Columns of a pose, in this order.
+inline constexpr std::array kPoseColumns{"time", "x", "y", "z", "qw", "qx", "qy", "qz"};
+
+/// Indices of the columns kPoseColumns in a row with `width` columns.
 struct CsvColumns {
-  std::array<std::size_t, 8> index{};
+  std::array<std::size_t, kPoseColumns.size()> index{};
   std::size_t width = 0;
   std::optional<int> time_exponent;                ///< stated unit of time, 10^exponent [s]
   std::optional<std::size_t> nanoseconds;          ///< column to add to whole seconds

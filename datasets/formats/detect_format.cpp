@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "datasets/bags/bag_name.hpp"
+#include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/bags/messages.hpp"
 #include "datasets/formats/columns.hpp"
-#include "datasets/formats/csv.hpp"
+#include "datasets/formats/text_formats.hpp"
 
 namespace loopbench {
 namespace {
@@ -84,8 +84,8 @@ Format detect_by_numbers(const TextFile& file, const Line& line) {
   if (const auto format = guess(file, line)) return *format;
   constexpr std::size_t kShownText = 40;
   const std::size_t count = count_columns(file, line);
-  std::string what = "has " + std::to_string(count) + (count == 1 ? " column" : " columns") +
-                     " and starts '" + std::string(line.text.substr(0, kShownText)) + "'";
+  std::string what = "has " + columns_text(count) + " and starts '" +
+                     std::string(line.text.substr(0, kShownText)) + "'";
   if (count == 4) what += " (stamp x y z? positions without rotation are not supported)";
   if (line.text.find(';') != std::string_view::npos) {
     throw file.error(line.number,

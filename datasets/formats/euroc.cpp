@@ -1,8 +1,7 @@
-#include "datasets/formats/euroc.hpp"
-
 #include "datasets/formats/columns.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/pose_rules.hpp"
+#include "datasets/formats/text_formats.hpp"
 
 namespace loopbench {
 namespace {
@@ -10,13 +9,6 @@ namespace {
 constexpr std::array kEurocColumns{"px", "py", "pz", "qw", "qx", "qy", "qz"};
 
 }  // namespace
-
-double seconds_of(std::int64_t nanoseconds) {
-  constexpr std::int64_t kPerSecond = 1'000'000'000;
-  const std::int64_t seconds = nanoseconds / kPerSecond;
-  return static_cast<double>(seconds) +
-         static_cast<double>(nanoseconds % kPerSecond) / static_cast<double>(kPerSecond);
-}
 
 Trajectory read_euroc(TextFile& file, const ReadOptions& options) {
   Trajectory out;

@@ -37,12 +37,11 @@ inline auto choices(Repeats) {
                     std::pair{"keep_last", Repeats::keep_last}};
 }
 
-/// Corrections made by the readers of tum, euroc, csv and bags, and whether there are stamps.
+/// Corrections made by the readers of tum, euroc, csv and bags.
 struct ReadFindings {
   double off_unit = 0.0;     ///< maximum | |q| - 1 | before normalisation
   std::size_t repeated = 0;  ///< poses dropped because of a repeated stamp
   std::string damage = {};   ///< what is missing of a damaged bag; empty: intact
-  bool has_stamps = true;    ///< false: stamps are multiples of the period
 };
 
 struct ReadOptions {

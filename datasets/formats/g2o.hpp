@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
+#include "datasets/core/pose.hpp"
 #include "datasets/core/problem.hpp"
 
 namespace loopbench {
@@ -48,5 +50,11 @@ PoseGraph read_g2o(const std::filesystem::path& file,
 /// read_g2o returns yaw angles and scales up to rounding, all other values bit-identical. Throws
 /// InputError if the file cannot be written.
 void write_g2o(const std::filesystem::path& file, const PoseGraph& graph);
+
+/// Returns one pose per id, composed from the edges between consecutive ids; the first pose is the
+/// identity. If several edges connect the same vertices, the first in the file is used.
+/// Translations of a similarity graph are converted to the scale of the first vertex. Throws
+/// InputError (`name: ...` with the ids) if consecutive ids have no edge. O(edges + ids).
+std::vector<Pose> chain(const PoseGraph& graph, const std::string& name = "pose graph");
 
 }  // namespace loopbench

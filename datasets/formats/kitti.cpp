@@ -1,5 +1,3 @@
-#include "datasets/formats/kitti.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/LU>
@@ -8,6 +6,7 @@
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
+#include "datasets/formats/text_formats.hpp"
 
 namespace loopbench {
 namespace {

@@ -3,16 +3,12 @@
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/fields.hpp"
-#include "datasets/formats/chain.hpp"
 #include "datasets/formats/columns.hpp"
-#include "datasets/formats/csv.hpp"
 #include "datasets/formats/detect_format.hpp"
-#include "datasets/formats/euroc.hpp"
 #include "datasets/formats/g2o.hpp"
-#include "datasets/formats/kitti.hpp"
 #include "datasets/formats/stamps.hpp"
+#include "datasets/formats/text_formats.hpp"
 #include "datasets/formats/trajectory_file.hpp"
-#include "datasets/formats/tum.hpp"
 
 namespace loopbench {
 namespace {
@@ -87,13 +83,11 @@ TrajectoryFile from_text(const std::filesystem::path& path, const ReadOptions& o
   if (format == Format::kitti) {
     out.poses = read_kitti(file, options);
     out.has_stamps = options.times.has_value();
-    if (options.findings) options.findings->has_stamps = out.has_stamps;
     return out;
   }
   if (format == Format::g2o) {
     out.poses = trajectory_of(read_g2o(path), file.name(), options.period);
     out.has_stamps = false;
-    if (options.findings) options.findings->has_stamps = false;
     return out;
   }
   out.poses = format == Format::euroc ? read_euroc(file, options)

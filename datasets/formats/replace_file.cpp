@@ -1,20 +1,43 @@
 #include "datasets/formats/replace_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "datasets/core/error.hpp"
-#include "datasets/formats/temporary_file.hpp"
 
 namespace loopbench {
 namespace {
+
+/// `.loopbench-<16 hexadecimal digits>`, which nobody can predict.
+std::string random_name() {
+  std::uint64_t bits = 0;
+  if (::getrandom(&bits, sizeof bits, 0) != sizeof bits) bits = static_cast<unsigned>(::getpid());
+  return fmt::format(".loopbench-{:016x}", bits);
+}
+
+/// Creates a new, empty file in `folder`. Returns its descriptor; -1 and errno if the folder cannot
+/// be written.
+int create_temporary_file(const std::filesystem::path& folder, std::filesystem::path& file) {
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+  int descriptor = -1;
+  for (int i = 0; i < 100 && descriptor < 0; ++i) {
+    file = folder / random_name();
+    descriptor = ::open(file.c_str(), kFlags, 0666);
+    if (descriptor < 0 && errno != EEXIST) break;
+  }
+  return descriptor;
+}
 
 using FilePath = std::filesystem::path;
 
@@ -78,10 +101,8 @@ PendingFile::PendingFile(const FilePath& file, Target target) : file_(file) {
   } else {
     if (is_regular) reject_read_only(file, status);
     place_ = is_named ? link_target(file) : file;
-    remove_abandoned_files(place_.parent_path());
     descriptor_ = create_temporary_file(place_.parent_path(), part_);
     if (descriptor_ < 0) part_.clear();
-    if (descriptor_ >= 0) lock_ = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
   }
   if (descriptor_ < 0) throw cannot_write(file, std::strerror(errno));
   if (is_regular && !part_.empty()) ::fchmod(descriptor_, status.st_mode & 0777);
@@ -91,7 +112,6 @@ PendingFile::~PendingFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
   std::error_code ignored;
   if (!part_.empty()) std::filesystem::remove(part_, ignored);
-  if (lock_ >= 0) ::close(lock_);
 }
 
 void PendingFile::write(std::string_view bytes) {

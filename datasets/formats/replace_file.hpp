@@ -34,14 +34,12 @@ class PendingFile {
   std::filesystem::path place_;  ///< to replace
   std::filesystem::path part_;   ///< temporary file; empty: bytes go directly into a pipe or device
   int descriptor_ = -1;
-  int lock_ = -1;  ///< keeps the temporary file locked until it is renamed
 };
 
 /// Writes a temporary file in the same folder and renames it, so that readers never see a partial
-/// file. The temporary file has an unpredictable name and is created exclusively; one that a killed
-/// process left in the folder is removed. The mode of a replaced regular file is kept. Throws
-/// InputError if the folder is missing, if the folder or file cannot be written, if `file` is
-/// read-only, or if it is a folder.
+/// file. The temporary file `.loopbench-*` has an unpredictable name and is created exclusively.
+/// The mode of a replaced regular file is kept. Throws InputError if the folder is missing, if the
+/// folder or file cannot be written, if `file` is read-only, or if it is a folder.
 void replace_file(const std::filesystem::path& file, std::string_view bytes, Target target);
 
 }  // namespace loopbench

@@ -3,8 +3,6 @@
 #include <charconv>
 #include <cstdlib>
 
-#include "datasets/formats/euroc.hpp"
-
 namespace loopbench {
 namespace {
 
@@ -13,6 +11,13 @@ constexpr int kDecimals = 9;  // of a second in nanoseconds
 bool is_digit(char c) { return '0' <= c && c <= '9'; }
 
 }  // namespace
+
+double seconds_of(std::int64_t nanoseconds) {
+  constexpr std::int64_t kPerSecond = 1'000'000'000;
+  const std::int64_t seconds = nanoseconds / kPerSecond;
+  return static_cast<double>(seconds) +
+         static_cast<double>(nanoseconds % kPerSecond) / static_cast<double>(kPerSecond);
+}
 
 double seconds_of_stamp(std::string_view word, double number, bool small_nanoseconds) {
   if (!is_in_nanoseconds(number, small_nanoseconds)) return number;

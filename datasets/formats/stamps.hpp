@@ -28,6 +28,10 @@ struct ReadStamp {
   std::optional<std::int64_t> exact = {};  ///< [ns]
 };
 
+/// Converts to [s]. Seconds and remainder are converted separately, because nanoseconds since 1970
+/// exceed 53 bits.
+double seconds_of(std::int64_t nanoseconds);
+
 /// Shortest decimal number of seconds: 1305031102.1753.
 std::string seconds_text(std::int64_t nanoseconds);
 

@@ -1,10 +1,9 @@
-#include "datasets/formats/tum.hpp"
-
 #include "datasets/formats/columns.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
 #include "datasets/formats/stamps.hpp"
+#include "datasets/formats/text_formats.hpp"
 
 namespace loopbench {
 namespace {

@@ -3,16 +3,74 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <numbers>
+#include <tuple>
 
 #include "datasets/random.hpp"
 #include "datasets/simulated/closures.hpp"
 #include "datasets/simulated/odometry.hpp"
+#include "datasets/simulated/options.hpp"
 #include "datasets/simulated/path.hpp"
-#include "datasets/simulated/sampled.hpp"
 
 namespace loopbench {
 namespace {
+
+constexpr double kMaxPoses = 1e8;                  // 6.4 GB
+constexpr std::size_t kMostSamplesKept = 100'000;  // [poses], 6.4 MB
+
+Pose flattened(const Pose& pose) {
+  const Vector3 ahead = pose.rotation * Vector3::UnitX();
+  return {rotation_from_yaw_pitch_roll(std::atan2(ahead.y(), ahead.x()), 0.0, 0.0),
+          {pose.translation.x(), pose.translation.y(), 0.0}};
+}
+
+Trajectory sample_path(SimulatedPath which, double rate, double seconds, bool planar) {
+  // The factor prevents that rounding drops the last pose.
+  const double steps = std::floor(seconds * rate * (1.0 + 1e-12));
+  if (steps >= kMaxPoses) {
+    throw OptionError("laps",
+                      fmt::format("laps: {} s at {} Hz exceed {} poses", seconds, rate, kMaxPoses));
+  }
+  const Path path = path_of(which);
+  Trajectory out(static_cast<std::size_t>(steps) + 1);
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const double stamp = static_cast<double>(k) / rate;
+    const Pose pose = path.at(stamp);
+    out[k] = {stamp, planar ? flattened(pose) : pose};
+  }
+  return out;
+}
+
+using Arguments = std::tuple<SimulatedPath, double, double, bool>;
+
+struct LastResult {
+  std::mutex mutex;
+  Arguments arguments{};
+  std::shared_ptr<const Trajectory> poses;
+};
+
+/// Returns poses at k / rate from 0 to `seconds`, projected to x, y, yaw if `planar`. The last
+/// result is cached, because repetitions with other noise use the same path and its evaluation
+/// dominates the run time. Thread-safe. Throws OptionError for more than 1e8 poses. O(poses).
+Trajectory sampled(SimulatedPath which, double rate, double seconds, bool planar) {
+  static LastResult last;
+  const Arguments arguments{which, rate, seconds, planar};
+  std::shared_ptr<const Trajectory> cached;
+  {
+    const std::lock_guard lock(last.mutex);
+    if (last.poses && last.arguments == arguments) cached = last.poses;
+  }
+  if (cached) return *cached;
+  Trajectory out = sample_path(which, rate, seconds, planar);
+  if (out.size() > kMostSamplesKept) return out;
+  cached = std::make_shared<const Trajectory>(out);
+  const std::lock_guard lock(last.mutex);
+  last.arguments = arguments;
+  last.poses = std::move(cached);
+  return out;
+}
 
 /// Default ratio of reference rate and frame rate. With a power of two, k / frame_rate and
 /// 4 k / (4 frame_rate) are bit-identical and every frame has a reference pose at its stamp.
@@ -75,6 +133,10 @@ void add_white_noise(Trajectory& poses, const SimulatedOptions& options) {
   }
 }
 
+std::string option_identity(const SimulatedOptions& options) {
+  return identity_text("simulated", options, [](const std::string&) { return false; });
+}
+
 }  // namespace
 
 Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
@@ -125,6 +187,35 @@ DatasetEntry simulated_entry() {
       "simulated", "closed-form paths with simulated odometry and loop closures", load_simulated);
   out.prepare = [](const Params& given) { prepare_simulated(with(SimulatedOptions{}, given)); };
   return out;
+}
+
+void check_combination(const SimulatedOptions& o) {
+  const SystematicDrift& d = o.drift;
+  const std::pair<const char*, double> pitches[] = {{"drift.pitch_per_second", d.pitch_per_second},
+                                                    {"drift.pitch_per_metre", d.pitch_per_metre},
+                                                    {"drift.pitch_per_radian", d.pitch_per_radian}};
+  for (const auto& [name, value] : pitches) {
+    if (!o.planar || value == 0.0) continue;
+    throw OptionError(name,
+                      std::string(name) + " = " + to_text(value) +
+                          ": causes motion out of the plane, expected 0 with planar = true");
+  }
+  if (o.closures.max == 0 && o.closures.false_share > 0.0) {
+    throw OptionError(
+        "closures.false_share",
+        "closures.false_share = " + to_text(o.closures.false_share) +
+            ": has no effect without true closures, expected 0 with closures.max = 0");
+  }
+}
+
+NoiseStream noise_stream(const SimulatedOptions& o) {
+  return {o.seed,
+          o.stream.empty() ? noise_identity(option_identity(o), {}) : noise_identity(o.stream)};
+}
+
+std::string noise_text(const SimulatedOptions& o) {
+  const std::string stream = o.stream.empty() ? option_identity(o) : "stream " + o.stream;
+  return stream + "; seed " + std::to_string(o.seed);
 }
 
 }  // namespace loopbench

@@ -12,8 +12,8 @@ namespace loopbench {
 /// O(frames + reference poses).
 Sequence load_simulated(const SimulatedOptions& options, const DataRoot& root = {});
 
-/// Samples the path, which sequences with other seeds share (sampled.hpp). Does nothing for paths
-/// that are too long for the cache.
+/// Samples the path, which sequences with other seeds share (the last one is kept). Does nothing
+/// for paths that are too long for the cache.
 void prepare_simulated(const SimulatedOptions& options);
 
 DatasetEntry simulated_entry();

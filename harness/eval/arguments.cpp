@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "datasets/bags/bag_name.hpp"
+#include "datasets/bags/bag_trajectory.hpp"
 #include "harness/config/choice_text.hpp"
 #include "harness/config/protocol_choice.hpp"
 #include "harness/text/numbers.hpp"

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <memory>
 
-#include "datasets/bags/bag_name.hpp"
+#include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/parallel.hpp"
 #include "datasets/formats/kitti.hpp"
 #include "harness/execution/run/add_scores.hpp"

@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "datasets/bags/bag_name.hpp"
+#include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/error.hpp"
 
 namespace loopbench::harness {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/error.hpp"
 #include "datasets/core/parallel.hpp"
 #include "harness/eval/recorded_evaluation.hpp"

@@ -8,7 +8,9 @@
 #include <sstream>
 #include <tuple>
 
+#include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/fields.hpp"
+#include "datasets/formats/text_formats.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "methods/correctors/raw.hpp"
 

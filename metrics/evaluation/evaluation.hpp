@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "datasets/core/curve.hpp"
-#include "datasets/core/pose_matrix.hpp"
+#include "datasets/core/pose.hpp"
 #include "datasets/core/sequence.hpp"
 #include "metrics/alignment/alignment.hpp"
 #include "metrics/pairing/association.hpp"

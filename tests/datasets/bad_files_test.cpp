@@ -64,7 +64,7 @@ TEST(BadFiles, MissingFilesAndFoldersAreRefused) {
 }
 
 TEST(BadFiles, AbsurdSizesAreRefusedUnread) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto file = scratch.file("huge.txt", "0 0 0 0 0 0 0 1\n");
   std::filesystem::resize_file(file, std::uintmax_t{9} << 30);  // sparse file
   EXPECT_EQ(refusal([&] { read_trajectory(file); }),

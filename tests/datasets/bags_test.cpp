@@ -28,11 +28,11 @@ std::vector<std::string> messages(std::size_t count, bool cdr) {
 }
 
 TEST(Bags, StampsAreReadToTheNanosecondInBothSerialisations) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   scratch.file("a.bag", ros1_bag(messages(3, false)));
   scratch.file("a.mcap", mcap(messages(3, true)));
   for (const char* const name : {"a.bag", "a.mcap"}) {
-    const auto read = read_trajectory_file("bag:" + scratch.path(name).string() + "#/pose");
+    const auto read = read_trajectory_file("bag:" + (scratch.path() / name).string() + "#/pose");
     EXPECT_EQ(read.format, Format::bag);
     EXPECT_THAT(read.nanoseconds, ElementsAre(kStart, kStart + 100'000'001, kStart + 200'000'002));
     EXPECT_EQ(read.poses[2].world_from_body.translation, kPose.translation);
@@ -41,7 +41,7 @@ TEST(Bags, StampsAreReadToTheNanosecondInBothSerialisations) {
 }
 
 TEST(Bags, TheOnlyTopicNeedsNoName) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto file = scratch.file("a.bag", ros1_bag(messages(2, false)));
   EXPECT_EQ(read_trajectory(file).size(), 2u);
   EXPECT_EQ(detect_format(file), Format::bag);
@@ -50,7 +50,7 @@ TEST(Bags, TheOnlyTopicNeedsNoName) {
 }
 
 TEST(Bags, ATruncatedBagYieldsItsIntactPartAndStatesTheRest) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   for (const bool is_mcap : {false, true}) {
     const std::string all = is_mcap ? mcap(messages(10, true)) : ros1_bag(messages(10, false));
     const auto file = scratch.file("cut", all.substr(0, all.size() * 6 / 10));
@@ -65,7 +65,7 @@ TEST(Bags, ATruncatedBagYieldsItsIntactPartAndStatesTheRest) {
 }
 
 TEST(Bags, ATruncatedChunkYieldsItsCompleteMessages) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const std::string all = ros1_bag(messages(10, false), 10);
   ReadFindings findings;
   ReadOptions options;
@@ -87,7 +87,7 @@ TEST(Bags, ATruncatedChunkYieldsItsCompleteMessages) {
 }
 
 TEST(Bags, ADamagedChunkCostsOnlyItself) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   std::string bytes = ros1_bag(messages(5, false));
   bytes[bytes.rfind("conn=")] = 'X';  // in the last message's header
   ReadOptions options;
@@ -98,7 +98,7 @@ TEST(Bags, ADamagedChunkCostsOnlyItself) {
 }
 
 TEST(Bags, PosesThatAreNoneAreSkippedAndCounted) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   std::vector<std::string> all = messages(3, false);
   all.push_back(ros1_pose_stamped(kStart + 900'000'000, {Rotation(0, 0, 0, 0), {}}));
   ReadOptions options;
@@ -109,7 +109,7 @@ TEST(Bags, PosesThatAreNoneAreSkippedAndCounted) {
 }
 
 TEST(Bags, RepeatedStampsFollowTheRuleUnlessThePosesAreEqual) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   std::vector<std::string> all = messages(2, false);
   all.push_back(all.back());
   const auto file = scratch.file("a.bag", ros1_bag(all));
@@ -190,7 +190,7 @@ TEST(RealBags, EveryMessageOfTheRecordingsIsRead) {
 
 TEST(RealBags, TruncatedChunksYieldTheirIntactPart) {
   if (recording("").empty()) GTEST_SKIP() << "needs LOOPBENCH_DATA";
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto poses_of = [&](const char* file, const std::string& topic, std::size_t percent) {
     const std::string all = content(recording(file));
     const auto cut =
@@ -207,7 +207,7 @@ TEST(RealBags, TruncatedChunksYieldTheirIntactPart) {
 
 TEST(RealBags, CompressedDatabasesAndPipesAreRead) {
   if (recording("").empty()) GTEST_SKIP() << "needs LOOPBENCH_DATA";
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   std::string database = content(recording("tf_example.db3"));
   database[18] = database[19] = '\2';  // has a write-ahead log, as ROS 2 bags can have
   const auto plain = scratch.file("a.db3", database);
@@ -217,7 +217,7 @@ TEST(RealBags, CompressedDatabasesAndPipesAreRead) {
   const std::size_t poses = poses_of(plain);
   EXPECT_GT(poses, 100u);
   for (const char* const program : {"gzip", "zstd -q"}) {
-    const auto packed = scratch.path(std::string("a.db3.") + program[0]);
+    const auto packed = scratch.path() / (std::string("a.db3.") + program[0]);
     const std::string command = std::string(program) + " -c '" + plain.string() + "' > '" +
                                 packed.string() + "' 2>/dev/null";
     if (std::system(command.c_str()) != 0) continue;  // not installed
@@ -228,7 +228,7 @@ TEST(RealBags, CompressedDatabasesAndPipesAreRead) {
 
 TEST(RealBags, ATruncatedDatabaseYieldsItsIntactPart) {
   if (recording("").empty()) GTEST_SKIP() << "needs LOOPBENCH_DATA";
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const std::string all = content(recording("tf_example.db3"));
   const auto file = scratch.file("cut.db3", all.substr(0, all.size() / 2));
   ReadOptions options;

@@ -1,8 +1,7 @@
-#include "datasets/derive/closure_file.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "datasets/derive/closures.hpp"
 #include "datasets/derive/odometry.hpp"
 #include "tests/datasets/random_poses.hpp"
 #include "tests/support/refusal_of.hpp"

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "datasets/derive/compose.hpp"
+#include "datasets/derive/graph_parts.hpp"
 #include "datasets/derive/odometry.hpp"
-#include "datasets/formats/chain.hpp"
+#include "datasets/formats/g2o.hpp"
 #include "tests/datasets/random_poses.hpp"
 
 namespace loopbench::compose_edges_test {

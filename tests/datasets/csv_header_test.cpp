@@ -15,7 +15,7 @@ const Rotation kRotation(0.8, 0.0, 0.0, 0.6);  // w x y z
 /// Reads a header and rows, and expects the pose (1, 2, 3) with kRotation at 0.5 s in the first
 /// row.
 TrajectoryFile read_rows(const std::string& text) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const TrajectoryFile out = read_trajectory_file(scratch.file("a.csv", text));
   EXPECT_EQ(out.poses[0].stamp, 0.5) << text;
   EXPECT_EQ(out.nanoseconds.at(0), 500'000'000) << text;
@@ -25,7 +25,7 @@ TrajectoryFile read_rows(const std::string& text) {
 }
 
 std::string reason(const std::string& text) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto file = scratch.file("a.csv", text);
   return refusal([&] { read_trajectory(file); }).substr(file.string().size());
 }
@@ -123,13 +123,13 @@ TEST(CsvHeader, ACommentAboveTheDataDecidesTheOrder) {
 }
 
 TEST(CsvHeader, WrittenEurocFilesAreReadBack) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Pose pose{kRotation, {1, 2, 3}};
   for (const Trajectory& poses : {Trajectory{{-100.0, pose}, {-99.5, pose}},
                                   Trajectory{{0.0, pose}},
                                   Trajectory{{-0.5, pose}, {0.5, pose}}}) {
-    write_trajectory(scratch.path("a.csv"), {poses}, Format::euroc);
-    const Trajectory read = read_trajectory(scratch.path("a.csv"));
+    write_trajectory(scratch.path() / "a.csv", {poses}, Format::euroc);
+    const Trajectory read = read_trajectory(scratch.path() / "a.csv");
     ASSERT_EQ(read.size(), poses.size());
     EXPECT_EQ(read.back().stamp, poses.back().stamp);
     EXPECT_EQ(read.back().world_from_body.rotation.coeffs(), kRotation.coeffs());

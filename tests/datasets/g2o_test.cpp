@@ -4,7 +4,6 @@
 
 #include <random>
 
-#include "datasets/formats/chain.hpp"
 #include "datasets/formats/formats.hpp"
 #include "tests/datasets/scratch.hpp"
 
@@ -89,9 +88,9 @@ TEST(G2o, EdgesWrittenBackwardsAreInverted) {
 }
 
 TEST(G2o, InversionKeepsTheCostOfEveryError) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const PoseGraph forward = random_graph(false, false);
-  write_g2o(scratch.path("a.g2o"), forward);
+  write_g2o(scratch.path() / "a.g2o", forward);
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
   for (const Edge& edge : forward.edges) {
@@ -101,8 +100,8 @@ TEST(G2o, InversionKeepsTheCostOfEveryError) {
     one.edges = {edge};
     one.edges[0].from = 1;
     one.edges[0].to = 0;
-    write_g2o(scratch.path("one.g2o"), one);
-    const Edge back = read_g2o(scratch.path("one.g2o")).edges[0];
+    write_g2o(scratch.path() / "one.g2o", one);
+    const Edge back = read_g2o(scratch.path() / "one.g2o").edges[0];
     const Twist small = 1e-6 * Twist::NullaryExpr([&] { return normal(random); });
     const Pose perturbed = edge.from_from_to * exp_se3(small);
     const Twist other = log_se3(back.from_from_to.inverse() * perturbed.inverse());
@@ -146,7 +145,7 @@ TEST(G2o, SimilarityScaleIsUnitOfFirstOverSecondId) {
 }
 
 TEST(G2o, SimilarityInformationMayHoldTheScaleToo) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   std::string line = "EDGE_RST3:QUAT 0 1 1 0 0 0 0 0 1 2";
   for (int i = 0; i < 7; ++i) {
     for (int j = i; j < 7; ++j) line += i == j ? " 4" : " 0";
@@ -173,8 +172,8 @@ TEST(G2o, ToroAnglesAreRollPitchYawAboutFixedAxes) {
 }
 
 TEST(G2o, WritingAndReadingKeepsTheGraph) {
-  const Scratch scratch;
-  const auto file = scratch.path("a.g2o");
+  const TemporaryFolder scratch;
+  const auto file = scratch.path() / "a.g2o";
   const PoseGraph spatial = random_graph(false, false);
   write_g2o(file, spatial);
   const PoseGraph back = read_g2o(file);
@@ -201,7 +200,7 @@ TEST(Chain, PutsConsecutiveEdgesBehindEachOther) {
 }
 
 TEST(Chain, CarriesScaleAlong) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   PoseGraph graph;
   graph.ids = {0, 1, 2};
   graph.similarity = true;
@@ -229,7 +228,7 @@ TEST(G2o, GivesATrajectoryOfVerticesOrOfTheChain) {
 }
 
 TEST(G2o, RefusesWhatOverflowsOnTheWay) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto error_of = [&](const std::string& text) {
     const auto file = scratch.file("a.g2o", text);
     const std::string message = refusal([&] { read_trajectory(file); });

@@ -40,12 +40,12 @@ TEST(Kitti, StampsAreAPeriodApartOrFromTheTimesFile) {
 }
 
 TEST(Kitti, WritingAndReadingKeepsPosesToRounding) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Trajectory poses = random_trajectory(1000);
-  write_kitti(scratch.path("poses.txt"), poses, scratch.path("times.txt"));
+  write_kitti(scratch.path() / "poses.txt", poses, scratch.path() / "times.txt");
   ReadOptions options;
-  options.times = scratch.path("times.txt");
-  const Trajectory back = read_trajectory(scratch.path("poses.txt"), options);
+  options.times = scratch.path() / "times.txt";
+  const Trajectory back = read_trajectory(scratch.path() / "poses.txt", options);
   ASSERT_EQ(back.size(), poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     EXPECT_EQ(back[i].stamp, poses[i].stamp);

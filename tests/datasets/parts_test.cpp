@@ -24,7 +24,7 @@ std::string tum(int special = -1, const std::string& replacement = "") {
 }
 
 TEST(Parts, ThreadsDoNotMatter) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const std::string text = tum();
   ASSERT_GT(text.size(), 3u << 20);
   const Trajectory poses = read_trajectory(scratch.file("a.txt", text));
@@ -37,7 +37,7 @@ TEST(Parts, ThreadsDoNotMatter) {
 }
 
 TEST(Parts, CutsAreAtLineEndsAndLoseNothing) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const std::string text = "# comment\n1\n\n 22\r\n333\n#\n4444\n55555";
   const TextFile file(scratch.file("a.txt", text));
   for (std::size_t count = 1; count <= 40; ++count) {
@@ -53,7 +53,7 @@ TEST(Parts, CutsAreAtLineEndsAndLoseNothing) {
 }
 
 TEST(Parts, ErrorsNameTheLineOfTheWholeFile) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   for (const int row : {0, 49'999, 60'000, kRows - 1}) {
     const auto file = scratch.file("a.txt", tum(row, "1 2 3\n"));
     ReadOptions options;
@@ -66,7 +66,7 @@ TEST(Parts, ErrorsNameTheLineOfTheWholeFile) {
 }
 
 TEST(Parts, TheFirstErrorIsTheOneSaid) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   std::string text = tum(40'000, "x\n");
   text += "y\n";
   const auto file = scratch.file("a.txt", text);
@@ -75,7 +75,7 @@ TEST(Parts, TheFirstErrorIsTheOneSaid) {
 }
 
 TEST(Parts, StampsAreInOrderAcrossACut) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const std::string half = tum();
   const auto file = scratch.file("a.txt", half + half);
   EXPECT_EQ(
@@ -89,7 +89,7 @@ TEST(Parts, StampsAreInOrderAcrossACut) {
 }
 
 TEST(Parts, ANulByteIsFoundWhereverItIs) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   std::string text = tum();
   const std::size_t at = text.size() - 100;
   text[at] = '\0';
@@ -99,7 +99,7 @@ TEST(Parts, ANulByteIsFoundWhereverItIs) {
 }
 
 TEST(Parts, ALineMayBeLongerThanTheWindow) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const std::string comment = "# " + std::string(3'000'000, 'x') + "\n";
   const std::string blanks(700'000, ' ');
   const auto file = scratch.file(
@@ -112,7 +112,7 @@ TEST(Parts, ALineMayBeLongerThanTheWindow) {
 }
 
 TEST(Parts, PoseGraphsKeepTheirLines) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   std::string text;
   for (int i = 0; i < kRows; ++i) text += fmt::format("VERTEX_SE2 {} {} 0 0\n", i, i);
   for (int i = 1; i < kRows; ++i)

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "datasets/derive/compose.hpp"
+#include "datasets/derive/graph_parts.hpp"
 #include "datasets/derive/odometry.hpp"
 #include "tests/datasets/random_poses.hpp"
 #include "tests/support/refusal_of.hpp"

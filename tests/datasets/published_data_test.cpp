@@ -212,27 +212,5 @@ TEST_F(PublishedData, RobustSlamPlaceholdersAreAllItsFalseLoops) {
   }
 }
 
-TEST_F(PublishedData, PoseGraphsLoad) {
-  struct Known {
-    std::string file;
-    std::size_t poses;
-    std::size_t closures;
-    bool planar;
-  };
-  for (const Known& known : {Known{"INTEL_1228_with_vertices.g2o", 1228, 256, true},
-                             Known{"intel.g2o", 1728, 785, true},
-                             Known{"M3500_with_vertices.g2o", 3500, 1954, true},
-                             Known{"parking-garage.g2o", 1661, 4615, false},
-                             Known{"smallGrid3D.g2o", 125, 173, false},
-                             Known{"sphere2500.g2o", 2500, 2450, false},
-                             Known{"sphere2500_noisy_edges.txt", 2500, 2450, false},
-                             Known{"torus3D.g2o", 5000, 4049, false}}) {
-    const Sequence sequence = load("pose_graph", {{"path", "pose_graphs/" + known.file}});
-    EXPECT_EQ(sequence.problem.keyframes.size(), known.poses) << known.file;
-    EXPECT_EQ(sequence.problem.closures.size(), known.closures) << known.file;
-    EXPECT_EQ(sequence.problem.planar, known.planar) << known.file;
-  }
-}
-
 }  // namespace
 }  // namespace loopbench::published_data_test

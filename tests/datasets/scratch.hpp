@@ -1,4 +1,4 @@
-/// Helpers of the tests on files: samples, scratch files and error messages.
+/// Helpers of the tests on files: samples, pipes and error messages.
 #pragma once
 
 #include <fcntl.h>
@@ -13,37 +13,13 @@
 #include <thread>
 
 #include "datasets/core/error.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
 
 inline std::filesystem::path sample(const std::string& name) {
   return std::filesystem::path(LOOPBENCH_TEST_DATA) / name;
 }
-
-/// Temporary folder of one test, removed by the destructor.
-class Scratch {
- public:
-  Scratch() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("loopbench_") + test->test_suite_name() + "_" + test->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  ~Scratch() { std::filesystem::remove_all(folder_); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-
-  std::filesystem::path path(const std::string& name) const { return folder_ / name; }
-
-  std::filesystem::path file(const std::string& name, const std::string& text) const {
-    std::ofstream(path(name), std::ios::binary) << text;
-    return path(name);
-  }
-
- private:
-  std::filesystem::path folder_;
-};
 
 /// Pipe without a name that another thread fills, as `<(COMMAND)` of a shell gives it.
 class Pipe {

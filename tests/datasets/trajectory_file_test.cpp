@@ -27,28 +27,28 @@ constexpr const char* kCsv =
     "1403715271.312143001,0.2,-0.5,1,0.5,0.5,0.5,0.5\n";
 
 TEST(TrajectoryFile, ConversionKeepsEveryDigitOfStampsAndPoses) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto tum = read_trajectory_file(scratch.file("a.txt", kTum));
   const auto euroc = read_trajectory_file(scratch.file("b.csv", kEuroc));
   const auto csv = read_trajectory_file(scratch.file("c.csv", kCsv));
   EXPECT_EQ(csv.format, Format::csv);
   EXPECT_EQ(euroc.format, Format::euroc);
   for (const TrajectoryFile& file : {tum, euroc, csv}) {
-    write_trajectory(scratch.path("out.csv"), file, Format::euroc);
-    EXPECT_EQ(content(scratch.path("out.csv")), kEuroc);
-    write_trajectory(scratch.path("out2.csv"), file, Format::csv);
-    EXPECT_EQ(content(scratch.path("out2.csv")), kCsv);
-    write_trajectory(scratch.path("out.txt"), file, Format::tum);
-    EXPECT_EQ(content(scratch.path("out.txt")).substr(0, 24), "1403715271.262142976 0.1");
+    write_trajectory(scratch.path() / "out.csv", file, Format::euroc);
+    EXPECT_EQ(content(scratch.path() / "out.csv"), kEuroc);
+    write_trajectory(scratch.path() / "out2.csv", file, Format::csv);
+    EXPECT_EQ(content(scratch.path() / "out2.csv"), kCsv);
+    write_trajectory(scratch.path() / "out.txt", file, Format::tum);
+    EXPECT_EQ(content(scratch.path() / "out.txt").substr(0, 24), "1403715271.262142976 0.1");
   }
 }
 
 TEST(TrajectoryFile, StampsWithMoreThanNineDecimalsRemainDoubles) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto file = read_trajectory_file(scratch.file("a.txt", "0.12345678901 1 2 3 0 0 0 1\n"));
   EXPECT_TRUE(file.nanoseconds.empty());
-  write_trajectory(scratch.path("b.txt"), file, Format::tum);
-  EXPECT_EQ(content(scratch.path("b.txt")), "0.12345678901 1 2 3 0 0 0 1\n");
+  write_trajectory(scratch.path() / "b.txt", file, Format::tum);
+  EXPECT_EQ(content(scratch.path() / "b.txt"), "0.12345678901 1 2 3 0 0 0 1\n");
 }
 
 TEST(TrajectoryFile, StampsAreExactDecimals) {
@@ -66,7 +66,7 @@ TEST(TrajectoryFile, StampsAreExactDecimals) {
 }
 
 TEST(TrajectoryFile, AHeaderThatNamesTheColumnsDecidesTheirOrder) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto poses = read_trajectory(scratch.file(
       "a.csv",
       "frame,pose.orientation.w,pose.orientation.x,pose.orientation.y,pose.orientation.z,"
@@ -79,13 +79,13 @@ TEST(TrajectoryFile, AHeaderThatNamesTheColumnsDecidesTheirOrder) {
 }
 
 TEST(TrajectoryFile, AHeaderWithOtherNamesIsSkipped) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto poses = read_trajectory(
       scratch.file("a.txt", "some words here\n0.5 1 2 3 0 0 0 1\n0.6 1 2 3 0 0 0 1\n"));
   EXPECT_EQ(poses.size(), 2u);
   EXPECT_EQ(refusal([&] {
               read_trajectory(scratch.file("b.txt", "some words here\n0.5 1 2 3 0 0 0 1\n0.6 1\n"));
-            }).substr(scratch.path("b.txt").string().size()),
+            }).substr((scratch.path() / "b.txt").string().size()),
             ":3: has 2 columns, expected 8: stamp tx ty tz qx qy qz qw");
 }
 
@@ -96,7 +96,7 @@ const std::string kGzip(
     26);
 
 TEST(TrajectoryFile, DamagedCompressedFilesAreRejected) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   EXPECT_THAT(refusal([&] { read_trajectory(scratch.file("a.txt.gz", kGzip)); }),
               HasSubstr("cannot be decompressed: ends early"));
   EXPECT_THROW(decompress(Codec::zstd, "\x28\xb5\x2f\xfd nonsense", 100), DamagedStream);
@@ -105,28 +105,28 @@ TEST(TrajectoryFile, DamagedCompressedFilesAreRejected) {
 }
 
 TEST(TrajectoryFile, CompressedFilesAndPipesAreRead) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto plain = scratch.file("a.txt", kTum);
   for (const char* const program : {"gzip", "bzip2", "zstd -q", "lz4 -q"}) {
     const std::string command = std::string(program) + " -c '" + plain.string() + "' > '" +
-                                scratch.path("b").string() + "' 2>/dev/null";
+                                (scratch.path() / "b").string() + "' 2>/dev/null";
     if (std::system(command.c_str()) != 0) continue;  // not installed
-    EXPECT_EQ(read_trajectory(scratch.path("b")).size(), 2u) << program;
-    std::filesystem::remove(scratch.path("b"));
+    EXPECT_EQ(read_trajectory(scratch.path() / "b").size(), 2u) << program;
+    std::filesystem::remove(scratch.path() / "b");
   }
   EXPECT_EQ(read_trajectory_file(Pipe(kTum).path()).nanoseconds.size(), 2u);  // reads it twice
 }
 
 TEST(TrajectoryFile, NamedPipesAreRejectedWithoutWaitingForAWriter) {
-  const Scratch scratch;
-  const auto pipe = scratch.path("pipe");
+  const TemporaryFolder scratch;
+  const auto pipe = scratch.path() / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_THAT(refusal([&] { read_trajectory(pipe); }), HasSubstr("is a named pipe"));
 }
 
 TEST(TrajectoryFile, CompressedFilesThatExpandTooFarAreRejected) {
-  const Scratch scratch;
-  const std::string file = scratch.path("zeros.gz").string();
+  const TemporaryFolder scratch;
+  const std::string file = (scratch.path() / "zeros.gz").string();
   if (std::system(("head -c 70M /dev/zero | gzip > '" + file + "'").c_str()) != 0) GTEST_SKIP();
   EXPECT_THAT(
       refusal([&] { read_trajectory(file); }),

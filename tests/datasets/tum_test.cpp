@@ -49,22 +49,23 @@ TEST(Tum, NormalisesWhatPrintedDigitsLeave) {
 }
 
 TEST(Tum, WritingAndReadingKeepsEveryBit) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Trajectory poses = wild_trajectory(2000);
-  write_tum(scratch.path("a.txt"), poses);
-  EXPECT_TRUE(same_bits(read_trajectory(scratch.path("a.txt")), poses));
+  write_tum(scratch.path() / "a.txt", poses);
+  EXPECT_TRUE(same_bits(read_trajectory(scratch.path() / "a.txt"), poses));
 }
 
 TEST(Tum, CommentsStandOnTopAndAreSkipped) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Trajectory poses{{0.5, {}}};
-  write_tum(scratch.path("a.txt"), poses, {"method: raw", "two\nlines"});
-  EXPECT_EQ(content(scratch.path("a.txt")), "# method: raw\n# two\n# lines\n0.5 0 0 0 0 0 0 1\n");
-  EXPECT_TRUE(same_bits(read_trajectory(scratch.path("a.txt")), poses));
+  write_tum(scratch.path() / "a.txt", poses, {"method: raw", "two\nlines"});
+  EXPECT_EQ(content(scratch.path() / "a.txt"),
+            "# method: raw\n# two\n# lines\n0.5 0 0 0 0 0 0 1\n");
+  EXPECT_TRUE(same_bits(read_trajectory(scratch.path() / "a.txt"), poses));
 }
 
 TEST(Tum, WindowsLineEndsAndByteOrderMarkChangeNothing) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const std::string lf = content(sample("good/tum.txt"));
   std::string crlf;
   for (const char c : lf) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
@@ -76,7 +77,7 @@ TEST(Tum, WindowsLineEndsAndByteOrderMarkChangeNothing) {
 }
 
 TEST(Tum, RepeatedStampsCanBeDroppedWhenAsked) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto file = scratch.file("a.txt", "1 0 0 0 0 0 0 1\n1 9 0 0 0 0 0 1\n2 5 0 0 0 0 0 1\n");
   ReadOptions options;
   options.repeats = Repeats::keep_first;
@@ -92,7 +93,7 @@ TEST(Tum, RepeatedStampsCanBeDroppedWhenAsked) {
 }
 
 TEST(Tum, StampsInNanosecondsAreSeconds) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   // Format of ORB-SLAM3 for EuRoC: zero decimals.
   const auto zeros = scratch.file("a.txt",
                                   "1403636579763555584.000000 1 2 3 0 0 0 1\n"
@@ -116,7 +117,7 @@ TEST(Tum, StampsInNanosecondsAreSeconds) {
 }
 
 TEST(Euroc, StampsOfASimulatorAreNanosecondsToo) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   // Starts at 0, 20 Hz, with qw first.
   const auto csv = scratch.file("a.csv",
                                 "#timestamp,px,py,pz,qw,qx,qy,qz\n"
@@ -142,7 +143,7 @@ TEST(Euroc, StampsOfASimulatorAreNanosecondsToo) {
 }
 
 TEST(Tum, WholeSecondsStaySeconds) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   for (const char* text : {"0,1,2,3,0,0,0.6,0.8\n1,4,5,6,0,0,0.6,0.8\n",
                            "1403636579 1 2 3 0 0 0.6 0.8\n1403636580 4 5 6 0 0 0.6 0.8\n"}) {
     const auto file = scratch.file("a.csv", text);
@@ -154,7 +155,7 @@ TEST(Tum, WholeSecondsStaySeconds) {
 }
 
 TEST(Tum, GoingBackIsRefusedEvenWhenRepeatsAreDropped) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto file = scratch.file("a.txt", "1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n0 0 0 0 0 0 0 1\n");
   ReadOptions options;
   options.repeats = Repeats::keep_first;
@@ -165,14 +166,14 @@ TEST(Tum, GoingBackIsRefusedEvenWhenRepeatsAreDropped) {
 }
 
 TEST(Tum, BrokenTrajectoriesAndPathsAreNotWritten) {
-  const Scratch scratch;
-  const auto file = scratch.path("a.txt");
+  const TemporaryFolder scratch;
+  const auto file = scratch.path() / "a.txt";
   EXPECT_EQ(refusal([&] {
               write_tum(file, {{1.0, {}}, {1.0, {}}});
             }),
             file.string() + ": pose 1: stamp does not increase");
   EXPECT_FALSE(std::filesystem::exists(file));
-  const auto nowhere = scratch.path("no/such/folder.txt");
+  const auto nowhere = scratch.path() / "no/such/folder.txt";
   EXPECT_EQ(refusal([&] { write_tum(nowhere, {}); }),
             nowhere.string() + ": cannot be written: No such file or directory");
 }

@@ -4,10 +4,10 @@
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/problem.hpp"
-#include "datasets/derive/closure_file.hpp"
+#include "datasets/derive/closures.hpp"
 #include "datasets/formats/formats.hpp"
 #include "datasets/formats/g2o.hpp"
-#include "datasets/formats/kitti.hpp"
+#include "datasets/formats/text_formats.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 
 namespace loopbench {

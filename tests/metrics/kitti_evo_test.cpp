@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "datasets/formats/kitti.hpp"
+#include "datasets/formats/text_formats.hpp"
 #include "metrics/errors/printed_motion.hpp"
 #include "metrics/errors/rpe.hpp"
 #include "metrics/protocols/protocols.hpp"

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "datasets/formats/kitti.hpp"
+#include "datasets/formats/text_formats.hpp"
 #include "metrics/errors/segments.hpp"
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"

@@ -1,12 +1,10 @@
-#include "datasets/bags/bag_source.hpp"
+#include "datasets/bags/byte_reader.hpp"
 
 #include <sys/types.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-
-#include "datasets/bags/byte_reader.hpp"
 
 namespace loopbench {
 
