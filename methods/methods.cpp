@@ -1,18 +1,18 @@
+#include "datasets/core/polyline.hpp"
 #include "methods/correctors/checked.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/elch.hpp"
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 #include "methods/correctors/pose_graph.hpp"
-#include "methods/correctors/raw.hpp"
 #include "methods/correctors/two_pass.hpp"
 #include "methods/correctors/uniform.hpp"
+#include "methods/function_method.hpp"
 #include "methods/joint/spline_fit.hpp"
 #include "methods/method.hpp"
 #include "methods/smoothers/b_spline.hpp"
 #include "methods/smoothers/cubic_spline.hpp"
 #include "methods/smoothers/gaussian_process.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
-#include "methods/smoothers/polyline.hpp"
 #include "methods/smoothers/savitzky_golay.hpp"
 #include "methods/smoothers/screw.hpp"
 #include "methods/smoothers/smoothing_spline.hpp"
@@ -37,12 +37,20 @@ Dm::Options robust() {
           .min_nodes = 9};
 }
 
+/// No correction: the baseline for all gains.
+Trajectory uncorrected(const Problem& problem) { return problem.keyframes; }
+
+/// The baseline smoother.
+std::unique_ptr<const Curve> polyline(const Problem& problem) {
+  return std::make_unique<Polyline>(problem.keyframes);
+}
+
 }  // namespace
 
 std::vector<MethodEntry> methods() {
   return {
       // Correctors: keyframes in, keyframes out.
-      method<Raw>("raw", "uncorrected keyframes of the tracker"),
+      method("raw", "uncorrected keyframes of the tracker", uncorrected),
       method<Uniform>("uniform", "closing error distributed evenly along each loop"),
       method<Uniform>("uniform_position",
                       "closing error distributed evenly, positions only",
@@ -97,7 +105,7 @@ std::vector<MethodEntry> methods() {
           {.base = {.start = PoseGraphOptimizer::Start::chordal}}),
 
       // Smoothers: keyframes in, a curve out.
-      method<PolylineSmoother>("polyline", "linear interpolation of position, slerp of rotation"),
+      smoother("polyline", "linear interpolation of position, slerp of rotation", polyline),
       method<TrackedFrames>("tracked_frames",
                             "tracked frames, moved with the corrected keyframes around them"),
       method<CubicSpline>("cubic_spline", "natural cubic spline in time through the keyframes"),

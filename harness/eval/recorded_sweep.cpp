@@ -12,7 +12,7 @@
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/text_formats.hpp"
 #include "harness/model/recorded_run.hpp"
-#include "methods/correctors/raw.hpp"
+#include "methods/function_method.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -67,7 +67,9 @@ bool has_poses_of(Format wanted, const EvalArguments& a, const std::vector<Recor
 Catalogue recorded_catalogue(const std::vector<std::filesystem::path>& plugins) {
   Catalogue out = catalogue(plugins);
   out.datasets = {{"files", "a reference and an estimate", {}, {}, {}}};
-  out.methods = {methods::method<methods::Raw>("recorded", "poses of the estimate's file")};
+  out.methods = {methods::method("recorded",
+                                 "poses of the estimate's file",
+                                 [](const Problem& problem) { return problem.keyframes; })};
   return out;
 }
 

@@ -10,13 +10,16 @@ namespace loopbench::methods {
 template <class Base>
 struct PairwiseConsistentOptions {
   typename Base::Options base = {};
-  ConsistencyOptions check = {};
+  std::int64_t max_closures = kMaxComparedClosures;
 };
 
 template <class Base, class Visit>
 void fields(PairwiseConsistentOptions<Base>& o, Visit visit) {
   fields(o.base, visit);
-  consistency_fields(o.check, visit);
+  visit("pcm.max_closures",
+        o.max_closures,
+        "maximum number of closures; all pairs are compared",
+        Between{1});
 }
 
 /// Runs consistent_closures(), then `Base` on the remaining closures. Returns the keyframes
@@ -26,14 +29,14 @@ class PairwiseConsistent final : public Corrector {
  public:
   using Options = PairwiseConsistentOptions<Base>;
   explicit PairwiseConsistent(const Options& options)
-      : check_(options.check), base_(options.base) {}
+      : max_closures_(options.max_closures), base_(options.base) {}
 
   std::string why_declined(const Problem& problem) const override {
     if (problem.closures.empty()) return "the problem has no loop closures";
     if (std::string fault = chain_fault(problem); !fault.empty()) return fault;
-    if (problem.closures.size() > static_cast<std::size_t>(check_.max_closures)) {
+    if (problem.closures.size() > static_cast<std::size_t>(max_closures_)) {
       return std::to_string(problem.closures.size()) +
-             " closures exceed pcm.max_closures = " + std::to_string(check_.max_closures);
+             " closures exceed pcm.max_closures = " + std::to_string(max_closures_);
     }
     // What the base declines with a single closure, it declines with any of them.
     return base_.why_declined(
@@ -67,7 +70,7 @@ class PairwiseConsistent final : public Corrector {
   }
 
  private:
-  ConsistencyOptions check_;
+  std::int64_t max_closures_;
   Base base_;
 };
 

@@ -4,22 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "datasets/core/fields.hpp"
 #include "datasets/core/problem.hpp"
 
 namespace loopbench::methods {
 
-struct ConsistencyOptions {
-  std::int64_t max_closures = 1500;
-};
-
-template <class Visit>
-void consistency_fields(ConsistencyOptions& o, Visit visit) {
-  visit("pcm.max_closures",
-        o.max_closures,
-        "maximum number of closures; all pairs are compared",
-        Between{1});
-}
+/// Default of the largest number of closures of which all pairs are compared.
+inline constexpr std::int64_t kMaxComparedClosures = 1500;
 
 /// Residual and covariance of the loop through two closures a -> b and c -> d,
 ///     E = L_ab^-1 O_ac L_cd O_db   (O: odometry, in either direction).

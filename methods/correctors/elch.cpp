@@ -71,18 +71,11 @@ class LoopGraph {
 };
 
 void distribute_error(Trajectory& poses, const Edge& loop, const std::vector<double>& shares) {
-  const Pose start = poses[loop.from].world_from_body;
-  const Pose end = poses[loop.to].world_from_body;
-  const Pose target = start * loop.from_from_to;
-  const Vector3 pivot = start.translation;
-  const Vector3 phi = log_so3(target.rotation * end.rotation.conjugate());
-  const Vector3 shift = target.translation - (exp_so3(phi) * (end.translation - pivot) + pivot);
+  const LoopCorrection correction(
+      poses[loop.from].world_from_body, poses[loop.to].world_from_body, loop, true);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (shares[i] == 0.0) continue;
-    Pose& pose = poses[i].world_from_body;
-    const Rotation part = exp_so3(shares[i] * phi);
-    pose = normalized(
-        Pose{part * pose.rotation, part * (pose.translation - pivot) + pivot + shares[i] * shift});
+    poses[i].world_from_body = correction.moved(shares[i], poses[i].world_from_body);
   }
 }
 
@@ -101,13 +94,7 @@ Trajectory Elch::correct(const Problem& problem, Report& report) const {
     distribute_error(out, loop, graph.shares(loop.from, loop.to));
     graph.add(loop);
   }
-  double gap = 0.0;
-  for (const Edge& loop : problem.closures) {
-    const Pose target = out[loop.from].world_from_body * loop.from_from_to;
-    gap = std::max(gap, (target.translation - out[loop.to].world_from_body.translation).norm());
-  }
-  report.count("closures", static_cast<double>(problem.closures.size()));
-  report.count("largest_closing_error", gap);
+  report_closing_errors(problem, out, report);
   return out;
 }
 

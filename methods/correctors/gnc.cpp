@@ -25,7 +25,7 @@ std::size_t kept_count(const std::vector<double>& weights) {
 
 /// Returns the indices of the consistent closures, or none when the check is not applicable.
 std::vector<std::size_t> indices_of_consistent(const Problem& problem) {
-  if (problem.closures.size() > static_cast<std::size_t>(ConsistencyOptions{}.max_closures)) {
+  if (problem.closures.size() > static_cast<std::size_t>(kMaxComparedClosures)) {
     return {};
   }
   if (!chain_fault(problem).empty() || has_scale_drift(problem)) return {};

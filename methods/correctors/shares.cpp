@@ -42,6 +42,34 @@ std::optional<LoopShares> loop_shares(const std::vector<double>& shares,
   return out;
 }
 
+LoopCorrection::LoopCorrection(const Pose& start,
+                               const Pose& end,
+                               const Edge& loop,
+                               bool with_rotation)
+    : pivot(start.translation) {
+  const Pose target = start * loop.from_from_to;
+  phi = with_rotation ? log_so3(target.rotation * end.rotation.conjugate())
+                      : Vector3(Vector3::Zero());
+  shift = target.translation - (exp_so3(phi) * (end.translation - pivot) + pivot);
+}
+
+Pose LoopCorrection::moved(double share, const Pose& pose) const {
+  const Rotation part = exp_so3(share * phi);
+  return normalized(
+      Pose{part * pose.rotation, part * (pose.translation - pivot) + pivot + share * shift});
+}
+
+void report_closing_errors(const Problem& problem, const Trajectory& corrected, Report& report) {
+  double largest = 0.0;
+  for (const Edge& loop : problem.closures) {
+    const Pose target = corrected[loop.from].world_from_body * loop.from_from_to;
+    const Vector3& end = corrected[loop.to].world_from_body.translation;
+    largest = std::max(largest, (target.translation - end).norm());
+  }
+  report.count("closures", static_cast<double>(problem.closures.size()));
+  report.count("largest_closing_error", largest);
+}
+
 void check_closures(const Problem& problem, const char* method) {
   const auto order = [](const Edge& loop) { return std::tuple(loop.to, loop.from); };
   const auto is_valid = [&](const Edge& loop) {

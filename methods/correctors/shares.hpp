@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "datasets/core/problem.hpp"
+#include "methods/report.hpp"
 
 namespace loopbench::methods {
 
@@ -40,6 +41,22 @@ struct LoopShares {
 std::optional<LoopShares> loop_shares(const std::vector<double>& shares,
                                       const std::vector<bool>& frozen,
                                       const Edge& loop);
+
+/// Correction of a loop's closing error by rotation about its start and shift. The pivot is the
+/// loop's start, so the result does not depend on the world frame.
+struct LoopCorrection {
+  Vector3 pivot;
+  Vector3 phi;    ///< rotation vector from the end of the loop to its target [rad]
+  Vector3 shift;  ///< remaining translation [m]
+
+  LoopCorrection(const Pose& start, const Pose& end, const Edge& loop, bool with_rotation);
+
+  /// Returns the pose moved by its share: Exp(share phi) (p - pivot) + pivot + share shift.
+  Pose moved(double share, const Pose& pose) const;
+};
+
+/// Adds the counts `closures` and `largest_closing_error` [m] of the corrected poses.
+void report_closing_errors(const Problem& problem, const Trajectory& corrected, Report& report);
 
 /// Throws std::runtime_error with the name `method` when closures are not sorted by (to, from) or
 /// refer to a missing keyframe.

@@ -20,26 +20,12 @@ class UniformChain {
 
   void close(const Edge& loop, const std::vector<double>& w, bool with_rotation) {
     apply_tail(loop.to + 1);
-    const Pose target = pose(loop.from) * loop.from_from_to;
-    const Pose end = pose(loop.to);
-    const Vector3 pivot = pose(loop.from).translation;
-    const Vector3 phi = with_rotation ? log_so3(target.rotation * end.rotation.conjugate())
-                                      : Vector3(Vector3::Zero());
-    const Vector3 shift = target.translation - (exp_so3(phi) * (end.translation - pivot) + pivot);
-    const auto moved = [&](double share, const Pose& before) {
-      const Rotation part = exp_so3(share * phi);
-      return normalized(Pose{part * before.rotation,
-                             part * (before.translation - pivot) + pivot + share * shift});
-    };
+    const LoopCorrection correction(pose(loop.from), pose(loop.to), loop, with_rotation);
     for (std::size_t k = 0; k < w.size(); ++k) {
       Pose& at = poses_[loop.from + 1 + k].world_from_body;
-      at = moved(w[k], at);
+      at = correction.moved(w[k], at);
     }
-    world_from_tail_ = moved(1.0, world_from_tail_);
-  }
-
-  double gap(const Edge& loop) const {
-    return ((pose(loop.from) * loop.from_from_to).translation - pose(loop.to).translation).norm();
+    world_from_tail_ = correction.moved(1.0, world_from_tail_);
   }
 
   Trajectory take() && { return std::move(poses_); }
@@ -61,12 +47,11 @@ std::string Uniform::why_declined(const Problem& problem) const {
 
 Trajectory Uniform::correct(const Problem& problem, Report& report) const {
   check_closures(problem, "uniform");
-  const std::vector<Edge>& loops = problem.closures;
   const std::vector<double> shares = step_weights(problem.keyframes, options_.weights);
   std::vector<bool> frozen(problem.keyframes.size(), false);
   UniformChain chain(problem.keyframes);
   std::size_t fallbacks = 0, skipped = 0, scaled = 0;
-  for (const Edge& loop : loops) {
+  for (const Edge& loop : problem.closures) {
     scaled += loop.scale != 1.0 ? 1 : 0;
     const auto w = loop_shares(shares, frozen, loop);
     if (!w) {
@@ -82,17 +67,15 @@ Trajectory Uniform::correct(const Problem& problem, Report& report) const {
   }
   chain.apply_tail(problem.keyframes.size());
 
-  double gap = 0.0;
-  for (const Edge& loop : loops) gap = std::max(gap, chain.gap(loop));
-  report.count("closures", static_cast<double>(loops.size()));
-  report.count("largest_closing_error", gap);
+  Trajectory out = std::move(chain).take();
+  report_closing_errors(problem, out, report);
   const auto remark = [&](std::size_t count, const std::string& what) {
     if (count > 0) report.notes.push_back(std::to_string(count) + " closures: " + what);
   };
   remark(fallbacks, to_text(options_.weights) + " is zero along the loop, distributed by index");
   remark(skipped, "ignored, every step lies inside an earlier loop");
   remark(scaled, "scale change ignored");
-  return std::move(chain).take();
+  return out;
 }
 
 }  // namespace loopbench::methods

@@ -30,8 +30,7 @@ std::unique_ptr<const Curve> SplineFit::estimate(const Problem& problem, Report&
       fit.edges.push_back({keyframes[edge.from].stamp, keyframes[edge.to].stamp, edge});
     }
   }
-  const SplineSummary summary =
-      solve_spline(basis, controls, fit, {.max_iterations = options_.max_iterations});
+  const SplineSummary summary = solve_spline(basis, controls, fit, options_.max_iterations);
   for (Pose& control : controls) control = normalized(world_from_start * control);
   report.count("controls", static_cast<double>(controls.size()));
   report.count("iterations", summary.iterations);

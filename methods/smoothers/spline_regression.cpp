@@ -25,7 +25,7 @@ std::unique_ptr<const Curve> SplineRegression::smooth(const Problem& problem,
   for (const auto& [stamp, pose] : keyframes) {
     fit.poses.push_back({stamp, {pose.rotation, pose.translation - origin}});
   }
-  const SplineSummary summary = solve_spline(basis, controls, fit, {});
+  const SplineSummary summary = solve_spline(basis, controls, fit);
   for (Pose& control : controls) control.translation += origin;
   report.count("controls", static_cast<double>(controls.size()));
   report.count("iterations", summary.iterations);

@@ -174,7 +174,7 @@ SplineFactor::Residual SplineFactor::evaluate(const std::vector<Pose>& controls)
 SplineSummary solve_spline(const SplineBasis& basis,
                            std::vector<Pose>& controls,
                            const SplineProblem& problem,
-                           const SplineSettings& settings) {
+                           int max_iterations) {
   SplitPerturbation manifold;
   ceres::Problem::Options problem_options;
   problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -195,8 +195,8 @@ SplineSummary solve_spline(const SplineBasis& basis,
 
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = settings.max_iterations;
-  options.function_tolerance = settings.tolerance;
+  options.max_num_iterations = max_iterations;
+  options.function_tolerance = 1e-16;
   options.gradient_tolerance = 1e-14;
   options.parameter_tolerance = 1e-14;
   // The initial values are close, so nearly undamped steps converge quadratically.

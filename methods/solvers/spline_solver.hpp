@@ -62,16 +62,11 @@ struct SplineProblem {
   bool fix_start = false;  ///< keep the first control, the start of the curve, fixed
 };
 
-struct SplineSettings {
-  int max_iterations = 100;
-  double tolerance = 1e-16;  ///< relative change of the cost at convergence [-]
-};
-
 struct SplineSummary {
   int iterations = 0;
   double cost_before = 0.0;
   double cost = 0.0;
-  bool converged = false;  ///< reached the tolerance before max_iterations
+  bool converged = false;  ///< the relative change of the cost fell below 1e-16 in time
 };
 
 /// Minimises the problem over the controls, one per basis function. Levenberg-Marquardt, analytic
@@ -82,6 +77,6 @@ struct SplineSummary {
 SplineSummary solve_spline(const SplineBasis& basis,
                            std::vector<Pose>& controls,
                            const SplineProblem& problem,
-                           const SplineSettings& settings);
+                           int max_iterations = 100);
 
 }  // namespace loopbench::methods

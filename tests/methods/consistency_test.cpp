@@ -114,7 +114,7 @@ TEST(Consistency, CheckedCorrectorUsesConsistentClosuresOnly) {
   EXPECT_EQ(report.counts.front().name, "closures_consistent");
   EXPECT_EQ(report.counts.front().value, 3.0);
   PairwiseConsistentOptions<Dual> few;
-  few.check.max_closures = 3;
+  few.max_closures = 3;
   EXPECT_EQ(PairwiseConsistent<Dual>(few).why_declined(problem),
             "4 closures exceed pcm.max_closures = 3");
 }
