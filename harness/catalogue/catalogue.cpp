@@ -5,7 +5,7 @@
 #include "datasets/rgbd/rgbd_datasets.hpp"
 #include "harness/catalogue/loading.hpp"
 #include "harness/catalogue/plugins.hpp"
-#include "harness/external/external_datasets.hpp"
+#include "harness/external/command_dataset.hpp"
 #include "harness/external/external_methods.hpp"
 #include "harness/process/own_process.hpp"
 #include "harness/text/hash.hpp"
@@ -72,10 +72,8 @@ Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
   for (DatasetEntry& entry : rgbd::rgbd_datasets(loading_hooks())) {
     out.datasets.push_back(std::move(entry));
   }
-  for (DatasetEntry& entry : external_datasets(loading_hooks().cache)) {
-    out.datasets.push_back(std::move(entry));
-  }
-  for (const ExternalMethod& program : external_methods()) out.methods.push_back(program.listed);
+  out.datasets.push_back(command_dataset(loading_hooks().cache));
+  out.methods.push_back(command_entry());
   for (const std::filesystem::path& plugin : plugins) add_plugin(out, plugin);
   return out;
 }

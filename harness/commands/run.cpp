@@ -19,7 +19,6 @@
 #include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/estimate_files.hpp"
 #include "harness/execution/run/progress.hpp"
-#include "harness/external/external_datasets.hpp"
 #include "harness/external/external_methods.hpp"
 #include "harness/process/sandbox.hpp"
 #include "harness/provenance/build.hpp"

@@ -12,7 +12,6 @@
 #include "harness/execution/run/catch_errors.hpp"
 #include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/evaluation_notes.hpp"
-#include "harness/execution/run/incomplete.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/provenance/sequence_identity.hpp"
 #include "harness/provenance/summarise_sequence.hpp"

@@ -1,5 +1,6 @@
 #include "harness/external/arguments.hpp"
 
+#include "datasets/core/error.hpp"
 #include "datasets/core/params.hpp"
 
 namespace loopbench::harness {
@@ -54,6 +55,27 @@ std::vector<std::string> with_values(std::vector<std::string> words,
     word = std::move(replaced);
   }
   return words;
+}
+
+std::vector<std::string> named_files(const std::string& line,
+                                     const std::string& depends,
+                                     const std::filesystem::path& folder) {
+  std::vector<std::string> out;
+  const auto is_file = [&](const std::string& name) {
+    std::error_code none;
+    return std::filesystem::is_regular_file(folder / name, none);  // absolute names stay absolute
+  };
+  for (const std::string& word : split_arguments("run", line)) {
+    if (is_file(word)) out.push_back(word);
+  }
+  if (depends.empty()) return out;
+  for (const std::string& name : split_arguments("depends", depends)) {
+    if (!is_file(name)) {
+      throw InputError("depends: " + (folder / name).string() + ": is not a file");
+    }
+    out.push_back(name);
+  }
+  return out;
 }
 
 }  // namespace loopbench::harness

@@ -8,11 +8,13 @@
 #include <fstream>
 #include <iterator>
 
+#include "datasets/core/error.hpp"
 #include "datasets/core/polyline.hpp"
 #include "harness/external/arguments.hpp"
 #include "harness/external/scratch.hpp"
 #include "harness/external/server.hpp"
 #include "harness/process/program.hpp"
+#include "harness/text/hash.hpp"
 #include "harness/text/printable.hpp"
 
 namespace loopbench::harness {
@@ -72,23 +74,10 @@ Trajectory run_once(const CommandOptions& options,
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(with_output(error.what() + hidden, output));
   }
-  report.counts.insert(
-      report.counts.end(), metadata.report.counts.begin(), metadata.report.counts.end());
-  report.phases.insert(
-      report.phases.end(), metadata.report.phases.begin(), metadata.report.phases.end());
-  report.notes.insert(
-      report.notes.end(), metadata.report.notes.begin(), metadata.report.notes.end());
+  own = add_statements(report, metadata, ran, "from start to end of the program");
   report.count(kProgramTime, end.cpu_seconds);
   report.count(kProgramMemory, static_cast<double>(end.peak_memory));
   add_output(report, output);
-  const bool is_stated = metadata.seconds >= 0.0 && metadata.seconds <= ran;
-  if (metadata.seconds > ran) {
-    report.notes.push_back(fmt::format(
-        "result.json states {} s, but the program ran for {:.3g} s", metadata.seconds, ran));
-  }
-  report.notes.emplace_back(is_stated ? "time: as stated by the program"
-                                      : "time: from start to end of the program");
-  own = is_stated ? metadata.seconds : ran;
   return out;
 }
 
@@ -183,6 +172,24 @@ void add_output(methods::Report& report, const std::string& output) {
   while (!text.empty() && continues(text.front()))
     text.erase(0, 1);  // of a code point that was cut
   if (!text.empty()) report.notes.push_back("output: " + text);
+}
+
+std::string command_version(const CommandOptions& options, const CommandSetting& setting) {
+  Fields fields;
+  const std::string& line = options.run.empty() ? options.serve : options.run;
+  for (const std::string& name : named_files(line, options.depends, setting.folder)) {
+    fields.add(name).add(hex(hash_of_file(setting.folder / name)));
+  }
+  if (options.version.empty()) return fields.hashed();
+  ProgramStart start;
+  start.arguments = split_arguments("version", options.version);
+  start.folder = setting.folder;
+  std::string output;
+  const ProgramEnd end = RunningProgram(start).wait(output);
+  if (end.exit_code != 0) {
+    throw InputError(with_output("version: " + options.version + ": " + text(end), output));
+  }
+  return fields.add(output).hashed();
 }
 
 }  // namespace loopbench::harness

@@ -1,12 +1,15 @@
 #include "harness/external/command_dataset.hpp"
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <string_view>
 
+#include "datasets/trajectory_dataset.hpp"
 #include "harness/external/arguments.hpp"
 #include "harness/external/command.hpp"
-#include "harness/external/external_datasets.hpp"
 #include "harness/external/scratch.hpp"
 #include "harness/process/program.hpp"
 #include "harness/text/file_lock.hpp"
@@ -15,6 +18,39 @@
 
 namespace loopbench::harness {
 namespace {
+
+enum class UsedTrajectory { open, closed };
+inline auto choices(UsedTrajectory) {
+  return std::array{std::pair{"open", UsedTrajectory::open},
+                    std::pair{"closed", UsedTrajectory::closed}};
+}
+
+struct CommandDatasetOptions {
+  std::string run;
+  std::string sequence;
+  UsedTrajectory use = UsedTrajectory::open;
+  bool shell = false;
+  std::string depends;
+  TrajectoryOptions trajectory;  ///< the files of the program are set by the loader
+};
+
+/// Options of `trajectory` that the program's files determine.
+inline constexpr std::array<std::string_view, 7> kProgramFiles{
+    "estimate", "frames", "format", "times", "period", "closures.source", "closures.file"};
+
+template <class Visit>
+void fields(CommandDatasetOptions& o, Visit visit) {
+  visit("run",
+        o.run,
+        "program and arguments; {sequence}: input, {trajectory}: file to write, {seed}: repeat");
+  visit("sequence", o.sequence, "input of the program: a folder or a file; empty: none");
+  visit("use", o.use, "trajectory to correct or evaluate; closed: after the program's own closing");
+  visit("shell", o.shell, "whether sh interprets the text of run");
+  visit("depends", o.depends, "files whose change runs the program again, separated by blanks");
+  fields(o.trajectory, [&](const char* name, auto& member, const char* help, const auto&... rule) {
+    if (std::ranges::count(kProgramFiles, name) == 0) visit(name, member, help, rule...);
+  });
+}
 
 constexpr const char* kOpen = "open.txt";
 constexpr const char* kHashes = "hashes";  // of the output, as it was written
@@ -63,16 +99,7 @@ std::set<std::filesystem::path> files_of_sequence(const std::filesystem::path& s
 std::set<std::filesystem::path> program_files(const CommandDatasetOptions& o,
                                               const std::filesystem::path& folder) {
   std::set<std::filesystem::path> out;
-  for (const std::string& word : split_arguments("run", o.run)) {
-    if (std::filesystem::is_regular_file(folder / word)) out.insert(folder / word);
-  }
-  if (o.depends.empty()) return out;
-  for (const std::string& name : split_arguments("depends", o.depends)) {
-    if (!std::filesystem::is_regular_file(folder / name)) {
-      throw InputError("depends: " + (folder / name).string() + ": is not a file");
-    }
-    out.insert(folder / name);
-  }
+  for (const std::string& name : named_files(o.run, o.depends, folder)) out.insert(folder / name);
   return out;
 }
 
@@ -179,8 +206,7 @@ std::filesystem::path program_output(const CommandDatasetOptions& o,
   return out;
 }
 
-}  // namespace
-
+/// Throws OptionError without a program, or if run does not name {trajectory}.
 void check_combination(const CommandDatasetOptions& o) {
   command_words("run", o.run, false);
   if (o.run.find("{trajectory}") == std::string::npos) {
@@ -191,6 +217,9 @@ void check_combination(const CommandDatasetOptions& o) {
   }
 }
 
+/// Runs the program in the first folder of `root`, the config's, unless `cache` has its output for
+/// the same command, program files, sequence content and seed. Throws InputError with the end of
+/// the program's output if it fails.
 Sequence load_command(const CommandDatasetOptions& o,
                       const DataRoot& root,
                       const std::filesystem::path& cache) {
@@ -224,15 +253,17 @@ Sequence load_command(const CommandDatasetOptions& o,
   return loaded;
 }
 
+}  // namespace
+
 void set_uncached_programs(const std::filesystem::path& folder) { uncached_programs() = folder; }
 
-std::vector<DatasetEntry> external_datasets(const std::filesystem::path& cache) {
-  return {dataset<CommandDatasetOptions>(
+DatasetEntry command_dataset(const std::filesystem::path& cache) {
+  return dataset<CommandDatasetOptions>(
       kCommandDataset,
       "any program as a SLAM system; see methods/bring_a_method.md",
       [cache](const CommandDatasetOptions& options, const DataRoot& root) {
         return load_command(options, root, cache);
-      })};
+      });
 }
 
 }  // namespace loopbench::harness

@@ -205,4 +205,24 @@ void require_ok(const ResultMetadata& metadata) {
                            "', expected ok, declined or failed");
 }
 
+double add_statements(methods::Report& report,
+                      const ResultMetadata& metadata,
+                      double measured,
+                      const char* measured_from) {
+  const auto append = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(report.counts, metadata.report.counts);
+  append(report.phases, metadata.report.phases);
+  append(report.notes, metadata.report.notes);
+  const bool is_stated = metadata.seconds >= 0.0 && metadata.seconds <= measured;
+  if (metadata.seconds > measured) {
+    report.notes.push_back(fmt::format(
+        "result.json states {} s, but the program ran for {:.3g} s", metadata.seconds, measured));
+  }
+  report.notes.push_back(std::string("time: ") +
+                         (is_stated ? "as stated by the program" : measured_from));
+  return is_stated ? metadata.seconds : measured;
+}
+
 }  // namespace loopbench::harness

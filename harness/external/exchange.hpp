@@ -75,4 +75,12 @@ ResultMetadata parse_metadata(const std::string& json);
 /// Throws Undefined with the program's reason if it declined, std::runtime_error if it failed.
 void require_ok(const ResultMetadata& metadata);
 
+/// Adds its counts, phases and notes to `report`. Returns the method's time: as stated by the
+/// program if that is at most the `measured` time, otherwise that one, with a note of what it is
+/// ("from request to answer") [s].
+double add_statements(methods::Report& report,
+                      const ResultMetadata& metadata,
+                      double measured,
+                      const char* measured_from);
+
 }  // namespace loopbench::harness

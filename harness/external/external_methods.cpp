@@ -2,44 +2,39 @@
 
 #include <algorithm>
 
-#include "harness/external/external_datasets.hpp"
+#include "harness/external/command_dataset.hpp"
 #include "harness/external/server.hpp"
 
 namespace loopbench::harness {
 namespace {
 
+constexpr const char* kCommand = "command";
+
+/// Options of a stage that runs a program.
 CommandOptions command_options(const Params& given) { return with(CommandOptions{}, given); }
 
-ExternalMethod command_entry() {
-  const auto make = [](const Params& given, const CommandSetting& setting) {
-    return make_command(command_options(given), setting);
-  };
-  return {{"command",
-           methods::Kind::corrector,
-           "any program; see methods/bring_a_method.md",
-           describe(CommandOptions{}),
-           [make](const Params& given) { return make(given, CommandSetting{}); }},
-          make,
-          [](const Params& given, const CommandSetting& setting) {
-            return command_version(command_options(given), setting);
-          },
-          [](const Params& given, const CommandSetting& setting) {
-            const CommandOptions options = command_options(given);
-            if (!options.serve.empty()) prepare_server(options, setting);
-          }};
+bool has_program(const MethodChoice& choice) {
+  return std::ranges::any_of(choice.stages, is_program);
 }
 
 }  // namespace
 
-const std::vector<ExternalMethod>& external_methods() {
-  static const std::vector<ExternalMethod> all{command_entry()};
-  return all;
+methods::MethodEntry command_entry() {
+  return {kCommand,
+          methods::Kind::corrector,
+          "any program; see methods/bring_a_method.md",
+          describe(CommandOptions{}),
+          [](const Params& given) { return make_command(command_options(given), {}); }};
 }
 
-const ExternalMethod* find_external(const std::string& name) {
-  const auto found = std::ranges::find(
-      external_methods(), name, [](const ExternalMethod& each) { return each.listed.name; });
-  return found == external_methods().end() ? nullptr : &*found;
+bool is_program(const Choice& stage) { return stage.name == kCommand; }
+
+methods::Stage make_program(const Choice& stage, const CommandSetting& setting) {
+  return make_command(command_options(stage.options), setting);
+}
+
+std::string program_version(const Choice& stage, const CommandSetting& setting) {
+  return command_version(command_options(stage.options), setting);
 }
 
 CommandSetting command_setting(const Sweep& sweep) {
@@ -47,17 +42,12 @@ CommandSetting command_setting(const Sweep& sweep) {
   return {folder.empty() ? "." : folder};
 }
 
-bool runs_programs(const MethodChoice& choice) {
-  return std::ranges::any_of(
-      choice.stages, [](const Choice& stage) { return find_external(stage.name) != nullptr; });
-}
-
 bool uses_programs(const Sweep& sweep) {
-  const auto runs_program = [](const DatasetChoice& choice) {
+  const auto is_program_dataset = [](const DatasetChoice& choice) {
     return choice.dataset.name == kCommandDataset;
   };
-  if (std::ranges::any_of(sweep.datasets, runs_program)) return true;
-  return std::ranges::any_of(sweep.methods, runs_programs);
+  return std::ranges::any_of(sweep.datasets, is_program_dataset) ||
+         std::ranges::any_of(sweep.methods, has_program);
 }
 
 std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep) {
@@ -69,10 +59,11 @@ std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep) {
 
 void prepare_programs(const MethodChoice& choice, const CommandSetting& setting) {
   for (const Choice& stage : choice.stages) {
-    const ExternalMethod* external = find_external(stage.name);
-    if (external == nullptr) continue;
+    if (!is_program(stage)) continue;
+    const CommandOptions options = command_options(stage.options);
+    if (options.serve.empty()) continue;
     try {
-      external->prepare(stage.options, setting);
+      prepare_server(options, setting);
     } catch (const std::exception&) {  // asking fails for the same reason and reports it
     }
   }

@@ -1,7 +1,6 @@
-/// Methods that run programs; unlike others they need to know where and under which limits.
+/// Methods that run programs; unlike others they need to know where.
 #pragma once
 
-#include <functional>
 #include <memory>
 
 #include "harness/external/command.hpp"
@@ -10,26 +9,20 @@
 
 namespace loopbench::harness {
 
-struct ExternalMethod {
-  methods::MethodEntry listed;  ///< its make() uses the current folder and no limits
-  std::function<methods::Stage(const Params&, const CommandSetting&)> make;  ///< throws OptionError
-  /// Changes with the program. Throws InputError.
-  std::function<std::string(const Params&, const CommandSetting&)> version;
-  /// Starts a serving program in this process, see server.hpp. Does not throw: asking reports it.
-  std::function<void(const Params&, const CommandSetting&)> prepare;
-};
+/// The method `command`; its make() uses the current folder.
+methods::MethodEntry command_entry();
 
-/// All of them, in the order of the catalogue.
-const std::vector<ExternalMethod>& external_methods();
+/// Whether a stage of a method runs a program.
+bool is_program(const Choice& stage);
 
-/// The one of that name, or null.
-const ExternalMethod* find_external(const std::string& name);
+/// Throws OptionError.
+methods::Stage make_program(const Choice& stage, const CommandSetting& setting);
 
-/// Programs of a sweep run in the folder of its config, under its memory limit.
+/// Changes with the program. Throws InputError.
+std::string program_version(const Choice& stage, const CommandSetting& setting);
+
+/// Programs of a sweep run in the folder of its config.
 CommandSetting command_setting(const Sweep& sweep);
-
-/// Whether any stage of the method runs a program.
-bool runs_programs(const MethodChoice& choice);
 
 /// Whether any of its methods or datasets runs programs.
 bool uses_programs(const Sweep& sweep);
@@ -37,7 +30,8 @@ bool uses_programs(const Sweep& sweep);
 /// Temporary files of the programs of a sweep and its workers; null unless it uses programs.
 std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep);
 
-/// prepare() of the stages of a method that are external.
+/// Starts the serving programs of a method in this process, see server.hpp. Does not throw: asking
+/// reports what fails.
 void prepare_programs(const MethodChoice& choice, const CommandSetting& setting);
 
 }  // namespace loopbench::harness

@@ -198,15 +198,10 @@ Trajectory ask_server(const CommandOptions& options,
     const std::string hidden = hidden_note(program_sandbox());
     throw std::runtime_error(with_output(error.what() + hidden, errors));
   }
-  for (auto& count : metadata.report.counts) report.counts.push_back(std::move(count));
-  for (auto& phase : metadata.report.phases) report.phases.push_back(std::move(phase));
-  for (auto& note : metadata.report.notes) report.notes.push_back(std::move(note));
-  add_output(report, errors);
   const double all = elapsed();
-  const bool is_stated = metadata.seconds >= 0.0 && metadata.seconds <= all;
-  report.notes.emplace_back(is_stated ? "time: as stated by the program"
-                                      : "time: from request to answer");
-  report.phases.push_back({kExchangePhase, is_stated ? all - metadata.seconds : started});
+  const double own = add_statements(report, metadata, all - started, "from request to answer");
+  add_output(report, errors);
+  report.phases.push_back({kExchangePhase, all - own});
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
@@ -36,10 +37,10 @@ std::optional<std::int64_t> memory_in(const std::string& status, const char* nam
 }
 
 void limit_data_memory(std::int64_t growth) {
-  const std::optional<std::int64_t> now =
-      memory_in(read_system_file("/proc/self/status"), "VmData:");
-  if (!now) return;
-  const auto most = static_cast<rlim_t>(*now + growth);
+  long long data = 0;                                              // [pages]
+  const std::string sizes = read_system_file("/proc/self/statm");  // much faster than status
+  if (std::sscanf(sizes.c_str(), "%*d %*d %*d %*d %*d %lld", &data) != 1) return;
+  const auto most = static_cast<rlim_t>(data * sysconf(_SC_PAGESIZE) + growth);
   const rlimit both{most, most};
   setrlimit(RLIMIT_DATA, &both);
 }

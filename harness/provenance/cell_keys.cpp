@@ -42,8 +42,7 @@ std::string of_method(const MethodChoice& choice, const Sweep& sweep, const Cata
     fields.add(stage.name)
         .add(hashed(in_full(find_method(catalogue, stage.name).options, stage.options)))
         .add(plugin_version(catalogue, "method", stage.name));
-    const ExternalMethod* program = find_external(stage.name);
-    if (program != nullptr) fields.add(program->version(stage.options, command_setting(sweep)));
+    if (is_program(stage)) fields.add(program_version(stage, command_setting(sweep)));
   }
   return fields.hashed();
 }

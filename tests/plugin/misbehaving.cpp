@@ -1,11 +1,9 @@
-// A plugin that crashes, hangs, exits, exhausts memory and changes what it must not; only its own
-// cells must fail.
+// A plugin that hangs when it is made, has threads, and changes what it must not. The zoo has what
+// ends its process.
 #include <atomic>
 #include <cfenv>
 #include <condition_variable>
 #include <cstdlib>
-#include <cstring>
-#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -32,9 +30,6 @@ struct Bad final : Corrector {
   }
 };
 
-struct Aborts {
-  void operator()() const { std::abort(); }
-};
 struct Loops {
   void operator()() const {
     for (std::atomic<unsigned> turns = 0;; ++turns) {
@@ -44,17 +39,6 @@ struct Loops {
 struct Exits {
   void operator()() const { std::exit(exit_code_of_success()); }
 };
-struct Floods {
-  void operator()() const {
-    std::vector<std::unique_ptr<char[]>> kept;
-    constexpr std::size_t kBlock = std::size_t{64} << 20;
-    for (int i = 0; i < 64; ++i) {  // at most 4 GiB if the limit does not work
-      kept.push_back(std::make_unique<char[]>(kBlock));
-      std::memset(kept.back().get(), i, kBlock);
-    }
-  }
-};
-
 struct HangsWhenMade final : Corrector {
   using Options = NoOptions;
   explicit HangsWhenMade(const Options&) { Loops{}(); }
@@ -108,10 +92,7 @@ std::vector<metrics::Score> moves_estimate(const metrics::Evaluation& evaluation
 
 }  // namespace
 
-LOOPBENCH_PLUGIN(method<Bad<Aborts>>("aborts", "calls abort"),
-                 method<Bad<Loops>>("loops", "never returns"),
-                 method<Bad<Exits>>("exits", "ends the process as if all were well"),
-                 method<Bad<Floods>>("floods", "takes all memory"),
+LOOPBENCH_PLUGIN(method<Bad<Exits>>("exits", "ends the process as if all were well"),
                  method<Bad<Pooled>>("pooled", "works in a thread of its own"),
                  method<HangsWhenMade>("hangs_when_made", "never returns from its constructor"),
                  metric<NoOptions>("rounds_upward", "leaves another rounding", rounds_upward),

@@ -1,17 +1,9 @@
-/// Sweeps in worker processes with a method that misbehaves.
+/// Sweeps in worker processes.
 #pragma once
 
 #include <gtest/gtest.h>
-#include <sys/mman.h>
-#include <sys/prctl.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <chrono>
-#include <csignal>
-#include <cstdlib>
-#include <thread>
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
@@ -24,94 +16,18 @@ using namespace methods;
 using namespace metrics;
 using namespace harness;
 
-enum class Deed {
-  nothing,
-  abort,
-  kill,
-  exit,
-  hang,
-  flood,
-  own_process,
-  leak,
-  shell,
-  daemon,
-  unmapped
-};
-inline auto choices(Deed) {
-  return std::array{std::pair{"nothing", Deed::nothing},
-                    std::pair{"abort", Deed::abort},
-                    std::pair{"kill", Deed::kill},
-                    std::pair{"exit", Deed::exit},
-                    std::pair{"hang", Deed::hang},
-                    std::pair{"flood", Deed::flood},
-                    std::pair{"own_process", Deed::own_process},
-                    std::pair{"leak", Deed::leak},
-                    std::pair{"shell", Deed::shell},
-                    std::pair{"daemon", Deed::daemon},
-                    std::pair{"unmapped", Deed::unmapped}};
-}
-
-struct Misbehaving final : Corrector {
-  struct Options {
-    Deed deed = Deed::nothing;
-  };
-  explicit Misbehaving(const Options& o) : options(o) {}
+/// Counts the cells of its process.
+struct CountsCells final : Corrector {
+  struct Options {};
+  explicit CountsCells(const Options&) {}
   Trajectory correct(const Problem& problem, Report& report) const override {
-    std::vector<std::string> kept;
-    switch (options.deed) {
-      case Deed::abort:
-        std::abort();
-      case Deed::kill:
-        raise(SIGKILL);
-        break;
-      case Deed::exit:
-        _exit(7);
-      case Deed::hang:
-        for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
-      case Deed::flood:
-        for (int i = 0; i < 40; ++i) kept.emplace_back(std::size_t{50} << 20, 'x');
-        break;
-      case Deed::own_process: {
-        static int cells_of_process = 0;
-        report.count("cells of this process", ++cells_of_process);
-        const std::chrono::duration<double> now =
-            std::chrono::steady_clock::now().time_since_epoch();
-        report.count("time", now.count());
-        break;
-      }
-      case Deed::leak:
-        new std::string(std::size_t{60} << 20, 'x');
-        break;
-      case Deed::shell:
-        if (std::system("exec sleep 1000") == 0) break;
-        break;
-      case Deed::daemon:  // leaves its process group and its parent
-        if (fork() == 0) {
-          setsid();
-          if (fork() == 0) {
-            prctl(PR_SET_NAME, "isolate_stray");
-            for (;;) pause();
-          }
-          _exit(0);
-        }
-        break;
-      case Deed::unmapped: {  // memory of no process
-        const int file = memfd_create("unmapped", 0);
-        const std::string bytes(std::size_t{1} << 20, 'x');
-        for (int i = 0; i < 500 && write(file, bytes.data(), bytes.size()) > 0; ++i) continue;
-        break;
-      }
-      case Deed::nothing:
-        break;
-    }
+    static int cells_of_process = 0;
+    report.count("cells of this process", ++cells_of_process);
     return problem.keyframes;
   }
-  Options options;
 };
 template <class Visit>
-void fields(Misbehaving::Options& o, Visit visit) {
-  visit("deed", o.deed, "what it does");
-}
+void fields(CountsCells::Options&, Visit) {}
 
 class IsolatedFixture : public testing::Test {
  protected:
@@ -132,7 +48,7 @@ class IsolatedFixture : public testing::Test {
   SandboxOptions sandbox_;
   Catalogue known_ = [] {
     Catalogue out = tiny::catalogue();
-    out.methods.push_back(method<Misbehaving>("mis", "misbehaves"));
+    out.methods.push_back(method<CountsCells>("counts_cells", ""));
     return out;
   }();
 };

@@ -1,11 +1,12 @@
 #include "harness/execution/run/add_scores.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <iterator>
 
 #include "datasets/core/parallel.hpp"
 #include "harness/execution/run/catch_errors.hpp"
-#include "harness/execution/run/incomplete.hpp"
 #include "harness/execution/run/input_guard.hpp"
 
 namespace loopbench::harness {
@@ -105,6 +106,16 @@ void add_failure(CellResult& result, ScoreResult failure, const Sweep& sweep) {
     failure.label = choice.label;
     result.scores.push_back(failure);
   }
+}
+
+std::string incomplete_reason(const metrics::Coverage& coverage, double min_coverage) {
+  if (coverage.least() >= min_coverage) return "";
+  return fmt::format(
+      "evaluated {} of {} poses over {:.1f} % of the reference's time, below {:.1f} %",
+      coverage.pairs,
+      coverage.possible,
+      100.0 * coverage.span,
+      100.0 * min_coverage);
 }
 
 }  // namespace loopbench::harness

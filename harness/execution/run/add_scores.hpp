@@ -1,6 +1,8 @@
 /// Scores of one evaluation: the metrics of a sweep, of cells and of files alike.
 #pragma once
 
+#include <string>
+
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/model/result.hpp"
 #include "harness/model/sweep.hpp"
@@ -28,5 +30,8 @@ void add_scores(CellResult& result,
 
 /// Adds the row `failure` for every metric of the sweep: there was nothing to evaluate.
 void add_failure(CellResult& result, ScoreResult failure, const Sweep& sweep);
+
+/// Reason why the coverage (pairs or time) is below `min_coverage` (0..1); empty if it is not.
+std::string incomplete_reason(const metrics::Coverage& coverage, double min_coverage);
 
 }  // namespace loopbench::harness

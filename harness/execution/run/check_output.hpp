@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <mutex>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,31 @@ inline constexpr std::size_t kLongestNote = 2'000;     ///< of a note or reason 
 /// The message names the first such pose and its rule. Samples the curve once for the keyframes and
 /// once for each time offset of the protocols.
 void check_curve(const Curve* curve, const Sequence& sequence, const Sweep& sweep);
+
+/// A method's curve, every pose of which is checked when it is sampled. Detects curves that return
+/// other poses later than when they were checked, or invalid ones between the checked times:
+/// metrics sample at times of their own.
+class CheckedCurve final : public Curve {
+ public:
+  /// `curve` must outlive this object.
+  explicit CheckedCurve(const Curve& curve) : curve_(curve) {}
+
+  using Curve::sample;
+  double start() const override { return curve_.start(); }
+  double end() const override { return curve_.end(); }
+
+  /// Throws std::runtime_error for the first pose that violates a rule of violated_rule() or is not
+  /// written. Adds O(n).
+  void sample(std::span<const double> times, std::span<Pose> poses) const override;
+
+  /// Throws the first error of sample() again, since a metric can have caught it.
+  void require_valid_so_far() const;
+
+ private:
+  const Curve& curve_;
+  mutable std::mutex mutex_;
+  mutable std::string first_error_;
+};
 
 /// Throws std::runtime_error if a part of the report cannot be stored or displayed: more items or
 /// longer texts than the limits, texts that are not UTF-8 or contain control characters, numbers

@@ -1,3 +1,4 @@
+/// Metadata of loaded sequences.
 #pragma once
 
 #include "datasets/core/sequence.hpp"

@@ -114,7 +114,7 @@ std::string movement_note(const Problem& problem,
 bool uses_closures(const MethodChoice& choice, const Catalogue& catalogue) {
   return std::ranges::any_of(choice.stages, [&](const Choice& stage) {
     if (stage.name == "raw" || is_oracle(catalogue, stage.name)) return false;
-    if (find_external(stage.name) != nullptr) return true;
+    if (is_program(stage)) return true;
     return find_method(catalogue, stage.name).kind != methods::Kind::smoother;
   });
 }

@@ -1,5 +1,7 @@
 #include "harness/execution/run/process_usage.hpp"
 
+#include <sys/resource.h>
+
 #include <ctime>
 
 #include "harness/process/system_file.hpp"
@@ -9,10 +11,6 @@ namespace {
 
 bool freshly_forked = false;
 
-std::optional<std::int64_t> from_status(const char* name) {
-  return memory_in(read_system_file("/proc/self/status"), name);
-}
-
 }  // namespace
 
 double process_cpu_seconds() {
@@ -20,8 +18,6 @@ double process_cpu_seconds() {
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
-
-std::optional<std::int64_t> resident_memory() { return from_status("VmRSS:"); }
 
 void set_freshly_forked() { freshly_forked = true; }
 
@@ -32,6 +28,11 @@ bool reset_peak_memory() {
   return write_system_file("/proc/self/clear_refs", "5");  // proc(5): resets VmHWM
 }
 
-std::optional<std::int64_t> peak_memory() { return from_status("VmHWM:"); }
+std::optional<std::int64_t> peak_memory() {
+  if (!freshly_forked) return memory_in(read_system_file("/proc/self/status"), "VmHWM:");
+  rusage usage{};  // faster; of an older process it would cover the time before the reset
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{1024} * usage.ru_maxrss;
+}
 
 }  // namespace loopbench::harness

@@ -9,9 +9,6 @@ namespace loopbench::harness {
 /// CPU time of all threads of the process [s].
 double process_cpu_seconds();
 
-/// Current resident size [bytes]; nullopt without /proc.
-std::optional<std::int64_t> resident_memory();
-
 /// Resets the largest resident size, so that peak_memory() covers the time from now on. False if
 /// the system does not support it.
 bool reset_peak_memory();

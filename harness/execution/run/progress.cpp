@@ -6,6 +6,7 @@
 
 #include <cstdio>
 
+#include "harness/catalogue/loading.hpp"
 #include "harness/text/print_error.hpp"
 #include "harness/text/printable.hpp"
 
@@ -43,20 +44,11 @@ std::string progress_line(std::size_t done,
                           double seconds,
                           const std::string& label,
                           std::size_t width) {
-  constexpr std::size_t kBar = 20;  // [columns]
-  const std::size_t filled = total == 0 ? kBar : kBar * done / total;
   const double rate = seconds > 0.0 ? static_cast<double>(done) / seconds : 0.0;
   const double left = rate > 0.0 ? static_cast<double>(total - done) / rate : 0.0;
-  const std::string line = fmt::format("[{:#<{}}{:.<{}}] {}/{}  {:.1f} cells/s  {:.0f} s left  {}",
-                                       "",
-                                       filled,
-                                       "",
-                                       kBar - filled,
-                                       done,
-                                       total,
-                                       rate,
-                                       left,
-                                       printable(label));
+  const std::string text =
+      fmt::format("{:.1f} cells/s  {:.0f} s left  {}", rate, left, printable(label));
+  const std::string line = loading_line(text, done, total);
   return line.substr(0, width);
 }
 

@@ -7,7 +7,6 @@
 #include "harness/execution/run/add_scores.hpp"
 #include "harness/execution/run/catch_errors.hpp"
 #include "harness/execution/run/check_output.hpp"
-#include "harness/execution/run/checked_curve.hpp"
 #include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/estimate_files.hpp"
 #include "harness/execution/run/input_guard.hpp"
@@ -59,12 +58,14 @@ TimedRun timed_run(const methods::Estimator& method, const Problem& problem) {
 
 /// Runs and measures the method; memory is measured outside the timed part. In a new process, the
 /// times of a short first run are replaced by those of another run; its result is kept.
+/// `is_foreign`: checks that the method of a plugin does not change the problem.
 std::unique_ptr<const Curve> timed(CellResult& result,
                                    const methods::Estimator& method,
                                    const Problem& problem,
+                                   bool is_foreign,
                                    int runs) {
-  const InputGuard guard(inputs_of(problem));
-  const std::optional<std::int64_t> before = reset_peak_memory() ? resident_memory() : std::nullopt;
+  const InputGuard guard(is_foreign ? inputs_of(problem) : Inputs());
+  const std::optional<std::int64_t> before = reset_peak_memory() ? peak_memory() : std::nullopt;
   TimedRun last;
   for (int run = 0; run < runs; ++run) {
     last = {};  // so that the destruction of its curve is not timed with the next run
@@ -153,10 +154,9 @@ std::unique_ptr<const methods::Estimator> make_method(const MethodChoice& choice
   std::unique_ptr<const methods::Smoother> smoother;
   for (const Choice& part : choice.stages) {
     const methods::MethodEntry& entry = find_method(catalogue, part.name);
-    const ExternalMethod* program = find_external(part.name);
-    methods::Stage stage = entry.make_oracle ? entry.make_oracle(part.options, reference)
-                           : program         ? program->make(part.options, setting)
-                                             : entry.make(part.options);
+    methods::Stage stage = entry.make_oracle  ? entry.make_oracle(part.options, reference)
+                           : is_program(part) ? make_program(part, setting)
+                                              : entry.make(part.options);
     if (auto* joint = std::get_if<std::unique_ptr<const methods::Estimator>>(&stage))
       return std::move(*joint);
     if (auto* first = std::get_if<std::unique_ptr<const methods::Corrector>>(&stage)) {
@@ -183,8 +183,11 @@ CellResult run_cell(const Cell& cell,
       result.why = stored_reason(why);
       return;
     }
+    const bool is_foreign = std::ranges::any_of(choice.stages, [&](const Choice& stage) {
+      return !plugin_version(catalogue, "method", stage.name).empty();
+    });
     const std::unique_ptr<const Curve> curve =
-        timed(result, *method, sequence.problem, sweep.timing);
+        timed(result, *method, sequence.problem, is_foreign, sweep.timing);
     check_curve(curve.get(), sequence, sweep);
     const CheckedCurve checked(*curve);
     const std::string unmoved = movement_note(sequence.problem,
