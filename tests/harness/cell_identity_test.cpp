@@ -1,7 +1,6 @@
 /// Identity of cells: labels, files and machines.
 #include <gtest/gtest.h>
 
-#include "harness/catalogue/libraries.hpp"
 #include "harness/store/merge.hpp"
 #include "tests/support/tiny_store.hpp"
 
@@ -148,15 +147,6 @@ TEST_F(CellIdentity, ProvenanceIsThatOfTheCellsWhichAreShown) {
   folder_.file("bias", "0.1");
   run(kFile);
   EXPECT_EQ(read_provenance(file_).at("commit"), "c0ffee");
-}
-
-TEST_F(CellIdentity, LibrariesAreNamedWithTheirVersions) {
-  bool has_math = false;
-  for (const std::filesystem::path& library : program_libraries()) {
-    EXPECT_TRUE(std::filesystem::is_regular_file(library)) << library;
-    has_math = has_math || library.filename().string().starts_with("libstdc++.so.6.");
-  }
-  EXPECT_TRUE(has_math);
 }
 
 }  // namespace

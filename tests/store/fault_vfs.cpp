@@ -139,21 +139,6 @@ void apply(std::string& content, const FaultVfs::Change& change) {
   content.replace(change.offset, change.bytes.size(), change.bytes);
 }
 
-sqlite3_mem_methods real_malloc;
-long malloc_left = 0;
-bool malloc_lasting = false;
-bool malloc_failed = false;
-
-bool is_refused() {
-  if (malloc_left == 0) return false;
-  if (malloc_left > 1) {
-    --malloc_left;
-    return false;
-  }
-  if (!malloc_lasting) malloc_left = 0;
-  return malloc_failed = true;
-}
-
 }  // namespace
 
 FaultVfs::FaultVfs() : real_(sqlite3_vfs_find(nullptr)), shim_(*real_) {
@@ -264,35 +249,6 @@ void FaultVfs::cut_power(const std::filesystem::path& from,
     }
     std::ofstream(to / file.filename(), std::ios::binary) << content;
   }
-}
-
-FaultMalloc::FaultMalloc() {
-  sqlite3_shutdown();
-  sqlite3_config(SQLITE_CONFIG_GETMALLOC, &real_malloc);
-  sqlite3_mem_methods methods = real_malloc;
-  methods.xMalloc = [](int size) { return is_refused() ? nullptr : real_malloc.xMalloc(size); };
-  methods.xRealloc = [](void* old, int size) {
-    return is_refused() ? nullptr : real_malloc.xRealloc(old, size);
-  };
-  sqlite3_config(SQLITE_CONFIG_MALLOC, &methods);
-  sqlite3_initialize();
-}
-
-FaultMalloc::~FaultMalloc() {
-  sqlite3_shutdown();
-  sqlite3_config(SQLITE_CONFIG_MALLOC, &real_malloc);
-  sqlite3_initialize();
-}
-
-void FaultMalloc::fail(long number, bool lasting) {
-  malloc_left = number;
-  malloc_lasting = lasting;
-  malloc_failed = false;
-}
-
-bool FaultMalloc::stop() {
-  malloc_left = 0;
-  return malloc_failed;
 }
 
 }  // namespace loopbench

@@ -72,16 +72,4 @@ class FaultVfs {
   std::function<void()> each_;
 };
 
-/// Lets one allocation of SQLite fail. No database may be open at construction or destruction.
-class FaultMalloc {
- public:
-  FaultMalloc();
-  ~FaultMalloc();
-  FaultMalloc(const FaultMalloc&) = delete;
-  FaultMalloc& operator=(const FaultMalloc&) = delete;
-
-  void fail(long number, bool lasting);
-  bool stop();
-};
-
 }  // namespace loopbench

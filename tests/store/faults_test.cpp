@@ -1,6 +1,6 @@
-/// Every call of the store to the disk and to malloc fails in turn: the right result or a clear
-/// error, and every cell that was reported as done is kept. LOOPBENCH_LONG=1: without gaps, and
-/// also with disks that fail for good.
+/// Every call of the store to the disk fails in turn: the right result or a clear error, and every
+/// cell that was reported as done is kept. LOOPBENCH_LONG=1: without gaps, and also with disks that
+/// fail for good.
 #include <sqlite3.h>
 
 #include <cstdlib>
@@ -64,8 +64,8 @@ class Faults : public TinyStore {
 
   /// Calls `act` on the same folder again and again, with another call failing each time, and
   /// `check(whether act returned)` after it.
-  template <class Source, class Act, class Check>
-  void in_turn(Source& source, long stride, Act act, Check check) {
+  template <class Act, class Check>
+  void in_turn(FaultVfs& source, long stride, Act act, Check check) {
     int errors = 0;
     for (const bool lasting : {false, true}) {
       if (lasting && !kLong) break;  // SQLite waits up to 10 s for some of them
@@ -191,7 +191,7 @@ TEST_F(Faults, ADiskThatDoesNotConfirmTheLastWriteIsAnError) {
   disk.stop();
 }
 
-TEST_F(Faults, AReaderWithoutDiskOrMemoryReadsTheRightRowsOrNone) {
+TEST_F(Faults, AReaderOnADiskThatFailsOnceReadsTheRightRowsOrNone) {
   restore();
   sweep(kUsual);
   before_ = bytes_of_file(file_);
@@ -203,20 +203,8 @@ TEST_F(Faults, AReaderWithoutDiskOrMemoryReadsTheRightRowsOrNone) {
       EXPECT_TRUE(text == expected);
     }
   };
-  {
-    FaultVfs disk;
-    in_turn(disk, 3, read, check);
-  }
-  FaultMalloc memory;
-  in_turn(memory, 101, read, check);
-}
-
-TEST_F(Faults, AFailedAllocationLosesNoCell) {
-  restore();
-  FaultMalloc memory;
-  const std::string expected = undisturbed([&] { sweep(kUsual); });
-  in_turn(
-      memory, 37, [&] { sweep(kUsual); }, [&](bool) { expect_kept(kUsual, expected); });
+  FaultVfs disk;
+  in_turn(disk, 3, read, check);
 }
 
 TEST_F(Faults, APowerCutLosesNoCellThatWasSynced) {
