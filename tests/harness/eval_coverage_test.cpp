@@ -66,11 +66,6 @@ TEST_F(EvalCoverage, FivePosesOfAThousandAreIncompleteBesideOthers) {
   eval({reference_, short_});  // without a second estimate there is no comparison
 }
 
-TEST_F(EvalCoverage, BelowTheLimitExitsWithOne) {
-  eval({reference_, short_, "--min-coverage=0.5"}, kExitSomeCellsFailed);
-  eval({reference_, complete_, "--min-coverage=0.5"});
-}
-
 TEST_F(EvalCoverage, RpeShowsItsOwnPairs) {
   EXPECT_THAT(eval({reference_, complete_, short_, "--min-coverage=0"}),
               HasSubstr("rpe 1 s [m]: 992;"));
