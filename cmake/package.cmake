@@ -6,20 +6,20 @@ find_program(help2man help2man)
 if(NOT help2man)
   set(help2man "")
 endif()
-add_custom_command(OUTPUT ${pages}/loopbench.bash VERBATIM
+add_custom_command(OUTPUT ${pages}/copyright VERBATIM
   DEPENDS loopbench ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/cmake/package_files.cmake
   COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:loopbench> -DGZIP=${gzip} -DHELP2MAN=${help2man} -DOUT=${pages}
           -DSOURCE=${PROJECT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION}
           -P ${PROJECT_SOURCE_DIR}/cmake/package_files.cmake)
-add_custom_target(loopbench_pages ALL DEPENDS ${pages}/loopbench.bash)
+add_custom_target(loopbench_pages ALL DEPENDS ${pages}/copyright)
 
 install(TARGETS loopbench COMPONENT program)
 install(DIRECTORY ${pages}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
-install(FILES ${pages}/loopbench.bash COMPONENT program RENAME loopbench
+install(FILES harness/package/completions/loopbench.bash COMPONENT program RENAME loopbench
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-install(FILES ${pages}/_loopbench COMPONENT program
+install(FILES harness/package/completions/_loopbench COMPONENT program
   DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
-install(FILES ${pages}/loopbench.fish COMPONENT program
+install(FILES harness/package/completions/loopbench.fish COMPONENT program
   DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/loopbench COMPONENT program)
 install(FILES ${pages}/copyright ${pages}/changelog.gz README.md CITATION.cff COMPONENT program

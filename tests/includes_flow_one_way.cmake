@@ -66,7 +66,7 @@ set(order
   "harness/store"
   "harness/compare harness/shards"
   "harness/tables"
-  "harness/gate harness/plot harness/get harness/pages"
+  "harness/gate harness/plot harness/get"
   "harness/trajectory"
   "harness/report harness/correct"
   "harness/eval"

@@ -35,34 +35,27 @@ std::string version_of(const std::filesystem::path& plugin,
   return out;
 }
 
-/// The list that an entry belongs to, and what messages call it.
-std::pair<std::vector<methods::MethodEntry>*, std::string> list_of(Catalogue& catalogue,
-                                                                   const methods::MethodEntry&) {
-  return {&catalogue.methods, "method"};
-}
-std::pair<std::vector<DatasetEntry>*, std::string> list_of(Catalogue& catalogue,
-                                                           const DatasetEntry&) {
-  return {&catalogue.datasets, "dataset"};
-}
-std::pair<std::vector<metrics::MetricEntry>*, std::string> list_of(Catalogue& catalogue,
-                                                                   const metrics::MetricEntry&) {
-  return {&catalogue.metrics, "metric"};
-}
-
 void add_plugin(Catalogue& catalogue, const std::filesystem::path& plugin) {
   DescribedPlugin described = describe_plugin(plugin);
   const std::string version = version_of(plugin, described.libraries);  // it is a file
-  const auto add = [&](auto& entry) {
-    auto [entries, kind] = list_of(catalogue, entry);
-    for (const auto& other : *entries) {
+  const auto add = [&](auto& entries, const std::string& kind, auto& entry) {
+    for (const auto& other : entries) {
       if (other.name != entry.name) continue;
       throw InputError("plugin " + plugin.string() + ": " + kind + " '" + entry.name +
                        "' is already in the catalogue");
     }
     catalogue.versions.emplace(kind + " " + entry.name, version);
-    entries->push_back(std::move(entry));
+    entries.push_back(std::move(entry));
   };
-  for (PluginEntry& entry : described.entries) std::visit(add, entry);
+  for (PluginEntry& entry : described.entries) {
+    if (auto* method = std::get_if<methods::MethodEntry>(&entry)) {
+      add(catalogue.methods, "method", *method);
+    } else if (auto* dataset = std::get_if<DatasetEntry>(&entry)) {
+      add(catalogue.datasets, "dataset", *dataset);
+    } else {
+      add(catalogue.metrics, "metric", std::get<metrics::MetricEntry>(entry));
+    }
+  }
 }
 
 }  // namespace

@@ -1,29 +1,51 @@
 #include "harness/commands/checks.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdlib>
 
 namespace loopbench::harness {
 
-CLI::Validator finite_number() {
-  const auto check = [](std::string& text) {
+namespace {
+
+/// CLI11's own validators let NaN pass, and print the limits of a double with all digits.
+template <class Accepts>
+CLI::Validator number(const std::string& expected, Accepts accepts) {
+  const auto check = [=](std::string& text) {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     const bool is_number = end != text.c_str() && *end == '\0';
-    return is_number && std::isfinite(value) ? std::string() : text + " is not a finite number";
+    return is_number && accepts(value) ? std::string() : text + " is not a " + expected;
   };
   return CLI::Validator(check, "");
 }
 
+}  // namespace
+
+CLI::Validator finite_number() {
+  return number("finite number", [](double value) { return std::isfinite(value); });
+}
+
+CLI::Validator number_between(double low, double high) {
+  return number(fmt::format("number from {} to {}", low, high),
+                [=](double value) { return low <= value && value <= high; });
+}
+
 CLI::Validator positive_number() {
-  // CLI11's own validator prints the limits of a double with all digits.
-  const auto check = [](std::string& text) {
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    const bool is_number = end != text.c_str() && *end == '\0';
-    return is_number && value > 0.0 ? std::string() : text + " is not a number > 0";
-  };
-  return CLI::Validator(check, "");
+  return number("number > 0", [](double value) { return value > 0.0; });
+}
+
+void declare_ties(CLI::App& command, double& tie, double& relevant) {
+  command.add_option("--tie", tie, "Largest relative difference that counts as a tie [-]")
+      ->check(number_between(0.0, 0.5))
+      ->capture_default_str();
+  command
+      .add_option("--relevant",
+                  relevant,
+                  "Relative difference below which methods share the first place [-]")
+      ->check(number_between(0.0, 0.5))
+      ->capture_default_str();
 }
 
 }  // namespace loopbench::harness

@@ -13,8 +13,14 @@ namespace loopbench::harness {
 /// A number that is neither NaN nor infinite (CLI11's own ranges let NaN pass).
 CLI::Validator finite_number();
 
+/// A number in this range.
+CLI::Validator number_between(double low, double high);
+
 /// A number above zero.
 CLI::Validator positive_number();
+
+/// Adds --tie and --relevant: when methods share a place.
+void declare_ties(CLI::App& command, double& tie, double& relevant);
 
 /// Accepts one of these words and maps it to its enumerator; `kind` names the set in messages.
 template <class Enum>

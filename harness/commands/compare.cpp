@@ -83,8 +83,7 @@ void add_compare(CLI::App& app, int& exit_code) {
           arguments->power,
           "Print the smallest gains that this design finds, and the groups for this one [-]")
       ->type_name("GAIN")
-      ->check(finite_number())
-      ->check(CLI::Range(1e-4, 0.99));
+      ->check(number_between(1e-4, 0.99));
   command
       ->add_option("--value", arguments->options.value, "Statistic: rmse mean median std min max")
       ->capture_default_str();
@@ -92,8 +91,7 @@ void add_compare(CLI::App& app, int& exit_code) {
       ->add_option("--alpha",
                    arguments->options.alpha,
                    "Significance level; intervals have level 1 - alpha [-]")
-      ->check(finite_number())
-      ->check(CLI::Range(1e-6, 0.5))
+      ->check(number_between(1e-6, 0.5))
       ->capture_default_str();
   const std::map<std::string, Over> units{
       {"groups", Over::groups}, {"runs", Over::runs}, {"sequences", Over::sequences}};
@@ -102,19 +100,7 @@ void add_compare(CLI::App& app, int& exit_code) {
                    arguments->options.over,
                    "Unit of independent observations: groups of runs, single runs, or sequences")
       ->transform(one_of("observation", units));
-  command
-      ->add_option(
-          "--tie", arguments->options.tie, "Largest relative difference that counts as a tie [-]")
-      ->check(finite_number())
-      ->check(CLI::Range(0.0, 0.5))
-      ->capture_default_str();
-  command
-      ->add_option("--relevant",
-                   arguments->options.relevant,
-                   "Relative difference below which methods share the first place [-]")
-      ->check(finite_number())
-      ->check(CLI::Range(0.0, 0.5))
-      ->capture_default_str();
+  declare_ties(*command, arguments->options.tie, arguments->options.relevant);
   command->add_option(
       "--where", arguments->where, "Filter of rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, ...");
   declare(*command,

@@ -1,5 +1,3 @@
-#include "harness/commands/export.hpp"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

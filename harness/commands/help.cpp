@@ -10,6 +10,10 @@
 #include "harness/text/suggest.hpp"
 
 namespace loopbench::harness {
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); });
+}
+
 namespace {
 
 /// Three examples per command; "" is the program.
@@ -147,10 +151,6 @@ const std::map<std::string, std::string> kExitCodes{
      "0 nothing found, 1 mistakes found or nothing could be checked, 2 invalid input or output, 3 "
      "internal error."},
 };
-
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); });
-}
 
 const CLI::App* named_command(const CLI::App& app, const std::string& name) {
   std::vector<std::string> known;

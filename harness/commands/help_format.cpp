@@ -4,12 +4,58 @@
 #include <algorithm>
 #include <sstream>
 
-#include "harness/commands/command_texts.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/text/wrap.hpp"
 
 namespace loopbench::harness {
+
+bool has_value(const CLI::Option& option) {
+  return option.get_expected_max() != 0 && option.get_items_expected_max() != 0;
+}
+
+std::vector<std::string> names_of(const CLI::Option& option) {
+  if (option.get_positional()) return {option.get_single_name()};
+  std::vector<std::string> out;
+  for (const std::string& name : option.get_snames()) out.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) out.push_back("--" + name);
+  return out;
+}
+
+std::vector<std::string> choices_of(const CLI::Option& option) {
+  // The words of a set that CLI11 or one_of() append to the type: "TEXT:{a,b}", "TEXT:a|b".
+  const std::string type = option.get_type_name();
+  const std::size_t colon = type.find(':');
+  if (colon == std::string::npos) return {};
+  std::string text = type.substr(colon + 1);
+  const bool has_braces = text.starts_with('{') && text.ends_with('}');
+  if (has_braces) text = text.substr(1, text.size() - 2);
+  if (!has_braces && text.find('|') == std::string::npos) return {};
+  std::vector<std::string> out;
+  std::istringstream in(text);
+  for (std::string word; std::getline(in, word, has_braces ? ',' : '|');) out.push_back(word);
+  const auto is_word = [](const std::string& word) {
+    return !word.empty() && word.find_first_of(" '\"()[]") == std::string::npos;
+  };
+  return std::ranges::all_of(out, is_word) ? out : std::vector<std::string>{};
+}
+
 namespace {
+
+/// Placeholder of an option's value: the type without its range, in words; empty for a flag.
+std::string placeholder(const CLI::Option& option) {
+  if (!has_value(option)) return "";
+  const std::string type = option.get_type_name();
+  const std::string name = type.substr(0, type.find(':'));
+  if (name.empty()) return "TEXT";
+  if (name == "FLOAT") return "NUMBER";
+  return name == "INT" || name == "UINT" ? "N" : name;
+}
+
+/// Without the brackets that CLI11 prints around lists.
+std::string default_text(const std::string& text) {
+  const bool is_list = text.starts_with('[') && text.ends_with(']');
+  return is_list ? text.substr(1, text.size() - 2) : text;
+}
 
 constexpr std::size_t kWidest = 100;
 constexpr std::size_t kTextColumn = 26;  ///< of the descriptions
@@ -61,7 +107,7 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   return out;
 }
 
-std::string names_of(const std::set<CLI::Option*>& options) {
+std::string list_of_names(const std::set<CLI::Option*>& options) {
   std::vector<std::string> names;
   for (const CLI::Option* each : options) names.push_back(each->get_name());
   std::ranges::sort(names);
@@ -71,17 +117,22 @@ std::string names_of(const std::set<CLI::Option*>& options) {
 class HelpFormatter final : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool is_positional) const override {
-    const CommandOption text = option_text_of(*option);
+    const std::vector<std::string> choices = choices_of(*option);
     const bool is_list = option->get_expected_max() == CLI::detail::expected_max_vector_size;
-    std::string value = text.choices.empty() ? text.value : joined(text.choices, "|");
+    std::string value = choices.empty() ? placeholder(*option) : joined(choices, "|");
     if (is_positional && value == "TEXT") value.clear();
-    const std::string name = joined(text.names, ", ") + (value.empty() ? "" : " " + value) +
+    const std::string name = joined(names_of(*option), ", ") + (value.empty() ? "" : " " + value) +
                              (is_list && !value.empty() ? " ..." : "");
-    std::string help = text.help;
-    if (!text.usual.empty()) help += " (default: " + text.usual + ")";
-    if (!option->get_needs().empty()) help += " (only with " + names_of(option->get_needs()) + ")";
+    std::string help = option->get_description();
+    if (!option->get_envname().empty()) {
+      help += " (environment variable " + option->get_envname() + ")";
+    }
+    const std::string given = default_text(option->get_default_str());
+    if (!given.empty()) help += " (default: " + given + ")";
+    if (!option->get_needs().empty())
+      help += " (only with " + list_of_names(option->get_needs()) + ")";
     if (!option->get_excludes().empty())
-      help += " (not with " + names_of(option->get_excludes()) + ")";
+      help += " (not with " + list_of_names(option->get_excludes()) + ")";
     return entry(name, help);
   }
   std::string make_subcommand(const CLI::App* command) const override {

@@ -31,8 +31,7 @@ void add_report(CLI::App& app, int& exit_code) {
           "--size",
           arguments->megabytes,
           "Maximum file size, reached by thinning trajectories, then by leaving out sequences [MB]")
-      ->check(finite_number())
-      ->check(CLI::Range(0.1, 1000.0))
+      ->check(number_between(0.1, 1000.0))
       ->capture_default_str();
   command->callback([arguments, &exit_code] {
     reject_overwriting({store_file(arguments->store)}, arguments->out);

@@ -9,10 +9,8 @@
 #include "harness/commands/commands.hpp"
 #include "harness/commands/config_path.hpp"
 #include "harness/commands/interruption.hpp"
-#include "harness/commands/run_messages.hpp"
 #include "harness/commands/run_output.hpp"
 #include "harness/commands/standard_output.hpp"
-#include "harness/config/data_root.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/isolate/isolated_sweep.hpp"
 #include "harness/execution/run/bad_inputs.hpp"
@@ -58,6 +56,19 @@ bool has_failure(const CellResult& result) {
   return is_failure(result.status) ||
          std::ranges::any_of(result.scores,
                              [](const ScoreResult& score) { return is_failure(score.status); });
+}
+
+/// The folders that relative paths are searched in: the config's, then `data` if given.
+DataRoot data_root(const Sweep& sweep, const std::string& data) {
+  const std::filesystem::path beside = sweep.config.parent_path();
+  DataRoot root{{beside.empty() ? "." : beside}};
+  if (data.empty()) return root;
+  if (!std::filesystem::is_directory(data)) {
+    throw InputError(data +
+                     ": is not a folder; set --data or $LOOPBENCH_DATA to a folder with data");
+  }
+  root.folders.emplace_back(data);
+  return root;
 }
 
 std::string protocol_names(const Sweep& sweep) {

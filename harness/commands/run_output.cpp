@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "harness/commands/commands.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/model/where.hpp"
 #include "harness/provenance/build.hpp"
@@ -12,6 +13,7 @@
 #include "harness/tables/store_provenance.hpp"
 #include "harness/tables/summary.hpp"
 #include "harness/tables/text.hpp"
+#include "harness/text/print_error.hpp"
 #include "harness/text/printable.hpp"
 #include "harness/text/shell.hpp"
 #include "harness/text/wrap.hpp"
@@ -33,6 +35,37 @@ std::string reasons_text(const std::vector<Record>& records) {
 }
 
 }  // namespace
+
+void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
+  for (const Cell& cell : planned) {
+    const std::string repeat = cell.repeat > 0 ? fmt::format(" (repeat {})", cell.repeat) : "";
+    fmt::print("{:5}  {}{} / {}\n",
+               cell.index,
+               printable(sweep.datasets[cell.dataset].label),
+               repeat,
+               printable(sweep.methods[cell.method].label));
+  }
+  fmt::print("{} cells, {} metrics each\n", planned.size(), sweep.metrics.size());
+}
+
+int report_bad_inputs(const std::vector<std::string>& reasons) {
+  if (reasons.empty()) return kExitOk;
+  for (const std::string& reason : reasons) {
+    print_error("loopbench: {}\n", printable(reason));
+  }
+  print_error("loopbench: {} of the sequences above cannot be loaded; their cells would fail\n",
+              reasons.size());
+  return kExitBadInput;
+}
+
+void report_damage(const Resumed& resumed, const std::filesystem::path& store) {
+  if (resumed.damaged.empty()) return;
+  print_error(
+      "loopbench: {}: damaged cells are recomputed: {}{}\n",
+      store.string(),
+      printable(resumed.damaged.front()),
+      resumed.damaged.size() == 1 ? "" : fmt::format(" and {} more", resumed.damaged.size() - 1));
+}
 
 void write_tables(const std::filesystem::path& store,
                   const Sweep& sweep,

@@ -7,9 +7,9 @@
 #include <iterator>
 
 #include "datasets/core/error.hpp"
-#include "harness/commands/command_texts.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/config_path.hpp"
+#include "harness/commands/standard_output.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/process/program.hpp"
 #include "harness/shards/slurm_scripts.hpp"

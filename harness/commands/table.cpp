@@ -83,22 +83,9 @@ void add_table(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--alpha", arguments->ranking.alpha, "Significance level of the marks in a column [-]")
-      ->check(finite_number())
-      ->check(CLI::Range(0.0, 0.5))
+      ->check(number_between(0.0, 0.5))
       ->capture_default_str();
-  command
-      ->add_option(
-          "--tie", arguments->ranking.tie, "Largest relative difference that counts as a tie [-]")
-      ->check(finite_number())
-      ->check(CLI::Range(0.0, 0.5))
-      ->capture_default_str();
-  command
-      ->add_option("--relevant",
-                   arguments->ranking.relevant,
-                   "Relative difference below which methods share the first place [-]")
-      ->check(finite_number())
-      ->check(CLI::Range(0.0, 0.5))
-      ->capture_default_str();
+  declare_ties(*command, arguments->ranking.tie, arguments->ranking.relevant);
   declare(*command,
           arguments->output,
           {ExportFormat::markdown,

@@ -1,28 +1,29 @@
-/// The lists of a config (datasets, methods, metrics), each entry expanded into choices.
+/// The datasets, methods and metrics of a config or a command line, with names and options checked.
+/// The functions throw InputError `file:line:` for an unknown name or option, or an invalid value.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "harness/catalogue/catalogue.hpp"
+#include "harness/config/entry.hpp"
 #include "harness/config/paths.hpp"
-#include "harness/config/yaml.hpp"
 #include "harness/model/sweep.hpp"
 
 namespace loopbench::harness {
 
-/// Patterns in paths are searched in `folders`. Each throws InputError `file:line:` for an unknown
-/// name or option, or an invalid value.
-std::vector<DatasetChoice> dataset_choices(const YamlNode& entry,
-                                           const std::string& file,
+/// Also reads the `group` of the data. Patterns in paths are searched in `folders`.
+std::vector<DatasetChoice> read_datasets(const YamlNode& entry,
+                                         const Catalogue& catalogue,
+                                         const Folders& folders);
+std::vector<DatasetChoice> dataset_choices(const ConfigEntry& entry,
                                            const Catalogue& catalogue,
                                            const Folders& folders);
-std::vector<MethodChoice> method_choices(const YamlNode& entry,
-                                         const std::string& file,
-                                         const Catalogue& catalogue);
+
+std::vector<MethodChoice> method_choices(const ConfigEntry& entry, const Catalogue& catalogue);
+
 /// The options of a metric must be compatible with each of the protocols.
-std::vector<MetricChoice> metric_choices(const YamlNode& entry,
-                                         const std::string& file,
+std::vector<MetricChoice> metric_choices(const ConfigEntry& entry,
                                          const Catalogue& catalogue,
                                          const std::vector<metrics::NamedProtocol>& protocols);
 

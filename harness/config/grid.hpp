@@ -8,11 +8,11 @@
 
 namespace loopbench::harness {
 
-/// A setting and its line in the file.
+/// An option's value, and where it was given.
 struct Setting {
   std::string name;  ///< nested maps flattened: segment: {band: 1} is segment.band
   Param value;
-  std::size_t line = 0;
+  Place place;
   std::string text = {};  ///< the value as written; empty if computed
 };
 
@@ -25,13 +25,9 @@ struct GridPoint {
 
 /// Every combination of `entry`'s scalar keys (except those in `reserved`), its `sweep` (each key a
 /// list or {from, to, steps, log}) and its `zip` (lists of equal length, advanced together). The
-/// first swept key varies slowest. Throws InputError `file:line:`.
-std::vector<GridPoint> expand(const YamlNode& entry,
-                              const std::vector<std::string>& reserved,
-                              const std::string& file);
-
-/// `from: 1, to: 3, steps: 3` is 1 2 3; with `log: true` evenly spaced in the logarithm. Values
-/// are integers if every step is an integer.
-std::vector<Param> range(const YamlNode& node, const std::string& file);
+/// first swept key varies slowest. `from: 1, to: 3, steps: 3` is 1 2 3; with `log: true` evenly
+/// spaced in the logarithm; values are integers if every step is an integer. Throws InputError
+/// `file:line:`.
+std::vector<GridPoint> expand(const YamlNode& entry, const std::vector<std::string>& reserved);
 
 }  // namespace loopbench::harness

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
-
-#include "datasets/core/error.hpp"
+#include <regex>
 
 namespace loopbench::harness {
 namespace {
@@ -34,41 +33,36 @@ std::size_t wildcard_end(const std::string& pattern, std::size_t at) {
   return close == std::string::npos ? at + 1 : close + 1;
 }
 
-bool in_brackets(const std::string& brackets, char c) {
-  const bool is_negated = brackets[1] == '!' || brackets[1] == '^';
-  bool found = false;
-  for (std::size_t i = is_negated ? 2 : 1; i + 1 < brackets.size(); ++i) {
-    const bool is_range = i + 3 < brackets.size() && brackets[i + 1] == '-';
-    found = found || (is_range ? brackets[i] <= c && c <= brackets[i + 2] : brackets[i] == c);
-    if (is_range) i += 2;
+/// Splits a pattern into its wildcards and the texts between them, in order.
+std::vector<std::string> parts_of(const std::string& pattern) {
+  std::vector<std::string> out;
+  for (std::size_t at = 0; at < pattern.size();) {
+    const bool is_wildcard = has_wildcard(pattern.substr(at, 1));
+    const std::size_t end = is_wildcard
+                                ? wildcard_end(pattern, at)
+                                : std::min(pattern.find_first_of("*?[", at), pattern.size());
+    out.push_back(pattern.substr(at, end - at));
+    at = end;
   }
-  return found != is_negated && c != '/';
+  return out;
 }
 
-bool match_from(const std::string& pattern,
-                std::size_t p,
-                const std::string& path,
-                std::size_t t,
-                std::vector<std::string>& texts) {
-  if (p == pattern.size()) return t == path.size();
-  if (std::string_view("*?[").find(pattern[p]) == std::string_view::npos) {
-    return t < path.size() && path[t] == pattern[p] &&
-           match_from(pattern, p + 1, path, t + 1, texts);
-  }
-  const std::size_t next = wildcard_end(pattern, p);
-  const bool is_star = pattern[p] == '*';
-  for (std::size_t length = is_star ? 0 : 1; t + length <= path.size(); ++length) {
-    if (length > 0) {
-      const char c = path[t + length - 1];
-      if (c == '/') return false;
-      if (pattern[p] == '[' && !in_brackets(pattern.substr(p, next - p), c)) return false;
+/// The pattern as a regular expression with a group for each wildcard.
+std::regex expression_of(const std::string& pattern) {
+  std::string out;
+  for (std::string part : parts_of(pattern)) {
+    if (part == "*") {
+      out += "([^/]*?)";
+    } else if (part == "?") {
+      out += "([^/])";
+    } else if (has_wildcard(part)) {
+      if (part.starts_with("[!")) part[1] = '^';
+      out += "(" + part + ")";
+    } else {
+      out += std::regex_replace(part, std::regex(R"([.^$|()\[\]{}*+?\\])"), R"(\$&)");
     }
-    texts.push_back(path.substr(t, length));
-    if (match_from(pattern, next, path, t + length, texts)) return true;
-    texts.pop_back();
-    if (!is_star) return false;
   }
-  return false;
+  return std::regex(out);
 }
 
 std::string escaped_pattern(const std::string& text) {
@@ -168,37 +162,38 @@ std::string expanded_path(const std::string& text) {
 }
 
 std::vector<std::string> wildcard_texts(const std::string& pattern, const std::string& path) {
-  std::vector<std::string> out;
-  if (!match_from(pattern, 0, path, 0, out)) out.clear();
-  return out;
+  try {
+    std::smatch found;
+    if (!std::regex_match(path, found, expression_of(pattern))) return {};
+    return {found.begin() + 1, found.end()};
+  } catch (const std::regex_error&) {  // brackets that do not close, for example
+    return {};
+  }
 }
 
 std::string with_wildcard_texts(const std::string& pattern, const std::vector<std::string>& texts) {
   std::string out;
   std::size_t used = 0;
-  for (std::size_t at = 0; at < pattern.size();) {
-    if (!has_wildcard(pattern.substr(at, 1))) {
-      out += pattern[at++];
-      continue;
+  for (const std::string& part : parts_of(pattern)) {
+    if (!has_wildcard(part)) {
+      out += part;
+    } else if (used++ < texts.size()) {
+      out += texts[used - 1];
     }
-    at = wildcard_end(pattern, at);
-    if (used == texts.size()) return "";
-    out += texts[used++];
   }
   return used == texts.size() ? out : "";
 }
 
 std::vector<GridPoint> expand_paths(const GridPoint& point,
                                     const std::vector<OptionInfo>& options,
-                                    const Folders& folders,
-                                    const std::string& file) {
+                                    const Folders& folders) {
   GridPoint start = point;
   std::vector<Setting*> paths = paths_of(start, options);
   for (Setting* path : paths) {
     try {
       set_path(*path, expanded_path(path->text));
     } catch (const InputError& error) {
-      throw input_error(file, path->line, path->name + ": " + error.what());
+      throw path->place.error(path->name + ": " + error.what());
     }
   }
   const auto is_pattern = [&](const Setting* path) {
@@ -211,14 +206,14 @@ std::vector<GridPoint> expand_paths(const GridPoint& point,
     try {
       return matching_files(pattern.text, folders);
     } catch (const InputError& error) {
-      throw input_error(file, pattern.line, pattern.name + ": " + error.what());
+      throw pattern.place.error(pattern.name + ": " + error.what());
     }
   }();
   if (files.empty()) {
-    throw input_error(file, pattern.line, pattern.name + ": no file matches " + pattern.text);
+    throw pattern.place.error(pattern.name + ": no file matches " + pattern.text);
   }
   if (files.size() > kMostFiles) {
-    throw input_error(file, pattern.line, pattern.name + ": more than 10000 files match");
+    throw pattern.place.error(pattern.name + ": more than 10000 files match");
   }
   std::vector<GridPoint> out;
   for (const std::string& match : files) {
@@ -230,8 +225,8 @@ std::vector<GridPoint> expand_paths(const GridPoint& point,
       } else if (has_wildcard(path->text)) {
         const std::string paired = with_wildcard_texts(path->text, next.matched);
         if (paired.empty()) {
-          throw input_error(
-              file, path->line, path->name + ": expected as many wildcards as in " + pattern.name);
+          throw path->place.error(path->name + ": expected as many wildcards as in " +
+                                  pattern.name);
         }
         set_path(*path, paired);
       }

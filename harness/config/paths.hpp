@@ -29,7 +29,6 @@ std::string with_wildcard_texts(const std::string& pattern, const std::vector<st
 /// pipe or device, or if the number of wildcards differs.
 std::vector<GridPoint> expand_paths(const GridPoint& point,
                                     const std::vector<OptionInfo>& options,
-                                    const Folders& folders,
-                                    const std::string& file);
+                                    const Folders& folders);
 
 }  // namespace loopbench::harness

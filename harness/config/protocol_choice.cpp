@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "datasets/core/error.hpp"
 #include "harness/config/source_text.hpp"
+#include "harness/config/values.hpp"
 #include "harness/text/suggest.hpp"
 
 namespace loopbench::harness {
@@ -15,57 +15,53 @@ metrics::NamedProtocol known_protocol(const std::string& name, const Params& cha
   return metrics::named_protocol(name, changes);
 }
 
-metrics::NamedProtocol protocol_choice(const YamlNode& node, const std::string& file) {
+namespace {
+
+/// `evo`, or `{base: evo, max_diff: 0.02, segments: {step: 5}}`; the default base is loopbench.
+metrics::NamedProtocol protocol_choice(const YamlNode& node) {
   std::string base = metrics::NamedProtocol{}.name;
-  std::size_t base_line = node.line;
+  Place base_place = node;
   std::vector<Setting> settings;
   if (node.type == YamlNode::Type::scalar) {
     base = node.text;
-  } else if (node.type == YamlNode::Type::map) {
+  } else {
+    require_map(node, "protocol", "a name or a map with 'base: NAME'");
     if (node.find("sweep") != nullptr || node.find("zip") != nullptr) {
-      throw input_error(file, node.line, "protocol: cannot be swept; use a list of protocols");
+      throw node.error("protocol: cannot be swept; use a list of protocols");
     }
     if (const YamlNode* given = node.find("base")) {
-      if (given->type != YamlNode::Type::scalar) {
-        throw input_error(file, given->line, "protocol: base: expected a name");
-      }
-      base = given->text;
-      base_line = given->line;
+      base = as_text(*given, "protocol: base");
+      base_place = *given;
     }
-    settings = expand(node, {"base"}, file).front().settings;
+    settings = expand(node, {"base"}).front().settings;
     restore_text_options(settings, describe(metrics::Protocol{}));
-  } else {
-    throw input_error(file, node.line, "protocol: expected a name or a map with 'base: NAME'");
   }
-  Params changes;
-  for (const Setting& setting : settings) changes[setting.name] = setting.value;
   try {
-    return known_protocol(base, changes);
+    return known_protocol(base, to_params(settings));
   } catch (const InputError& error) {
-    throw input_error(file, base_line, std::string("protocol: ") + error.what());
+    throw base_place.error(std::string("protocol: ") + error.what());
   } catch (const OptionError& error) {
     const auto found = std::ranges::find(settings, error.option(), &Setting::name);
-    const std::size_t line = found == settings.end() ? node.line : found->line;
-    throw input_error(file, line, std::string("protocol: ") + error.what());
+    const Place place = found == settings.end() ? Place(node) : found->place;
+    throw place.error(std::string("protocol: ") + error.what());
   }
 }
 
-std::vector<metrics::NamedProtocol> protocol_choices(const YamlNode& node,
-                                                     const std::string& file) {
-  if (node.type != YamlNode::Type::list) return {protocol_choice(node, file)};
+}  // namespace
+
+std::vector<metrics::NamedProtocol> protocol_choices(const YamlNode& node) {
+  if (node.type != YamlNode::Type::list) return {protocol_choice(node)};
   constexpr std::size_t kMost = 1'000;
-  if (node.list.size() > kMost) {
-    throw input_error(file, node.line, "protocol: more than 1000 entries");
-  }
+  if (node.list.size() > kMost) throw node.error("protocol: more than 1000 entries");
   std::vector<metrics::NamedProtocol> out;
   for (const YamlNode& item : node.list) {
-    out.push_back(protocol_choice(item, file));
+    out.push_back(protocol_choice(item));
     const std::string label = out.back().label();
     if (std::ranges::count(out, label, &metrics::NamedProtocol::label) > 1) {
-      throw input_error(file, item.line, "protocol: '" + label + "' is listed twice");
+      throw item.error("protocol: '" + label + "' is listed twice");
     }
   }
-  if (out.empty()) throw input_error(file, node.line, "protocol: is empty, expected a name");
+  if (out.empty()) throw node.error("protocol: is empty, expected a name");
   return out;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "datasets/core/params.hpp"
-#include "harness/config/grid.hpp"
+#include "harness/config/entry.hpp"
 
 namespace loopbench::harness {
 
@@ -22,6 +22,22 @@ inline void restore_text_options(std::vector<Setting>& settings,
     const auto option = std::ranges::find(options, setting.name, &OptionInfo::name);
     if (option != options.end()) setting.value = value_for(*option, setting.value, setting.text);
   }
+}
+
+inline Params to_params(const std::vector<Setting>& settings) {
+  Params out;
+  for (const Setting& setting : settings) out[setting.name] = setting.value;
+  return out;
+}
+
+/// The values of `--set NAME=VALUE`, whose names and ranges are checked by whoever applies them.
+/// Throws InputError.
+inline Params parse_settings(const std::vector<std::string>& texts,
+                             const std::vector<OptionInfo>& options) {
+  std::vector<Setting> out;
+  for (const std::string& text : texts) out.push_back(parse_setting(text, "--set"));
+  restore_text_options(out, options);
+  return to_params(out);
 }
 
 }  // namespace loopbench::harness

@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
-
-#include "datasets/core/error.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -24,9 +23,8 @@ std::optional<Number> parse_number(const std::string& text) {
   return value;
 }
 
-Param to_param(const YAML::Node& node) {
-  const std::string& text = node.Scalar();
-  if (node.Tag() == "!") return text;  // quoted
+Param to_param(const std::string& tag, const std::string& text) {
+  if (tag == "!") return text;  // quoted
   if (text == "true") return true;
   if (text == "false") return false;
   if (const auto integer = parse_number<std::int64_t>(text)) return *integer;
@@ -34,20 +32,9 @@ Param to_param(const YAML::Node& node) {
   return text;
 }
 
-std::size_t line_of(const YAML::Node& node) {
-  return static_cast<std::size_t>(node.Mark().line + 1);
-}
-
-/// Limits on expanded aliases: a few lines can expand beyond memory, or contain themselves.
-struct Budget {
-  std::size_t values = 100'000;
-  std::size_t bytes = 10'000'000;  ///< of text
-  std::size_t levels = 100;
-};
-
 /// Replaces `<<: *base` (or a list of maps) by the entries of these maps that are not set. yaml-cpp
 /// leaves merge keys to the caller.
-void merge_keys(YamlNode& node, const std::string& file) {
+void merge_keys(YamlNode& node) {
   const auto found = std::ranges::find(node.map, std::string("<<"), &YamlEntry::key);
   if (found == node.map.end()) return;
   const YamlNode merged = std::move(found->value);
@@ -56,7 +43,7 @@ void merge_keys(YamlNode& node, const std::string& file) {
       merged.type == YamlNode::Type::list ? merged.list : std::vector<YamlNode>{merged};
   for (const YamlNode& base : bases) {
     if (base.type != YamlNode::Type::map) {
-      throw input_error(file, merged.line, "<<: expected an alias of a map, or a list of them");
+      throw merged.error("<<: expected an alias of a map, or a list of them");
     }
     for (const YamlEntry& entry : base.map) {
       if (node.find(entry.key) == nullptr) node.map.push_back(entry);
@@ -64,51 +51,130 @@ void merge_keys(YamlNode& node, const std::string& file) {
   }
 }
 
-YamlNode convert(const YAML::Node& node, const std::string& file, Budget& left) {
-  YamlNode out;
-  out.line = line_of(node);
-  if (left.values == 0 || left.levels == 0) {
-    throw input_error(file, out.line, "has too many values or levels (a recursive alias?)");
+/// Builds the tree of the only document, with all aliases expanded.
+class TreeBuilder final : public YAML::EventHandler {
+ public:
+  explicit TreeBuilder(const std::string& file) : file_(file), root_(file_) {}
+
+  bool is_empty() const { return documents_ == 0; }
+  YamlNode take() { return std::move(root_); }
+
+  void OnDocumentStart(const YAML::Mark&) override {
+    if (++documents_ > 1) throw file_.error("has more than one YAML document");
   }
-  --left.values;
-  --left.levels;
-  const std::size_t length = node.IsScalar() ? node.Scalar().size() : 0;
-  if (length > left.bytes) throw input_error(file, out.line, "is too long after expanding aliases");
-  left.bytes -= length;
-  std::set<std::string> keys;
-  switch (node.Type()) {
-    case YAML::NodeType::Scalar:
-      out.type = YamlNode::Type::scalar;
-      out.scalar = to_param(node);
-      out.text = node.Scalar();
-      break;
-    case YAML::NodeType::Sequence:
-      out.type = YamlNode::Type::list;
-      for (const YAML::Node& item : node) out.list.push_back(convert(item, file, left));
-      break;
-    case YAML::NodeType::Map:
-      out.type = YamlNode::Type::map;
-      for (const auto& item : node) {
-        if (!item.first.IsScalar()) {
-          throw input_error(file, line_of(item.first), "a key must be a string");
-        }
-        const std::string& key = item.first.Scalar();
-        // yaml-cpp keeps both and returns the first, so the second would be lost silently.
-        if (!keys.insert(key).second) {
-          throw input_error(file, line_of(item.first), "'" + key + "' is set twice");
-        }
-        out.map.push_back({key, convert(item.second, file, left)});
-        out.map.back().value.line = line_of(item.first);
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    YamlNode node(at(mark));
+    spend(node, node);
+    add(std::move(node), anchor);
+  }
+  void OnScalar(const YAML::Mark& mark,
+                const std::string& tag,
+                YAML::anchor_t anchor,
+                const std::string& text) override {
+    YamlNode node(at(mark), YamlNode::Type::scalar);
+    node.scalar = to_param(tag, text);
+    node.text = text;
+    spend(node, node);
+    add(std::move(node), anchor);
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto found = anchored_.find(anchor);
+    if (found == anchored_.end()) throw at(mark).error("is a recursive alias");
+    spend(found->second, at(mark));
+    add(found->second, YAML::NullAnchor);
+  }
+  void OnSequenceStart(const YAML::Mark& mark,
+                       const std::string&,
+                       YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open(YamlNode(at(mark), YamlNode::Type::list), anchor);
+  }
+  void OnMapStart(const YAML::Mark& mark,
+                  const std::string&,
+                  YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open(YamlNode(at(mark), YamlNode::Type::map), anchor);
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapEnd() override { close(); }
+
+ private:
+  /// A list or map that has not ended.
+  struct Open {
+    YamlNode node;
+    YAML::anchor_t anchor;
+    std::set<std::string> keys;   ///< so far
+    std::optional<YamlNode> key;  ///< whose value comes next
+  };
+
+  Place at(const YAML::Mark& mark) const {
+    Place out = file_;
+    out.line = static_cast<std::size_t>(mark.line + 1);
+    return out;
+  }
+
+  void open(YamlNode node, YAML::anchor_t anchor) {
+    constexpr std::size_t kMostLevels = 100;
+    if (open_.size() == kMostLevels) throw node.error("has too many levels");
+    spend(node, node);
+    open_.push_back({std::move(node), anchor, {}, {}});
+  }
+
+  void close() {
+    Open ended = std::move(open_.back());
+    open_.pop_back();
+    merge_keys(ended.node);
+    add(std::move(ended.node), ended.anchor);
+  }
+
+  void add(YamlNode node, YAML::anchor_t anchor) {
+    node.is_anchored = anchor != YAML::NullAnchor && open_.size() == 1;
+    if (anchor != YAML::NullAnchor) {
+      spend(node, node);  // of the copy
+      anchored_.insert_or_assign(anchor, node).first->second.is_anchored = false;
+    }
+    if (open_.empty()) {
+      root_ = std::move(node);
+    } else if (open_.back().node.type == YamlNode::Type::list) {
+      open_.back().node.list.push_back(std::move(node));
+    } else {
+      add_to_map(open_.back(), std::move(node));
+    }
+  }
+
+  static void add_to_map(Open& parent, YamlNode node) {
+    if (!parent.key) {
+      if (node.type != YamlNode::Type::scalar) throw node.error("a key must be a string");
+      if (!parent.keys.insert(node.text).second) {
+        throw node.error("'" + node.text + "' is set twice");
       }
-      merge_keys(out, file);
-      break;
-    case YAML::NodeType::Null:
-    case YAML::NodeType::Undefined:
-      break;
+      parent.key = std::move(node);
+      return;
+    }
+    node.line = parent.key->line;
+    parent.node.map.push_back({parent.key->text, std::move(node)});
+    parent.key.reset();
   }
-  ++left.levels;
-  return out;
-}
+
+  /// Limits the size with all aliases expanded: a few lines can expand beyond memory.
+  void spend(const YamlNode& node, const Place& place) {
+    if (values_left_ == 0) throw place.error("has too many values after expanding aliases");
+    if (node.text.size() > bytes_left_) throw place.error("is too long after expanding aliases");
+    --values_left_;
+    bytes_left_ -= node.text.size();
+    for (const YamlNode& item : node.list) spend(item, place);
+    for (const YamlEntry& entry : node.map) spend(entry.value, place);
+  }
+
+  Place file_;
+  YamlNode root_;
+  std::size_t documents_ = 0;
+  std::vector<Open> open_;  // from the root to the innermost
+  std::map<YAML::anchor_t, YamlNode> anchored_;
+  std::size_t values_left_ = 100'000;
+  std::size_t bytes_left_ = 10'000'000;  // of text
+};
 
 /// Rejects bytes that are not UTF-8: yaml-cpp 0.7 does not terminate for some of them.
 void expect_utf8(const std::string& text, const std::string& file) {
@@ -131,74 +197,6 @@ void expect_utf8(const std::string& text, const std::string& file) {
   if (more > 0) throw input_error(file, line, "is not UTF-8 text, expected YAML");
 }
 
-/// Counts the documents and collects the keys of the first map whose values have an anchor. LoadAll
-/// cannot be used: yaml-cpp 0.7 returns endless documents after a leading comma.
-class Documents final : public YAML::EventHandler {
- public:
-  std::size_t count = 0;
-  std::set<std::string> anchored;
-
-  void OnDocumentStart(const YAML::Mark&) override { ++count; }
-  void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark&, YAML::anchor_t anchor) override { scalar("", anchor); }
-  void OnAlias(const YAML::Mark&, YAML::anchor_t) override { scalar("", YAML::NullAnchor); }
-  void OnScalar(const YAML::Mark&,
-                const std::string&,
-                YAML::anchor_t anchor,
-                const std::string& text) override {
-    scalar(text, anchor);
-  }
-  void OnSequenceStart(const YAML::Mark&,
-                       const std::string&,
-                       YAML::anchor_t anchor,
-                       YAML::EmitterStyle::value) override {
-    begin(anchor);
-  }
-  void OnSequenceEnd() override { end(); }
-  void OnMapStart(const YAML::Mark&,
-                  const std::string&,
-                  YAML::anchor_t anchor,
-                  YAML::EmitterStyle::value) override {
-    begin(anchor);
-  }
-  void OnMapEnd() override { end(); }
-
- private:
-  void note(YAML::anchor_t anchor) {
-    if (levels_ == 1 && has_key_ && anchor != YAML::NullAnchor) anchored.insert(key_);
-  }
-  void scalar(const std::string& text, YAML::anchor_t anchor) {
-    note(anchor);
-    if (levels_ != 1) return;
-    if (!has_key_) key_ = text;
-    has_key_ = !has_key_;
-  }
-  void begin(YAML::anchor_t anchor) {
-    note(anchor);
-    ++levels_;
-  }
-  void end() {
-    --levels_;
-    if (levels_ == 1) has_key_ = false;
-  }
-
-  std::size_t levels_ = 0;
-  bool has_key_ = false;  // the next event is the value of `key_`
-  std::string key_;
-};
-
-/// Returns the keys at top level whose values have an anchor.
-std::set<std::string> expect_one_document(const std::string& text, const std::string& file) {
-  std::istringstream in(text);
-  YAML::Parser parser(in);
-  Documents documents;
-  while (documents.count < 2 && parser.HandleNextDocument(documents)) {
-  }
-  if (documents.count == 0) throw InputError(file + ": is empty, expected a map of settings");
-  if (documents.count > 1) throw InputError(file + ": has more than one YAML document");
-  return documents.anchored;
-}
-
 /// The first line that is indented with a tab; 0: none.
 std::size_t line_with_tab(const std::string& text) {
   std::istringstream in(text);
@@ -215,14 +213,6 @@ std::size_t line_with_tab(const std::string& text) {
 
 }  // namespace
 
-YamlNode scalar_node(const std::string& text) {
-  YamlNode out;
-  out.type = YamlNode::Type::scalar;
-  out.scalar = text;
-  out.text = text;
-  return out;
-}
-
 YamlNode parse_yaml(const std::string& text, const std::string& file) {
   constexpr std::size_t kLargest = 1'000'000;
   if (text.size() > kLargest) {
@@ -231,11 +221,13 @@ YamlNode parse_yaml(const std::string& text, const std::string& file) {
   }
   expect_utf8(text, file);
   try {
-    const std::set<std::string> anchored = expect_one_document(text, file);
-    Budget budget;
-    YamlNode out = convert(YAML::Load(text), file, budget);
-    for (YamlEntry& entry : out.map) entry.value.is_anchored = anchored.contains(entry.key);
-    return out;
+    std::istringstream in(text);
+    YAML::Parser parser(in);
+    TreeBuilder tree(file);
+    while (parser.HandleNextDocument(tree)) {
+    }
+    if (tree.is_empty()) throw InputError(file + ": is empty, expected a map of settings");
+    return tree.take();
   } catch (const YAML::Exception& error) {
     if (const std::size_t line = line_with_tab(text); line > 0) {
       throw input_error(file, line, "is indented with a tab; YAML accepts only spaces");

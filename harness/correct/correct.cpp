@@ -7,7 +7,8 @@
 
 #include "datasets/derive/problem_graph.hpp"
 #include "datasets/formats/formats.hpp"
-#include "harness/config/choice_text.hpp"
+#include "harness/config/choices.hpp"
+#include "harness/config/source_text.hpp"
 #include "harness/execution/run/doctor_notes.hpp"
 #include "harness/execution/run/run_cell.hpp"
 #include "harness/text/write_file.hpp"
@@ -94,7 +95,7 @@ std::optional<std::size_t> rejected_closures(const Correction& done) {
 }  // namespace
 
 MethodChoice method_without_reference(const std::string& text, const Catalogue& catalogue) {
-  MethodChoice out = parse_method(text, catalogue);
+  MethodChoice out = method_choices(parse_entry(text, "--method"), catalogue).front();
   for (const Choice& stage : out.stages) {
     if (is_oracle(catalogue, stage.name)) {
       throw InputError("--method: " + stage.name + " reads the reference, which is not given here");
@@ -141,7 +142,7 @@ Problem load_problem(const CorrectArguments& a, const Catalogue& catalogue) {
                      "frames, expected no --loops and no --frames");
   }
   const DatasetEntry& dataset = find_dataset(catalogue, graph ? "pose_graph" : "trajectory");
-  Params options = parse_settings(a.settings, dataset.options, "OPTION=VALUE");
+  Params options = parse_settings(a.settings, dataset.options);
   options[graph ? "path" : "estimate"] = a.estimate;
   if (!a.frames.empty()) options["frames"] = a.frames;
   if (!a.loops.empty()) {

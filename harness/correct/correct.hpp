@@ -49,7 +49,8 @@ struct Correction {
   std::string out;  ///< file that was written; empty: none
 };
 
-/// parse_method(). Throws InputError also for an oracle.
+/// A method as in a config, with its options: NAME:option=value,... Throws InputError also for an
+/// oracle.
 MethodChoice method_without_reference(const std::string& text, const Catalogue& catalogue);
 
 /// Runs the method on a problem in memory, which must be valid; `output` is at the stamps `at`,

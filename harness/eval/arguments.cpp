@@ -7,8 +7,9 @@
 #include <map>
 
 #include "datasets/bags/bag_trajectory.hpp"
-#include "harness/config/choice_text.hpp"
+#include "harness/config/choices.hpp"
 #include "harness/config/protocol_choice.hpp"
+#include "harness/config/source_text.hpp"
 #include "harness/text/numbers.hpp"
 #include "metrics/errors/ape.hpp"
 #include "metrics/pairing/select_pairs.hpp"
@@ -24,8 +25,8 @@ std::string scaled(const std::string& align) {
 }
 
 Params changes(const EvalArguments& a, const metrics::Protocol& base) {
-  Params out = parse_settings(a.settings, describe(base), "FIELD=VALUE, for example ddof=1");
-  for (auto& [name, value] : parse_settings(a.fields, describe(base), "FIELD=VALUE")) {
+  Params out = parse_settings(a.settings, describe(base));
+  for (auto& [name, value] : parse_settings(a.fields, describe(base))) {
     out[name] = value;
   }
   if (!a.align.empty()) out["align"] = a.align;
@@ -156,7 +157,8 @@ std::vector<MetricChoice> metric_choices(const EvalArguments& a,
                                          const std::vector<metrics::NamedProtocol>& protocols) {
   std::vector<MetricChoice> out;
   for (const std::string& text : a.metrics) {
-    const Choice metric = parse_metric(text, catalogue, protocols).metric;
+    const ConfigEntry entry = parse_entry(text, "--metric");
+    const Choice metric = metric_choices(entry, catalogue, protocols).front().metric;
     add_metric(out, metric.name, metric.options);
   }
   if (!out.empty()) return out;

@@ -23,17 +23,9 @@ struct DatasetChoice {
   std::string group = {};  ///< name of a group of dependent runs; empty: see source_of()
 };
 
-/// Training data of a calibration file; empty without one.
-struct TrainingData {
-  std::string calibration;           ///< the file
-  std::vector<std::string> labels;   ///< of the datasets
-  std::vector<std::string> sources;  ///< of their references or noise, see source_of()
-};
-
 struct MethodChoice {
   std::string label;
   std::vector<Choice> stages;  ///< one method; or corrector, smoother, or both in that order
-  TrainingData trained_on = {};
 };
 
 struct MetricChoice {

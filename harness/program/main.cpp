@@ -19,7 +19,6 @@
 #include "datasets/core/params.hpp"
 #include "harness/commands/command_line.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/export.hpp"
 #include "harness/commands/help.hpp"
 #include "harness/commands/help_format.hpp"
 #include "harness/program/huge_pages.hpp"
@@ -131,7 +130,7 @@ int main(int argc, char** argv) {
   add_doctor(app, exit_code);
   add_get(app, exit_code);
   add_help(app, exit_code);
-  add_pages(app, exit_code);
+  add_complete(app, exit_code);
   add_footers(app);
   int print_errno = 0;
   const int out = run(app, words, exit_code, print_errno);

@@ -134,7 +134,7 @@ py::tuple load(const std::string& entry, const std::vector<std::string>& folders
     const harness::Catalogue known = harness::catalogue({});
     const harness::Folders roots(folders.begin(), folders.end());
     const std::vector<harness::DatasetChoice> choices =
-        harness::dataset_choices(harness::parse_yaml(entry, "dataset"), "dataset", known, roots);
+        harness::read_datasets(harness::parse_yaml(entry, "dataset"), known, roots);
     if (choices.size() != 1) {
       throw InputError("dataset: found " + std::to_string(choices.size()) +
                        " sequences, expected one: no lists, and no pattern of several files");

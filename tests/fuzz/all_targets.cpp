@@ -17,7 +17,6 @@ const std::map<std::string, void (*)(const std::filesystem::path& file)>& fuzz_t
       {"store", fuzz_store},
       {"report", fuzz_report},
       {"gate", fuzz_gate},
-      {"calibration", fuzz_calibration},
       {"where", fuzz_where},
       {"eval", fuzz_eval},
       {"eval_folder", fuzz_eval_folder},

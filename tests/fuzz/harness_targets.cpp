@@ -2,7 +2,6 @@
 #include <stdexcept>
 
 #include "datasets/core/error.hpp"
-#include "harness/config/calibration.hpp"
 #include "harness/eval/arguments.hpp"
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/eval/layout.hpp"
@@ -49,10 +48,6 @@ void fuzz_gate(const std::filesystem::path& file) {
     }
     if (again != text) throw std::logic_error("a baseline changes when it is written and read");
   });
-}
-
-void fuzz_calibration(const std::filesystem::path& file) {
-  or_rejected([&] { read_calibration(file, {"motion_drift", "dual"}, "c.yaml", 1); });
 }
 
 void fuzz_where(const std::filesystem::path& file) {

@@ -1,8 +1,6 @@
 /// The program as a process: help, exit codes, messages, output files.
 #include <gtest/gtest.h>
 
-#include <csignal>
-
 #include "tests/support/command.hpp"
 
 namespace loopbench::cli_test {
@@ -20,15 +18,6 @@ class Cli : public testing::Test {
   CommandResult run(const std::string& arguments) { return loopbench_command(arguments, folder_); }
   TemporaryFolder folder_;
 };
-
-TEST_F(Cli, HelpIsEverywhere) {
-  for (const char* command : {"", "run", "list", "table", "eval"}) {
-    const CommandResult result = run(std::string(command) + " --help");
-    EXPECT_EQ(result.exit_code, 0) << command;
-    EXPECT_NE(result.out.find("Usage:"), std::string::npos) << command;
-    EXPECT_EQ(result.err, "") << command;
-  }
-}
 
 TEST_F(Cli, TellsItsVersion) {
   const CommandResult result = run("--version");
@@ -112,30 +101,6 @@ TEST_F(Cli, OnlyRunsWhatMatches) {
   EXPECT_EQ(run("run c.yaml --only nothing").exit_code, 2);
 }
 
-TEST_F(Cli, SameRowsOnAnyNumberOfThreads) {
-  folder_.file("c.yaml", kConfig);
-  const auto rows = [&](const std::string& jobs) {
-    EXPECT_EQ(run("run c.yaml --out r" + jobs + " --jobs " + jobs).exit_code, 0);
-    return run("table r" + jobs +
-               " --split sequence --columns times,metric,relation,axis "
-               "--where status=ok --format csv");
-  };
-  const std::string one = rows("1").out;
-  const std::string many = rows("7").out;
-  const auto without_time = [](const std::string& text) {
-    std::string out;
-    for (std::size_t begin = 0; begin < text.size();) {
-      const std::size_t end = text.find('\n', begin) + 1;
-      const std::string line = text.substr(begin, end - begin);
-      if (line.find("time [ms]") == std::string::npos) out += line;
-      begin = end;
-    }
-    return out;
-  };
-  EXPECT_GT(one.size(), 1000u);
-  EXPECT_EQ(without_time(one), without_time(many));
-}
-
 TEST_F(Cli, ASlipInAConfigIsToldWithItsPlace) {
   folder_.file("c.yaml", "datasets: [simulated]\nmethods:\n  - unifrom\nmetrics: [ate]\n");
   const CommandResult result = run("run c.yaml");
@@ -157,39 +122,6 @@ TEST_F(Cli, MissingDataEndsBeforeAnythingIsWritten) {
   EXPECT_EQ(run("run nowhere.yaml").exit_code, 2);
   EXPECT_EQ(run("run .").exit_code, 2);
   EXPECT_EQ(run("table nowhere").exit_code, 2);
-}
-
-TEST_F(Cli, AFolderThatCannotBeWrittenIsOneClearError) {
-  folder_.file("c.yaml", kConfig);
-  folder_.file("taken", "a file where a folder should be");
-  const CommandResult result = run("run c.yaml --out taken/results");
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("cannot be written"), std::string::npos) << result.err;
-}
-
-TEST_F(Cli, AKilledSweepLeavesReadableCells) {
-  // Many slow cells, killed as soon as a few are in the store.
-  folder_.file("c.yaml",
-               "datasets: [{dataset: simulated, path: driving, laps: 20, keyframes: 8000}]\n"
-               "methods: [raw, cubic_spline, uniform]\nmetrics: [ate]\nrepeats: 400\n");
-  // exec: the killed process must be the sweep itself, not a shell around it.
-  const std::string in = "'" + folder_.path().string();
-  const std::string script = "(cd " + in +
-                             "' && exec '" LOOPBENCH_BINARY
-                             "' run c.yaml --out k >/dev/null 2>&1) & pid=$!; "
-                             "for i in $(seq 600); do sleep 0.05; "
-                             "n=$('" LOOPBENCH_BINARY "' table " +
-                             in +
-                             "/k' --format rows 2>/dev/null | wc -l); "
-                             "[ \"$n\" -gt 10 ] && break; done; "
-                             "kill -9 $pid; wait $pid; [ $? -eq 137 ]";
-  const std::string quoted = "bash -c \"$SCRIPT\"";
-  setenv("SCRIPT", script.c_str(), 1);
-  EXPECT_EQ(std::system(quoted.c_str()), 0);
-  const CommandResult table = run("table k --format rows");
-  EXPECT_EQ(table.exit_code, 0) << table.err;
-  EXPECT_NE(table.out.find(",raw,"), std::string::npos);
-  EXPECT_EQ(table.out.back(), '\n');
 }
 
 TEST_F(Cli, EveryBadFileIsOneClearErrorAndExitCodeTwo) {

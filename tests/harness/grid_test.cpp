@@ -11,7 +11,7 @@ using namespace harness;
 namespace {
 
 std::vector<GridPoint> grid(const std::string& text) {
-  return expand(parse_yaml(text, "c.yaml"), {"method", "label"}, "c.yaml");
+  return expand(parse_yaml(text, "c.yaml"), {"method", "label"});
 }
 
 std::string text_of(const GridPoint& point) {

@@ -9,7 +9,6 @@
 #include <map>
 
 #include "harness/catalogue/load_sequence.hpp"
-#include "harness/config/bytes.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/execution/isolate/cell_queue.hpp"
 #include "harness/execution/isolate/pack.hpp"
@@ -254,15 +253,6 @@ TEST(Pack, GivesASequenceBackBitForBit) {
   EXPECT_EQ(edge.from_from_to.rotation.coeffs(),
             sequence.problem.closures.back().from_from_to.rotation.coeffs());
   EXPECT_EQ(back.provenance.body_from_reference->translation, Vector3(1.0, 2.0, 3.0));
-}
-
-TEST(Bytes, ReadsSizesAsPeopleWriteThem) {
-  EXPECT_EQ(parse_bytes("2GiB"), 2147483648);
-  EXPECT_EQ(parse_bytes("1.5 kB"), 1500);
-  EXPECT_EQ(parse_bytes("4096"), 4096);
-  for (const char* wrong : {"", "GiB", "-1MB", "2 gigabytes", "nan", "0", "1e30GB"}) {
-    EXPECT_EQ(parse_bytes(wrong), std::nullopt) << wrong;
-  }
 }
 
 }  // namespace

@@ -40,8 +40,8 @@ TEST(Yaml, RefusesWhatWouldBeLostSilently) {
 }
 
 TEST(Yaml, RefusesAliasesThatNeverEnd) {
-  const std::string message = "has too many values or levels (a recursive alias?)";
-  EXPECT_EQ(why("a: 1\nb: &b [*b]\n"), "c.yaml:2: " + message);
+  EXPECT_EQ(why("a: 1\nb: &b [*b]\n"), "c.yaml:2: is a recursive alias");
+  EXPECT_EQ(why(std::string(200, '[') + std::string(200, ']')), "c.yaml:1: has too many levels");
   std::string laughs = "a: &a [x, x, x, x, x, x, x, x, x, x]\n";
   for (char c = 'b'; c < 'i'; ++c) {
     const std::string alias = std::string(", *") + static_cast<char>(c - 1);
@@ -49,7 +49,7 @@ TEST(Yaml, RefusesAliasesThatNeverEnd) {
     for (int i = 0; i < 10; ++i) list += alias;
     laughs += std::string{c} + ": &" + c + " [" + list.substr(2) + "]\n";
   }
-  EXPECT_EQ(why(laughs), "c.yaml:1: " + message);
+  EXPECT_NE(why(laughs).find(": has too many values after expanding aliases"), std::string::npos);
 }
 
 TEST(Yaml, RefusesWhatIsFarTooLong) {
@@ -57,7 +57,7 @@ TEST(Yaml, RefusesWhatIsFarTooLong) {
             "c.yaml: has 1000003 bytes, expected at most 1000000");
   std::string copies = "a: &a " + std::string(100'000, 'x') + "\nb: [*a";
   for (int i = 0; i < 100; ++i) copies += ", *a";
-  EXPECT_EQ(why(copies + "]\n"), "c.yaml:1: is too long after expanding aliases");
+  EXPECT_EQ(why(copies + "]\n"), "c.yaml:2: is too long after expanding aliases");
 }
 
 TEST(Yaml, TellsTheLineOfBrokenSyntax) {

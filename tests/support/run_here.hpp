@@ -33,7 +33,6 @@ inline void run_here(const harness::Sweep& sweep,
     const auto& [sequence, metadata] = loaded.at(key);
     harness::CellResult result = harness::run_cell(cell, sweep, sequence, catalogue);
     result.metadata = metadata;
-    harness::flag_trained_on_evaluated(result, sweep);
     finished(result);
   }
 }

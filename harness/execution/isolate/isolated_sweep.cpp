@@ -210,7 +210,6 @@ class IsolatedSweep {
     std::shared_ptr<const SequenceMetadata>& metadata = metadata_[queue_.group_of(cell)];
     result.cell = context_.cells[cell];
     result.metadata = metadata;
-    flag_trained_on_evaluated(result, context_.sweep);
     // A request to stop can also have ended a program that the cell runs.
     const bool has_failed = result.status == Status::crashed || result.status == Status::failed;
     if (stop_ > 0 && has_failed) result.status = Status::interrupted;

@@ -25,8 +25,8 @@ namespace loopbench::methods {
 /// relinearises until convergence. No reference is needed. The prior also contains simpler
 /// hypotheses: all covariances as stated, one factor for the odometry and one each for the
 /// closures, no drift. Where the loops carry little information the result stays near that of
-/// `dual`. Values given as options (for example by a `calibration` file) replace the prior
-/// medians; with `fit: false` they are used unchanged.
+/// `dual`. Values given as options replace the prior medians; with `fit: false` they are used
+/// unchanged.
 ///
 /// With more than `average_closures` closures the posterior is narrow, and one model is used: the
 /// geometric mean of the models drawn under the most probable hypothesis. Scale changes of edges

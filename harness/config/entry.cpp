@@ -1,0 +1,97 @@
+#include "harness/config/entry.hpp"
+
+#include <algorithm>
+
+#include "harness/config/values.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+/// Splits at `separator` outside quotes.
+std::vector<std::string> split_unquoted(const std::string& text, char separator) {
+  std::vector<std::string> out(1);
+  char quote = '\0';
+  for (const char c : text) {
+    if (quote == '\0' && c == separator) {
+      out.emplace_back();
+      continue;
+    }
+    if (quote == '\0' && (c == '"' || c == '\'')) {
+      quote = c;
+    } else if (c == quote) {
+      quote = '\0';
+    }
+    out.back() += c;
+  }
+  return out;
+}
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+}  // namespace
+
+ConfigEntry read_entry(const YamlNode& node,
+                       const std::string& key,
+                       const std::vector<std::string>& reserved) {
+  if (node.type == YamlNode::Type::scalar) return {node, node.text, "", {GridPoint{}}};
+  const YamlNode* name = node.find(key);
+  if (name == nullptr || name->type != YamlNode::Type::scalar) {
+    throw node.error("expected a name or a map with '" + key + ": NAME'");
+  }
+  ConfigEntry out{node, name->text, "", {}};
+  read_key(node, "label", out.label, as_text);
+  std::vector<std::string> others = reserved;
+  others.insert(others.end(), {key, "label"});
+  out.points = expand(node, others);
+  return out;
+}
+
+Setting parse_setting(const std::string& text, const std::string& where) {
+  const Place place(where);
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) {
+    throw place.error("found '" + text + "', expected OPTION=VALUE");
+  }
+  const std::string value = text.substr(equals + 1);
+  const YamlNode node = parse_yaml(value, where);
+  if (node.type != YamlNode::Type::scalar) {
+    throw place.error("found value '" + value + "', expected one number or word");
+  }
+  return {trimmed(text.substr(0, equals)), node.scalar, place, node.text};
+}
+
+ConfigEntry parse_entry(const std::string& text, const std::string& where) {
+  ConfigEntry out{Place(where), "", text, {GridPoint{}}};
+  const std::vector<std::string> stages = split_unquoted(text, '+');
+  for (const std::string& stage : stages) {
+    const std::size_t colon = std::min(stage.find(':'), stage.size());
+    const std::string name = trimmed(stage.substr(0, colon));
+    out.name += (out.name.empty() ? "" : " + ") + name;
+    if (colon == stage.size()) continue;
+    for (const std::string& option : split_unquoted(stage.substr(colon + 1), ',')) {
+      if (option.find('=') == std::string::npos) {
+        throw out.place.error("found '" + option + "', expected NAME:option=value,option=value");
+      }
+      Setting setting = parse_setting(option, where);
+      if (stages.size() > 1) setting.name = name + "." + setting.name;
+      out.points.front().settings.push_back(std::move(setting));
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> split_stages(const std::string& text) {
+  std::vector<std::string> out;
+  std::size_t begin = 0;
+  for (std::size_t plus = 0; plus != std::string::npos; begin = plus + 1) {
+    plus = text.find('+', begin);
+    out.push_back(trimmed(text.substr(begin, plus - begin)));
+  }
+  return out;
+}
+
+}  // namespace loopbench::harness

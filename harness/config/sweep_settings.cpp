@@ -1,0 +1,105 @@
+#include "harness/config/sweep_settings.hpp"
+
+#include <algorithm>
+
+#include "harness/config/values.hpp"
+#include "harness/model/where.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+/// Texts that `check` accepts; its InputError gets file and line.
+template <class Check>
+std::vector<std::string> checked_texts(const YamlNode& node, const std::string& key, Check check) {
+  std::vector<std::string> out = as_texts(node, key);
+  try {
+    check(out);
+  } catch (const InputError& error) {
+    throw node.error(key + ": " + error.what());
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<metrics::Times> as_times(const YamlNode& node, const std::string& key) {
+  std::vector<metrics::Times> out;
+  for (const std::string& name : as_texts(node, key)) {
+    const auto value = from_text<metrics::Times>(name);
+    if (!value) throw node.error("times: expected " + choice_list<metrics::Times>());
+    if (std::ranges::count(out, *value) == 0) out.push_back(*value);
+  }
+  if (out.empty()) throw node.error("times: expected " + choice_list<metrics::Times>());
+  return out;
+}
+
+void read_timing(const YamlNode& node, Sweep& sweep) {
+  constexpr int kRunsWhenAlone = 5;  // for a median that one disturbance does not change
+  if (node.type == YamlNode::Type::map) {
+    require_keys(node, "timing", {"runs", "serial"});
+    read_key(node, "timing.runs", sweep.timing, as_count);
+    read_key(node, "timing.serial", sweep.serial, as_flag);
+  } else if (std::holds_alternative<bool>(node.scalar)) {
+    sweep.serial = as_flag(node, "timing");
+    if (sweep.serial) sweep.timing = kRunsWhenAlone;
+  } else {
+    sweep.timing = as_count(node, "timing");
+  }
+}
+
+Limits as_limits(const YamlNode& node, const std::string& name) {
+  require_keys(node, name, {"seconds", "memory", "cells"});
+  Limits out;
+  read_key(
+      node, "limits.seconds", out.seconds, [](const YamlNode& seconds, const std::string& key) {
+        return as_number(seconds, key, Between{0.0});
+      });
+  read_key(node, "limits.memory", out.memory, as_bytes);
+  read_key(node, "limits.cells", out.cells, [](const YamlNode& cells, const std::string& key) {
+    return as_integer(cells, key, 1'000'000'000);
+  });
+  return out;
+}
+
+std::vector<Exclusion> as_exclusions(const YamlNode& node, const std::string& name) {
+  if (node.type != YamlNode::Type::list) {
+    throw node.error("exclude: expected a list of {dataset, method} patterns");
+  }
+  constexpr std::size_t kMost = 1'000;
+  if (node.list.size() > kMost) throw node.error("exclude: more than 1000 entries");
+  std::vector<Exclusion> out;
+  for (const YamlNode& entry : node.list) {
+    require_keys(entry, name, {"dataset", "method"});
+    Exclusion& exclusion = out.emplace_back();
+    read_key(entry, "dataset", exclusion.dataset, as_pattern);
+    read_key(entry, "method", exclusion.method, as_pattern);
+  }
+  return out;
+}
+
+TableSpec as_table(const YamlNode& node, const std::string& name) {
+  require_keys(node, name, {"rows", "columns", "split", "value", "show", "where", "plus_minus"});
+  const auto fields = [](const YamlNode& list, const std::string& key) {
+    return checked_texts(list, key, [](const auto& names) {
+      for (const std::string& each : names) field(Record{}, each);
+    });
+  };
+  const auto statistic = [](const YamlNode& word, const std::string& key) {
+    const auto check = [](const auto& names) { value(Record{}, names.front()); };
+    return checked_texts(word, key, check).front();
+  };
+  const auto filters = [](const YamlNode& rules, const std::string& key) {
+    return checked_texts(rules, key, [](const auto& all) { where(all); });
+  };
+  TableSpec out;
+  read_key(node, "table.rows", out.rows, fields);
+  read_key(node, "table.columns", out.columns, fields);
+  read_key(node, "table.split", out.split, fields);
+  read_key(node, "table.show", out.show, as_texts);
+  read_key(node, "table.value", out.value, statistic);
+  read_key(node, "table.plus_minus", out.plus_minus, as_flag);
+  read_key(node, "table.where", out.where, filters);
+  return out;
+}
+
+}  // namespace loopbench::harness
