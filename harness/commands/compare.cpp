@@ -101,6 +101,10 @@ void add_compare(CLI::App& app, int& exit_code) {
                    "Unit of independent observations: groups of runs, single runs, or sequences")
       ->transform(one_of("observation", units));
   declare_ties(*command, arguments->options.tie, arguments->options.relevant);
+  command->add_flag(
+      "--paired",
+      arguments->options.paired,
+      "Also pair runs of evaluated files, by their names; those of sweeps always are");
   command->add_option(
       "--where", arguments->where, "Filter of rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, ...");
   declare(*command,

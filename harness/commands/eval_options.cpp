@@ -69,26 +69,22 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
   command.add_flag("-s,--correct_scale",
                    a.correct_scale,
                    "Also align the scale; without --align only the scale");
-  const auto field = [&](const char* option, const char* name, const std::string& help) {
-    const auto set = [&a, name](const std::string& value) {
-      a.fields.push_back(std::string(name) + "=" + value);
-    };
-    return command.add_option_function<std::string>(option, set, help)->type_name("WORD");
+  command.add_option("--n_to_align", a.align_first, "Number of first pairs used for the alignment");
+  const auto word = [&](const char* name, std::string& value, const std::string& help) {
+    return command.add_option(name, value, help)->type_name("WORD");
   };
-  const auto seconds = [&](const char* option, const char* name, const char* help) {
-    field(option, name, help)->type_name("S")->check(finite_number());
+  word("--association",
+       a.association,
+       "Association in time: " + choice_list<metrics::Association>());
+  word("--project_to_plane",
+       a.project,
+       "Plane to project onto: " + choice_list<metrics::ProjectionPlane>());
+  const auto seconds = [&](const char* name, std::optional<double>& value, const char* help) {
+    command.add_option(name, value, help)->type_name("S")->check(finite_number());
   };
-  field("--n_to_align", "align_first", "Number of first pairs used for the alignment")
-      ->type_name("INT");
-  field("--association",
-        "association",
-        "Association in time: " + choice_list<metrics::Association>());
-  field("--project_to_plane",
-        "project",
-        "Plane to project onto: " + choice_list<metrics::ProjectionPlane>());
   seconds(
-      "--max-diff,--t_max_diff", "max_diff", "Maximum time difference between paired poses [s]");
-  seconds("--max-gap", "max_gap", "Longest reference gap to interpolate across [s]");
+      "--max-diff,--t_max_diff", a.max_diff, "Maximum time difference between paired poses [s]");
+  seconds("--max-gap", a.max_gap, "Longest reference gap to interpolate across [s]");
   command
       .add_option("--min-coverage",
                   a.min_coverage,
@@ -98,7 +94,7 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
       ->type_name("SHARE")
       ->check(finite_number())
       ->check(CLI::Range(0.0, 1.0));
-  seconds("--offset,--t_offset", "offset", "Time offset added to the estimates' stamps [s]");
+  seconds("--offset,--t_offset", a.offset, "Time offset added to the estimates' stamps [s]");
 }
 
 /// As those of `plot`.
@@ -161,14 +157,10 @@ void declare(CLI::App& command, EvalArguments& a) {
                   "Unit of --delta: f, s, m, d or r (frames, s, m, deg, rad)")
       ->type_name("WORD")
       ->excludes(metric);
-  const auto flag = [&](const char* option, const char* setting, const char* help) {
-    command.add_flag_callback(
-        option, [&a, setting] { a.fields.emplace_back(setting); }, help);
-  };
-  flag("--all_pairs", "pairs=all", "Use all pairs for rpe");
-  flag("--pairs_from_reference",
-       "pairs_from=reference",
-       "Measure --delta along REF instead of the estimate");
+  command.add_flag("--all_pairs", a.all_pairs, "Use all pairs for rpe");
+  command.add_flag("--pairs_from_reference",
+                   a.pairs_from_reference,
+                   "Measure --delta along REF instead of the estimate");
   command.add_flag("--json", a.json, "Print JSON in full precision, one list entry per evaluation");
   command
       .add_flag(
@@ -203,6 +195,22 @@ void declare(CLI::App& command, EvalArguments& a) {
       .add_option("--sequence", a.sequence, "Label of REF in the store (default: from its name)")
       ->type_name("NAME")
       ->needs("--store");
+  command
+      .add_option("--group",
+                  a.group,
+                  "Recording of REF: sequences of one recording are not independent (default: by "
+                  "the geometry of the references)")
+      ->type_name("NAME")
+      ->needs("--store");
+  command
+      .add_option("--common",
+                  a.common,
+                  "Evaluate only the times that all estimates of REF cover: yes or no (default: "
+                  "yes with --store)")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, bool>{{"yes", true}, {"no", false}}))
+      ->type_name("WORD");
+  command.add_flag("--paired", a.paired, "Pair runs of equal names in verdicts");
 }
 
 }  // namespace loopbench::harness

@@ -79,6 +79,8 @@ struct Comparison {
   std::size_t copies = 0;              ///< runs with the same content as another, not counted
   std::size_t sequences = 0;           ///< sequences of the runs used
   std::size_t possible_sequences = 0;  ///< sequences of the possible runs
+  /// Sequences of evaluated files with an earlier one's recording: "c2 of c1".
+  std::vector<std::string> same_recordings;
   std::size_t known_groups = 0;        ///< groups of the runs, for any options.over
   std::vector<MethodVerdict> methods;  ///< the leader first, others by their ratio to the baseline
   std::vector<Gap> gaps;

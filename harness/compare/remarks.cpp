@@ -25,6 +25,12 @@ Lines about_runs(const Comparison& c) {
                               c.copies == 1 ? " repeats" : "s repeat",
                               c.copies == 1 ? "is" : "are"));
   }
+  if (!c.same_recordings.empty()) {
+    out.push_back(
+        "not independent, because the references are one recording (guessed from their geometry "
+        "unless stated by --group): " +
+        joined(c.same_recordings));
+  }
   if (c.options.over == Over::runs && c.known_groups < c.runs) {
     out.push_back(fmt::format(
         "assumes that all runs are independent (--over runs), although they form {} groups",

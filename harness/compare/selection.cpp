@@ -83,6 +83,7 @@ KeptRuns select_runs(const Observations& all, Comparison& out) {
   KeptRuns kept{ranked_methods(all, out), {}, {}, {}};
   NameOrder sequences;
   std::set<std::string> possible_sequences;
+  std::set<std::string> same_recordings;
   out.is_paired = out.options.paired || std::ranges::any_of(all.runs, [](const ObservedRun& run) {
                     return recording_of(run.group).empty();
                   });
@@ -98,7 +99,11 @@ KeptRuns select_runs(const Observations& all, Comparison& out) {
     if (known < fewest || !has_value) continue;
     kept.runs.push_back(run);
     const std::size_t sequence = sequences.index(sequence_key(all.runs[run]));
-    if (sequence == kept.sequences.size()) kept.sequences.push_back(all.runs[run].sequence);
+    const std::string& label = all.runs[run].sequence;
+    if (sequence == kept.sequences.size()) kept.sequences.push_back(label);
+    if (const std::string& first = kept.sequences[sequence]; label != first) {
+      same_recordings.insert(label + " of " + first);
+    }
     kept.values.sequence.push_back(sequence);
     if (all.runs[run].has_oracle_closures) measured.insert(all.runs[run].sequence);
   }
@@ -119,6 +124,7 @@ KeptRuns select_runs(const Observations& all, Comparison& out) {
   out.possible = all.runs.size();
   out.sequences = kept.sequences.size();
   out.possible_sequences = possible_sequences.size();
+  out.same_recordings.assign(same_recordings.begin(), same_recordings.end());
   out.oracle_closures.assign(measured.begin(), measured.end());
   return kept;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -26,14 +27,19 @@ std::string scaled(const std::string& align) {
 
 Params changes(const EvalArguments& a, const metrics::Protocol& base) {
   Params out = parse_settings(a.settings, describe(base));
-  for (auto& [name, value] : parse_settings(a.fields, describe(base))) {
-    out[name] = value;
-  }
+  if (!a.association.empty()) out["association"] = a.association;
   if (!a.align.empty()) out["align"] = a.align;
   if (a.correct_scale) {
     const auto given = out.find("align");
     out["align"] = scaled(given == out.end() ? to_text(base.align) : to_text(given->second));
   }
+  if (a.align_first) out["align_first"] = std::int64_t{*a.align_first};
+  if (!a.project.empty()) out["project"] = a.project;
+  if (a.max_diff) out["max_diff"] = *a.max_diff;
+  if (a.max_gap) out["max_gap"] = *a.max_gap;
+  if (a.offset) out["offset"] = *a.offset;
+  if (a.all_pairs) out["pairs"] = std::string("all");
+  if (a.pairs_from_reference) out["pairs_from"] = std::string("reference");
   return out;
 }
 
@@ -157,8 +163,8 @@ std::vector<MetricChoice> metric_choices(const EvalArguments& a,
                                          const std::vector<metrics::NamedProtocol>& protocols) {
   std::vector<MetricChoice> out;
   for (const std::string& text : a.metrics) {
-    const ConfigEntry entry = parse_entry(text, "--metric");
-    const Choice metric = metric_choices(entry, catalogue, protocols).front().metric;
+    const Choice metric =
+        metric_choices(parse_entry(text, "--metric"), catalogue, protocols).front().metric;
     add_metric(out, metric.name, metric.options);
   }
   if (!out.empty()) return out;

@@ -9,7 +9,7 @@
 #include "datasets/derive/reference_body.hpp"
 #include "datasets/formats/formats.hpp"
 #include "harness/catalogue/catalogue.hpp"
-#include "harness/eval/eval_figures.hpp"
+#include "harness/eval/error_figures.hpp"
 #include "harness/eval/layout.hpp"
 #include "harness/model/sweep.hpp"
 
@@ -27,13 +27,20 @@ struct EvalArguments {
   std::optional<double> period;  ///< [s]; none: default of ReadOptions
   std::vector<std::string> protocols{"loopbench"};
   std::vector<std::string> settings;  ///< FIELD=VALUE of the protocol
-  std::vector<std::string> fields;    ///< the same, of fields with an option of their own
+  std::string association;
   std::string align;
   bool correct_scale = false;
+  std::optional<int> align_first;
+  std::string project;
+  std::optional<double> max_diff;
+  std::optional<double> max_gap;
+  std::optional<double> offset;
   std::optional<double> min_coverage;  ///< none: half of the best coverage of another estimate
   std::string relation;
   std::optional<double> delta;
   std::string delta_unit;
+  bool all_pairs = false;
+  bool pairs_from_reference = false;
   std::vector<std::string> metrics;  ///< NAME[:option=value,...]; empty: the default metrics
   std::vector<std::filesystem::path> plugins;
   bool json = false;
@@ -41,9 +48,12 @@ struct EvalArguments {
   std::string per_pose;  ///< output file; empty: none
   std::string plot;      ///< prefix of figure files; empty: none
   ErrorFigureSize plot_size;
-  std::string report;    ///< HTML file; empty: none
-  std::string store;     ///< folder of a store for the results; empty: none
-  std::string sequence;  ///< label of the reference in the store; empty: from its file name
+  std::string report;          ///< HTML file; empty: none
+  std::string store;           ///< folder of a store for the results; empty: none
+  std::string sequence;        ///< label of the reference in the store; empty: from its file name
+  std::string group;           ///< recording of the reference; empty: by its geometry
+  std::optional<bool> common;  ///< evaluate the times that all estimates cover; none: with a store
+  bool paired = false;         ///< pair runs of equal names in verdicts
 };
 
 /// Throws InputError for an unknown or repeated protocol or a malformed setting, OptionError for an

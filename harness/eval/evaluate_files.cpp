@@ -8,6 +8,9 @@
 #include <map>
 
 #include "datasets/core/parallel.hpp"
+#include "harness/eval/recorded_evaluation.hpp"
+#include "harness/eval/recorded_runs.hpp"
+#include "harness/eval/recordings.hpp"
 #include "harness/model/cell_records.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/text/write_file.hpp"
@@ -32,6 +35,37 @@ std::vector<RecordedRun> runs_of(const std::vector<FilePair>& files, const EvalA
   return out;
 }
 
+void set_incomplete(EvaluatedFile& file, std::size_t protocol, const std::string& why) {
+  file.protocols[protocol].incomplete_reason = why;
+  for (ScoreResult& score : file.result.scores) {
+    if (score.protocol != protocol || score.status != Status::ok) continue;
+    score.status = Status::incomplete;
+    score.why = why;
+  }
+}
+
+/// Marks an evaluation as incomplete if less than a tenth of the estimate's and of the reference's
+/// poses found a partner: the stamps meet by chance, or the files belong to different clocks.
+void reject_few_pairs(std::vector<EvaluatedFile>& all) {
+  constexpr double kFew = 0.1;
+  for (EvaluatedFile& file : all) {
+    for (std::size_t p = 0; p < file.protocols.size(); ++p) {
+      const EvaluationResult& own = file.protocols[p];
+      if (!own.why_failed.empty() || !own.incomplete_reason.empty()) continue;
+      const auto pairs = static_cast<double>(own.coverage.pairs);
+      const auto references = static_cast<double>(own.reference_poses);
+      if (own.coverage.share() >= kFew || pairs >= kFew * references) continue;
+      set_incomplete(file,
+                     p,
+                     fmt::format("paired {} of {} poses with {} of the reference, less than a "
+                                 "tenth of either (--min-coverage 0 accepts it)",
+                                 own.coverage.pairs,
+                                 own.coverage.possible,
+                                 own.reference_poses));
+    }
+  }
+}
+
 /// Marks an evaluation as incomplete if its coverage is less than half of that of another estimate
 /// with the same reference and protocol, by the smaller of both shares.
 void compare_coverage(std::vector<EvaluatedFile>& all) {
@@ -50,18 +84,14 @@ void compare_coverage(std::vector<EvaluatedFile>& all) {
       const double best = most.at({own.reference, p});
       const bool is_less = own.coverage.least() < kMuchLess * best;
       if (!own.why_failed.empty() || !is_less) continue;
-      own.incomplete_reason = fmt::format(
+      const std::string why = fmt::format(
           "evaluated {} of {} poses over {:.1f} % of the reference's time, less than half of the "
           "{:.1f} % of another estimate",
           own.coverage.pairs,
           own.coverage.possible,
           100.0 * own.coverage.span,
           100.0 * best);
-      for (ScoreResult& score : file.result.scores) {
-        if (score.protocol != p || score.status != Status::ok) continue;
-        score.status = Status::incomplete;
-        score.why = own.incomplete_reason;
-      }
+      set_incomplete(file, p, why);
     }
   }
 }
@@ -124,33 +154,42 @@ void require_evaluated(const std::vector<EvaluatedFile>& all) {
 std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
   const std::vector<FilePair> files = file_pairs(a);
   reject_overwriting(all_files(a, files), a.per_pose);
-  const RecordedSweep sweep = recorded_sweep(runs_of(files, a), a);
-  const std::vector<RecordedRun>& runs = sweep.runs;
+  std::vector<RecordedRun> runs = runs_of(files, a);
+  if (a.common.value_or(false)) set_common_times(runs, a);
+  const Catalogue known = recorded_catalogue(a.plugins);
+  const Sweep sweep = recorded_sweep(runs, a, known);
+  reference_body(a);  // rejects an invalid one before files are read
   check_stamp_options(a, runs);
-  std::vector<Cell> cells = sweep.cells;
+  std::vector<Cell> cells = recorded_cells(runs, sweep);
   std::ranges::sort(cells, {}, &Cell::dataset);
   std::vector<EvaluatedFile> all(cells.size());
+  Recordings recordings;
   for (std::size_t begin = 0, end = 0; begin < runs.size(); begin = end) {
     while (end < runs.size() && runs[end].reference == runs[begin].reference) ++end;
-    const SharedReference reference = shared_reference(runs[begin].reference, sweep);
+    SharedReference reference = shared_reference(sweep.datasets[begin].dataset.options, sweep, a);
+    if (!reference.content.empty()) {
+      reference.recording = recordings.name_of(reference.content, reference.read.poses);
+    }
     parallel_for_tasks(end - begin, [&](std::size_t i) {
-      all[begin + i] = evaluate_recorded(cells[begin + i], sweep, reference);
+      all[begin + i] = evaluate_recorded(cells[begin + i], sweep, reference, known, a);
     });
   }
   require_evaluated(all);
   if (!a.min_coverage) compare_coverage(all);
-  return results_of(std::move(all), sweep.sweep);
+  if (!a.min_coverage) reject_few_pairs(all);
+  return results_of(std::move(all), sweep);
 }
 
 std::vector<EvaluationResult> evaluate_in_memory(const EvalArguments& a,
                                                  RecordedFile reference,
-                                                 const RecordedFile& estimate) {
-  const RecordedSweep sweep =
-      recorded_sweep({{"reference", "estimate", "0", "reference", "estimate"}}, a);
+                                                 RecordedFile estimate) {
+  const Catalogue known = recorded_catalogue();
+  const Sweep sweep =
+      recorded_sweep({{"reference", "estimate", "0", "reference", "estimate"}}, a, known);
   std::vector<EvaluatedFile> all;
-  all.push_back(evaluate_poses(sweep.cells.front(), sweep, {std::move(reference)}, estimate));
+  all.push_back(evaluate_poses({}, sweep, {std::move(reference)}, std::move(estimate), known, a));
   require_evaluated(all);
-  return results_of(std::move(all), sweep.sweep);
+  return results_of(std::move(all), sweep);
 }
 
 }  // namespace loopbench::harness

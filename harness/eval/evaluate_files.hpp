@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "harness/eval/arguments.hpp"
-#include "harness/eval/recorded_evaluation.hpp"
+#include "harness/eval/evaluation_result.hpp"
+#include "harness/eval/recorded_sweep.hpp"
 
 namespace loopbench::harness {
 
@@ -19,6 +20,6 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& arguments);
 /// InputError if the evaluation fails.
 std::vector<EvaluationResult> evaluate_in_memory(const EvalArguments& arguments,
                                                  RecordedFile reference,
-                                                 const RecordedFile& estimate);
+                                                 RecordedFile estimate);
 
 }  // namespace loopbench::harness

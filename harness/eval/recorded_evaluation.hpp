@@ -5,30 +5,26 @@
 #include <string>
 #include <vector>
 
+#include "harness/eval/arguments.hpp"
 #include "harness/eval/evaluation_result.hpp"
 #include "harness/eval/recorded_sweep.hpp"
 #include "harness/model/result.hpp"
 
 namespace loopbench::harness {
 
-/// Poses of a file and the remarks of its reader.
-struct RecordedFile {
-  Trajectory poses;
-  std::vector<PoseMatrix> matrices = {};  ///< as printed; only of KITTI files, and if needed
-  ReadFindings findings = {};
-  std::string unstamped = {};  ///< file and format if the stamps were generated, otherwise empty
-};
-
 /// The reference of several cells, read once.
 struct SharedReference {
-  RecordedFile read;         ///< poses in the body of the estimates
-  std::string content = {};  ///< hash of the poses, so that names and comments do not matter;
-                             ///< empty: runs are not compared
+  RecordedFile read;           ///< poses in the body of the estimates
+  std::string content = {};    ///< hash of the poses, so that names and comments do not matter;
+                               ///< empty: runs are not compared
+  std::string recording = {};  ///< content of its first copy, see Recordings
   std::optional<InputFile> file = {};  ///< for a store
 };
 
-/// Throws InputError.
-SharedReference shared_reference(const std::string& file, const RecordedSweep& files);
+/// `options`: of a dataset of recorded_sweep(). Throws InputError.
+SharedReference shared_reference(const Params& options,
+                                 const Sweep& sweep,
+                                 const EvalArguments& arguments);
 
 /// The result of a cell, and what a cell does not contain, for each protocol of the sweep.
 struct EvaluatedFile {
@@ -40,13 +36,17 @@ struct EvaluatedFile {
 /// protocol under which nothing can be evaluated has a `why_failed`. No times are recorded, because
 /// no method runs. O((n + m) log(n + m)).
 EvaluatedFile evaluate_poses(const Cell& cell,
-                             const RecordedSweep& files,
+                             const Sweep& sweep,
                              const SharedReference& reference,
-                             const RecordedFile& estimate);
+                             RecordedFile estimate,
+                             const Catalogue& catalogue,
+                             const EvalArguments& arguments);
 
 /// The same for the file of the cell. If it cannot be read, the cell and all protocols fail.
 EvaluatedFile evaluate_recorded(const Cell& cell,
-                                const RecordedSweep& files,
-                                const SharedReference& reference);
+                                const Sweep& sweep,
+                                const SharedReference& reference,
+                                const Catalogue& catalogue,
+                                const EvalArguments& arguments);
 
 }  // namespace loopbench::harness

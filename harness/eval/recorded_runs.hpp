@@ -12,9 +12,11 @@ namespace loopbench::harness {
 struct RecordedRun {
   std::string sequence;
   std::string method;
-  std::string run;        ///< "0", "7", or "0" if the file name has no number
-  std::string reference;  ///< absolute
-  std::string estimate;   ///< absolute
+  std::string run;          ///< "0", "7", or "0" if the file name has no number
+  std::string reference;    ///< absolute
+  std::string estimate;     ///< absolute
+  std::string group = {};   ///< name of the recording; empty: by the geometry of the reference
+  std::string common = {};  ///< times to evaluate, see set_common_times(); empty: all
   friend bool operator==(const RecordedRun&, const RecordedRun&) = default;
 };
 
@@ -30,9 +32,12 @@ struct RecordedRun {
 std::vector<RecordedRun> recorded_runs(const std::vector<FilePair>& files,
                                        const std::string& sequence);
 
-/// Labels for estimates: those of recorded_runs(), or the names as given if recorded_runs() rejects
-/// them.
+/// Labels for estimates: those of recorded_runs(), or the shortest ends of the paths that differ if
+/// recorded_runs() rejects them.
 std::vector<RecordedRun> labelled_runs(const std::vector<FilePair>& files,
                                        const std::string& sequence);
+
+/// "run2" < "run10": numbers within names are compared as numbers. A total order of texts.
+bool natural_less(const std::string& a, const std::string& b);
 
 }  // namespace loopbench::harness

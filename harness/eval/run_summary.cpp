@@ -156,7 +156,8 @@ namespace {
 std::string report_of(const std::vector<Record>& records,
                       const Record& score,
                       const std::string& subject,
-                      const std::optional<TerminalStyle>& style) {
+                      const std::optional<TerminalStyle>& style,
+                      bool paired) {
   const std::vector<RunSummary> all = summarise_runs(records, score);
   std::set<std::string> methods;
   for (const RunSummary& each : all) methods.insert(each.method);
@@ -176,6 +177,7 @@ std::string report_of(const std::vector<Record>& records,
   }
   CompareOptions options;
   options.baseline = records.front().method;
+  options.paired = paired;
   for (const Comparison& comparison : compare(scores, options)) {
     out += "\n" + lines_of("verdict: " + statement(comparison), style);
     const std::vector<std::string> limits = conditions(comparison);
@@ -190,7 +192,8 @@ std::string report_of(const std::vector<Record>& records,
 }  // namespace
 
 std::string run_report(const std::vector<Record>& records,
-                       const std::optional<TerminalStyle>& style) {
+                       const std::optional<TerminalStyle>& style,
+                       bool paired) {
   const std::vector<SharedText> protocols = protocols_of(records);
   std::string out;
   for (const SharedText& protocol : protocols) {
@@ -199,7 +202,7 @@ std::string run_report(const std::vector<Record>& records,
     std::string subject = metric_label(*score);
     if (!is_total_score(*score)) subject += " " + score->axis;
     if (protocols.size() > 1) subject += " (" + protocol + ")";
-    out += report_of(records, *score, subject, style);
+    out += report_of(records, *score, subject, style, paired);
   }
   return out;
 }

@@ -33,6 +33,7 @@ std::vector<RunSummary> summarise_runs(const std::vector<Record>& records, const
 /// requested, the first one with a direction, or an axis of it if there is no total. Empty below
 /// two methods and two runs. Equal runs count once, as in compare(). Markdown without a style.
 std::string run_report(const std::vector<Record>& records,
-                       const std::optional<TerminalStyle>& style = std::nullopt);
+                       const std::optional<TerminalStyle>& style = std::nullopt,
+                       bool paired = false);
 
 }  // namespace loopbench::harness

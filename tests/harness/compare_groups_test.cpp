@@ -53,7 +53,7 @@ TEST(Failures, AreLossesAndTheSentenceCountsThem) {
     EXPECT_EQ(good->losses, 10u);
     EXPECT_EQ(good->fails, 10u);
     EXPECT_FALSE(good->ratio);  // half of the runs have none, so that none is typical
-    EXPECT_TRUE(has(verdict(c), "on 10 of 20 runs; fails 10")) << verdict(c);
+    EXPECT_TRUE(has(verdict(c), "; fails: good 10 of 20 runs")) << verdict(c);
     EXPECT_TRUE(has_note(c, "good fails on 10 of 20 runs")) << status;
   }
 }
@@ -68,9 +68,9 @@ TEST(Failures, AreNoGainOfTheMethodThatFails) {
   const Comparison c = compared(records, {.baseline = "raw"});
   EXPECT_EQ(c.methods[0].method, "raw");
   EXPECT_EQ(verdict(c),
-            "the baseline raw is best: same is worse than raw on 12 of 16 groups, p = 0.00049, on "
-            "4 of 16 "
-            "runs; fails 12; significantly better than the other method; over 16 sequences");
+            "the baseline raw is best: same is worse than raw on 12 of 16 groups, p = 0.00049; "
+            "significantly better than the other method; fails: same 12 of 16 runs; over 16 "
+            "sequences");
 }
 
 TEST(Failures, MayBeFewerThanWhatABestMethodWins) {
@@ -83,7 +83,7 @@ TEST(Failures, MayBeFewerThanWhatABestMethodWins) {
   }
   const Comparison c = compared(records, {.baseline = "raw"});
   EXPECT_TRUE(c.is_best) << verdict(c);
-  EXPECT_TRUE(has(verdict(c), "on 19 of 20 runs; fails 1")) << verdict(c);
+  EXPECT_TRUE(has(verdict(c), "; fails: good 1 of 20 runs")) << verdict(c);
 }
 
 TEST(Failures, AreNotRunsThatWereNeverMade) {

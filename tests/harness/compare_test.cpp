@@ -328,12 +328,12 @@ TEST(ComparisonText, HasALinePerMethodInEveryFormat) {
   EXPECT_EQ(text.find("### ate rmse, dense, loopbench\n\n| method"), 0u) << text;
   EXPECT_TRUE(has(text, "\n| **dual**")) << text;
   EXPECT_TRUE(has(text, "8/0/0"));
-  EXPECT_TRUE(has(text, "\n- dual is best: "));
+  EXPECT_TRUE(has(text, "\n- translation ate, rmse [m], dense, loopbench: dual is best: "));
   const std::string table = csv(all);
   EXPECT_EQ(std::ranges::count(table, '\n'), 5);
   EXPECT_TRUE(has(table, "loopbench,dense,ate,ate,translation,3d,m,rmse,uniform,groups,8,8,raw,"))
       << table;
-  EXPECT_TRUE(has(json(all), "\"verdict\": \"dual is best"));
+  EXPECT_TRUE(has(json(all), "\"verdict\": \"translation ate, rmse [m], dense, loopbench: dual is best"));
 }
 
 }  // namespace

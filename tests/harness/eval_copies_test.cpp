@@ -5,6 +5,7 @@
 #include <fstream>
 #include <set>
 
+#include "harness/eval/recordings.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/recorded_files.hpp"
@@ -78,6 +79,43 @@ TEST_F(EvalCopies, SequencesWithOneReferenceAreOneGroup) {
   EXPECT_FALSE(comparison.is_best);
 }
 
+/// Reference and runs of a recording, each time with the reference cropped, scaled or noisy.
+TEST_F(EvalCopies, NearCopiesOfAReferenceAreOneGroup) {
+  std::string out;
+  for (int copy = 0; copy < 10; ++copy) {
+    const std::string name = "c" + std::to_string(copy);
+    Trajectory reference = path_of(copy % 3 == 1 ? 0.002 : 0.0);
+    if (copy % 3 == 2) reference.resize(40);
+    for (StampedPose& pose : reference) pose.world_from_body.translation *= 1.0 + 1e-4 * copy;
+    write_tum(path("truths/" + name + ".txt"), reference);
+    std::filesystem::create_directories(path(name + "/good"));
+    std::filesystem::create_directories(path(name + "/bad"));
+    write_tum(path(name + "/good/0.txt"), path_of(0.01));
+    write_tum(path(name + "/bad/0.txt"), path_of(0.03));
+    out = test::eval({path("truths/" + name + ".txt"),
+                      path(name + "/good/0.txt"),
+                      path(name + "/bad/0.txt"),
+                      "--store",
+                      path("store")});
+  }
+  EXPECT_EQ(compared("store").groups, 1u);
+  EXPECT_THAT(out, HasSubstr("the references are one recording"));
+  EXPECT_THAT(out, HasSubstr("c1 of c0"));
+  EXPECT_FALSE(is_same_recording(path_of(0.0), path_of(0.0, 1.0)));
+  std::filesystem::create_directories(path("own/good"));
+  std::filesystem::create_directories(path("own/bad"));
+  write_tum(path("own/good/0.txt"), path_of(0.012));
+  write_tum(path("own/bad/0.txt"), path_of(0.034));
+  test::eval({path("truths/c0.txt"),
+              path("own/good/0.txt"),
+              path("own/bad/0.txt"),
+              "--sequence=own",
+              "--group=own",
+              "--store",
+              path("store")});
+  EXPECT_EQ(compared("store").groups, 2u);
+}
+
 TEST_F(EvalCopies, AMethodThatIsAddedLaterSeparatesRunsThatWereEqual) {
   for (int run = 0; run < 10; ++run) write_run("systems/good", "office", run, 0.01);
   const std::vector<std::string> tail{"--sequence", "office", "--store", path("store")};
@@ -124,6 +162,27 @@ TEST_F(EvalCopies, RunsOfOneSystemAloneAreRunsOfTheSequence) {
                                       path("systems/good/office/1.txt"),
                                       path("systems/bad/office/0.txt")});
   EXPECT_THAT(out, HasSubstr("but 2 runs of 1 sequence cannot show a difference"));
+}
+
+/// Ten runs of two systems on one sequence: the same under any numbers of the files.
+TEST_F(EvalCopies, NumbersOfIndependentRunsDoNotMatter) {
+  const auto verdict_with = [&](int shift) {
+    std::vector<std::string> arguments{path("truths/office.txt")};
+    for (int run = 0; run < 10; ++run) {
+      const std::string name = "a" + std::to_string(shift) + "/bad/office";
+      std::filesystem::create_directories(path(name));
+      const int number = (run * 3 + shift) % 10;
+      write_tum(path(name + "/" + std::to_string(number) + ".txt"), path_of(0.02 + 0.001 * run));
+      arguments.push_back(path(name + "/" + std::to_string(number) + ".txt"));
+      arguments.push_back(path("systems/good/office/" + std::to_string(run) + ".txt"));
+    }
+    const std::string out = test::eval(arguments);
+    return out.substr(out.find("\nverdict: "));
+  };
+  const std::string first = verdict_with(0);
+  EXPECT_THAT(first, HasSubstr("rank sums within it, for more runs of it"));
+  EXPECT_EQ(verdict_with(1), first);
+  EXPECT_EQ(verdict_with(7), first);
 }
 
 }  // namespace

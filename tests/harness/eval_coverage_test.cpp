@@ -66,6 +66,51 @@ TEST_F(EvalCoverage, FivePosesOfAThousandAreIncompleteBesideOthers) {
   eval({reference_, short_});  // without a second estimate there is no comparison
 }
 
+TEST_F(EvalCoverage, FewPairsOfOneEstimateAreIncomplete) {
+  // Stamps 0.05 s beside those of the reference, but for every 20th.
+  std::string text;
+  std::istringstream poses(spiral(0.0, 100.0, 0.1, 1.0, 0.3));
+  int i = 0;
+  for (std::string line; std::getline(poses, line); ++i) {
+    const std::size_t space = line.find(' ');
+    const double stamp = std::stod(line) + (i % 20 == 0 ? 0.0 : 0.05);
+    text += std::to_string(stamp) + line.substr(space) + "\n";
+  }
+  const std::string few = written("few_pairs.txt", text);
+  EXPECT_EQ(eval_json({reference_, few}, kExitSomeCellsFailed)["why"],
+            "paired 51 of 1001 poses with 1001 of the reference, less than a tenth of either "
+            "(--min-coverage 0 accepts it)");
+  EXPECT_EQ(eval_json({reference_, few, "--min-coverage=0"})["status"], "ok");
+}
+
+TEST_F(EvalCoverage, CommonTimesOfAllEstimatesAreCompared) {
+  const std::string half = written("half.txt", spiral(0.0, 60.0, 0.1, 1.0, 0.3));
+  const std::string late = written("late.txt", spiral(20.0, 100.0, 0.1, 1.0, 0.3));
+  const auto count = [](const Json& result) {
+    return find(result, "ate", "translation")["count"].get<int>();
+  };
+  const std::vector<std::string> files{reference_, complete_, half, late};
+  EXPECT_EQ(count(eval_json(files)[1]), 601);
+  std::vector<std::string> common = files;
+  common.push_back("--common=yes");
+  const Json results = eval_json(common);
+  for (const Json& result : results) EXPECT_NEAR(count(result), 401, 1) << result;
+  EXPECT_NEAR(results[1]["span"].get<double>(), 0.6, 0.01);  // the loss stays visible
+  const std::string store = (folder_.path() / "store").string();
+  std::vector<std::string> stored = files;
+  stored.insert(stored.end(), {"--store", store});
+  const std::string out = eval(stored);
+  EXPECT_THAT(out, HasSubstr("% of the reference, others up to 100 %"));
+  EXPECT_EQ(out.find(" is best: "), out.npos) << out;
+  stored.push_back("--common=no");
+  eval(stored);
+}
+
+TEST_F(EvalCoverage, BelowTheLimitExitsWithOne) {
+  eval({reference_, short_, "--min-coverage=0.5"}, kExitSomeCellsFailed);
+  eval({reference_, complete_, "--min-coverage=0.5"});
+}
+
 TEST_F(EvalCoverage, RpeShowsItsOwnPairs) {
   EXPECT_THAT(eval({reference_, complete_, short_, "--min-coverage=0"}),
               HasSubstr("rpe 1 s [m]: 992;"));

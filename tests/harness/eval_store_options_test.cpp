@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "harness/eval/note_summary.hpp"
 #include "harness/eval/run_summary.hpp"
 #include "harness/gate/check.hpp"
 #include "harness/gate/snapshot.hpp"
@@ -17,6 +18,7 @@ namespace loopbench::eval_store_options_test {
 namespace {
 
 using testing::ContainsRegex;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using namespace harness;
 
@@ -43,6 +45,19 @@ TEST_F(EvalStoreOptions, PrintsFindingsOfTheDoctorOncePerKind) {
   EXPECT_LE(std::ranges::count(notes, '\n'), 5);
 }
 
+TEST(NoteSummary, HasOneLineOfEachKindAndAtMostFive) {
+  NoteSummary notes;
+  notes.add("a", {"few pairs: 4", "doctor: scale: 2; fix", "few pairs: 5"});
+  notes.add("b", {"doctor: scale: 3; fix", "doctor: time_offset: 1; fix"});
+  EXPECT_THAT(notes.lines(),
+              ElementsAre("a: doctor: scale: 2; fix (and 1 more run)",
+                          "b: doctor: time_offset: 1; fix",
+                          "a: few pairs: 4"));
+  notes.add("c", {"k1: x", "k2: x", "k3: x"});  // six kinds: four, and a line on the other two
+  ASSERT_EQ(notes.lines().size(), 5u);
+  EXPECT_THAT(notes.lines().back(), HasSubstr("2 other kinds"));
+}
+
 TEST_F(EvalStoreOptions, RejectsOptionsThatAStoreIgnores) {
   const std::vector<std::string> files{path("truths"), path("systems"), "--store", path("store")};
   const auto error = [&](const std::string& option, const std::string& value) {
@@ -66,11 +81,13 @@ TEST_F(EvalStoreOptions, PrintsATableAndAVerdictForEachProtocol) {
     EXPECT_THAT(out, HasSubstr("mean ate (" + std::string(protocol) + ") [m]"));
     EXPECT_THAT(out, HasSubstr(", keyframes, " + std::string(protocol) + ": good is best: "));
   }
-  const std::string without_ate =
-      test::eval({path("truths"), path("systems"), "-r", "trans_part", "--store", path("ape")});
-  EXPECT_THAT(without_ate,
-              HasSubstr("verdict: translation_part ape, rmse [m], keyframes, loopbench: "));
-  EXPECT_THAT(without_ate, ContainsRegex("mean ape[^|]* \\[m\\]"));
+}
+
+TEST_F(EvalStoreOptions, PrintsTheRequestedScoreIfThereIsNoAte) {
+  const std::string out =
+      test::eval({path("truths"), path("systems"), "-r", "trans_part", "--store", path("store")});
+  EXPECT_THAT(out, HasSubstr("verdict: translation_part ape, rmse [m], keyframes, loopbench: "));
+  EXPECT_THAT(out, ContainsRegex("mean ape[^|]* \\[m\\]"));
 }
 
 TEST_F(EvalStoreOptions, EvaluatesNoNumbersAgainstStamps) {

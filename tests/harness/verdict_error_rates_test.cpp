@@ -29,6 +29,13 @@ TEST(VerdictErrorRates, AreLowForEqualMethods) {
   expect_few_errors({.effects = {0.0, -0.3, -0.3, 0.1}, .groups = 12});
 }
 
+TEST(VerdictErrorRates, AreLowForIndependentRuns) {
+  expect_few_errors({.effects = {0.0, 0.0},
+                     .groups = 16,
+                     .sequences = {{0.0, 0.0}, {0.0, 0.0}},
+                     .is_independent = true});
+}
+
 TEST(VerdictErrorRates, AreLowForClusters) {
   expect_few_errors({.effects = {0.0, 0.0}, .groups = 8, .runs_in_group = 5, .shared = 0.75});
 }
@@ -72,21 +79,6 @@ TEST(IntervalCoverage, IsNominalFromSixObservationsOn) {
   }
   const Truth simultaneous{.effects = {0.0, -0.2, 0.1, 0.0, 0.3}, .groups = 12};
   EXPECT_GE(coverage(simultaneous, shapes()[0], 500, 11).covered, 0.95 - 4.0 * 0.0097);
-}
-
-TEST(SyntheticStores, AreReadAsTheyWereDrawn) {
-  const Truth truth{.effects = {0.0, -0.2, 0.1},
-                    .groups = 8,
-                    .runs_in_group = 2,
-                    .failures = {0.0, 0.0, 0.2},
-                    .copies = 0.3};
-  const ErrorRates drawn = error_rates(truth, shapes()[0], 20, 11, Through::memory);
-  const ErrorRates read = error_rates(truth, shapes()[0], 20, 11, Through::store);
-  EXPECT_EQ(drawn.found, read.found);
-  EXPECT_EQ(drawn.false_better, read.false_better);
-  EXPECT_EQ(drawn.marked_wrong, read.marked_wrong);
-  EXPECT_EQ(coverage(truth, shapes()[0], 20, 11).covered,
-            coverage(truth, shapes()[0], 20, 11, Through::store).covered);
 }
 
 }  // namespace

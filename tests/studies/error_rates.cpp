@@ -5,10 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "harness/store/read.hpp"
-#include "harness/tables/all_records.hpp"
-#include "tests/studies/synthetic_store.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "harness/tables/pivot.hpp"
 
 namespace loopbench::synthetic {
 
@@ -70,29 +67,15 @@ std::size_t marked(const std::vector<Record>& all, std::size_t methods) {
   return methods;
 }
 
-/// Comparison and records of one draw.
-struct Drawn {
-  Comparison comparison;
-  std::vector<Record> records;
-};
-
-Drawn drawn(const std::vector<Record>& all, Through through, const TemporaryFolder& folder) {
-  if (through == Through::memory) return {compare(all, {.baseline = "m0"}).at(0), all};
-  write_store(all, folder.path());
-  std::vector<Record> read = read_records(folder.path());
-  return {compare_store(folder.path(), "ate", {}, {}).at(0), std::move(read)};
-}
-
 }  // namespace
 
-ErrorRates error_rates(
-    const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed, Through through) {
+ErrorRates error_rates(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed) {
   std::mt19937_64 bits(seed);
-  const TemporaryFolder folder;
   ErrorRates out;
   const std::size_t best = truly_best(truth);
   for (int i = 0; i < repeats; ++i) {
-    const auto [c, all] = drawn(records(truth, shape, bits), through, folder);
+    const std::vector<Record> all = records(truth, shape, bits);
+    const Comparison c = compare(all, {.baseline = "m0"}).at(0);
     const bool is_right = c.is_best && c.methods[0].method == "m" + std::to_string(best);
     out.found += is_right ? 1.0 : 0.0;
     out.false_best += c.is_best && !is_right ? 1.0 : 0.0;
@@ -106,10 +89,8 @@ ErrorRates error_rates(
   return out;
 }
 
-IntervalCoverage coverage(
-    const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed, Through through) {
+IntervalCoverage coverage(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed) {
   std::mt19937_64 bits(seed);
-  const TemporaryFolder folder;
   const auto effect = [&](std::size_t m) {
     double sum = truth.effects[m];
     for (const std::vector<double>& of_sequence : truth.sequences) {
@@ -120,7 +101,7 @@ IntervalCoverage coverage(
   int given = 0;
   int held = 0;
   for (int i = 0; i < repeats; ++i) {
-    const Comparison c = drawn(records(truth, shape, bits), through, folder).comparison;
+    const Comparison c = compare(records(truth, shape, bits), {.baseline = "m0"}).at(0);
     bool has_all = true;
     bool has_interval = true;
     for (std::size_t m = 1; m < truth.effects.size(); ++m) {

@@ -15,16 +15,8 @@ struct ErrorRates {
   double marked_wrong = 0.0;  ///< a table marks a method as best that is not
 };
 
-/// Whether records are compared as drawn, or written to a store and read as the command `compare`
-/// reads it.
-enum class Through { memory, store };
-
 /// Rates over `repeats` draws. Equal effects are true ties: none of them is best.
-ErrorRates error_rates(const Truth& truth,
-                       const Shape& shape,
-                       int repeats,
-                       std::uint64_t seed,
-                       Through through = Through::memory);
+ErrorRates error_rates(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed);
 
 struct IntervalCoverage {
   double covered = 0.0;   ///< share of the intervals that contain the true ratio
@@ -33,11 +25,7 @@ struct IntervalCoverage {
 
 /// Share of draws in which the intervals of all methods hold their typical ratio to the baseline;
 /// of methods that differ by sequence, the mean over the sequences.
-IntervalCoverage coverage(const Truth& truth,
-                          const Shape& shape,
-                          int repeats,
-                          std::uint64_t seed,
-                          Through through = Through::memory);
+IntervalCoverage coverage(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed);
 
 /// Share of draws in which method 1 is significantly better than the baseline.
 double power(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "harness/model/recorded_run.hpp"
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench::synthetic {
@@ -103,6 +104,7 @@ std::vector<Record> records(const Truth& truth, const Shape& shape, std::mt19937
         if (m == 0 && truth.baseline_is_fixed) deviation = 0.0;
         Record r = score(m, group, run, truth.sequences.size());
         if (truth.states_groups && truth.runs_in_group > 1) r.group = std::to_string(group);
+        if (truth.is_independent) r.group = recorded_group(std::to_string(r.repeat), r.sequence);
         r.content = r.sequence + " " + std::to_string(r.repeat);
         const double effect =
             truth.effects[m] + (truth.sequences.empty() ? 0.0 : truth.sequences[sequence][m]);

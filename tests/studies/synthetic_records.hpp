@@ -39,9 +39,10 @@ struct Truth {
   /// Effects by sequence, [sequence][method], added to `effects`; the groups are dealt out to them
   /// in turn. Empty: each group is a sequence of its own.
   std::vector<std::vector<double>> sequences = {};
-  double diverges = 0.0;    ///< probability that the last method's error is 1e12 times as large
-  double hard = 0.0;        ///< share of groups that are hard
-  double fails_hard = 0.0;  ///< probability that method 1 fails on each run of a hard group
+  double diverges = 0.0;        ///< probability that the last method's error is 1e12 times as large
+  double hard = 0.0;            ///< share of groups that are hard
+  double fails_hard = 0.0;      ///< probability that method 1 fails on each run of a hard group
+  bool is_independent = false;  ///< runs of files: those of two methods are no pairs
 };
 
 /// One ATE per method and run.

@@ -1,4 +1,4 @@
-/// Measures error rates of verdicts and coverage of intervals on synthetic records and stores.
+/// Measures error rates of verdicts and coverage of intervals on synthetic records.
 /// Prints Markdown; exits with 1 if a rate is outside its limits. Usage: verdict_error_rates
 /// [repeats].
 #include <fmt/format.h>
@@ -46,6 +46,8 @@ std::vector<Scene> scenes() {
        {.effects = equal(2),
         .groups = 64,
         .sequences = {{0.0, -0.2}, {0.0, -0.07}, {0.0, 0.07}, {0.0, 0.2}}}},
+      {"3 equal systems, 10 independent runs of each of 3 sequences",
+       {.effects = equal(3), .groups = 30, .sequences = {3, equal(3)}, .is_independent = true}},
       {"2 best of 4, 20 runs", {.effects = {0.0, -0.3, -0.3, 0.1}, .groups = 20}},
       {"best of 4 by 30 %, 20 runs", {.effects = {0.0, -0.35, 0.0, 0.1}, .groups = 20}},
       {"best of 4 by 30 %, fails on 10 %, 20 runs",
@@ -65,7 +67,7 @@ std::vector<Scene> scenes() {
 double limit(int repeats) { return 0.05 + 4.0 * std::sqrt(0.05 * 0.95 / repeats); }
 
 /// Largest rates over the distributions; one row a scene.
-bool print_error_rates(const std::vector<Scene>& all, int repeats, Through through) {
+bool print_error_rates(const std::vector<Scene>& all, int repeats) {
   bool is_good = true;
   fmt::print(
       "| records | false best [%] | wrong mark [%] | any false claim [%] | best found [%] |\n"
@@ -74,7 +76,7 @@ bool print_error_rates(const std::vector<Scene>& all, int repeats, Through throu
     ErrorRates most;
     double least_found = 1.0;
     for (const Shape& shape : shapes()) {
-      const ErrorRates r = error_rates(scene.truth, shape, repeats, 7, through);
+      const ErrorRates r = error_rates(scene.truth, shape, repeats, 7);
       is_good =
           is_good && std::max({r.false_best, r.false_better, r.marked_wrong}) <= limit(repeats);
       least_found = std::min(least_found, r.found);
@@ -144,7 +146,7 @@ std::vector<CoverageCase> coverage_cases() {
 }
 
 /// Smallest and largest coverage over the distributions; skewed ratios are reported, not judged.
-bool print_coverage(int repeats, Through through) {
+bool print_coverage(int repeats) {
   bool is_good = true;
   fmt::print(
       "\n| observations | 95 % intervals that hold the typical ratio [%] | declined [%] |\n"
@@ -155,7 +157,7 @@ bool print_coverage(int repeats, Through through) {
     double declined = 0.0;
     std::string worst;
     for (const Shape& shape : shapes()) {
-      const IntervalCoverage c = coverage(one.truth, shape, repeats, 9, through);
+      const IntervalCoverage c = coverage(one.truth, shape, repeats, 9);
       if (c.covered < least) worst = shape.name;
       least = std::min(least, c.covered);
       most = std::max(most, c.covered);
@@ -186,13 +188,9 @@ int main(int count, char** arguments) try {
     return 2;
   }
   const std::vector<Scene> all = scenes();
-  bool is_good = print_error_rates(all, repeats, Through::memory);
-  is_good = print_coverage(repeats, Through::memory) && is_good;
+  bool is_good = print_error_rates(all, repeats);
+  is_good = print_coverage(repeats) && is_good;
   print_power(repeats);
-  fmt::print(
-      "\n{:.0f} s. The same through stores, {} of them a row:\n\n", seconds(), (repeats + 9) / 10);
-  const std::vector<Scene> stored{all.at(2), all.at(24), all.at(27)};
-  is_good = print_error_rates(stored, (repeats + 9) / 10, Through::store) && is_good;
   fmt::print("\n{:.0f} s in all\n", seconds());
   return is_good ? 0 : 1;
 } catch (const std::exception& error) {

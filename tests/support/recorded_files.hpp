@@ -24,7 +24,9 @@ class RecordedFiles : public testing::Test {
     for (int i = 0; i < 60; ++i) {
       const double a = start + 0.1 * i;
       const double e = error * std::sin(7.0 * a);
-      out.push_back({a, {exp_so3({0, 0, a}), {3 * std::cos(a) + e, 3 * std::sin(a), 0.2 * a + e}}});
+      const double climb = 0.2 + 0.6 * start;  // other starts have another path
+      out.push_back(
+          {a, {exp_so3({0, 0, a}), {3 * std::cos(a) + e, 3 * std::sin(a), climb * a + e}}});
     }
     return out;
   }
