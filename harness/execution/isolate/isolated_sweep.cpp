@@ -222,7 +222,11 @@ class IsolatedSweep {
   void reap(WorkerSlot& slot) {
     const Failure failure = failure_of_worker(slot);
     slot.process.reset();
-    end_strays_of_workers();
+    std::vector<pid_t> workers;
+    for (const WorkerSlot& other : slots_) {
+      if (other.process) workers.push_back(other.process->child().id());
+    }
+    reaper_.end_strays_except(workers);
     std::deque<Job> jobs = std::exchange(slot.jobs, {});
     if (jobs.empty()) return;
     const Job first = jobs.front();
@@ -230,14 +234,6 @@ class IsolatedSweep {
     if (!is_again) jobs.pop_front();
     for (auto job = jobs.rbegin(); job != jobs.rend(); ++job) requeue(*job);
     if (!is_again) fail(first, failure);
-  }
-
-  void end_strays_of_workers() const {
-    std::vector<pid_t> workers;
-    for (const WorkerSlot& slot : slots_) {
-      if (slot.process) workers.push_back(slot.process->child().id());
-    }
-    reaper_.end_strays_except(workers);
   }
 
   void requeue(const Job& job) {

@@ -15,7 +15,6 @@
 #include "harness/execution/isolate/active_clock.hpp"
 #include "harness/execution/isolate/cell_output.hpp"
 #include "harness/execution/isolate/warm_heap.hpp"
-#include "harness/execution/isolate/worker_signals.hpp"
 #include "harness/external/server.hpp"
 #include "harness/process/child_process.hpp"
 #include "harness/process/descendants.hpp"
@@ -101,12 +100,18 @@ std::optional<Verdict> watch(Watched watched, int sweep, CellOutput& output) {
           Status::failed,
           fmt::format("{} printed more than {} MiB", watched.subject, CellOutput::kMost >> 20)};
     }
-    if ((events[0].revents & POLLIN) != 0 || has_sweep_ended()) return std::nullopt;
+    const bool has_ended = (events[0].revents & POLLIN) != 0;
+    if (has_ended || (events[2].revents & (POLLHUP | POLLERR)) != 0) return std::nullopt;
     if (auto verdict = exceeded(watched)) return verdict;
   }
 }
 
 }  // namespace
+
+bool has_sweep_ended(int socket) {
+  pollfd sweep{socket, 0, 0};
+  return poll(&sweep, 1, 0) > 0 && (sweep.revents & (POLLHUP | POLLERR)) != 0;
+}
 
 WatchedProcesses::WatchedProcesses(const Limits& limits, int sweep, const ScratchFolder* scratch)
     : limits_(limits),
@@ -117,7 +122,7 @@ WatchedProcesses::WatchedProcesses(const Limits& limits, int sweep, const Scratc
 WatchedProcesses::~WatchedProcesses() { close(null_); }
 
 void WatchedProcesses::prepare(const WatchedWork& work, int output) const {
-  restore_default_signals();
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
   // If the system runs out of memory, it should kill this process, not the worker or the sweep.
   write_system_file("/proc/self/oom_score_adj", "800");
   // Ends growth that is faster than the worker's checks.
@@ -139,16 +144,14 @@ ProcessEnd WatchedProcesses::run(const WatchedWork& work) {
     return area_.write(work.run()) ? 0 : 1;
   });
   const pid_t id = process.id();
-  set_running_cell(id);
   output.close_write_end();
   const std::optional<Verdict> verdict =
       watch({process, work.subject, limits_, servers.processes}, sweep_, output);
-  set_running_cell(0);
   const int status = process.end();
   end_servers(true);
   end_strays(running_servers().processes);  // what ended programs leave is not the next cell's
   if (scratch_ != nullptr) scratch_->remove_exchanges();
-  if (has_sweep_ended()) {
+  if (has_sweep_ended(sweep_)) {
     end_servers();
     if (scratch_ != nullptr) scratch_->remove_with_parent();
     _exit(0);

@@ -31,6 +31,9 @@ struct ProcessEnd {
   std::string signal;  ///< that ended it, for example "SIGSEGV"
 };
 
+/// Whether the other end of the socket is closed.
+bool has_sweep_ended(int socket);
+
 /// Forks one process after another; each starts as a copy of the worker, with nothing of earlier
 /// ones.
 class WatchedProcesses {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <optional>
 
 #include "datasets/core/parallel.hpp"
@@ -13,7 +14,6 @@
 #include "harness/execution/isolate/pack.hpp"
 #include "harness/execution/isolate/warm_heap.hpp"
 #include "harness/execution/isolate/watched_process.hpp"
-#include "harness/execution/isolate/worker_signals.hpp"
 #include "harness/execution/run/process_usage.hpp"
 #include "harness/execution/run/run_cell.hpp"
 #include "harness/external/external_methods.hpp"
@@ -62,13 +62,22 @@ void apply_memory_limit(const Limits& limits, CellResult& result) {
   result.trace = {};
 }
 
+/// Signals of users and schedulers end the sweep, which then ends its workers.
+void leave_signals_to_sweep() {
+  struct sigaction action {};
+  action.sa_handler = [](int) {};
+  action.sa_flags = SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+}
+
 /// Temporary files of programs. Programs end before their files are removed.
 struct Programs {
   ScratchFolder scratch;
-  Programs() = default;
+  int socket;  ///< to the sweep
+  explicit Programs(int to_sweep) : socket(to_sweep) {}
   ~Programs() {
     end_servers();
-    if (has_sweep_ended()) scratch.remove_with_parent();
+    if (has_sweep_ended(socket)) scratch.remove_with_parent();
   }
   Programs(const Programs&) = delete;
   Programs& operator=(const Programs&) = delete;
@@ -152,11 +161,11 @@ class JobRunner {
 }  // namespace
 
 void run_worker(const WorkerContext& context, int socket, int core) {
-  install_worker_signals(socket);
+  leave_signals_to_sweep();
   keep_heap_compact();
   hardware_threads();  // asks the system once for all cells
   std::optional<Programs> programs;
-  if (uses_programs(context.sweep)) programs.emplace();
+  if (uses_programs(context.sweep)) programs.emplace(socket);
   JobRunner runner(context, socket, core, programs ? &programs->scratch : nullptr);
   for (Job job; receive_job(socket, job);) {
     try {
