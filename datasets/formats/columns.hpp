@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "datasets/formats/formats.hpp"
+#include "datasets/formats/short_number.hpp"
 #include "datasets/formats/text_file.hpp"
 
 namespace loopbench {
@@ -34,6 +35,14 @@ class Columns {
   /// Returns the next column as a finite number. Throws InputError with the column name `what`.
   double number(const char* what) {
     double value = 0.0;
+    if (file_.has_short_numbers()) {
+      const char* const stop = short_number(at_, end_, value);
+      if (stop != nullptr && ends_column(stop)) {
+        advance(stop);
+        return value;
+      }
+      file_.count_long_number();
+    }
     const char* const first = at_ + (at_ != end_ && *at_ == '+' ? 1 : 0);
     const auto [stop, error] = std::from_chars(first, end_, value);
     const bool signed_twice = first != at_ && first != end_ && *first == '-';

@@ -73,6 +73,11 @@ class alignas(64) TextFile {
   };
   mutable Repaired repaired;
 
+  /// Whether numbers are short enough for short_number(): until it has failed for some of this
+  /// part, after which trying it first would only take time.
+  bool has_short_numbers() const { return long_numbers_ < kManyLongNumbers; }
+  void count_long_number() const { ++long_numbers_; }
+
   /// Estimated number of lines, assuming that all are as long as `line`; a hint for reserve(). The
   /// first part counts the complete file, because the results of other parts are appended to it.
   std::size_t estimated_lines(const Line& line) const {
@@ -80,6 +85,8 @@ class alignas(64) TextFile {
   }
 
  private:
+  static constexpr int kManyLongNumbers = 32;
+
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
@@ -101,6 +108,7 @@ class alignas(64) TextFile {
   std::size_t filled_ = 0;    ///< bytes in the window
   std::size_t position_ = 0;  ///< of the next line in the window
   std::size_t line_ = 0;
+  mutable int long_numbers_ = 0;
   std::unique_ptr<std::FILE, Close> handle_;
   std::unique_ptr<char[]> window_;
 };

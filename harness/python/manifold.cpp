@@ -9,9 +9,9 @@
 #include "methods/smoothers/manifold/dm.hpp"
 #include "methods/smoothers/manifold/families/polynomial.hpp"
 #include "methods/smoothers/manifold/fit_axes.hpp"
+#include "methods/smoothers/manifold/planar.hpp"
 #include "methods/smoothers/manifold/psi.hpp"
 #include "methods/smoothers/manifold/segments.hpp"
-#include "methods/smoothers/manifold/window_fit.hpp"
 
 namespace py = pybind11;
 
