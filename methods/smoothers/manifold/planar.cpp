@@ -3,35 +3,11 @@
 namespace loopbench::methods::manifold {
 namespace {
 
-/// Data shared by the steps of fitting a window.
-struct WindowFitter {
-  const Nodes& nodes;
-  const NodeSpline& spline;
-  const Vector3& up;
-  const PlanarRule& rule;
-
-  /// Returns the selected family fitted to the window's nodes, or nullopt if there is no frame, no
-  /// graph, or all families fail.
-  std::optional<PlanarPiece> fit(const Window& window, std::span<const Family> families) const;
-
-  /// Whether a frame exists and, with the guard, whether the nodes are a graph in it.
-  bool admits(const Window& window) const;
-
- private:
-  std::optional<PlanarPiece> fit(Family family,
-                                 const std::optional<Frame>& frame,
-                                 std::span<const std::size_t> picked) const;
-  double score(Family family,
-               const PlanarPiece& piece,
-               const std::optional<Frame>& frame,
-               std::span<const std::size_t> picked) const;
-  double squared_error(const PlanarPiece& piece, std::size_t node) const;
-  bool stays_near_spline(const PlanarPiece& piece, const Window& window) const;
-};
-
 // Near a pole or a turning point a curve leaves the spline between nodes by multiples of the chord;
 // valid curves of a window that passes the guard stay below a quarter.
 constexpr double kMaxDeviation = 0.25;  // fraction of the chord
+
+}  // namespace
 
 bool WindowFitter::admits(const Window& window) const {
   if (rule.axes == Axes::parametric) return true;
@@ -131,6 +107,8 @@ bool WindowFitter::stays_near_spline(const PlanarPiece& piece, const Window& win
   }
   return true;
 }
+
+namespace {
 
 constexpr std::size_t kSmallest = 3;  // [nodes] smaller windows are not split; two nodes are a line
 constexpr std::array kPolynomial{Family::by_n};

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "methods/smoothers/manifold/family.hpp"
@@ -68,6 +69,32 @@ struct PlanarFit {
     windows.push_back(window);
     pieces.push_back(piece);
   }
+};
+
+/// Data shared by the steps of fitting a window: frame, guard, candidate families and selection.
+struct WindowFitter {
+  const Nodes& nodes;
+  const NodeSpline& spline;
+  const Vector3& up;
+  const PlanarRule& rule;
+
+  /// Returns the selected family fitted to the window's nodes, or nullopt if there is no frame, no
+  /// graph, or all families fail.
+  std::optional<PlanarPiece> fit(const Window& window, std::span<const Family> families) const;
+
+  /// Whether a frame exists and, with the guard, whether the nodes are a graph in it.
+  bool admits(const Window& window) const;
+
+ private:
+  std::optional<PlanarPiece> fit(Family family,
+                                 const std::optional<Frame>& frame,
+                                 std::span<const std::size_t> picked) const;
+  double score(Family family,
+               const PlanarPiece& piece,
+               const std::optional<Frame>& frame,
+               std::span<const std::size_t> picked) const;
+  double squared_error(const PlanarPiece& piece, std::size_t node) const;
+  bool stays_near_spline(const PlanarPiece& piece, const Window& window) const;
 };
 
 /// Fits the windows of all segments. With the guard, a window that is not a graph is split into
