@@ -21,8 +21,8 @@ void fuzz_bag(const std::filesystem::path& file);
 void fuzz_csv(const std::filesystem::path& file);
 void fuzz_config(const std::filesystem::path& file);
 void fuzz_store(const std::filesystem::path& file);
-void fuzz_report(const std::filesystem::path& file);  ///< of a store
-void fuzz_gate(const std::filesystem::path& file);    ///< baselines and limits
+void fuzz_report(const std::filesystem::path& file);       ///< of a store
+void fuzz_gate(const std::filesystem::path& file);         ///< baselines and limits
 void fuzz_where(const std::filesystem::path& file);        ///< one rule per line
 void fuzz_eval(const std::filesystem::path& file);         ///< one argument per line
 void fuzz_eval_folder(const std::filesystem::path& file);  ///< every file of a folder

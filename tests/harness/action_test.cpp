@@ -28,7 +28,8 @@ TEST_F(Action, WritesCommentAndReport) {
   ASSERT_EQ(action("c.yaml report"), 0) << text("err");
   const std::string comment = text("report/comment.md");
   EXPECT_EQ(comment.find("## loopbench: c.yaml\n\n### ate [m], dense"), 0u) << comment;
-  EXPECT_NE(comment.find("\n- translation ate, rmse [m], dense, loopbench: "), std::string::npos) << comment;
+  EXPECT_NE(comment.find("\n- translation ate, rmse [m], dense, loopbench: "), std::string::npos)
+      << comment;
   EXPECT_EQ(comment.find("next:"), std::string::npos) << comment;
   EXPECT_EQ(text("report/report.html").find("<!DOCTYPE html>"), 0u);
   EXPECT_EQ(text("out"), comment);

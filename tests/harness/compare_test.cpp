@@ -333,7 +333,8 @@ TEST(ComparisonText, HasALinePerMethodInEveryFormat) {
   EXPECT_EQ(std::ranges::count(table, '\n'), 5);
   EXPECT_TRUE(has(table, "loopbench,dense,ate,ate,translation,3d,m,rmse,uniform,groups,8,8,raw,"))
       << table;
-  EXPECT_TRUE(has(json(all), "\"verdict\": \"translation ate, rmse [m], dense, loopbench: dual is best"));
+  EXPECT_TRUE(
+      has(json(all), "\"verdict\": \"translation ate, rmse [m], dense, loopbench: dual is best"));
 }
 
 }  // namespace

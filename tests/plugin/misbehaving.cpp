@@ -16,10 +16,6 @@ using namespace loopbench::methods;
 
 namespace {
 
-struct NoOptions {};
-template <class Visit>
-void fields(NoOptions&, Visit) {}
-
 template <class Deed>
 struct Bad final : Corrector {
   using Options = NoOptions;

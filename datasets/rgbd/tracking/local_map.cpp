@@ -21,9 +21,7 @@ void LocalMap::add(std::size_t keyframe,
   features_.bytes = features.bytes;
   features_.binary = features.binary;
   const auto bytes = static_cast<std::size_t>(features.bytes);
-  const auto position = [&](const Feature& f) {
-    return world_from_camera * point_of(f, camera);
-  };
+  const auto position = [&](const Feature& f) { return world_from_camera * point_of(f, camera); };
   std::vector<bool> matched(features.size(), false);
   for (const Match& match : matches) {
     matched[match.b] = true;

@@ -1,6 +1,6 @@
-#include <algorithm>
-
 #include "methods/correctors/motion_drift/motion.hpp"
+
+#include <algorithm>
 
 namespace loopbench::methods {
 namespace {
