@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "datasets/core/params.hpp"
@@ -35,7 +37,13 @@ inline Params to_params(const std::vector<Setting>& settings) {
 inline Params parse_settings(const std::vector<std::string>& texts,
                              const std::vector<OptionInfo>& options) {
   std::vector<Setting> out;
-  for (const std::string& text : texts) out.push_back(parse_setting(text, "--set"));
+  for (const std::string& text : texts) {
+    out.push_back(parse_setting(text, "--set"));
+    const double* const real = std::get_if<double>(&out.back().value);
+    if (real != nullptr && !std::isfinite(*real)) {
+      throw InputError("--set: " + text + ": expected a finite number");
+    }
+  }
   restore_text_options(out, options);
   return to_params(out);
 }

@@ -145,7 +145,7 @@ TEST(Eval, RefusesProtocolsThatCannotBe) {
   EXPECT_EQ(refusal<InputError>({tum, tum, "--protocol=evo,tum,evo"}),
             "--protocol: 'evo' is listed twice");
   EXPECT_EQ(refusal<InputError>({tum, tum, "--set=ddof"}),
-            "--set: 'ddof': expected FIELD=VALUE, for example ddof=1");
+            "--set: found 'ddof', expected OPTION=VALUE");
   EXPECT_THROW(eval({tum, tum, "--set=dof=1"}), OptionError);
   EXPECT_THROW(eval({tum, tum, "-r", "fulll"}), OptionError);
   EXPECT_THROW(eval({tum, tum, "-u", "feet"}), OptionError);

@@ -66,7 +66,7 @@ TEST(Session, FromABagToTheGate) {
   const std::string verdict =
       run("eval groundtruth.txt fixed/*.txt --sequence day --store results");
   EXPECT_THAT(verdict, ContainsRegex("\n\\| day / good +\\| +10 of 10 \\|"));
-  EXPECT_THAT(verdict, HasSubstr("verdict on ate: good is"));
+  EXPECT_THAT(verdict, HasSubstr("good is best: "));
   EXPECT_THAT(run("compare results"), HasSubstr("good is"));
   run("table results --format latex -o table.tex");
   EXPECT_THAT(read_all(path("table.tex")), HasSubstr("tabular"));

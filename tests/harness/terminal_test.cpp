@@ -170,7 +170,8 @@ TEST_F(OnATerminal, ListsHaveOneLineForEachName) {
   EXPECT_EQ(piped("list methods 'zz*'").err, "loopbench: list: no name matches 'zz*'\n");
   EXPECT_EQ(piped("list zz raw").exit_code, 2);
   const std::string one = run("list motion_drift").out;  // its summary is longer than a line
-  EXPECT_NE(one.find("over noise\n  models drawn from their posterior\n"), std::string::npos)
+  EXPECT_NE(one.find("drift,\n  averaged over noise models drawn from their posterior\n"),
+            std::string::npos)
       << one;
 }
 

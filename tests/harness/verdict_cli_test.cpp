@@ -159,7 +159,8 @@ TEST_F(VerdictCli, ATableKeepsTheRowsItsConfigAsksFor) {
   folder_->file("w.yaml", text + "table: {where: [metrc=ate]}\n");
   const CommandResult slip = run("run w.yaml --dry-run");
   EXPECT_EQ(slip.exit_code, 2);
-  EXPECT_EQ(slip.err.find("loopbench: w.yaml:8: where: 'metrc=ate': "), 0u) << slip.err;
+  EXPECT_EQ(slip.err.find("loopbench: w.yaml:8: table.where: where: 'metrc=ate': "), 0u)
+      << slip.err;
 }
 
 TEST_F(VerdictCli, TheGateLooksAtTimesWhenTold) {
