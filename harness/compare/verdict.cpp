@@ -62,7 +62,7 @@ std::string distance(const MethodVerdict& method, const Comparison& c) {
 }
 
 /// At most three names, and how many others there are.
-std::vector<std::string> shortened(std::vector<std::string> names) {
+std::vector<std::string> first_names(std::vector<std::string> names) {
   constexpr std::size_t kMost = 4;
   if (names.size() <= kMost) return names;
   const std::size_t others = names.size() - (kMost - 1);
@@ -79,7 +79,7 @@ std::string missing_text(const Comparison& c) {
       if (m.*count > 0) named.push_back(fmt::format("{} {}", m.method, m.*count));
     }
     if (named.empty()) return std::string();
-    return fmt::format("; {}: {} of {} runs", what, joined_names(shortened(named)), c.runs);
+    return fmt::format("; {}: {} of {} runs", what, joined_names(first_names(named)), c.runs);
   };
   return listed("fails", &MethodVerdict::fails) + listed("declines", &MethodVerdict::declines);
 }
@@ -139,7 +139,7 @@ std::string leaders_text(const Comparison& c) {
   const auto equal = names_where(c, [](const MethodVerdict& m) {
     return m.standing == Standing::leader || m.standing == Standing::equal;
   });
-  return joined_names(shortened(equal)) + (equal.size() == 1 ? " is " : " are equal, ");
+  return joined_names(first_names(equal)) + (equal.size() == 1 ? " is " : " are equal, ");
 }
 
 std::string best_text(const Comparison& c, const std::vector<std::string>& leaders) {
@@ -148,7 +148,7 @@ std::string best_text(const Comparison& c, const std::vector<std::string>& leade
                                  ? "significantly better than the other method"
                                  : "significantly better than each of the other methods";
   const std::string tail = "; " + better + next_text(c);
-  const std::string names = joined_names(shortened(leaders));
+  const std::string names = joined_names(first_names(leaders));
   if (leaders.size() == 1) {
     return baseline.standing == Standing::leader
                ? "the baseline " + names + " is best" + only_other(c) + tail
@@ -173,7 +173,7 @@ std::string undecided_text(const Comparison& c) {
   const auto winners = names_where(c, [](const MethodVerdict& m) { return m.beats_baseline; });
   const std::string rest = open.size() + 1 == c.methods.size() && open.size() > 1
                                ? "any other method"
-                               : joined_names(shortened(open), " or ");
+                               : joined_names(first_names(open), " or ");
   const Standing baseline = find(c, c.options.baseline)->standing;
   if (baseline == Standing::leader || baseline == Standing::equal) {
     return "no method is significantly better than the baseline " + c.options.baseline +

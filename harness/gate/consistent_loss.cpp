@@ -17,7 +17,7 @@ namespace {
 constexpr double kSmallestChange = 1e-3;
 
 constexpr std::size_t kMostExactGroups = 14;  // 16384 sign flips
-constexpr std::size_t kDraws = 20'000;
+constexpr std::size_t kSignFlips = 20'000;
 
 /// The smallest p over so many groups.
 double least_p_of(std::size_t groups) { return std::pow(0.5, static_cast<double>(groups)); }
@@ -86,7 +86,7 @@ std::vector<double> ConsistentLosses::p_values() const {
     ranks.push_back(signed_ranks(series.changes, groups_.size()));
   }
   const bool is_exact = groups_.size() <= kMostExactGroups;
-  const std::size_t flips = is_exact ? std::size_t{1} << groups_.size() : kDraws;
+  const std::size_t flips = is_exact ? std::size_t{1} << groups_.size() : kSignFlips;
   std::mt19937_64 random(1);
   std::vector<std::uint64_t> bits(groups_.size() / 64 + 1, 0);
   std::vector<double> largest;

@@ -21,34 +21,41 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-enum class Kind { returned, option_error, input_error, missing_part, out_of_memory, other_error };
+enum class AnswerKind {
+  returned,
+  option_error,
+  input_error,
+  missing_part,
+  out_of_memory,
+  other_error
+};
 
-struct Answer {
-  Kind kind = Kind::returned;
+struct ChildAnswer {
+  AnswerKind kind = AnswerKind::returned;
   std::string option;
   std::string text;
 };
 
-template <class Archive, Either<Answer> T>
+template <class Archive, Either<ChildAnswer> T>
 void walk(Archive& a, T& answer) {
   a(answer.kind)(answer.option)(answer.text);
 }
 
-Answer answer_of(const std::function<std::string()>& work) {
+ChildAnswer answer_of(const std::function<std::string()>& work) {
   try {
-    return {Kind::returned, "", work()};
+    return {AnswerKind::returned, "", work()};
   } catch (const OptionError& error) {
-    return {Kind::option_error, error.option(), error.what()};
+    return {AnswerKind::option_error, error.option(), error.what()};
   } catch (const InputError& error) {
-    return {Kind::input_error, "", error.what()};
+    return {AnswerKind::input_error, "", error.what()};
   } catch (const MissingPart& error) {
-    return {Kind::missing_part, "", error.what()};
+    return {AnswerKind::missing_part, "", error.what()};
   } catch (const std::bad_alloc&) {
-    return {Kind::out_of_memory, "", ""};
+    return {AnswerKind::out_of_memory, "", ""};
   } catch (const std::exception& error) {
-    return {Kind::other_error, "", error.what()};
+    return {AnswerKind::other_error, "", error.what()};
   } catch (...) {
-    return {Kind::other_error, "", "threw something that is not a std::exception"};
+    return {AnswerKind::other_error, "", "threw something that is not a std::exception"};
   }
 }
 
@@ -63,10 +70,10 @@ bool wait_for(const ChildProcess& child, double seconds) {
   }
 }
 
-std::optional<Answer> answer_in(const ResultArea& area, pid_t writer) {
+std::optional<ChildAnswer> answer_in(const ResultArea& area, pid_t writer) {
   const auto bytes = area.read(writer);
   if (!bytes) return std::nullopt;
-  Answer out;
+  ChildAnswer out;
   Unpacker unpack(*bytes);
   unpack(out);
   return out;
@@ -88,23 +95,23 @@ std::string in_own_process(const std::function<std::string()>& work, const Proce
   const pid_t id = child.id();
   const int status = child.end();
   if (!is_in_time) throw ProcessFailure(fmt::format("took longer than {} s", limits.seconds));
-  const std::optional<Answer> answer = answer_in(area, id);
+  const std::optional<ChildAnswer> answer = answer_in(area, id);
   if (!answer) throw ProcessFailure(end_text(status));
   switch (answer->kind) {
-    case Kind::returned:
+    case AnswerKind::returned:
       return answer->text;
-    case Kind::option_error:
+    case AnswerKind::option_error:
       throw OptionError(answer->option, answer->text);
-    case Kind::input_error:
+    case AnswerKind::input_error:
       throw InputError(answer->text);
-    case Kind::missing_part:
+    case AnswerKind::missing_part:
       throw MissingPart(answer->text);
-    case Kind::out_of_memory:
+    case AnswerKind::out_of_memory:
       throw ProcessFailure(
           limits.memory > 0
               ? fmt::format("needs more memory than the limit of {} bytes", limits.memory)
               : "needs more memory than there is");
-    case Kind::other_error:
+    case AnswerKind::other_error:
       break;
   }
   throw std::runtime_error(answer->text);

@@ -41,7 +41,7 @@ TEST(Completion, BashCompletesCommandsOptionsAndChoices) {
 }
 
 TEST(Completion, OtherShellsAcceptTheirs) {
-  for (const std::string line :
+  for (const std::string& line :
        {"zsh -n " + kScripts + "_loopbench", "fish --no-execute " + kScripts + "loopbench.fish"}) {
     const int code = shell(line + " 2>/dev/null");
     EXPECT_TRUE(code == 0 || code == 127) << line;  // 127: not installed
