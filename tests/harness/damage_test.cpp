@@ -147,13 +147,15 @@ TEST_F(Damage, ALostOrChangedRowIsNoticedWhereverItWas) {
   run(kUsual);
   const std::string sound = bytes_of_file(file_);
   const std::string expected = store_text(file_);
+  const char* const other_definition =
+      "UPDATE score_value SET definition = (SELECT definition FROM score_value WHERE number = 1) "
+      "WHERE cell = 2 AND number = 0";
   for (const std::string damage :
        {"DELETE FROM cell WHERE id = 2",
         "DELETE FROM score_value WHERE cell = 2 AND number = 1",
         "DELETE FROM section WHERE cell = 2",
         "UPDATE score_definition SET metric = 'other' WHERE times = 'dense'",
-        "UPDATE score_value SET definition = (SELECT definition FROM score_value WHERE number = 1) "
-        "WHERE cell = 2 AND number = 0",
+        other_definition,
         "UPDATE score_value SET status = 'failed' WHERE cell = 2 AND number = 0",
         "UPDATE cell SET method = 'other' WHERE id = 2",
         "UPDATE sequence SET group_name = 'other'",
