@@ -15,7 +15,7 @@ install_missing "${packages[@]}" "${sandbox_packages[@]}" "${compression_package
 # Runs shellcheck for all scripts, clang-format and clang-tidy for all files; each library and program as one source.
 lint() {
   install_missing "${lint_packages[@]}"
-  shellcheck -x ./*.sh cmake/*.sh harness/package/*.sh tests/*.sh tests/*/*.sh .ci/*
+  shellcheck -x ./*.sh cmake/*.sh cmake/package/*.sh tests/*.sh tests/*/*.sh .ci/*
   find datasets methods metrics harness include results tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run --Werror
   cmake --preset lint -DLOOPBENCH_BUILD_TESTS=ON >/dev/null
   find build/lint -path '*/Unity/*.cxx' -print0 |
@@ -32,7 +32,7 @@ for preset in "$@"; do
   fi
   if [[ $preset == package ]]; then
     install_missing "${package_packages[@]}"
-    harness/package/test_package.sh
+    cmake/package/test_package.sh
     counts+=("package: installed and run in a bare Debian")
     continue
   fi

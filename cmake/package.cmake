@@ -15,11 +15,11 @@ add_custom_target(loopbench_pages ALL DEPENDS ${pages}/copyright)
 
 install(TARGETS loopbench COMPONENT program)
 install(DIRECTORY ${pages}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
-install(FILES harness/package/completions/loopbench.bash COMPONENT program RENAME loopbench
+install(FILES cmake/package/completions/loopbench.bash COMPONENT program RENAME loopbench
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-install(FILES harness/package/completions/_loopbench COMPONENT program
+install(FILES cmake/package/completions/_loopbench COMPONENT program
   DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
-install(FILES harness/package/completions/loopbench.fish COMPONENT program
+install(FILES cmake/package/completions/loopbench.fish COMPONENT program
   DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/loopbench COMPONENT program)
 install(FILES ${pages}/copyright ${pages}/changelog.gz README.md CITATION.cff COMPONENT program

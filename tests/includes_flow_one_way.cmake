@@ -55,23 +55,16 @@ set(order
   "metrics/doctor"
   "metrics/metrics"
 
-  "harness/text harness/statistics"
+  "harness/base"
   "harness/model"
-  "harness/process"
-  "harness/external harness/plugin"
   "harness/catalogue"
-  "harness/config harness/provenance"
-  "harness/execution/run"
-  "harness/execution/isolate"
+  "harness/config harness/run"
   "harness/store"
-  "harness/compare harness/shards"
+  "harness/compare"
   "harness/tables"
-  "harness/gate harness/plot harness/get"
-  "harness/trajectory"
-  "harness/report harness/correct"
+  "harness/report"
   "harness/eval"
-  "harness/commands"
-  "harness/program harness/python"
+  "harness/commands harness/python"
 )
 
 # Only files that match folder_<library> may include the headers that match header_<library>.
@@ -83,11 +76,11 @@ set(folder_yaml "harness/config/")
 set(header_sqlite "sqlite3")
 set(folder_sqlite "harness/store/|datasets/bags/db3\\.cpp")  # stores, and ROS 2 bags
 set(header_re2 "re2/")
-set(folder_re2 "harness/text/pattern\\.")
+set(folder_re2 "harness/base/pattern\\.")
 set(header_cli "CLI/")
-set(folder_cli "harness/(program|commands)/")
+set(folder_cli "harness/commands/")
 set(header_json "nlohmann/")
-set(folder_json "harness/(commands|tables|gate|plot|trajectory|eval|report|correct|external)/")
+set(folder_json "harness/(catalogue|compare|tables|report|eval|commands)/")
 set(header_opencv "opencv2/")
 set(folder_opencv "datasets/rgbd/.*\\.cpp")
 set(header_stb "stb/")

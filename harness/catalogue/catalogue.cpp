@@ -3,13 +3,13 @@
 #include <algorithm>
 
 #include "datasets/rgbd/rgbd_datasets.hpp"
+#include "harness/base/hash.hpp"
+#include "harness/base/own_process.hpp"
+#include "harness/base/suggest.hpp"
+#include "harness/catalogue/command_dataset.hpp"
+#include "harness/catalogue/external_methods.hpp"
 #include "harness/catalogue/loading.hpp"
 #include "harness/catalogue/plugins.hpp"
-#include "harness/external/command_dataset.hpp"
-#include "harness/external/external_methods.hpp"
-#include "harness/process/own_process.hpp"
-#include "harness/text/hash.hpp"
-#include "harness/text/suggest.hpp"
 
 namespace loopbench::harness {
 namespace {

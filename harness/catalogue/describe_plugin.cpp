@@ -3,10 +3,10 @@
 #include <mutex>
 
 #include "datasets/core/pack.hpp"
+#include "harness/base/own_process.hpp"
 #include "harness/catalogue/floating_point_guard.hpp"
 #include "harness/catalogue/libraries.hpp"
 #include "harness/catalogue/plugins.hpp"
-#include "harness/process/own_process.hpp"
 
 namespace loopbench {
 

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "datasets/core/error.hpp"
+#include "harness/base/shortened.hpp"
 #include "harness/catalogue/floating_point_guard.hpp"
-#include "harness/text/shortened.hpp"
 
 namespace loopbench::harness {
 namespace {

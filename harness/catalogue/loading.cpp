@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "harness/text/print_error.hpp"
-#include "harness/text/printable.hpp"
+#include "harness/base/print_error.hpp"
+#include "harness/base/printable.hpp"
 
 namespace loopbench::harness {
 namespace {

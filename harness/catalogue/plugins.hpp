@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "harness/plugin/plugin.hpp"
+#include "harness/catalogue/plugin.hpp"
 
 namespace loopbench::harness {
 

@@ -3,15 +3,16 @@
 #include <CLI/CLI.hpp>
 
 #include "datasets/core/error.hpp"
+#include "harness/base/print_error.hpp"
+#include "harness/base/printable.hpp"
+#include "harness/base/write_file.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/gate/formats.hpp"
-#include "harness/gate/limits.hpp"
-#include "harness/gate/snapshot.hpp"
+#include "harness/compare/baseline_file.hpp"
+#include "harness/compare/gate_limits.hpp"
+#include "harness/compare/snapshot.hpp"
 #include "harness/store/open.hpp"
-#include "harness/text/print_error.hpp"
-#include "harness/text/printable.hpp"
-#include "harness/text/write_file.hpp"
+#include "harness/tables/gate_table.hpp"
 
 namespace loopbench::harness {
 namespace {

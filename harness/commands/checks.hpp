@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/text/suggest.hpp"
+#include "harness/base/suggest.hpp"
 
 namespace loopbench::harness {
 

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "harness/text/suggest.hpp"
+#include "harness/base/suggest.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -50,7 +50,7 @@ std::vector<std::pair<std::string, std::string>> candidates(const CLI::App& app,
 void add_complete(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("complete", "Print the words that complete a command line");
-  command->group("");         // only for shells, see harness/package/completions
+  command->group("");         // only for shells, see cmake/package/completions
   command->prefix_command();  // the words are no options of this command
   command->callback([&app, command, &exit_code] {
     const std::vector<std::string> words = command->remaining();

@@ -1,13 +1,13 @@
-#include "harness/correct/correct.hpp"
+#include "harness/eval/correct.hpp"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <sstream>
 
+#include "harness/base/printable.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/standard_output.hpp"
-#include "harness/text/printable.hpp"
 
 namespace loopbench::harness {
 

@@ -5,11 +5,11 @@
 
 #include "datasets/derive/graph_parts.hpp"
 #include "datasets/formats/g2o.hpp"
+#include "harness/base/printable.hpp"
+#include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/correct/correct.hpp"
-#include "harness/text/printable.hpp"
-#include "harness/text/write_file.hpp"
-#include "harness/trajectory/named_trajectory.hpp"
+#include "harness/eval/correct.hpp"
+#include "harness/eval/named_trajectory.hpp"
 #include "metrics/doctor/closure_checks.hpp"
 #include "metrics/doctor/diagnose.hpp"
 

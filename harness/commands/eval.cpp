@@ -7,6 +7,9 @@
 #include <iterator>
 #include <set>
 
+#include "harness/base/printable.hpp"
+#include "harness/base/wrap.hpp"
+#include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/eval_options.hpp"
 #include "harness/commands/standard_output.hpp"
@@ -17,12 +20,9 @@
 #include "harness/eval/recorded_store.hpp"
 #include "harness/eval/recorded_sweep.hpp"
 #include "harness/eval/run_summary.hpp"
-#include "harness/plot/store_figures.hpp"
+#include "harness/report/store_figures.hpp"
 #include "harness/store/read.hpp"
 #include "harness/tables/text.hpp"
-#include "harness/text/printable.hpp"
-#include "harness/text/wrap.hpp"
-#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -9,15 +9,15 @@
 #include "datasets/compressed/compress.hpp"
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/replace_file.hpp"
+#include "harness/base/printable.hpp"
+#include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
-#include "harness/execution/run/estimate_files.hpp"
+#include "harness/run/estimate_files.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/read.hpp"
 #include "harness/tables/all_records.hpp"
 #include "harness/tables/text.hpp"
-#include "harness/text/printable.hpp"
-#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {

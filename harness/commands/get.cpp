@@ -4,11 +4,11 @@
 #include <algorithm>
 
 #include "datasets/core/error.hpp"
+#include "harness/base/suggest.hpp"
+#include "harness/base/wrap.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/download.hpp"
 #include "harness/commands/standard_output.hpp"
-#include "harness/get/download.hpp"
-#include "harness/text/suggest.hpp"
-#include "harness/text/wrap.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "datasets/core/error.hpp"
+#include "harness/base/suggest.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/text/suggest.hpp"
 
 namespace loopbench::harness {
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "harness/execution/isolate/isolated_sweep.hpp"
+#include "harness/run/isolated_sweep.hpp"
 
 namespace loopbench::harness {
 

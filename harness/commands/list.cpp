@@ -4,11 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "harness/base/suggest.hpp"
+#include "harness/base/wrap.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/standard_output.hpp"
-#include "harness/text/suggest.hpp"
-#include "harness/text/wrap.hpp"
 #include "metrics/protocols/protocols.hpp"
 
 namespace loopbench::harness {

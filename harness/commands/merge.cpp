@@ -4,9 +4,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "harness/base/printable.hpp"
+#include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/text/printable.hpp"
-#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {

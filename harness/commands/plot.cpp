@@ -4,14 +4,14 @@
 #include <algorithm>
 
 #include "datasets/core/error.hpp"
+#include "harness/base/printable.hpp"
+#include "harness/base/suggest.hpp"
+#include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/model/where.hpp"
-#include "harness/plot/store_figures.hpp"
 #include "harness/report/drawn_methods.hpp"
+#include "harness/report/store_figures.hpp"
 #include "harness/tables/store_provenance.hpp"
-#include "harness/text/printable.hpp"
-#include "harness/text/suggest.hpp"
-#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include "harness/base/print_error.hpp"
+#include "harness/base/printable.hpp"
+#include "harness/base/write_file.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/store/open.hpp"
-#include "harness/text/print_error.hpp"
-#include "harness/text/printable.hpp"
-#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 

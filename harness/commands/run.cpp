@@ -5,6 +5,11 @@
 #include <cstdlib>
 #include <thread>
 
+#include "harness/base/print_error.hpp"
+#include "harness/base/printable.hpp"
+#include "harness/base/sandbox.hpp"
+#include "harness/base/write_file.hpp"
+#include "harness/catalogue/external_methods.hpp"
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/config_path.hpp"
@@ -12,20 +17,15 @@
 #include "harness/commands/run_output.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/execution/isolate/isolated_sweep.hpp"
-#include "harness/execution/run/bad_inputs.hpp"
-#include "harness/execution/run/doctor_notes.hpp"
-#include "harness/execution/run/estimate_files.hpp"
-#include "harness/execution/run/progress.hpp"
-#include "harness/external/external_methods.hpp"
-#include "harness/process/sandbox.hpp"
-#include "harness/provenance/build.hpp"
-#include "harness/shards/shard.hpp"
+#include "harness/run/bad_inputs.hpp"
+#include "harness/run/build.hpp"
+#include "harness/run/doctor_notes.hpp"
+#include "harness/run/estimate_files.hpp"
+#include "harness/run/isolated_sweep.hpp"
+#include "harness/run/progress.hpp"
+#include "harness/store/shard.hpp"
 #include "harness/store/store.hpp"
 #include "harness/tables/all_records.hpp"
-#include "harness/text/print_error.hpp"
-#include "harness/text/printable.hpp"
-#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -4,20 +4,20 @@
 
 #include <algorithm>
 
+#include "harness/base/print_error.hpp"
+#include "harness/base/printable.hpp"
+#include "harness/base/shell.hpp"
+#include "harness/base/wrap.hpp"
+#include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/model/where.hpp"
-#include "harness/provenance/build.hpp"
+#include "harness/run/build.hpp"
 #include "harness/store/store.hpp"
 #include "harness/tables/notes.hpp"
 #include "harness/tables/store_provenance.hpp"
 #include "harness/tables/summary.hpp"
 #include "harness/tables/text.hpp"
-#include "harness/text/print_error.hpp"
-#include "harness/text/printable.hpp"
-#include "harness/text/shell.hpp"
-#include "harness/text/wrap.hpp"
-#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {

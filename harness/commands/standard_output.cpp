@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "harness/text/wrap.hpp"
+#include "harness/base/wrap.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -7,13 +7,13 @@
 #include <iterator>
 
 #include "datasets/core/error.hpp"
+#include "harness/base/program.hpp"
+#include "harness/base/shell.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/config_path.hpp"
+#include "harness/commands/slurm_scripts.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/commands/write_output.hpp"
-#include "harness/process/program.hpp"
-#include "harness/shards/slurm_scripts.hpp"
-#include "harness/text/shell.hpp"
 
 namespace loopbench::harness {
 namespace {

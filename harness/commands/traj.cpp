@@ -2,14 +2,14 @@
 
 #include <CLI/CLI.hpp>
 
+#include "harness/base/printable.hpp"
+#include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/traj_options.hpp"
-#include "harness/text/printable.hpp"
-#include "harness/text/write_file.hpp"
-#include "harness/trajectory/figures.hpp"
-#include "harness/trajectory/selection.hpp"
-#include "harness/trajectory/summary.hpp"
-#include "harness/trajectory/transformation.hpp"
+#include "harness/eval/trajectory_figures.hpp"
+#include "harness/eval/trajectory_selection.hpp"
+#include "harness/eval/trajectory_summary.hpp"
+#include "harness/eval/transformation.hpp"
 #include "metrics/alignment/alignment.hpp"
 #include "metrics/pairing/association.hpp"
 #include "metrics/trajectory/projection.hpp"

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "harness/trajectory/named_trajectory.hpp"
-#include "harness/trajectory/selection.hpp"
-#include "harness/trajectory/transformation.hpp"
+#include "harness/eval/named_trajectory.hpp"
+#include "harness/eval/trajectory_selection.hpp"
+#include "harness/eval/transformation.hpp"
 
 namespace CLI {
 class App;

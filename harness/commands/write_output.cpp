@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <map>
 
+#include "harness/base/print_error.hpp"
+#include "harness/base/write_file.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/standard_output.hpp"
-#include "harness/provenance/build.hpp"
+#include "harness/run/build.hpp"
 #include "harness/store/open.hpp"
 #include "harness/tables/store_provenance.hpp"
-#include "harness/text/print_error.hpp"
-#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 

@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "datasets/core/error.hpp"
+#include "harness/base/suggest.hpp"
 #include "harness/compare/selection.hpp"
-#include "harness/text/suggest.hpp"
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {

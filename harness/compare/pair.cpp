@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "harness/statistics/average.hpp"
-#include "harness/statistics/signed_rank.hpp"
+#include "harness/compare/average.hpp"
+#include "harness/compare/signed_rank.hpp"
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {

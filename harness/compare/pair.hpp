@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "harness/compare/levels.hpp"
-#include "harness/statistics/rank_sum.hpp"
-#include "harness/statistics/typical_difference.hpp"
+#include "harness/compare/rank_sum.hpp"
+#include "harness/compare/typical_difference.hpp"
 
 namespace loopbench::harness {
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "harness/statistics/signed_rank.hpp"
+#include "harness/compare/signed_rank.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <optional>
 
-#include "harness/statistics/signed_rank.hpp"
+#include "harness/compare/signed_rank.hpp"
 
 namespace loopbench::harness {
 namespace {

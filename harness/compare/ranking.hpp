@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "harness/compare/pair.hpp"
-#include "harness/statistics/ranks.hpp"
+#include "harness/compare/ranks.hpp"
 
 namespace loopbench::harness {
 

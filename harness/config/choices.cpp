@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "harness/base/suggest.hpp"
 #include "harness/config/source_text.hpp"
 #include "harness/config/values.hpp"
-#include "harness/text/suggest.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -7,12 +7,12 @@
 #include <set>
 
 #include "datasets/formats/regular_file.hpp"
+#include "harness/base/pattern.hpp"
+#include "harness/base/suggest.hpp"
 #include "harness/config/choices.hpp"
 #include "harness/config/protocol_choice.hpp"
 #include "harness/config/sweep_settings.hpp"
 #include "harness/config/values.hpp"
-#include "harness/text/pattern.hpp"
-#include "harness/text/suggest.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -7,8 +7,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "harness/text/pattern.hpp"
-#include "harness/text/suggest.hpp"
+#include "harness/base/pattern.hpp"
+#include "harness/base/suggest.hpp"
 
 namespace loopbench::harness {
 namespace {

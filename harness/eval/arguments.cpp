@@ -8,10 +8,10 @@
 #include <map>
 
 #include "datasets/bags/bag_trajectory.hpp"
+#include "harness/base/numbers.hpp"
 #include "harness/config/choices.hpp"
 #include "harness/config/protocol_choice.hpp"
 #include "harness/config/source_text.hpp"
-#include "harness/text/numbers.hpp"
 #include "metrics/errors/ape.hpp"
 #include "metrics/pairing/select_pairs.hpp"
 

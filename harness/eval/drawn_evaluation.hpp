@@ -1,7 +1,7 @@
 /// What the figures of an evaluation need.
 #pragma once
 
-#include "harness/plot/curve.hpp"
+#include "harness/report/curve.hpp"
 #include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench::harness {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "harness/eval/drawn_sequences.hpp"
-#include "harness/plot/draw.hpp"
+#include "harness/report/draw.hpp"
 
 namespace loopbench::harness {
 

@@ -4,9 +4,9 @@
 
 #include <sstream>
 
+#include "harness/base/write_file.hpp"
 #include "harness/report/html.hpp"
 #include "harness/report/packed.hpp"
-#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -8,12 +8,12 @@
 #include <map>
 
 #include "datasets/core/parallel.hpp"
+#include "harness/base/write_file.hpp"
 #include "harness/eval/recorded_evaluation.hpp"
 #include "harness/eval/recorded_runs.hpp"
 #include "harness/eval/recordings.hpp"
 #include "harness/model/cell_records.hpp"
 #include "harness/model/recorded_run.hpp"
-#include "harness/text/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <sstream>
 
+#include "harness/base/wrap.hpp"
 #include "harness/eval/evaluation_result.hpp"
 #include "harness/tables/notes.hpp"
-#include "harness/text/wrap.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -11,7 +11,7 @@
 #include "harness/eval/note_summary.hpp"
 #include "harness/eval/recorded_evaluation.hpp"
 #include "harness/eval/recordings.hpp"
-#include "harness/provenance/build.hpp"
+#include "harness/run/build.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/resume.hpp"
 #include "harness/store/store.hpp"

@@ -8,7 +8,7 @@
 
 #include "harness/eval/arguments.hpp"
 #include "harness/eval/recorded_runs.hpp"
-#include "harness/provenance/collect_provenance.hpp"
+#include "harness/run/collect_provenance.hpp"
 
 namespace loopbench::harness {
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "harness/statistics/typical_difference.hpp"
-#include "harness/text/wrap.hpp"
+#include "harness/base/wrap.hpp"
+#include "harness/compare/typical_difference.hpp"
 
 namespace loopbench::harness {
 namespace {

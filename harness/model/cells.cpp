@@ -7,7 +7,7 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/hash.hpp"
-#include "harness/text/pattern.hpp"
+#include "harness/base/pattern.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -1,7 +1,7 @@
 #include "harness/model/record.hpp"
 
 #include "datasets/core/error.hpp"
-#include "harness/text/suggest.hpp"
+#include "harness/base/suggest.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/shared_text.hpp"
 #include "harness/model/status.hpp"
-#include "harness/text/shared_text.hpp"
 #include "methods/report.hpp"
 #include "metrics/better.hpp"
 #include "metrics/numerics/statistics.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "harness/text/hash.hpp"
+#include "harness/base/hash.hpp"
 
 namespace loopbench::harness {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "datasets/core/error.hpp"
-#include "harness/text/pattern.hpp"
+#include "harness/base/pattern.hpp"
 
 namespace loopbench::harness {
 namespace {

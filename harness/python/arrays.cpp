@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "harness/external/unit_rotation.hpp"
+#include "harness/catalogue/unit_rotation.hpp"
 
 namespace loopbench::python {
 namespace {

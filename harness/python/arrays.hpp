@@ -1,5 +1,5 @@
 /// Conversion between numpy arrays and core types. Poses are rows of 8 numbers, stamp x y z qx qy
-/// qz qw [s, m], edges rows of 46, as in harness/external/message.hpp.
+/// qz qw [s, m], edges rows of 46, as in harness/catalogue/message.hpp.
 #pragma once
 
 #include <pybind11/numpy.h>

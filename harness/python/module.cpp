@@ -8,7 +8,7 @@
 #include "datasets/core/fields.hpp"
 #include "datasets/derive/odometry.hpp"
 #include "harness/config/choices.hpp"
-#include "harness/correct/correct.hpp"
+#include "harness/eval/correct.hpp"
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/python/arrays.hpp"
 #include "harness/python/manifold.hpp"

@@ -4,10 +4,10 @@
 #include <set>
 
 #include "datasets/core/error.hpp"
+#include "harness/compare/derived.hpp"
 #include "harness/report/compare_in_parts.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/record_reader.hpp"
-#include "harness/tables/derived.hpp"
 
 namespace loopbench::harness {
 namespace {

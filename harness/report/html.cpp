@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "harness/text/printable.hpp"
+#include "harness/base/printable.hpp"
 
 namespace loopbench::harness {
 namespace {

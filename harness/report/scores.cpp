@@ -2,10 +2,10 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "harness/plot/style.hpp"
 #include "harness/report/data.hpp"
 #include "harness/report/drawn_methods.hpp"
 #include "harness/report/packed.hpp"
+#include "harness/report/style.hpp"
 
 namespace loopbench::harness {
 namespace {

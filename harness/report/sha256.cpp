@@ -1,6 +1,6 @@
 #include "harness/report/sha256.hpp"
 
-#include "harness/get/sha256.hpp"
+#include "harness/base/sha256.hpp"
 #include "harness/report/packed.hpp"
 
 namespace loopbench::harness {

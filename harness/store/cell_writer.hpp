@@ -6,7 +6,7 @@
 #include <string>
 
 #include "harness/model/result.hpp"
-#include "harness/provenance/cell_keys.hpp"
+#include "harness/run/cell_keys.hpp"
 #include "harness/store/sqlite.hpp"
 
 namespace loopbench::harness {

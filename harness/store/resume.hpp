@@ -1,7 +1,7 @@
 /// Matches the cells of a store with those of a sweep.
 #pragma once
 
-#include "harness/provenance/cell_keys.hpp"
+#include "harness/run/cell_keys.hpp"
 #include "harness/store/store.hpp"
 #include "harness/store/stored_cells.hpp"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "harness/text/shared_text.hpp"
+#include "harness/base/shared_text.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;

@@ -5,13 +5,13 @@
 #include <algorithm>
 
 #include "datasets/core/error.hpp"
-#include "harness/provenance/build.hpp"
+#include "harness/base/hash.hpp"
+#include "harness/run/build.hpp"
 #include "harness/store/cell_writer.hpp"
 #include "harness/store/plan.hpp"
 #include "harness/store/resume.hpp"
 #include "harness/store/schema.hpp"
 #include "harness/store/stored_cells.hpp"
-#include "harness/text/hash.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "harness/model/result.hpp"
-#include "harness/provenance/cell_keys.hpp"
+#include "harness/run/cell_keys.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/sqlite.hpp"

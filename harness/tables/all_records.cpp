@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "datasets/core/error.hpp"
+#include "harness/base/suggest.hpp"
+#include "harness/compare/derived.hpp"
 #include "harness/compare/name_order.hpp"
 #include "harness/model/where.hpp"
 #include "harness/store/read.hpp"
-#include "harness/tables/derived.hpp"
-#include "harness/text/suggest.hpp"
 
 namespace loopbench::harness {
 namespace {

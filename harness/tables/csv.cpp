@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "harness/base/printable.hpp"
 #include "harness/tables/text.hpp"
-#include "harness/text/printable.hpp"
 
 namespace loopbench::harness {
 

@@ -3,8 +3,8 @@
 #include <map>
 #include <utility>
 
+#include "harness/compare/average.hpp"
 #include "harness/compare/observations.hpp"
-#include "harness/statistics/average.hpp"
 #include "harness/tables/table_numbers.hpp"
 
 namespace loopbench::harness {

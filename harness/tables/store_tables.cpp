@@ -9,10 +9,10 @@
 #include <thread>
 
 #include "datasets/core/error.hpp"
+#include "harness/compare/derived.hpp"
 #include "harness/model/where.hpp"
 #include "harness/store/read.hpp"
 #include "harness/tables/all_records.hpp"
-#include "harness/tables/derived.hpp"
 #include "harness/tables/usual_table.hpp"
 
 namespace loopbench::harness {

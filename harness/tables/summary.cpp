@@ -12,7 +12,7 @@
 #include "harness/compare/compare.hpp"
 #include "harness/compare/name_order.hpp"
 #include "harness/compare/observations.hpp"
-#include "harness/statistics/ranks.hpp"
+#include "harness/compare/ranks.hpp"
 #include "harness/tables/notes.hpp"
 
 namespace loopbench::harness {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/text/printable.hpp"
-#include "harness/text/wrap.hpp"
+#include "harness/base/printable.hpp"
+#include "harness/base/wrap.hpp"
 
 namespace loopbench::harness {
 namespace {

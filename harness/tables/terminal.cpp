@@ -1,7 +1,7 @@
 #include <algorithm>
 
+#include "harness/base/wrap.hpp"
 #include "harness/tables/table_view.hpp"
-#include "harness/text/wrap.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -9,7 +9,7 @@
 #include <csignal>
 
 #include "datasets/formats/formats.hpp"
-#include "harness/process/sandbox.hpp"
+#include "harness/base/sandbox.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/program_sweep.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/params.hpp"
-#include "harness/external/arguments.hpp"
-#include "harness/external/exchange.hpp"
+#include "harness/catalogue/arguments.hpp"
+#include "harness/catalogue/exchange.hpp"
 #include "tests/support/program_sweep.hpp"
 
 namespace loopbench::command_test {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "datasets/formats/formats.hpp"
-#include "harness/process/sandbox.hpp"
+#include "harness/base/sandbox.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/problems.hpp"

@@ -5,7 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "harness/external/server.hpp"
+#include "harness/catalogue/server.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/problems.hpp"

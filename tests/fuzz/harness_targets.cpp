@@ -2,12 +2,12 @@
 #include <stdexcept>
 
 #include "datasets/core/error.hpp"
+#include "harness/compare/baseline_file.hpp"
 #include "harness/eval/arguments.hpp"
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/eval/layout.hpp"
-#include "harness/execution/isolate/pack.hpp"
-#include "harness/gate/formats.hpp"
 #include "harness/model/where.hpp"
+#include "harness/run/pack.hpp"
 #include "tests/fuzz/scratch_file.hpp"
 #include "tests/fuzz/targets.hpp"
 

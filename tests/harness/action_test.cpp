@@ -11,7 +11,7 @@ class Action : public testing::Test {
   int action(const std::string& arguments) {
     const std::string line = "cd '" + folder_.path().string() +
                              "' && LOOPBENCH='" LOOPBENCH_BINARY "' bash '" LOOPBENCH_CONFIGS
-                             "/../harness/package/action.sh' " +
+                             "/../cmake/package/action.sh' " +
                              arguments + " >out 2>err";
     return WEXITSTATUS(std::system(line.c_str()));
   }

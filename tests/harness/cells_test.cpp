@@ -6,7 +6,7 @@
 #include <set>
 
 #include "datasets/core/error.hpp"
-#include "harness/text/hash.hpp"
+#include "harness/base/hash.hpp"
 
 namespace loopbench::cells_test {
 

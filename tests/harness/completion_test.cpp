@@ -6,7 +6,7 @@
 namespace loopbench::completion_test {
 namespace {
 
-const std::string kScripts = LOOPBENCH_CONFIGS "/../harness/package/completions/";
+const std::string kScripts = LOOPBENCH_CONFIGS "/../cmake/package/completions/";
 
 int shell(const std::string& line) { return WEXITSTATUS(std::system(line.c_str())); }
 

@@ -1,5 +1,5 @@
 // `loopbench correct`: the file that it writes has the score of the same cell in a sweep.
-#include "harness/correct/correct.hpp"
+#include "harness/eval/correct.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

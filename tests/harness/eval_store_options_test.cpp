@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <fstream>
 
+#include "harness/compare/gate.hpp"
+#include "harness/compare/snapshot.hpp"
 #include "harness/eval/note_summary.hpp"
 #include "harness/eval/run_summary.hpp"
-#include "harness/gate/check.hpp"
-#include "harness/gate/snapshot.hpp"
 #include "harness/report/costs.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/eval_command.hpp"

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "datasets/formats/formats.hpp"
-#include "harness/text/wrap.hpp"
+#include "harness/base/wrap.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/terminal_command.hpp"
 

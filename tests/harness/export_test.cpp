@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "datasets/core/error.hpp"
-#include "harness/tables/derived.hpp"
+#include "harness/compare/derived.hpp"
 #include "harness/tables/notes.hpp"
 #include "harness/tables/text.hpp"
 

@@ -1,6 +1,4 @@
 /// Data of figures: origin of their axes, peaks, names, sizes, and which runs they contain.
-#include "harness/trajectory/figures.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 #include "datasets/formats/formats.hpp"
 #include "harness/eval/drawn_sequences.hpp"
 #include "harness/eval/error_figures.hpp"
+#include "harness/eval/trajectory_figures.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/matplotlib.hpp"
 

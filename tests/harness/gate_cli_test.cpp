@@ -1,7 +1,7 @@
 /// `check` on real stores: equal labels must have equal definitions.
 #include <gtest/gtest.h>
 
-#include "harness/gate/formats.hpp"
+#include "harness/compare/baseline_file.hpp"
 #include "tests/support/command.hpp"
 
 namespace loopbench::gate_cli_test {

@@ -4,7 +4,8 @@
 #include <algorithm>
 
 #include "datasets/core/error.hpp"
-#include "harness/gate/formats.hpp"
+#include "harness/compare/baseline_file.hpp"
+#include "harness/tables/gate_table.hpp"
 #include "tests/support/gate_snapshot.hpp"
 #include "tests/support/refusal_of.hpp"
 #include "tests/support/temporary_folder.hpp"

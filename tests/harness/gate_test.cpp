@@ -1,10 +1,11 @@
 /// Pass and fail conditions of the gate.
+#include "harness/compare/gate.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "datasets/core/error.hpp"
-#include "harness/gate/check.hpp"
 #include "tests/support/gate_snapshot.hpp"
 #include "tests/support/refusal_of.hpp"
 

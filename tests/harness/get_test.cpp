@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "datasets/core/error.hpp"
-#include "harness/get/download.hpp"
-#include "harness/get/sha256.hpp"
+#include "harness/base/sha256.hpp"
+#include "harness/commands/download.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/file_server.hpp"
 #include "tests/support/refusal_of.hpp"

@@ -6,11 +6,11 @@
 #include <thread>
 
 #include "datasets/core/error.hpp"
+#include "harness/base/hash.hpp"
+#include "harness/base/printable.hpp"
+#include "harness/base/write_file.hpp"
 #include "harness/tables/table_view.hpp"
 #include "harness/tables/text.hpp"
-#include "harness/text/hash.hpp"
-#include "harness/text/printable.hpp"
-#include "harness/text/write_file.hpp"
 #include "tests/support/command.hpp"
 
 namespace loopbench::hostile_files_test {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "harness/statistics/average.hpp"
-#include "harness/statistics/rank_sum.hpp"
-#include "harness/statistics/ranks.hpp"
-#include "harness/statistics/signed_rank.hpp"
-#include "harness/statistics/typical_difference.hpp"
+#include "harness/compare/average.hpp"
+#include "harness/compare/rank_sum.hpp"
+#include "harness/compare/ranks.hpp"
+#include "harness/compare/signed_rank.hpp"
+#include "harness/compare/typical_difference.hpp"
 
 namespace loopbench::inference_test {
 

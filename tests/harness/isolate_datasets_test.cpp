@@ -14,9 +14,9 @@
 #include <functional>
 #include <thread>
 
-#include "harness/execution/isolate/cell_output.hpp"
-#include "harness/execution/isolate/pack.hpp"
-#include "harness/execution/run/check_output.hpp"
+#include "harness/run/cell_output.hpp"
+#include "harness/run/check_output.hpp"
+#include "harness/run/pack.hpp"
 #include "tests/support/isolated_fixture.hpp"
 
 namespace loopbench::isolate_datasets_test {

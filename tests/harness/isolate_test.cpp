@@ -10,8 +10,8 @@
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/execution/isolate/cell_queue.hpp"
-#include "harness/execution/isolate/pack.hpp"
+#include "harness/run/cell_queue.hpp"
+#include "harness/run/pack.hpp"
 #include "tests/support/isolated_fixture.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/run_here.hpp"

@@ -11,7 +11,7 @@
 #include <random>
 #include <thread>
 
-#include "harness/process/sanitized.hpp"
+#include "harness/base/sanitized.hpp"
 #include "harness/store/sqlite.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/store_text.hpp"

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "harness/catalogue/catalogue.hpp"
-#include "harness/execution/run/run_cell.hpp"
+#include "harness/run/run_cell.hpp"
 #include "harness/store/store.hpp"
 #include "harness/tables/pivot.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "datasets/core/error.hpp"
-#include "harness/text/printable.hpp"
-#include "harness/text/write_file.hpp"
+#include "harness/base/printable.hpp"
+#include "harness/base/write_file.hpp"
 #include "tests/support/command.hpp"
 
 namespace loopbench::output_test {

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "harness/compare/ranking.hpp"
-#include "harness/statistics/ranks.hpp"
-#include "harness/statistics/signed_rank.hpp"
+#include "harness/compare/ranks.hpp"
+#include "harness/compare/signed_rank.hpp"
 
 namespace loopbench::pair_test {
 

@@ -1,4 +1,4 @@
-#include "harness/text/pattern.hpp"
+#include "harness/base/pattern.hpp"
 
 #include <gtest/gtest.h>
 

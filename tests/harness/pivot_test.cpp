@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "harness/tables/derived.hpp"
+#include "harness/compare/derived.hpp"
 #include "harness/tables/text.hpp"
 #include "tests/support/ate_record.hpp"
 

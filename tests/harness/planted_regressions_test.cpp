@@ -6,7 +6,8 @@
 #include <limits>
 
 #include "datasets/core/error.hpp"
-#include "harness/gate/formats.hpp"
+#include "harness/compare/baseline_file.hpp"
+#include "harness/tables/gate_table.hpp"
 #include "tests/support/gate_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 

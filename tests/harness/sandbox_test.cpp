@@ -1,11 +1,11 @@
 /// What a program in bubblewrap can read and write.
-#include "harness/process/sandbox.hpp"
+#include "harness/base/sandbox.hpp"
 
 #include <gtest/gtest.h>
 
 #include <csignal>
 
-#include "harness/process/program.hpp"
+#include "harness/base/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::sandbox_test {

@@ -1,5 +1,5 @@
 /// Division of sweeps into shards, and their stores.
-#include "harness/shards/shard.hpp"
+#include "harness/store/shard.hpp"
 
 #include <gtest/gtest.h>
 

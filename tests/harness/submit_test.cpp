@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "harness/shards/slurm_scripts.hpp"
+#include "harness/commands/slurm_scripts.hpp"
 #include "tests/support/command.hpp"
 
 namespace loopbench::submit_test {

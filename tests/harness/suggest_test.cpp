@@ -1,4 +1,4 @@
-#include "harness/text/suggest.hpp"
+#include "harness/base/suggest.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "datasets/core/error.hpp"
+#include "harness/compare/derived.hpp"
 #include "harness/model/where.hpp"
-#include "harness/tables/derived.hpp"
 #include "harness/tables/summary.hpp"
 #include "harness/tables/text.hpp"
 #include "tests/support/ate_record.hpp"

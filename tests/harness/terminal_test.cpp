@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <sstream>
 
+#include "harness/base/shell.hpp"
+#include "harness/base/wrap.hpp"
 #include "harness/tables/table_view.hpp"
-#include "harness/text/shell.hpp"
-#include "harness/text/wrap.hpp"
 #include "tests/support/terminal_command.hpp"
 
 namespace loopbench::terminal_test {

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "datasets/formats/trajectory_file.hpp"
-#include "harness/trajectory/named_trajectory.hpp"
-#include "harness/trajectory/selection.hpp"
-#include "harness/trajectory/transformation.hpp"
+#include "harness/eval/named_trajectory.hpp"
+#include "harness/eval/trajectory_selection.hpp"
+#include "harness/eval/transformation.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/traj_command.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <regex>
 
-#include "harness/gate/formats.hpp"
+#include "harness/compare/baseline_file.hpp"
 #include "tests/support/command.hpp"
 
 namespace loopbench::verdict_cli_test {

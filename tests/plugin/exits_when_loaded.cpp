@@ -1,7 +1,7 @@
 // A plugin that ends the process that loads it, as if all were well.
 #include <cstdlib>
 
-#include "harness/plugin/plugin.hpp"
+#include "harness/catalogue/plugin.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "companion.hpp"
-#include "harness/plugin/plugin.hpp"
+#include "harness/catalogue/plugin.hpp"
 
 using namespace loopbench;
 using namespace loopbench::methods;

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <thread>
 
-#include "harness/process/sanitized.hpp"
+#include "harness/base/sanitized.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/command.hpp"
 

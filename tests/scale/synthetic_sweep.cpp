@@ -12,9 +12,9 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "harness/shards/shard.hpp"
+#include "harness/base/hash.hpp"
+#include "harness/store/shard.hpp"
 #include "harness/store/store.hpp"
-#include "harness/text/hash.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
 namespace {

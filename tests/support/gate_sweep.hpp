@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "harness/gate/check.hpp"
+#include "harness/compare/gate.hpp"
 
 namespace loopbench::gate_sweep {
 

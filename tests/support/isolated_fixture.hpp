@@ -7,7 +7,7 @@
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/execution/isolate/isolated_sweep.hpp"
+#include "harness/run/isolated_sweep.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 
 namespace loopbench::isolated {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "harness/catalogue/load_sequence.hpp"
-#include "harness/execution/run/describe_sequence.hpp"
-#include "harness/execution/run/oracle_method.hpp"
-#include "harness/execution/run/run_cell.hpp"
 #include "harness/model/result.hpp"
+#include "harness/run/describe_sequence.hpp"
+#include "harness/run/oracle_method.hpp"
+#include "harness/run/run_cell.hpp"
 
 namespace loopbench {
 

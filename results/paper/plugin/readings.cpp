@@ -1,6 +1,6 @@
 /// The article's readings as methods: literal ones, and oracles, which quantify the gain from a
 /// leak of the reference.
-#include "harness/plugin/plugin.hpp"
+#include "harness/catalogue/plugin.hpp"
 #include "paper_literal.hpp"
 #include "paper_oracle.hpp"
 

@@ -1,4 +1,4 @@
 // A shared object without a LOOPBENCH_PLUGIN line.
-#include "harness/plugin/plugin.hpp"
+#include "harness/catalogue/plugin.hpp"
 
 int answer() { return 42; }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/plugin/plugin.hpp"
+#include "harness/catalogue/plugin.hpp"
 
 namespace loopbench::zoo {
 

@@ -1,0 +1,112 @@
+#include "harness/base/descendants.hpp"
+
+#include <dirent.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+
+#include "harness/base/system_file.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+void append_children(const std::string& thread, std::vector<pid_t>& out) {
+  const std::string text = read_system_file(thread + "/children");
+  const char* at = text.c_str();
+  for (;;) {
+    char* end = nullptr;
+    const long process = std::strtol(at, &end, 10);
+    if (end == at) return;
+    out.push_back(static_cast<pid_t>(process));
+    at = end;
+  }
+}
+
+void append_children_of_process(pid_t process, std::vector<pid_t>& out) {
+  const std::string threads = "/proc/" + std::to_string(process) + "/task";
+  DIR* folder = opendir(threads.c_str());
+  if (folder == nullptr) return;
+  while (const dirent* entry = readdir(folder)) {
+    if (entry->d_name[0] != '.') append_children(threads + "/" + entry->d_name, out);
+  }
+  closedir(folder);
+}
+
+}  // namespace
+
+std::vector<pid_t> own_children() {
+  std::vector<pid_t> out;
+  append_children("/proc/thread-self", out);
+  return out;
+}
+
+std::int64_t process_memory(const std::string& process) {
+  const std::string status = read_system_file("/proc/" + process + "/status");
+  return memory_in(status, "RssAnon:").value_or(0) + memory_in(status, "RssShmem:").value_or(0);
+}
+
+TreeUsage descendants_usage(std::int64_t at_fork,
+                            int most_processes,
+                            const std::vector<pid_t>& spared) {
+  TreeUsage out;
+  std::vector<pid_t> waiting = own_children();
+  std::erase_if(waiting, [&](pid_t child) { return std::ranges::count(spared, child) > 0; });
+  while (!waiting.empty() && out.processes <= most_processes) {
+    const pid_t process = waiting.back();
+    waiting.pop_back();
+    ++out.processes;
+    out.memory += std::max<std::int64_t>(0, process_memory(std::to_string(process)) - at_fork);
+    append_children_of_process(process, waiting);
+  }
+  return out;
+}
+
+std::int64_t tree_memory(pid_t process) {
+  std::int64_t out = 0;
+  std::vector<pid_t> waiting{process};
+  while (!waiting.empty()) {
+    const pid_t next = waiting.back();
+    waiting.pop_back();
+    out += process_memory(std::to_string(next));
+    append_children_of_process(next, waiting);
+  }
+  return out;
+}
+
+void end_strays(const std::vector<pid_t>& spared) {
+  siginfo_t none;
+  const int error = waitid(P_ALL, 0, &none, WEXITED | WNOHANG | WNOWAIT) == 0 ? 0 : errno;
+  if (error == ECHILD) return;  // faster than reading the list
+  for (;;) {
+    std::vector<pid_t> strays = own_children();
+    std::erase_if(strays, [&](pid_t child) { return std::ranges::count(spared, child) > 0; });
+    if (strays.empty()) return;
+    for (const pid_t stray : strays) kill(stray, SIGKILL);
+    for (const pid_t stray : strays) {
+      while (waitpid(stray, nullptr, 0) < 0 && errno == EINTR) {
+      }
+    }
+  }
+}
+
+Subreaper::Subreaper() : others_(own_children()) {
+  prctl(PR_GET_CHILD_SUBREAPER, &before_);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+}
+
+Subreaper::~Subreaper() {
+  end_strays(others_);
+  prctl(PR_SET_CHILD_SUBREAPER, before_);
+}
+
+void Subreaper::end_strays_except(std::vector<pid_t> workers) const {
+  workers.insert(workers.end(), others_.begin(), others_.end());
+  end_strays(workers);
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,56 @@
+#include "harness/base/printable.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+
+namespace loopbench::harness {
+namespace {
+
+/// Length of the code point at the start of `text`; 0 if it is not UTF-8 or a control character.
+std::size_t shown_bytes(std::string_view text) {
+  const auto byte = [&](std::size_t i) {
+    return std::uint32_t{static_cast<unsigned char>(text[i])};
+  };
+  const std::uint32_t first = byte(0);
+  if (first < 0x80) return (first >= 0x20 && first != 0x7f) || first == '\n' ? 1 : 0;
+  const std::size_t size = first < 0xc0 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+  if (size == 0 || first > 0xf4 || text.size() < size) return 0;
+  std::uint32_t point = first & (0x7fu >> size);
+  for (std::size_t i = 1; i < size; ++i) {
+    if ((byte(i) & 0xc0u) != 0x80) return 0;
+    point = (point << 6) | (byte(i) & 0x3fu);
+  }
+  constexpr std::uint32_t kLeast[] = {
+      0, 0, 0xa0, 0x800, 0x10000};  // smallest code point by length; or C1
+  const bool is_surrogate = point >= 0xd800 && point < 0xe000;
+  return point >= kLeast[size] && point <= 0x10ffff && !is_surrogate ? size : 0;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t size = shown_bytes(text);
+    if (size > 0) {
+      out += text.substr(0, size);
+    } else {
+      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
+    }
+    text.remove_prefix(size > 0 ? size : 1);
+  }
+  return out;
+}
+
+std::size_t first_unprintable(std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size() && text[at] != '\n') {
+    const std::size_t size = shown_bytes(text.substr(at));
+    if (size == 0) break;
+    at += size;
+  }
+  return at;
+}
+
+}  // namespace loopbench::harness

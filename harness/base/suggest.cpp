@@ -1,0 +1,52 @@
+#include "harness/base/suggest.hpp"
+
+#include <algorithm>
+
+namespace loopbench::harness {
+namespace {
+
+std::size_t distance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t swap = a[i - 1] == b[j - 1] ? 0 : 1;
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + swap});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return d[a.size()][b.size()];
+}
+
+}  // namespace
+
+std::string closest(const std::string& given, const std::vector<std::string>& known) {
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(2, given.size() / 3) + 1;
+  for (const std::string& name : known) {
+    // Each surplus character is an edit, so much longer names need no comparison.
+    if (given.size() >= name.size() + best_distance) continue;
+    if (const std::size_t d = distance(given, name); d < best_distance) {
+      best = name;
+      best_distance = d;
+    }
+  }
+  return best;
+}
+
+std::string unknown_name(const std::string& kind,
+                         const std::string& given,
+                         const std::vector<std::string>& known) {
+  const std::string what = "no " + kind + " is named '" + given + "'";
+  if (const std::string best = closest(given, known); !best.empty()) {
+    return what + "; did you mean '" + best + "'?";
+  }
+  std::string all;
+  for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
+  return what + " (known: " + all + ")";
+}
+
+}  // namespace loopbench::harness

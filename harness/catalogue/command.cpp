@@ -1,0 +1,195 @@
+#include "harness/catalogue/command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "datasets/core/error.hpp"
+#include "datasets/core/polyline.hpp"
+#include "harness/base/hash.hpp"
+#include "harness/base/printable.hpp"
+#include "harness/base/program.hpp"
+#include "harness/catalogue/arguments.hpp"
+#include "harness/catalogue/scratch.hpp"
+#include "harness/catalogue/server.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+using ExchangeClock = std::chrono::steady_clock;
+
+double seconds_since(ExchangeClock::time_point begin) {
+  return std::chrono::duration<double>(ExchangeClock::now() - begin).count();
+}
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Runs the program on one problem; `own` becomes the method's time [s].
+Trajectory run_once(const CommandOptions& options,
+                    const CommandSetting& setting,
+                    const Problem& problem,
+                    methods::Report& report,
+                    double& own) {
+  const ExchangeFolder folder;
+  const std::filesystem::path input = folder.path() / "problem";
+  const std::filesystem::path result = folder.path() / "result";
+  std::filesystem::create_directory(input);
+  write_problem(input, problem);
+  ProgramStart start;
+  start.arguments =
+      with_values(command_words("run", options.run, options.shell),
+                  {{"problem", options.shell ? "${LOOPBENCH_PROBLEM}" : input.string()},
+                   {"result", options.shell ? "${LOOPBENCH_RESULT}" : result.string()}});
+  start.folder = setting.folder;
+  start.environment = {{"LOOPBENCH_PROBLEM", input.string()},
+                       {"LOOPBENCH_RESULT", result.string()},
+                       {"TMPDIR", folder.path().string()}};
+  start.sandbox = &program_sandbox();
+  start.writable = folder.path();
+
+  const auto started = ExchangeClock::now();
+  RunningProgram tree(start);
+  std::string output;
+  const ProgramEnd end = tree.wait(output);
+  const double ran = seconds_since(started);
+  const std::string hidden = hidden_note(program_sandbox());
+  if (end.exit_code != 0) {
+    throw std::runtime_error(with_output("the program " + text(end) + hidden, output));
+  }
+  ResultMetadata metadata;
+  if (std::filesystem::is_regular_file(result.string() + ".json")) {
+    metadata = parse_metadata(content(result.string() + ".json"));
+  }
+  require_ok(metadata);
+  Trajectory out;
+  try {
+    out = read_result(result, problem, options.output);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(with_output(error.what() + hidden, output));
+  }
+  own = add_statements(report, metadata, ran, "from start to end of the program");
+  report.count(kProgramTime, end.cpu_seconds);
+  report.count(kProgramMemory, static_cast<double>(end.peak_memory));
+  add_output(report, output);
+  return out;
+}
+
+Trajectory corrected(const CommandOptions& options,
+                     const CommandSetting& setting,
+                     const Problem& problem,
+                     methods::Report& report) {
+  if (!options.serve.empty()) return ask_server(options, setting, problem, report);
+  const auto begin = ExchangeClock::now();
+  double own = 0.0;
+  Trajectory out = run_once(options, setting, problem, report, own);
+  report.phases.push_back({kExchangePhase, seconds_since(begin) - own});  // with its end
+  return out;
+}
+
+class CommandCorrector final : public methods::Corrector {
+ public:
+  CommandCorrector(CommandOptions options, CommandSetting setting)
+      : options_(std::move(options)), setting_(std::move(setting)) {}
+  Trajectory correct(const Problem& problem, methods::Report& report) const override {
+    return corrected(options_, setting_, problem, report);
+  }
+
+ private:
+  CommandOptions options_;
+  CommandSetting setting_;
+};
+
+class DenseCommand final : public methods::Estimator {
+ public:
+  DenseCommand(CommandOptions options, CommandSetting setting)
+      : options_(std::move(options)), setting_(std::move(setting)) {}
+  std::string why_declined(const Problem& problem) const override {
+    if (problem.keyframes.size() < 2) return "fewer than two keyframes";
+    return "";
+  }
+  std::unique_ptr<const Curve> estimate(const Problem& problem,
+                                        methods::Report& report) const override {
+    return std::make_unique<Polyline>(corrected(options_, setting_, problem, report));
+  }
+
+ private:
+  CommandOptions options_;
+  CommandSetting setting_;
+};
+
+}  // namespace
+
+void check_combination(const CommandOptions& o) {
+  if (o.run.empty() == o.serve.empty()) {
+    throw OptionError("run", "run: expected either run or serve, and not both");
+  }
+  const bool serves = o.run.empty();
+  command_words(serves ? "serve" : "run", serves ? o.serve : o.run, o.shell);
+  split_arguments("version", o.version.empty() ? "-" : o.version);
+  split_arguments("depends", o.depends.empty() ? "-" : o.depends);
+  for (const char* name : {"{problem}", "{result}"}) {
+    if (!serves && o.run.find(name) == std::string::npos) {
+      throw OptionError("run", std::string("run: does not contain ") + name + ": " + o.run);
+    }
+  }
+}
+
+std::vector<std::string> command_words(const std::string& option,
+                                       const std::string& text,
+                                       bool shell) {
+  if (shell) return {"sh", "-c", text};
+  return split_arguments(option, text);
+}
+
+methods::Stage make_command(const CommandOptions& options, const CommandSetting& setting) {
+  check_combination(options);
+  if (options.output == ResultPoses::dense) {
+    return std::unique_ptr<const methods::Estimator>(
+        std::make_unique<DenseCommand>(options, setting));
+  }
+  return std::unique_ptr<const methods::Corrector>(
+      std::make_unique<CommandCorrector>(options, setting));
+}
+
+std::string with_output(const std::string& why, const std::string& output) {
+  return output.empty() ? why : why + "; its output ends with: " + output;
+}
+
+void add_output(methods::Report& report, const std::string& output) {
+  constexpr std::size_t kLongestOutput = 1900;  // [bytes], of a note
+  std::string text = printable(output);
+  std::ranges::replace(text, '\n', ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  if (text.size() > kLongestOutput) text.erase(0, text.size() - kLongestOutput);
+  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
+  while (!text.empty() && continues(text.front()))
+    text.erase(0, 1);  // of a code point that was cut
+  if (!text.empty()) report.notes.push_back("output: " + text);
+}
+
+std::string command_version(const CommandOptions& options, const CommandSetting& setting) {
+  Fields fields;
+  const std::string& line = options.run.empty() ? options.serve : options.run;
+  for (const std::string& name : named_files(line, options.depends, setting.folder)) {
+    fields.add(name).add(hex(hash_of_file(setting.folder / name)));
+  }
+  if (options.version.empty()) return fields.hashed();
+  ProgramStart start;
+  start.arguments = split_arguments("version", options.version);
+  start.folder = setting.folder;
+  std::string output;
+  const ProgramEnd end = RunningProgram(start).wait(output);
+  if (end.exit_code != 0) {
+    throw InputError(with_output("version: " + options.version + ": " + text(end), output));
+  }
+  return fields.add(output).hashed();
+}
+
+}  // namespace loopbench::harness

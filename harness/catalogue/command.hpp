@@ -1,0 +1,60 @@
+/// The method `command`: any program as a corrector.
+#pragma once
+
+#include <string>
+
+#include "harness/catalogue/exchange.hpp"
+#include "methods/method.hpp"
+
+namespace loopbench::harness {
+
+struct CommandOptions {
+  std::string run;
+  std::string serve;
+  bool shell = false;
+  ResultPoses output = ResultPoses::keyframes;
+  std::string depends;
+  std::string version;
+};
+
+template <class Visit>
+void fields(CommandOptions& o, Visit visit) {
+  visit("run", o.run, "program and arguments; {problem}: folder to read, {result}: file to write");
+  visit("serve",
+        o.serve,
+        "program that stays running and exchanges problems over its standard streams, instead of "
+        "run");
+  visit("shell", o.shell, "whether sh interprets the text of run or serve");
+  visit("output", o.output, "poses of the result");
+  visit("depends", o.depends, "files whose change recomputes the cells, separated by blanks");
+  visit("version", o.version, "command whose output is the version; its change recomputes cells");
+}
+
+/// Conditions under which an external program runs.
+struct CommandSetting {
+  std::filesystem::path folder = ".";  ///< working directory: the folder of the config
+};
+
+/// Throws OptionError unless exactly one of run and serve is set and can be split, and run names
+/// {problem} and {result}.
+void check_combination(const CommandOptions& options);
+
+/// A corrector, or a joint method for output: dense. Throws OptionError.
+methods::Stage make_command(const CommandOptions& options, const CommandSetting& setting);
+
+/// Words of a command line, or sh with that line. Throws OptionError.
+std::vector<std::string> command_words(const std::string& option,
+                                       const std::string& text,
+                                       bool shell);
+
+/// Hashes of the files that the command line and `depends` name, and the output of `version`.
+/// Throws InputError if a file under `depends` is missing or `version` fails.
+std::string command_version(const CommandOptions& options, const CommandSetting& setting);
+
+/// `why`, with the end of a program's output.
+std::string with_output(const std::string& why, const std::string& output);
+
+/// Adds the end of a program's output as a note.
+void add_output(methods::Report& report, const std::string& output);
+
+}  // namespace loopbench::harness

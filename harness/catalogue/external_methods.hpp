@@ -1,0 +1,37 @@
+/// Methods that run programs; unlike others they need to know where.
+#pragma once
+
+#include <memory>
+
+#include "harness/catalogue/command.hpp"
+#include "harness/catalogue/scratch.hpp"
+#include "harness/model/sweep.hpp"
+
+namespace loopbench::harness {
+
+/// The method `command`; its make() uses the current folder.
+methods::MethodEntry command_entry();
+
+/// Whether a stage of a method runs a program.
+bool is_program(const Choice& stage);
+
+/// Throws OptionError.
+methods::Stage make_program(const Choice& stage, const CommandSetting& setting);
+
+/// Changes with the program. Throws InputError.
+std::string program_version(const Choice& stage, const CommandSetting& setting);
+
+/// Programs of a sweep run in the folder of its config.
+CommandSetting command_setting(const Sweep& sweep);
+
+/// Whether any of its methods or datasets runs programs.
+bool uses_programs(const Sweep& sweep);
+
+/// Temporary files of the programs of a sweep and its workers; null unless it uses programs.
+std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep);
+
+/// Starts the serving programs of a method in this process, see server.hpp. Does not throw: asking
+/// reports what fails.
+void prepare_programs(const MethodChoice& choice, const CommandSetting& setting);
+
+}  // namespace loopbench::harness

@@ -1,0 +1,41 @@
+/// Messages between this program and a serving program, over its standard streams.
+///
+/// A message is 32 bytes, little endian: the magic "LBEXCH01", its number, the size of its text and
+/// the size of its data [bytes]; then the text, a JSON object; then the data, rows of float64 one
+/// array after another. An answer has the number of its request.
+///
+/// Request: {exchange: 1, planar, similarity, output: keyframes | dense,
+///   arrays: [[name, rows, columns], ...]} with the arrays
+///   keyframes, frames    8 columns: stamp x y z qx qy qz qw
+///   odometry, closures  46 columns: from to x y z qx qy qz qw scale, then the 36 elements of the
+///                       information matrix of the twist [rho; phi]
+/// Answer: the keys of result.json (exchange.hpp) and poses: number of rows, 8 columns each.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "harness/catalogue/exchange.hpp"
+
+namespace loopbench::harness {
+
+struct MessageHeader {
+  char magic[8] = {'L', 'B', 'E', 'X', 'C', 'H', '0', '1'};
+  std::uint64_t number = 0;
+  std::uint64_t text = 0;  ///< [bytes]
+  std::uint64_t data = 0;  ///< [bytes]
+};
+static_assert(sizeof(MessageHeader) == 32);
+
+/// The complete bytes of a request. O(keyframes + frames + edges).
+std::string request(const Problem& problem, ResultPoses output, std::uint64_t number);
+
+/// Throws std::runtime_error if the header of an answer is not one, has another number, or states
+/// sizes beyond the limits.
+void check_header(const MessageHeader& header, std::uint64_t number, std::size_t keyframes);
+
+/// Poses of an answer; its metadata are written to `metadata`. Throws std::runtime_error, and
+/// Undefined if the program declined.
+Trajectory answer_poses(const std::string& text, const std::string& data, ResultMetadata& metadata);
+
+}  // namespace loopbench::harness

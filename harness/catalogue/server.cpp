@@ -1,0 +1,208 @@
+#include "harness/catalogue/server.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <new>
+
+#include "harness/base/program.hpp"
+#include "harness/catalogue/message.hpp"
+#include "metrics/evaluation/evaluation.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+/// In memory shared with forked processes.
+struct SharedTurn {
+  std::atomic<std::uint64_t> requested = 0;
+  std::atomic<std::uint64_t> answered = 0;
+};
+
+ProgramStart server_start(const CommandOptions& options, const CommandSetting& setting) {
+  ProgramStart out;
+  out.arguments = command_words("serve", options.serve, options.shell);
+  out.folder = setting.folder;
+  out.sandbox = &program_sandbox();
+  out.writable = std::filesystem::temp_directory_path();
+  out.serves = true;
+  return out;
+}
+
+class Server {
+ public:
+  Server(const CommandOptions& options, const CommandSetting& setting)
+      : tree_(server_start(options, setting)) {
+    void* shared = mmap(
+        nullptr, sizeof(SharedTurn), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (shared == MAP_FAILED) throw std::runtime_error("cannot start a program: shared memory");
+    turn_ = new (shared) SharedTurn;
+  }
+  ~Server() { munmap(turn_, sizeof(SharedTurn)); }
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  bool is_in_step() const {
+    return turn_->requested == turn_->answered && !tree_.has_ended() && !has_output();
+  }
+
+  void append_to(RunningServers& out) const {
+    out.processes.push_back(tree_.process());
+    for (const int descriptor :
+         {tree_.input(), tree_.output(), tree_.errors(), tree_.descriptor()}) {
+      out.descriptors.push_back(descriptor);
+    }
+  }
+
+  Trajectory ask(const Problem& problem,
+                 ResultPoses output,
+                 ResultMetadata& metadata,
+                 std::string& errors) {
+    const std::uint64_t number = ++turn_->requested;
+    unsent_ = request(problem, output, number);
+    received_.clear();
+    errors_ = &errors;
+    MessageHeader header;
+    receive(sizeof header);
+    std::memcpy(&header, received_.data(), sizeof header);
+    check_header(header, number, problem.keyframes.size());
+    receive(sizeof header + header.text + header.data);
+    if (received_.size() > sizeof header + header.text + header.data || has_output()) {
+      throw std::runtime_error("the program wrote more than one answer");
+    }
+    turn_->answered = number;  // from here on the streams are in step, whatever the answer says
+    read_available(tree_.errors(), errors);
+    return answer_poses(received_.substr(sizeof header, header.text),
+                        received_.substr(sizeof header + header.text),
+                        metadata);
+  }
+
+ private:
+  /// Whether bytes are there that belong to no answer.
+  bool has_output() const {
+    pollfd file{tree_.output(), POLLIN, 0};
+    return poll(&file, 1, 0) > 0 && (file.revents & POLLIN) != 0;
+  }
+
+  /// Sends and receives until at least `size` bytes are here.
+  void receive(std::size_t size) {
+    while (received_.size() < size) {
+      std::array<pollfd, 3> files{{{tree_.output(), POLLIN, 0},
+                                   {tree_.errors(), POLLIN, 0},
+                                   {unsent_.empty() ? -1 : tree_.input(), POLLOUT, 0}}};
+      if (poll(files.data(), files.size(), -1) < 0) continue;
+      if (files[2].revents != 0) send_some();
+      if (files[1].revents != 0) read_available(tree_.errors(), *errors_);
+      if (files[0].revents != 0 && !receive_some()) throw_end();
+    }
+  }
+
+  void send_some() {
+    const ssize_t sent = send(tree_.input(), unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
+    if (sent > 0) unsent_.erase(0, static_cast<std::size_t>(sent));
+    if (sent < 0 && errno != EAGAIN && errno != EINTR) unsent_.clear();  // its end is read next
+  }
+
+  bool receive_some() {
+    std::array<char, 1 << 16> buffer;
+    const ssize_t got = read(tree_.output(), buffer.data(), buffer.size());
+    if (got > 0) received_.append(buffer.data(), static_cast<std::size_t>(got));
+    return got > 0 || (got < 0 && (errno == EAGAIN || errno == EINTR));
+  }
+
+  [[noreturn]] void throw_end() {
+    const ProgramEnd end = tree_.wait(*errors_);
+    throw std::runtime_error("the program " + text(end) + " before its answer");
+  }
+
+  RunningProgram tree_;
+  SharedTurn* turn_ = nullptr;
+  std::string unsent_;
+  std::string received_;
+  std::string* errors_ = nullptr;
+};
+
+struct KnownServer {
+  std::string key;
+  std::unique_ptr<Server> server;
+};
+
+std::vector<KnownServer>& known_servers() {
+  static thread_local std::vector<KnownServer> servers;
+  return servers;
+}
+
+KnownServer& known_server(const CommandOptions& options, const CommandSetting& setting) {
+  std::vector<KnownServer>& servers = known_servers();
+  const std::string key =
+      fmt::format("{}\n{}\n{}", options.serve, options.shell, setting.folder.string());
+  const auto found = std::ranges::find(servers, key, &KnownServer::key);
+  return found == servers.end() ? servers.emplace_back(KnownServer{key, nullptr}) : *found;
+}
+
+Server& running_server(const CommandOptions& options, const CommandSetting& setting) {
+  KnownServer& known = known_server(options, setting);
+  if (known.server && !known.server->is_in_step()) known.server.reset();
+  if (!known.server) known.server = std::make_unique<Server>(options, setting);
+  return *known.server;
+}
+
+}  // namespace
+
+RunningServers running_servers() {
+  RunningServers out;
+  for (const KnownServer& known : known_servers()) {
+    if (known.server) known.server->append_to(out);
+  }
+  return out;
+}
+
+void end_servers(bool only_stuck) {
+  for (KnownServer& known : known_servers()) {
+    if (known.server && !(only_stuck && known.server->is_in_step())) known.server.reset();
+  }
+}
+
+void prepare_server(const CommandOptions& options, const CommandSetting& setting) {
+  running_server(options, setting);
+}
+
+Trajectory ask_server(const CommandOptions& options,
+                      const CommandSetting& setting,
+                      const Problem& problem,
+                      methods::Report& report) {
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  Server& server = running_server(options, setting);
+  const double started = elapsed();
+  ResultMetadata metadata;
+  std::string errors;
+  Trajectory out;
+  try {
+    out = checked_result(server.ask(problem, options.output, metadata, errors),
+                         problem,
+                         options.output,
+                         "the answer");
+  } catch (const metrics::Undefined&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    const std::string hidden = hidden_note(program_sandbox());
+    throw std::runtime_error(with_output(error.what() + hidden, errors));
+  }
+  const double all = elapsed();
+  const double own = add_statements(report, metadata, all - started, "from request to answer");
+  add_output(report, errors);
+  report.phases.push_back({kExchangePhase, all - own});
+  return out;
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,41 @@
+/// Programs that stay running and answer one problem after another.
+///
+/// A program belongs to the thread that first used it, and to processes that are forked from it
+/// later: they inherit its streams, one at a time. A flag in shared memory is set while a request
+/// is unanswered. If it is still set at the next request, because the requesting process was
+/// killed, or if the program has ended, the program is started again; so a program that crashes,
+/// hangs or writes something else costs one cell.
+#pragma once
+
+#include <sys/types.h>
+
+#include <vector>
+
+#include "harness/catalogue/command.hpp"
+
+namespace loopbench::harness {
+
+/// Starts the program of `options.serve` unless it is running and in step. A process that forks
+/// others to send requests calls it first; otherwise each of them starts its own program. Throws
+/// std::runtime_error.
+void prepare_server(const CommandOptions& options, const CommandSetting& setting);
+
+/// What a cell in a copy of this process needs to keep: the servers that run in this thread.
+struct RunningServers {
+  std::vector<pid_t> processes;  ///< children of this process
+  std::vector<int> descriptors;  ///< their streams
+};
+RunningServers running_servers();
+
+/// Ends the servers of this thread; `only_stuck`: those that have ended or have not answered,
+/// because the requesting process was killed.
+void end_servers(bool only_stuck = false);
+
+/// Sends the problem and returns the checked answer. Throws std::runtime_error if the program
+/// fails, and Undefined if it declines.
+Trajectory ask_server(const CommandOptions& options,
+                      const CommandSetting& setting,
+                      const Problem& problem,
+                      methods::Report& report);
+
+}  // namespace loopbench::harness

@@ -1,0 +1,123 @@
+#include "harness/commands/download.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <system_error>
+
+#include "datasets/core/error.hpp"
+#include "harness/base/child_process.hpp"
+#include "harness/base/sha256.hpp"
+#include "harness/base/write_file.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kNoProgram = 127;
+constexpr int kNoRange = 33;  ///< of curl: the server cannot continue a download
+
+/// Exit code of the program `words`, without a shell.
+int exit_code_of(const std::vector<std::string>& words) {
+  ProgramCall call;
+  call.arguments = words;
+  try {
+    return ChildProcess(ProcessGroup::shared, call).exit_code();
+  } catch (const std::system_error&) {
+    return kNoProgram;
+  }
+}
+
+int curl(const std::string& url, const fs::path& part) {
+  // A dot at the end of the URL's scheme list means: also after redirections.
+  return exit_code_of({"curl",
+                       "--fail",
+                       "--location",
+                       "--proto",
+                       "=http,https",
+                       isatty(STDERR_FILENO) == 1 ? "--progress-bar" : "--silent",
+                       "--show-error",
+                       "--continue-at",
+                       "-",
+                       "--output",
+                       part.string(),
+                       "--",
+                       url});
+}
+
+/// Downloads to `part`, continuing it if possible.
+void download_part(const PublicFile& wanted, const fs::path& part) {
+  int code = curl(wanted.url, part);
+  if (code == kNoRange) {
+    fs::remove(part);
+    code = curl(wanted.url, part);
+  }
+  if (code == kNoProgram) {
+    throw InputError("get: the program curl is not installed (Debian package curl)");
+  }
+  // A part that is already complete has nothing to continue: HTTP 416, exit code 22 of curl.
+  const bool may_be_complete = code == 22 && fs::exists(part);
+  if (code != 0 && !may_be_complete) {
+    throw InputError(fmt::format(
+        "{}: curl failed with exit code {}; run the command again to continue", wanted.url, code));
+  }
+}
+
+/// The expected hash: of the catalogue, else of the first download; empty if there is none.
+std::string expected_hash(const PublicFile& wanted, const fs::path& file) {
+  if (!wanted.sha256.empty()) return wanted.sha256;
+  std::ifstream in(pin_of(file));
+  std::string out;
+  in >> out;
+  return out;
+}
+
+}  // namespace
+
+fs::path pin_of(const fs::path& file) { return file.string() + ".sha256"; }
+
+Fetched fetch(const PublicFile& wanted, const fs::path& folder) {
+  const fs::path file = folder / wanted.file;
+  const std::string expected = expected_hash(wanted, file);
+  const auto write_pin = [&](const std::string& hash) {
+    write_file(pin_of(file), hash + "  " + file.filename().string() + "\n");
+  };
+  if (fs::exists(file)) {
+    const std::string found = sha256_of_file(file);
+    if (expected.empty()) {
+      write_pin(found);
+      return Fetched::pinned;
+    }
+    if (found == expected) return Fetched::present;
+    throw InputError(
+        fmt::format("{}: its SHA-256 is {}, expected {}; remove the file to download it again",
+                    file.string(),
+                    found,
+                    expected));
+  }
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  if (error)
+    throw InputError(file.parent_path().string() + ": cannot be created: " + error.message());
+  const fs::path part = file.string() + ".part";
+  download_part(wanted, part);
+  const std::string found = sha256_of_file(part);
+  if (!expected.empty() && found != expected) {
+    fs::remove(part);
+    throw InputError(fmt::format(
+        "{}: the content has changed and was rejected: its SHA-256 is {}, expected {}{}",
+        wanted.url,
+        found,
+        expected,
+        wanted.sha256.empty() ? " as in " + pin_of(file).string() : ""));
+  }
+  fs::rename(part, file, error);
+  if (error) throw InputError(file.string() + ": cannot be written: " + error.message());
+  if (!expected.empty()) return Fetched::downloaded;
+  write_pin(found);
+  return Fetched::pinned;
+}
+
+}  // namespace loopbench::harness

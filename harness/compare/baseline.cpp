@@ -1,0 +1,119 @@
+#include "harness/compare/baseline.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace loopbench::harness {
+
+Tolerance time_limit(double relative) {
+  return {.where = {"metric=time"},
+          .values = {"rmse"},
+          .relative = relative,
+          .absolute = 1.0,
+          .tie = 0.1};
+}
+
+bool limits_time(const std::vector<Tolerance>& limits) {
+  return std::ranges::any_of(limits, [](const Tolerance& limit) {
+    return std::ranges::count(limit.where, "metric=time") > 0;
+  });
+}
+
+bool is_dirty(const std::map<std::string, std::string>& build_summary) {
+  const auto source = build_summary.find("source");
+  return source != build_summary.end() && source->second.find("dirty") != std::string::npos;
+}
+
+std::string sequence_name(const GateCell& cell) {
+  return cell.sequence + (cell.repeat == 0 ? "" : " (repeat " + std::to_string(cell.repeat) + ")");
+}
+
+std::string name(const GateCell& cell) { return sequence_name(cell) + " / " + cell.method; }
+
+std::string name(const GateScore& score) {
+  std::string out = score.label.empty() ? score.metric : score.label;
+  for (const std::string& word : {score.relation, score.axis}) {
+    if (!word.empty()) out += " " + word;
+  }
+  return out + ", " + score.times + ", " + score.protocol;
+}
+
+Record as_record(const GateCell& cell, const GateScore& score) {
+  Record out;
+  out.sequence = cell.sequence;
+  out.repeat = cell.repeat;
+  out.method = cell.method;
+  out.protocol = score.protocol;
+  out.times = score.times;
+  out.metric = score.metric;
+  out.label = score.label;
+  out.relation = score.relation;
+  out.axis = score.axis;
+  out.unit = score.unit;
+  out.status = score.status;
+  out.better = score.better;
+  out.target = score.target;
+  return out;
+}
+
+namespace {
+
+GateCell gate_cell(const Record& r) {
+  GateCell out;
+  out.sequence = r.sequence;
+  out.repeat = r.repeat;
+  out.method = r.method;
+  out.oracle = r.oracle;
+  out.oracle_data = r.oracle_closures;
+  out.group = r.group;
+  out.content = r.content;
+  return out;
+}
+
+GateScore gate_score(const Record& r, const std::set<std::string>& statistics) {
+  GateScore out;
+  out.protocol = r.protocol;
+  out.times = r.times;
+  out.metric = r.metric;
+  out.label = r.label;
+  out.relation = r.relation;
+  out.axis = r.axis;
+  out.unit = r.unit;
+  out.better = r.better;
+  out.target = r.target;
+  out.status = r.status;
+  if (!has_numbers(r.status)) return out;
+  out.pairs = r.pairs;
+  out.possible = r.possible;
+  out.count = static_cast<std::int64_t>(r.statistics.count);
+  for (const std::string& statistic : statistics) out.values[statistic] = value(r, statistic);
+  return out;
+}
+
+}  // namespace
+
+std::vector<GateCell> gate_cells(const std::vector<Record>& records,
+                                 const std::vector<Tolerance>& limits) {
+  std::set<std::string> statistics;
+  for (const Tolerance& limit : limits) {
+    for (const std::string& statistic : limit.values) {
+      value(Record{}, statistic);  // rejects an unknown statistic even without records
+      statistics.insert(statistic);
+    }
+  }
+  std::vector<GateCell> out;
+  std::map<std::int64_t, std::size_t> positions;
+  for (const Record& r : records) {
+    const auto [found, is_new] = positions.emplace(r.cell, out.size());
+    if (is_new) out.push_back(gate_cell(r));
+    GateCell& cell = out[found->second];
+    if (r.metric.empty()) {
+      cell.status = r.status;
+    } else {
+      cell.scores.push_back(gate_score(r, statistics));
+    }
+  }
+  return out;
+}
+
+}  // namespace loopbench::harness

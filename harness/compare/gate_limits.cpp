@@ -1,0 +1,75 @@
+#include "harness/compare/gate_limits.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "datasets/core/error.hpp"
+#include "harness/model/where.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+bool selects_a_score(const Tolerance& limit, const Snapshot& snapshot) {
+  const auto keeps = where(limit.where);
+  return std::ranges::any_of(snapshot.cells, [&](const GateCell& cell) {
+    return std::ranges::any_of(
+        cell.scores, [&](const GateScore& score) { return keeps(as_record(cell, score)); });
+  });
+}
+
+std::string numbers_of(const Tolerance& limit) {
+  return fmt::format("{}: relative {:g}, absolute {:g}, tie {:g}, {}",
+                     fmt::join(limit.values, ", "),
+                     limit.relative,
+                     limit.absolute,
+                     limit.tie,
+                     limit.alpha ? fmt::format("alpha {:g}", *limit.alpha) : "no test over runs");
+}
+
+}  // namespace
+
+LimitOfScore::LimitOfScore(const std::vector<Tolerance>& limits) {
+  for (const Tolerance& limit : limits) filters_.push_back({where(limit.where), &limit});
+}
+
+const Tolerance* LimitOfScore::operator()(const GateCell& cell, const GateScore& score) const {
+  const Record record = as_record(cell, score);
+  for (const Filter& filter : filters_) {
+    if (filter.keeps(record)) return filter.limit;
+  }
+  return nullptr;
+}
+
+void require_used_limits(const Baseline& baseline) {
+  if (baseline.limits.empty()) {
+    throw InputError("limits: is empty, so that every change would pass; expected at least one");
+  }
+  const auto has_scores = [](const GateCell& cell) { return !cell.scores.empty(); };
+  if (std::ranges::none_of(baseline.snapshot.cells, has_scores)) return;
+  for (std::size_t i = 0; i < baseline.limits.size(); ++i) {
+    const Tolerance& limit = baseline.limits[i];
+    if (selects_a_score(limit, baseline.snapshot)) continue;
+    throw InputError(fmt::format("limits[{}].where: '{}' selects no score of the baseline",
+                                 i,
+                                 fmt::join(limit.where, ", ")));
+  }
+}
+
+std::vector<std::string> notes_on_limits(const std::vector<Tolerance>& limits) {
+  const std::string usual = numbers_of({});
+  std::vector<std::string> out;
+  for (const Tolerance& limit : limits) {
+    const std::string own = numbers_of(limit);
+    if (own == usual) continue;
+    out.push_back(fmt::format(
+        "limit of {}: {} (default: {})",
+        limit.where.empty() ? "all scores" : fmt::format("{}", fmt::join(limit.where, ", ")),
+        own,
+        usual));
+  }
+  return out;
+}
+
+}  // namespace loopbench::harness

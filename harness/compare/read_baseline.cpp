@@ -1,0 +1,246 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "datasets/core/error.hpp"
+#include "datasets/core/fields.hpp"
+#include "datasets/formats/regular_file.hpp"
+#include "harness/base/suggest.hpp"
+#include "harness/compare/baseline_file.hpp"
+#include "harness/model/where.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A limit, which users edit; `at` is its place in the file. Throws InputError.
+class LimitReader {
+ public:
+  LimitReader(const Json& node, std::string at) : node_(node), at_(std::move(at)) {}
+
+  Tolerance read() const {
+    if (!node_.is_object()) reject("", "expected an object");
+    // A misspelt key would be a limit that is not applied.
+    static const std::vector<std::string> known{
+        "where", "value", "values", "relative", "absolute", "tie", "alpha"};
+    for (const auto& entry : node_.items()) {
+      if (std::ranges::count(known, entry.key()) > 0) continue;
+      reject("", unknown_name("key of a limit", entry.key(), known));
+    }
+    Tolerance out;
+    out.where = texts("where");
+    out.values = statistics();
+    try {
+      where(out.where);
+      for (const std::string& statistic : out.values) value(Record{}, statistic);
+    } catch (const InputError& error) {
+      reject("", error.what());
+    }
+    out.relative = number("relative");
+    out.absolute = number("absolute");
+    out.tie = number("tie");
+    out.alpha.reset();
+    if (node_.contains("alpha")) out.alpha = number("alpha");
+    return out;
+  }
+
+ private:
+  [[noreturn]] void reject(const std::string& key, const std::string& what) const {
+    throw InputError(at_ + (key.empty() ? "" : "." + key) + ": " + what);
+  }
+
+  const Json& member(const char* key) const {
+    const auto found = node_.find(key);
+    if (found == node_.end()) reject(key, "is missing");
+    return *found;
+  }
+
+  double number(const char* key) const {
+    const Json& found = member(key);
+    if (!found.is_number() || found.get<double>() < 0.0) {
+      reject(key, "expected a non-negative number, found " + found.dump());
+    }
+    return found.get<double>();
+  }
+
+  std::vector<std::string> texts(const char* key) const {
+    const Json& found = member(key);
+    const auto is_text = [](const Json& entry) { return entry.is_string(); };
+    if (!found.is_array() || !std::ranges::all_of(found, is_text)) {
+      reject(key, "expected a list of texts, found " + found.dump());
+    }
+    return found.get<std::vector<std::string>>();
+  }
+
+  /// Until format 2 a limit had one `value`, usually rmse, and did not check the maximum.
+  std::vector<std::string> statistics() const {
+    if (node_.contains("value")) {
+      return node_["value"] == "rmse" ? Tolerance{}.values
+                                      : std::vector{node_["value"].get<std::string>()};
+    }
+    std::vector<std::string> out = texts("values");
+    if (out.empty()) reject("values", "expected a list of statistics, found []");
+    return out;
+  }
+
+  const Json& node_;
+  std::string at_;
+};
+
+std::vector<Tolerance> limits_of(const Json& root, const std::string& file) {
+  std::vector<Tolerance> out;
+  for (const Json& entry : root.at("limits")) {
+    const std::string at = fmt::format("{}: limits[{}]", file, out.size());
+    out.push_back(LimitReader(entry, at).read());
+  }
+  return out;
+}
+
+template <class T>
+T known(const Json& node) {
+  const auto found = from_text<T>(node.get<std::string>());
+  if (!found) throw InputError("expected " + choice_list<T>() + ", found " + node.dump());
+  return *found;
+}
+
+/// Identification of a score, without its numbers.
+GateScore requested_score(const Json& node) {
+  GateScore out;
+  node.at("protocol").get_to(out.protocol);
+  node.at("times").get_to(out.times);
+  node.at("metric").get_to(out.metric);
+  node.at("label").get_to(out.label);
+  node.at("relation").get_to(out.relation);
+  node.at("axis").get_to(out.axis);
+  node.at("unit").get_to(out.unit);
+  out.better = known<metrics::Better>(node.at("better"));
+  out.target = node.value("target", 0.0);
+  return out;
+}
+
+/// Score `i` of a cell.
+GateScore score_of(const Json& cell,
+                   std::size_t i,
+                   GateScore out,
+                   const std::vector<Tolerance>& limits) {
+  const auto integer = [&](const char* key) {
+    return cell.at(cell.contains(key) ? key : "pairs").at(i).get<std::int64_t>();
+  };
+  out.pairs = integer("pairs");
+  out.possible = integer("possible");
+  out.count = integer("counts");
+  if (cell.contains("statuses")) out.status = known<Status>(cell["statuses"].at(i));
+  if (!has_numbers(out.status)) return out;
+  for (const Tolerance& limit : limits) {
+    for (const std::string& statistic : limit.values) {
+      const Json& number = cell.at(statistic).at(i);
+      out.values[statistic] = number.is_null() ? std::nan("") : number.get<double>();
+    }
+  }
+  return out;
+}
+
+GateCell cell_of(const Json& node,
+                 const std::vector<GateScore>& scores,
+                 const std::vector<Tolerance>& limits) {
+  GateCell out;
+  node.at("sequence").get_to(out.sequence);
+  node.at("repeat").get_to(out.repeat);
+  node.at("method").get_to(out.method);
+  out.oracle = node.value("oracle", false);
+  out.oracle_data = node.value("oracle_data", false);
+  out.status = known<Status>(node.at("status"));
+  if (!node.contains("pairs")) return out;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    if (!node["pairs"].at(i).is_null()) out.scores.push_back(score_of(node, i, scores[i], limits));
+  }
+  return out;
+}
+
+Baseline baseline_of(const Json& root, const std::string& file) {
+  Baseline out;
+  out.limits = limits_of(root, file);
+  root.at("build_summary").get_to(out.build_summary);
+  Snapshot& snapshot = out.snapshot;
+  root.at("sweep").get_to(snapshot.sweep);
+  root.at("machine").get_to(snapshot.machine);
+  root.at("sequences").get_to(snapshot.sequences);
+  root.at("contents").get_to(snapshot.contents);
+  root.at("protocols").get_to(snapshot.protocols);
+  root.at("metrics").get_to(snapshot.metrics);
+  root.at("methods").get_to(snapshot.methods);
+  std::vector<GateScore> scores;
+  for (const Json& entry : root.at("scores")) scores.push_back(requested_score(entry));
+  for (const Json& entry : root.at("cells")) {
+    snapshot.cells.push_back(cell_of(entry, scores, out.limits));
+  }
+  return out;
+}
+
+/// Runs `read` on the JSON object of the text. Throws InputError with the line of a syntax error.
+template <class Read>
+auto read_json(const std::string& text, const std::string& file, Read read) {
+  const auto reason_of = [](const Json::exception& error) {  // "[json.exception...] at: reason"
+    const std::string what = error.what();
+    const std::size_t reason = what.find(": ");
+    return reason == std::string::npos ? what : what.substr(reason + 2);
+  };
+  try {
+    const Json root = Json::parse(text);
+    if (!root.is_object()) throw InputError(file + ": baseline: expected an object");
+    return read(root);
+  } catch (const Json::parse_error& error) {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
+    const auto line = static_cast<std::size_t>(1 + std::count(text.begin(), end, '\n'));
+    throw input_error(file, line, "is not JSON: " + reason_of(error));
+  } catch (const Json::exception& error) {
+    throw InputError(file + ": is not a baseline: " + reason_of(error));
+  }
+}
+
+std::string baseline_text(const std::filesystem::path& file) {
+  constexpr std::size_t kLargest = std::size_t{1} << 30;  // [bytes]
+  return read_named_file(file, kLargest, "a baseline (--update writes one)");
+}
+
+}  // namespace
+
+Baseline parse_baseline(const std::string& text, const std::string& file) {
+  return read_json(text, file, [&](const Json& root) {
+    const Json format = root.value("loopbench_baseline", Json());
+    if (format != kBaselineFormat) {
+      throw InputError(
+          fmt::format("{}: loopbench_baseline: found format {}, expected {}: it lacks data that "
+                      "format {} compares; check the results, then write it again with --update "
+                      "(limits are kept)",
+                      file,
+                      format.dump(),
+                      kBaselineFormat,
+                      kBaselineFormat));
+    }
+    const std::string digest = digest_of(text);
+    const Json found = root.value("digest", Json());
+    if (found == digest) return baseline_of(root, file);
+    throw InputError(
+        fmt::format("{}: digest: found {}, expected \"{}\": the file was changed since it was "
+                    "written, and not only its limits; restore it, or check the results and write "
+                    "it again with --update",
+                    file,
+                    found.is_null() ? "none" : found.dump(),
+                    digest));
+  });
+}
+
+Baseline read_baseline(const std::filesystem::path& file) {
+  return parse_baseline(baseline_text(file), file.string());
+}
+
+std::vector<Tolerance> read_limits(const std::filesystem::path& file) {
+  return read_json(baseline_text(file), file.string(), [&](const Json& root) {
+    return limits_of(root, file.string());
+  });
+}
+
+}  // namespace loopbench::harness

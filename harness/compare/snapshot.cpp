@@ -1,0 +1,153 @@
+#include "harness/compare/snapshot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include "datasets/core/error.hpp"
+#include "harness/compare/derived.hpp"
+#include "harness/model/recorded_run.hpp"
+#include "harness/store/read.hpp"
+#include "harness/store/record_reader.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+constexpr std::size_t kMostScores = 1'000'000;  ///< with rmse and max about 1 GB of memory
+
+/// Format of a stored list of definitions, one per line: the delimiter after the label, and how
+/// much of it belongs to the label.
+std::map<std::string, std::string> definitions(const std::string& text,
+                                               const std::string& end_of_label,
+                                               std::size_t kept) {
+  std::map<std::string, std::string> out;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t end = line.find(end_of_label);
+    if (end == std::string::npos) continue;
+    out[line.substr(0, end + kept)] = line.substr(end + end_of_label.size());
+  }
+  return out;
+}
+
+/// A file is identified by name, size and content, for any folder.
+std::string inputs_of(const std::vector<InputFile>& files) {
+  std::string out;
+  for (const InputFile& file : files) {
+    out += "; " + std::filesystem::path(file.path).filename().string() + " " +
+           std::to_string(file.bytes) + " " + file.hash;
+  }
+  return out;
+}
+
+std::string text_of(const std::map<std::string, std::string>& run,
+                    const std::string& key,
+                    const std::filesystem::path& store) {
+  const auto found = run.find(key);
+  if (found != run.end()) return found->second;
+  throw InputError(store.string() + ": does not contain the " + key +
+                   " of its config in full; `run` with the same config adds them");
+}
+
+/// Sequences of a store of evaluated files: the reference and the options of reading. The estimates
+/// are the results that are checked, so neither their files nor the contents of the runs belong to
+/// the definition.
+void add_recorded_sequences(const std::filesystem::path& store,
+                            const std::string& options,
+                            Snapshot& out) {
+  const auto inputs = read_inputs(store);
+  for (const GateCell& cell : out.cells) {
+    const std::string label = sequence_name(cell);
+    const auto files = inputs.find(label);
+    if (files == inputs.end() || out.sequences.contains(label)) continue;
+    const auto reference = std::ranges::find(files->second, "reference", &InputFile::option);
+    if (reference == files->second.end()) continue;
+    out.sequences[label] = "files: " + options + inputs_of({*reference});
+  }
+}
+
+void add_sequences(const std::filesystem::path& store, Snapshot& out) {
+  const auto inputs = read_inputs(store);
+  const auto options = read_dataset_options(store);
+  for (const CellRecord& cell : read_cells(store)) {
+    GateCell named;
+    named.sequence = cell.sequence;
+    named.repeat = cell.repeat;
+    const std::string label = sequence_name(named);
+    if (out.sequences.contains(label)) continue;
+    const auto files = inputs.find(label);
+    const auto own = options.find(label);
+    // A sequence that could not be loaded has only the options of the config.
+    out.sequences[label] = (own == options.end() ? cell.dataset_options.text() : own->second) +
+                           (files == inputs.end() ? "" : inputs_of(files->second));
+  }
+  std::set<std::string> grouped;
+  for (const GateCell& cell : out.cells) {
+    const std::string label = sequence_name(cell);
+    if (!cell.content.empty()) out.contents[label] = cell.content;
+    // Larger groups leave fewer independent runs, so that the test could no longer fail.
+    const bool is_stated = cell.group.starts_with("group:");
+    if (is_stated && grouped.insert(label).second) out.sequences[label] += "; " + cell.group;
+  }
+}
+
+}  // namespace
+
+Snapshot snapshot(const std::filesystem::path& store, const std::vector<Tolerance>& limits) {
+  const auto run = read_run(store);
+  const auto provenance = read_provenance(store);
+  const auto value_of = [&](const std::string& name) {
+    const auto found = provenance.find(name);
+    return found == provenance.end() ? "unknown" : found->second;
+  };
+  Snapshot out;
+  out.sweep = run.at("sweep");
+  out.machine = value_of("compiler") + ", " + value_of("flags") + ", " + value_of("c library") +
+                ", " + value_of("cpu");
+  out.protocols = definitions(run.at("protocol"), "]: ", 1);
+  out.metrics = definitions(text_of(run, "metrics", store), "\t", 0);
+  out.methods = definitions(text_of(run, "methods", store), "\t", 0);
+  const bool has_times = limits_time(limits);
+  std::size_t numbers = 0;
+  gate_cells({}, limits);  // rejects an unknown statistic even without records
+  RecordReader(store).for_each_chunk([&](std::vector<Record>& records) {
+    if (has_times) std::ranges::move(run_times(records), std::back_inserter(records));
+    for (GateCell& cell : gate_cells(records, limits)) {
+      numbers += cell.scores.size();
+      out.cells.push_back(std::move(cell));
+    }
+    if (numbers <= kMostScores) return true;
+    throw InputError(fmt::format(
+        "{}: has more than {} scores to check, which a baseline cannot hold; restrict them by the "
+        "`where` of the baseline's limits",
+        store.string(),
+        kMostScores));
+  });
+  if (has_times) {
+    // Times on different machines are not comparable.
+    const std::string cpu = value_of("cpu");
+    out.protocols["time"] = cpu == "unknown" ? "on an unknown CPU" : "on " + cpu;
+  }
+  if (out.cells.empty()) throw InputError(store.string() + ": has no cells to check");
+  if (const auto config = run.find("config"); config != run.end() && is_recorded(config->second)) {
+    add_recorded_sequences(store, recorded_options(config->second), out);
+  } else {
+    add_sequences(store, out);
+  }
+  return out;
+}
+
+std::map<std::string, std::string> build_summary(const std::filesystem::path& store) {
+  std::map<std::string, std::string> out{{"loopbench", read_run(store).at("loopbench")}};
+  for (const auto& [key, value] : read_provenance(store)) {
+    for (const char* kept : {"commit", "source", "compiler", "flags"}) {
+      if (key == kept) out[key] = value;
+    }
+  }
+  return out;
+}
+
+}  // namespace loopbench::harness

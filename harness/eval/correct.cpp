@@ -1,0 +1,172 @@
+#include "harness/eval/correct.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "datasets/derive/problem_graph.hpp"
+#include "datasets/formats/formats.hpp"
+#include "harness/base/write_file.hpp"
+#include "harness/config/choices.hpp"
+#include "harness/config/source_text.hpp"
+#include "harness/run/doctor_notes.hpp"
+#include "harness/run/run_cell.hpp"
+#include "metrics/correction/closure_residual.hpp"
+#include "metrics/correction/graph_cost.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+bool is_graph(const CorrectArguments& a) { return detect_format(a.estimate) == Format::g2o; }
+
+std::optional<Residuals> residuals(const Problem& problem, const Trajectory& keyframes) {
+  metrics::Evaluation evaluation;
+  evaluation.context.problem = &problem;
+  evaluation.context.estimate = &keyframes;
+  Residuals out;
+  try {
+    if (!problem.closures.empty()) {
+      const std::vector<metrics::Score> scores = metrics::closure_residual(evaluation);
+      out.translation_rms = scores.at(0).statistics.rmse;
+      out.translation_max = scores.at(0).statistics.max;
+      out.rotation_rms = scores.at(1).statistics.rmse;
+      out.rotation_max = scores.at(1).statistics.max;
+    }
+    const std::vector<metrics::Score> cost = metrics::graph_cost(evaluation, {});
+    out.chi2_odometry = cost.at(1).statistics.rmse;
+    out.chi2_closures = cost.at(2).statistics.rmse;
+  } catch (const std::runtime_error&) {  // an edge changes the scale
+    return std::nullopt;
+  }
+  return out;
+}
+
+/// Stamps of the output, ascending; those outside the keyframes' time span are only counted.
+std::vector<double> output_stamps(const CorrectArguments& a,
+                                  const Problem& problem,
+                                  std::size_t& outside) {
+  const Trajectory& keyframes = problem.keyframes;
+  std::vector<double> wanted = stamps(keyframes);
+  if (!a.at.empty()) {
+    wanted = stamps(read_trajectory(a.at));
+  } else if (a.dense) {
+    for (const StampedPose& frame : problem.frames) wanted.push_back(frame.stamp);
+    std::ranges::sort(wanted);
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  }
+  if (keyframes.empty()) return wanted;
+  const double start = keyframes.front().stamp, end = keyframes.back().stamp;
+  const std::size_t all = wanted.size();
+  std::erase_if(wanted, [&](double t) { return t < start || t > end; });
+  outside = all - wanted.size();
+  if (wanted.empty()) {
+    throw InputError(fmt::format("{}: none of the {} stamps is between {} and {} s, the keyframes",
+                                 a.at,
+                                 all,
+                                 to_text(start),
+                                 to_text(end)));
+  }
+  return wanted;
+}
+
+void write(const CorrectArguments& a, const Correction& done) {
+  if (!a.out.ends_with(".g2o")) {
+    return write_tum(a.out, done.output, {"corrected by loopbench: " + done.method});
+  }
+  if (a.dense || !a.at.empty()) {
+    throw InputError(a.out + ": a graph contains the keyframes, expected no --dense and no --at");
+  }
+  std::vector<std::int64_t> ids;
+  if (is_graph(a)) ids = read_g2o(a.estimate).ids;
+  if (ids.size() != done.keyframes.size()) ids.clear();  // some poses are frames
+  write_g2o(a.out, problem_graph(done.problem, done.keyframes, std::move(ids)));
+}
+
+std::optional<std::size_t> rejected_closures(const Correction& done) {
+  for (const methods::Count& count : done.report.counts) {
+    if (count.name == "closures_kept" || count.name == "closures_consistent") {
+      return done.problem.closures.size() - static_cast<std::size_t>(count.value);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+MethodChoice method_without_reference(const std::string& text, const Catalogue& catalogue) {
+  MethodChoice out = method_choices(parse_entry(text, "--method"), catalogue).front();
+  for (const Choice& stage : out.stages) {
+    if (is_oracle(catalogue, stage.name)) {
+      throw InputError("--method: " + stage.name + " reads the reference, which is not given here");
+    }
+  }
+  return out;
+}
+
+Correction correct(Problem problem,
+                   const std::string& name,
+                   const MethodChoice& choice,
+                   const std::vector<double>& at,
+                   const Catalogue& catalogue) {
+  const auto method = make_method(choice, catalogue, {});
+  if (const std::string why = method->why_declined(problem); !why.empty()) {
+    throw InputError(name + ": " + choice.label + " declines: " + why);
+  }
+  Correction out;
+  out.problem = std::move(problem);
+  out.estimate = name;
+  out.method = choice.label;
+  const auto begin = std::chrono::steady_clock::now();
+  const std::unique_ptr<const Curve> curve = method->estimate(out.problem, out.report);
+  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  out.keyframes = curve->sample(stamps(out.problem.keyframes));
+  check(out.keyframes, choice.label);
+  out.output = curve->sample(at);
+  check(out.output, choice.label);
+  out.before = residuals(out.problem, out.problem.keyframes);
+  out.after = residuals(out.problem, out.keyframes);
+  out.rejected = rejected_closures(out);
+  const std::string unmoved =
+      movement_note(out.problem, out.keyframes, out.report, uses_closures(choice, catalogue));
+  if (!unmoved.empty()) out.report.notes.push_back(unmoved);
+  for (std::string& note : closure_notes(out.problem)) out.report.notes.push_back(std::move(note));
+  return out;
+}
+
+Problem load_problem(const CorrectArguments& a, const Catalogue& catalogue) {
+  const bool graph = is_graph(a);
+  if (graph && !(a.loops.empty() && a.frames.empty())) {
+    throw InputError(a.estimate +
+                     ": is a g2o graph, which contains its closures and has no "
+                     "frames, expected no --loops and no --frames");
+  }
+  const DatasetEntry& dataset = find_dataset(catalogue, graph ? "pose_graph" : "trajectory");
+  Params options = parse_settings(a.settings, dataset.options);
+  options[graph ? "path" : "estimate"] = a.estimate;
+  if (!a.frames.empty()) options["frames"] = a.frames;
+  if (!a.loops.empty()) {
+    options["closures.file"] = a.loops;
+    options["closures.source"] = "file";
+  }
+  dataset.check(options);
+  Problem out = dataset.load(options, DataRoot{{"."}}).problem;
+  check(out, a.estimate);
+  return out;
+}
+
+Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
+  reject_standard_output("-o", a.out);
+  if (!a.out.empty()) reject_overwriting({a.estimate, a.loops, a.frames, a.at}, a.out);
+  const MethodChoice choice = method_without_reference(a.method, catalogue);
+  Problem problem = load_problem(a, catalogue);
+  std::size_t outside = 0;
+  const std::vector<double> at = output_stamps(a, problem, outside);
+  Correction out = correct(std::move(problem), a.estimate, choice, at, catalogue);
+  out.outside = outside;
+  if (!a.out.empty()) write(a, out);
+  out.out = a.out;
+  return out;
+}
+
+}  // namespace loopbench::harness

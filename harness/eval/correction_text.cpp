@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "harness/eval/correct.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+using ResidualRow = std::pair<const char*, double Residuals::*>;
+constexpr ResidualRow kRows[] = {{"translation_rms", &Residuals::translation_rms},
+                                 {"translation_max", &Residuals::translation_max},
+                                 {"rotation_rms", &Residuals::rotation_rms},
+                                 {"rotation_max", &Residuals::rotation_max},
+                                 {"chi2_odometry", &Residuals::chi2_odometry},
+                                 {"chi2_closures", &Residuals::chi2_closures}};
+constexpr const char* kTitles[] = {"closure residual, rms [m]",
+                                   "closure residual, max [m]",
+                                   "closure residual, rms [deg]",
+                                   "closure residual, max [deg]",
+                                   "chi2 of odometry",
+                                   "chi2 of closures"};
+
+/// Five digits; rounding errors are 0.
+std::string residual_text(double value) {
+  constexpr double kRounding = 1e-12;
+  return fmt::format("{:>14.5g}", std::abs(value) < kRounding ? 0.0 : value);
+}
+
+nlohmann::json residuals_json(const std::optional<Residuals>& residuals) {
+  if (!residuals) return nullptr;
+  nlohmann::json out;
+  for (const auto& [name, member] : kRows) out[name] = (*residuals).*member;
+  return out;
+}
+
+}  // namespace
+
+std::string text(const Correction& c) {
+  std::string out = fmt::format("{} corrected by {}: {} keyframes, {} odometry edges, {} closures",
+                                c.estimate,
+                                c.method,
+                                c.keyframes.size(),
+                                c.problem.odometry.size(),
+                                c.problem.closures.size());
+  if (c.rejected) out += fmt::format(" ({} rejected)", *c.rejected);
+  out += fmt::format(", {:.1f} ms\n\n", 1e3 * c.seconds);
+  if (c.before && c.after) {
+    out += fmt::format("{:<28}{:>14}{:>14}\n", "", "before", "after");
+    for (std::size_t i = 0; i < std::size(kRows); ++i) {
+      const auto member = kRows[i].second;
+      out += fmt::format("{:<28}{}{}\n",
+                         kTitles[i],
+                         residual_text((*c.before).*member),
+                         residual_text((*c.after).*member));
+    }
+  } else {
+    out += "no residuals: an edge changes the scale\n";
+  }
+  for (const methods::Count& count : c.report.counts) {
+    out += fmt::format("{:<28}{:>14.6g}\n", count.name, count.value);
+  }
+  for (const std::string& note : c.report.notes) out += "note: " + note + "\n";
+  if (!c.out.empty()) out += fmt::format("\n{} poses in {}\n", c.output.size(), c.out);
+  if (c.outside > 0) {
+    out +=
+        fmt::format("{} stamps outside the time span of the keyframes were skipped\n", c.outside);
+  }
+  return out;
+}
+
+std::string json(const Correction& c) {
+  nlohmann::json counts = nlohmann::json::object();
+  for (const methods::Count& count : c.report.counts) counts[count.name] = count.value;
+  nlohmann::json phases = nlohmann::json::array();
+  for (const methods::Phase& phase : c.report.phases) {
+    phases.push_back({{"name", phase.name}, {"seconds", phase.seconds}});
+  }
+  const nlohmann::json out = {
+      {"estimate", c.estimate},
+      {"method", c.method},
+      {"keyframes", c.keyframes.size()},
+      {"odometry", c.problem.odometry.size()},
+      {"closures", c.problem.closures.size()},
+      {"rejected", c.rejected ? nlohmann::json(*c.rejected) : nlohmann::json(nullptr)},
+      {"seconds", c.seconds},
+      {"before", residuals_json(c.before)},
+      {"after", residuals_json(c.after)},
+      {"counts", counts},
+      {"phases", phases},
+      {"notes", c.report.notes},
+      {"output", {{"file", c.out}, {"poses", c.output.size()}, {"outside", c.outside}}}};
+  return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,159 @@
+#include "harness/eval/named_trajectory.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "datasets/bags/bag_trajectory.hpp"
+#include "datasets/core/fields.hpp"
+#include "harness/base/printable.hpp"
+#include "harness/base/write_file.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+bool is_bag_without_topic(const std::string& name) {
+  if (names_bag(name)) return bag_name(name).topic.empty();
+  if (std::filesystem::is_directory(name)) return true;  // of ROS 2; others are rejected by name
+  return bag_kind(open_input(name)) != BagKind::none;
+}
+
+const char* extension(Format format) {
+  if (format == Format::g2o) return ".g2o";
+  return format == Format::euroc || format == Format::csv ? ".csv" : ".txt";
+}
+
+}  // namespace
+
+std::vector<std::string> expanded_names(const std::vector<std::string>& names,
+                                        const ReadArguments& arguments) {
+  if (arguments.tf.empty() && !arguments.all_topics) return names;
+  std::vector<std::string> out;
+  bool has_bag = false;
+  for (const std::string& name : names) {
+    if (!is_bag_without_topic(name)) {
+      out.push_back(name);
+      continue;
+    }
+    has_bag = true;
+    const std::string file = file_of(name);
+    if (!arguments.tf.empty()) out.push_back(to_text(BagName{file, "tf:" + arguments.tf}));
+    if (!arguments.all_topics) continue;
+    for (const BagTopic& topic : bag_topics(file).topics) {
+      if (topic.type != MessageType::tf) out.push_back(to_text(BagName{file, topic.name}));
+    }
+  }
+  if (!has_bag) throw InputError("--tf, --all-topics: expected a bag without a topic");
+  if (out.empty()) throw InputError("--all-topics: found no topics with poses");
+  return out;
+}
+
+NamedTrajectory read_named(const std::string& name, const ReadArguments& arguments) {
+  NamedTrajectory out;
+  out.name = name;
+  ReadOptions options;
+  FieldType<Format>::assign("format", options.format, arguments.format);
+  if (!arguments.repeats.empty()) {
+    FieldType<Repeats>::assign("repeats", options.repeats, arguments.repeats);
+  }
+  if (!arguments.times.empty()) options.times = arguments.times;
+  if (arguments.period) options.period = *arguments.period;
+  options.findings = &out.findings;
+  out.file = read_trajectory_file(name, options);
+  if (out.file.poses.empty()) throw InputError(name + ": has no poses, expected at least one");
+  if (!out.findings.damage.empty()) {
+    fmt::print(
+        stderr, "{}\n", printable("loopbench: warning: " + name + ": " + out.findings.damage));
+  }
+  return out;
+}
+
+std::vector<NamedTrajectory> read_all_named(const std::vector<std::string>& names,
+                                            const ReadArguments& arguments) {
+  std::vector<NamedTrajectory> out;
+  for (const std::string& name : expanded_names(names, arguments)) {
+    out.push_back(read_named(name, arguments));
+  }
+  return out;
+}
+
+void shift_stamps(TrajectoryFile& file, double offset) {
+  const auto nanoseconds = static_cast<std::int64_t>(std::llround(offset * 1e9));
+  for (StampedPose& pose : file.poses) pose.stamp += offset;
+  for (std::int64_t& stamp : file.nanoseconds) stamp += nanoseconds;
+}
+
+void reject_two_clocks(const NamedTrajectory& a,
+                       const NamedTrajectory& b,
+                       const ReadArguments& arguments) {
+  if (arguments.period || a.file.has_stamps == b.file.has_stamps) return;
+  const NamedTrajectory& without = a.file.has_stamps ? b : a;
+  const NamedTrajectory& with = a.file.has_stamps ? a : b;
+  throw InputError(fmt::format(
+      "{}: is {}, poses without stamps, and {} has stamps: expected --period S, or a file with "
+      "stamps (traj convert FILE --times TIMES -o NEW)",
+      without.name,
+      to_text(without.file.format),
+      with.name));
+}
+
+std::string assumed_period(const TrajectoryFile& file, const ReadArguments& arguments) {
+  if (file.has_stamps || arguments.period) return "";
+  return fmt::format("assumed {:g} s between poses", ReadOptions{}.period);
+}
+
+std::string output_stem(const std::string& name) {
+  if (name == "-") return "standard_input";
+  std::string stem = std::filesystem::path(name).stem().string();
+  if (names_bag(name)) {
+    const BagName bag = bag_name(name);
+    stem = bag.topic.empty() ? std::filesystem::path(bag.file).stem().string() : bag.topic;
+  } else if (const std::filesystem::path outer(stem);
+             outer.extension() == ".txt" || outer.extension() == ".csv") {
+    stem = outer.stem().string();  // "a.txt.gz"
+  }
+  std::string out;
+  for (const char c : stem) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                          (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '_';
+    if (is_plain) {
+      out += c;
+    } else if (!out.empty() && out.back() != '_') {
+      out += '_';
+    }
+  }
+  return out.empty() ? "trajectory" : out;
+}
+
+std::vector<std::string> output_files(const std::vector<std::string>& names,
+                                      const std::string& out,
+                                      Format format,
+                                      const std::string& suffix) {
+  const bool is_folder =
+      !is_dash(out) && (out.ends_with('/') || std::filesystem::is_directory(out));
+  if (names.size() == 1 && !is_folder) return {out};
+  if (is_dash(out)) throw InputError("-o: found several trajectories, expected a folder");
+  const std::string ending = std::filesystem::path(out).extension().string();
+  const bool names_file =
+      ending == ".txt" || ending == ".tum" || ending == ".csv" || ending == ".g2o";
+  if (names_file && !is_folder) {
+    throw InputError("-o: found several trajectories and the file " + out +
+                     ", expected a folder (" + out + "/ is one)");
+  }
+  std::filesystem::create_directories(out);
+  std::vector<std::string> files;
+  std::set<std::string> taken;
+  for (const std::string& name : names) {
+    files.push_back(
+        (std::filesystem::path(out) / (output_stem(name) + suffix + extension(format))).string());
+    if (!taken.insert(files.back()).second) {
+      throw InputError("-o: " + files.back() + " would be written twice, the second time for " +
+                       name);
+    }
+  }
+  return files;
+}
+
+}  // namespace loopbench::harness

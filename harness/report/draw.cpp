@@ -1,0 +1,82 @@
+#include "harness/report/draw.hpp"
+
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "datasets/core/error.hpp"
+#include "harness/base/printable.hpp"
+#include "harness/report/run_filter.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+nlohmann::json json_of(const DrawnCurve& curve) {
+  nlohmann::json out{
+      {"name", printable(curve.name)}, {"color", curve.style.color}, {"dash", curve.style.dash}};
+  for (const auto& [name, values] : curve.columns) out[name] = values;
+  return out;
+}
+
+nlohmann::json json_of(const FigureData& data) {
+  nlohmann::json out{{"title", printable(data.title)},
+                     {"note", printable(data.note)},
+                     {"curves", nlohmann::json::array()},
+                     {"figures", nlohmann::json::array()}};
+  for (const DrawnCurve& curve : data.curves) out["curves"].push_back(json_of(curve));
+  for (const DrawnFigure& figure : data.figures) {
+    std::vector<std::string> files;
+    for (const std::filesystem::path& file : figure.files) files.push_back(file.string());
+    out["figures"].push_back({{"files", files},
+                              {"panels", figure.panels},
+                              {"columns", figure.columns},
+                              {"size", {figure.width, figure.height}},
+                              {"font", figure.font}});
+  }
+  return out;
+}
+
+/// The script beside the program: in a build folder, or installed.
+std::filesystem::path script() {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
+  for (const char* const place : {"python", "../share/loopbench/python"}) {
+    const fs::path file = (folder / place / "loopbench" / "render.py").lexically_normal();
+    if (fs::exists(file)) return file;
+  }
+  throw InputError("figures need the Python files of loopbench, which are not installed in " +
+                   (folder.parent_path() / "share/loopbench/python").string());
+}
+
+FilterResult run_python(const std::string& input) {
+  try {
+    return run_filter({"python3", script().string()}, input);
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::no_such_file_or_directory) {
+      throw InputError("python3 is not installed (package python3-matplotlib)");
+    }
+    throw InputError(std::string("python3 cannot be started: ") + error.what());
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> draw(const std::vector<FigureData>& all) {
+  nlohmann::json document = nlohmann::json::array();
+  for (const FigureData& data : all) document.push_back(json_of(data));
+  using nlohmann::json;
+  const FilterResult result =
+      run_python(document.dump(-1, ' ', false, json::error_handler_t::replace));
+  if (result.exit_code == 2 && !result.output.empty()) throw InputError(result.output);
+  if (result.exit_code != 0) throw InputError("drawing failed; the messages of Python are above");
+  return json::parse(result.output).get<std::vector<std::string>>();
+}
+
+void check_figure_name(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  for (const char* const known : {".svg", ".pdf", ".png", ".json"}) {
+    if (extension == known) return;
+  }
+  throw InputError(file.string() + ": expected a file name that ends in .svg, .pdf, .png or .json");
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,158 @@
+#include "harness/run/cell_keys.hpp"
+
+#include <algorithm>
+
+#include "harness/base/hash.hpp"
+#include "harness/catalogue/external_methods.hpp"
+#include "harness/catalogue/load_sequence.hpp"
+#include "harness/run/summarise_sequence.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+/// All options including defaults, integers written as reals if the default is real: setting a
+/// default explicitly, or 1 instead of 1.0, does not change the key.
+Params in_full(const std::vector<OptionInfo>& options, const Params& given) {
+  Params out;
+  for (const OptionInfo& option : options) out.emplace(option.name, option.value);
+  for (const auto& [name, value] : given) {
+    const auto found = out.find(name);
+    const auto* integer = std::get_if<std::int64_t>(&value);
+    const bool real = found != out.end() && std::holds_alternative<double>(found->second);
+    out[name] = real && integer != nullptr ? Param(static_cast<double>(*integer)) : value;
+  }
+  return out;
+}
+
+/// "NAME, a=1, b=2" with all options.
+std::string named_options(const Choice& choice, const std::vector<OptionInfo>& options) {
+  const std::string text = to_text(in_full(options, choice.options));
+  return choice.name + (text.empty() ? "" : ", ") + text;
+}
+
+std::string hashed(const Params& params) {
+  Fields fields;
+  for (const auto& [name, value] : params) fields.add(name).add(to_text(value));
+  return fields.hashed();
+}
+
+std::string of_method(const MethodChoice& choice, const Sweep& sweep, const Catalogue& catalogue) {
+  Fields fields;
+  for (const Choice& stage : choice.stages) {
+    fields.add(stage.name)
+        .add(hashed(in_full(find_method(catalogue, stage.name).options, stage.options)))
+        .add(plugin_version(catalogue, "method", stage.name));
+    if (is_program(stage)) fields.add(program_version(stage, command_setting(sweep)));
+  }
+  return fields.hashed();
+}
+
+std::string evaluation_fields(const Sweep& sweep, const Catalogue& catalogue) {
+  Fields fields;
+  for (const metrics::NamedProtocol& protocol : sweep.protocols) {
+    fields.add(protocol.label()).add(protocol.version).add(to_text(echo(protocol.rules)));
+  }
+  for (const MetricChoice& metric : sweep.metrics) {
+    // The rows contain the label, so it is part of the content.
+    fields.add(metric.label)
+        .add(metric.metric.name)
+        .add(hashed(
+            in_full(find_metric(catalogue, metric.metric.name).options, metric.metric.options)))
+        .add(plugin_version(catalogue, "metric", metric.metric.name));
+  }
+  for (const metrics::Times times : sweep.times) fields.add(to_text(times));
+  fields.add(to_text(sweep.min_coverage)).add(std::to_string(sweep.timing));
+  fields.add(sweep.serial ? "serial" : "").add(sweep.traces ? "traces" : "");
+  return fields.hashed();
+}
+
+}  // namespace
+
+CellKeys::CellKeys(const Sweep& sweep, const Catalogue& catalogue, DataRoot root, std::string build)
+    : sweep_(sweep),
+      catalogue_(catalogue),
+      root_(std::move(root)),
+      build_(std::move(build)),
+      evaluation_(evaluation_fields(sweep, catalogue)) {
+  for (const MethodChoice& choice : sweep.methods)
+    methods_.push_back(of_method(choice, sweep, catalogue));
+}
+
+const std::string& CellKeys::configuration_hash(const Cell& cell) {
+  const auto [found, fresh] = asked_.try_emplace({cell.dataset, cell.repeat});
+  if (!fresh) return found->second;
+  const DatasetChoice& choice = sweep_.datasets[cell.dataset];
+  const DatasetEntry& entry = find_dataset(catalogue_, choice.dataset.name);
+  const Params options = full_options(choice, entry, cell.repeat);
+  Fields fields;
+  fields.add(choice.dataset.name).add(hashed(in_full(entry.options, options)));
+  fields.add(plugin_version(catalogue_, "dataset", choice.dataset.name));
+  if (!choice.group.empty()) fields.add(choice.group);  // stored with the sequence
+  return found->second = fields.hashed();
+}
+
+std::string CellKeys::dataset_text(const Cell& cell) const {
+  const DatasetChoice& choice = sweep_.datasets[cell.dataset];
+  const DatasetEntry& entry = find_dataset(catalogue_, choice.dataset.name);
+  const Params options = in_full(entry.options, full_options(choice, entry, cell.repeat));
+  return choice.dataset.name + ": " + to_text(options);
+}
+
+std::string CellKeys::metric_definitions() const {
+  std::string out;
+  for (const MetricChoice& metric : sweep_.metrics) {
+    const metrics::MetricEntry& entry = find_metric(catalogue_, metric.metric.name);
+    out += metric.label + "\t" + named_options(metric.metric, entry.options) + "\n";
+  }
+  return out;
+}
+
+std::string CellKeys::method_definitions() const {
+  std::string out;
+  for (const MethodChoice& method : sweep_.methods) {
+    std::string stages;
+    for (const Choice& stage : method.stages) {
+      stages += (stages.empty() ? "" : "; + ") +
+                named_options(stage, find_method(catalogue_, stage.name).options);
+    }
+    out += method.label + "\t" + stages + "\n";
+  }
+  return out;
+}
+
+std::vector<InputFile> CellKeys::current_inputs(const Cell& cell,
+                                                std::vector<InputFile> inputs) const {
+  const DatasetChoice& choice = sweep_.datasets[cell.dataset];
+  const Params options =
+      in_full(find_dataset(catalogue_, choice.dataset.name).options, choice.dataset.options);
+  for (InputFile& input : inputs) {
+    std::filesystem::path now = input.path;
+    const auto named = options.find(input.option);
+    const auto* text = named == options.end() ? nullptr : std::get_if<std::string>(&named->second);
+    if (text != nullptr) {
+      for (const std::filesystem::path& folder : root_.folders) {
+        if (!std::filesystem::is_regular_file(folder / *text)) continue;
+        now = folder / *text;
+        break;
+      }
+    }
+    if (std::filesystem::exists(now)) input = hashed_inputs({{now, input.option}}).front();
+  }
+  return inputs;
+}
+
+std::string CellKeys::sequence_key(const Cell& cell, const std::vector<InputFile>& inputs) {
+  Fields fields;
+  fields.add(build_).add(configuration_hash(cell));
+  for (const InputFile& input : inputs) fields.add(input.hash);
+  return fields.hashed();
+}
+
+std::string CellKeys::key(const Cell& cell, const std::vector<InputFile>& inputs) {
+  Fields fields;
+  fields.add(build_).add(configuration_hash(cell)).add(methods_[cell.method]).add(evaluation_);
+  for (const InputFile& input : inputs) fields.add(input.hash);
+  return fields.hashed();
+}
+
+}  // namespace loopbench::harness

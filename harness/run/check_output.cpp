@@ -1,0 +1,176 @@
+#include "harness/run/check_output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "datasets/core/pose_rule.hpp"
+#include "harness/base/printable.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+template <class... Values>
+[[noreturn]] void reject(fmt::format_string<Values...> text, Values&&... values) {
+  throw std::runtime_error(fmt::format(text, std::forward<Values>(values)...));
+}
+
+/// Poses that the curve does not write remain not a number.
+void check_poses_at(const Curve& curve, const std::vector<double>& times, const char* what) {
+  constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
+  const Pose unset{Rotation(kUnset, kUnset, kUnset, kUnset), Vector3::Constant(kUnset)};
+  std::vector<Pose> poses(times.size(), unset);
+  curve.sample(times, poses);
+  Trajectory stamped(times.size());
+  for (std::size_t i = 0; i < times.size(); ++i) stamped[i] = {times[i], poses[i]};
+  require_valid(stamped, what);
+}
+
+/// `name` returns the name of the text for the message; it is called for invalid texts only.
+template <class Name>
+void check_text(const std::string& text, std::size_t longest, Name name) {
+  if (text.size() > longest) {
+    reject("{} has {} bytes, expected at most {}", name(), text.size(), longest);
+  }
+  const std::size_t bad = first_unprintable(text);
+  if (bad == text.size()) return;
+  reject("{} has byte 0x{:02x} at position {}, expected UTF-8 without control characters",
+         name(),
+         static_cast<unsigned char>(text[bad]),
+         bad + 1);
+}
+
+void check_count(std::size_t count, std::size_t most, const char* what) {
+  if (count > most) reject("the method reports {} {}, expected at most {}", count, what, most);
+}
+
+/// A quoted name for messages; the name itself may be invalid.
+std::string quoted_name(const std::string& name) {
+  return "'" + printable(std::string_view(name).substr(0, 40)) + "'";
+}
+
+void check_section(const methods::Section& section, std::size_t number) {
+  const auto name = [&] {
+    return fmt::format("section {} ({})", number, quoted_name(section.kind));
+  };
+  check_text(section.kind, kLongestName, name);
+  check_text(section.what, kLongestName, [&] { return "the text of " + name(); });
+  const char* expected = section.end < section.begin ? "an end after its begin" : nullptr;
+  if (!std::isfinite(section.begin) || !std::isfinite(section.end)) expected = "finite stamps";
+  if (expected == nullptr) return;
+  reject("{} is from {} to {} s, expected {}",
+         name(),
+         to_text(section.begin),
+         to_text(section.end),
+         expected);
+}
+
+}  // namespace
+
+void check_curve(const Curve* curve, const Sequence& sequence, const Sweep& sweep) {
+  if (curve == nullptr) reject("the method returned no curve");
+  const Trajectory& keyframes = sequence.problem.keyframes;
+  const double start = curve->start();
+  const double end = curve->end();
+  const auto covers = [&](double time) { return start <= time && time <= end; };
+  if (!keyframes.empty() && !(covers(keyframes.front().stamp) && covers(keyframes.back().stamp))) {
+    reject("the curve spans {} to {} s, expected the span of the keyframes, {} to {} s",
+           to_text(start),
+           to_text(end),
+           to_text(keyframes.front().stamp),
+           to_text(keyframes.back().stamp));
+  }
+  check_poses_at(*curve, stamps(keyframes), "keyframe");
+  if (sequence.reference.empty() || std::ranges::count(sweep.times, metrics::Times::dense) == 0)
+    return;
+  std::set<double> offsets;
+  for (const metrics::NamedProtocol& protocol : sweep.protocols)
+    offsets.insert(protocol.rules.offset);
+  for (const double offset : offsets) {
+    std::vector<double> times;
+    for (const StampedPose& pose : sequence.reference) {
+      const double time = pose.stamp - offset;
+      if (covers(time)) times.push_back(time);
+    }
+    check_poses_at(*curve, times, "reference stamp");
+  }
+}
+
+void CheckedCurve::sample(std::span<const double> times, std::span<Pose> poses) const {
+  constexpr double kNotWritten = std::numeric_limits<double>::quiet_NaN();
+  for (Pose& pose : poses) pose.translation.setConstant(kNotWritten);
+  curve_.sample(times, poses);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const std::string rule = violated_rule(poses[i]);
+    if (rule.empty()) continue;
+    const std::string error = "the curve at " + to_text(times[i]) + " s: " + rule;
+    const std::lock_guard lock(mutex_);
+    if (first_error_.empty()) first_error_ = error;
+    throw std::runtime_error(error);
+  }
+}
+
+void CheckedCurve::require_valid_so_far() const {
+  const std::lock_guard lock(mutex_);
+  if (!first_error_.empty()) throw std::runtime_error(first_error_);
+}
+
+void check_report(const methods::Report& report) {
+  check_count(report.phases.size(), kMostItems, "phases");
+  check_count(report.counts.size(), kMostItems, "counts");
+  check_count(report.notes.size(), kMostItems, "notes");
+  check_count(report.sections.size(), kMostSections, "sections");
+  for (const methods::Phase& phase : report.phases) {
+    check_text(phase.name, kLongestName, [&] { return "phase " + quoted_name(phase.name); });
+    if (std::isfinite(phase.seconds) && phase.seconds >= 0.0) continue;
+    reject("phase '{}' takes {} s, expected a finite time >= 0", phase.name, phase.seconds);
+  }
+  for (const methods::Count& count : report.counts) {
+    check_text(count.name, kLongestName, [&] { return "count " + quoted_name(count.name); });
+    if (std::isfinite(count.value)) continue;
+    reject("count '{}' is {}, expected a finite number", count.name, count.value);
+  }
+  for (std::size_t i = 0; i < report.notes.size(); ++i) {
+    check_text(report.notes[i], kLongestNote, [&] { return fmt::format("note {}", i + 1); });
+  }
+  for (std::size_t i = 0; i < report.sections.size(); ++i) check_section(report.sections[i], i + 1);
+}
+
+void check_scores(const std::vector<metrics::Score>& scores) {
+  if (scores.size() > kMostItems) {
+    reject("the metric returned {} scores, expected at most {}", scores.size(), kMostItems);
+  }
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const auto name = [&] { return fmt::format("score {}: a text", i + 1); };
+    const metrics::Score& score = scores[i];
+    for (const std::string* text : {&score.relation, &score.axis, &score.unit}) {
+      check_text(*text, kLongestName, name);
+    }
+    check_text(score.why_undefined, kLongestNote, name);
+    const auto directions = metrics::choices(score.better);
+    if (std::ranges::none_of(directions, [&](const auto& c) { return c.second == score.better; })) {
+      reject("score {} has no direction: better is {}, expected lower, higher, target or neither",
+             i + 1,
+             static_cast<int>(score.better));
+    }
+    if (std::isfinite(score.target)) continue;
+    reject("score {} has the target {}, expected a finite number", i + 1, score.target);
+  }
+}
+
+std::string stored_reason(std::string_view text) {
+  std::string out = printable(text.substr(0, kLongestNote));
+  std::ranges::replace(out, '\n', ' ');
+  if (out.size() > kLongestNote) {
+    out.resize(kLongestNote);
+    while (first_unprintable(out) != out.size()) out.pop_back();  // a code point that was cut
+  }
+  const std::size_t omitted = text.size() - std::min(text.size(), kLongestNote);
+  return omitted == 0 ? out : out + fmt::format(" ... ({} more bytes)", omitted);
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,61 @@
+#include "harness/run/estimate_files.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "datasets/core/fields.hpp"
+#include "datasets/formats/formats.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+std::filesystem::path& estimate_folder() {
+  static std::filesystem::path folder;
+  return folder;
+}
+
+std::filesystem::path unnamed_file(const Cell& cell, metrics::Times times) {
+  return estimate_file(estimate_folder(), "cell-" + std::to_string(cell.index), times);
+}
+
+constexpr metrics::Times kAllTimes[] = {metrics::Times::keyframes, metrics::Times::dense};
+
+}  // namespace
+
+void set_estimate_folder(const std::filesystem::path& folder) {
+  if (!folder.empty()) std::filesystem::create_directories(folder);
+  estimate_folder() = folder;
+}
+
+void save_estimate(const Cell& cell,
+                   const Sweep& sweep,
+                   const Sequence& sequence,
+                   const Curve& curve) {
+  if (estimate_folder().empty()) return;
+  write_tum(unnamed_file(cell, metrics::Times::keyframes),
+            curve.sample(stamps(sequence.problem.keyframes)));
+  if (std::ranges::count(sweep.times, metrics::Times::dense) == 0) return;
+  std::vector<double> times;
+  for (const StampedPose& pose : sequence.reference) {
+    const double time = pose.stamp - sweep.protocols.front().rules.offset;
+    if (time >= curve.start() && time <= curve.end()) times.push_back(time);
+  }
+  if (!times.empty()) write_tum(unnamed_file(cell, metrics::Times::dense), curve.sample(times));
+}
+
+void keep_estimate(const Cell& cell, const std::string& key) {
+  if (estimate_folder().empty()) return;
+  for (const metrics::Times times : kAllTimes) {
+    std::error_code absent;
+    std::filesystem::rename(
+        unnamed_file(cell, times), estimate_file(estimate_folder(), key, times), absent);
+  }
+}
+
+std::filesystem::path estimate_file(const std::filesystem::path& folder,
+                                    const std::string& key,
+                                    metrics::Times times) {
+  return folder / (key + "-" + to_text(times) + ".txt");
+}
+
+}  // namespace loopbench::harness

@@ -1,0 +1,220 @@
+#include "harness/run/run_cell.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+
+#include "harness/catalogue/external_methods.hpp"
+#include "harness/run/add_scores.hpp"
+#include "harness/run/catch_errors.hpp"
+#include "harness/run/check_output.hpp"
+#include "harness/run/doctor_notes.hpp"
+#include "harness/run/estimate_files.hpp"
+#include "harness/run/input_guard.hpp"
+#include "harness/run/oracle_method.hpp"
+#include "harness/run/process_usage.hpp"
+#include "methods/pipeline.hpp"
+#include "metrics/trajectory/tracking_gaps.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+metrics::Context context_of(const Sequence& sequence,
+                            const Trajectory& at_keyframes,
+                            const Curve& curve,
+                            metrics::Times times,
+                            const metrics::Protocol& protocol) {
+  return {.reference = &sequence.reference,
+          .estimate = &at_keyframes,
+          .problem = &sequence.problem,
+          .curve = &curve,
+          .times = times,
+          .protocol = protocol,
+          .loop_candidates = &sequence.loop_candidates};
+}
+
+using Clock = std::chrono::steady_clock;
+
+/// A run that is shorter [s] mostly pays for the first access of a new process to its memory.
+constexpr double kShortRun = 2e-3;
+
+struct TimedRun {
+  std::unique_ptr<const Curve> curve;
+  methods::Report report;
+  double seconds = 0.0;
+  double cpu_seconds = 0.0;
+};
+
+TimedRun timed_run(const methods::Estimator& method, const Problem& problem) {
+  TimedRun out;
+  const double cpu_begin = process_cpu_seconds();
+  const auto begin = Clock::now();
+  out.curve = method.estimate(problem, out.report);
+  const std::chrono::duration<double> took = Clock::now() - begin;
+  out.seconds = std::max(0.0, took.count() - exchange_seconds(out.report));
+  out.cpu_seconds = process_cpu_seconds() - cpu_begin;
+  return out;
+}
+
+/// Runs and measures the method; memory is measured outside the timed part. In a new process, the
+/// times of a short first run are replaced by those of another run; its result is kept.
+/// `is_foreign`: checks that the method of a plugin does not change the problem.
+std::unique_ptr<const Curve> timed(CellResult& result,
+                                   const methods::Estimator& method,
+                                   const Problem& problem,
+                                   bool is_foreign,
+                                   int runs) {
+  const InputGuard guard(is_foreign ? inputs_of(problem) : Inputs());
+  const std::optional<std::int64_t> before = reset_peak_memory() ? peak_memory() : std::nullopt;
+  TimedRun last;
+  for (int run = 0; run < runs; ++run) {
+    last = {};  // so that the destruction of its curve is not timed with the next run
+    last = timed_run(method, problem);
+    check_report(last.report);
+    const bool is_first = run == 0 && is_freshly_forked() && !uses_exchange(last.report);
+    if (is_first && last.seconds < kShortRun) {
+      const TimedRun warm = timed_run(method, problem);
+      last.seconds = warm.seconds;
+      last.cpu_seconds = warm.cpu_seconds;
+      last.report.phases = warm.report.phases;
+    }
+    result.seconds.push_back(last.seconds);
+    result.cpu_seconds.push_back(last.cpu_seconds);
+  }
+  result.report = std::move(last.report);
+  if (const std::string fault = guard.fault(); !fault.empty()) throw std::runtime_error(fault);
+  if (before) {
+    result.peak_memory = peak_memory();
+    result.added_memory = std::max<std::int64_t>(0, result.peak_memory.value_or(*before) - *before);
+  }
+  return std::move(last.curve);
+}
+
+/// Computes every metric under the protocol and times of `row`.
+void evaluate_curve(CellResult& result,
+                    const ScoreResult& row,
+                    const Sweep& sweep,
+                    const Sequence& sequence,
+                    const Curve& curve,
+                    const Catalogue& catalogue) {
+  const std::vector<double> keyframe_stamps = stamps(sequence.problem.keyframes);
+  const Trajectory at_keyframes = curve.sample(keyframe_stamps);
+  const std::vector<double> tracked = metrics::tracked_stamps(sequence.problem);
+  const metrics::Protocol& protocol = sweep.protocols[row.protocol].rules;
+  ScoreResult failure = row;
+  catch_errors(failure, [&] {
+    metrics::Evaluation evaluation =
+        metrics::evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol, tracked);
+    evaluation.context = context_of(sequence, at_keyframes, curve, row.times, protocol);
+    // Noise-free data equal the reference without any method.
+    const bool has_moved = !has_equal_positions(at_keyframes, sequence.problem.keyframes);
+    if (!result.oracle_method && has_moved &&
+        has_equal_positions(evaluation.estimate, evaluation.reference)) {
+      result.oracle_method = true;
+      result.report.notes.emplace_back("oracle (equals the reference)");
+    }
+    add_scores(result, row, evaluation, sweep, catalogue);
+    const bool densest = row.times == metrics::Times::dense ||
+                         std::ranges::count(sweep.times, metrics::Times::dense) == 0;
+    if (sweep.traces && row.protocol == 0 && densest) {
+      result.trace = cell_trace(evaluation, row.times, trace_origin(sequence));
+    }
+  });
+  // No pairs, or no unique alignment.
+  if (failure.status != Status::ok) add_failure(result, failure, sweep);
+}
+
+/// Computes metrics that need only the problem; once, since they depend on neither pairs nor times.
+void add_scores_without_reference(CellResult& result,
+                                  const Sweep& sweep,
+                                  const Sequence& sequence,
+                                  const Curve& curve,
+                                  const Catalogue& catalogue) {
+  const Trajectory at_keyframes = curve.sample(stamps(sequence.problem.keyframes));
+  for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
+    metrics::Evaluation evaluation;
+    evaluation.protocol = sweep.protocols[p].rules;
+    evaluation.context =
+        context_of(sequence, at_keyframes, curve, metrics::Times::keyframes, evaluation.protocol);
+    const ScoreResult row{p, metrics::Times::keyframes, "", "", {}, {}, Status::ok, ""};
+    for (const MetricChoice& choice : sweep.metrics) {
+      if (find_metric(catalogue, choice.metric.name).needs_reference) continue;
+      add_scores_of(result, choice, row, evaluation, catalogue);
+    }
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<const methods::Estimator> make_method(const MethodChoice& choice,
+                                                      const Catalogue& catalogue,
+                                                      const Trajectory& reference,
+                                                      const CommandSetting& setting) {
+  std::unique_ptr<const methods::Corrector> corrector;
+  std::unique_ptr<const methods::Smoother> smoother;
+  for (const Choice& part : choice.stages) {
+    const methods::MethodEntry& entry = find_method(catalogue, part.name);
+    methods::Stage stage = entry.make_oracle  ? entry.make_oracle(part.options, reference)
+                           : is_program(part) ? make_program(part, setting)
+                                              : entry.make(part.options);
+    if (auto* joint = std::get_if<std::unique_ptr<const methods::Estimator>>(&stage))
+      return std::move(*joint);
+    if (auto* first = std::get_if<std::unique_ptr<const methods::Corrector>>(&stage)) {
+      corrector = std::move(*first);
+    } else {
+      smoother = std::move(std::get<std::unique_ptr<const methods::Smoother>>(stage));
+    }
+  }
+  return methods::compose(std::move(corrector), std::move(smoother));
+}
+
+CellResult run_cell(const Cell& cell,
+                    const Sweep& sweep,
+                    const Sequence& sequence,
+                    const Catalogue& catalogue) {
+  CellResult result;
+  result.cell = cell;
+  const MethodChoice& choice = sweep.methods[cell.method];
+  result.oracle_method = uses_reference(choice, catalogue);
+  catch_errors(result, [&] {
+    const auto method = make_method(choice, catalogue, sequence.reference, command_setting(sweep));
+    if (const std::string why = method->why_declined(sequence.problem); !why.empty()) {
+      result.status = Status::declined;
+      result.why = stored_reason(why);
+      return;
+    }
+    const bool is_foreign = std::ranges::any_of(choice.stages, [&](const Choice& stage) {
+      return !plugin_version(catalogue, "method", stage.name).empty();
+    });
+    const std::unique_ptr<const Curve> curve =
+        timed(result, *method, sequence.problem, is_foreign, sweep.timing);
+    check_curve(curve.get(), sequence, sweep);
+    const CheckedCurve checked(*curve);
+    const std::string unmoved = movement_note(sequence.problem,
+                                              checked.sample(stamps(sequence.problem.keyframes)),
+                                              result.report,
+                                              uses_closures(choice, catalogue));
+    if (!unmoved.empty()) result.report.notes.push_back(unmoved);
+    save_estimate(cell, sweep, sequence, checked);
+    if (sequence.reference.empty()) {
+      result.why = "no reference to evaluate against";
+      add_scores_without_reference(result, sweep, sequence, checked, catalogue);
+      checked.require_valid_so_far();
+      return;
+    }
+    for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
+      for (const metrics::Times times : sweep.times) {
+        const ScoreResult row{p, times, "", "", {}, {}, Status::ok, ""};
+        evaluate_curve(result, row, sweep, sequence, checked, catalogue);
+      }
+    }
+    checked.require_valid_so_far();
+  });
+  if (is_failure(result.status)) {  // scores of an invalid curve have no meaning
+    result.scores.clear();
+    result.trace = {};
+  }
+  return result;
+}
+
+}  // namespace loopbench::harness
