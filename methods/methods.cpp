@@ -23,7 +23,7 @@
 namespace loopbench::methods {
 namespace {
 
-/// Best variant on training sequences that are not in the article (results/paper/training.md). It
+/// Best variant on training sequences that are not in the article (results/methods/training.md). It
 /// fits curves where the speed is steady for a while and straight lines elsewhere. Rotation never
 /// ends a segment (no angle exceeds pi), and the spline is used where the nodes do not form a
 /// graph.

@@ -27,7 +27,7 @@ def main():
     if given.data:
         os.environ["LOOPBENCH_DATA"] = str(Path(given.data).resolve())
 
-    from article.pages import article_pages, run_page
+    from article.pages import article_pages, front_page, run_page
     from article.program import Program
     from article.runs import run_config
 
@@ -37,9 +37,15 @@ def main():
     given.out.mkdir(parents=True, exist_ok=True)
     configs = []
     for file in given.configs:
-        configs.append(run_config(file.resolve(), program))
+        try:
+            configs.append(run_config(file.resolve(), program))
+        except RuntimeError as reason:
+            print(f"{file.name}: skipped: {reason}", file=sys.stderr, flush=True)
+            continue
         print(f"{file.name}: {len(configs[-1].cells)} cells", file=sys.stderr, flush=True)
     pages = article_pages(configs, given.out)
+    if len(configs) == len(list(HERE.glob("configs/paper_tables_*.yaml"))):
+        pages["README.md"] = front_page(configs, (HERE / "README.md").read_text(encoding="utf-8"))
     pages.update(run_page(config, given.out) for config in configs if not config.is_tables)
     for name, text in pages.items():
         (given.out / name).write_text(text, encoding="utf-8")

@@ -11,6 +11,7 @@ import numpy as np
 import loopbench
 
 ORB = "ORB_SLAM2"
+REAL_STAMPS, DRAW = "real stamps", "draw"  #: runs of real_stamps.py
 NATURAL_SPLINE = "natural spline"  #: reading without N or M
 #: Methods whose curves are drawn and whose smoothness is computed, as a regular expression.
 DRAWN_PATTERN = f"{ORB}|{NATURAL_SPLINE}|(text|guarded) .*"
@@ -166,8 +167,19 @@ def find_cell(cells, like, reading, variant):
     return None
 
 
+def is_resampled(run):
+    """Whether the run has other keyframes of the closed run, so that it is no further observation."""
+    return run.startswith((REAL_STAMPS, DRAW))
+
+
 def raw_runs(cells, sequence):
     """Cells of the raw trajectory, one per run of this sequence; the closed run first."""
-    out = [c for c in cells
-           if c.method == ORB and c.sequence == sequence and c.keyframes is not None]
+    out = [c for c in cells if c.method == ORB and c.sequence == sequence
+           and c.keyframes is not None and not is_resampled(c.input)]
     return sorted(out, key=lambda c: c.input != "closed")
+
+
+def resampled_runs(cells, sequence):
+    """Cells of the raw trajectory of the closed run at other keyframes; the real stamps first."""
+    return [c for c in cells if c.method == ORB and c.sequence == sequence
+            and c.keyframes is not None and is_resampled(c.input)]

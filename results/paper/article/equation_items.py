@@ -6,7 +6,7 @@ import numpy as np
 
 from article.cells import raw_runs
 from article.ledger import Item
-from article.verdicts import CONTRADICTS, MISPRINT, when
+from article.verdicts import CONTRADICTS, DOES_NOT_HOLD, MISPRINT, when
 from loopbench import manifold
 
 
@@ -82,10 +82,15 @@ def equation_items(cells):
         return []
     unknowns = 5 * 4 * 3 // 6 - 1  # terms of order 2 in x, y, z, up to a factor
     return [
+        Item("Equation 1", "S(t) is the set of the poses S^i(t) in a region I of time and space",
+             "one pose for each time: a function of time alone is meant", "", MISPRINT),
         Item("Equation 2", "T = dS/dt is the tangent of an orthonormal frame, B = T x N, N = B x T",
              "the norm of dS/dt is the speed, in m/s for the reference at the keyframes: "
              + ", ".join(lengths) + "; T must be divided by it. B needs N and N needs B: repaired as"
              " B = S' x S'' over its norm, N = B x T", "", MISPRINT),
+        Item("Equation 3", "psi is chosen from the tangent space of a surface M at p",
+             "M is not given: all that is known is a curve, which has one tangent. We choose among"
+             " chords, principal axis and spline tangent", "", MISPRINT),
         Item("Equations 4 to 7", "torsion tau describes the speed: the faster, the larger",
              "rank correlation of speed and torsion, reference at the keyframes: "
              + "; ".join(correlations) + ". The printed values of tau have the unit m/s, so they are"
@@ -103,12 +108,27 @@ def equation_items(cells):
              f"order 2 has {unknowns} unknowns, so such a surface passes through 8 nodes and any other"
              " point: it determines no z. The printed examples are explicit z = q(x, y) with 6, which"
              " is what is fitted here", "", MISPRINT),
+        Item("Equation 11", "control points F_i; the sum has P_t",
+             "one symbol is meant. To pass through the keyframes, the control points must be solved"
+             " for: how is not stated", "", MISPRINT),
         Item("Equation 12", "basis functions of a B-spline, second numerator m(t+k)",
              f"the cubic basis sums to 1 within {partition_error(True):.1f} as printed and"
              f" {max(partition_error(False), 1e-16):.0e} with m(t+k) - u", "", MISPRINT),
         Item("Section 3.3", "second derivatives are equal at joints of parabolas",
              "equal value, slope and second derivative leave a parabola no freedom: all would be one."
              " The reading text joins them by quintics through the nodes", "", CONTRADICTS),
+        Item("Section 3.3", "a linear motion is calculated as a straight line, with too large an error",
+             "a linear motion is a straight line; motion along a curve is meant, as between the other"
+             " nodes of figure 2", "", CONTRADICTS),
+        Item("Section 3.3", "quasi-keyframes are inserted where there is no keyframe for a long time, or"
+             " no common view",
+             "no time, number or overlap is given. Ours (cubic spline with quasi-keyframes): see"
+             " [spacing](spacing.md)"),
+        Item("Section 4", "compared with the most popular methods",
+             "one method, ORB-SLAM2; the baseline of the abstract, even distribution, is missing", "",
+             DOES_NOT_HOLD),
+        Item("Section 4", "the results prove the robustness of the method",
+             "one run of each of two sequences, no repetition, no disturbance"),
         Item("References and captions",
              "tau in (6), kappa in (8), N in (12), A for the coefficients of (10), control points F"
              " for P, knots t for m, figure 6 (f) M3 = 7, figure 6 (b, d, f) for fr3_office, [48] for"

@@ -17,14 +17,18 @@ class Item(NamedTuple):
 
 
 RULES = """
-The closed run, the article's own kind of input, decides; the column of all runs shows how far one run can be trusted.
+The closed run, the article's own kind of input, decides: at as many keyframes as the article has, resampled, and at
+stamps where ORB-SLAM2 itself chose keyframes, all of them and three random draws. Where these differ, the statement is
+undecided. The column of all runs shows how far one run can be trusted. Tables are judged at keyframes, complete curves
+densely; both are shown.
 
 | verdict | rule |
 | --- | --- |
-| holds | a change of the printed sign, within a factor of two of the printed size; the smallest error; a level within a factor of two; a curve as near as the printed ATE |
+| holds | a change of the printed sign, within a factor of two of the printed size; the smallest error; a level within a factor of two; a printed curve that lies nearer to the path than random curves do (p of 5 % for all curves together) |
 | same sign, other size | a change of the printed sign and another size; a part of the statement holds |
 | tie | differences below 1 %; below 5 % between curves fitted to few keyframes |
-| does not hold | our computation gives another sign, order or size; the article's own run, which is not public, may differ |
+| undecided | keyframes at other stamps give another verdict; random curves come as near as the printed one |
+| does not hold | our computation gives another sign, order or size; a printed curve is nowhere nearer than 0.1 m |
 | contradicts itself | cannot be true as printed, whatever the data |
 | misprint or gap | a wrong or missing symbol or number, repaired as stated |
 | cannot be judged | depends on what is neither public nor stated |

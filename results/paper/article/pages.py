@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from article.coefficient_items import coefficient_items
+from article.coefficient_items import DRAWS, coefficient_items
 from article.dataset_items import dataset_items
 from article.drawing import Panel, Series, write_figure, write_heat_maps
 from article.equation_items import equation_items
-from article.ledger import ledger
+from article.front import counts, errors, with_parts
+from article.ledger import ledger, ledger_table
 from article.run_figures import run_figures
 from article.run_pages import (
     COLUMN_TITLE, ROW_TITLE, gain_curves, gain_matrix, heat_table, method_tables, threshold_maps,
@@ -31,27 +32,31 @@ COLORS = ("#2ca02c", "#9467bd", "#8c564b", "#1f4fd6", "#17a2b8", "#d62728", "#ff
           "#000000", "#bcbd22")
 
 
-def _ledger(cells):
-    return ledger([
+def _sections(cells):
+    return [
         ("Equations", "", equation_items(cells)),
         ("Datasets and thresholds", "", dataset_items(cells)),
         ("Tables 1 to 4",
          "Changes against the raw keyframes, with windows end to end; columns of [tables](tables.md).",
          table_items(cells)),
         ("Figures 5 to 8: which curve fits best",
-         "Curves are fitted to the reference at the keyframes, in axes along the chord of each window,"
-         " which favours no family; the error is that between the keyframes.",
+         "One family over N, fitted to the reference from the same keyframes, in axes along the chord of"
+         " each window; the error is that between the keyframes.",
          segment_items(cells)),
         ("Printed coefficients",
-         "The best of a search along the path of the reference, in its axes. The path of the other"
-         " sequence shows how near a curve comes by chance.",
+         f"The best of a search along the path of the reference, in its axes. {DRAWS:,} random curves, the"
+         " printed coefficients with random signs and factors between 1/3 and 3, are searched in the same"
+         " way: their share that comes as near is p.",
          coefficient_items(cells)),
         ("The complete trajectory", "The readings `text`.", trajectory_items(cells)),
-        ("The same claims for our readings",
-         "`guarded` has guards that the article does not mention, and the natural spline fits no curve"
-         " of the article: not statements of the article, but what its claims could rest on.",
-         own_reading_items(cells)),
-    ])
+    ]
+
+
+OWN_READINGS = """# The same claims for our readings
+
+`guarded` has guards that the article does not mention, and the natural spline fits no curve of the article: these are not statements of the article, but what its claims could rest on.
+
+"""
 
 
 def _figures(cells, folder):
@@ -72,11 +77,19 @@ def article_pages(configs, folder):
     if not cells:
         return {}
     sources = "".join(f" {config.file.name}" for config in configs)
+    sections = _sections(cells)
     return {
         "tables.md": TABLES.format(sources=sources) + paper_tables(cells),
-        "ledger.md": "# The article, statement by statement\n\nFrom" + sources + ".\n\n" + _ledger(cells),
+        "ledger.md": "# The article, statement by statement\n\nFrom" + sources + ".\n\n" + ledger(sections),
         "figures.md": _figures(cells, folder),
+        "own_readings.md": OWN_READINGS + ledger_table(own_reading_items(cells)),
     }
+
+
+def front_page(configs, text):
+    """The text of README.md with its tables."""
+    cells = [cell for config in configs if config.is_tables for cell in config.cells]
+    return with_parts(text, {"counts": counts(_sections(cells)), "errors": errors(cells)})
 
 
 def _gain_figure(config, file):

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from typing import Callable, NamedTuple
+
+import numpy as np
 
 from article.cells import ORB
 from article.verdicts import plain
@@ -97,6 +98,21 @@ VALUES = [
 ]
 
 
+def _polynomial(c, x):
+    out = 0.0
+    for each in c:  # the highest power first
+        out = out * x + each
+    return out
+
+
+def _sine(c, x):
+    return c[0] * np.sin(c[1] * x + c[2])
+
+
+def _rational(c, x):
+    return c[0] / (x * x + c[1] * x + c[2])
+
+
 class Curve(NamedTuple):
     """y = f(x) with printed coefficients, in the reference's axes [m]."""
 
@@ -104,48 +120,35 @@ class Curve(NamedTuple):
     sequence: str
     text: str
     nodes: int  #: N quoted as best, or 5
-    f: Callable
-    wavelength: float = 0.0  #: of the sine [m]
-    poles: tuple[float, ...] = ()  #: [m]
+    speed: tuple[float, float]  #: quoted there [m/s]
+    coefficients: tuple[float, ...]
+    family: Callable = _polynomial
+
+    def f(self, x, factors=1.0):
+        """Heights at x [m], with every coefficient multiplied by a factor."""
+        return self.family(np.multiply(self.coefficients, factors), x)
 
 
-def _polynomial(*highest_first):
-    def value(x):
-        out = 0.0
-        for each in highest_first:
-            out = out * x + each
-        return out
-
-    return value
-
-
-def _sine(x):
-    import numpy as np
-
-    return 2.007 * np.sin(104.6 * x - 32.08)
-
-
-_Q1, _Q2 = 6.981, -8.05
-_ROOT = math.sqrt(_Q1 * _Q1 / 4 - _Q2)
+_SINE, _RATIONAL = (2.007, 104.6, -32.08), (1.253, 6.981, -8.05)
 CURVES = [
     Curve("Figure 5 a c e", "fr1_room", "parabola 1.238, 0.07842, -0.5163", 3,
-          _polynomial(1.238, 0.07842, -0.5163)),
+          SEGMENTS[0].speed, (1.238, 0.07842, -0.5163)),
     Curve("Figure 5 b d f", "fr1_room", "cubic -1.779, 0.4036, 0.7173, -17.71", 4,
-          _polynomial(-1.779, 0.4036, 0.7173, -17.71)),
+          SEGMENTS[1].speed, (-1.779, 0.4036, 0.7173, -17.71)),
     Curve("Figure 5 b d f, constant read as -0.1771", "fr1_room",
-          "cubic -1.779, 0.4036, 0.7173, -0.1771", 4,
-          _polynomial(-1.779, 0.4036, 0.7173, -0.1771)),
+          "cubic -1.779, 0.4036, 0.7173, -0.1771", 4, SEGMENTS[1].speed,
+          (-1.779, 0.4036, 0.7173, -0.1771)),
     Curve("Figure 6 a c e", "fr1_room", "parabola 1.336, -0.2775, -0.7645", 4,
-          _polynomial(1.336, -0.2775, -0.7645)),
-    Curve(SPECIAL, "fr1_room", "2.007 sin(104.6 x - 32.08)", 5, _sine, 2 * math.pi / 104.6),
+          SEGMENTS[2].speed, (1.336, -0.2775, -0.7645)),
+    Curve(SPECIAL, "fr1_room", "2.007 sin(104.6 x - 32.08)", 5, SEGMENTS[3].speed, _SINE, _sine),
     Curve("Figure 7 a c e", "fr3_office", "parabola -1.695, 3.683, -0.8821", 4,
-          _polynomial(-1.695, 3.683, -0.8821)),
+          SEGMENTS[4].speed, (-1.695, 3.683, -0.8821)),
     Curve("Figure 7 b d f", "fr3_office", "cubic 1.966, 8.281, 15.32, 5.843", 5,
-          _polynomial(1.966, 8.281, 15.32, 5.843)),
+          SEGMENTS[5].speed, (1.966, 8.281, 15.32, 5.843)),
     Curve("Figure 8 left", "fr3_office", "parabola -2.943, -19.3, -31.76", 4,
-          _polynomial(-2.943, -19.3, -31.76)),
-    Curve(SPECIAL, "fr3_office", "1.253 / (x^2 + 6.981 x - 8.05)", 5,
-          lambda x: 1.253 / (x * x + _Q1 * x + _Q2), 0.0, (-0.5 * _Q1 - _ROOT, -0.5 * _Q1 + _ROOT)),
+          SEGMENTS[6].speed, (-2.943, -19.3, -31.76)),
+    Curve(SPECIAL, "fr3_office", "1.253 / (x^2 + 6.981 x - 8.05)", 5, SEGMENTS[7].speed, _RATIONAL,
+          _rational),
 ]
 
 
@@ -156,18 +159,17 @@ class Quadric(NamedTuple):
     sequence: str
     text: str
     beta: tuple[float, ...]
-    nodes: int  #: M quoted as best, or 6
 
-    def height(self, x, y):
-        b = self.beta
+    def height(self, x, y, factors=1.0):
+        b = np.multiply(self.beta, factors)
         return b[0] * x * x + b[1] * y * y + b[2] * x * y + b[3] * y + b[4] * x + b[5]
 
 
 QUADRICS = [
     Quadric("Figure 6 b d f", "fr1_room",
             "quadric -0.06873, -0.07766, 0.02006, 0.1498, -0.03972, 1.421",
-            (-0.06873, -0.07766, 0.02006, 0.1498, -0.03972, 1.421), 6),
+            (-0.06873, -0.07766, 0.02006, 0.1498, -0.03972, 1.421)),
     Quadric("Figure 8 right", "fr3_office",
             "quadric -4.73, 0.482, 1.685, -1.523, 10.77, -4.589",
-            (-4.73, 0.482, 1.685, -1.523, 10.77, -4.589), 7),
+            (-4.73, 0.482, 1.685, -1.523, 10.77, -4.589)),
 ]

@@ -10,12 +10,13 @@ import numpy as np
 
 from article.cells import ORB, find_cell, moved
 from article.drawing import BLUE, GREEN, RED, Panel, Series, thinned, write_figure
-from article.printed import SEGMENTS, VALUES
+from article.printed import CURVES, SEGMENTS, VALUES
 from article.verdicts import plain
 from loopbench import manifold
 
 MARGIN = 0.3  #: around the reference [m]
-PLANAR, SPATIAL = ("N3", "N4 parabola", "N5 cubic"), ("M6", "M7", "M8")
+PLANAR, SPATIAL = ("N3", "N4 parabola", "N5 parabola"), ("M6", "M7", "M8")
+CUBICS = ("N3", "N4 cubic", "N5 cubic")  #: of panels b, d, f, whose quoted curves are cubics
 #: Figure of local segments, and its two segments of SEGMENTS; the next figure is the complete run.
 LOCAL = {"fr1_room": (5, 0, 1), "fr3_office": (7, 4, 5)}
 
@@ -70,6 +71,15 @@ def _panel(ours, raw, span, spatial):
     return panel
 
 
+def _printed_curve(quoted, truth):
+    """The curve that the article prints for a segment, over the x of the truth, broken where it
+    leaves the surroundings; none if it is nowhere near."""
+    curve = [c for c in CURVES if c.where.startswith(quoted.where)][-1]
+    x = np.linspace(truth[:, 0].min(), truth[:, 0].max(), 100)
+    points = _near(np.column_stack([x, curve.f(x), np.full(len(x), truth[:, 2].mean())]), truth)
+    return [Series("printed", "#000000", points, 1.5)] if np.isfinite(points).any() else []
+
+
 def _segment_like(keyframes, printed, wanted):
     """The segment of at least five nodes whose speed range overlaps the printed one best."""
     path, speeds = manifold.KeyframePath(keyframes), manifold.speeds(keyframes)
@@ -95,18 +105,19 @@ def _drawable(cell):
 
 def _local_figure(cells, raw, reading, printed, segments):
     out = Figure()
-    for row, variant in enumerate(PLANAR):
-        planar = find_cell(cells, raw, reading, variant)
-        if not _drawable(planar):
-            continue
-        for quoted in segments:
+    for row, variants in enumerate(zip(PLANAR, CUBICS)):
+        for variant, quoted in zip(variants, segments):
+            planar = find_cell(cells, raw, reading, variant)
             span = _segment_like(raw.keyframes, printed, quoted.speed)
-            if span is None:
+            if not _drawable(planar) or span is None:
                 continue
             window = raw.keyframes[span.first : span.first + 3 + row, 1:3]
-            equation = manifold.polynomial_text(window, 3 if row == 2 else 2)
+            equation = manifold.polynomial_text(window, 3 if "cubic" in variant else 2)
+            panel = _panel(planar, raw, span, False)
+            if reading == "text" and quoted.candidate.startswith(variant):
+                panel.series += _printed_curve(quoted, panel.series[0].points)
             out.add(
-                _panel(planar, raw, span, False), f"{raw.sequence} {reading} {variant}",
+                panel, f"{raw.sequence} {reading} {variant}",
                 f"tau {span.speed[0]:.4f} to {span.speed[1]:.4f} m/s (printed"
                 f" {plain(quoted.speed[0])} to {plain(quoted.speed[1])}), kappa"
                 f" {span.kappa[0]:.4f} to {span.kappa[1]:.4f} rad per keyframe (printed"

@@ -134,13 +134,17 @@ def gain_matrix(cells, baseline):
     return out
 
 
+#: Methods in the plots of the gain; the tables have all.
+PLOTTED = ("cubic_spline", "spline, quasi-keyframes", "smoother N4")
+
+
 def gain_curves(cells, baseline):
-    """Of each run, by method: median intervals [s] and gains [%], cut at -30."""
+    """Of each run, by plotted method: median intervals [s] and gains [%], cut at -30."""
     out = {}
     for cell in cells:
         curves = out.setdefault(cell.dataset.split(INTERVAL)[0], {})
         gain = _gain(cells, cell, baseline)
-        if cell.method == baseline:
+        if cell.method not in PLOTTED:
             continue
         curve = curves.setdefault(cell.method, [])
         if cell.keyframes is not None and math.isfinite(gain):
@@ -168,9 +172,10 @@ def _swept(method):
 
 
 def threshold_maps(config):
-    """One map per run; none unless all methods but the baseline sweep both thresholds."""
+    """One map per run; none unless the config sweeps both thresholds of all methods but the baseline."""
     methods = [m for m in distinct(c.method for c in config.cells) if m != config.baseline]
-    if len(methods) < 5 or not all(_swept(m) for m in methods):
+    sweeps = [m["sweep"] for m in config.options["methods"] if isinstance(m, dict) and "sweep" in m]
+    if not any({"speed_band", "turn_max"} <= set(each) for each in sweeps) or not all(map(_swept, methods)):
         return []
     rows, columns = ([*distinct(_swept(m)[k] for m in methods)] for k in (0, 1))
     out = []

@@ -14,6 +14,7 @@ import yaml
 import loopbench
 from article.cells import DRAWN_PATTERN, Cell, Config, moved
 from article.program import Program
+from article.real_stamps import write_config
 
 
 def _notes(store):
@@ -98,9 +99,19 @@ def _add_trajectories(config, files):
 
 
 def run_config(file, program: Program):
+    """The results of a config; those of the article's own tables also at other keyframes."""
+    config = _run(Path(file), program)
+    if config.is_tables and program.data:
+        with tempfile.TemporaryDirectory() as folder:
+            other = write_config(config.options, program.data, Path(folder))
+            if other:
+                config.cells += _run(other, program).cells
+    return config
+
+
+def _run(file, program):
     """Runs every cell, then those again whose trajectories are needed: the baseline, and for the
     article's own tables what is drawn."""
-    file = Path(file)
     text = file.read_text(encoding="utf-8")
     options = yaml.safe_load(text)
     with tempfile.TemporaryDirectory() as work:

@@ -6,8 +6,8 @@ import math
 
 HOLDS, OTHER_SIZE, TIE = "holds", "same sign, other size", "tie"
 DOES_NOT_HOLD, CONTRADICTS = "does not hold", "contradicts itself"
-MISPRINT, CANNOT_BE_JUDGED = "misprint or gap", "cannot be judged"
-VERDICTS = (HOLDS, OTHER_SIZE, TIE, DOES_NOT_HOLD, CONTRADICTS, MISPRINT, CANNOT_BE_JUDGED)
+MISPRINT, CANNOT_BE_JUDGED, UNDECIDED = "misprint or gap", "cannot be judged", "undecided"
+VERDICTS = (HOLDS, OTHER_SIZE, TIE, UNDECIDED, DOES_NOT_HOLD, CONTRADICTS, MISPRINT, CANNOT_BE_JUDGED)
 
 TIED_CHANGE = 0.01  #: relative differences below this are ties
 TIED_FIT = 0.05  #: the same for fits to few or overlapping windows
@@ -35,6 +35,15 @@ def verdict_on_change(printed, ours):
     if (ours < 0) != (printed < 0):
         return DOES_NOT_HOLD
     return HOLDS if within_factor(ours, printed) else OTHER_SIZE
+
+
+def agreed(verdicts):
+    """The verdict of all keyframes tried; undecided if they differ.
+
+    >>> agreed(["holds", "holds"]), agreed(["holds", "tie"])
+    ('holds', 'undecided')
+    """
+    return verdicts[0] if len(set(verdicts)) == 1 else UNDECIDED
 
 
 def within_factor(a, b, factor=COMPARABLE):
