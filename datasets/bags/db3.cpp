@@ -1,12 +1,8 @@
 // ROS 2 bag in SQLite: tables topics(id, name, type, ...) and messages(id, topic_id, timestamp,
 // data). Messages can be compressed one by one (compression_mode: message).
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -37,48 +33,31 @@ std::string uri_of(const std::string& path) {
   return out + "?immutable=1";
 }
 
-/// A file in memory, which has no path that SQLite can open: decompressed, or read from a pipe.
-class MappedDb3 {
- public:
-  explicit MappedDb3(const OpenedFile& file) : size_(file.size) {
-    const int descriptor = open(file.path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) throw file.error(std::string("cannot be read: ") + std::strerror(errno));
-    void* const bytes = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_PRIVATE, descriptor, 0);
-    const int reason = errno;
-    close(descriptor);
-    if (bytes == MAP_FAILED) {
-      throw file.error(std::string("cannot be read: ") + std::strerror(reason));
-    }
-    bytes_ = static_cast<unsigned char*>(bytes);
-    // SQLite rejects a database in memory that has a write-ahead log, which is a second file.
-    constexpr std::size_t kWriteVersion = 18, kReadVersion = 19;
-    if (size_ > kReadVersion) bytes_[kWriteVersion] = bytes_[kReadVersion] = 1;
-  }
-  ~MappedDb3() { munmap(bytes_, size_); }
-  MappedDb3(const MappedDb3&) = delete;
-  MappedDb3& operator=(const MappedDb3&) = delete;
+/// Replaces the empty database of `db` by a file in memory, which has no path that SQLite can open:
+/// it was decompressed, or read from a pipe.
+int load_into(sqlite3* db, const OpenedFile& file) {
+  auto* const bytes = static_cast<unsigned char*>(sqlite3_malloc64(file.size));
+  if (bytes == nullptr) return SQLITE_NOMEM;
+  std::memcpy(bytes, BagSource(file).bytes(0, file.size).data(), file.size);
+  // SQLite rejects a database in memory that has a write-ahead log, which is a second file.
+  constexpr std::size_t kWriteVersion = 18, kReadVersion = 19;
+  if (file.size > kReadVersion) bytes[kWriteVersion] = bytes[kReadVersion] = 1;
+  const auto size = static_cast<sqlite3_int64>(file.size);
+  constexpr unsigned kFlags = SQLITE_DESERIALIZE_READONLY | SQLITE_DESERIALIZE_FREEONCLOSE;
+  return sqlite3_deserialize(db, "main", bytes, size, size, kFlags);
+}
 
-  /// Replaces the content of `db`, which must be closed before this is destroyed.
-  int attach(sqlite3* db) const {
-    const auto size = static_cast<sqlite3_int64>(size_);
-    return sqlite3_deserialize(db, "main", bytes_, size, size, SQLITE_DESERIALIZE_READONLY);
-  }
-
- private:
-  std::size_t size_ = 0;
-  unsigned char* bytes_ = nullptr;
-};
-
-Db3 open_db3(const OpenedFile& file, const MappedDb3* mapped) {
+Db3 open_db3(const OpenedFile& file) {
+  const bool in_memory = file.memory != nullptr;
   sqlite3* handle = nullptr;
-  const int access = mapped == nullptr ? SQLITE_OPEN_READONLY | SQLITE_OPEN_URI
-                                       : SQLITE_OPEN_READWRITE | SQLITE_OPEN_MEMORY;
-  int code = sqlite3_open_v2(mapped == nullptr ? uri_of(file.path).c_str() : ":memory:",
-                             &handle,
-                             access | SQLITE_OPEN_NOMUTEX,
-                             nullptr);
+  int code =
+      sqlite3_open_v2(in_memory ? ":memory:" : uri_of(file.path).c_str(),
+                      &handle,
+                      SQLITE_OPEN_NOMUTEX | (in_memory ? SQLITE_OPEN_READWRITE
+                                                       : SQLITE_OPEN_READONLY | SQLITE_OPEN_URI),
+                      nullptr);
   Db3 out(handle);
-  if (code == SQLITE_OK && mapped != nullptr) code = mapped->attach(handle);
+  if (code == SQLITE_OK && in_memory) code = load_into(handle, file);
   if (code != SQLITE_OK) throw file.error(std::string("cannot be opened: ") + sqlite3_errstr(code));
   // Without this, SQLite rejects truncated files as a whole. The file is opened read-only.
   sqlite3_db_config(handle, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
@@ -118,33 +97,14 @@ std::map<std::int64_t, BagTopic> topics_of(const Db3& db) {
   return out;
 }
 
-/// Bytes that the file's header states but the file does not have; empty if it is complete.
-std::string missing_pages(const OpenedFile& file) {
-  constexpr std::uint64_t kHeader = 100;
-  if (file.size < kHeader) return "ends in its header";
-  BagSource source(file);
-  ByteReader header(source.bytes(0, kHeader));
-  header.set_big_endian(true);
-  header.bytes(16);
-  const std::uint64_t page = header.number<std::uint16_t>();
-  header.bytes(10);
-  const std::uint64_t stated = header.number<std::uint32_t>() * (page == 1 ? 65536 : page);
-  if (stated <= file.size) return "";
-  return fmt::format("{} of {} bytes are missing", stated - file.size, stated);
-}
-
 }  // namespace
 
 BagSummary read_db3(const OpenedFile& file, const WantsTopic& wants, const VisitMessage& visit) {
   BagSummary out;
-  out.damage = missing_pages(file);
-  const auto mapped = file.memory ? std::make_unique<const MappedDb3>(file) : nullptr;
-  const Db3 db = open_db3(file, mapped.get());
+  const Db3 db = open_db3(file);
   if (!has_tables(db)) {
     throw file.error(
-        "is an SQLite file without readable tables topics and messages, expected a "
-        "ROS 2 bag" +
-        (out.damage.empty() ? "" : " (" + out.damage + ")"));
+        "is an SQLite file without readable tables topics and messages, expected a ROS 2 bag");
   }
   const std::map<std::int64_t, BagTopic> topics = topics_of(db);
   for (const auto& [id, topic] : topics) add_topic(out, topic);

@@ -54,26 +54,15 @@ class McapReader {
         ByteReader prefix(source_.bytes(at, kRecordPrefix));
         const auto op = static_cast<McapOp>(prefix.number<std::uint8_t>());
         const auto size = prefix.number<std::uint64_t>();
-        if (size > source_.size() - at - kRecordPrefix) {
-          missing_ = size - (source_.size() - at - kRecordPrefix);
-          if (op == McapOp::chunk) cut_chunk(at + kRecordPrefix);
-          throw DamagedRecord("ends early");
-        }
+        if (size > source_.size() - at - kRecordPrefix) throw DamagedRecord("ends early");
         top_level(op, at + kRecordPrefix, size);
         at += kRecordPrefix + size;
       }
     } catch (const DamagedRecord&) {
-      const std::uint64_t lost = source_.size() - at;
       summary_.damage =
-          has_cut_chunk_
-              ? fmt::format(
-                    "ends early: has no footer, and at least {} of {} bytes are missing, in "
-                    "and after its last chunk",
-                    missing_,
-                    source_.size() + missing_)
-              : fmt::format("ends early: has no footer, and its last {} of {} bytes are incomplete",
-                            lost,
-                            source_.size());
+          fmt::format("ends early: has no footer, and its last {} of {} bytes are incomplete",
+                      source_.size() - at,
+                      source_.size());
     }
     if (damaged_chunks_ > 0) {
       summary_.add_damage(fmt::format("{} of {} chunks are damaged", damaged_chunks_, chunks_));
@@ -114,25 +103,14 @@ class McapReader {
     }
   }
 
-  /// Reads the records of a chunk up to the end of the file.
-  void cut_chunk(std::uint64_t at) {
-    ++chunks_;
-    has_cut_chunk_ = true;
-    try {
-      records(chunk(source_.bytes(at, source_.size() - at), true));
-    } catch (const DamagedStream&) {  // more data than the chunk states
-    }
-  }
-
-  std::string_view chunk(std::string_view bytes, bool is_cut = false) {
+  std::string_view chunk(std::string_view bytes) {
     ByteReader reader(bytes);
     reader.bytes(2 * sizeof(std::uint64_t));  // first and last time
     const auto size = reader.number<std::uint64_t>();
     const auto crc = reader.number<std::uint32_t>();
     const std::string compression(reader.counted());
     const auto stored_size = reader.number<std::uint64_t>();
-    const std::string_view stored =
-        reader.bytes(is_cut ? std::min<std::uint64_t>(stored_size, reader.left()) : stored_size);
+    const std::string_view stored = reader.bytes(stored_size);
     std::string_view out = stored;
     if (!compression.empty()) {
       if (compression != "zstd" && compression != "lz4") {
@@ -141,12 +119,10 @@ class McapReader {
       }
       if (size > kMaxMcapChunk) throw DamagedRecord("has a chunk that is too large");
       const Codec codec = compression == "zstd" ? Codec::zstd : Codec::lz4;
-      const auto limit = static_cast<std::size_t>(size);
-      expanded_ =
-          is_cut ? decompress_intact(codec, stored, limit) : decompress(codec, stored, limit);
+      expanded_ = decompress(codec, stored, static_cast<std::size_t>(size));
       out = expanded_;
     }
-    if (!is_cut && crc != 0 && crc != crc32_of(out)) throw DamagedRecord("has a wrong checksum");
+    if (crc != 0 && crc != crc32_of(out)) throw DamagedRecord("has a wrong checksum");
     return out;
   }
 
@@ -193,8 +169,6 @@ class McapReader {
   std::map<std::uint16_t, BagTopic> channels_;
   std::string expanded_;
   bool is_complete_ = false;
-  bool has_cut_chunk_ = false;
-  std::uint64_t missing_ = 0;  ///< bytes of the last record
   std::uint64_t chunks_ = 0;
   std::uint64_t damaged_chunks_ = 0;
   std::uint64_t messages_ = 0;

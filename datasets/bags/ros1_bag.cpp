@@ -66,7 +66,6 @@ class Ros1Reader {
       }
     } catch (const DamagedRecord& damage) {
       why_ = damage.what();
-      if (has_cut_chunk_) intact = intact_;
     }
     state_damage(intact);
     return std::move(summary_);
@@ -79,10 +78,7 @@ class Ros1Reader {
 
   void top_level(const Ros1Fields& fields, std::uint64_t at, std::uint64_t size) {
     const auto op = static_cast<Ros1Op>(field<std::uint8_t>(fields, "op"));
-    if (at + size > source_.size()) {
-      if (op == Ros1Op::chunk && at < source_.size()) cut_chunk(fields, at);
-      throw DamagedRecord("ends early");
-    }
+    if (at + size > source_.size()) throw DamagedRecord("ends early");
     if (op == Ros1Op::bag_header) {
       data_end_ = field<std::uint64_t>(fields, "index_pos");
       chunk_count_ = field<std::uint32_t>(fields, "chunk_count");
@@ -100,27 +96,7 @@ class Ros1Reader {
     }
   }
 
-  /// Reads the records of a chunk up to the end of the file.
-  void cut_chunk(const Ros1Fields& fields, std::uint64_t at) {
-    ++chunks_;
-    ++damaged_chunks_;
-    has_cut_chunk_ = true;
-    const std::string_view stored = source_.bytes(at, source_.size() - at);
-    intact_ = at;
-    std::size_t used = 0;
-    bool is_compressed = false;
-    try {
-      const std::string_view data = chunk(fields, stored, true);
-      is_compressed = data.data() != stored.data();
-      records(data, &used);
-    } catch (const DamagedRecord&) {  // the record at the end
-    } catch (const DamagedStream&) {  // more data than the chunk states
-    }
-    // The bytes of a compressed chunk cannot be assigned to records.
-    intact_ = is_compressed ? source_.size() : at + used;
-  }
-
-  std::string_view chunk(const Ros1Fields& fields, std::string_view data, bool is_cut = false) {
+  std::string_view chunk(const Ros1Fields& fields, std::string_view data) {
     const std::string compression = text_field(fields, "compression");
     const auto size = field<std::uint32_t>(fields, "size");
     if (compression == "none") return data;
@@ -130,17 +106,15 @@ class Ros1Reader {
     }
     if (size > kMaxRos1Chunk) throw DamagedRecord("has a chunk that is too large");
     const Codec codec = compression == "bz2" ? Codec::bzip2 : Codec::lz4;
-    expanded_ = is_cut ? decompress_intact(codec, data, size) : decompress(codec, data, size);
+    expanded_ = decompress(codec, data, size);
     return expanded_;
   }
 
-  /// `used`: if given, set to the bytes of complete records.
-  void records(std::string_view chunk, std::size_t* used = nullptr) {
+  void records(std::string_view chunk) {
     for (ByteReader reader(chunk); reader.left() > 0;) {
       const Ros1Fields fields = fields_of(reader.counted());
       const std::string_view data = reader.counted();
       record(static_cast<Ros1Op>(field<std::uint8_t>(fields, "op")), fields, data);
-      if (used != nullptr) *used = reader.position();
     }
   }
 
@@ -183,8 +157,6 @@ class Ros1Reader {
   std::map<std::uint32_t, BagTopic> connections_;
   std::string expanded_;
   std::string why_;
-  bool has_cut_chunk_ = false;
-  std::uint64_t intact_ = 0;    ///< end of the last complete record in a chunk that is cut
   std::uint64_t data_end_ = 0;  ///< of messages, stated in the bag's header
   std::uint64_t chunk_count_ = 0;
   std::uint64_t chunks_ = 0;

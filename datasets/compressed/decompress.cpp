@@ -1,6 +1,7 @@
 #include "datasets/compressed/decompress.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "datasets/core/error.hpp"
 
@@ -20,7 +21,8 @@
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kStep = std::size_t{256} << 10;  // [bytes] per call of a library
+constexpr std::size_t kStep = std::size_t{256} << 10;     // output per call of a library [bytes]
+constexpr std::size_t kMostInput = std::size_t{1} << 30;  // per call of zlib or bzip2 [bytes]
 
 [[noreturn]] [[maybe_unused]] void lack(const char* codec, const char* package) {
   throw MissingPart(std::string("this build cannot read ") + codec + " data: install the package " +
@@ -60,19 +62,12 @@ struct Progress {
 
 #ifdef LOOPBENCH_HAS_ZLIB
 void expand_gzip(std::string_view bytes, std::size_t limit, const Sink& sink) {
-  struct Stream {
-    z_stream state{};
-    Stream() {
-      constexpr int kWindowBits = 15 + 16;  // gzip header
-      if (inflateInit2(&state, kWindowBits) != Z_OK) throw std::bad_alloc();
-    }
-    ~Stream() { inflateEnd(&state); }
-    Stream(const Stream&) = delete;
-    Stream& operator=(const Stream&) = delete;
-  } stream;
+  constexpr int kGzipHeader = 15 + 16;
+  z_stream s{};
+  if (inflateInit2(&s, kGzipHeader) != Z_OK) throw std::bad_alloc();
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&s, inflateEnd);
   expand(bytes, limit, sink, [&](std::string_view in, char* out, std::size_t room) {
-    const std::size_t given = std::min<std::size_t>(in.size(), std::size_t{1} << 30);
-    z_stream& s = stream.state;
+    const std::size_t given = std::min(in.size(), kMostInput);
     s.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(in.data()));
     s.avail_in = static_cast<uInt>(given);
     s.next_out = reinterpret_cast<Bytef*>(out);
@@ -92,20 +87,15 @@ void expand_gzip(std::string_view, std::size_t, const Sink&) { lack("gzip", "zli
 
 #ifdef LOOPBENCH_HAS_BZIP2
 void expand_bzip2(std::string_view bytes, std::size_t limit, const Sink& sink) {
-  struct Stream {
-    bz_stream state{};
-    Stream() { start(); }
-    ~Stream() { BZ2_bzDecompressEnd(&state); }
-    Stream(const Stream&) = delete;
-    Stream& operator=(const Stream&) = delete;
-    void start() {
-      state = {};
-      if (BZ2_bzDecompressInit(&state, 0, 0) != BZ_OK) throw std::bad_alloc();
-    }
-  } stream;
+  bz_stream s{};
+  const auto start = [&] {
+    s = {};
+    if (BZ2_bzDecompressInit(&s, 0, 0) != BZ_OK) throw std::bad_alloc();
+  };
+  start();
+  const std::unique_ptr<bz_stream, int (*)(bz_stream*)> end(&s, BZ2_bzDecompressEnd);
   expand(bytes, limit, sink, [&](std::string_view in, char* out, std::size_t room) {
-    const std::size_t given = std::min<std::size_t>(in.size(), std::size_t{1} << 30);
-    bz_stream& s = stream.state;
+    const std::size_t given = std::min(in.size(), kMostInput);
     s.next_in = const_cast<char*>(in.data());
     s.avail_in = static_cast<unsigned>(given);
     s.next_out = out;
@@ -115,7 +105,7 @@ void expand_bzip2(std::string_view bytes, std::size_t limit, const Sink& sink) {
     const Progress done{given - s.avail_in, room - s.avail_out, code == BZ_STREAM_END};
     if (done.frame_ended) {
       BZ2_bzDecompressEnd(&s);
-      stream.start();
+      start();
     }
     return done;
   });
@@ -126,19 +116,13 @@ void expand_bzip2(std::string_view, std::size_t, const Sink&) { lack("bzip2", "l
 
 #ifdef LOOPBENCH_HAS_ZSTD
 void expand_zstd(std::string_view bytes, std::size_t limit, const Sink& sink) {
-  struct Stream {
-    ZSTD_DStream* state = ZSTD_createDStream();
-    Stream() {
-      if (state == nullptr) throw std::bad_alloc();
-    }
-    ~Stream() { ZSTD_freeDStream(state); }
-    Stream(const Stream&) = delete;
-    Stream& operator=(const Stream&) = delete;
-  } stream;
+  const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> state(ZSTD_createDStream(),
+                                                                         ZSTD_freeDStream);
+  if (!state) throw std::bad_alloc();
   expand(bytes, limit, sink, [&](std::string_view in, char* out, std::size_t room) {
     ZSTD_inBuffer input{in.data(), in.size(), 0};
     ZSTD_outBuffer output{out, room, 0};
-    const std::size_t code = ZSTD_decompressStream(stream.state, &output, &input);
+    const std::size_t code = ZSTD_decompressStream(state.get(), &output, &input);
     if (ZSTD_isError(code) != 0) throw DamagedStream(ZSTD_getErrorName(code));
     return Progress{input.pos, output.pos, code == 0};
   });
@@ -149,22 +133,16 @@ void expand_zstd(std::string_view, std::size_t, const Sink&) { lack("zstd", "lib
 
 #ifdef LOOPBENCH_HAS_LZ4
 void expand_lz4(std::string_view bytes, std::size_t limit, const Sink& sink) {
-  struct Stream {
-    LZ4F_dctx* state = nullptr;
-    Stream() {
-      if (LZ4F_isError(LZ4F_createDecompressionContext(&state, LZ4F_VERSION)) != 0) {
-        throw std::bad_alloc();
-      }
-    }
-    ~Stream() { LZ4F_freeDecompressionContext(state); }
-    Stream(const Stream&) = delete;
-    Stream& operator=(const Stream&) = delete;
-  } stream;
+  LZ4F_dctx* created = nullptr;
+  if (LZ4F_isError(LZ4F_createDecompressionContext(&created, LZ4F_VERSION)) != 0) {
+    throw std::bad_alloc();
+  }
+  const std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> state(
+      created, LZ4F_freeDecompressionContext);
   expand(bytes, limit, sink, [&](std::string_view in, char* out, std::size_t room) {
     std::size_t read = in.size();
     std::size_t written = room;
-    const std::size_t code =
-        LZ4F_decompress(stream.state, out, &written, in.data(), &read, nullptr);
+    const std::size_t code = LZ4F_decompress(state.get(), out, &written, in.data(), &read, nullptr);
     if (LZ4F_isError(code) != 0) throw DamagedStream(LZ4F_getErrorName(code));
     return Progress{read, written, code == 0};
   });
@@ -200,18 +178,6 @@ void decompress(Codec codec, std::string_view bytes, std::size_t limit, const Si
 std::string decompress(Codec codec, std::string_view bytes, std::size_t limit) {
   std::string out;
   decompress(codec, bytes, limit, [&](std::string_view part) { out += part; });
-  return out;
-}
-
-std::string decompress_intact(Codec codec, std::string_view bytes, std::size_t limit) {
-  std::string out;
-  try {
-    decompress(codec, bytes, limit, [&](std::string_view part) { out += part; });
-  } catch (const ExpandsTooFar&) {
-    throw;
-  } catch (const DamagedStream&) {
-    return out;  // up to the damage
-  }
   return out;
 }
 

@@ -38,8 +38,4 @@ void decompress(Codec codec,
 /// The same, into a string.
 std::string decompress(Codec codec, std::string_view bytes, std::size_t limit);
 
-/// The same, up to the first damage or the end of truncated data. Libraries decode block by block,
-/// so that the rest of a damaged block is missing, too.
-std::string decompress_intact(Codec codec, std::string_view bytes, std::size_t limit);
-
 }  // namespace loopbench

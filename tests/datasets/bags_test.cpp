@@ -64,28 +64,6 @@ TEST(Bags, ATruncatedBagYieldsItsIntactPartAndStatesTheRest) {
   }
 }
 
-TEST(Bags, ATruncatedChunkYieldsItsCompleteMessages) {
-  const TemporaryFolder scratch;
-  const std::string all = ros1_bag(messages(10, false), 10);
-  ReadFindings findings;
-  ReadOptions options;
-  options.findings = &findings;
-  // All but one byte of the last message, a record of two lengths, 40 bytes of header and 83 of
-  // data.
-  const Trajectory poses =
-      read_trajectory(scratch.file("a.bag", all.substr(0, all.size() - 1)), options);
-  EXPECT_EQ(poses.size(), 9u);
-  const std::size_t message =
-      ros1_bag(messages(10, false), 10).size() - ros1_bag(messages(9, false), 9).size();
-  EXPECT_THAT(findings.damage,
-              HasSubstr(std::to_string(message) + " of at least " + std::to_string(all.size()) +
-                        " bytes are missing or damaged (from byte " +
-                        std::to_string(all.size() - message) + ")"));
-  // Within the connection's record: no topic is left.
-  const auto empty = scratch.file("b.bag", all.substr(0, all.size() - 10 * message - 5));
-  EXPECT_THAT(refusal([&] { read_trajectory(empty); }), HasSubstr("the bag is damaged: "));
-}
-
 TEST(Bags, ADamagedChunkCostsOnlyItself) {
   const TemporaryFolder scratch;
   std::string bytes = ros1_bag(messages(5, false));
@@ -188,23 +166,6 @@ TEST(RealBags, EveryMessageOfTheRecordingsIsRead) {
             read("nav2_turtlebot.mcap", "/amcl_pose").poses.size());
 }
 
-TEST(RealBags, TruncatedChunksYieldTheirIntactPart) {
-  if (recording("").empty()) GTEST_SKIP() << "needs LOOPBENCH_DATA";
-  const TemporaryFolder scratch;
-  const auto poses_of = [&](const char* file, const std::string& topic, std::size_t percent) {
-    const std::string all = content(recording(file));
-    const auto cut =
-        scratch.file(std::to_string(percent) + file, all.substr(0, all.size() * percent / 100));
-    return read_trajectory("bag:" + cut.string() + "#" + topic).size();
-  };
-  // The last chunk, uncompressed, begins at 66 % of the messages of this topic.
-  EXPECT_GT(poses_of("ROS_example.bag", "S-PTAM", 99), 5200u);
-  // One chunk, compressed by zstd.
-  const std::size_t whole = poses_of("nav2_turtlebot.mcap", "/odom", 100);
-  EXPECT_GT(poses_of("nav2_turtlebot.mcap", "/odom", 50), whole / 4);
-  EXPECT_LT(poses_of("nav2_turtlebot.mcap", "/odom", 50), whole);
-}
-
 TEST(RealBags, CompressedDatabasesAndPipesAreRead) {
   if (recording("").empty()) GTEST_SKIP() << "needs LOOPBENCH_DATA";
   const TemporaryFolder scratch;
@@ -236,7 +197,7 @@ TEST(RealBags, ATruncatedDatabaseYieldsItsIntactPart) {
   options.findings = &findings;
   const Trajectory poses = read_trajectory("bag:" + file.string() + "#tf:odom.base_link", options);
   EXPECT_GT(poses.size(), 50u);
-  EXPECT_THAT(findings.damage, HasSubstr("of 106496 bytes are missing"));
+  EXPECT_THAT(findings.damage, HasSubstr("stops after "));
 }
 
 }  // namespace
