@@ -59,7 +59,7 @@ TrackingResult track(const RgbdSource& source,
   TrackingResult out = tracker.finish();
   const std::vector<std::string> notes = skipped.notes(source.size());
   out.notes.insert(out.notes.begin(), notes.begin(), notes.end());
-  const FocalCheck focal = check_focal(out.keyframes, camera, options.track);
+  const FocalCheck focal = check_focal(out.keyframes, camera);
   if (auto warning = focal_warning(focal, camera)) out.notes.push_back(std::move(*warning));
   out.skipped = skipped.count();
   return out;
@@ -71,13 +71,10 @@ DetectedLoops find_loops(const TrackingResult& tracked,
                          const FrontendHooks& hooks,
                          const StageCache& cache) {
   return cache.get(cache.loops(), [&] {
-    return detect_loops(tracked,
-                        source.camera(),
-                        options.track,
-                        options.loops,
-                        [&](std::size_t done, std::size_t all) {
-                          if (hooks.progress) hooks.progress("loops", done, all);
-                        });
+    return detect_loops(
+        tracked, source.camera(), options.loops, [&](std::size_t done, std::size_t all) {
+          if (hooks.progress) hooks.progress("loops", done, all);
+        });
   });
 }
 
@@ -94,9 +91,7 @@ double refine(TrackingResult& tracked,
     return refine_by_depth(source,
                            tracked,
                            loops.closures,
-                           options.track.pose,
                            options.features.depth_max,
-                           options.refine,
                            [&](std::size_t done, std::size_t all) {
                              if (hooks.progress) hooks.progress("depth", done, all);
                            });
@@ -159,7 +154,7 @@ Sequence run_frontend(const RgbdSource& source,
   }
   DetectedLoops loops = find_loops(tracked, source, options, hooks, cache);
   double depth_excess = 1.0;
-  if (options.refine.depth) {
+  if (options.refine_depth) {
     depth_excess = refine(tracked, loops, source, options, hooks, cache);
   }
   scale_information(tracked, loops, depth_excess);

@@ -17,7 +17,7 @@ struct FrontendOptions {
   FeatureOptions features;
   TrackOptions track;
   LoopOptions loops;
-  RefineOptions refine;
+  bool refine_depth = true;
   double skipped_max = 0.5;
 };
 
@@ -26,7 +26,9 @@ void fields(FrontendOptions& o, Visit visit) {
   fields(o.features, visit);
   fields(o.track, visit);
   fields(o.loops, visit);
-  fields(o.refine, visit);
+  visit("refine.depth",
+        o.refine_depth,
+        "refinement of odometry and loop closures by alignment of depth images");
   visit("skipped_max",
         o.skipped_max,
         "maximum share of frames that cannot be read [-]",

@@ -1,6 +1,6 @@
-#include "datasets/rgbd/pack_stages.hpp"
-
+// Serialisation of the results of front-end stages.
 #include "datasets/core/pack.hpp"
+#include "datasets/rgbd/stage_cache.hpp"
 
 // Members of the types, each list used for both writing and reading. In the namespace of the
 // serialiser, which finds them there.

@@ -76,7 +76,7 @@ StageCache::StageCache(const FrontendHooks& hooks,
   tracked_ = cache_name("track", track);
   const std::uint64_t loops = mixed(track, to_text(echo(options.loops)));
   loops_ = cache_name("loops", loops);
-  refined_ = cache_name("refined", mixed(loops, to_text(echo(options.refine))));
+  refined_ = cache_name("refined", loops);
 }
 
 CacheEntry StageCache::frame(std::size_t index) const {

@@ -7,9 +7,21 @@
 #include <string>
 
 #include "datasets/rgbd/frontend.hpp"
-#include "datasets/rgbd/pack_stages.hpp"
 
 namespace loopbench::rgbd {
+
+/// Features of a frame, or the reason why it could not be read.
+struct FrameFeatures {
+  std::optional<Features> features = std::nullopt;
+  std::string why = {};
+};
+
+/// For FrameFeatures, TrackingResult, DetectedLoops and RefinedEdges. deserialised() throws
+/// std::runtime_error for bytes in another layout.
+template <class T>
+std::string serialised(const T& value);
+template <class T>
+T deserialised(const std::string& bytes);
 
 /// A cache entry: its file is `folder / name`. The seal of the stored bytes covers the name and the
 /// build, so that an entry that was moved, exchanged or written by other code is not read.

@@ -21,7 +21,7 @@ FrontendOptions quick() {
   out.track.inliers_min = 15;
   out.loops.inliers_min = 30;
   out.loops.min_gap = 1.0;
-  out.refine.depth = false;  // has its own tests and doubles the run time with sanitizers
+  out.refine_depth = false;  // has its own tests and doubles the run time with sanitizers
   return out;
 }
 
@@ -123,14 +123,14 @@ TEST(Frontend, TwoRunsAndACachedOneGiveTheSameBits) {
   FrontendHooks cached;
   cached.cache = folder.path() / "cache";
   FrontendOptions options = quick();
-  options.refine.depth = true;
+  options.refine_depth = true;
   const Sequence first = run_frontend(source, "room", options, {});
   const Sequence second = run_frontend(source, "room", options, cached);
   expect_same(first, second);
   const Sequence third = run_frontend(source, "room", options, cached);
   expect_same(first, third);
   FrontendOptions other = quick();  // features are cached, tracking is not
-  other.track.keyframes.angle_max = 5.0;
+  other.track.keyframes_target = 20;
   const Sequence denser = run_frontend(source, "room", other, cached);
   EXPECT_GT(denser.problem.keyframes.size(), first.problem.keyframes.size());
   // A truncated file is recomputed.
@@ -159,7 +159,7 @@ TEST(Frontend, DepthMakesStepsBetter) {
   FrontendOptions options = quick();
   options.loops.enabled = false;
   const Sequence before = run_frontend(source, "room", options, {});
-  options.refine.depth = true;
+  options.refine_depth = true;
   const Sequence after = run_frontend(source, "room", options, {});
   check(after.problem, "room");
   ASSERT_EQ(after.problem.keyframes.size(), before.problem.keyframes.size());
@@ -197,7 +197,7 @@ TEST(Frontend, AsksForAboutSoManyKeyframes) {
   for (const std::int64_t target : {8, 20}) {
     FrontendOptions options = quick();
     options.loops.enabled = false;
-    options.track.keyframes.target = target;
+    options.track.keyframes_target = target;
     const Sequence sequence = run_frontend(source, "room", options, {});
     EXPECT_NEAR(static_cast<double>(sequence.problem.keyframes.size()),
                 static_cast<double>(target),

@@ -41,7 +41,7 @@ TEST(CameraPose, IsFoundAmongOutliersAndThenExact) {
   const std::optional<Pose> found = pose_by_ransac(all, {});
   ASSERT_TRUE(found);
   EXPECT_TRUE(is_close(*found, kTruth, 0.02, 0.01));
-  const RefinedPose refined = refine_pose(all, {}, *found, {});
+  const RefinedPose refined = refine_pose(all, {}, *found);
   EXPECT_TRUE(is_close(refined.world_from_camera, kTruth, 1e-9, 1e-9));
   EXPECT_GE(refined.inliers, 60u);
   EXPECT_LE(refined.inliers, 63u);
@@ -55,13 +55,11 @@ TEST(CameraPose, IsTheSameToTheBitAtEveryCall) {
 
 TEST(CameraPose, IsNotFoundFromThreePoints) {
   EXPECT_FALSE(pose_by_ransac(observe(3, 0), {}));
-  EXPECT_EQ(refine_pose(observe(3, 0), {}, kTruth, {}).information, Matrix6::Zero());
+  EXPECT_EQ(refine_pose(observe(3, 0), {}, kTruth).information, Matrix6::Zero());
 }
 
 TEST(CameraPose, InformationTellsTheScatterOfThePose) {
-  // With noise as stated in the options, e' information e has mean 6 over many trials.
-  PoseOptions options;
-  options.information_scale = 1.0;
+  // With the assumed noise, e' information e has mean 6 over many trials.
   Random random({9}, Purpose::odometry);
   double sum = 0.0;
   constexpr int kRuns = 200;
@@ -71,42 +69,39 @@ TEST(CameraPose, InformationTellsTheScatterOfThePose) {
       const Vector3 noise = random.normal3();
       o.u += noise.x();
       o.v += noise.y();
-      o.inverse_depth += options.inverse_depth_sigma * noise.z();
+      o.inverse_depth += kInverseDepthSigma * noise.z();
     }
-    const RefinedPose pose = refine_pose(noisy, {}, kTruth, options);
+    const RefinedPose pose = refine_pose(noisy, {}, kTruth);
     const Twist e = log_se3(pose.world_from_camera.inverse() * kTruth);
     sum += e.dot(pose.information * e);
   }
-  EXPECT_NEAR(sum / kRuns, 6.0, 1.5);
+  EXPECT_NEAR(sum / kRuns / kInformationScale, 6.0, 1.5);
 }
 
 TEST(KeyframeRule, IsDueAtEachThresholdAlone) {
-  KeyframeOptions o;
   const FrameRelation same{
       .points = 300, .common = 300, .distance = 0.0, .depth = 2.0, .angle = 0.0, .time = 0.0};
-  EXPECT_LT(novelty(same, o), 1.0);
+  EXPECT_LT(novelty(same), 1.0);
   FrameRelation view = same;
   view.common = 60;  // of 300: both the share (0.2) and the number (60) are at their thresholds
-  EXPECT_NEAR(novelty(view, o), 1.0, 1e-12);
+  EXPECT_NEAR(novelty(view), 1.0, 1e-12);
   view = same;
   view.distance = 0.15 * 2.0;
-  EXPECT_NEAR(novelty(view, o), 1.0, 1e-12);
+  EXPECT_NEAR(novelty(view), 1.0, 1e-12);
   view = same;
   view.angle = 30.0 * std::numbers::pi / 180.0;
-  EXPECT_NEAR(novelty(view, o), 2.0, 1e-12);
+  EXPECT_NEAR(novelty(view), 2.0, 1e-12);
   view = same;
   view.time = 3.0;
-  EXPECT_NEAR(novelty(view, o), 1.5, 1e-12);
+  EXPECT_NEAR(novelty(view), 1.5, 1e-12);
 }
 
 TEST(KeyframeRule, ATargetMovesTheThresholdBothWays) {
-  KeyframeOptions o;
-  EXPECT_EQ(novelty_due(o, 7, 3, 10), 1.0);
-  o.target = 10;
-  EXPECT_NEAR(novelty_due(o, 1, 0, 101), 1.0, 1e-12);
-  EXPECT_NEAR(novelty_due(o, 10, 100, 101), 1.0, 1e-12);
-  EXPECT_NEAR(novelty_due(o, 7, 50, 101), std::pow(2.0, 1.5), 1e-12);  // 5.5 planned at half time
-  EXPECT_NEAR(novelty_due(o, 4, 50, 101), std::pow(2.0, -1.5), 1e-12);
+  EXPECT_EQ(novelty_due(0, 7, 3, 10), 1.0);
+  EXPECT_NEAR(novelty_due(10, 1, 0, 101), 1.0, 1e-12);
+  EXPECT_NEAR(novelty_due(10, 10, 100, 101), 1.0, 1e-12);
+  EXPECT_NEAR(novelty_due(10, 7, 50, 101), std::pow(2.0, 1.5), 1e-12);  // 5.5 planned at half time
+  EXPECT_NEAR(novelty_due(10, 4, 50, 101), std::pow(2.0, -1.5), 1e-12);
 }
 
 Features two_groups() {

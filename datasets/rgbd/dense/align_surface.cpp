@@ -1,8 +1,9 @@
-#include "datasets/rgbd/dense/align_surface.hpp"
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "datasets/rgbd/dense/surface.hpp"
+#include "datasets/rgbd/tracking/camera_pose.hpp"
 
 namespace loopbench::rgbd {
 namespace {
@@ -107,8 +108,7 @@ PlaneEquation plane_equation(const Surface& surface,
 
 SurfaceAlignment align_surface(const Surface& surface,
                                const std::vector<PlacedSurface>& model,
-                               const PriorPose& prior,
-                               const PoseOptions& options) {
+                               const PriorPose& prior) {
   SurfaceAlignment out;
   out.world_from_camera = prior.world_from_camera;
   for (int step = 0; step < kAlignSteps; ++step) {
@@ -116,8 +116,7 @@ SurfaceAlignment align_surface(const Surface& surface,
     const PlaneEquation planes = plane_equation(surface, model, out.world_from_camera, gate);
     out.share = planes.found / std::max(1.0, planes.points);
     out.residual_rms = std::sqrt(planes.squares / std::max(1.0, planes.found));
-    const double weight =
-        options.information_scale / std::max(1.0, out.residual_rms * out.residual_rms);
+    const double weight = kInformationScale / std::max(1.0, out.residual_rms * out.residual_rms);
     const Twist from_prior = log_se3(prior.world_from_camera.inverse() * out.world_from_camera);
     out.information = weight * planes.H + prior.information;
     const Twist gradient = weight * planes.g + prior.information * from_prior;

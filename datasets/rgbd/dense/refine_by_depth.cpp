@@ -3,13 +3,15 @@
 #include <algorithm>
 
 #include "datasets/core/interpolate.hpp"
-#include "datasets/rgbd/dense/align_surface.hpp"
+#include "datasets/rgbd/dense/surface.hpp"
 #include "datasets/rgbd/ordered_pipeline.hpp"
 
 namespace loopbench::rgbd {
 namespace {
 
 constexpr int kSurfaceWidth = 160;        // [px]
+constexpr std::size_t kWindow = 5;        // previous keyframes that a new one is aligned with
+constexpr double kMinOverlap = 0.2;       // share of a surface that the others show, too [-]
 constexpr double kMaxTranslation = 0.15;  // correction of an edge [m]
 constexpr double kMaxRotation = 0.15;     // correction of an edge [rad]
 constexpr double kGuessedVariance = 0.1;  // largest variance of a measured edge [m^2], [rad^2]
@@ -20,9 +22,9 @@ bool is_guess(const Edge& edge) {
   return edge.information.diagonal().minCoeff() < 1.0 / kGuessedVariance;
 }
 
-bool is_accepted(const SurfaceAlignment& found, const Pose& prior, const RefineOptions& options) {
+bool is_accepted(const SurfaceAlignment& found, const Pose& prior) {
   const Pose moved = prior.inverse() * found.world_from_camera;
-  return is_finite(found.world_from_camera) && found.share >= options.overlap_min &&
+  return is_finite(found.world_from_camera) && found.share >= kMinOverlap &&
          moved.translation.norm() < kMaxTranslation &&
          log_so3(moved.rotation).norm() < kMaxRotation;
 }
@@ -51,32 +53,29 @@ std::vector<DownsampledDepth> keyframe_depths(const RgbdSource& source,
 /// Aligns every keyframe with the previous ones. Returns the keyframe poses in the frame of the
 /// first keyframe and writes the refined edges to `out`.
 std::vector<Pose> refine_odometry(const std::vector<DownsampledDepth>& depths,
-                                  const PoseOptions& pose,
-                                  const RefineOptions& options,
                                   const std::function<void(std::size_t)>& progress,
                                   RefinedEdges& out) {
   std::vector<Pose> world_from_keyframe{Pose{Rotation::Identity(), Vector3::Zero()}};
-  const auto window = static_cast<std::size_t>(options.window);
   std::vector<Surface> surfaces;  // of the last keyframes, oldest first
-  surfaces.push_back(surface_of(depths.front(), pose.inverse_depth_sigma));
+  surfaces.push_back(surface_of(depths.front()));
   for (std::size_t k = 1; k < depths.size(); ++k) {
     progress(k);
     Edge& edge = out.odometry[k - 1];
     const Pose& last = world_from_keyframe.back();
     const PriorPose prior{normalized(last * edge.from_from_to), edge.information};
-    Surface surface = surface_of(depths[k], pose.inverse_depth_sigma);
+    Surface surface = surface_of(depths[k]);
     std::vector<PlacedSurface> model;
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
       model.push_back({&surfaces[i], world_from_keyframe[k - surfaces.size() + i]});
     }
-    const SurfaceAlignment found = align_surface(surface, model, prior, pose);
+    const SurfaceAlignment found = align_surface(surface, model, prior);
     Pose here = prior.world_from_camera;
-    if (!is_guess(edge) && is_accepted(found, here, options)) {
+    if (!is_guess(edge) && is_accepted(found, here)) {
       here = found.world_from_camera;
       edge.from_from_to = normalized(last.inverse() * here);
       edge.information = found.information;
       ++out.odometry_refined;
-      if (surfaces.size() == window) surfaces.erase(surfaces.begin());
+      if (surfaces.size() == kWindow) surfaces.erase(surfaces.begin());
     } else {
       surfaces.clear();
     }
@@ -93,24 +92,20 @@ struct RefinedClosure {
 
 RefinedClosure refine_closure(const Edge& closure,
                               const std::vector<DownsampledDepth>& depths,
-                              const std::vector<Pose>& world_from_keyframe,
-                              const PoseOptions& pose,
-                              const RefineOptions& options) {
+                              const std::vector<Pose>& world_from_keyframe) {
   RefinedClosure out{closure};
   const std::size_t first = closure.from - std::min(closure.from, kClosureReach);
   const std::size_t last = std::min(closure.from + kClosureReach, closure.to - 1);
   std::vector<Surface> surfaces;
-  for (std::size_t k = first; k <= last; ++k)
-    surfaces.push_back(surface_of(depths[k], pose.inverse_depth_sigma));
+  for (std::size_t k = first; k <= last; ++k) surfaces.push_back(surface_of(depths[k]));
   std::vector<PlacedSurface> model;
   const Pose from_from_world = world_from_keyframe[closure.from].inverse();
   for (std::size_t k = first; k <= last; ++k) {
     model.push_back({&surfaces[k - first], from_from_world * world_from_keyframe[k]});
   }
   const PriorPose prior{closure.from_from_to, closure.information};
-  const SurfaceAlignment found =
-      align_surface(surface_of(depths[closure.to], pose.inverse_depth_sigma), model, prior, pose);
-  out.refined = is_accepted(found, closure.from_from_to, options);
+  const SurfaceAlignment found = align_surface(surface_of(depths[closure.to]), model, prior);
+  out.refined = is_accepted(found, closure.from_from_to);
   if (out.refined) {
     out.edge.from_from_to = found.world_from_camera;
     out.edge.information = found.information;
@@ -123,18 +118,14 @@ RefinedClosure refine_closure(const Edge& closure,
 RefinedEdges refine_by_depth(const RgbdSource& source,
                              const TrackingResult& tracked,
                              const std::vector<Edge>& closures,
-                             const PoseOptions& pose,
                              double depth_max,
-                             const RefineOptions& options,
                              const std::function<void(std::size_t, std::size_t)>& progress) {
   RefinedEdges out{tracked.odometry};
   const std::size_t steps = tracked.keyframes.size() + closures.size();
   const auto depths = keyframe_depths(source, tracked.keyframes, depth_max);
   const std::vector<Pose> poses = refine_odometry(
-      depths, pose, options, [&](std::size_t k) { progress(k + 1, steps); }, out);
-  const auto refine = [&](std::size_t i) {
-    return refine_closure(closures[i], depths, poses, pose, options);
-  };
+      depths, [&](std::size_t k) { progress(k + 1, steps); }, out);
+  const auto refine = [&](std::size_t i) { return refine_closure(closures[i], depths, poses); };
   ordered_pipeline<RefinedClosure>(closures.size(),
                                    hardware_threads(),
                                    4 * hardware_threads(),

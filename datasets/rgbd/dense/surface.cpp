@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "datasets/core/upper_median.hpp"
+#include "datasets/rgbd/tracking/camera_pose.hpp"
 
 namespace loopbench::rgbd {
 namespace {
@@ -126,13 +127,13 @@ DownsampledDepth downsample_depth(const DepthImage& depth,
   return out;
 }
 
-Surface surface_of(const DownsampledDepth& image, double inverse_depth_sigma) {
+Surface surface_of(const DownsampledDepth& image) {
   const DepthImage& depth = image.depth;
   Surface out;
   out.camera = image.camera;
   out.camera.width = depth.width;  // empty without an image
   out.camera.height = depth.height;
-  out.inverse_depth_sigma = inverse_depth_sigma / image.block;
+  out.inverse_depth_sigma = kInverseDepthSigma / image.block;
   out.points.assign(depth.pixels.size(), Eigen::Vector3f::Zero());
   out.normals.assign(depth.pixels.size(), Eigen::Vector3f::Zero());
   const auto index = [&](int x, int y) { return static_cast<std::size_t>(y * depth.width + x); };

@@ -17,6 +17,7 @@ struct Verified {
 
 constexpr std::size_t kNeighbours = 1;   // keyframes on each side whose points are used
 constexpr std::size_t kMinMatches = 12;  // for RANSAC
+constexpr double kMinShare = 0.4;        // of inliers among guided matches of an accepted closure
 constexpr double kRadius = 0.02;         // of the guided search relative to the image width
 
 /// Appends the points of a keyframe, transformed by `world_from_camera`, and their descriptors.
@@ -44,8 +45,7 @@ void collect(const Keyframe& keyframe,
 Verified verify(const std::vector<Keyframe>& keyframes,
                 std::size_t from,
                 std::size_t to,
-                const Camera& camera,
-                const TrackOptions& options) {
+                const Camera& camera) {
   Verified out;
   out.edge.from = from;
   out.edge.to = to;
@@ -58,7 +58,7 @@ Verified verify(const std::vector<Keyframe>& keyframes,
   const std::vector<Observation> first = observations(points, query, wide);
   const std::optional<Pose> found = pose_by_ransac(first, camera);
   if (!found) return out;
-  const RefinedPose rough = refine_pose(first, camera, *found, options.pose);
+  const RefinedPose rough = refine_pose(first, camera, *found);
   if (rough.inliers < kMinMatches / 2) return out;
 
   const Pose from_from_world = keyframes[from].world_from_camera.inverse();
@@ -74,7 +74,7 @@ Verified verify(const std::vector<Keyframe>& keyframes,
   const std::vector<Match> near = match_guided(
       points, descriptors, query, camera, rough.world_from_camera, kRadius * camera.width);
   const RefinedPose pose =
-      refine_pose(observations(points, query, near), camera, rough.world_from_camera, options.pose);
+      refine_pose(observations(points, query, near), camera, rough.world_from_camera);
   if (pose.inliers < 6) return out;
   out.edge.from_from_to = pose.world_from_camera;
   out.edge.information = pose.information;
@@ -92,7 +92,6 @@ struct Best {
 
 DetectedLoops detect_loops(const TrackingResult& tracked,
                            const Camera& camera,
-                           const TrackOptions& track,
                            const LoopOptions& options,
                            const std::function<void(std::size_t, std::size_t)>& progress) {
   DetectedLoops out;
@@ -102,7 +101,7 @@ DetectedLoops detect_loops(const TrackingResult& tracked,
   const auto best_of = [&](std::size_t k) {
     Best best;
     for (const RetrievedKeyframe& candidate : candidates[k]) {
-      Verified verified = verify(keyframes, candidate.keyframe, k, camera, track);
+      Verified verified = verify(keyframes, candidate.keyframe, k, camera);
       const double score =
           static_cast<double>(verified.inliers) + std::min(1.0, candidate.similarity);
       if (score > best.score) best = {std::move(verified), score};
@@ -119,7 +118,7 @@ DetectedLoops detect_loops(const TrackingResult& tracked,
                            const Verified& loop = best.verified;
                            const bool accepted =
                                loop.inliers >= static_cast<std::size_t>(options.inliers_min) &&
-                               loop.share >= options.share_min;
+                               loop.share >= kMinShare;
                            out.candidates.push_back({loop.edge.from, k, best.score, accepted});
                            if (accepted) out.closures.push_back(loop.edge);
                          });

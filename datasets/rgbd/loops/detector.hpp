@@ -14,7 +14,6 @@ struct LoopOptions {
   bool enabled = true;
   double min_gap = 5.0;  ///< [s]
   std::int64_t inliers_min = 40;
-  double share_min = 0.4;
 };
 
 template <class Visit>
@@ -28,10 +27,6 @@ void fields(LoopOptions& o, Visit visit) {
         o.inliers_min,
         "minimum number of inliers of an accepted closure",
         Between{6});
-  visit("loops.share_min",
-        o.share_min,
-        "minimum share of inliers among guided matches of an accepted closure [-]",
-        Between{0, 1});
 }
 
 struct DetectedLoops {
@@ -45,11 +40,10 @@ struct DetectedLoops {
 /// Candidates are verified by feature matching, RANSAC against the points of the older keyframe,
 /// and refinement with the points of its neighbours. The score of a candidate is its number of
 /// inliers plus its similarity (0..1); it is accepted with at least inliers_min inliers and
-/// share_min of the guided matches. Bit-identical for any number of threads. O(keyframes^2)
+/// 40 % of the guided matches. Bit-identical for any number of threads. O(keyframes^2)
 /// comparisons of about 1 us; feature matching dominates up to ten thousand keyframes.
 DetectedLoops detect_loops(const TrackingResult& tracked,
                            const Camera& camera,
-                           const TrackOptions& track,
                            const LoopOptions& options,
                            const std::function<void(std::size_t, std::size_t)>& progress);
 

@@ -13,6 +13,7 @@ namespace {
 
 // Increment with any change of the rendered images, to invalidate caches.
 constexpr std::uint64_t kRenderVersion = 1;
+constexpr double kExposureTime = 0.012;   // of motion blur [s]
 const Vector3 kHalfRoom(2.7, 2.4, 1.35);  // [m]; the path is within +-1.3 x +-1.1 x +-0.3 m
 
 /// Rotation from camera axes (x right, y down, z forward) to body axes (x forward, y left, z up).
@@ -59,8 +60,8 @@ class RenderedRoom final : public RgbdSource {
   std::optional<RgbdFrame> read(std::size_t index, std::string&) const override {
     const double time = stamp(index);
     const Pose now = pose(time);
-    const Pose begin = pose(std::max(0.0, time - 0.5 * options_.blur));
-    const Pose end = pose(time + 0.5 * options_.blur);
+    const Pose begin = pose(std::max(0.0, time - 0.5 * kExposureTime));
+    const Pose end = pose(time + 0.5 * kExposureTime);
     const RenderedImage ideal = render(scene_, camera_, now);
     return apply_sensor_model(ideal, camera_, begin.inverse() * end, time, index, options_);
   }

@@ -15,9 +15,6 @@ struct RenderOptions {
   std::int64_t width = 320;
   double rate = 8.0;
   double laps = 1.06;
-  double blur = 0.012;       ///< exposure time [s]
-  double noise = 3.0;        ///< [grey levels]
-  double exposure = 0.25;    ///< amplitude of slow brightness changes [-]
   double depth_noise = 1.0;  ///< relative to a Kinect [-]
   double dropouts = 1.0;     ///< relative to a Kinect [-]
 };
@@ -28,10 +25,6 @@ void fields(RenderOptions& o, Visit visit) {
   visit("width", o.width, "image width [px]; the height is 3/4 of it", Between{64, 1920});
   visit("rate", o.rate, "frame rate of the camera [Hz]", Between{0.1, 120});
   visit("laps", o.laps, "number of laps around the room", Between{0.001, 100});
-  visit("blur", o.blur, "exposure time of motion blur [s]", Between{0, 0.1});
-  visit("noise", o.noise, "standard deviation of image noise [grey levels]", Between{0, 50});
-  visit(
-      "exposure", o.exposure, "relative amplitude of slow brightness changes [-]", Between{0, 0.8});
   visit("depth_noise",
         o.depth_noise,
         "depth noise relative to a Kinect (1.4 mm/m^2) [-]",

@@ -9,6 +9,8 @@ namespace loopbench::rgbd {
 namespace {
 
 constexpr int kTaps = 5;               // samples along the motion blur
+constexpr double kGreyNoise = 3.0;     // standard deviation [grey levels]
+constexpr double kBrightness = 0.25;   // relative amplitude of slow changes [-]
 constexpr float kMinDepth = 0.5f;      // [m]
 constexpr float kMaxDepth = 4.5f;      // [m]
 constexpr float kNoise = 1.425e-3f;    // [m at 1 m]
@@ -57,8 +59,8 @@ RgbdFrame apply_sensor_model(const RenderedImage& ideal,
   const int h = camera.height;
   RgbdFrame out{GreyImage(w, h), DepthImage(w, h)};
   const std::uint64_t seed = mixed(static_cast<std::uint64_t>(o.seed), 0x5e4505 + frame);
-  const double gain = 1.0 + o.exposure * std::sin(0.9 * stamp) +
-                      0.1 * o.exposure * static_cast<double>(approximate_normal(mixed(seed, 1u)));
+  const double gain = 1.0 + kBrightness * std::sin(0.9 * stamp) +
+                      0.1 * kBrightness * static_cast<double>(approximate_normal(mixed(seed, 1u)));
   const Pose end_from_begin = begin_from_end.inverse();
   const double diagonal = 0.25 * (w * w + h * h);
   for (int y = 0; y < h; ++y) {
@@ -73,7 +75,7 @@ RgbdFrame apply_sensor_model(const RenderedImage& ideal,
       const double dy = y - camera.cy;
       const double corner = 1.0 - 0.25 * (dx * dx + dy * dy) / diagonal;
       const double grey =
-          light * gain * corner + o.noise * static_cast<double>(approximate_normal(draw));
+          light * gain * corner + kGreyNoise * static_cast<double>(approximate_normal(draw));
       out.grey.at(x, y) = static_cast<std::uint8_t>(std::clamp(grey + 0.5, 0.0, 255.0));
 
       const std::uint64_t chance = mixed(seed, 17 + 2 * pixel);

@@ -1,10 +1,10 @@
-#include "datasets/rgbd/render/texture.hpp"
-
+// Random textures with corners at all scales, and their mipmaps.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "datasets/hash.hpp"
+#include "datasets/rgbd/render/scene.hpp"
 
 namespace loopbench::rgbd {
 namespace {

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "datasets/core/fields.hpp"
 #include "datasets/core/se3.hpp"
 #include "datasets/rgbd/camera.hpp"
 #include "datasets/rgbd/features/matching.hpp"
@@ -16,36 +15,34 @@ struct Observation {
   double u = 0.0;              ///< [px]
   double v = 0.0;              ///< [px]
   double inverse_depth = 0.0;  ///< [1/m]; 0: not measured
-  double sigma = 1.0;          ///< standard deviation of u and v relative to pixel_sigma [-]
+  double sigma = 1.0;          ///< standard deviation of u and v relative to kPixelSigma [-]
 };
 
-struct PoseOptions {
-  double pixel_sigma = 1.0;
-  double inverse_depth_sigma = 0.003;
-  double information_scale = 0.1;
-};
-
-template <class Visit>
-void fields(PoseOptions& o, Visit visit) {
-  visit("pose.pixel_sigma",
-        o.pixel_sigma,
-        "standard deviation of a feature position [px]",
-        GreaterThan{0});
-  visit("pose.inverse_depth_sigma",
-        o.inverse_depth_sigma,
-        "standard deviation of the inverse depth [1/m]",
-        GreaterThan{0});
-  visit("pose.information_scale",
-        o.information_scale,
-        "factor on the information of a pose, below 1 because residuals are correlated [-]",
-        GreaterThan{0});
-}
+inline constexpr double kPixelSigma = 1.0;           ///< standard deviation of a feature [px]
+inline constexpr double kInverseDepthSigma = 0.003;  ///< standard deviation [1/m]
+/// Factor on the information of a pose, below 1 because residuals are correlated [-].
+inline constexpr double kInformationScale = 0.1;
 
 /// Estimates world_from_camera by P3P (Ke and Roumeliotis 2017) with RANSAC, using
 /// cv::solvePnPRansac with a fixed random seed, so that results are bit-identical. Returns nothing
 /// if no pose is found or if there are fewer than four observations.
 std::optional<Pose> pose_by_ransac(const std::vector<Observation>& observations,
                                    const Camera& camera);
+
+/// Whitened difference of pixel and inverse depth (0 if that was not measured), and its Jacobian
+/// with respect to the twist e in world_from_camera * exp(e).
+struct Residual {
+  Vector3 value = Vector3::Zero();
+  Eigen::Matrix<double, 3, 6> jacobian = Eigen::Matrix<double, 3, 6>::Zero();
+  bool in_front = false;
+
+  double square() const { return value.squaredNorm(); }
+};
+
+/// Residual of one observation; zero for a point that is not in front of the camera.
+Residual residual(const Observation& observation,
+                  const Camera& camera,
+                  const Pose& camera_from_world);
 
 struct RefinedPose {
   Pose world_from_camera;
@@ -57,13 +54,12 @@ struct RefinedPose {
 
 /// Refines a pose by Gauss-Newton on pixel and inverse-depth residuals with Huber weights. After
 /// each of four rounds, observations above the 95 % quantile of chi^2 become outliers; they may
-/// become inliers again. The information is that of the inliers, multiplied by information_scale
+/// become inliers again. The information is that of the inliers, multiplied by kInformationScale
 /// and divided by residual_rms^2 if that is above 1. It is zero if fewer than six inliers remain.
 /// O(observations).
 RefinedPose refine_pose(const std::vector<Observation>& observations,
                         const Camera& camera,
-                        const Pose& begin,
-                        const PoseOptions& options);
+                        const Pose& begin);
 
 /// Converts matches to observations of map points in an image, in the same order. O(matches).
 std::vector<Observation> observations(const std::vector<MapPoint>& points,

@@ -72,8 +72,7 @@ struct FactorEquation {
 /// Normal equation of one pair with its pose eliminated (Schur complement).
 FactorEquation factor_equation(const std::vector<Observation>& observations,
                                const RefinedPose& pose,
-                               const Camera& camera,
-                               const PoseOptions& options) {
+                               const Camera& camera) {
   using Matrix7 = Eigen::Matrix<double, 7, 7>;
   using Vector7 = Eigen::Matrix<double, 7, 1>;
   Matrix7 H = Matrix7::Zero();
@@ -83,27 +82,18 @@ FactorEquation factor_equation(const std::vector<Observation>& observations,
   for (std::size_t i = 0; i < observations.size(); ++i) {
     if (!pose.inlier[i]) continue;
     const Observation& o = observations[i];
-    const Vector3 p = second_from_first * o.in_world;
-    const double iz = 1.0 / p.z();
-    const double pixel = 1.0 / (options.pixel_sigma * o.sigma);
-    const double inverse_depth = o.inverse_depth > 0.0 ? 1.0 / options.inverse_depth_sigma : 0.0;
-    Matrix3 by_point = Matrix3::Zero();
-    by_point.row(0) << camera.fx * iz, 0.0, -camera.fx * p.x() * iz * iz;
-    by_point.row(1) << 0.0, camera.fy * iz, -camera.fy * p.y() * iz * iz;
-    by_point.topRows<2>() *= pixel;
-    by_point(2, 2) = -inverse_depth * iz * iz;
-    const Eigen::Vector2d at = camera.project(p);
-    const Vector3 value(
-        pixel * (at.x() - o.u), pixel * (at.y() - o.v), inverse_depth * (iz - o.inverse_depth));
+    const Residual r = residual(o, camera, second_from_first);
+    const Matrix3 by_point = -r.jacobian.leftCols<3>();
+    const double pixel = 1.0 / (kPixelSigma * o.sigma);
+    const Eigen::Vector2d at = camera.project(second_from_first * o.in_world);
     // A longer focal length moves the point towards the optical axis and scales its projection.
     const Vector3 by_depth_point = R * Vector3(-o.in_world.x(), -o.in_world.y(), 0.0);
     const Vector3 by_projection(pixel * (at.x() - camera.cx), pixel * (at.y() - camera.cy), 0.0);
     Eigen::Matrix<double, 3, 7> J;
-    J.leftCols<3>() = -by_point;
-    J.middleCols<3>(3) = by_point * hat(p);
+    J.leftCols<6>() = r.jacobian;
     J.col(6) = by_point * by_depth_point + by_projection;
     H += J.transpose() * J;
-    g += J.transpose() * value;
+    g += J.transpose() * r.value;
   }
   const Eigen::LDLT<Matrix6> pose_block(H.topLeftCorner<6, 6>());
   const Twist coupling = pose_block.solve(H.topRightCorner<6, 1>());
@@ -112,9 +102,7 @@ FactorEquation factor_equation(const std::vector<Observation>& observations,
 
 }  // namespace
 
-FocalCheck check_focal(const std::vector<Keyframe>& keyframes,
-                       const Camera& camera,
-                       const TrackOptions& options) {
+FocalCheck check_focal(const std::vector<Keyframe>& keyframes, const Camera& camera) {
   std::vector<KeyframePair> pairs;
   for (std::size_t k = 1; k < keyframes.size(); ++k) {
     KeyframePair pair = match_pair(keyframes[k - 1], keyframes[k], camera);
@@ -130,13 +118,12 @@ FocalCheck check_focal(const std::vector<Keyframe>& keyframes,
     FactorEquation sum;
     for (KeyframePair& pair : pairs) {
       const std::vector<Observation> observations = observations_of(pair, scaled);
-      const RefinedPose pose =
-          refine_pose(observations, scaled, pair.first_from_second, options.pose);
+      const RefinedPose pose = refine_pose(observations, scaled, pair.first_from_second);
       if (pose.inliers < kMinPairMatches / 2) continue;
       pair.first_from_second = pose.world_from_camera;
-      const FactorEquation equation = factor_equation(observations, pose, scaled, options.pose);
+      const FactorEquation equation = factor_equation(observations, pose, scaled);
       const double weight =
-          options.pose.information_scale / std::max(1.0, pose.residual_rms * pose.residual_rms);
+          kInformationScale / std::max(1.0, pose.residual_rms * pose.residual_rms);
       sum.curvature += weight * equation.curvature;
       sum.gradient += weight * equation.gradient;
     }

@@ -19,9 +19,7 @@ struct FocalCheck {
 /// between consecutive keyframes, which is inconsistent for a wrong focal length. Gauss-Newton over
 /// the factor and one (eliminated) pose per pair. The reference is not used. If depth images were
 /// registered with wrong intrinsics, the estimated factor is biased. O(keyframes * features).
-FocalCheck check_focal(const std::vector<Keyframe>& keyframes,
-                       const Camera& camera,
-                       const TrackOptions& options);
+FocalCheck check_focal(const std::vector<Keyframe>& keyframes, const Camera& camera);
 
 /// Returns a warning if the factor differs from 1 by more than 5 % and five standard deviations.
 std::optional<std::string> focal_warning(const FocalCheck& check, const Camera& camera);

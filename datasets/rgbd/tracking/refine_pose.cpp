@@ -11,31 +11,24 @@ constexpr int kSteps = 6;                   // per round
 constexpr double kMinPointDepth = 0.05;     // [m]
 constexpr double kChi2[] = {5.991, 7.815};  // 95 % quantiles for 2 and 3 degrees of freedom
 
-struct Residual {
-  Vector3 value = Vector3::Zero();
-  Eigen::Matrix<double, 3, 6> jacobian = Eigen::Matrix<double, 3, 6>::Zero();
-  bool in_front = false;
+double bound(const Observation& o) { return kChi2[o.inverse_depth > 0.0 ? 1 : 0]; }
 
-  double square() const { return value.squaredNorm(); }
-};
+}  // namespace
 
-Residual residual(const Observation& o,
-                  const Camera& camera,
-                  const Pose& camera_from_world,
-                  const PoseOptions& options) {
+Residual residual(const Observation& o, const Camera& camera, const Pose& camera_from_world) {
   Residual out;
   const Vector3 p = camera_from_world * o.in_world;
   if (p.z() < kMinPointDepth) return out;
   out.in_front = true;
   const double iz = 1.0 / p.z();
-  const double pixel = 1.0 / (options.pixel_sigma * o.sigma);
+  const double pixel = 1.0 / (kPixelSigma * o.sigma);
   Matrix3 by_point = Matrix3::Zero();
   by_point.row(0) << camera.fx * iz, 0.0, -camera.fx * p.x() * iz * iz;
   by_point.row(1) << 0.0, camera.fy * iz, -camera.fy * p.y() * iz * iz;
   by_point.topRows<2>() *= pixel;
   out.value.head<2>() = pixel * (camera.project(p) - Eigen::Vector2d(o.u, o.v));
   if (o.inverse_depth > 0.0) {
-    const double weight = 1.0 / options.inverse_depth_sigma;
+    const double weight = 1.0 / kInverseDepthSigma;
     out.value.z() = weight * (iz - o.inverse_depth);
     by_point(2, 2) = -weight * iz * iz;
   }
@@ -45,14 +38,9 @@ Residual residual(const Observation& o,
   return out;
 }
 
-double bound(const Observation& o) { return kChi2[o.inverse_depth > 0.0 ? 1 : 0]; }
-
-}  // namespace
-
 RefinedPose refine_pose(const std::vector<Observation>& observations,
                         const Camera& camera,
-                        const Pose& begin,
-                        const PoseOptions& options) {
+                        const Pose& begin) {
   RefinedPose out{begin, std::vector<bool>(observations.size(), true)};
   for (int round = 0; round < kRefineRounds; ++round) {
     for (int step = 0; step < kSteps; ++step) {
@@ -61,7 +49,7 @@ RefinedPose refine_pose(const std::vector<Observation>& observations,
       Twist g = Twist::Zero();
       for (std::size_t i = 0; i < observations.size(); ++i) {
         if (!out.inlier[i]) continue;
-        const Residual r = residual(observations[i], camera, camera_from_world, options);
+        const Residual r = residual(observations[i], camera, camera_from_world);
         if (!r.in_front) continue;
         const double huber = std::min(1.0, std::sqrt(bound(observations[i]) / r.square()));
         const double weight = std::isfinite(huber) ? huber : 1.0;
@@ -80,7 +68,7 @@ RefinedPose refine_pose(const std::vector<Observation>& observations,
     double sum = 0.0;
     double dimension = 0.0;
     for (std::size_t i = 0; i < observations.size(); ++i) {
-      const Residual r = residual(observations[i], camera, camera_from_world, options);
+      const Residual r = residual(observations[i], camera, camera_from_world);
       out.inlier[i] = r.in_front && r.square() < bound(observations[i]);
       if (!out.inlier[i]) continue;
       ++out.inliers;
@@ -94,7 +82,7 @@ RefinedPose refine_pose(const std::vector<Observation>& observations,
     }
     out.residual_rms = std::sqrt(sum / std::max(1.0, dimension - 6.0));
   }
-  out.information *= options.information_scale / std::max(1.0, out.residual_rms * out.residual_rms);
+  out.information *= kInformationScale / std::max(1.0, out.residual_rms * out.residual_rms);
   out.information = (0.5 * (out.information + out.information.transpose())).eval();
   return out;
 }

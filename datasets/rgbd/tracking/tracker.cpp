@@ -46,16 +46,14 @@ std::optional<Tracker::Located> Tracker::estimate_pose(const Features& features,
   const std::vector<Observation> first = observations(map_.points(), features, matches);
   const std::optional<Pose> found = pose_by_ransac(first, camera_);
   if (!found) return std::nullopt;
-  const RefinedPose initial = refine_pose(first, camera_, *found, options_.pose);
+  const RefinedPose initial = refine_pose(first, camera_, *found);
   if (initial.inliers < min_inliers / 2) return std::nullopt;
 
   const double radius = kNarrower * kMatchRadius * camera_.width;
   std::vector<Match> guided = match_guided(
       map_.points(), map_.descriptors(), features, camera_, initial.world_from_camera, radius);
-  const RefinedPose pose = refine_pose(observations(map_.points(), features, guided),
-                                       camera_,
-                                       initial.world_from_camera,
-                                       options_.pose);
+  const RefinedPose pose = refine_pose(
+      observations(map_.points(), features, guided), camera_, initial.world_from_camera);
   if (pose.inliers < min_inliers) return std::nullopt;
   Located out;
   out.world_from_camera = pose.world_from_camera;
@@ -193,11 +191,11 @@ void Tracker::add(std::size_t frame, double stamp, Features features) {
   }
   if (recent_.size() == 2) recent_.erase(recent_.begin());
   recent_.push_back({stamp, located->world_from_camera});
-  const double due = novelty_due(options_.keyframes, out_.keyframes.size(), frame, count_);
+  const double due = novelty_due(options_.keyframes_target, out_.keyframes.size(), frame, count_);
   // Independent of the target: with fewer matches tracking may be lost in the next frame.
   const bool few_matches =
       located->matches.size() < 2 * static_cast<std::size_t>(options_.inliers_min);
-  if (few_matches || novelty(view(*located), options_.keyframes) >= due) {
+  if (few_matches || novelty(view(*located)) >= due) {
     make_keyframe(std::move(*located));
   } else {
     out_.frames.push_back({stamp, located->world_from_camera});

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "datasets/core/fields.hpp"
 #include "datasets/core/problem.hpp"
 #include "datasets/rgbd/features/features.hpp"
 #include "datasets/rgbd/features/matching.hpp"
@@ -19,8 +20,7 @@ struct TrackOptions {
   std::int64_t window = 10;
   std::int64_t inliers_min = 25;
   double restart_after = 1.0;  ///< [s]
-  PoseOptions pose;
-  KeyframeOptions keyframes;
+  std::int64_t keyframes_target = 0;
 };
 
 template <class Visit>
@@ -34,8 +34,10 @@ void fields(TrackOptions& o, Visit visit) {
         o.restart_after,
         "duration of a tracking loss after which a new map is started [s]",
         Between{0});
-  fields(o.pose, visit);
-  fields(o.keyframes, visit);
+  visit("keyframes.target",
+        o.keyframes_target,
+        "approximate number of keyframes; 0: determined by motion and visible features",
+        Between{0});
 }
 
 struct Keyframe {
