@@ -5,7 +5,7 @@
 #include "datasets/rgbd/camera.hpp"
 #include "datasets/rgbd/folder/layouts.hpp"
 #include "datasets/rgbd/folder/read_image.hpp"
-#include "datasets/rgbd/pack_stages.hpp"
+#include "datasets/rgbd/stage_cache.hpp"
 #include "tests/fuzz/scratch_file.hpp"
 #include "tests/fuzz/targets.hpp"
 
