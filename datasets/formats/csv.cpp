@@ -64,9 +64,7 @@ ReadStamp stamp_of_row(const TextFile& file,
   const double number = csv_number(file, line, text, kPoseColumns[0]);
   int exponent = columns.time_exponent.value_or(0);
   if (exponent == 0 && is_in_nanoseconds(number, false)) exponent = -9;
-  const auto exact = exact_nanoseconds(text, exponent);
-  if (exponent == 0) return {number, exact};
-  return {exact ? seconds_of(*exact) : number * std::pow(10.0, exponent), exact};
+  return read_stamp(text, number, exponent);
 }
 
 Trajectory read_csv_part(TextFile& file, const CsvColumns& columns, const ReadOptions& options) {

@@ -22,15 +22,6 @@ bool is_nanoseconds(std::string_view word) {
          std::all_of(word.begin(), word.end(), [](char c) { return '0' <= c && c <= '9'; });
 }
 
-/// Parses a whole number, also with zero decimals as printed by ORB-SLAM3: `50000000.000000`.
-std::optional<std::int64_t> integer_stamp(std::string_view word) {
-  std::int64_t out = 0;
-  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), out);
-  const std::string_view tail(rest, static_cast<std::size_t>(word.data() + word.size() - rest));
-  const bool is_integer = error == std::errc{} && tail.find_first_not_of(".0") == tail.npos;
-  return is_integer ? std::optional(out) : std::nullopt;
-}
-
 }  // namespace
 
 bool has_small_nanoseconds(const TextFile& file) {
@@ -40,7 +31,7 @@ bool has_small_nanoseconds(const TextFile& file) {
   for (int i = 0; i < 2; ++i) {
     Line line;
     if (!reopened.next(line)) return false;
-    const auto stamp = integer_stamp(Columns(reopened, line).word());
+    const auto stamp = exact_nanoseconds(Columns(reopened, line).word(), -9);
     if (!stamp || *stamp < 0) return false;
     if (previous) return *stamp - *previous >= kMinStep;
     previous = stamp;

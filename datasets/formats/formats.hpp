@@ -71,11 +71,4 @@ void write_tum(const std::filesystem::path& file,
                const Trajectory& trajectory,
                const std::vector<std::string>& comments = {});
 
-/// Writes a KITTI file with 12 columns per pose, and the stamps to `times`, one per line, if given.
-/// Rotations are written as matrices, so reading them is exact to rounding (1e-15) only. Throws
-/// InputError like write_tum().
-void write_kitti(const std::filesystem::path& file,
-                 const Trajectory& trajectory,
-                 const std::optional<std::filesystem::path>& times = std::nullopt);
-
 }  // namespace loopbench

@@ -102,17 +102,8 @@ ReadStamp first_stamp(const TextFile& text, const Line& line, Format format, boo
   Columns columns(text, line);
   const std::string_view word = columns.peek();
   const double number = columns.number("stamp");
-  std::optional<std::int64_t> exact = exact_nanoseconds(word);
-  const bool is_whole = format == Format::euroc || seconds_of_stamp(word, number, small) != number;
-  if (is_whole && exact) {
-    exact = *exact % 1'000'000'000 == 0 ? std::optional(*exact / 1'000'000'000) : std::nullopt;
-  }
-  if (is_whole && !exact) {
-    std::int64_t whole = 0;
-    const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), whole);
-    if (error == std::errc{}) exact = whole;
-  }
-  return {is_whole && exact ? seconds_of(*exact) : number, exact};
+  const bool is_in_units = format == Format::euroc || is_in_nanoseconds(number, small);
+  return read_stamp(word, number, is_in_units ? -9 : 0);
 }
 
 /// Exact stamps of the poses in `file`, in order; empty if one is not a number of nanoseconds.

@@ -4,11 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <memory>
 
 #include "datasets/compressed/input_file.hpp"
 #include "datasets/core/error.hpp"
@@ -84,21 +81,11 @@ std::string read_regular_file(const std::filesystem::path& file,
 std::string read_named_file(const std::filesystem::path& file,
                             std::size_t most,
                             const std::string& what) {
-  const auto failure = [&](const std::string& why) {
-    return input_error(file.string(), 0, "cannot be read (" + why + "), expected " + what);
-  };
-  if (is_named_pipe(file)) throw failure("is a named pipe");
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rbe"),
-                                                           &std::fclose);
-  if (!in) throw failure(std::strerror(errno));
-  std::string out;
-  std::array<char, 65536> block;
-  while (const std::size_t count = std::fread(block.data(), 1, block.size(), in.get())) {
-    out.append(block.data(), count);
-    if (out.size() > most) throw failure("more than " + std::to_string(most) + " bytes");
+  if (!std::filesystem::exists(file)) {
+    throw input_error(file.string(), 0, "no such file, expected " + what);
   }
-  if (std::ferror(in.get()) != 0) throw failure(std::strerror(errno));
-  return out;
+  const OpenedFile in = open_input(file, what, most);
+  return read_regular_file(in.path, most, "file");
 }
 
 }  // namespace loopbench

@@ -36,9 +36,8 @@ std::string read_regular_file(const std::filesystem::path& file,
                               std::size_t most,
                               const std::string& what);
 
-/// Returns all bytes of a file that the user names, which can be a pipe of the shell. Throws
-/// InputError `file: cannot be read (reason), expected WHAT`, for a named pipe, too, and for more
-/// than `most` bytes.
+/// Returns all bytes of a file that the user names, as open_input() accepts it. Throws InputError
+/// as that does, where `what` is the expected content, and for more than `most` bytes.
 std::string read_named_file(const std::filesystem::path& file,
                             std::size_t most,
                             const std::string& what);

@@ -1,6 +1,7 @@
 #include "datasets/formats/stamps.hpp"
 
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 
 namespace loopbench {
@@ -19,14 +20,10 @@ double seconds_of(std::int64_t nanoseconds) {
          static_cast<double>(nanoseconds % kPerSecond) / static_cast<double>(kPerSecond);
 }
 
-double seconds_of_stamp(std::string_view word, double number, bool small_nanoseconds) {
-  if (!is_in_nanoseconds(number, small_nanoseconds)) return number;
-  std::int64_t integer = 0;
-  const char* const end = word.data() + word.size();
-  const auto [rest, error] = std::from_chars(word.data(), end, integer);
-  const bool is_integer =
-      error == std::errc{} && std::string_view(rest, end).find_first_not_of(".0") == word.npos;
-  return is_integer ? seconds_of(integer) : 1e-9 * number;
+ReadStamp read_stamp(std::string_view word, double number, int exponent) {
+  const auto exact = exact_nanoseconds(word, exponent);
+  if (exponent == 0) return {number, exact};
+  return {exact ? seconds_of(*exact) : number * std::pow(10.0, exponent), exact};
 }
 
 std::optional<std::int64_t> exact_nanoseconds(std::string_view word, int exponent) {

@@ -14,11 +14,6 @@ inline bool is_in_nanoseconds(double stamp, bool small_nanoseconds) {
   return stamp <= 9e18 && (stamp >= 1e16 || small_nanoseconds);
 }
 
-/// Converts a stamp column to [s], where `number` is its parsed value. Nanoseconds, as written by
-/// ORB-SLAM3, are whole numbers or have zero decimals; they are 1e16 or more, or smaller with
-/// `small_nanoseconds`.
-double seconds_of_stamp(std::string_view word, double number, bool small_nanoseconds);
-
 /// Exact nanoseconds of a decimal number of 10^exponent seconds, also in the form 1.3e+09. Nothing
 /// if it is no whole number of nanoseconds or does not fit into 64 bits.
 std::optional<std::int64_t> exact_nanoseconds(std::string_view number, int exponent = 0);
@@ -27,6 +22,9 @@ struct ReadStamp {
   double seconds = 0.0;
   std::optional<std::int64_t> exact = {};  ///< [ns]
 };
+
+/// The stamp `word`, whose parsed value is `number`, in units of 10^exponent seconds.
+ReadStamp read_stamp(std::string_view word, double number, int exponent);
 
 /// Converts to [s]. Seconds and remainder are converted separately, because nanoseconds since 1970
 /// exceed 53 bits.

@@ -32,7 +32,7 @@ Trajectory read_tum_part(TextFile& file, Repeats repeats, bool small_nanoseconds
     }
     if (!columns.done()) throw wrong_row(file, line);
     if (is_in_nanoseconds(v[0], small_nanoseconds)) {
-      v[0] = seconds_of_stamp(Columns(file, line).peek(), v[0], small_nanoseconds);
+      v[0] = read_stamp(Columns(file, line).peek(), v[0], -9).seconds;
     }
     const Rotation rotation = normalized_rotation(file, line.number, {v[7], v[4], v[5], v[6]});
     order.put(v[0], line.number, {rotation, {v[1], v[2], v[3]}}, out);

@@ -156,10 +156,4 @@ void write_tum(const std::filesystem::path& file,
   tum_text({trajectory}, comments).save(file);
 }
 
-void write_kitti(const std::filesystem::path& file,
-                 const Trajectory& trajectory,
-                 const std::optional<std::filesystem::path>& times) {
-  write_trajectory(file, {trajectory}, Format::kitti, times);
-}
-
 }  // namespace loopbench

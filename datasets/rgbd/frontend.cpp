@@ -11,8 +11,6 @@
 namespace loopbench::rgbd {
 namespace {
 
-constexpr std::size_t kMinGaps = 8;  // minimum number of gaps for a meaningful median
-
 /// Counts unreadable frames and formats notes about them, with the reasons of the first three.
 class SkippedFrames {
  public:
@@ -101,7 +99,8 @@ double refine(TrackingResult& tracked,
                                       edges.odometry.size(),
                                       edges.closures_refined,
                                       edges.closures.size()));
-  const double excess = repeated_measurement_excess(tracked.odometry, edges.odometry, kMinGaps);
+  const double excess =
+      information_excess(repeated_measurement_gaps(tracked.odometry, edges.odometry));
   update_poses(tracked, edges.odometry);
   loops.closures = std::move(edges.closures);
   return excess;
@@ -111,7 +110,7 @@ double refine(TrackingResult& tracked,
 /// with features, more than expected. Information is never increased, because errors common to both
 /// cannot be detected.
 void scale_information(TrackingResult& tracked, DetectedLoops& loops, double depth_excess) {
-  const double loop_excess = information_excess(tracked.odometry, loops.closures, kMinGaps);
+  const double loop_excess = information_excess(normalised_gaps(tracked.odometry, loops.closures));
   const double excess = std::max(loop_excess, depth_excess);
   if (!(excess > 1.0)) return;
   for (Edge& edge : tracked.odometry) edge.information /= excess;

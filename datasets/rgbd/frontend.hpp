@@ -48,8 +48,8 @@ struct FrontendHooks {
 /// Runs the front end on all frames of `source`. Images are read and features detected on all
 /// cores, a few frames ahead of the tracker; only these images are in memory, together with the
 /// features of keyframes (60 kB each) and all poses. With refine.depth, odometry and closures are
-/// refined by refine_by_depth(), and keyframes and frames are updated. If information_excess() or
-/// repeated_measurement_excess() is above 1, all information matrices are divided by the larger
+/// refined by refine_by_depth(), and keyframes and frames are updated. If information_excess() of
+/// loops or of repeated measurements is above 1, all information matrices are divided by the larger
 /// one. Provenance notes report skipped frames, tracking losses, focal lengths that disagree with
 /// the images (check_focal) and the divisor of the information. Throws InputError if more than
 /// skipped_max of the frames cannot be read or if fewer than two keyframes are tracked.

@@ -1,8 +1,45 @@
 #include "datasets/rgbd/rgbd_datasets.hpp"
 
+#include "datasets/rgbd/folder/folder_source.hpp"
 #include "datasets/rgbd/opencv.hpp"
+#include "datasets/rgbd/render/rendered_room.hpp"
 
 namespace loopbench::rgbd {
+namespace {
+
+struct RenderedRoomOptions {
+  RenderOptions render;
+  FrontendOptions frontend;
+};
+
+template <class Visit>
+void fields(RenderedRoomOptions& o, Visit visit) {
+  fields(o.render, visit);
+  fields(o.frontend, visit);
+}
+
+struct RgbdOptions {
+  std::string path;
+  std::string name;
+  std::string licence;
+  FolderOptions folder;
+  FrontendOptions frontend;
+};
+
+template <class Visit>
+void fields(RgbdOptions& o, Visit visit) {
+  visit("path", o.path, "folder of the recording in TUM RGB-D, 7-Scenes or ICL-NUIM layout");
+  visit("name", o.name, "name of the sequence; empty: name of the folder");
+  visit("licence", o.licence, "licence of the data, free text copied to the results");
+  fields(o.folder, visit);
+  fields(o.frontend, visit);
+}
+
+/// Throws OptionError.
+void check_combination(const RgbdOptions& options) {
+  if (options.path.empty())
+    throw OptionError("path", "path: is empty, expected the folder of a recording");
+}
 
 Sequence load_rendered_room(const RenderedRoomOptions& options, const FrontendHooks& hooks) {
   return run_frontend(*rendered_room(options.render), "rendered_room", options.frontend, hooks);
@@ -17,6 +54,8 @@ Sequence load_rgbd(const RgbdOptions& options, const DataRoot& root, const Front
   out.provenance.licence = options.licence;
   return out;
 }
+
+}  // namespace
 
 std::vector<DatasetEntry> rgbd_datasets(const FrontendHooks& hooks) {
   std::vector<DatasetEntry> out{

@@ -6,7 +6,6 @@
 #include <set>
 #include <sstream>
 
-#include "datasets/compressed/compress.hpp"
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/replace_file.hpp"
 #include "harness/base/printable.hpp"
@@ -87,11 +86,9 @@ void export_rows(const std::filesystem::path& store, const std::filesystem::path
     if (pending) return pending->write(bytes);
     std::fwrite(bytes.data(), 1, bytes.size(), stdout);  // main() reports write errors
   };
-  std::optional<ZstdWriter> compressed;
-  if (file.extension() == ".zst") compressed.emplace(write);
   std::string text = kRowsHeader;
   const auto flush = [&] {
-    compressed ? compressed->write(text) : write(text);
+    write(text);
     text.clear();
   };
   constexpr std::size_t kBlock = std::size_t{1} << 20;  // [bytes]
@@ -101,7 +98,6 @@ void export_rows(const std::filesystem::path& store, const std::filesystem::path
     return true;
   });
   flush();
-  if (compressed) compressed->finish();
   if (pending) pending->commit();
   write_provenance_of_csv(read_store_provenance(store), file.string());
 }
@@ -124,10 +120,7 @@ void add_export(CLI::App& app, int& exit_code) {
                    "--save-trajectories`")
       ->check(CLI::IsMember({"rows", "trajectories"}))
       ->capture_default_str();
-  command->add_option(
-      "-o,--out",
-      a->out,
-      "CSV file (default: standard output), compressed if it ends in .zst; or folder");
+  command->add_option("-o,--out", a->out, "CSV file (default: standard output), or folder");
   command->callback([a, &exit_code] {
     if (a->what == "trajectories") {
       exit_code = export_trajectories(a->store, a->out);

@@ -96,7 +96,6 @@ std::string provenance_comment(const StoreProvenance& provenance) {
 
 std::filesystem::path provenance_file(const std::filesystem::path& file) {
   std::filesystem::path out = file;
-  if (out.extension() == ".zst") out.replace_extension();
   return out.replace_extension(".provenance.json");
 }
 

@@ -35,7 +35,7 @@ std::string provenance_lines(const StoreProvenance& provenance, const std::strin
 /// HTML comment, which Markdown hides. `--` becomes `- -`, so that no value can end it.
 std::string provenance_comment(const StoreProvenance& provenance);
 
-/// "table.csv" or "table.csv.zst" -> "table.provenance.json".
+/// "table.csv" -> "table.provenance.json".
 std::filesystem::path provenance_file(const std::filesystem::path& file);
 
 }  // namespace loopbench::harness

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "datasets/formats/formats.hpp"
+#include "datasets/formats/trajectory_file.hpp"
 #include "tests/datasets/scratch.hpp"
 
 namespace loopbench::kitti_test {
@@ -42,7 +42,8 @@ TEST(Kitti, StampsAreAPeriodApartOrFromTheTimesFile) {
 TEST(Kitti, WritingAndReadingKeepsPosesToRounding) {
   const TemporaryFolder scratch;
   const Trajectory poses = random_trajectory(1000);
-  write_kitti(scratch.path() / "poses.txt", poses, scratch.path() / "times.txt");
+  write_trajectory(
+      scratch.path() / "poses.txt", {poses}, Format::kitti, scratch.path() / "times.txt");
   ReadOptions options;
   options.times = scratch.path() / "times.txt";
   const Trajectory back = read_trajectory(scratch.path() / "poses.txt", options);

@@ -244,7 +244,7 @@ TEST_F(VerdictCli, TheGateRefusesOtherInputsAndBadFiles) {
   EXPECT_TRUE(has(refusal("r --baseline broken.json"), "broken.json:3: is not JSON: "));
   folder_->file("large.json", "{\"loopbench_baseline\": 3e99947}\n");
   EXPECT_TRUE(has(refusal("r --baseline large.json"), "large.json: is not a baseline: "));
-  EXPECT_TRUE(has(refusal("r --baseline nowhere.json"), "nowhere.json: cannot be read"));
+  EXPECT_TRUE(has(refusal("r --baseline nowhere.json"), "nowhere.json: no such file"));
   EXPECT_TRUE(has(refusal("nowhere --baseline b.json"), "nowhere: file not found"));
   refusal("r");
 }

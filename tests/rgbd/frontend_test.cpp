@@ -2,7 +2,6 @@
 #include "datasets/rgbd/frontend.hpp"
 
 #include "datasets/rgbd/folder/folder_source.hpp"
-#include "datasets/rgbd/rgbd_datasets.hpp"
 #include "tests/rgbd/recording.hpp"
 #include "tests/support/refusal_of.hpp"
 

@@ -50,7 +50,7 @@ def main():
             "check --update": [loopbench, "check", whole, "--baseline", f"{folder}/b.json", "--update",
                                "--allow-dirty"],
             "report": [loopbench, "report", whole, "-o", f"{folder}/report.html"],
-            "export rows": [loopbench, "export", whole, "-o", f"{folder}/rows.csv.zst"],
+            "export rows": [loopbench, "export", whole, "-o", f"{folder}/rows.csv"],
         }
         for name, words in steps.items():
             results.setdefault(name, []).append(measured(words))

@@ -15,11 +15,6 @@ Matrix6 transformed(const Pose& a_from_b, const Matrix6& covariance) {
   return A * covariance * A.transpose();
 }
 
-double excess_of(std::vector<double> gaps, std::size_t min_count) {
-  if (gaps.empty() || gaps.size() < min_count) return 1.0;
-  return upper_median(gaps) / kMedianOfSix;
-}
-
 }  // namespace
 
 std::vector<double> normalised_gaps(const std::vector<Edge>& odometry,
@@ -47,12 +42,6 @@ std::vector<double> normalised_gaps(const std::vector<Edge>& odometry,
   return out;
 }
 
-double information_excess(const std::vector<Edge>& odometry,
-                          const std::vector<Edge>& closures,
-                          std::size_t min_count) {
-  return excess_of(normalised_gaps(odometry, closures), min_count);
-}
-
 std::vector<double> repeated_measurement_gaps(const std::vector<Edge>& first,
                                               const std::vector<Edge>& again) {
   std::vector<double> out;
@@ -70,10 +59,9 @@ std::vector<double> repeated_measurement_gaps(const std::vector<Edge>& first,
   return out;
 }
 
-double repeated_measurement_excess(const std::vector<Edge>& first,
-                                   const std::vector<Edge>& again,
-                                   std::size_t min_count) {
-  return excess_of(repeated_measurement_gaps(first, again), min_count);
+double information_excess(std::vector<double> gaps) {
+  constexpr std::size_t kMinGaps = 8;  // for a meaningful median
+  return gaps.size() < kMinGaps ? 1.0 : upper_median(gaps) / kMedianOfSix;
 }
 
 }  // namespace loopbench::rgbd

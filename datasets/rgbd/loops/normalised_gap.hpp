@@ -15,13 +15,6 @@ namespace loopbench::rgbd {
 std::vector<double> normalised_gaps(const std::vector<Edge>& odometry,
                                     const std::vector<Edge>& closures);
 
-/// Ratio of the median gap and the median of chi^2 with six degrees of freedom. Information divided
-/// by this factor has the correct scale, even with a few false closures. 1 for fewer than
-/// `min_count` closures.
-double information_excess(const std::vector<Edge>& odometry,
-                          const std::vector<Edge>& closures,
-                          std::size_t min_count);
-
 /// Returns the normalised squared distance (divided by 6) between two measurements of each edge.
 /// `first` holds the first measurements, `again` the fusion of both, with the sum of their
 /// information. The mean is 1 for correct information. Edges without a second measurement are
@@ -29,9 +22,9 @@ double information_excess(const std::vector<Edge>& odometry,
 std::vector<double> repeated_measurement_gaps(const std::vector<Edge>& first,
                                               const std::vector<Edge>& again);
 
-/// The factor of information_excess() for repeated_measurement_gaps().
-double repeated_measurement_excess(const std::vector<Edge>& first,
-                                   const std::vector<Edge>& again,
-                                   std::size_t min_count);
+/// Ratio of the median gap and the median of chi^2 with six degrees of freedom. Information divided
+/// by this factor has the correct scale, even with a few false closures. 1 for fewer than eight
+/// gaps.
+double information_excess(std::vector<double> gaps);
 
 }  // namespace loopbench::rgbd
