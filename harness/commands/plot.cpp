@@ -9,7 +9,7 @@
 #include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/model/where.hpp"
-#include "harness/report/drawn_methods.hpp"
+#include "harness/report/content.hpp"
 #include "harness/report/store_figures.hpp"
 #include "harness/tables/store_provenance.hpp"
 
@@ -48,7 +48,7 @@ std::vector<std::string> known_labels(const std::string& kind,
 int write_figures(const PlotArguments& arguments) {
   const ReportContent content = read_report_content(arguments.store);
   const std::vector<std::string> methods =
-      arguments.methods.empty() ? usual_methods(content)
+      arguments.methods.empty() ? default_methods(content)
                                 : known_labels("method", arguments.methods, content.methods);
   const std::vector<std::string> sequences =
       arguments.sequences.empty()

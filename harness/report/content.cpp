@@ -1,11 +1,11 @@
 #include "harness/report/content.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
-#include "harness/report/compare_in_parts.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/record_reader.hpp"
 
@@ -22,11 +22,9 @@ void read_scores(const std::string& baseline, std::size_t bytes, ReportContent& 
   constexpr std::size_t kLeastBytesOfAScore = 10;
   RecordReader reader(out.store);
   bool has_score = false;
-  ComparedMetrics metrics;
   std::set<SharedText> taken;
   const auto take = [&](const Record& r) {
     has_score = has_score || !r.metric.empty();
-    metrics.add(r);
     const bool has_value = has_numbers(r.status);
     if (!r.metric.empty() && !has_value) out.undefined.push_back(r);
     const bool has_room = out.records.size() < bytes / kLeastBytesOfAScore;
@@ -34,7 +32,10 @@ void read_scores(const std::string& baseline, std::size_t bytes, ReportContent& 
     if (taken.contains(r.sequence)) out.records.push_back(r);
   };
   reader.for_each(take);
-  if (!baseline.empty() && has_score) out.comparisons = compare_in_parts(reader, metrics, baseline);
+  if (baseline.empty() || !has_score) return;
+  CompareOptions options;
+  options.baseline = baseline;
+  out.comparisons = compare([&](const auto& visit) { reader.for_each(visit); }, options);
 }
 
 }  // namespace
@@ -85,6 +86,43 @@ ReportContent read_report_content(const std::filesystem::path& store, std::size_
     if (with_records.contains(cell.sequence)) out.shown_cells.push_back(cell);
   }
   out.show(with_records.size());
+  return out;
+}
+
+std::vector<std::string> default_methods(const ReportContent& content) {
+  constexpr std::size_t kMostMethods = 5;    // more lines are hard to distinguish
+  constexpr std::size_t kFewestMethods = 2;  // even if their curves coincide
+  constexpr double kSame = 0.03;
+  std::vector<std::string> out;
+  const auto add = [&](const std::string& name) {
+    if (out.size() < kMostMethods && std::ranges::count(out, name) == 0) out.push_back(name);
+  };
+  const Comparison* headline = content.headline();
+  if (headline == nullptr) {
+    for (const std::string& name : content.methods) add(name);
+    return out;
+  }
+  add(headline->options.baseline);
+  std::vector<double> drawn;
+  for (const MethodVerdict& m : headline->methods) {
+    const bool coincides = std::ranges::any_of(
+        drawn, [&](double median) { return std::abs(m.median - median) <= kSame * median; });
+    if (coincides) continue;
+    drawn.push_back(m.median);
+    add(m.method);
+  }
+  for (const MethodVerdict& m : headline->methods) {
+    if (out.size() < kFewestMethods) add(m.method);
+  }
+  return out;
+}
+
+std::vector<std::string> style_order(const ReportContent& content) {
+  std::vector<std::string> out = content.methods;
+  const auto baseline = content.run.find("baseline");
+  if (baseline == content.run.end()) return out;
+  const auto found = std::ranges::find(out, baseline->second);
+  if (found != out.end()) std::rotate(out.begin(), found, found + 1);
   return out;
 }
 

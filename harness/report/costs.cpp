@@ -1,11 +1,11 @@
-#include "harness/report/costs.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 #include <map>
 
+#include "harness/report/html.hpp"
+#include "harness/report/sections.hpp"
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {
@@ -95,6 +95,22 @@ class ByName {
   std::map<std::string, std::vector<double>> values_;
 };
 
+/// One row per phase and count that a method reports: medians over its cells.
+TableView reported(const std::vector<CellRecord>& cells) {
+  TableView out{"reported by the methods", {"method", "what", "name", "median"}, {}, {}};
+  for (const auto& [method, all] : by_method(cells)) {
+    ByName phases;
+    ByName counts;
+    for (const CellRecord* cell : timed_of(all)) {
+      for (const methods::Phase& phase : cell->phases) phases.add(phase.name, phase.seconds);
+      for (const methods::Count& count : cell->counts) counts.add(count.name, count.value);
+    }
+    phases.add_rows(out, table_name(method, all), "phase [ms]", milliseconds);
+    counts.add_rows(out, table_name(method, all), "count", plain);
+  }
+  return out;
+}
+
 }  // namespace
 
 TableView costs(const std::vector<CellRecord>& cells) {
@@ -143,19 +159,12 @@ TableView costs(const std::vector<CellRecord>& cells) {
   return out;
 }
 
-TableView reported(const std::vector<CellRecord>& cells) {
-  TableView out{"reported by the methods", {"method", "what", "name", "median"}, {}, {}};
-  for (const auto& [method, all] : by_method(cells)) {
-    ByName phases;
-    ByName counts;
-    for (const CellRecord* cell : timed_of(all)) {
-      for (const methods::Phase& phase : cell->phases) phases.add(phase.name, phase.seconds);
-      for (const methods::Count& count : cell->counts) counts.add(count.name, count.value);
-    }
-    phases.add_rows(out, table_name(method, all), "phase [ms]", milliseconds);
-    counts.add_rows(out, table_name(method, all), "count", plain);
+std::string costs_html(const ReportContent& content) {
+  std::string out;
+  for (const TableView& listing : {costs(content.cells), reported(content.cells)}) {
+    if (!listing.lines.empty()) out += html_table(listing);
   }
-  return out;
+  return out.empty() ? "<p>No run times are recorded.</p>\n" : out;
 }
 
 }  // namespace loopbench::harness

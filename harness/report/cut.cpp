@@ -41,10 +41,10 @@ nlohmann::json sections_json(const std::vector<methods::Section>& sections, doub
     const CutKind& kind = kinds.at(name);
     out.push_back({{"kind", name},
                    {"all", kind.all},
-                   {"b", packed(kind.begin)},
-                   {"e", packed(kind.end)},
+                   {"begin", packed(kind.begin)},
+                   {"end", packed(kind.end)},
                    {"names", kind.names},
-                   {"w", kind.what}});
+                   {"choices", kind.what}});
   }
   return out;
 }

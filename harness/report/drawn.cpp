@@ -10,11 +10,10 @@ namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kMostPointsOfACell = 400;  // per cell: screen resolution
-constexpr std::size_t kGoodPoints = 200;    // sufficient for a curve; prefer more repeats beyond
-constexpr std::size_t kFewestPoints = 60;   // fewer make curves look like polygons
-constexpr std::size_t kLeastPoints = 10;    // minimum for a curve
-constexpr std::size_t kMostClosures = 200;  // per sequence; more hide the trajectory
-constexpr double kBytesOfAPoint = 14.0;     // four 16-bit words in base64, and a share of grids
+constexpr std::size_t kGoodPoints = 100;         // fewer make curves look like polygons
+constexpr std::size_t kLeastPoints = 10;         // minimum for a curve
+constexpr std::size_t kMostClosures = 200;       // per sequence; more hide the trajectory
+constexpr double kBytesOfAPoint = 14.0;  // four 16-bit words in base64, and a share of grids
 
 using Column = std::vector<double>;
 
@@ -91,32 +90,26 @@ std::vector<std::size_t> drawn_cells(const std::vector<CellRecord>& cells, std::
 
 }  // namespace
 
-std::size_t points_of_a_cell(std::size_t cells, std::size_t bytes) {
-  const double share =
-      static_cast<double>(bytes) / static_cast<double>(std::max<std::size_t>(1, cells));
-  return std::clamp(
-      static_cast<std::size_t>(share / kBytesOfAPoint), kFewestPoints, kMostPointsOfACell);
-}
-
 Thinning initial_thinning(const ReportContent& content, std::size_t bytes) {
-  std::size_t repeats = 1;
+  Thinning out{kMostPointsOfACell, 1};
   for (const auto& [sequence, own] : repeats_of(content.shown_cells)) {
-    repeats = std::max(repeats, own.size());
+    out.repeats = std::max(out.repeats, own.size());
   }
-  for (;; --repeats) {
-    const std::size_t points =
-        points_of_a_cell(drawn_cells(content.shown_cells, repeats).size(), bytes);
-    if (repeats == 1 || points >= kGoodPoints) return {points, repeats};
+  for (;;) {
+    const std::size_t points = out.points * drawn_cells(content.shown_cells, out.repeats).size();
+    const double share =
+        static_cast<double>(bytes) / (kBytesOfAPoint * static_cast<double>(points));
+    if (points == 0 || share >= 1.0 || !reduce(out, share)) return out;
   }
 }
 
 bool reduce(Thinning& thinning, double share) {
-  const bool is_fine = thinning.points > kFewestPoints;
+  const bool is_fine = thinning.points > kGoodPoints;
   if (!is_fine && thinning.repeats > 1) {
     thinning.repeats = (thinning.repeats + 1) / 2;
     return true;
   }
-  const std::size_t least = is_fine ? kFewestPoints : kLeastPoints;
+  const std::size_t least = is_fine ? kGoodPoints : kLeastPoints;
   if (thinning.points <= least) return false;
   const auto wanted = static_cast<std::size_t>(share * static_cast<double>(thinning.points));
   thinning.points = std::max(least, std::min(thinning.points - 1, wanted));
@@ -148,12 +141,12 @@ nlohmann::json traces_json(const ReportContent& content, const Thinning& thinnin
         grid_of.emplace(std::pair{cell.sequence, e.reference.t}, grid_of.size());
     if (is_new) grids.push_back(path_json(e.reference));
     nlohmann::json& drawn = cells[std::to_string(i)];
-    drawn = {{"g", grid->second},
+    drawn = {{"grid", grid->second},
              {"times", to_text(trace->times)},
              {"x", packed(e.x)},
              {"y", packed(e.y)},
              {"z", packed(e.z)},
-             {"a", packed(e.angle)}};
+             {"angle", packed(e.angle)}};
     const std::vector<methods::Section> sections = traces.sections(cell.position);
     const auto origin = origins.find(cell.sequence);
     if (!sections.empty() && origin != origins.end()) {

@@ -46,9 +46,9 @@ nlohmann::json packed(const std::vector<double>& values) {
     bytes += static_cast<char>(word >> 8U);
   }
   constexpr int kDigits = 7;
-  return {{"lo", rounded_number(low, kDigits)},
+  return {{"low", rounded_number(low, kDigits)},
           {"step", rounded_number(step, kDigits)},
-          {"b", base64(bytes)}};
+          {"words", base64(bytes)}};
 }
 
 nlohmann::json rounded_number(double value, int digits) {

@@ -11,8 +11,9 @@ namespace loopbench::harness {
 /// Base64 of RFC 4648, with padding.
 std::string base64(std::string_view bytes);
 
-/// The JSON object {lo, step, b}: value = lo + step * word, 16-bit little-endian words in base64;
-/// 65535 is NaN. The error is at most half a step: 1/131068 of the range, far below a pixel.
+/// The JSON object {low, step, words}: value = low + step * word, 16-bit little-endian words in
+/// base64; 65535 is NaN. The error is at most half a step: 1/131068 of the range, far below a
+/// pixel.
 nlohmann::json packed(const std::vector<double>& values);
 
 /// The number to `digits` digits; null unless it is finite.

@@ -8,11 +8,11 @@
 #include <stdexcept>
 
 #include "datasets/core/error.hpp"
+#include "harness/base/hash.hpp"
 #include "harness/report/assets.hpp"
 #include "harness/report/data.hpp"
 #include "harness/report/html.hpp"
 #include "harness/report/sections.hpp"
-#include "harness/report/sha256.hpp"
 #include "harness/tables/comparison.hpp"
 
 namespace loopbench::harness {
@@ -42,11 +42,12 @@ std::string asset_text(std::string_view name) {
   throw std::logic_error("report: no such asset");
 }
 
-/// The library, then the page's own scripts in order of their dependencies.
-std::vector<std::string> scripts() {
+/// The library, then the page's own scripts in order of their dependencies, in elements with the
+/// nonce of the policy.
+std::string script_elements(const std::string& nonce) {
   // The licence requires its notice in all copies, so every report includes it.
-  std::vector<std::string> out{"/*\n" + asset_text("assets/d3.LICENSE") + "*/\n" +
-                               asset_text("assets/d3.min.js")};
+  std::vector<std::string> scripts{"/*\n" + asset_text("assets/d3.LICENSE") + "*/\n" +
+                                   asset_text("assets/d3.min.js")};
   for (const char* name : {"data",
                            "state",
                            "chart",
@@ -61,25 +62,12 @@ std::vector<std::string> scripts() {
                            "detection",
                            "tables",
                            "start"}) {
-    out.push_back("\n" + asset_text(std::string("page/") + name + ".js"));
+    scripts.push_back("\n" + asset_text(std::string("page/") + name + ".js"));
   }
-  return out;
-}
-
-std::string script_elements() {
   std::string out;
-  for (const std::string& script : scripts()) out += "<script>" + script + "</script>\n";
-  return out;
-}
-
-std::string style() { return "\n" + asset_text("page/report.css") + "\n"; }
-
-/// Content-Security-Policy: the page runs its own scripts and styles, known by their hashes, and
-/// loads nothing. Names and texts of a sweep that escaped the HTML could then run nothing either.
-std::string policy() {
-  std::string out = "default-src 'none'; base-uri 'none'; form-action 'none'; img-src data:; ";
-  out += "style-src 'sha256-" + base64_sha256(style()) + "'; script-src";
-  for (const std::string& script : scripts()) out += " 'sha256-" + base64_sha256(script) + "'";
+  for (const std::string& script : scripts) {
+    out += "<script nonce=\"" + nonce + "\">" + script + "</script>\n";
+  }
   return out;
 }
 
@@ -92,9 +80,12 @@ std::string thinned_html(const ReportContent& content, std::size_t bytes) {
   const auto sweep = content.run.find("sweep");
   nlohmann::json data{{"scores", scores_json(content)},
                       {"comparisons", nlohmann::json::parse(json(content.comparisons, -1))}};
+  // Content-Security-Policy: the page runs its own scripts only and loads nothing. No text of the
+  // sweep can contain the nonce, a hash of all of them.
+  const std::string nonce = hex(hash_of(data_text(data)));
   Placeholders values{{"title", html_text(sweep == content.run.end() ? "sweep" : sweep->second)},
-                      {"policy", policy()},
-                      {"style", style()},
+                      {"nonce", nonce},
+                      {"style", "\n" + asset_text("page/report.css") + "\n"},
                       {"summary", summary_html(content)},
                       {"verdicts", verdicts_html(content)},
                       {"comparison", comparison_html(content)},
@@ -102,7 +93,7 @@ std::string thinned_html(const ReportContent& content, std::size_t bytes) {
                       {"failures", failures_html(content)},
                       {"costs", costs_html(content)},
                       {"provenance", provenance_html(content)},
-                      {"scripts", script_elements()}};
+                      {"scripts", script_elements(nonce)}};
   std::size_t taken = data_text(data).size();
   for (const auto& [name, text] : values) taken += text.size();
   Thinning thinning = initial_thinning(content, bytes - std::min(bytes, taken));

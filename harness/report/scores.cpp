@@ -3,7 +3,6 @@
 #include <tuple>
 
 #include "harness/report/data.hpp"
-#include "harness/report/drawn_methods.hpp"
 #include "harness/report/packed.hpp"
 #include "harness/report/style.hpp"
 
@@ -65,12 +64,11 @@ nlohmann::json scores_json(const ReportContent& content) {
       const auto found = own.find(k);
       values.push_back(found == own.end() ? nullptr : statistics_json(found->second->statistics));
     }
-    cells.push_back({{"s", sequence.at(cell.sequence)},
-                     {"m", m},
-                     {"n", cell.repeat},
-                     {"st", to_text(cell.status)},
+    cells.push_back({{"sequence", sequence.at(cell.sequence)},
+                     {"method", m},
+                     {"repeat", cell.repeat},
                      {"ms", rounded_number(1e3 * cell.seconds, 5)},
-                     {"v", std::move(values)}});
+                     {"values", std::move(values)}});
   }
   const std::vector<std::string> order = style_order(content);
   nlohmann::json styles = nlohmann::json::array();
@@ -79,14 +77,14 @@ nlohmann::json scores_json(const ReportContent& content) {
     const CurveStyle style = curve_style(static_cast<std::size_t>(index));
     styles.push_back({{"color", style.color}, {"dash", style.dash}});
   }
-  nlohmann::json usual = nlohmann::json::array();
-  for (const std::string& name : usual_methods(content)) {
-    if (const auto known = method.find(name); known != method.end()) usual.push_back(known->second);
+  nlohmann::json shown = nlohmann::json::array();
+  for (const std::string& name : default_methods(content)) {
+    if (const auto known = method.find(name); known != method.end()) shown.push_back(known->second);
   }
   const auto baseline = content.run.find("baseline");
   return {{"methods", content.methods},
           {"styles", std::move(styles)},
-          {"usual", std::move(usual)},
+          {"default_methods", std::move(shown)},
           {"oracle", oracle},
           {"sequences", content.shown_sequences()},
           {"baseline", baseline == content.run.end() ? "" : baseline->second},

@@ -7,7 +7,6 @@
 #include <map>
 #include <set>
 
-#include "harness/report/costs.hpp"
 #include "harness/report/html.hpp"
 #include "harness/tables/comparison.hpp"
 
@@ -160,14 +159,6 @@ std::string scores_html(const ReportContent& content) {
     part(sequence, "dense");
   }
   return out.empty() ? "<p>No cell has scores.</p>\n" : out;
-}
-
-std::string costs_html(const ReportContent& content) {
-  std::string out;
-  for (const TableView& listing : {costs(content.cells), reported(content.cells)}) {
-    if (!listing.lines.empty()) out += html_table(listing);
-  }
-  return out.empty() ? "<p>No run times are recorded.</p>\n" : out;
 }
 
 std::string provenance_html(const ReportContent& content) {

@@ -22,8 +22,12 @@ std::string scores_html(const ReportContent& content);
 /// Failed cells and undefined scores, by reason.
 std::string failures_html(const ReportContent& content);
 
-/// Costs, values reported by the methods, scaling with size, accuracy against time.
+/// Costs, and values reported by the methods.
 std::string costs_html(const ReportContent& content);
+
+/// One row per method: wall and CPU time, memory, iterations. Medians over its finished cells,
+/// maximum for memory. No rows for results of files (`eval --store`), which have no times.
+TableView costs(const std::vector<CellRecord>& cells);
 
 /// Protocols, provenance, input files, config.
 std::string provenance_html(const ReportContent& content);

@@ -9,7 +9,7 @@
 #include "harness/compare/snapshot.hpp"
 #include "harness/eval/note_summary.hpp"
 #include "harness/eval/run_summary.hpp"
-#include "harness/report/costs.hpp"
+#include "harness/report/sections.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/recorded_files.hpp"

@@ -42,11 +42,11 @@ TEST(Html, TablesEscapeAndMark) {
 TEST(Packed, IsSixteenBitsOfTheRange) {
   // 0, half of 65534 and 65534 as little-endian words; then NaN.
   const auto json = packed({-1.0, 0.0, 1.0, std::nan("")});
-  EXPECT_EQ(json["lo"], -1.0);
+  EXPECT_EQ(json["low"], -1.0);
   EXPECT_NEAR(json["step"].get<double>(), 2.0 / 65534.0, 1e-11);
-  EXPECT_EQ(json["b"], "AAD/f/7///8=");
-  EXPECT_EQ(packed({})["b"], "");
-  EXPECT_EQ(packed({5.0, 5.0})["b"], "AAAAAA==");
+  EXPECT_EQ(json["words"], "AAD/f/7///8=");
+  EXPECT_EQ(packed({})["words"], "");
+  EXPECT_EQ(packed({5.0, 5.0})["words"], "AAAAAA==");
 }
 
 TEST(Packed, ThinsWithBothEndsKept) {

@@ -10,10 +10,8 @@
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/report/data.hpp"
-#include "harness/report/drawn_methods.hpp"
 #include "harness/report/html.hpp"
 #include "harness/report/packed.hpp"
-#include "harness/report/sha256.hpp"
 #include "harness/report/store_figures.hpp"
 #include "harness/store/store.hpp"
 #include "tests/support/run_here.hpp"
@@ -130,7 +128,8 @@ TEST_F(OfASweep, HoldsScoresAndTracesOfEveryRepeat) {
     return r.cell == content_->cells[0].position && r.metric == "ate";
   });
   ASSERT_NE(found, content_->records.end());
-  EXPECT_NEAR(cell["v"][0][0].get<double>(), found->statistics.rmse, 1e-4 * found->statistics.rmse);
+  EXPECT_NEAR(
+      cell["values"][0][0].get<double>(), found->statistics.rmse, 1e-4 * found->statistics.rmse);
   EXPECT_LT(html_->size(), 500'000u);
   const nlohmann::json& cut = all["traces"]["cells"]["3"]["cut"];  // straight has none, <i>& has
   EXPECT_EQ(cut[0]["kind"], "window");
@@ -141,11 +140,11 @@ TEST_F(OfASweep, HoldsScoresAndTracesOfEveryRepeat) {
 TEST_F(OfASweep, MethodsHaveTheStylesAndTheChoiceOfPlot) {
   const ReportContent content = read_report_content(folder_->path());
   const nlohmann::json scores = scores_json(content);
-  const std::vector<std::string> usual = usual_methods(content);
+  const std::vector<std::string> shown = default_methods(content);
   Traces traces(content.store);
   const FigureData figures =
-      sequence_figure_data(content.cells, traces, "b", usual, style_order(content));
-  EXPECT_EQ(figures.curves.empty(), scores["usual"].empty());
+      sequence_figure_data(content.cells, traces, "b", shown, style_order(content));
+  EXPECT_EQ(figures.curves.empty(), scores["default_methods"].empty());
   for (const DrawnCurve& curve : figures.curves) {
     if (curve.name == "reference") continue;
     const auto m = static_cast<std::size_t>(std::ranges::find(content.methods, curve.name) -
@@ -183,6 +182,17 @@ TEST_F(OfASweep, FiguresHoldWhatHasATrace) {
                   .curves.empty());
   EXPECT_EQ(file_stem("closed, 180 keyframes/../x"), "closed_180_keyframes_x");
   EXPECT_EQ(file_stem("..."), "");
+}
+
+TEST_F(OfASweep, RunsItsOwnScriptsAndStylesOnly) {
+  const std::string meta = "<meta http-equiv=\"Content-Security-Policy\" content=\"";
+  const std::size_t begin = html_->find(meta) + meta.size();
+  const std::string policy = html_->substr(begin, html_->find('"', begin) - begin);
+  EXPECT_TRUE(policy.starts_with("default-src 'none'; ")) << policy;
+  EXPECT_FALSE(has(policy, "unsafe") || has(policy, "http")) << policy;
+  EXPECT_LT(begin, html_->find("<title>")) << "it precedes everything it governs";
+  EXPECT_FALSE(has(*html_, "<script>") || has(*html_, "<style>")) << "without the nonce";
+  EXPECT_FALSE(has(*html_, " style=\"") || has(*html_, " onclick="));
 }
 
 /// Reads the state of the page, operates its controls, and returns results in its title.
@@ -249,12 +259,10 @@ TEST_F(OfASweep, AChromiumDrawsItWithoutAWordOfComplaint) {
     GTEST_SKIP() << "needs chromium";
   }
   std::string page = *html_;
-  page.replace(page.rfind("</body>"), 7, kProbe);
-  // The page's policy must allow the probe as well.
-  const std::string probe(kProbe);
-  const std::size_t begin = probe.find('>') + 1;
-  const std::string body = probe.substr(begin, probe.find("</script>") - begin);
-  page.insert(page.find("script-src") + 10, " 'sha256-" + base64_sha256(body) + "'");
+  const std::size_t nonce = page.find("<script nonce=");
+  std::string probe(kProbe);
+  probe.replace(0, 7, page.substr(nonce, page.find('>', nonce) - nonce));
+  page.replace(page.rfind("</body>"), 7, probe);
   const std::string name = folder_->file("page.html", page).string();
   const std::string profile = (folder_->path() / "profile").string();
   const std::string line =

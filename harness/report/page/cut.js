@@ -4,7 +4,7 @@
   const R = window.R;
   const section = document.getElementById("cut");
   const link = document.querySelector('[data-for="cut"]');
-  const has = R.methods.filter((m) => R.scores.cells.some((c, i) => c.m === m.place && R.cutOf(i)));
+  const has = R.methods.filter((m) => R.scores.cells.some((c, i) => c.method === m.place && R.cutOf(i)));
   if (!has.length) {
     section.hidden = true;
     link.hidden = true;

@@ -13,11 +13,11 @@
   R.drawnPoints = raw.traces.points;
 
   R.unpack = (packed) => {
-    const bytes = atob(packed.b);
+    const bytes = atob(packed.words);
     const out = new Float64Array(bytes.length / 2);
     for (let i = 0; i < out.length; ++i) {
       const word = bytes.charCodeAt(2 * i) | (bytes.charCodeAt(2 * i + 1) << 8);
-      out[i] = word === 65535 ? NaN : packed.lo + packed.step * word;
+      out[i] = word === 65535 ? NaN : packed.low + packed.step * word;
     }
     return out;
   };
@@ -57,15 +57,15 @@
   const repeats = R.scores.sequences.map(() => new Set());
   raw.scores.cells.forEach((cell, i) => {
     if (!raw.traces.cells[i]) return;
-    drawn.set(placeOf(cell.s, cell.m, cell.n), i);
-    repeats[cell.s].add(cell.n);
+    drawn.set(placeOf(cell.sequence, cell.method, cell.repeat), i);
+    repeats[cell.sequence].add(cell.repeat);
   });
   // The repeats of a sequence whose trajectories are drawn.
   R.repeats = (s) => d3.sort(repeats[s]);
   const errors = cached((i) => {
     const packed = raw.traces.cells[i];
-    const reference = grid(packed.g);
-    const [ex, ey, ez, a] = ["x", "y", "z", "a"].map((axis) => R.unpack(packed[axis]));
+    const reference = grid(packed.grid);
+    const [ex, ey, ez, a] = ["x", "y", "z", "angle"].map((axis) => R.unpack(packed[axis]));
     const plus = (u, v) => u.map((value, k) => value + v[k]);
     return {
       times: packed.times, t: reference.t, s: reference.s, ex, ey, ez, a,
@@ -84,7 +84,7 @@
   R.cutOf = cached((i) => {
     const cell = raw.traces.cells[i];
     return (cell && cell.cut && cell.cut.map((part) => ({
-      kind: part.kind, all: part.all, begin: R.unpack(part.b), end: R.unpack(part.e), what: part.w.map((name) => part.names[name]),
+      kind: part.kind, all: part.all, begin: R.unpack(part.begin), end: R.unpack(part.end), what: part.choices.map((name) => part.names[name]),
     }))) || null;
   });
   R.cut = (s, m) => {
@@ -94,8 +94,8 @@
 
   // Values of a score: one for each cell of the method, on one sequence or (s null) on all.
   R.values = (kind, statistic, m, s = null) => raw.scores.cells
-    .filter((c) => c.m === m && (s === null || c.s === s) && c.v[kind] && c.v[kind][statistic] !== null)
-    .map((c) => ({ value: c.v[kind][statistic], sequence: c.s, repeat: c.n, ms: c.ms }));
+    .filter((c) => c.method === m && (s === null || c.sequence === s) && c.values[kind] && c.values[kind][statistic] !== null)
+    .map((c) => ({ value: c.values[kind][statistic], sequence: c.sequence, repeat: c.repeat, ms: c.ms }));
 
   // Index of the first stamp that is not before t.
   R.placeAt = (stamps, t) => Math.min(d3.bisectLeft(stamps, t), stamps.length - 1);

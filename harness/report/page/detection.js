@@ -13,8 +13,8 @@
   }
   // Does not depend on the method: uses any cell of the sequence with the score.
   const valueOf = (place) => {
-    const cell = R.scores.cells.find((c) => c.s === R.state.sequence && c.v[place]);
-    return cell ? cell.v[place][0] : NaN;
+    const cell = R.scores.cells.find((c) => c.sequence === R.state.sequence && c.values[place]);
+    return cell ? cell.values[place][0] : NaN;
   };
   const placeOf = (relation) => R.scores.kinds.findIndex((k) => k.relation === relation && k.metric === first[0].metric &&
     k.times === first[0].times && k.protocol === first[0].protocol);

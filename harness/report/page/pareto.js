@@ -13,7 +13,7 @@
 
   // Of one sequence, or (s null) of all together.
   const points = (s) => {
-    const runs = new Set(R.scores.cells.filter((c) => s === null || c.s === s).map((c) => `${c.s} ${c.n}`)).size;
+    const runs = new Set(R.scores.cells.filter((c) => s === null || c.sequence === s).map((c) => `${c.sequence} ${c.repeat}`)).size;
     return R.methods.map((m) => {
       const values = R.values(R.state.kind, R.state.statistic, m.place, s);
       const groups = d3.groups(values, (v) => v.sequence);

@@ -58,7 +58,7 @@
   const all = R.methods.map((m) => m.place);
   const details = element("details", {}, summary,
     element("div", { className: "row" }, button("best few", R.bestFew), button("all", () => all), button("none", () => []),
-      button("different ones", () => R.usual)), chips);
+      button("different ones", () => R.defaultMethods)), chips);
   form.append(details);
   form.addEventListener("submit", (e) => e.preventDefault());
   R.follow(() => {

@@ -35,9 +35,9 @@
   };
 
   // The baseline, then by rank methods with distinct trajectories, as in `plot`.
-  const shown = R.scores.usual;
+  const shown = R.scores.default_methods;
   const best = shown.find((m) => !R.baseline || m !== R.baseline.place);
-  const usualState = {
+  const defaultState = {
     sequence: 0, repeat: 0, kind, statistic: 0, abscissa: "s", shown: new Set(shown),
     before: R.baseline ? R.baseline.place : 0, after: best === undefined ? 0 : best,
   };
@@ -52,7 +52,7 @@
   const link = new URLSearchParams(location.hash.slice(1));
   const query = new URLSearchParams(location.search).get("sequence");
   if (query !== null && !link.has("sequence")) link.set("sequence", query);
-  R.state = { ...usualState };
+  R.state = { ...defaultState };
   for (const [key, known] of Object.entries(names)) {
     const place = known.indexOf(link.get(key));
     if (link.has(key) && place >= 0) R.state[key] = place;
@@ -67,12 +67,12 @@
   R.link = () => {
     const out = new URLSearchParams();
     for (const [key, known] of Object.entries(names)) {
-      if (R.state[key] !== usualState[key]) out.set(key, known[R.state[key]]);
+      if (R.state[key] !== defaultState[key]) out.set(key, known[R.state[key]]);
     }
-    if (R.state.abscissa !== usualState.abscissa) out.set("along", R.state.abscissa);
+    if (R.state.abscissa !== defaultState.abscissa) out.set("along", R.state.abscissa);
     if (R.state.repeat !== 0) out.set("repeat", R.state.repeat);
-    const isUsual = R.state.shown.size === shown.length && shown.every((m) => R.state.shown.has(m));
-    if (!isUsual) {
+    const isDefault = R.state.shown.size === shown.length && shown.every((m) => R.state.shown.has(m));
+    if (!isDefault) {
       if (!R.state.shown.size) out.append("method", "");
       for (const m of R.shown()) out.append("method", m.name);
     }
@@ -87,7 +87,7 @@
   R.keepRepeat();
   // "room" or "room (repeat 2)" as in tables, counted from 0.
   R.runName = (s) => R.scores.sequences[s] + (R.state.repeat > 0 ? ` (repeat ${R.state.repeat})` : "");
-  R.usual = shown;
+  R.defaultMethods = shown;
   R.shown = () => R.methods.filter((m) => R.state.shown.has(m.place));
   R.kindLabel = (k, times = true) => `${k.label} ${R.scores.statistics[R.state.statistic]}` +
     (k.unit ? ` [${k.unit}]` : "") + (times ? `, ${k.times}` : "");
