@@ -7,8 +7,7 @@
 #include <system_error>
 
 #include "datasets/core/error.hpp"
-#include "harness/base/child_process.hpp"
-#include "harness/base/sha256.hpp"
+#include "harness/base/run_filter.hpp"
 #include "harness/base/write_file.hpp"
 
 namespace loopbench::harness {
@@ -16,35 +15,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kNoProgram = 127;
-constexpr int kNoRange = 33;  ///< of curl: the server cannot continue a download
+constexpr int kNoRange = 33;    ///< of curl: the server cannot continue a download
+constexpr int kHttpError = 22;  ///< of curl
 
-/// Exit code of the program `words`, without a shell.
-int exit_code_of(const std::vector<std::string>& words) {
-  ProgramCall call;
-  call.arguments = words;
+/// Starts a program without a shell.
+FilterResult run_program(const std::vector<std::string>& words, const std::string& package) {
   try {
-    return ChildProcess(ProcessGroup::shared, call).exit_code();
+    return run_filter(words);
   } catch (const std::system_error&) {
-    return kNoProgram;
+    throw InputError("get: the program " + words[0] + " is not installed (Debian package " +
+                     package + ")");
   }
 }
 
 int curl(const std::string& url, const fs::path& part) {
-  // A dot at the end of the URL's scheme list means: also after redirections.
-  return exit_code_of({"curl",
-                       "--fail",
-                       "--location",
-                       "--proto",
-                       "=http,https",
-                       isatty(STDERR_FILENO) == 1 ? "--progress-bar" : "--silent",
-                       "--show-error",
-                       "--continue-at",
-                       "-",
-                       "--output",
-                       part.string(),
-                       "--",
-                       url});
+  return run_program({"curl",
+                      "--fail",
+                      "--location",
+                      "--proto",  // "=": also after redirections
+                      "=http,https",
+                      isatty(STDERR_FILENO) == 1 ? "--progress-bar" : "--silent",
+                      "--show-error",
+                      "--continue-at",
+                      "-",
+                      "--output",
+                      part.string(),
+                      "--",
+                      url},
+                     "curl")
+      .exit_code;
 }
 
 /// Downloads to `part`, continuing it if possible.
@@ -54,11 +53,8 @@ void download_part(const PublicFile& wanted, const fs::path& part) {
     fs::remove(part);
     code = curl(wanted.url, part);
   }
-  if (code == kNoProgram) {
-    throw InputError("get: the program curl is not installed (Debian package curl)");
-  }
-  // A part that is already complete has nothing to continue: HTTP 416, exit code 22 of curl.
-  const bool may_be_complete = code == 22 && fs::exists(part);
+  // A part that is already complete has nothing to continue: HTTP 416.
+  const bool may_be_complete = code == kHttpError && fs::exists(part);
   if (code != 0 && !may_be_complete) {
     throw InputError(fmt::format(
         "{}: curl failed with exit code {}; run the command again to continue", wanted.url, code));
@@ -75,6 +71,14 @@ std::string expected_hash(const PublicFile& wanted, const fs::path& file) {
 }
 
 }  // namespace
+
+std::string sha256_of_file(const fs::path& file) {
+  constexpr std::size_t kDigits = 64;
+  const FilterResult result =
+      run_program({"sha256sum", "--zero", "--", file.string()}, "coreutils");
+  if (result.exit_code != 0) throw InputError(file.string() + ": cannot be read");
+  return result.output.substr(0, kDigits);
+}
 
 fs::path pin_of(const fs::path& file) { return file.string() + ".sha256"; }
 

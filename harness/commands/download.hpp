@@ -24,6 +24,9 @@ std::vector<PublicFile> public_files();
 /// `file:line:`.
 std::vector<PublicFile> read_public_files(const std::filesystem::path& catalogue);
 
+/// 64 hexadecimal digits, by the program sha256sum. Throws InputError.
+std::string sha256_of_file(const std::filesystem::path& file);
+
 /// The file in which the hash of a first download is kept, as sha256sum prints it.
 std::filesystem::path pin_of(const std::filesystem::path& file);
 

@@ -5,7 +5,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/base/printable.hpp"
-#include "harness/report/run_filter.hpp"
+#include "harness/base/run_filter.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -5,7 +5,6 @@
 #include <cstdlib>
 
 #include "datasets/core/error.hpp"
-#include "harness/base/sha256.hpp"
 #include "harness/commands/download.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/file_server.hpp"
@@ -16,22 +15,6 @@ namespace loopbench::get_test {
 using namespace harness;
 
 namespace {
-
-std::string sha256(const std::string& text) {
-  Sha256 out;
-  out.add(text);
-  return out.hex();
-}
-
-/// FIPS 180-4 examples.
-TEST(Sha256, MatchesThePublishedExamples) {
-  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
-  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
-            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
-  EXPECT_EQ(sha256(std::string(1'000'000, 'a')),
-            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
-}
 
 TEST(PublicFiles, AreCompleteAndHaveDistinctNames) {
   std::vector<std::string> names;
@@ -92,8 +75,8 @@ class Get : public testing::Test {
   }
 
   const std::string content_ = std::string(100'000, 'x') + "end";
-  const std::string hash_ = sha256(content_);
   TemporaryFolder folder_;
+  const std::string hash_ = sha256_of_file(folder_.file("content", content_));
   const std::filesystem::path file_ = folder_.path() / "below/a.bin";
   FileServer server_{content_};
 };

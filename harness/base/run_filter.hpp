@@ -11,8 +11,8 @@ struct FilterResult {
   std::string output;  ///< of its standard output; standard error is ours
 };
 
-/// Starts `words` (searched in PATH) and sends `input` while it reads the output, so neither
-/// blocks. Throws std::system_error if the program cannot be started.
-FilterResult run_filter(const std::vector<std::string>& words, const std::string& input);
+/// Starts `words` (searched in PATH, without a shell) and sends `input` while it reads the output,
+/// so neither blocks. Throws std::system_error if the program cannot be started.
+FilterResult run_filter(const std::vector<std::string>& words, const std::string& input = "");
 
 }  // namespace loopbench::harness

@@ -1,7 +1,6 @@
-#include "harness/report/run_filter.hpp"
+#include "harness/base/run_filter.hpp"
 
-#include <fcntl.h>
-#include <signal.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <array>
@@ -26,24 +25,16 @@ struct Descriptor {
   int number;
 };
 
-[[noreturn]] void fail_to_start(int reason) {
-  throw std::system_error(reason, std::generic_category());
-}
-
-/// Stops early if the program ends. Blocks SIGPIPE: call it on a thread of
-/// its own, which takes a pending signal with it.
-void send_all_to(Descriptor& out, const std::string& input) {
-  sigset_t broken_pipe;
-  sigemptyset(&broken_pipe);
-  sigaddset(&broken_pipe, SIGPIPE);
-  pthread_sigmask(SIG_BLOCK, &broken_pipe, nullptr);
+/// Stops early if the program ends.
+void send_all_to(int descriptor, const std::string& input) {
   for (std::size_t done = 0; done < input.size();) {
-    const ssize_t count = ::write(out.number, input.data() + done, input.size() - done);
+    const ssize_t count =
+        ::send(descriptor, input.data() + done, input.size() - done, MSG_NOSIGNAL);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
     done += static_cast<std::size_t>(count);
   }
-  out.close_now();
+  ::shutdown(descriptor, SHUT_WR);
 }
 
 std::string read_until_end(int descriptor) {
@@ -61,22 +52,20 @@ std::string read_until_end(int descriptor) {
 
 FilterResult run_filter(const std::vector<std::string>& words, const std::string& input) {
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_start(errno);
-  Descriptor input_end{ends[0]};
-  Descriptor to_program{ends[1]};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_start(errno);
-  Descriptor from_program{ends[0]};
-  Descriptor output_end{ends[1]};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    throw std::system_error(errno, std::generic_category());
+  }
+  const Descriptor ours{ends[0]};
+  Descriptor theirs{ends[1]};
   ProgramCall call;
   call.arguments = words;
-  call.input = input_end.number;
-  call.output = output_end.number;
+  call.input = theirs.number;
+  call.output = theirs.number;
   ChildProcess process(ProcessGroup::shared, call);
-  input_end.close_now();
-  output_end.close_now();
-  std::thread sender([&] { send_all_to(to_program, input); });
+  theirs.close_now();
+  std::thread sender([&] { send_all_to(ours.number, input); });
   FilterResult out;
-  out.output = read_until_end(from_program.number);
+  out.output = read_until_end(ours.number);
   sender.join();
   out.exit_code = process.exit_code();
   return out;
