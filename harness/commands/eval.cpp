@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iterator>
 #include <set>
+#include <sstream>
 
 #include "harness/base/printable.hpp"
 #include "harness/base/wrap.hpp"
@@ -13,13 +14,12 @@
 #include "harness/commands/commands.hpp"
 #include "harness/commands/eval_options.hpp"
 #include "harness/commands/standard_output.hpp"
-#include "harness/eval/drawn_sequences.hpp"
-#include "harness/eval/error_figures.hpp"
-#include "harness/eval/eval_report.hpp"
+#include "harness/eval/eval_figures.hpp"
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/eval/recorded_store.hpp"
-#include "harness/eval/recorded_sweep.hpp"
 #include "harness/eval/run_summary.hpp"
+#include "harness/report/html.hpp"
+#include "harness/report/packed.hpp"
 #include "harness/report/store_figures.hpp"
 #include "harness/store/read.hpp"
 #include "harness/tables/text.hpp"
@@ -61,24 +61,52 @@ std::string result_text(const EvalArguments& a, const std::vector<EvaluationResu
   return out + verdict_of(a, all, style);
 }
 
-/// `images`: kErrorFigures of each of `drawn`.
+/// `text`, after the label of the sequence if there are several.
+std::string with_sequence(const DrawnRuns& runs, const std::string& text) {
+  return runs.sequence.empty() ? text : runs.sequence + ": " + text;
+}
+
+/// The lines of a text, escaped one by one: html_text() drops line breaks.
+std::string html_lines(const std::string& text) {
+  std::string out;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) out += html_text(line) + "\n";
+  return out;
+}
+
+/// Writes one file without scripts or links: tables, verdict, and `images`, which are kErrorFigures
+/// of each of `drawn` as SVG. Throws InputError.
 void write_report(const EvalArguments& a,
                   const std::vector<EvaluationResult>& all,
                   const std::vector<DrawnRuns>& drawn,
                   const std::vector<std::string>& images) {
-  std::vector<PageImage> headed;
-  for (const DrawnRuns& each : drawn) {
-    const std::string sequence = each.sequence.empty() ? "" : each.sequence + ": ";
-    for (const char* const name : kErrorFigures) {
-      headed.push_back({sequence + name, images[headed.size()]});
-    }
-  }
+  std::string page = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
+      "style-src 'unsafe-inline'\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<title>{0} - loopbench eval</title>\n"
+      "<style>body{{font-family:sans-serif;margin:2rem;max-width:90rem}}"
+      "pre{{overflow-x:auto;background:#f5f5f5;padding:1rem}}img{{max-width:100%}}"
+      "figure{{margin:0 0 1rem}}.scroll{{overflow-x:auto}}table{{border-collapse:collapse}}"
+      "caption{{text-align:left;font-weight:bold;padding:.5rem 0}}"
+      "th,td{{padding:.3rem .6rem;border-bottom:1px solid #ddd;text-align:right}}"
+      "th[scope=row]{{text-align:left}}.notes{{font-size:.9em}}</style>\n"
+      "</head>\n<body>\n<h1>Evaluation against {0}</h1>\n",
+      html_text(all.front().reference));
   const bool is_alone = all.size() == 1;
-  write_eval_report(a.report,
-                    all.front().reference,
-                    is_alone ? std::vector<Table>{} : comparison(all),
-                    is_alone ? text(all.front()) : verdict_of(a, all, TerminalStyle{}),
-                    headed);
+  const std::vector<Table> tables = is_alone ? std::vector<Table>{} : comparison(all);
+  for (const Table& table : tables) page += html_table(table_view(table));
+  const std::string below = is_alone ? text(all.front()) : verdict_of(a, all, TerminalStyle{});
+  if (!below.empty()) page += "<pre>" + html_lines(below) + "</pre>\n";
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const DrawnRuns& runs = drawn[i / kErrorFigures.size()];
+    const char* const name = kErrorFigures[i % kErrorFigures.size()];
+    page += fmt::format("<h2>{0}</h2>\n<img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\">\n",
+                        html_text(with_sequence(runs, name)),
+                        base64(images[i]));
+  }
+  write_file(a.report, page + "</body>\n</html>\n");
   fmt::print(stderr, "{}\n", printable(a.report));
 }
 
@@ -90,8 +118,8 @@ void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>&
   if (drawn.empty()) throw InputError("--plot, --report: no estimate could be evaluated");
   for (const DrawnRuns& each : drawn) {
     if (each.note.empty()) continue;
-    const std::string sequence = each.sequence.empty() ? "" : each.sequence + ": ";
-    fmt::print(stderr, "{}\n", printable("loopbench: note: figures: " + sequence + each.note));
+    const std::string note = "loopbench: note: figures: " + with_sequence(each, each.note);
+    fmt::print(stderr, "{}\n", printable(note));
   }
   reject_standard_output("--report", a.report);
   std::set<std::string> prefixes;
@@ -127,43 +155,18 @@ void check_store_options(const EvalArguments& a, const std::vector<RecordedRun>&
   check_stamp_options(a, runs);
 }
 
-/// Summary of the failed files, at most five of them.
-std::string failures_text(const RecordedSweep& stored, const std::string& store) {
-  constexpr std::size_t kMost = 5;
-  std::string out;
-  for (std::size_t i = 0; i < std::min(stored.failures.size(), kMost); ++i) {
-    out += "failed: " + stored.failures[i] + "\n";
-  }
-  if (stored.failures.size() > kMost) {
-    out += fmt::format("failed: {} more, listed by `loopbench report {}`\n",
-                       stored.failures.size() - kMost,
-                       store);
-  }
-  return out;
-}
-
 int eval_to_store(const EvalArguments& a, const Source& source) {
   reject_standard_output("--store", a.store);
   std::vector<RecordedRun> runs = recorded_runs(file_pairs(a), a.sequence);
   for (RecordedRun& run : runs) run.group = a.group;
   check_store_options(a, runs);
-  const RecordedSweep stored = store_runs(runs, a, a.store, source);
+  const StoredRuns stored = store_runs(runs, a, source);
   for (const std::string& note : stored.notes) {
     fmt::print(stderr, "{}\n", printable("loopbench: note: " + note));
   }
   const std::string report = run_report(read_records(a.store), terminal_style(), a.paired);
-  fmt::print("{}\n{} runs in {}{}{}{}\n{}",
-             printable(report),
-             stored.cells,
-             printable((std::filesystem::path(a.store) / "results.sqlite").string()),
-             stored.stored == 0 ? "" : fmt::format(" ({} stored before)", stored.stored),
-             stored.failed == 0 ? "" : fmt::format(", {} failed", stored.failed),
-             stored.incomplete == 0 ? ""
-                                    : fmt::format(", {} with coverage below {:g}",
-                                                  stored.incomplete,
-                                                  a.min_coverage.value_or(kDefaultMinCoverage)),
-             printable(failures_text(stored, a.store)));
-  return stored.failed + stored.incomplete == 0 ? kExitOk : kExitSomeCellsFailed;
+  fmt::print("{}\n{}", printable(report), printable(stored.summary));
+  return stored.are_ok ? kExitOk : kExitSomeCellsFailed;
 }
 
 /// Gives large lists mappings of their own, which the system takes back at once: the heap would

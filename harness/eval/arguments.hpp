@@ -9,7 +9,7 @@
 #include "datasets/derive/reference_body.hpp"
 #include "datasets/formats/formats.hpp"
 #include "harness/catalogue/catalogue.hpp"
-#include "harness/eval/error_figures.hpp"
+#include "harness/eval/eval_figures.hpp"
 #include "harness/eval/layout.hpp"
 #include "harness/model/sweep.hpp"
 

@@ -9,8 +9,6 @@
 
 #include "datasets/core/parallel.hpp"
 #include "harness/base/write_file.hpp"
-#include "harness/eval/recorded_evaluation.hpp"
-#include "harness/eval/recorded_runs.hpp"
 #include "harness/eval/recordings.hpp"
 #include "harness/model/cell_records.hpp"
 #include "harness/model/recorded_run.hpp"
@@ -154,42 +152,40 @@ void require_evaluated(const std::vector<EvaluatedFile>& all) {
 std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
   const std::vector<FilePair> files = file_pairs(a);
   reject_overwriting(all_files(a, files), a.per_pose);
-  std::vector<RecordedRun> runs = runs_of(files, a);
-  if (a.common.value_or(false)) set_common_times(runs, a);
-  const Catalogue known = recorded_catalogue(a.plugins);
-  const Sweep sweep = recorded_sweep(runs, a, known);
-  reference_body(a);  // rejects an invalid one before files are read
+  std::vector<RecordedRun> labelled = runs_of(files, a);
+  if (a.common.value_or(false)) set_common_times(labelled, a);
+  const RecordedSweep sweep = recorded_sweep(std::move(labelled), a);
+  const std::vector<RecordedRun>& runs = sweep.runs;
   check_stamp_options(a, runs);
-  std::vector<Cell> cells = recorded_cells(runs, sweep);
+  std::vector<Cell> cells = sweep.cells;
   std::ranges::sort(cells, {}, &Cell::dataset);
   std::vector<EvaluatedFile> all(cells.size());
   Recordings recordings;
   for (std::size_t begin = 0, end = 0; begin < runs.size(); begin = end) {
     while (end < runs.size() && runs[end].reference == runs[begin].reference) ++end;
-    SharedReference reference = shared_reference(sweep.datasets[begin].dataset.options, sweep, a);
+    SharedReference reference = shared_reference(runs[begin].reference, sweep);
     if (!reference.content.empty()) {
       reference.recording = recordings.name_of(reference.content, reference.read.poses);
     }
     parallel_for_tasks(end - begin, [&](std::size_t i) {
-      all[begin + i] = evaluate_recorded(cells[begin + i], sweep, reference, known, a);
+      all[begin + i] = evaluate_recorded(cells[begin + i], sweep, reference);
     });
   }
   require_evaluated(all);
   if (!a.min_coverage) compare_coverage(all);
   if (!a.min_coverage) reject_few_pairs(all);
-  return results_of(std::move(all), sweep);
+  return results_of(std::move(all), sweep.sweep);
 }
 
 std::vector<EvaluationResult> evaluate_in_memory(const EvalArguments& a,
                                                  RecordedFile reference,
-                                                 RecordedFile estimate) {
-  const Catalogue known = recorded_catalogue();
-  const Sweep sweep =
-      recorded_sweep({{"reference", "estimate", "0", "reference", "estimate"}}, a, known);
+                                                 const RecordedFile& estimate) {
+  const RecordedSweep sweep =
+      recorded_sweep({{"reference", "estimate", "0", "reference", "estimate"}}, a);
   std::vector<EvaluatedFile> all;
-  all.push_back(evaluate_poses({}, sweep, {std::move(reference)}, std::move(estimate), known, a));
+  all.push_back(evaluate_poses(sweep.cells.front(), sweep, {std::move(reference)}, estimate));
   require_evaluated(all);
-  return results_of(std::move(all), sweep);
+  return results_of(std::move(all), sweep.sweep);
 }
 
 }  // namespace loopbench::harness

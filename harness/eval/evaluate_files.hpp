@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "harness/eval/arguments.hpp"
-#include "harness/eval/evaluation_result.hpp"
-#include "harness/eval/recorded_sweep.hpp"
+#include "harness/eval/recorded_evaluation.hpp"
 
 namespace loopbench::harness {
 
@@ -20,6 +19,6 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& arguments);
 /// InputError if the evaluation fails.
 std::vector<EvaluationResult> evaluate_in_memory(const EvalArguments& arguments,
                                                  RecordedFile reference,
-                                                 RecordedFile estimate);
+                                                 const RecordedFile& estimate);
 
 }  // namespace loopbench::harness

@@ -6,7 +6,6 @@
 #include <future>
 #include <iterator>
 #include <memory>
-#include <utility>
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/parallel.hpp"
@@ -29,54 +28,44 @@ InputFile hashed_input(const std::string& name, const std::string& option) {
   return hashed_inputs({{file_of(name), option}}).front();
 }
 
-std::string option(const Cell& cell, const Sweep& sweep, const std::string& name) {
-  return to_text(sweep.datasets[cell.dataset].dataset.options.at(name));
-}
-
-/// Identity of the run, also if the estimate could not be read: whether two failures are copies,
-/// and whether the file has changed since, is decided as for other runs.
-SequenceMetadata metadata_of(const Cell& cell,
-                             const Sweep& sweep,
-                             const SharedReference& reference) {
+/// Identity of the run, also if the estimate could not be read (null): whether two failures are
+/// copies, and whether the file has changed since, is decided as for other runs. Throws InputError.
+SequenceMetadata metadata_of(const RecordedRun& run,
+                             const SharedReference& reference,
+                             const RecordedFile* estimate) {
   SequenceMetadata out;
   out.size.reference = static_cast<std::int64_t>(reference.read.poses.size());
+  if (estimate) out.size.keyframes = static_cast<std::int64_t>(estimate->poses.size());
   if (reference.content.empty()) return out;
-  const std::string stated = option(cell, sweep, "group");
-  out.group = recorded_group(option(cell, sweep, "run"),
-                             !stated.empty()               ? "group:" + stated
+  out.group = recorded_group(run.run,
+                             !run.group.empty()            ? "group:" + run.group
                              : reference.recording.empty() ? "reference:" + reference.content
                                                            : "reference:" + reference.recording);
-  if (!reference.file) return out;
-  out.source = "reference:" + reference.content;
-  out.inputs = {*reference.file, hashed_input(option(cell, sweep, "estimate"), "estimate")};
+  if (reference.file) {
+    out.source = "reference:" + reference.content;
+    out.inputs = {*reference.file, hashed_input(run.estimate, "estimate")};
+  }
+  if (!estimate) {
+    const std::string hash = hashed_input(run.estimate, "estimate").hash;
+    out.content = Fields().add("unreadable").add(reference.content).add(hash).hashed();
+    return out;
+  }
+  Sequence sequence;
+  sequence.reference = reference.read.poses;
+  sequence.problem.keyframes = estimate->poses;
+  out.content = content_of(sequence);
+  if (reference.file) out.trace = sequence_trace(sequence);
   return out;
 }
 
-std::shared_ptr<const SequenceMetadata> metadata_of_failure(const Cell& cell,
-                                                            const Sweep& sweep,
+std::shared_ptr<const SequenceMetadata> metadata_of_failure(const RecordedRun& run,
                                                             const SharedReference& reference) {
   if (reference.content.empty()) return nullptr;
   try {
-    SequenceMetadata out = metadata_of(cell, sweep, reference);
-    const std::string hash = hashed_input(option(cell, sweep, "estimate"), "estimate").hash;
-    out.content = Fields().add("unreadable").add(reference.content).add(hash).hashed();
-    return std::make_shared<const SequenceMetadata>(std::move(out));
+    return std::make_shared<const SequenceMetadata>(metadata_of(run, reference, nullptr));
   } catch (const InputError&) {
     return nullptr;  // the file exists, but cannot be hashed either
   }
-}
-
-/// Adds content and, for a store, the trace.
-void identify(SequenceMetadata& out,
-              const SharedReference& reference,
-              const RecordedFile& estimate) {
-  out.size.keyframes = static_cast<std::int64_t>(estimate.poses.size());
-  if (reference.content.empty()) return;
-  Sequence sequence;
-  sequence.reference = reference.read.poses;
-  sequence.problem.keyframes = estimate.poses;
-  out.content = content_of(sequence);
-  if (reference.file) out.trace = sequence_trace(sequence);
 }
 
 /// Error if only one file has stamps, since numbers and stamps would be paired by chance.
@@ -96,7 +85,7 @@ void add_checks(EvaluationResult& out,
                 const metrics::Evaluation& evaluation,
                 const RecordedFile& reference,
                 const RecordedFile& estimate,
-                const EvalArguments& a) {
+                const ReferenceBody& body) {
   out.diagnosis = metrics::diagnostics(evaluation, {});
   out.notes = evaluation_notes(reference.poses, evaluation);
   const double off_unit = std::max(reference.findings.off_unit, estimate.findings.off_unit);
@@ -107,7 +96,7 @@ void add_checks(EvaluationResult& out,
   const std::size_t left_out = reference.findings.repeated + estimate.findings.repeated;
   out.diagnosis.push_back(metrics::single("left_out", "", "1", static_cast<double>(left_out)));
   if (const auto offset = metrics::extrinsic_offset(evaluation, {})) {
-    out.other_body = metrics::other_body(*offset, pose_of(reference_body(a)));
+    out.other_body = metrics::other_body(*offset, pose_of(body));
   }
 }
 
@@ -122,11 +111,9 @@ std::string common_times_note(const Trajectory& estimate, const std::string& com
 
 /// Evaluation of two files under the protocols of a sweep, one after the other.
 struct PairEvaluation {
-  const Sweep& sweep;
+  const RecordedSweep& files;
   const RecordedFile& reference;
   const RecordedFile& estimate;
-  const Catalogue& catalogue;
-  const EvalArguments& arguments;
   EvaluatedFile& out;
   std::string common;  ///< times to evaluate; empty: all
 
@@ -136,7 +123,7 @@ struct PairEvaluation {
     ScoreResult row;
     row.protocol = number;
     ScoreResult failure = row;
-    failure.why = why_two_clocks(arguments, rules, reference.unstamped, estimate.unstamped);
+    failure.why = why_two_clocks(files.arguments, rules, reference.unstamped, estimate.unstamped);
     if (!failure.why.empty()) {
       failure.status = Status::failed;
     } else {
@@ -144,7 +131,7 @@ struct PairEvaluation {
     }
     if (failure.status == Status::ok) return;
     own.why_failed = failure.why;
-    add_failure(out.result, failure, sweep);
+    add_failure(out.result, failure, files.sweep);
   }
 
  private:
@@ -158,6 +145,8 @@ struct PairEvaluation {
   }
 
   void add(EvaluationResult& own, const ScoreResult& row, const metrics::Protocol& rules) {
+    const EvalArguments& arguments = files.arguments;
+    const Sweep& sweep = files.sweep;
     metrics::Evaluation evaluation = metrics::evaluate(reference.poses, estimate.poses, rules);
     if (!common.empty()) evaluation = within_common_times(evaluation, rules);
     const bool are_printed = !reference.matrices.empty() && !estimate.matrices.empty();
@@ -175,12 +164,12 @@ struct PairEvaluation {
     const bool is_large = evaluation.estimate.size() >= kMinItemsPerThread;
     std::future<void> checks =
         std::async(is_large ? std::launch::async : std::launch::deferred,
-                   [&] { add_checks(own, evaluation, reference, estimate, arguments); });
+                   [&] { add_checks(own, evaluation, reference, estimate, files.body); });
     if (!arguments.per_pose.empty()) own.poses = metrics::pose_errors(evaluation);
     if (!arguments.plot.empty() || !arguments.report.empty()) {
       own.drawn = drawn_evaluation(reference.poses, evaluation);
     }
-    add_scores(out.result, row, evaluation, sweep, catalogue, is_large);
+    add_scores(out.result, row, evaluation, sweep, files.catalogue, is_large);
     if (!arguments.store.empty() && row.protocol == 0) {
       const StampedPose& first = reference.poses.front();
       const Vector3& p = first.world_from_body.translation;
@@ -191,27 +180,38 @@ struct PairEvaluation {
 };
 
 /// Without results.
-EvaluatedFile not_evaluated(const Cell& cell, const Sweep& sweep, const EvalArguments& a) {
+EvaluatedFile not_evaluated(const Cell& cell, const RecordedSweep& files) {
   EvaluatedFile out;
   out.result.cell = cell;
-  for (const metrics::NamedProtocol& protocol : sweep.protocols) {
+  for (const metrics::NamedProtocol& protocol : files.sweep.protocols) {
     EvaluationResult& own = out.protocols.emplace_back();
-    own.reference = option(cell, sweep, "reference");
-    own.reference_body = a.reference_body.value_or("");
-    own.estimate = option(cell, sweep, "estimate");
+    own.reference = files.runs[cell.dataset].reference;
+    own.reference_body = files.arguments.reference_body.value_or("");
+    own.estimate = files.runs[cell.dataset].estimate;
     own.protocol = protocol;
   }
   return out;
 }
 
+/// Notes of the evaluations belong to the cell, those of the files to every evaluation.
+void share_notes(std::vector<EvaluationResult>& evaluations, std::vector<std::string>& of_cell) {
+  const std::vector<std::string> of_files = of_cell;
+  for (EvaluationResult& own : evaluations) {
+    if (!own.why_failed.empty()) continue;
+    for (const std::string& note : own.notes) {
+      if (std::ranges::count(of_cell, note) == 0) of_cell.push_back(note);
+    }
+    own.notes.insert(own.notes.end(), of_files.begin(), of_files.end());
+  }
+}
+
 }  // namespace
 
-SharedReference shared_reference(const Params& options,
-                                 const Sweep& sweep,
-                                 const EvalArguments& a) {
-  SharedReference out{recorded_reference(options, uses_digits(sweep, a))};
-  if (!a.store.empty()) out.file = hashed_input(to_text(options.at("reference")), "reference");
-  if (!a.store.empty() || sweep.datasets.size() > 1) {
+SharedReference shared_reference(const std::string& file, const RecordedSweep& files) {
+  const EvalArguments& a = files.arguments;
+  SharedReference out{recorded_reference(file, a, files.has_digits)};
+  if (!a.store.empty()) out.file = hashed_input(file, "reference");
+  if (!a.store.empty() || files.runs.size() > 1) {
     Sequence sequence;
     sequence.reference = out.read.poses;
     out.content = content_of(sequence);
@@ -220,60 +220,48 @@ SharedReference shared_reference(const Params& options,
 }
 
 EvaluatedFile evaluate_poses(const Cell& cell,
-                             const Sweep& sweep,
+                             const RecordedSweep& files,
                              const SharedReference& reference,
-                             RecordedFile estimate,
-                             const Catalogue& catalogue,
-                             const EvalArguments& a) {
-  EvaluatedFile out = not_evaluated(cell, sweep, a);
-  SequenceMetadata metadata = metadata_of(cell, sweep, reference);
-  identify(metadata, reference, estimate);
+                             const RecordedFile& estimate) {
+  const RecordedRun& run = files.runs[cell.dataset];
+  EvaluatedFile out = not_evaluated(cell, files);
+  SequenceMetadata metadata = metadata_of(run, reference, &estimate);
   const bool is_large = estimate.poses.size() >= kMinItemsPerThread;
   std::future<std::vector<std::string>> doctor =
       std::async(is_large ? std::launch::async : std::launch::deferred, [&] {
         const bool has_stamps = reference.read.unstamped.empty() && estimate.unstamped.empty();
-        return doctor_notes({reference.read.poses,
-                             estimate.poses,
-                             option(cell, sweep, "reference"),
-                             option(cell, sweep, "estimate"),
-                             has_stamps},
-                            sweep.protocols);
+        return doctor_notes(
+            {reference.read.poses, estimate.poses, run.reference, run.estimate, has_stamps},
+            files.sweep.protocols);
       });
-  const std::string common = option(cell, sweep, "common");
-  if (!common.empty()) metadata.notes.push_back(common_times_note(estimate.poses, common));
-  PairEvaluation evaluation{sweep, reference.read, estimate, catalogue, a, out, common};
-  for (std::size_t p = 0; p < sweep.protocols.size(); ++p) evaluation.evaluate(p);
-  for (const RecordedFile* file : {&reference.read, &std::as_const(estimate)}) {
+  if (!run.common.empty()) {
+    metadata.notes.push_back(common_times_note(estimate.poses, run.common));
+  }
+  PairEvaluation evaluation{files, reference.read, estimate, out, run.common};
+  for (std::size_t p = 0; p < out.protocols.size(); ++p) evaluation.evaluate(p);
+  for (const RecordedFile* file : {&reference.read, &estimate}) {
     if (!file->findings.damage.empty())
       metadata.notes.push_back("damaged file: " + file->findings.damage);
   }
   std::ranges::move(doctor.get(), std::back_inserter(metadata.notes));
-  const std::vector<std::string> of_files = metadata.notes;
-  for (EvaluationResult& own : out.protocols) {
-    if (!own.why_failed.empty()) continue;
-    for (const std::string& note : own.notes) {
-      if (std::ranges::count(metadata.notes, note) == 0) metadata.notes.push_back(note);
-    }
-    own.notes.insert(own.notes.end(), of_files.begin(), of_files.end());
-  }
+  share_notes(out.protocols, metadata.notes);
   out.result.metadata = std::make_shared<const SequenceMetadata>(std::move(metadata));
   return out;
 }
 
 EvaluatedFile evaluate_recorded(const Cell& cell,
-                                const Sweep& sweep,
-                                const SharedReference& reference,
-                                const Catalogue& catalogue,
-                                const EvalArguments& a) {
+                                const RecordedSweep& files,
+                                const SharedReference& reference) {
+  const RecordedRun& run = files.runs[cell.dataset];
   try {
-    const Params& options = sweep.datasets[cell.dataset].dataset.options;
-    return evaluate_poses(
-        cell, sweep, reference, recorded_estimate(options, uses_digits(sweep, a)), catalogue, a);
+    const RecordedFile estimate =
+        recorded_estimate(run.estimate, files.arguments, files.has_digits);
+    return evaluate_poses(cell, files, reference, estimate);
   } catch (const InputError& error) {
-    EvaluatedFile out = not_evaluated(cell, sweep, a);
+    EvaluatedFile out = not_evaluated(cell, files);
     out.result.status = Status::failed;
     out.result.why = error.what();
-    out.result.metadata = metadata_of_failure(cell, sweep, reference);
+    out.result.metadata = metadata_of_failure(run, reference);
     for (EvaluationResult& own : out.protocols) own.why_failed = error.what();
     return out;
   }

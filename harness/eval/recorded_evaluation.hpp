@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/eval/arguments.hpp"
 #include "harness/eval/evaluation_result.hpp"
+#include "harness/eval/recorded_file.hpp"
 #include "harness/eval/recorded_sweep.hpp"
 #include "harness/model/result.hpp"
 
@@ -21,10 +21,8 @@ struct SharedReference {
   std::optional<InputFile> file = {};  ///< for a store
 };
 
-/// `options`: of a dataset of recorded_sweep(). Throws InputError.
-SharedReference shared_reference(const Params& options,
-                                 const Sweep& sweep,
-                                 const EvalArguments& arguments);
+/// Throws InputError.
+SharedReference shared_reference(const std::string& file, const RecordedSweep& files);
 
 /// The result of a cell, and what a cell does not contain, for each protocol of the sweep.
 struct EvaluatedFile {
@@ -36,17 +34,13 @@ struct EvaluatedFile {
 /// protocol under which nothing can be evaluated has a `why_failed`. No times are recorded, because
 /// no method runs. O((n + m) log(n + m)).
 EvaluatedFile evaluate_poses(const Cell& cell,
-                             const Sweep& sweep,
+                             const RecordedSweep& files,
                              const SharedReference& reference,
-                             RecordedFile estimate,
-                             const Catalogue& catalogue,
-                             const EvalArguments& arguments);
+                             const RecordedFile& estimate);
 
 /// The same for the file of the cell. If it cannot be read, the cell and all protocols fail.
 EvaluatedFile evaluate_recorded(const Cell& cell,
-                                const Sweep& sweep,
-                                const SharedReference& reference,
-                                const Catalogue& catalogue,
-                                const EvalArguments& arguments);
+                                const RecordedSweep& files,
+                                const SharedReference& reference);
 
 }  // namespace loopbench::harness

@@ -118,58 +118,9 @@ std::string method_with_folder(const RecordedRun& run) {
   return is_numbered ? name : name + "/" + run.method;
 }
 
-/// The shortest ends of the paths that all differ: "a/run.txt" and "b/run.txt".
-std::vector<std::string> differing_ends(const std::vector<FilePair>& files) {
-  std::vector<std::filesystem::path> rest;
-  std::vector<std::string> out;
-  for (const FilePair& pair : files) {
-    rest.emplace_back(pair.estimate);
-    out.push_back(rest.back().filename().string());
-  }
-  while (std::set<std::string>(out.begin(), out.end()).size() < out.size()) {
-    bool is_longer = false;
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const std::filesystem::path parent = rest[i].parent_path();
-      if (parent.empty() || parent == rest[i] || parent.filename().empty()) continue;
-      rest[i] = parent;
-      out[i] = parent.filename().string() + "/" + out[i];
-      is_longer = true;
-    }
-    if (!is_longer) return out;  // the same file twice
-  }
-  return out;
-}
-
 auto labels_of(const RecordedRun& run) { return std::tie(run.sequence, run.method, run.run); }
 
 }  // namespace
-
-bool natural_less(const std::string& a, const std::string& b) {
-  std::size_t i = 0;
-  std::size_t j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (is_digit(a[i]) && is_digit(b[j])) {
-      const auto number = [](const std::string& text, std::size_t& at) {
-        while (at + 1 < text.size() && text[at] == '0' && is_digit(text[at + 1])) ++at;
-        const std::size_t first = at;
-        while (at < text.size() && is_digit(text[at])) ++at;
-        return text.substr(first, at - first);
-      };
-      const std::string m = number(a, i);
-      const std::string n = number(b, j);
-      if (m.size() != n.size()) return m.size() < n.size();
-      if (m != n) return m < n;
-      continue;
-    }
-    if (a[i] != b[j]) return a[i] < b[j];
-    ++i;
-    ++j;
-  }
-  const bool is_end_of_a = i == a.size();
-  const bool is_end_of_b = j == b.size();
-  if (is_end_of_a && is_end_of_b) return a < b;  // "run1" and "run01" are two names
-  return is_end_of_a;
-}
 
 std::vector<RecordedRun> recorded_runs(const std::vector<FilePair>& files,
                                        const std::string& sequence) {
@@ -206,13 +157,9 @@ std::vector<RecordedRun> labelled_runs(const std::vector<FilePair>& files,
     return recorded_runs(files, sequence);
   } catch (const InputError&) {
     std::vector<RecordedRun> out;
-    const std::vector<std::string> names = differing_ends(files);
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      out.push_back({std::filesystem::path(files[i].reference).stem().string(),
-                     names[i],
-                     "0",
-                     files[i].reference,
-                     files[i].estimate});
+    for (const auto& [reference, estimate] : files) {
+      const std::string sequence_name = std::filesystem::path(reference).stem().string();
+      out.push_back({sequence_name, estimate, "0", reference, estimate});
     }
     return out;
   }

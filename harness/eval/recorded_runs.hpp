@@ -32,12 +32,9 @@ struct RecordedRun {
 std::vector<RecordedRun> recorded_runs(const std::vector<FilePair>& files,
                                        const std::string& sequence);
 
-/// Labels for estimates: those of recorded_runs(), or the shortest ends of the paths that differ if
-/// recorded_runs() rejects them.
+/// Labels for estimates: those of recorded_runs(), or the names as given if recorded_runs() rejects
+/// them.
 std::vector<RecordedRun> labelled_runs(const std::vector<FilePair>& files,
                                        const std::string& sequence);
-
-/// "run2" < "run10": numbers within names are compared as numbers. A total order of texts.
-bool natural_less(const std::string& a, const std::string& b);
 
 }  // namespace loopbench::harness

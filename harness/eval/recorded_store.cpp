@@ -1,14 +1,16 @@
 #include "harness/eval/recorded_store.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
+#include <string_view>
 #include <tuple>
 
-#include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/error.hpp"
 #include "datasets/core/parallel.hpp"
-#include "harness/eval/note_summary.hpp"
 #include "harness/eval/recorded_evaluation.hpp"
 #include "harness/eval/recordings.hpp"
 #include "harness/run/build.hpp"
@@ -19,22 +21,16 @@
 namespace loopbench::harness {
 namespace {
 
+constexpr const char* kStoreFile = "results.sqlite";
+
 auto run_labels(const RecordedRun& run) { return std::tie(run.sequence, run.method, run.run); }
 
-/// The runs of a store. Throws InputError if it has none, or has paths of an unknown folder.
+/// The runs of a store. Throws InputError if it has none.
 std::vector<RecordedRun> stored_runs(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file) || has_no_tables(file)) return {};
   std::vector<RecordedRun> out = runs_of_manifest(read_run(file)["config"]);
   if (out.empty()) {
     throw InputError(file.string() + ": is the store of a sweep, expected one of eval --store");
-  }
-  for (const RecordedRun& run : out) {
-    for (const std::string& name : {run.reference, run.estimate}) {
-      if (file_of(name) == "-" || std::filesystem::path(file_of(name)).is_absolute()) continue;
-      throw InputError(file.string() + ": has the relative path " + name +
-                       " of an earlier version, whose folder is unknown; evaluate its files into "
-                       "a new store");
-    }
   }
   return out;
 }
@@ -72,43 +68,31 @@ void check_references(const std::vector<RecordedRun>& runs) {
   }
 }
 
-/// Finds copies of a recording among the references of all runs.
-void find_recordings(const std::vector<RecordedRun>& runs,
-                     const Sweep& sweep,
-                     const EvalArguments& a,
-                     std::map<std::string, SharedReference>& known) {
-  Recordings recordings;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const auto found = known.find(runs[i].reference);
-    if (found != known.end() && !found->second.recording.empty()) continue;
-    try {
-      SharedReference& own =
-          found != known.end()
-              ? found->second
-              : known
-                    .emplace(runs[i].reference,
-                             shared_reference(sweep.datasets[i].dataset.options, sweep, a))
-                    .first->second;
-      own.recording = recordings.name_of(own.content, own.read.poses);
-    } catch (const InputError&) {
-      continue;  // of a stored run, whose results stay
-    }
-  }
-}
-
 using References = std::map<std::string, SharedReference>;  // by RecordedRun::reference
 
 /// Reads the references of cells that are not known yet. Throws InputError.
 void read_references(const std::vector<Cell>& cells,
-                     const std::vector<RecordedRun>& runs,
-                     const Sweep& sweep,
-                     const EvalArguments& a,
+                     const RecordedSweep& files,
                      References& known) {
   for (const Cell& cell : cells) {
-    const std::string& reference = runs[cell.dataset].reference;
-    if (known.contains(reference)) continue;
-    known.emplace(reference,
-                  shared_reference(sweep.datasets[cell.dataset].dataset.options, sweep, a));
+    const std::string& reference = files.runs[cell.dataset].reference;
+    if (!known.contains(reference)) known.emplace(reference, shared_reference(reference, files));
+  }
+}
+
+/// Finds copies of a recording among the references of all runs.
+void find_recordings(const RecordedSweep& files, References& known) {
+  Recordings recordings;
+  for (const RecordedRun& run : files.runs) {
+    try {
+      if (!known.contains(run.reference)) {
+        known.emplace(run.reference, shared_reference(run.reference, files));
+      }
+      SharedReference& own = known.at(run.reference);
+      if (own.recording.empty()) own.recording = recordings.name_of(own.content, own.read.poses);
+    } catch (const InputError&) {
+      continue;  // of a stored run, whose results stay
+    }
   }
 }
 
@@ -135,69 +119,139 @@ std::string why_failed(const CellResult& result) {
   return is_all ? failed->why : failed->label + ": " + failed->why;
 }
 
-void add_result(const CellResult& result,
-                const std::string& estimate,
-                RecordedSweep& out,
-                NoteSummary& notes) {
-  if (const std::string why = why_failed(result); !why.empty()) {
-    ++out.failed;
-    const bool names_file = why.find(estimate) != std::string::npos;
-    out.failures.push_back(names_file ? why : estimate + ": " + why);
+/// Notes of many files, one line for each kind (the text before the first colon, or the second one
+/// after "doctor:"): that of the first file with it, and the number of further files.
+class NotesByKind {
+ public:
+  void add(const std::string& file, const std::vector<std::string>& notes) {
+    std::set<std::string> counted;  // a file can have several notes of one kind
+    for (const std::string& note : notes) {
+      const std::size_t begin = note.starts_with(kDoctor) ? kDoctor.size() : 0;
+      const std::string kind = note.substr(0, note.find(':', begin));
+      if (!counted.insert(kind).second) continue;
+      const auto known = std::ranges::find(kinds_, kind, &Kind::name);
+      if (known == kinds_.end()) {
+        kinds_.push_back({kind, file + ": " + note});
+      } else {
+        ++known->more;
+      }
+    }
   }
-  out.incomplete += result.status == Status::incomplete ? 1 : 0;
-  if (result.metadata) notes.add(estimate, result.metadata->notes);
+
+  /// Findings of the doctor first, then in order of appearance.
+  std::vector<std::string> lines() const {
+    std::vector<std::string> out;
+    for (const bool is_doctor : {true, false}) {
+      for (const Kind& kind : kinds_) {
+        if (kind.name.starts_with(kDoctor) != is_doctor) continue;
+        out.push_back(kind.first);
+        if (kind.more == 0) continue;
+        out.back() += fmt::format(" (and {} more run{})", kind.more, kind.more == 1 ? "" : "s");
+      }
+    }
+    return out;
+  }
+
+ private:
+  static constexpr std::string_view kDoctor = "doctor: ";
+  struct Kind {
+    std::string name;
+    std::string first;  ///< file and note
+    std::size_t more = 0;
+  };
+  std::vector<Kind> kinds_;
+};
+
+/// Counts for the summary.
+struct Outcome {
+  std::size_t failed = 0;  ///< including runs of which a metric failed
+  std::size_t incomplete = 0;
+  std::vector<std::string> failures;  ///< "FILE: reason"
+
+  void add(const CellResult& result, const std::string& estimate) {
+    incomplete += result.status == Status::incomplete ? 1 : 0;
+    const std::string why = why_failed(result);
+    if (why.empty()) return;
+    ++failed;
+    const bool names_file = why.find(estimate) != std::string::npos;
+    failures.push_back(names_file ? why : estimate + ": " + why);
+  }
+};
+
+/// With the reasons of at most five failures.
+std::string summary(std::size_t cells,
+                    std::size_t stored,
+                    const Outcome& o,
+                    const RecordedSweep& files) {
+  constexpr std::size_t kMost = 5;
+  const std::string& store = files.arguments.store;
+  std::string out =
+      fmt::format("{} runs in {}", cells, (std::filesystem::path(store) / kStoreFile).string());
+  if (stored > 0) out += fmt::format(" ({} stored before)", stored);
+  if (o.failed > 0) out += fmt::format(", {} failed", o.failed);
+  if (o.incomplete > 0) {
+    out += fmt::format(", {} with coverage below {:g}", o.incomplete, files.sweep.min_coverage);
+  }
+  out += "\n";
+  for (std::size_t i = 0; i < std::min(o.failures.size(), kMost); ++i) {
+    out += "failed: " + o.failures[i] + "\n";
+  }
+  if (o.failures.size() > kMost) {
+    out += fmt::format(
+        "failed: {} more, listed by `loopbench report {}`\n", o.failures.size() - kMost, store);
+  }
+  return out;
 }
 
 }  // namespace
 
-RecordedSweep store_runs(const std::vector<RecordedRun>& added,
-                         const EvalArguments& a,
-                         const std::filesystem::path& folder,
-                         const Source& source) {
-  const std::filesystem::path file = folder / "results.sqlite";
+StoredRuns store_runs(const std::vector<RecordedRun>& added,
+                      const EvalArguments& a,
+                      const Source& source) {
+  const std::filesystem::path file = std::filesystem::path(a.store) / kStoreFile;
   const std::vector<RecordedRun> stored = stored_runs(file);
-  RecordedSweep out;
+  StoredRuns out;
   std::vector<RecordedRun> runs = with_stored(stored, added, out.notes);
   check_references(runs);
-  const Catalogue known = recorded_catalogue(a.plugins);
   if (a.common.value_or(true)) set_common_times(runs, a);
-  const Sweep sweep = recorded_sweep(runs, a, known);
-  const std::vector<Cell> cells = recorded_cells(runs, sweep);
-  CellKeys keys(sweep, known, DataRoot{}, build_id(source.code));
+  const RecordedSweep files = recorded_sweep(std::move(runs), a);
+  CellKeys keys(files.sweep, files.catalogue, DataRoot{}, build_id(source.code));
   // Before the store changes: stored results are kept if a reference cannot be read.
   References references;
   const std::vector<Cell> missing =
-      stored.empty() ? cells : missing_cells(file, keys, cells, cells);
-  read_references(missing, runs, sweep, a, references);
-  const std::string again = evaluated_again(missing, runs, added);
+      stored.empty() ? files.cells : missing_cells(file, keys, files.cells, files.cells);
+  read_references(missing, files, references);
+  const std::string again = evaluated_again(missing, files.runs, added);
   if (!again.empty()) out.notes.push_back(again);
-  std::filesystem::create_directories(folder);
-  Store store(file, keys, provenance(source, sweep, known));
+  std::filesystem::create_directories(a.store);
+  Store store(file, keys, provenance(source, files.sweep, files.catalogue));
   // A failure can be repaired without a change of the estimate, for example by its permissions.
-  const Resumed resumed = store.resume(cells, cells, Retry::failed);
-  read_references(resumed.missing, runs, sweep, a, references);
-  if (!resumed.missing.empty()) find_recordings(runs, sweep, a, references);
-  out.cells = cells.size();
-  out.stored = resumed.there;
-  out.failed = resumed.failed;
-  out.incomplete = resumed.incomplete;
+  const Resumed resumed = store.resume(files.cells, files.cells, Retry::failed);
+  read_references(resumed.missing, files, references);
+  if (!resumed.missing.empty()) find_recordings(files, references);
   std::map<std::string, std::vector<Cell>> by_reference;
-  for (const Cell& cell : resumed.missing)
-    by_reference[runs[cell.dataset].reference].push_back(cell);
-  NoteSummary notes;
-  for (const auto& [name, those] : by_reference) {
-    const SharedReference& reference = references.at(name);
-    std::vector<CellResult> results(those.size());
-    parallel_for_tasks(those.size(), [&, &cells = those](std::size_t i) {
-      results[i] = evaluate_recorded(cells[i], sweep, reference, known, a).result;
-    });
+  for (const Cell& cell : resumed.missing) {
+    by_reference[files.runs[cell.dataset].reference].push_back(cell);
+  }
+  Outcome outcome{resumed.failed, resumed.incomplete, {}};
+  NotesByKind notes;
+  for (const auto& [name, cells] : by_reference) {
+    std::vector<CellResult> results(cells.size());
+    parallel_for_tasks(cells.size(),
+                       [&, &own = cells, &reference = references.at(name)](std::size_t i) {
+                         results[i] = evaluate_recorded(own[i], files, reference).result;
+                       });
     for (const CellResult& result : results) {
+      const std::string& estimate = files.runs[result.cell.dataset].estimate;
       store.write(result);
-      add_result(result, runs[result.cell.dataset].estimate, out, notes);
+      outcome.add(result, estimate);
+      if (result.metadata) notes.add(estimate, result.metadata->notes);
     }
   }
   store.close();
   std::ranges::move(notes.lines(), std::back_inserter(out.notes));
+  out.summary = summary(files.cells.size(), resumed.there, outcome, files);
+  out.are_ok = outcome.failed + outcome.incomplete == 0;
   return out;
 }
 

@@ -2,24 +2,18 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
-#include "harness/eval/arguments.hpp"
-#include "harness/eval/recorded_runs.hpp"
+#include "harness/eval/recorded_sweep.hpp"
 #include "harness/run/collect_provenance.hpp"
 
 namespace loopbench::harness {
 
-struct RecordedSweep {
-  std::size_t cells = 0;   ///< of the store
-  std::size_t stored = 0;  ///< of those, stored before
-  std::size_t failed = 0;  ///< including runs of which a metric failed
-  std::size_t incomplete = 0;
-  std::vector<std::string>
-      notes;  ///< on earlier runs, and of the files evaluated now (NoteSummary)
-  std::vector<std::string> failures;  ///< "FILE: reason"
+struct StoredRuns {
+  std::string summary;             ///< "40 runs in FILE (39 stored before), 1 failed", and reasons
+  std::vector<std::string> notes;  ///< on earlier runs, and of the files evaluated now
+  bool are_ok = true;              ///< none failed or has a low coverage
 };
 
 /// Evaluates the runs under all protocols of the arguments and writes them to
@@ -27,10 +21,9 @@ struct RecordedSweep {
 /// evaluated again, except those that failed. Every run of a sequence is a group of its own, so
 /// that conclusions hold for other runs on these sequences; runs with the same number on equal
 /// references are one group, see recorded_group(). Throws InputError, also if the store is the
-/// result of a sweep or has relative paths; the store is then unchanged. O(poses).
-RecordedSweep store_runs(const std::vector<RecordedRun>& runs,
-                         const EvalArguments& arguments,
-                         const std::filesystem::path& folder,
-                         const Source& source);
+/// result of a sweep; the store is then unchanged. O(poses).
+StoredRuns store_runs(const std::vector<RecordedRun>& runs,
+                      const EvalArguments& arguments,
+                      const Source& source);
 
 }  // namespace loopbench::harness

@@ -1,193 +1,61 @@
 #include "harness/eval/recorded_sweep.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <tuple>
 
-#include "datasets/bags/bag_trajectory.hpp"
-#include "datasets/formats/text_formats.hpp"
+#include "harness/eval/recorded_file.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "methods/function_method.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-struct RecordedOptions {
-  std::string sequence, method, run, reference, estimate, group, common;
-  Format format = Format::automatic;
-  Format reference_format = Format::automatic;
-  Repeats repeats = Repeats::refuse;
-  std::string times = {}, reference_body = {};
-  double period = ReadOptions{}.period;
-};
-
-template <class Visit>
-void fields(RecordedOptions& o, Visit visit) {
-  visit("sequence", o.sequence, "label of the sequence");
-  visit("method", o.method, "label of the system");
-  visit("run", o.run, "name of the run");
-  visit("reference", o.reference, "reference trajectory");
-  visit("estimate", o.estimate, "estimated trajectory");
-  visit("group", o.group, "name of the recording");
-  visit("common", o.common, "times to evaluate [s]");
-  visit("format", o.format, "format of the estimate");
-  visit("reference_format", o.reference_format, "format of the reference");
-  visit("repeats", o.repeats, "handling of equal stamps");
-  visit("times", o.times, "times file of KITTI poses");
-  visit("reference_body", o.reference_body, "extrinsic offset of the reference's body");
-  visit("period", o.period, "time between poses without stamps [s]", GreaterThan{0.0});
+Params options_of(const RecordedRun& run, Params shared) {
+  shared.insert({{"sequence", run.sequence},
+                 {"method", run.method},
+                 {"run", run.run},
+                 {"reference", run.reference},
+                 {"estimate", run.estimate},
+                 {"group", run.group},
+                 {"common", run.common}});
+  return shared;
 }
 
-RecordedFile read_recorded(const RecordedOptions& o,
-                           const std::string& file,
-                           Format format,
-                           bool with_matrices) {
-  ReadOptions options;
-  options.format = format == Format::automatic ? detect_format(file) : format;
-  options.period = o.period;
-  options.repeats = o.repeats;
-  const bool is_kitti = options.format == Format::kitti;
-  if (is_kitti && !o.times.empty()) options.times = o.times;
-  RecordedFile out;
-  options.findings = &out.findings;
-  out.poses = read_trajectory(file, options);
-  if (out.poses.empty()) throw input_error(file, 0, "has no poses, expected at least one");
-  if (options.format == Format::g2o || (is_kitti && !options.times)) {
-    out.unstamped = file + ": is " + to_text(options.format);
-  }
-  if (is_kitti && with_matrices) out.matrices = read_kitti_matrices(file);
-  return out;
-}
-
-RecordedFile read_reference(const RecordedOptions& o, bool with_matrices) {
-  EvalArguments offset;
-  if (!o.reference_body.empty()) offset.reference_body = o.reference_body;
-  RecordedFile out = read_recorded(o, o.reference, o.reference_format, with_matrices);
-  out.poses = to_estimate_body(std::move(out.poses), reference_body(offset));
-  return out;
-}
-
-Sequence load_recorded(const RecordedOptions& o, const DataRoot&) {
-  Sequence out;
-  out.name = o.sequence;
-  out.reference = read_reference(o, false).poses;
-  out.problem.keyframes = read_recorded(o, o.estimate, o.format, false).poses;
-  out.provenance.inputs = {{file_of(o.reference)}, {file_of(o.estimate)}};
-  out.provenance.reference = file_of(o.reference);
-  return out;
-}
-
-}  // namespace
-
-Params recorded_file_options(const RecordedRun& run, const EvalArguments& a) {
-  RecordedOptions o{
-      run.sequence, run.method, run.run, run.reference, run.estimate, run.group, run.common};
-  FieldType<Format>::assign("format", o.format, a.format);
-  o.reference_format = o.format;
-  if (!a.reference_format.empty()) {
-    FieldType<Format>::assign("ref-format", o.reference_format, a.reference_format);
-  }
-  FieldType<Repeats>::assign("repeats", o.repeats, a.repeats);
-  o.times = a.times;
-  o.reference_body = a.reference_body.value_or("");
-  if (a.period) o.period = *a.period;
-  return echo(o);
-}
-
-namespace {
-
-/// The options that all files share, as text.
-std::string common_options(const EvalArguments& a) {
-  Params out = recorded_file_options({}, a);
-  for (const char* own :
-       {"sequence", "method", "run", "reference", "estimate", "group", "common"}) {
-    out.erase(own);
-  }
-  return to_text(out);
-}
-
-/// Whether any file has this format, by the arguments or its content.
-bool has_poses_of(Format wanted, const EvalArguments& a, const std::vector<RecordedRun>& runs) {
-  const auto is_wanted = [wanted](const std::string& file, const std::string& word) {
-    Format format = Format::automatic;
-    FieldType<Format>::assign("format", format, word);
-    if (format != Format::automatic || !std::filesystem::is_regular_file(file)) {
-      return format == wanted;
-    }
-    return detect_format(file) == wanted;
-  };
-  const std::string& reference = a.reference_format.empty() ? a.format : a.reference_format;
-  return std::ranges::any_of(runs, [&](const RecordedRun& run) {
-    return is_wanted(run.reference, reference) || is_wanted(run.estimate, a.format);
-  });
-}
-
-}  // namespace
-
-RecordedFile recorded_reference(const Params& options, bool with_matrices) {
-  return read_reference(with(RecordedOptions{}, options), with_matrices);
-}
-
-RecordedFile recorded_estimate(const Params& options, bool with_matrices) {
-  const RecordedOptions o = with(RecordedOptions{}, options);
-  return read_recorded(o, o.estimate, o.format, with_matrices);
-}
-
-bool uses_digits(const Sweep& sweep, const EvalArguments& a) {
-  if (has_offset(reference_body(a))) return false;
-  return std::ranges::any_of(sweep.protocols, [](const metrics::NamedProtocol& p) {
-    return p.rules.form == metrics::ErrorForm::kitti ||
-           p.rules.association == metrics::Association::evo;
-  });
-}
-
-void check_stamp_options(const EvalArguments& a, const std::vector<RecordedRun>& runs) {
-  const bool has_kitti = (!a.times.empty() || a.period) && has_poses_of(Format::kitti, a, runs);
-  if (!a.times.empty() && !has_kitti) {
-    throw InputError(a.times + ": is a times file, but no file has KITTI poses");
-  }
-  const bool has_unstamped = has_kitti && a.times.empty();
-  if (a.period && !has_unstamped && !has_poses_of(Format::g2o, a, runs)) {
-    throw InputError("--period " + to_text(*a.period) +
-                     ": all files have stamps, expected KITTI poses without --times, or g2o");
-  }
-}
-
+/// Files are read by the evaluation; the catalogue describes them for the store.
 Catalogue recorded_catalogue(const std::vector<std::filesystem::path>& plugins) {
   Catalogue out = catalogue(plugins);
-  out.datasets = {dataset<RecordedOptions>("files", "a reference and an estimate", load_recorded)};
+  out.datasets = {{"files", "a reference and an estimate", {}, {}, {}}};
   out.methods = {methods::method("recorded",
                                  "poses of the estimate's file",
                                  [](const Problem& problem) { return problem.keyframes; })};
   return out;
 }
 
-Sweep recorded_sweep(const std::vector<RecordedRun>& runs,
-                     const EvalArguments& a,
-                     const Catalogue& catalogue) {
-  Sweep out;
-  out.name = "eval";
-  out.text = manifest(runs, common_options(a));
-  out.protocols = protocols(a);
-  out.metrics = metric_choices(a, catalogue, out.protocols);
-  out.times = {metrics::Times::keyframes};
-  out.min_coverage = a.min_coverage.value_or(a.store.empty() ? 0.0 : kDefaultMinCoverage);
-  out.table.split = {"sequence"};
+/// The runs as text, with the options that all files share.
+std::string manifest(const std::vector<RecordedRun>& runs, const Params& options) {
+  std::string out = std::string(kRecordedTitle) + "\n";
+  out += std::string(kRecordedOptions) + to_text(options) + "\n";
   for (const RecordedRun& run : runs) {
-    out.datasets.push_back({run.sequence, {"files", recorded_file_options(run, a)}});
-    const bool is_known = std::ranges::any_of(
-        out.methods, [&](const MethodChoice& m) { return m.label == run.method; });
-    if (!is_known) out.methods.push_back({run.method, {{"recorded", {}}}});
+    nlohmann::ordered_json line{{"sequence", run.sequence},
+                                {"method", run.method},
+                                {"run", run.run},
+                                {"reference", run.reference},
+                                {"estimate", run.estimate}};
+    if (!run.group.empty()) line["group"] = run.group;
+    out += "- " + line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   }
-  if (!out.methods.empty()) out.baseline = out.methods.front().label;
   return out;
 }
 
 std::vector<Cell> recorded_cells(const std::vector<RecordedRun>& runs, const Sweep& sweep) {
-  const auto less = [](const std::string& a, const std::string& b) { return natural_less(a, b); };
+  const auto less = [](const std::string& a, const std::string& b) {
+    return strverscmp(a.c_str(), b.c_str()) < 0;
+  };
   using Names = std::set<std::string, decltype(less)>;
   std::map<std::string, Names> names;
   std::vector<std::string> sequences;
@@ -196,7 +64,6 @@ std::vector<Cell> recorded_cells(const std::vector<RecordedRun>& runs, const Swe
     names[run.sequence].insert(run.run);
   }
   std::vector<Cell> out;
-  std::vector<std::size_t> order;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Names& all = names[runs[i].sequence];
     const auto method = std::ranges::find(sweep.methods, runs[i].method, &MethodChoice::label);
@@ -214,18 +81,37 @@ std::vector<Cell> recorded_cells(const std::vector<RecordedRun>& runs, const Swe
   return out;
 }
 
-std::string manifest(const std::vector<RecordedRun>& runs, const std::string& options) {
-  std::string out = std::string(kRecordedTitle) + "\n";
-  if (!options.empty()) out += std::string(kRecordedOptions) + options + "\n";
-  for (const RecordedRun& run : runs) {
-    nlohmann::ordered_json line{{"sequence", run.sequence},
-                                {"method", run.method},
-                                {"run", run.run},
-                                {"reference", run.reference},
-                                {"estimate", run.estimate}};
-    if (!run.group.empty()) line["group"] = run.group;
-    out += "- " + line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+bool uses_digits(const RecordedSweep& files) {
+  if (has_offset(files.body)) return false;
+  return std::ranges::any_of(files.sweep.protocols, [](const metrics::NamedProtocol& p) {
+    return p.rules.form == metrics::ErrorForm::kitti ||
+           p.rules.association == metrics::Association::evo;
+  });
+}
+
+}  // namespace
+
+RecordedSweep recorded_sweep(std::vector<RecordedRun> runs, const EvalArguments& a) {
+  RecordedSweep out{
+      a, std::move(runs), reference_body(a), recorded_catalogue(a.plugins), {}, false, {}};
+  const Params shared = reading_options(a);
+  Sweep& sweep = out.sweep;
+  sweep.name = "eval";
+  sweep.text = manifest(out.runs, shared);
+  sweep.protocols = protocols(a);
+  sweep.metrics = metric_choices(a, out.catalogue, sweep.protocols);
+  sweep.times = {metrics::Times::keyframes};
+  sweep.min_coverage = a.min_coverage.value_or(a.store.empty() ? 0.0 : kDefaultMinCoverage);
+  sweep.table.split = {"sequence"};
+  for (const RecordedRun& run : out.runs) {
+    sweep.datasets.push_back({run.sequence, {"files", options_of(run, shared)}});
+    if (std::ranges::count(sweep.methods, run.method, &MethodChoice::label) == 0) {
+      sweep.methods.push_back({run.method, {{"recorded", {}}}});
+    }
   }
+  if (!sweep.methods.empty()) sweep.baseline = sweep.methods.front().label;
+  out.has_digits = uses_digits(out);
+  out.cells = recorded_cells(out.runs, sweep);
   return out;
 }
 

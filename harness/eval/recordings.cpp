@@ -9,7 +9,7 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/parallel.hpp"
-#include "harness/eval/recorded_sweep.hpp"
+#include "harness/eval/recorded_file.hpp"
 #include "metrics/alignment/alignment.hpp"
 #include "metrics/numerics/median.hpp"
 
@@ -129,8 +129,7 @@ void set_common_times(std::vector<RecordedRun>& runs, const EvalArguments& argum
   std::vector<std::vector<TimeRange>> covered(runs.size());
   parallel_for_tasks(runs.size(), [&](std::size_t i) {
     try {
-      covered[i] =
-          covered_times(recorded_estimate(recorded_file_options(runs[i], arguments), false).poses);
+      covered[i] = covered_times(recorded_estimate(runs[i].estimate, arguments, false).poses);
     } catch (const InputError&) {
       covered[i].clear();  // its evaluation fails, too, and states why
     }

@@ -7,7 +7,6 @@
 
 #include "harness/compare/gate.hpp"
 #include "harness/compare/snapshot.hpp"
-#include "harness/eval/note_summary.hpp"
 #include "harness/eval/run_summary.hpp"
 #include "harness/report/sections.hpp"
 #include "harness/store/read.hpp"
@@ -18,7 +17,6 @@ namespace loopbench::eval_store_options_test {
 namespace {
 
 using testing::ContainsRegex;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using namespace harness;
 
@@ -43,19 +41,6 @@ TEST_F(EvalStoreOptions, PrintsFindingsOfTheDoctorOncePerKind) {
   EXPECT_THAT(notes, HasSubstr(path("late/0.txt") + ": doctor: time_offset: "));
   EXPECT_THAT(notes, HasSubstr("(and 9 more runs)"));
   EXPECT_LE(std::ranges::count(notes, '\n'), 5);
-}
-
-TEST(NoteSummary, HasOneLineOfEachKindAndAtMostFive) {
-  NoteSummary notes;
-  notes.add("a", {"few pairs: 4", "doctor: scale: 2; fix", "few pairs: 5"});
-  notes.add("b", {"doctor: scale: 3; fix", "doctor: time_offset: 1; fix"});
-  EXPECT_THAT(notes.lines(),
-              ElementsAre("a: doctor: scale: 2; fix (and 1 more run)",
-                          "b: doctor: time_offset: 1; fix",
-                          "a: few pairs: 4"));
-  notes.add("c", {"k1: x", "k2: x", "k3: x"});  // six kinds: four, and a line on the other two
-  ASSERT_EQ(notes.lines().size(), 5u);
-  EXPECT_THAT(notes.lines().back(), HasSubstr("2 other kinds"));
 }
 
 TEST_F(EvalStoreOptions, RejectsOptionsThatAStoreIgnores) {

@@ -4,12 +4,10 @@
 
 #include <fstream>
 
-#include "harness/eval/recorded_runs.hpp"
 #include "harness/eval/recorded_sweep.hpp"
 #include "harness/store/merge.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/sqlite.hpp"
-#include "harness/store/store.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/recorded_files.hpp"
 
@@ -145,25 +143,6 @@ TEST_F(EvalStore, RelativeNamesInSeveralFoldersAreDifferentFiles) {
   }
 }
 
-TEST_F(EvalStore, RejectsRelativePathsOfEarlierVersions) {
-  std::filesystem::create_directories(path("old"));
-  const Catalogue known = recorded_catalogue();
-  const Sweep sweep =
-      recorded_sweep({{"s", "m", "0", "ref.txt", "est.txt"}}, EvalArguments{}, known);
-  {
-    CellKeys keys(sweep, known, DataRoot{}, "build");
-    Store store(path("old/results.sqlite"), keys, {});
-    CellResult result;
-    result.status = Status::failed;
-    result.why = "not read";
-    store.write(result);
-  }
-  EXPECT_THAT(
-      test::refusal<InputError>(
-          {path("truths/office.txt"), path("systems/bad/office/1.txt"), "--store", path("old")}),
-      HasSubstr("old/results.sqlite: has the relative path ref.txt of an earlier version"));
-}
-
 TEST_F(EvalStore, AnUnreadableReferenceLeavesTheStoreUnchanged) {
   test::eval({path("truths"), path("systems"), "--store", path("s")});
   std::ofstream(path("truths/street.txt")) << "1 2 3\n";
@@ -213,20 +192,6 @@ TEST_F(EvalStore, MergedStoresGoOn) {
   EXPECT_THAT(out, HasSubstr("(2 stored before)"));
   EXPECT_THROW(merge_stores({good, store_of("bad", "keep_last")}, path("other.sqlite"), {}),
                InputError);
-}
-
-TEST_F(EvalStore, EvalOfSeveralEstimatesEndsWithTheVerdict) {
-  std::vector<std::string> arguments{path("truths/office.txt")};
-  for (int run = 0; run < 10; ++run) {
-    for (const char* const method : {"good", "bad"}) {
-      arguments.push_back(
-          path("systems/" + std::string(method) + "/office/" + std::to_string(run) + ".txt"));
-    }
-  }
-  EXPECT_THAT(
-      test::eval(arguments),
-      HasSubstr(
-          "verdict: translation ate, rmse [m], keyframes, loopbench: the baseline good is best: "));
 }
 
 TEST_F(EvalStore, EvalStatesWhyThereIsNoVerdict) {

@@ -110,14 +110,6 @@ TEST(Eval, RefusesRotationOfPositionsAlone) {
   EXPECT_EQ(text.find("the reference has a constant"), text.rfind("the reference has a constant"));
 }
 
-TEST(Eval, SeveralEstimatesAreSeveralResults) {
-  const Json results =
-      eval_json({golden("gt.txt"), golden("est_drift.txt"), golden("est_corrected.txt")});
-  ASSERT_TRUE(results.is_array());
-  ASSERT_EQ(results.size(), 2u);
-  EXPECT_EQ(results[1]["estimate"], golden("est_corrected.txt"));
-}
-
 TEST(Eval, PairsKittiPosesByTheirNumber) {
   const Json results = eval_json({golden("kitti_gt.txt"), golden("kitti_est.txt")});
   EXPECT_EQ(results["pairs"], 1200);

@@ -4,8 +4,7 @@
 
 #include "datasets/core/so3.hpp"
 #include "datasets/formats/formats.hpp"
-#include "harness/eval/drawn_sequences.hpp"
-#include "harness/eval/error_figures.hpp"
+#include "harness/eval/eval_figures.hpp"
 #include "harness/eval/trajectory_figures.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/matplotlib.hpp"

@@ -1,0 +1,102 @@
+#include "harness/eval/recorded_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "datasets/core/fields.hpp"
+#include "datasets/formats/text_formats.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+Format format_of(const char* option, const std::string& word) {
+  Format out{};
+  FieldType<Format>::assign(option, out, word);
+  return out;
+}
+
+Repeats repeats_of(const EvalArguments& a) {
+  Repeats out{};
+  FieldType<Repeats>::assign("repeats", out, a.repeats);
+  return out;
+}
+
+const std::string& reference_format(const EvalArguments& a) {
+  return a.reference_format.empty() ? a.format : a.reference_format;
+}
+
+RecordedFile read_recorded(const std::string& file,
+                           Format format,
+                           const EvalArguments& a,
+                           bool with_digits) {
+  RecordedFile out;
+  ReadOptions options;
+  options.format = format == Format::automatic ? detect_format(file) : format;
+  options.repeats = repeats_of(a);
+  options.period = a.period.value_or(options.period);
+  const bool is_kitti = options.format == Format::kitti;
+  if (is_kitti && !a.times.empty()) options.times = a.times;
+  options.findings = &out.findings;
+  out.poses = read_trajectory(file, options);
+  if (out.poses.empty()) throw input_error(file, 0, "has no poses, expected at least one");
+  if (options.format == Format::g2o || (is_kitti && !options.times)) {
+    out.unstamped = file + ": is " + to_text(options.format);
+  }
+  if (is_kitti && with_digits) out.matrices = read_kitti_matrices(file);
+  return out;
+}
+
+/// Whether any file has this format, by the arguments or its content.
+bool has_poses_of(Format wanted, const EvalArguments& a, const std::vector<RecordedRun>& runs) {
+  const auto is_wanted = [wanted](const std::string& file, Format format) {
+    if (format != Format::automatic || !std::filesystem::is_regular_file(file)) {
+      return format == wanted;
+    }
+    return detect_format(file) == wanted;
+  };
+  const Format of_references = format_of("ref-format", reference_format(a));
+  const Format of_estimates = format_of("format", a.format);
+  return std::ranges::any_of(runs, [&](const RecordedRun& run) {
+    return is_wanted(run.reference, of_references) || is_wanted(run.estimate, of_estimates);
+  });
+}
+
+}  // namespace
+
+RecordedFile recorded_reference(const std::string& file, const EvalArguments& a, bool with_digits) {
+  RecordedFile out =
+      read_recorded(file, format_of("ref-format", reference_format(a)), a, with_digits);
+  out.poses = to_estimate_body(std::move(out.poses), reference_body(a));
+  return out;
+}
+
+RecordedFile recorded_estimate(const std::string& file, const EvalArguments& a, bool with_digits) {
+  return read_recorded(file, format_of("format", a.format), a, with_digits);
+}
+
+Params reading_options(const EvalArguments& a) {
+  const double period = a.period.value_or(ReadOptions{}.period);
+  if (!(period > 0.0)) {
+    throw OptionError("period", "period = " + to_text(period) + ": expected period > 0");
+  }
+  return {{"format", to_text(format_of("format", a.format))},
+          {"reference_format", to_text(format_of("ref-format", reference_format(a)))},
+          {"repeats", to_text(repeats_of(a))},
+          {"times", a.times},
+          {"reference_body", a.reference_body.value_or("")},
+          {"period", period}};
+}
+
+void check_stamp_options(const EvalArguments& a, const std::vector<RecordedRun>& runs) {
+  const bool has_kitti = (!a.times.empty() || a.period) && has_poses_of(Format::kitti, a, runs);
+  if (!a.times.empty() && !has_kitti) {
+    throw InputError(a.times + ": is a times file, but no file has KITTI poses");
+  }
+  const bool has_unstamped = has_kitti && a.times.empty();
+  if (a.period && !has_unstamped && !has_poses_of(Format::g2o, a, runs)) {
+    throw InputError("--period " + to_text(*a.period) +
+                     ": all files have stamps, expected KITTI poses without --times, or g2o");
+  }
+}
+
+}  // namespace loopbench::harness

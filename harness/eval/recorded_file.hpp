@@ -1,0 +1,37 @@
+/// Reading of the files of `eval`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "datasets/core/params.hpp"
+#include "datasets/formats/formats.hpp"
+#include "harness/eval/arguments.hpp"
+#include "harness/eval/recorded_runs.hpp"
+
+namespace loopbench::harness {
+
+/// Poses of a file and the remarks of its reader.
+struct RecordedFile {
+  Trajectory poses;
+  std::vector<PoseMatrix> matrices = {};  ///< as printed; only of KITTI files, and if needed
+  ReadFindings findings = {};
+  std::string unstamped = {};  ///< file and format if the stamps were generated, otherwise empty
+};
+
+/// Read a file as the arguments state; the reference is in the body of the estimates.
+/// `with_digits`: also the digits of KITTI files. Throw InputError, OptionError.
+RecordedFile recorded_reference(const std::string& file,
+                                const EvalArguments& arguments,
+                                bool with_digits);
+RecordedFile recorded_estimate(const std::string& file,
+                               const EvalArguments& arguments,
+                               bool with_digits);
+
+/// The arguments by which all files are read, as options. Throws OptionError for invalid ones.
+Params reading_options(const EvalArguments& arguments);
+
+/// Throws InputError for a times file or a period that no file uses.
+void check_stamp_options(const EvalArguments& arguments, const std::vector<RecordedRun>& runs);
+
+}  // namespace loopbench::harness
