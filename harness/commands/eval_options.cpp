@@ -69,22 +69,26 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
   command.add_flag("-s,--correct_scale",
                    a.correct_scale,
                    "Also align the scale; without --align only the scale");
-  command.add_option("--n_to_align", a.align_first, "Number of first pairs used for the alignment");
-  const auto word = [&](const char* name, std::string& value, const std::string& help) {
-    return command.add_option(name, value, help)->type_name("WORD");
+  const auto field = [&](const char* option, const char* name, const std::string& help) {
+    const auto set = [&a, name](const std::string& value) {
+      a.fields.push_back(std::string(name) + "=" + value);
+    };
+    return command.add_option_function<std::string>(option, set, help)->type_name("WORD");
   };
-  word("--association",
-       a.association,
-       "Association in time: " + choice_list<metrics::Association>());
-  word("--project_to_plane",
-       a.project,
-       "Plane to project onto: " + choice_list<metrics::ProjectionPlane>());
-  const auto seconds = [&](const char* name, std::optional<double>& value, const char* help) {
-    command.add_option(name, value, help)->type_name("S")->check(finite_number());
+  const auto seconds = [&](const char* option, const char* name, const char* help) {
+    field(option, name, help)->type_name("S")->check(finite_number());
   };
+  field("--n_to_align", "align_first", "Number of first pairs used for the alignment")
+      ->type_name("INT");
+  field("--association",
+        "association",
+        "Association in time: " + choice_list<metrics::Association>());
+  field("--project_to_plane",
+        "project",
+        "Plane to project onto: " + choice_list<metrics::ProjectionPlane>());
   seconds(
-      "--max-diff,--t_max_diff", a.max_diff, "Maximum time difference between paired poses [s]");
-  seconds("--max-gap", a.max_gap, "Longest reference gap to interpolate across [s]");
+      "--max-diff,--t_max_diff", "max_diff", "Maximum time difference between paired poses [s]");
+  seconds("--max-gap", "max_gap", "Longest reference gap to interpolate across [s]");
   command
       .add_option("--min-coverage",
                   a.min_coverage,
@@ -94,7 +98,7 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
       ->type_name("SHARE")
       ->check(finite_number())
       ->check(CLI::Range(0.0, 1.0));
-  seconds("--offset,--t_offset", a.offset, "Time offset added to the estimates' stamps [s]");
+  seconds("--offset,--t_offset", "offset", "Time offset added to the estimates' stamps [s]");
 }
 
 /// As those of `plot`.
@@ -157,10 +161,14 @@ void declare(CLI::App& command, EvalArguments& a) {
                   "Unit of --delta: f, s, m, d or r (frames, s, m, deg, rad)")
       ->type_name("WORD")
       ->excludes(metric);
-  command.add_flag("--all_pairs", a.all_pairs, "Use all pairs for rpe");
-  command.add_flag("--pairs_from_reference",
-                   a.pairs_from_reference,
-                   "Measure --delta along REF instead of the estimate");
+  const auto flag = [&](const char* option, const char* setting, const char* help) {
+    command.add_flag_callback(
+        option, [&a, setting] { a.fields.emplace_back(setting); }, help);
+  };
+  flag("--all_pairs", "pairs=all", "Use all pairs for rpe");
+  flag("--pairs_from_reference",
+       "pairs_from=reference",
+       "Measure --delta along REF instead of the estimate");
   command.add_flag("--json", a.json, "Print JSON in full precision, one list entry per evaluation");
   command
       .add_flag(

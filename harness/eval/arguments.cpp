@@ -27,19 +27,12 @@ std::string scaled(const std::string& align) {
 
 Params changes(const EvalArguments& a, const metrics::Protocol& base) {
   Params out = parse_settings(a.settings, describe(base));
-  if (!a.association.empty()) out["association"] = a.association;
+  for (auto& [name, value] : parse_settings(a.fields, describe(base))) out[name] = value;
   if (!a.align.empty()) out["align"] = a.align;
   if (a.correct_scale) {
     const auto given = out.find("align");
     out["align"] = scaled(given == out.end() ? to_text(base.align) : to_text(given->second));
   }
-  if (a.align_first) out["align_first"] = std::int64_t{*a.align_first};
-  if (!a.project.empty()) out["project"] = a.project;
-  if (a.max_diff) out["max_diff"] = *a.max_diff;
-  if (a.max_gap) out["max_gap"] = *a.max_gap;
-  if (a.offset) out["offset"] = *a.offset;
-  if (a.all_pairs) out["pairs"] = std::string("all");
-  if (a.pairs_from_reference) out["pairs_from"] = std::string("reference");
   return out;
 }
 

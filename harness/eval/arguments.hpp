@@ -27,20 +27,13 @@ struct EvalArguments {
   std::optional<double> period;  ///< [s]; none: default of ReadOptions
   std::vector<std::string> protocols{"loopbench"};
   std::vector<std::string> settings;  ///< FIELD=VALUE of the protocol
-  std::string association;
+  std::vector<std::string> fields;    ///< the same, of fields with an option of their own
   std::string align;
   bool correct_scale = false;
-  std::optional<int> align_first;
-  std::string project;
-  std::optional<double> max_diff;
-  std::optional<double> max_gap;
-  std::optional<double> offset;
   std::optional<double> min_coverage;  ///< none: half of the best coverage of another estimate
   std::string relation;
   std::optional<double> delta;
   std::string delta_unit;
-  bool all_pairs = false;
-  bool pairs_from_reference = false;
   std::vector<std::string> metrics;  ///< NAME[:option=value,...]; empty: the default metrics
   std::vector<std::filesystem::path> plugins;
   bool json = false;

@@ -68,8 +68,8 @@ void fuzz_eval(const std::filesystem::path& file) {
   arguments.reference_body = line(0);
   arguments.protocols = {line(1)};
   arguments.settings = {line(2)};
-  arguments.association = line(3);
-  arguments.project = line(5);
+  if (!line(3).empty()) arguments.fields.push_back("association=" + line(3));
+  if (!line(5).empty()) arguments.fields.push_back("project=" + line(5));
   arguments.align = line(4);
   arguments.relation = line(6);
   arguments.delta_unit = line(7);
