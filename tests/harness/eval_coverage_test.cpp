@@ -106,11 +106,6 @@ TEST_F(EvalCoverage, CommonTimesOfAllEstimatesAreCompared) {
   eval(stored);
 }
 
-TEST_F(EvalCoverage, BelowTheLimitExitsWithOne) {
-  eval({reference_, short_, "--min-coverage=0.5"}, kExitSomeCellsFailed);
-  eval({reference_, complete_, "--min-coverage=0.5"});
-}
-
 TEST_F(EvalCoverage, RpeShowsItsOwnPairs) {
   EXPECT_THAT(eval({reference_, complete_, short_, "--min-coverage=0"}),
               HasSubstr("rpe 1 s [m]: 992;"));

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -15,10 +14,11 @@ namespace {
 
 using namespace test;
 
+constexpr const char* kShort = "0 0 0 0 0 0 0 1\n0.1 0.1 0 0 0 0 0 1\n0.2 0 0.1 0 0 0 0 1\n";
+
 TEST(EvalFailures, AnUndefinedMetricSaysWhyAndTheOthersStand) {
   const TemporaryFolder folder;
-  const std::string file = (folder.path() / "short.txt").string();
-  std::ofstream(file) << "0 0 0 0 0 0 0 1\n0.1 0.1 0 0 0 0 0 1\n0.2 0 0.1 0 0 0 0 1\n";
+  const std::string file = folder.file("short.txt", kShort).string();
   const Json results = eval_json({file, file});
   EXPECT_EQ(find(results, "ate", "translation")["count"], 3);
   ASSERT_EQ(results["undefined"].size(), 3u);  // rpe over 1 frame, 1 s and 1 m
@@ -32,8 +32,7 @@ TEST(EvalFailures, AnUndefinedMetricSaysWhyAndTheOthersStand) {
 // not the data, as in sweeps.
 TEST(EvalFailures, AFailedMetricIsNotUndefinedAndTheOthersStand) {
   const TemporaryFolder folder;
-  const std::string file = (folder.path() / "short.txt").string();
-  std::ofstream(file) << "0 0 0 0 0 0 0 1\n0.1 0.1 0 0 0 0 0 1\n0.2 0 0.1 0 0 0 0 1\n";
+  const std::string file = folder.file("short.txt", kShort).string();
   const std::string why = "rpe: none of 3 poses is 1.0 m before another";
   const std::string from_estimate = "--set=pairs_from=estimate";
   const Json evaluated = eval_json({file, file, from_estimate});

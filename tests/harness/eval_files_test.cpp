@@ -106,13 +106,10 @@ TEST(Eval, DoesAsRpgsFolderAsks) {
     written(cfg, settings);
     return refusal<InputError>({folder.path().string(), "--protocol=rpg"});
   };
-  EXPECT_EQ(why("align_type: best\n"),
-            cfg.string() + ":1: align_type: expected sim3 | se3 | posyaw | none");
-  EXPECT_EQ(why("align_type: se3\nalign_num_frames: some\n"),
-            cfg.string() + ":2: align_num_frames: expected -1 or a whole number above 0");
-  EXPECT_EQ(why("aling_type: se3\n"),
-            cfg.string() +
-                ":1: no setting is named 'aling_type', expected align_type or align_num_frames");
+  EXPECT_THAT(why("align_type: best\n"), HasSubstr(":1: align_type: expected sim3"));
+  EXPECT_THAT(why("align_type: se3\nalign_num_frames: some\n"),
+              HasSubstr(":2: align_num_frames: expected -1"));
+  EXPECT_THAT(why("aling_type: se3\n"), HasSubstr(":1: no setting is named 'aling_type'"));
   std::filesystem::remove(cfg);
   const auto cut = folder.path() / "start_end_time.yaml";
   written(cut, "start: 1\n");
