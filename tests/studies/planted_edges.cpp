@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datasets/core/se3.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "metrics/doctor/closure_chain.hpp"
 #include "metrics/doctor/closure_checks.hpp"
@@ -44,13 +45,56 @@ Problem problem_of(const fs::path& file) {
   return out;
 }
 
-void invert_closures(Problem& problem) {
-  for (Edge& edge : problem.closures) edge.from_from_to = edge.from_from_to.inverse();
+using Change = std::function<void(Edge&)>;
+
+std::function<void(Problem&, std::mt19937&)> each_closure(const Change& change) {
+  return [=](Problem& p, std::mt19937&) {
+    for (Edge& edge : p.closures) change(edge);
+  };
 }
 
-void add_false_closure(Problem& problem) {
+std::function<void(Problem&, std::mt19937&)> each_step(const Change& change) {
+  return [=](Problem& p, std::mt19937&) {
+    for (Edge& edge : p.odometry) change(edge);
+  };
+}
+
+void invert(Edge& edge) { edge.from_from_to = edge.from_from_to.inverse(); }
+
+void read_as_xyzw(Edge& edge) {
+  const Rotation q = edge.from_from_to.rotation;
+  edge.from_from_to.rotation = Rotation(q.z(), q.w(), q.x(), q.y());
+}
+
+/// Motion of a camera (right, down, forward) instead of a vehicle (forward, left, up).
+void between_cameras(Edge& edge) {
+  const Pose camera{Rotation(0.5, -0.5, 0.5, -0.5), Vector3::Zero()};
+  edge.from_from_to = camera.inverse() * edge.from_from_to * camera;
+}
+
+Change times(double factor) {
+  return [=](Edge& edge) { edge.from_from_to.translation *= factor; };
+}
+
+Change angles_times(double factor) {
+  return [=](Edge& edge) {
+    edge.from_from_to.rotation = exp_so3(factor * log_so3(edge.from_from_to.rotation));
+  };
+}
+
+/// Further than any drift from where the odometry ends.
+void add_false_closure(Problem& problem, std::mt19937& random) {
   const std::size_t n = problem.keyframes.size();
-  problem.closures.push_back({n / 5, 3 * n / 5, Pose{}, problem.closures.front().information});
+  const std::size_t from = n / 10 + random() % (n / 4), to = n / 2 + random() % (n / 3);
+  const Pose odometry =
+      problem.keyframes[from].world_from_body.inverse() * problem.keyframes[to].world_from_body;
+  Edge edge = problem.closures.front();
+  edge.from = from;
+  edge.to = to;
+  edge.from_from_to = odometry.translation.norm() > 60.0
+                          ? Pose{}
+                          : Pose{odometry.rotation, odometry.translation + Vector3(60, 40, 0)};
+  problem.closures.push_back(edge);
 }
 
 /// Of every `every`-th edge, from the first on.
@@ -119,35 +163,47 @@ std::string unless_alike(const Problem& problem) {
 }  // namespace
 
 std::vector<PlantedEdges> edge_faults() {
-  using metrics::Fault;
-  return {{"closures inverted", Fault::closure_direction, invert_closures, always},
-          {"a false closure", Fault::closure_gap, add_false_closure, always},
-          {"information x 1e6",
-           Fault::information_scale,
-           [](Problem& p) {
-             multiply_information(p.closures, 1e6);
-             multiply_information(p.odometry, 1e6);
-           },
-           unless_too_small},
-          {"information of the odometry x 1e6",
-           Fault::information_scale,
-           [](Problem& p) { multiply_information(p.odometry, 1e6); },
-           unless_too_small},
-          {"information of the closures / 1e6",
-           Fault::information_scale,
-           [](Problem& p) { multiply_information(p.closures, 1e-6); },
-           unless_isolated},
-          {"information of every tenth closure / 1e6",
-           Fault::edge_covariance,
-           [](Problem& p) { multiply_information(p.closures, 1e-6, 10); },
-           unless_few_pairs},
-          {"rotation first in the information",
-           Fault::information_order,
-           [](Problem& p) {
-             for (Edge& e : p.closures) exchange_blocks(e);
-             for (Edge& e : p.odometry) exchange_blocks(e);
-           },
-           unless_alike}};
+  constexpr double kDegree = 180.0 / M_PI;
+  const auto information =
+      [](bool of_odometry, bool of_closures, double factor, std::size_t every) {
+        return [=](Problem& p, std::mt19937&) {
+          if (of_odometry) multiply_information(p.odometry, factor);
+          if (of_closures) multiply_information(p.closures, factor, every);
+        };
+      };
+  return {
+      {"closures inverted", "closure_direction", each_closure(invert), always},
+      {"odometry inverted", "odometry_direction", each_step(invert), always},
+      {"closures w x y z", "closure_rotation", each_closure(read_as_xyzw), always},
+      {"closures in degrees", "closure_rotation", each_closure(angles_times(kDegree)), always},
+      {"closures in degrees, converted twice",
+       "closure_rotation",
+       each_closure(angles_times(1.0 / kDegree)),
+       always},
+      {"closures of another body", "closure_frame", each_closure(between_cameras), always},
+      {"closures in millimetres", "closure_unit", each_closure(times(1000.0)), always},
+      {"odometry in millimetres", "closure_unit", each_step(times(1000.0)), always},
+      {"a false closure", "closure_gap", add_false_closure, always},
+      {"information x 1e6", "information_scale", information(true, true, 1e6, 1), unless_too_small},
+      {"information of the odometry x 1e6",
+       "information_scale",
+       information(true, false, 1e6, 1),
+       unless_too_small},
+      {"information of the closures / 1e6",
+       "information_scale",
+       information(false, true, 1e-6, 1),
+       unless_isolated},
+      {"information of every tenth closure / 1e6",
+       "edge_covariance",
+       information(false, true, 1e-6, 10),
+       unless_few_pairs},
+      {"rotation first in the information",
+       "information_order",
+       [](Problem& p, std::mt19937&) {
+         for (Edge& e : p.closures) exchange_blocks(e);
+         for (Edge& e : p.odometry) exchange_blocks(e);
+       },
+       unless_alike}};
 }
 
 std::vector<std::pair<std::string, Problem>> graphs(const fs::path& data) {
@@ -164,7 +220,10 @@ std::vector<std::pair<std::string, Problem>> graphs(const fs::path& data) {
                                  "pose_graphs/intel.g2o",
                                  "pose_graphs/INTEL_1228_with_vertices.g2o",
                                  "pose_graphs/MIT.g2o",
-                                 "pose_graphs/parking-garage.g2o"}) {
+                                 "pose_graphs/parking-garage.g2o",
+                                 "robust_slam/00/kitti_00_alpha_0.00.g2o",
+                                 "robust_slam/00/kitti_00_alpha_0.50.g2o",
+                                 "robust_slam/00/kitti_00_alpha_1.00.g2o"}) {
     if (fs::exists(data / name)) files.push_back(data / name);
   }
   std::vector<std::pair<std::string, Problem>> out;

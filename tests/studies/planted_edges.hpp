@@ -3,19 +3,19 @@
 
 #include <filesystem>
 #include <functional>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "datasets/core/problem.hpp"
-#include "metrics/doctor/finding.hpp"
 
 namespace loopbench {
 
 struct PlantedEdges {
   std::string name;
-  metrics::Fault fault;
-  std::function<void(Problem&)> plant;
+  std::string expected;  ///< name of the finding
+  std::function<void(Problem&, std::mt19937&)> plant;
   /// Why the fault has no effect that edges could show in this graph; empty if it has.
   std::function<std::string(const Problem&)> no_fault;
 };
