@@ -43,6 +43,26 @@ std::string printable(std::string_view text) {
   return out;
 }
 
+std::string limited(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return std::string(text);
+  const auto continues = [&](std::size_t at) {
+    return (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80;
+  };
+  std::size_t kept = most;
+  while (kept > 0 && most - kept < 4 && continues(kept)) --kept;
+  return fmt::format("{} ... ({} more bytes)", text.substr(0, kept), text.size() - kept);
+}
+
+void make_printable(std::span<char> text, char& previous) {
+  for (char& each : text) {
+    const auto byte = static_cast<unsigned char>(each);
+    const bool is_space = each == '\n' || each == '\t' || each == '\r';
+    const bool is_c1 = previous == '\xc2' && byte >= 0x80 && byte <= 0x9f;
+    previous = each;
+    if ((byte < 0x20 && !is_space) || byte == 0x7f || is_c1) each = '?';
+  }
+}
+
 std::size_t first_unprintable(std::string_view text) {
   std::size_t at = 0;
   while (at < text.size() && text[at] != '\n') {

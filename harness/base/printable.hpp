@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,15 @@ namespace loopbench::harness {
 /// Keeps newlines and UTF-8. Replaces other control characters (C0, DEL, C1) and bytes that are not
 /// UTF-8 by "\x1b", so that file names and contents cannot send terminal escape sequences.
 std::string printable(std::string_view text);
+
+/// The text, or its first `most` bytes (without a part of a UTF-8 character) and the number of
+/// omitted ones.
+std::string limited(std::string_view text, std::size_t most);
+
+/// Replaces control characters (C0 except newline, tab and carriage return, DEL, C1 in UTF-8) by
+/// '?', so that a method cannot send escape sequences to the terminal. `previous`: the byte before
+/// the text, and after the call its last byte.
+void make_printable(std::span<char> text, char& previous);
 
 /// Position of the first byte that is a control character (newline, tab, other C0, DEL, C1) or not
 /// UTF-8; text.size() if there is none.

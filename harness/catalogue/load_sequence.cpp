@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "datasets/core/error.hpp"
-#include "harness/base/shortened.hpp"
+#include "harness/base/printable.hpp"
 #include "harness/catalogue/floating_point_guard.hpp"
 
 namespace loopbench::harness {
@@ -45,7 +45,7 @@ Sequence loaded(const DatasetEntry& entry,
     const std::string_view text = error.what() != nullptr ? error.what() : "";
     if (!text.empty() && text.size() <= kLongestMessage) throw;
     if (text.empty()) throw InputError(label + ": loading threw an exception without a message");
-    throw InputError(shortened(text, kLongestMessage));
+    throw InputError(limited(text, kLongestMessage));
   }
 }
 

@@ -4,10 +4,11 @@
 
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "datasets/core/parallel.hpp"
+#include "harness/catalogue/floating_point_guard.hpp"
 #include "harness/run/catch_errors.hpp"
-#include "harness/run/input_guard.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -18,27 +19,55 @@ bool is_finite(const metrics::Statistics& s) {
          std::isfinite(s.sse);
 }
 
-struct Scores {
-  std::vector<ScoreResult> rows;
-  std::string fault;  ///< what the metric changed
+/// A copy of all that a metric reads: that of a plugin can write through `const`, and the other
+/// metrics read the same.
+class EvaluationCopy {
+ public:
+  explicit EvaluationCopy(const metrics::Evaluation& original) : evaluation_(original) {
+    metrics::Context& context = evaluation_.context;
+    if (context.problem != nullptr) context.problem = &problem_.emplace(*context.problem);
+    if (context.reference != nullptr) context.reference = &reference_.emplace(*context.reference);
+    if (context.estimate != nullptr) context.estimate = &estimate_.emplace(*context.estimate);
+  }
+  EvaluationCopy(const EvaluationCopy&) = delete;
+  EvaluationCopy& operator=(const EvaluationCopy&) = delete;
+
+  const metrics::Evaluation& evaluation() const { return evaluation_; }
+
+ private:
+  metrics::Evaluation evaluation_;
+  std::optional<Problem> problem_;
+  std::optional<Trajectory> reference_;
+  std::optional<Trajectory> estimate_;
 };
 
-Scores scores_of(const MetricChoice& choice,
-                 ScoreResult row,
-                 const metrics::Evaluation& evaluation,
-                 const Catalogue& catalogue) {
-  Scores out;
+std::vector<metrics::Score> scores_of_metric(const metrics::MetricEntry& metric,
+                                             const Params& options,
+                                             const metrics::Evaluation& evaluation,
+                                             const Catalogue& catalogue) {
+  if (plugin_version(catalogue, "metric", metric.name).empty()) {
+    return metric.score(evaluation, options);
+  }
+  const FloatingPointGuard guard;
+  const EvaluationCopy copy(evaluation);
+  return metric.score(copy.evaluation(), options);
+}
+
+std::vector<ScoreResult> rows_of(const MetricChoice& choice,
+                                 ScoreResult row,
+                                 const metrics::Evaluation& evaluation,
+                                 const Catalogue& catalogue) {
+  std::vector<ScoreResult> out;
   row.metric = choice.metric.name;
   row.label = choice.label;
   row.coverage = evaluation.coverage;
   const metrics::MetricEntry& metric = find_metric(catalogue, choice.metric.name);
-  const bool is_foreign = !plugin_version(catalogue, "metric", metric.name).empty();
-  const InputGuard guard(is_foreign ? inputs_of(evaluation) : Inputs());
   catch_errors(row, [&] {
-    std::vector<metrics::Score> scores = metric.score(evaluation, choice.metric.options);
+    std::vector<metrics::Score> scores =
+        scores_of_metric(metric, choice.metric.options, evaluation, catalogue);
     check_scores(scores);
     for (metrics::Score& score : scores) {
-      ScoreResult& added = out.rows.emplace_back(row);
+      ScoreResult& added = out.emplace_back(row);
       if (!score.why_undefined.empty()) {
         added.status = Status::declined;
         added.why = score.why_undefined;
@@ -50,17 +79,9 @@ Scores scores_of(const MetricChoice& choice,
       added.score = std::move(score);
     }
   });
-  if (is_foreign) out.fault = guard.fault();
   const bool has_thrown = is_failure(row.status) || row.status == Status::declined;
-  if (has_thrown) out.rows.push_back(row);
+  if (has_thrown) out.push_back(row);
   return out;
-}
-
-void take(Scores scores, const MetricChoice& choice, CellResult& result) {
-  std::ranges::move(scores.rows, std::back_inserter(result.scores));
-  if (scores.fault.empty()) return;
-  result.status = Status::failed;
-  result.why = "metric '" + choice.metric.name + "' " + scores.fault;
 }
 
 }  // namespace
@@ -70,7 +91,7 @@ void add_scores_of(CellResult& result,
                    const ScoreResult& row,
                    const metrics::Evaluation& evaluation,
                    const Catalogue& catalogue) {
-  take(scores_of(choice, row, evaluation, catalogue), choice, result);
+  std::ranges::move(rows_of(choice, row, evaluation, catalogue), std::back_inserter(result.scores));
 }
 
 void add_scores(CellResult& result,
@@ -85,9 +106,9 @@ void add_scores(CellResult& result,
     result.status = Status::incomplete;
     result.why = to_text(row.times) + ": " + row.why;
   }
-  std::vector<Scores> scores(sweep.metrics.size());
+  std::vector<std::vector<ScoreResult>> scores(sweep.metrics.size());
   const auto evaluate = [&](std::size_t i) {
-    scores[i] = scores_of(sweep.metrics[i], row, evaluation, catalogue);
+    scores[i] = rows_of(sweep.metrics[i], row, evaluation, catalogue);
   };
   if (parallel) {
     // The last first: in the default list, segments take the longest.
@@ -95,8 +116,8 @@ void add_scores(CellResult& result,
   } else {
     for (std::size_t i = 0; i < scores.size(); ++i) evaluate(i);
   }
-  for (std::size_t i = 0; i < scores.size(); ++i) {
-    take(std::move(scores[i]), sweep.metrics[i], result);
+  for (std::vector<ScoreResult>& rows : scores) {
+    std::ranges::move(rows, std::back_inserter(result.scores));
   }
 }
 

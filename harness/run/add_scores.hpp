@@ -11,8 +11,8 @@
 namespace loopbench::harness {
 
 /// Adds all scores of one metric, or one row with the reason why there are none: exceptions of the
-/// metric are not thrown. `row` has protocol, times, status and why of the rows. The result fails
-/// if the metric of a plugin changes its input, since other metrics read that.
+/// metric are not thrown. `row` has protocol, times, status and why of the rows. The metric of a
+/// plugin gets a copy of its input.
 void add_scores_of(CellResult& result,
                    const MetricChoice& choice,
                    const ScoreResult& row,

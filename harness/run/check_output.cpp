@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <stdexcept>
 
 #include "datasets/core/pose_rule.hpp"
@@ -17,17 +16,6 @@ namespace {
 template <class... Values>
 [[noreturn]] void reject(fmt::format_string<Values...> text, Values&&... values) {
   throw std::runtime_error(fmt::format(text, std::forward<Values>(values)...));
-}
-
-/// Poses that the curve does not write remain not a number.
-void check_poses_at(const Curve& curve, const std::vector<double>& times, const char* what) {
-  constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
-  const Pose unset{Rotation(kUnset, kUnset, kUnset, kUnset), Vector3::Constant(kUnset)};
-  std::vector<Pose> poses(times.size(), unset);
-  curve.sample(times, poses);
-  Trajectory stamped(times.size());
-  for (std::size_t i = 0; i < times.size(); ++i) stamped[i] = {times[i], poses[i]};
-  require_valid(stamped, what);
 }
 
 /// `name` returns the name of the text for the message; it is called for invalid texts only.
@@ -71,9 +59,8 @@ void check_section(const methods::Section& section, std::size_t number) {
 
 }  // namespace
 
-void check_curve(const Curve* curve, const Sequence& sequence, const Sweep& sweep) {
+void check_span(const Curve* curve, const Trajectory& keyframes) {
   if (curve == nullptr) reject("the method returned no curve");
-  const Trajectory& keyframes = sequence.problem.keyframes;
   const double start = curve->start();
   const double end = curve->end();
   const auto covers = [&](double time) { return start <= time && time <= end; };
@@ -83,20 +70,6 @@ void check_curve(const Curve* curve, const Sequence& sequence, const Sweep& swee
            to_text(end),
            to_text(keyframes.front().stamp),
            to_text(keyframes.back().stamp));
-  }
-  check_poses_at(*curve, stamps(keyframes), "keyframe");
-  if (sequence.reference.empty() || std::ranges::count(sweep.times, metrics::Times::dense) == 0)
-    return;
-  std::set<double> offsets;
-  for (const metrics::NamedProtocol& protocol : sweep.protocols)
-    offsets.insert(protocol.rules.offset);
-  for (const double offset : offsets) {
-    std::vector<double> times;
-    for (const StampedPose& pose : sequence.reference) {
-      const double time = pose.stamp - offset;
-      if (covers(time)) times.push_back(time);
-    }
-    check_poses_at(*curve, times, "reference stamp");
   }
 }
 
@@ -163,14 +136,9 @@ void check_scores(const std::vector<metrics::Score>& scores) {
 }
 
 std::string stored_reason(std::string_view text) {
-  std::string out = printable(text.substr(0, kLongestNote));
+  std::string out = printable(text);
   std::ranges::replace(out, '\n', ' ');
-  if (out.size() > kLongestNote) {
-    out.resize(kLongestNote);
-    while (first_unprintable(out) != out.size()) out.pop_back();  // a code point that was cut
-  }
-  const std::size_t omitted = text.size() - std::min(text.size(), kLongestNote);
-  return omitted == 0 ? out : out + fmt::format(" ... ({} more bytes)", omitted);
+  return limited(out, kLongestNote);
 }
 
 }  // namespace loopbench::harness

@@ -7,8 +7,7 @@
 #include <string_view>
 
 #include "datasets/core/curve.hpp"
-#include "datasets/core/sequence.hpp"
-#include "harness/model/sweep.hpp"
+#include "datasets/core/trajectory.hpp"
 #include "methods/report.hpp"
 #include "metrics/metric.hpp"
 
@@ -20,15 +19,10 @@ inline constexpr std::size_t kMostSections = 100'000;  ///< sections
 inline constexpr std::size_t kLongestName = 200;       ///< of a phase, count or section [bytes]
 inline constexpr std::size_t kLongestNote = 2'000;     ///< of a note or reason [bytes]
 
-/// Throws std::runtime_error if the curve is null, does not cover the keyframes, or violates a rule
-/// of violated_rule() at a keyframe or, in dense evaluation, at a reference stamp within its span.
-/// The message names the first such pose and its rule. Samples the curve once for the keyframes and
-/// once for each time offset of the protocols.
-void check_curve(const Curve* curve, const Sequence& sequence, const Sweep& sweep);
+/// Throws std::runtime_error if the curve is null or does not cover the keyframes.
+void check_span(const Curve* curve, const Trajectory& keyframes);
 
-/// A method's curve, every pose of which is checked when it is sampled. Detects curves that return
-/// other poses later than when they were checked, or invalid ones between the checked times:
-/// metrics sample at times of their own.
+/// A method's curve, every pose of which is checked when it is sampled.
 class CheckedCurve final : public Curve {
  public:
   /// `curve` must outlive this object.

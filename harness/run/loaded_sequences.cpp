@@ -5,8 +5,8 @@
 #include "datasets/core/error.hpp"
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/run/catch_errors.hpp"
-#include "harness/run/describe_sequence.hpp"
 #include "harness/run/pack.hpp"
+#include "harness/run/summarise_sequence.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -1,18 +1,19 @@
 #include "harness/run/run_cell.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <chrono>
-#include <iterator>
+#include <ctime>
 
 #include "harness/catalogue/external_methods.hpp"
+#include "harness/catalogue/floating_point_guard.hpp"
 #include "harness/run/add_scores.hpp"
 #include "harness/run/catch_errors.hpp"
 #include "harness/run/check_output.hpp"
 #include "harness/run/doctor_notes.hpp"
 #include "harness/run/estimate_files.hpp"
-#include "harness/run/input_guard.hpp"
 #include "harness/run/oracle_method.hpp"
-#include "harness/run/process_usage.hpp"
 #include "methods/pipeline.hpp"
 #include "metrics/trajectory/tracking_gaps.hpp"
 
@@ -35,6 +36,20 @@ metrics::Context context_of(const Sequence& sequence,
 
 using Clock = std::chrono::steady_clock;
 
+/// CPU time of all threads of this process [s].
+double process_cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Largest resident size of this process [bytes].
+std::int64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{1024} * usage.ru_maxrss;
+}
+
 /// A run that is shorter [s] mostly pays for the first access of a new process to its memory.
 constexpr double kShortRun = 2e-3;
 
@@ -56,22 +71,20 @@ TimedRun timed_run(const methods::Estimator& method, const Problem& problem) {
   return out;
 }
 
-/// Runs and measures the method; memory is measured outside the timed part. In a new process, the
-/// times of a short first run are replaced by those of another run; its result is kept.
-/// `is_foreign`: checks that the method of a plugin does not change the problem.
+/// Runs and measures the method; memory is measured outside the timed part. The times of a short
+/// first run are replaced by those of another run, because this process is new; its result is kept.
 std::unique_ptr<const Curve> timed(CellResult& result,
                                    const methods::Estimator& method,
                                    const Problem& problem,
-                                   bool is_foreign,
                                    int runs) {
-  const InputGuard guard(is_foreign ? inputs_of(problem) : Inputs());
-  const std::optional<std::int64_t> before = reset_peak_memory() ? peak_memory() : std::nullopt;
+  const FloatingPointGuard guard;
+  const std::int64_t before = peak_memory();
   TimedRun last;
   for (int run = 0; run < runs; ++run) {
     last = {};  // so that the destruction of its curve is not timed with the next run
     last = timed_run(method, problem);
     check_report(last.report);
-    const bool is_first = run == 0 && is_freshly_forked() && !uses_exchange(last.report);
+    const bool is_first = run == 0 && !uses_exchange(last.report);
     if (is_first && last.seconds < kShortRun) {
       const TimedRun warm = timed_run(method, problem);
       last.seconds = warm.seconds;
@@ -82,11 +95,8 @@ std::unique_ptr<const Curve> timed(CellResult& result,
     result.cpu_seconds.push_back(last.cpu_seconds);
   }
   result.report = std::move(last.report);
-  if (const std::string fault = guard.fault(); !fault.empty()) throw std::runtime_error(fault);
-  if (before) {
-    result.peak_memory = peak_memory();
-    result.added_memory = std::max<std::int64_t>(0, result.peak_memory.value_or(*before) - *before);
-  }
+  result.peak_memory = peak_memory();
+  result.added_memory = *result.peak_memory - before;
   return std::move(last.curve);
 }
 
@@ -186,9 +196,11 @@ CellResult run_cell(const Cell& cell,
     const bool is_foreign = std::ranges::any_of(choice.stages, [&](const Choice& stage) {
       return !plugin_version(catalogue, "method", stage.name).empty();
     });
+    // The method of a plugin can write through `const`, and metrics read the same.
+    const Problem copy = is_foreign ? sequence.problem : Problem{};
     const std::unique_ptr<const Curve> curve =
-        timed(result, *method, sequence.problem, is_foreign, sweep.timing);
-    check_curve(curve.get(), sequence, sweep);
+        timed(result, *method, is_foreign ? copy : sequence.problem, sweep.timing);
+    check_span(curve.get(), sequence.problem.keyframes);
     const CheckedCurve checked(*curve);
     const std::string unmoved = movement_note(sequence.problem,
                                               checked.sample(stamps(sequence.problem.keyframes)),

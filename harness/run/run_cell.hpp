@@ -16,7 +16,8 @@ std::unique_ptr<const methods::Estimator> make_method(const MethodChoice& choice
                                                       const Trajectory& reference,
                                                       const CommandSetting& setting = {});
 
-/// Does not throw for errors of a method or metric: they are stored as status and why.
+/// Call it in a new process, for its memory and time. Does not throw for errors of a method or
+/// metric: they are stored as status and why.
 CellResult run_cell(const Cell& cell,
                     const Sweep& sweep,
                     const Sequence& sequence,

@@ -2,8 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "datasets/derive/poses_at.hpp"
 #include "harness/base/hash.hpp"
+#include "harness/base/printable.hpp"
+#include "harness/run/check_output.hpp"
+#include "harness/run/doctor_notes.hpp"
+#include "harness/run/evaluation_notes.hpp"
 #include "harness/run/sequence_identity.hpp"
 #include "metrics/checks/extrinsic_offset.hpp"
 #include "metrics/correction/loop_detection.hpp"
@@ -103,6 +109,15 @@ void flag_oracle_closures(SequenceMetadata& out, const Sequence& sequence) {
   out.closures += fmt::format("; {} of {} equal the reference", equal, all);
 }
 
+/// A dataset of a plugin can return any text, which would be printed and stored for every cell.
+void limit_texts(SequenceMetadata& metadata) {
+  metadata.closures = limited(metadata.closures, kLongestNote);
+  const std::size_t omitted = metadata.notes.size() - std::min(metadata.notes.size(), kMostItems);
+  metadata.notes.resize(metadata.notes.size() - omitted);
+  for (std::string& note : metadata.notes) note = limited(note, kLongestNote);
+  if (omitted > 0) metadata.notes.push_back(std::to_string(omitted) + " more notes");
+}
+
 }  // namespace
 
 std::vector<InputFile> hashed_inputs(const std::vector<InputPath>& files) {
@@ -145,6 +160,17 @@ SequenceMetadata sequence_metadata(const Sequence& sequence, bool with_trace) {
     out.notes.push_back(note);
   }
   if (with_trace) out.trace = sequence_trace(sequence);
+  return out;
+}
+
+SequenceMetadata metadata_of(const Sequence& sequence, const Cell& cell, const Sweep& sweep) {
+  SequenceMetadata out = sequence_metadata(sequence, sweep.traces);
+  const std::string& group = sweep.datasets[cell.dataset].group;
+  if (!group.empty()) out.group = "group:" + group;
+  for (const auto& notes : {evaluation_notes(sequence, sweep), doctor_notes(sequence, sweep)}) {
+    out.notes.insert(out.notes.end(), notes.begin(), notes.end());
+  }
+  limit_texts(out);
   return out;
 }
 

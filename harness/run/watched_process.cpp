@@ -11,13 +11,14 @@
 #include <csignal>
 #include <iterator>
 #include <optional>
+#include <stdexcept>
 
 #include "harness/base/child_process.hpp"
 #include "harness/base/descendants.hpp"
+#include "harness/base/printable.hpp"
 #include "harness/base/system_file.hpp"
 #include "harness/catalogue/server.hpp"
 #include "harness/run/active_clock.hpp"
-#include "harness/run/cell_output.hpp"
 #include "harness/run/warm_heap.hpp"
 
 namespace loopbench::harness {
@@ -28,6 +29,69 @@ constexpr int kMostProcesses = 64;  // of one process, apart from threads
 
 /// Writable memory beyond the limit that a cell may reserve without using it [bytes].
 constexpr std::int64_t kReserve = std::int64_t{1} << 30;
+
+/// Forwards the beginning of what a cell prints to standard error and counts the rest.
+class CellOutput {
+ public:
+  static constexpr std::int64_t kForwarded = std::int64_t{64} << 10;  // [bytes]
+  static constexpr std::int64_t kMost = std::int64_t{16} << 20;       // [bytes], more is an error
+
+  CellOutput();  ///< throws std::runtime_error if no pipe can be created
+  ~CellOutput();
+  CellOutput(const CellOutput&) = delete;
+  CellOutput& operator=(const CellOutput&) = delete;
+
+  int write_end() const { return ends_[1]; }
+  int read_end() const { return ends_[0]; }  ///< -1 after everybody has closed the other end
+  void close_write_end();
+
+  /// Reads what is there without waiting; false if it was more than kMost in all.
+  bool forward();
+
+ private:
+  void close_read_end();
+
+  int ends_[2] = {-1, -1};
+  std::int64_t total_ = 0;
+  char last_ = '\0';  ///< forwarded
+};
+
+CellOutput::CellOutput() {
+  if (pipe2(ends_, O_CLOEXEC) != 0) throw std::runtime_error("cannot create a pipe");
+  fcntl(ends_[0], F_SETFL, O_NONBLOCK);
+}
+
+CellOutput::~CellOutput() {
+  close_read_end();
+  close_write_end();
+}
+
+void CellOutput::close_read_end() {
+  if (ends_[0] >= 0) close(ends_[0]);
+  ends_[0] = -1;
+}
+
+void CellOutput::close_write_end() {
+  if (ends_[1] >= 0) close(ends_[1]);
+  ends_[1] = -1;
+}
+
+bool CellOutput::forward() {
+  char buffer[1 << 14];
+  while (total_ <= kMost && ends_[0] >= 0) {
+    const ssize_t size = read(ends_[0], buffer, sizeof buffer);
+    if (size < 0) break;  // nothing now
+    if (size == 0) close_read_end();
+    const std::int64_t shown = std::clamp<std::int64_t>(kForwarded - total_, 0, size);
+    if (shown > 0) {
+      make_printable({buffer, static_cast<std::size_t>(shown)}, last_);
+      [[maybe_unused]] const ssize_t written =
+          write(STDERR_FILENO, buffer, static_cast<std::size_t>(shown));
+    }
+    total_ += size;
+  }
+  return total_ <= kMost;
+}
 
 /// The reason why a worker ends a process.
 struct Verdict {

@@ -14,7 +14,6 @@
 #include "harness/catalogue/server.hpp"
 #include "harness/run/loaded_sequences.hpp"
 #include "harness/run/pack.hpp"
-#include "harness/run/process_usage.hpp"
 #include "harness/run/run_cell.hpp"
 #include "harness/run/warm_heap.hpp"
 #include "harness/run/watched_process.hpp"
@@ -127,7 +126,6 @@ class JobRunner {
     prepare_programs(sweep.methods[cell.method], command_setting(sweep));
     const auto run_here = [&] {
       const bool is_pinned = pin_to(core_);
-      set_freshly_forked();
       CellResult result = run_cell(cell, sweep, entry.sequence, context_.catalogue);
       result.worker = {true, sweep.serial, is_pinned};
       apply_memory_limit(sweep.limits, result);

@@ -14,7 +14,7 @@
 #include <functional>
 #include <thread>
 
-#include "harness/run/cell_output.hpp"
+#include "harness/base/printable.hpp"
 #include "harness/run/check_output.hpp"
 #include "harness/run/pack.hpp"
 #include "tests/support/isolated_fixture.hpp"
@@ -160,7 +160,7 @@ TEST_F(IsolatedDatasets, MessagesOfDatasetsAreCutAndNotEmpty) {
   EXPECT_EQ(message("usual", "why"), "why");
 }
 
-TEST(CellOutput, ControlCharactersDoNotReachTheTerminal) {
+TEST(Printable, ControlCharactersOfAStreamDoNotReachTheTerminal) {
   std::string text = "a\x1b[2J\tb\r\n\x7f\xc3\xa9\xc2\x9b";
   char previous = '\0';
   make_printable(text, previous);

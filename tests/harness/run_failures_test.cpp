@@ -83,7 +83,7 @@ TEST_F(RunFailures, OutputThatIsNotFiniteAtAKeyframeFailsTheCell) {
   ASSERT_EQ(records.size(), 1u);
   EXPECT_EQ(records[0].status, Status::failed);
   EXPECT_EQ(records[0].metric, "");
-  EXPECT_EQ(records[0].why, "keyframe 4 of 4, at 3.0 s: the position is not finite");
+  EXPECT_EQ(records[0].why, "the curve at 3.0 s: the position is not finite");
 }
 
 TEST_F(RunFailures, OutputThatIsNotFiniteBetweenKeyframesFailsTheCell) {
@@ -91,7 +91,7 @@ TEST_F(RunFailures, OutputThatIsNotFiniteBetweenKeyframesFailsTheCell) {
   const std::vector<Record> records = records_of(method);
   ASSERT_EQ(records.size(), 1u);
   EXPECT_EQ(records[0].status, Status::failed);
-  EXPECT_EQ(records[0].why, "reference stamp 2 of 5, at 0.5 s: the position is not finite");
+  EXPECT_EQ(records[0].why, "the curve at 0.5 s: the position is not finite");
   const std::vector<Record> unseen = records_of(method, "metrics: [ate]\ntimes: keyframes\n");
   ASSERT_EQ(unseen.size(), 1u);
   EXPECT_EQ(unseen[0].status, Status::ok) << "nobody looks between";

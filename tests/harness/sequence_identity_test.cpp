@@ -8,7 +8,7 @@
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/run/describe_sequence.hpp"
+#include "harness/run/summarise_sequence.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::sequence_identity_test {
