@@ -163,6 +163,7 @@ DescribedPlugin describe_plugin(const path& object) {
   const path file = std::filesystem::absolute(object);  // cells may run in another folder
   std::vector<Description> entries;
   std::vector<std::string> libraries;
+  program_libraries();  // before those of plugins are loaded
   try {
     const std::string packed = in_own_process([&] { return packed_description(object); });
     Unpacker unpack(packed);
