@@ -32,13 +32,7 @@ std::string missing_text(const Merged& merged) {
     }
     shards += (shards.empty() ? "; shards without a cell: " : ", ") + shard;
   }
-  std::string out =
-      fmt::format("{} of {} cells are missing{}\n", merged.missing, merged.planned, shards);
-  for (const std::string& label : merged.first_missing) out += "  " + printable(label) + "\n";
-  if (merged.missing > merged.first_missing.size()) {
-    out += fmt::format("  and {} more\n", merged.missing - merged.first_missing.size());
-  }
-  return out;
+  return fmt::format("{} of {} cells are missing{}\n", merged.missing, merged.planned, shards);
 }
 
 }  // namespace
@@ -61,8 +55,7 @@ void add_merge(CLI::App& app, int& exit_code) {
   command->add_flag("--add",
                     arguments->options.add,
                     "Keep the cells of an existing output store, instead of rejecting it");
-  command->footer(
-      "`loopbench run CONFIG --out OUT` computes the cells that are listed as missing.");
+  command->footer("`loopbench run CONFIG --out OUT` computes the missing cells.");
   command->callback([arguments, &exit_code] {
     reject_standard_output("-o", arguments->out);
     std::filesystem::path out = arguments->out;

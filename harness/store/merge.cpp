@@ -1,17 +1,42 @@
 #include "harness/store/merge.hpp"
 
+#include <algorithm>
+#include <map>
 #include <optional>
-#include <unordered_set>
+#include <set>
+#include <sstream>
 
 #include "datasets/core/error.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/store/open.hpp"
-#include "harness/store/plan.hpp"
 #include "harness/store/schema.hpp"
 #include "harness/store/stored_cells.hpp"
 
 namespace loopbench::harness {
 namespace {
+
+/// The shards that are missing in `lines` "3/8 DIVISION", of divisions that others belong to.
+std::vector<std::string> missing_shards(const std::string& lines) {
+  constexpr std::size_t kMostListed = 100'000;
+  std::map<std::string, std::set<std::size_t>> found;  // by "8 DIVISION"
+  std::istringstream in(lines);
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t slash = line.find('/');
+    if (slash == std::string::npos) continue;
+    std::size_t number = 0;
+    std::istringstream(line.substr(0, slash)) >> number;
+    found[line.substr(slash + 1)].insert(number);
+  }
+  std::vector<std::string> out;
+  for (const auto& [division, numbers] : found) {
+    std::size_t count = 0;
+    std::istringstream(division) >> count;
+    for (std::size_t i = 1; i <= std::min(count, kMostListed); ++i) {
+      if (!numbers.contains(i)) out.push_back(std::to_string(i) + "/" + std::to_string(count));
+    }
+  }
+  return out;
+}
 
 /// Copies stores one after the other, attached as `source`, into the new store `main`.
 class Merge {
@@ -58,15 +83,12 @@ class Merge {
     out.cells = static_cast<std::size_t>(number("SELECT count(*) FROM cell"));
     database_.prepare("INSERT INTO run VALUES ('cells', ?)").bind(std::to_string(out.cells)).run();
     out.duplicates = duplicates_;
-    std::unordered_set<std::size_t> present;
-    Statement row = database_.prepare("SELECT position FROM cell");
-    while (row.step()) present.insert(static_cast<std::size_t>(row.integer()));
-    const std::vector<std::string> labels = planned_labels(run_value("plan"));
-    out.planned = labels.size();
-    for (std::size_t position = 0; position < labels.size(); ++position) {
-      if (present.contains(position)) continue;
-      if (++out.missing <= kListedMissing) out.first_missing.push_back(labels[position]);
-    }
+    const std::int64_t planned =
+        number("SELECT CAST(value AS INTEGER) FROM run WHERE key = 'planned'");
+    const std::int64_t there =
+        number("SELECT count(*) FROM cell WHERE position < " + std::to_string(planned));
+    out.planned = static_cast<std::size_t>(planned);
+    out.missing = static_cast<std::size_t>(std::max<std::int64_t>(0, planned - there));
     Statement sets = database_.prepare(
         "SELECT DISTINCT value FROM provenance WHERE key = 'instructions' ORDER BY value");
     while (sets.step()) out.instruction_sets.push_back(sets.text());
@@ -203,11 +225,11 @@ class Merge {
   }
 
   /// The table run, and provenance of the cells. Different values of run are concatenated as lines;
-  /// the baseline is that of the first store, and stores with different plans have none.
+  /// the baseline is that of the first store, and stores of different sizes have no planned number.
   void copy_descriptions() {
     database_.execute(
         "INSERT INTO main.run SELECT key, value FROM source.run WHERE key NOT IN ('exported', "
-        "'cells') ON CONFLICT (key) DO UPDATE SET value = CASE WHEN key = 'plan' THEN '' ELSE "
+        "'cells') ON CONFLICT (key) DO UPDATE SET value = CASE WHEN key = 'planned' THEN '' ELSE "
         "value || char(10) || excluded.value END WHERE key <> 'baseline' AND instr(char(10) || "
         "value || char(10), char(10) || excluded.value || char(10)) = 0; "
         "INSERT OR IGNORE INTO main.provenance SELECT * FROM source.provenance WHERE "

@@ -10,14 +10,11 @@ namespace loopbench::harness {
 struct Merged {
   std::size_t cells = 0;
   std::size_t duplicates = 0;  ///< duplicate cells that were skipped
-  std::size_t planned = 0;     ///< cells of the sweep; 0: unknown, because the plans differ
+  std::size_t planned = 0;     ///< cells of the sweep; 0: unknown, because the stores differ
   std::size_t missing = 0;     ///< of these, cells that no store has
-  std::vector<std::string> first_missing;     ///< labels of up to kListedMissing of them
   std::vector<std::string> instruction_sets;  ///< of the processors that computed the cells
   std::vector<std::string> missing_shards;    ///< "3/8": absent, unlike others of its division
 };
-
-inline constexpr std::size_t kListedMissing = 10;
 
 struct MergeOptions {
   bool mixed_builds = false;  ///< accept cells of several builds

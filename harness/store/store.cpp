@@ -8,7 +8,6 @@
 #include "harness/base/hash.hpp"
 #include "harness/run/build.hpp"
 #include "harness/store/cell_writer.hpp"
-#include "harness/store/plan.hpp"
 #include "harness/store/resume.hpp"
 #include "harness/store/schema.hpp"
 #include "harness/store/stored_cells.hpp"
@@ -206,18 +205,19 @@ void Store::create() {
 
 void Store::write_description() {
   Statement insert = database_->prepare("INSERT OR REPLACE INTO run VALUES (?, ?)");
-  if (!plan_.empty()) insert.bind("plan", plan_).run();
+  if (planned_ > 0) insert.bind("planned", std::to_string(planned_)).run();
   if (!shard_.empty()) insert.bind("shard", shard_).run();
   write_run(*database_, keys_);
 }
 
 bool Store::is_description_current() {
-  return is_run_current(*database_, keys_) && has_value(*database_, "plan", plan_) &&
+  return is_run_current(*database_, keys_) &&
+         has_value(*database_, "planned", std::to_string(planned_)) &&
          (shard_.empty() || has_value(*database_, "shard", shard_));
 }
 
 Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& planned, Retry retry) {
-  plan_ = plan_text(keys_.sweep(), all);
+  planned_ = all.size();
   if (!database_) {
     Resumed nothing;
     nothing.missing = planned;

@@ -98,9 +98,9 @@ class Store {
   CellKeys& keys_;
   std::map<std::string, std::string> provenance_;
   bool fresh_;
-  std::string plan_;    ///< plan_text(); empty: unknown
-  std::string shard_;   ///< empty: not a shard
-  bool empty_ = false;  ///< the file exists, but without tables
+  std::size_t planned_ = 0;  ///< cells of the sweep; 0: unknown
+  std::string shard_;        ///< empty: not a shard
+  bool empty_ = false;       ///< the file exists, but without tables
   std::chrono::steady_clock::time_point synced_ = std::chrono::steady_clock::now();
   std::unique_ptr<FolderLock> lock_;  // released after the database is closed
   std::unique_ptr<Database> database_;

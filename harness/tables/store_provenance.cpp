@@ -24,7 +24,7 @@ void add_entry(std::vector<std::string>& out, const std::string& key, const std:
 
 /// Rows of the table run that describe the state of the store, not its contents.
 bool is_internal(const std::string& key) {
-  return key == "exported" || key == "plan" || key == "shard";
+  return key == "exported" || key == "planned" || key == "shard";
 }
 
 std::vector<std::string> provenance_entries(const StoreProvenance& provenance) {

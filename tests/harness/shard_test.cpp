@@ -7,7 +7,6 @@
 #include <map>
 
 #include "harness/store/merge.hpp"
-#include "harness/store/plan.hpp"
 #include "harness/store/resume.hpp"
 #include "tests/support/tiny_store.hpp"
 
@@ -61,26 +60,7 @@ TEST(Shards, SequencesStayTogetherAndEveryCellIsInOneShard) {
   EXPECT_TRUE(cells_of({2, 3}, {}).empty());
 }
 
-TEST_F(ShardTest, ThePlanNamesEveryPosition) {
-  const std::string text =
-      "datasets: [{dataset: line, seed: 1, label: a}, {dataset: line, seed: 2, label: b}]\n"
-      "methods: [straight, {method: shift, sweep: {by: [1, 2, 3]}}]\nmetrics: [ate]\n"
-      "repeats: 2\nexclude: [{dataset: a, method: 'shift .by=2.*'}]\n";
-  const Sweep sweep = parse_sweep(text, folder_.path() / "c.yaml", known_);
-  const std::vector<Cell> all = cells(sweep, seeded(sweep, known_), "");
-  const Labels plan = planned_labels(plan_text(sweep, all));
-  ASSERT_EQ(plan.size(), all.size());
-  for (const Cell& cell : all) {
-    const std::string repeat = cell.repeat == 0 ? "" : " (repeat 1)";
-    EXPECT_EQ(
-        plan[cell.index],
-        sweep.datasets[cell.dataset].label + repeat + " / " + sweep.methods[cell.method].label);
-  }
-  EXPECT_EQ(planned_labels(""), Labels{});
-  EXPECT_EQ(planned_labels("dataset\tx\nmethod\ny\t\t"), Labels{});
-}
-
-TEST_F(ShardTest, MergeListsWhatIsMissingAndRunCompletesIt) {
+TEST_F(ShardTest, MergeCountsWhatIsMissingAndRunCompletesIt) {
   run(kUsual);
   const std::string complete = store_text(file_);
   file_ = folder_.path() / "1.sqlite";
@@ -89,7 +69,6 @@ TEST_F(ShardTest, MergeListsWhatIsMissingAndRunCompletesIt) {
   const Merged merged = merge_stores({file_}, out);
   EXPECT_EQ(merged.planned, 4u);
   EXPECT_EQ(merged.missing, 1u);
-  EXPECT_EQ(merged.first_missing, Labels{"a / shifted"});
   const Sweep sweep = parse_sweep(kUsual, folder_.path() / "c.yaml", known_);
   CellKeys keys(sweep, known_, root_, build_);
   const std::vector<Cell> all = cells(sweep, seeded(sweep, known_), "");
@@ -106,12 +85,6 @@ TEST_F(ShardTest, MergeListsWhatIsMissingAndRunCompletesIt) {
   EXPECT_EQ(store_text(out), complete);
   EXPECT_EQ(merge_stores({file_}, out, {.mixed_builds = false, .add = true}).duplicates, 1u);
   EXPECT_EQ(store_text(out), complete) << "adding twice changes nothing";
-}
-
-TEST_F(ShardTest, MissingShardsAreNamed) {
-  EXPECT_EQ(missing_shards("1/3 aa\n3/3 aa\n"), Labels{"2/3"});
-  EXPECT_EQ(missing_shards("1/2 aa\n2/2 aa\n1/2 bb"), Labels{"2/2"});
-  EXPECT_EQ(missing_shards("nonsense\n/\nx/y"), Labels{});
 }
 
 }  // namespace
