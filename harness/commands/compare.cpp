@@ -8,7 +8,6 @@
 #include "harness/commands/write_output.hpp"
 #include "harness/tables/all_records.hpp"
 #include "harness/tables/comparison.hpp"
-#include "harness/tables/text.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -32,7 +31,7 @@ std::string metric_of(const CompareArguments& arguments) {
 }
 
 int print_power(const CompareArguments& arguments, const std::vector<Comparison>& comparisons) {
-  std::vector<TableView> tables;
+  std::vector<Table> tables;
   for (const Comparison& comparison : comparisons) {
     tables.push_back(power_table(comparison, *arguments.power));
   }
@@ -46,6 +45,14 @@ int print_power(const CompareArguments& arguments, const std::vector<Comparison>
                begin_provenance(arguments.store),
                arguments.store);
   return kExitOk;
+}
+
+std::string text_of(const std::vector<Comparison>& comparisons, const OutputOptions& output) {
+  if (output.format() == ExportFormat::csv) return csv(comparisons);
+  if (output.format() == ExportFormat::json) return json(comparisons);
+  std::vector<Table> tables;
+  for (const Comparison& comparison : comparisons) tables.push_back(table_view(comparison));
+  return text(tables, output);
 }
 
 int print_comparison(const CompareArguments& arguments) {

@@ -22,7 +22,7 @@
 #include "harness/report/packed.hpp"
 #include "harness/report/store_figures.hpp"
 #include "harness/store/read.hpp"
-#include "harness/tables/text.hpp"
+#include "harness/tables/record_csv.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -56,7 +56,7 @@ std::string result_text(const EvalArguments& a, const std::vector<EvaluationResu
   std::string out;
   if (!style) out = markdown(tables);
   for (std::size_t i = 0; style && i < tables.size(); ++i) {
-    out += (i == 0 ? "" : "\n") + terminal(table_view(tables[i]), *style);
+    out += (i == 0 ? "" : "\n") + terminal(tables[i], *style);
   }
   return out + verdict_of(a, all, style);
 }
@@ -96,7 +96,7 @@ void write_report(const EvalArguments& a,
       html_text(all.front().reference));
   const bool is_alone = all.size() == 1;
   const std::vector<Table> tables = is_alone ? std::vector<Table>{} : comparison(all);
-  for (const Table& table : tables) page += html_table(table_view(table));
+  for (const Table& table : tables) page += html_table(table);
   const std::string below = is_alone ? text(all.front()) : verdict_of(a, all, TerminalStyle{});
   if (!below.empty()) page += "<pre>" + html_lines(below) + "</pre>\n";
   for (std::size_t i = 0; i < images.size(); ++i) {

@@ -16,7 +16,7 @@
 #include "harness/store/open.hpp"
 #include "harness/store/read.hpp"
 #include "harness/tables/all_records.hpp"
-#include "harness/tables/text.hpp"
+#include "harness/tables/record_csv.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -73,8 +73,7 @@ int export_trajectories(const std::filesystem::path& store, const std::filesyste
 
 /// Streams the long table. The file is complete or not there.
 void export_rows(const std::filesystem::path& store, const std::filesystem::path& file) {
-  const std::string baseline = read_run(store).at("baseline");
-  RecordReader reader(store);
+  const StoreProvenance provenance = read_store_provenance(store);
   std::optional<PendingFile> pending;
   if (!file.empty() && !is_dash(file)) {
     reject_overwriting({store_file(store)}, file);
@@ -92,14 +91,13 @@ void export_rows(const std::filesystem::path& store, const std::filesystem::path
     text.clear();
   };
   constexpr std::size_t kBlock = std::size_t{1} << 20;  // [bytes]
-  for_each_record(reader, baseline, true, [&](const Record& record) {
+  for_each_record(store, [&](const Record& record) {
     text += csv_row(record);
     if (text.size() >= kBlock) flush();
-    return true;
   });
   flush();
   if (pending) pending->commit();
-  write_provenance_of_csv(read_store_provenance(store), file.string());
+  write_provenance_of_csv(provenance, file.string());
 }
 
 }  // namespace

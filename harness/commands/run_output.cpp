@@ -15,9 +15,10 @@
 #include "harness/run/build.hpp"
 #include "harness/store/store.hpp"
 #include "harness/tables/notes.hpp"
+#include "harness/tables/pivot.hpp"
+#include "harness/tables/record_csv.hpp"
 #include "harness/tables/store_provenance.hpp"
 #include "harness/tables/summary.hpp"
-#include "harness/tables/text.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -84,7 +85,7 @@ void write_tables(const std::filesystem::path& store,
 
 std::string summary_text(std::vector<Record> records, const Sweep& sweep) {
   keep_where(records, sweep.table.where);
-  const TableView view = summary(records, {sweep.baseline, sweep.table.value, sweep.table.show});
+  const Table view = summary(records, {sweep.baseline, sweep.table.value, sweep.table.show});
   if (view.lines.empty()) return reasons_text(records);
   return (prints_to_terminal() ? terminal(view, standard_output_style()) : markdown(view)) + "\n";
 }

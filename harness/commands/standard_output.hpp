@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "harness/tables/table_view.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 

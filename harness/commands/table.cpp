@@ -6,8 +6,8 @@
 #include "harness/commands/write_output.hpp"
 #include "harness/model/where.hpp"
 #include "harness/tables/all_records.hpp"
+#include "harness/tables/record_csv.hpp"
 #include "harness/tables/store_tables.hpp"
-#include "harness/tables/text.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -20,6 +20,26 @@ struct TableArguments {
   OutputOptions output;
 };
 
+std::string rows_text(const TableArguments& arguments) {
+  std::vector<Record> records = all_records(arguments.store);
+  keep_where(records, arguments.where);
+  if (records.empty()) {
+    throw InputError(arguments.store +
+                     (arguments.where.empty() ? ": has no rows" : ": no row matches --where"));
+  }
+  return csv(records);
+}
+
+std::string tables_text(const TableArguments& arguments) {
+  const ExportFormat format = arguments.output.format();
+  if (format == ExportFormat::rows) return rows_text(arguments);
+  const std::vector<Table> tables =
+      store_tables(arguments.store, arguments.where, arguments.spec, arguments.ranking);
+  if (format == ExportFormat::csv) return csv(tables);
+  if (format == ExportFormat::json) return json(tables);
+  return text(tables, arguments.output);
+}
+
 int print_table(TableArguments arguments) {
   std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
   std::vector<std::string> show;
@@ -27,21 +47,8 @@ int print_table(TableArguments arguments) {
     for (std::string& score : split_list(word)) show.push_back(std::move(score));
   }
   arguments.spec.show = std::move(show);
-  std::string shown;
-  if (arguments.output.format() == ExportFormat::rows) {
-    std::vector<Record> records = all_records(arguments.store);
-    keep_where(records, arguments.where);
-    if (records.empty()) {
-      throw InputError(arguments.store +
-                       (arguments.where.empty() ? ": has no rows" : ": no row matches --where"));
-    }
-    shown = csv(records);
-  } else {
-    shown =
-        text_of(store_tables(arguments.store, arguments.where, arguments.spec, arguments.ranking),
-                arguments.output);
-  }
-  write_output(shown, arguments.output, "tables", std::move(provenance), arguments.store);
+  write_output(
+      tables_text(arguments), arguments.output, "tables", std::move(provenance), arguments.store);
   return kExitOk;
 }
 

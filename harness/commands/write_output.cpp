@@ -55,13 +55,13 @@ void declare(CLI::App& command, OutputOptions& output, const std::vector<ExportF
       ->type_name("FILE");
 }
 
-std::string text(const std::vector<TableView>& tables, const OutputOptions& output) {
+std::string text(const std::vector<Table>& tables, const OutputOptions& output) {
   const TerminalStyle style = is_printed(output) ? standard_output_style() : TerminalStyle{};
   const ExportFormat format = output.format();
   std::string out;
-  for (const TableView& table : tables) {
+  for (const Table& table : tables) {
     out += out.empty() ? "" : "\n";
-    out += format == ExportFormat::csv        ? csv(table)
+    out += format == ExportFormat::csv        ? text_csv(table)
            : format == ExportFormat::latex    ? latex(table)
            : format == ExportFormat::terminal ? terminal(table, style)
                                               : markdown(table);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "harness/tables/store_provenance.hpp"
-#include "harness/tables/table_view.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 
@@ -26,19 +26,8 @@ struct OutputOptions {
 /// Adds --format with these formats, and -o.
 void declare(CLI::App& command, OutputOptions& output, const std::vector<ExportFormat>& formats);
 
-/// The tables one below the other: Markdown, LaTeX, CSV, or for the terminal in its width.
-std::string text(const std::vector<TableView>& tables, const OutputOptions& output);
-
-/// The same for tables or comparisons: CSV and JSON from their numbers, the rest from
-/// their table_view().
-template <class Item>
-std::string text_of(const std::vector<Item>& items, const OutputOptions& output) {
-  if (output.format() == ExportFormat::csv) return csv(items);
-  if (output.format() == ExportFormat::json) return json(items);
-  std::vector<TableView> tables;
-  for (const Item& item : items) tables.push_back(table_view(item));
-  return text(tables, output);
-}
+/// The tables one below the other: Markdown, LaTeX, text_csv(), or for the terminal in its width.
+std::string text(const std::vector<Table>& tables, const OutputOptions& output);
 
 /// Reads the provenance on another thread while the output is computed.
 std::future<StoreProvenance> begin_provenance(const std::filesystem::path& store);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "harness/tables/text.hpp"
+#include "harness/tables/record_csv.hpp"
 
 namespace loopbench::harness {
 namespace {

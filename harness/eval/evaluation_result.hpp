@@ -7,7 +7,7 @@
 
 #include "harness/eval/drawn_evaluation.hpp"
 #include "harness/model/record.hpp"
-#include "harness/tables/table_view.hpp"
+#include "harness/tables/table.hpp"
 #include "metrics/errors/ape.hpp"
 #include "metrics/metric.hpp"
 #include "metrics/protocols/protocols.hpp"

@@ -6,6 +6,7 @@
 #include "harness/base/wrap.hpp"
 #include "harness/eval/evaluation_result.hpp"
 #include "harness/tables/notes.hpp"
+#include "harness/tables/pivot.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -75,12 +76,12 @@ std::vector<Missing> missing_scores(const EvaluationResult& result, const std::s
 }
 
 /// `digits`: decimals; none: four significant digits.
-TableView scores_view(const EvaluationResult& result, std::optional<int> digits) {
-  TableView out{"", {"score", "rmse", "mean", "median", "std", "min", "max", "count"}, {}, {}};
+Table scores_view(const EvaluationResult& result, std::optional<int> digits) {
+  Table out{"", {"score", "rmse", "mean", "median", "std", "min", "max", "count"}, {}, {}};
   for (const Record& record : result.records) {
     if (!has_numbers(record.status)) continue;
     const metrics::Statistics& s = record.statistics;
-    std::vector<TableViewEntry>& line = out.lines.emplace_back();
+    std::vector<TableCell>& line = out.lines.emplace_back();
     line.push_back({score_name(record)});
     for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max}) {
       line.push_back({fixed(value, digits.value_or(decimals(s.rmse)))});
@@ -159,7 +160,7 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results, bool ha
   spec.split.clear();
   spec.value = value_of(first.protocol.rules);
   Table out = pivot(records, spec).front();
-  out.corner = "estimate";
+  out.headings[0] = "estimate";
   out.title = fmt::format("{}, {} against {}{}",
                           protocol_text(first.protocol),
                           spec.value,

@@ -73,10 +73,10 @@ RunSummary summary(const std::string& sequence,
   return out;
 }
 
-std::vector<TableViewEntry> row(const RunSummary& s) {
+std::vector<TableCell> row(const RunSummary& s) {
   const auto number = [](double value) { return fmt::format("{:.4f}", value); };
-  std::vector<TableViewEntry> out{{s.sequence + " / " + s.method},
-                                  {fmt::format("{} of {}", s.successes, s.runs)}};
+  std::vector<TableCell> out{{s.sequence + " / " + s.method},
+                             {fmt::format("{} of {}", s.successes, s.runs)}};
   if (s.successes == 0) {
     out.resize(6);
     return out;
@@ -102,15 +102,15 @@ std::string table_of(const std::vector<RunSummary>& all,
                      const std::string& subject,
                      const std::string& unit,
                      const std::optional<TerminalStyle>& style) {
-  TableView view{"",
-                 {"sequence / method",
-                  "successful runs",
-                  "mean " + subject + " [" + unit + "]",
-                  "95 % interval",
-                  "median [" + unit + "]",
-                  "range [" + unit + "]"},
-                 {},
-                 {}};
+  Table view{"",
+             {"sequence / method",
+              "successful runs",
+              "mean " + subject + " [" + unit + "]",
+              "95 % interval",
+              "median [" + unit + "]",
+              "range [" + unit + "]"},
+             {},
+             {}};
   for (const RunSummary& each : all) view.lines.push_back(row(each));
   std::size_t copies = 0;
   for (const RunSummary& each : all) copies += each.copies;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "harness/compare/compare.hpp"
-#include "harness/tables/table_view.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 

@@ -9,7 +9,7 @@
 
 #include "harness/compare/compare.hpp"
 #include "harness/model/sequence_metadata.hpp"
-#include "harness/tables/table_view.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 

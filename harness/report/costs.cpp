@@ -81,10 +81,7 @@ class ByName {
     values_[name].push_back(value);
   }
   template <class Text>
-  void add_rows(TableView& out,
-                const std::string& method,
-                const std::string& what,
-                Text text) const {
+  void add_rows(Table& out, const std::string& method, const std::string& what, Text text) const {
     for (const std::string& name : names_) {
       out.lines.push_back({method, what, name, text(metrics::median(values_.at(name)))});
     }
@@ -96,8 +93,8 @@ class ByName {
 };
 
 /// One row per phase and count that a method reports: medians over its cells.
-TableView reported(const std::vector<CellRecord>& cells) {
-  TableView out{"reported by the methods", {"method", "what", "name", "median"}, {}, {}};
+Table reported(const std::vector<CellRecord>& cells) {
+  Table out{"reported by the methods", {"method", "what", "name", "median"}, {}, {}};
   for (const auto& [method, all] : by_method(cells)) {
     ByName phases;
     ByName counts;
@@ -113,18 +110,18 @@ TableView reported(const std::vector<CellRecord>& cells) {
 
 }  // namespace
 
-TableView costs(const std::vector<CellRecord>& cells) {
-  TableView out{"costs",
-                {"method",
-                 "cells",
-                 "failed",
-                 "wall [ms]",
-                 "CPU [ms]",
-                 "peak memory [MB]",
-                 "added [MB]",
-                 "iterations"},
-                {},
-                {}};
+Table costs(const std::vector<CellRecord>& cells) {
+  Table out{"costs",
+            {"method",
+             "cells",
+             "failed",
+             "wall [ms]",
+             "CPU [ms]",
+             "peak memory [MB]",
+             "added [MB]",
+             "iterations"},
+            {},
+            {}};
   if (lacks_times(cells)) return out;
   bool shared = false;
   bool alone = false;
@@ -161,7 +158,7 @@ TableView costs(const std::vector<CellRecord>& cells) {
 
 std::string costs_html(const ReportContent& content) {
   std::string out;
-  for (const TableView& listing : {costs(content.cells), reported(content.cells)}) {
+  for (const Table& listing : {costs(content.cells), reported(content.cells)}) {
     if (!listing.lines.empty()) out += html_table(listing);
   }
   return out.empty() ? "<p>No run times are recorded.</p>\n" : out;

@@ -22,7 +22,7 @@ struct Affected {
 };
 
 /// Cells without scores, or with too little coverage.
-TableView of_cells(const ReportContent& content) {
+Table of_cells(const ReportContent& content) {
   std::map<Reason, Affected> reasons;
   for (const CellRecord& cell : content.cells) {
     if (cell.status == Status::ok && cell.why.empty()) continue;
@@ -33,7 +33,7 @@ TableView of_cells(const ReportContent& content) {
     affected.cells.insert(cell.position);
     affected.sequences.insert(cell.sequence);
   }
-  TableView out{"cells without results", {"method", "status", "cells", "sequences", "why"}, {}, {}};
+  Table out{"cells without results", {"method", "status", "cells", "sequences", "why"}, {}, {}};
   for (const auto& [reason, affected] : reasons) {
     const auto& [status, method, why] = reason;
     out.lines.push_back(
@@ -43,7 +43,7 @@ TableView of_cells(const ReportContent& content) {
 }
 
 /// Scores missing from cells that finished.
-TableView of_scores(const ReportContent& content) {
+Table of_scores(const ReportContent& content) {
   std::set<std::int64_t> ended;
   for (const CellRecord& cell : content.cells) {
     if (has_numbers(cell.status)) ended.insert(cell.position);
@@ -56,7 +56,7 @@ TableView of_scores(const ReportContent& content) {
     affected.sequences.insert(r.sequence);
     affected.scores.insert(field(r, "score") + (r.unit.empty() ? "" : " [" + r.unit + "]"));
   }
-  TableView out{
+  Table out{
       "undefined scores", {"method", "status", "scores", "cells", "sequences", "why"}, {}, {}};
   for (const auto& [reason, affected] : reasons) {
     const auto& [status, method, why] = reason;
@@ -74,7 +74,7 @@ TableView of_scores(const ReportContent& content) {
 
 std::string failures_html(const ReportContent& content) {
   std::string out;
-  for (const TableView& listing : {of_cells(content), of_scores(content)}) {
+  for (const Table& listing : {of_cells(content), of_scores(content)}) {
     if (!listing.lines.empty()) out += html_text_table(listing);
   }
   if (!out.empty()) return out;

@@ -22,23 +22,36 @@ std::string notes_list(const std::vector<std::string>& notes) {
   return out + "</ul>";
 }
 
-std::string open_table(const std::string& title,
-                       const std::vector<std::string>& headings,
-                       const std::string& attributes,
-                       bool of_words = false) {
-  std::string out = std::string("<figure class=\"table") + (of_words ? " texts\"" : "\"") +
-                    (attributes.empty() ? "" : " " + attributes) +
-                    "><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" +
-                    html_text(title) + "\"><table><caption>" + html_text(title) +
-                    "</caption><thead><tr>";
-  for (const std::string& heading : headings) {
-    out += "<th scope=\"col\">" + html_text(heading) + "</th>";
+std::string lines_of(const Table& table) {
+  std::string out;
+  for (const std::vector<TableCell>& line : table.lines) {
+    out += "<tr>";
+    for (std::size_t c = 0; c < line.size(); ++c) {
+      const std::string text = html_text(line[c].text);
+      if (c == 0) {
+        out += "<th scope=\"row\">" + text + "</th>";
+      } else if (line[c].mark == Mark::none) {
+        out += "<td>" + text + "</td>";
+      } else {
+        out += std::string("<td class=\"") + mark_name(line[c].mark) + "\">" + text + "</td>";
+      }
+    }
+    out += "</tr>\n";
   }
-  return out + "</tr></thead><tbody>\n";
+  return out;
 }
 
-std::string close_table(const std::vector<std::string>& notes) {
-  return "</tbody></table></div>" + notes_list(notes) + "</figure>\n";
+std::string figure(const Table& all, const std::string& attributes) {
+  const Table table = without_empty_columns(all);
+  const std::string title = html_text(table.title);
+  std::string out = "<figure " + attributes +
+                    "><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" + title +
+                    "\"><table><caption>" + title + "</caption><thead><tr>";
+  for (const std::string& heading : table.headings) {
+    out += "<th scope=\"col\">" + html_text(heading) + "</th>";
+  }
+  return out + "</tr></thead><tbody>\n" + lines_of(table) + "</tbody></table></div>" +
+         notes_list(table.notes) + "</figure>\n";
 }
 
 }  // namespace
@@ -83,37 +96,10 @@ std::string script_text(const std::string& json) {
   return out;
 }
 
-namespace {
-
-std::string lines_of(const TableView& table_view) {
-  std::string out;
-  for (const std::vector<TableViewEntry>& line : table_view.lines) {
-    out += "<tr>";
-    for (std::size_t c = 0; c < line.size(); ++c) {
-      const std::string text = html_text(line[c].text);
-      if (c == 0) {
-        out += "<th scope=\"row\">" + text + "</th>";
-      } else if (line[c].mark == Mark::none) {
-        out += "<td>" + text + "</td>";
-      } else {
-        out += std::string("<td class=\"") + mark_name(line[c].mark) + "\">" + text + "</td>";
-      }
-    }
-    out += "</tr>\n";
-  }
-  return out;
+std::string html_table(const Table& table, const std::string& attributes) {
+  return figure(table, "class=\"table\"" + (attributes.empty() ? "" : " " + attributes));
 }
 
-}  // namespace
-
-std::string html_table(const TableView& table_view, const std::string& attributes) {
-  return open_table(table_view.title, table_view.headings, attributes) + lines_of(table_view) +
-         close_table(table_view.notes);
-}
-
-std::string html_text_table(const TableView& table_view) {
-  return open_table(table_view.title, table_view.headings, "", true) + lines_of(table_view) +
-         close_table(table_view.notes);
-}
+std::string html_text_table(const Table& table) { return figure(table, "class=\"table texts\""); }
 
 }  // namespace loopbench::harness

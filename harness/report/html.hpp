@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "harness/tables/table_view.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 
@@ -15,9 +15,9 @@ std::string html_text(std::string_view text);
 std::string script_text(const std::string& json);
 
 /// A table with its caption and a list of notes. `attributes` is inserted into the figure's tag.
-std::string html_table(const TableView& table_view, const std::string& attributes = "");
+std::string html_table(const Table& table, const std::string& attributes = "");
 
 /// The same for columns of words instead of numbers.
-std::string html_text_table(const TableView& table_view);
+std::string html_text_table(const Table& table);
 
 }  // namespace loopbench::harness

@@ -9,6 +9,7 @@
 
 #include "harness/report/html.hpp"
 #include "harness/tables/comparison.hpp"
+#include "harness/tables/pivot.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -25,24 +26,8 @@ std::string score_name(const Comparison& c) {
   return field(c.kind, "score") + " " + c.options.value + " [" + c.kind.unit + "]";
 }
 
-/// With the columns for gain and time next to the names, so that they need no scrolling.
-TableView gain_and_time_first(TableView view) {
-  std::vector<std::size_t> order{0};
-  const auto is_first = [&](std::size_t c) {
-    return view.headings[c].starts_with("gain") || view.headings[c].starts_with("time");
-  };
-  for (const bool first : {true, false}) {
-    for (std::size_t c = 1; c < view.headings.size(); ++c) {
-      if (is_first(c) == first) order.push_back(c);
-    }
-  }
-  TableView out = view;
-  for (std::size_t c = 0; c < order.size(); ++c) {
-    out.headings[c] = view.headings[order[c]];
-    for (std::size_t r = 0; r < view.lines.size(); ++r) out.lines[r][c] = view.lines[r][order[c]];
-  }
-  return out;
-}
+/// Gains and times are shown next to the names, so that they need no scrolling.
+bool is_shown_first(const Record& r) { return r.metric == "gain" || r.metric == "time"; }
 
 /// The gain in large type with its interval, if it can be stated as one number.
 std::string key_figure(const Comparison& c) {
@@ -123,7 +108,7 @@ std::string summary_html(const ReportContent& content) {
 
 std::string verdicts_html(const ReportContent& content) {
   if (content.comparisons.empty()) return "<p>No baseline, so no verdicts.</p>\n";
-  TableView out{"verdict for every score", {"score", "times", "protocol", "verdict"}, {}, {}};
+  Table out{"verdict for every score", {"score", "times", "protocol", "verdict"}, {}, {}};
   for (const Comparison& c : content.comparisons) {
     if (c.methods.size() < 2) continue;
     out.lines.push_back({score_name(c), c.kind.times, c.kind.protocol, verdict(c)});
@@ -141,7 +126,11 @@ std::string comparison_html(const ReportContent& content) {
 std::string scores_html(const ReportContent& content) {
   std::string out;
   std::map<SharedText, std::vector<Record>> by_sequence;
-  for (const Record& r : content.records) by_sequence[r.sequence].push_back(r);
+  for (const bool first : {true, false}) {
+    for (const Record& r : content.records) {
+      if (is_shown_first(r) == first) by_sequence[r.sequence].push_back(r);
+    }
+  }
   const auto part = [&](const std::string& sequence, const std::string& times) {
     std::vector<Record> records;
     for (const Record& r : by_sequence[sequence]) {
@@ -149,9 +138,8 @@ std::string scores_html(const ReportContent& content) {
     }
     if (std::ranges::all_of(records, [](const Record& r) { return r.metric.empty(); })) return;
     for (const Table& table : pivot(records, TableSpec{})) {
-      out +=
-          html_table(gain_and_time_first(table_view(table)),
-                     "data-sequence=\"" + html_text(sequence) + "\" data-times=\"" + times + "\"");
+      out += html_table(
+          table, "data-sequence=\"" + html_text(sequence) + "\" data-times=\"" + times + "\"");
     }
   };
   for (const std::string& sequence : content.shown_sequences()) {
@@ -169,11 +157,11 @@ std::string provenance_html(const ReportContent& content) {
   };
   out += "<h3>Protocol of every number</h3>\n<pre tabindex=\"0\">" +
          html_text(value_of("protocol")) + "</pre>\n";
-  TableView provenance{"provenance", {"item", "value"}, {}, {}};
+  Table provenance{"provenance", {"item", "value"}, {}, {}};
   for (const auto& [key, value] : content.provenance) provenance.lines.push_back({key, value});
   out += html_text_table(provenance);
   if (!content.inputs.empty()) {
-    TableView files{"input files", {"sequence", "file", "bytes", "MurmurHash3 x64 128"}, {}, {}};
+    Table files{"input files", {"sequence", "file", "bytes", "MurmurHash3 x64 128"}, {}, {}};
     for (const auto& [sequence, inputs] : content.inputs) {
       for (const InputFile& input : inputs) {
         files.lines.push_back({sequence, input.path, std::to_string(input.bytes), input.hash});

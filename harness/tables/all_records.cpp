@@ -1,7 +1,6 @@
 #include "harness/tables/all_records.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <set>
 #include <utility>
 
@@ -11,125 +10,98 @@
 #include "harness/compare/name_order.hpp"
 #include "harness/model/where.hpp"
 #include "harness/store/read.hpp"
+#include "harness/store/record_reader.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-/// How a record can match --metric, the most specific first.
-constexpr const char* kMetricFields[] = {"label", "score", "metric"};
-constexpr std::size_t kNoField = std::size(kMetricFields);
-
-/// Whether a derived record can match.
-bool can_be_derived(const std::string& metric) {
-  return metric.starts_with("gain") || metric.starts_with("pairs") || metric.starts_with("time");
+void for_each_with_derived(RecordReader& reader,
+                           const std::string& baseline,
+                           const std::function<void(const Record&)>& visit) {
+  reader.for_each_chunk([&](std::vector<Record>& records) {
+    add_derived(records, baseline);
+    std::ranges::for_each(records, visit);
+    return true;
+  });
 }
 
-/// The records of all_records() that pass a filter.
-class FilteredRecords {
- public:
-  FilteredRecords(const std::filesystem::path& store, const std::vector<std::string>& rules)
-      : reader_(store), baseline_(read_run(store).at("baseline")), is_kept_(where(rules)) {}
+/// Definitions of scores: records without sequence, method and values.
+std::vector<Record> stored_definitions(const RecordReader& reader) {
+  std::vector<Record> out;
+  reader.for_each_definition([&](const Record& r) { out.push_back(r); });
+  return out;
+}
 
-  void for_each(bool derived, const std::function<bool(const Record&)>& visit) {
-    for_each_record(
-        reader_, baseline_, derived, [&](const Record& r) { return !is_kept_(r) || visit(r); });
-  }
+/// How a record can match --metric, the most specific first.
+constexpr const char* kMetricFields[] = {"label", "score", "metric"};
 
-  /// Restricts for_each(false, ...) to metrics of which a score has this text in the field.
-  void keep_metrics(const std::string& metric, std::size_t own) {
-    std::set<std::pair<SharedText, SharedText>> kept;  // metric and label
-    reader_.for_each_definition([&](const Record& r) {
-      if (metric.empty() || field(r, kMetricFields[own]) == metric) kept.emplace(r.metric, r.label);
-    });
-    reader_.keep_scores([kept](const Record& r) { return kept.contains({r.metric, r.label}); });
-  }
-
-  /// The first of kMetricFields in which a record has this text, "" in all; kNoField if none has.
-  std::size_t field_of(const std::string& metric, bool derived) {
-    std::size_t found = kNoField;
-    for_each(derived, [&](const Record& r) {
-      for (std::size_t f = 0; f < found && !r.metric.empty(); ++f) {
-        if (metric.empty() || field(r, kMetricFields[f]) == metric) found = f;
-      }
-      return found > 0;
-    });
-    return found;
-  }
-
-  /// Throws InputError with the metrics that there are.
-  [[noreturn]] void reject(const std::string& metric, const std::string& none) {
-    NameOrder known[kNoField];
-    bool has_score = false;
-    for_each(true, [&](const Record& r) {
-      if (r.metric.empty()) return true;
-      has_score = true;
-      for (std::size_t f = 0; f < kNoField; ++f) known[f].index(field(r, kMetricFields[f]));
-      return true;
-    });
-    if (!has_score) throw InputError(none);
-    NameOrder all;
-    for (const NameOrder& of_field : known) {
-      for (const std::string& name : of_field.names()) all.index(name);
+/// The first of kMetricFields in which a definition has this text; throws InputError if none has.
+const char* matching_field(const std::vector<Record>& definitions, const std::string& metric) {
+  NameOrder known;
+  for (const char* name : kMetricFields) {
+    for (const Record& r : definitions) {
+      const std::string text = field(r, name);
+      if (text == metric) return name;
+      known.index(text);
     }
-    if (metric.empty()) throw InputError(none);
-    throw InputError("--metric: " + unknown_name("metric", metric, all.names()));
   }
-
- private:
-  RecordReader reader_;
-  std::string baseline_;
-  std::function<bool(const Record&)> is_kept_;
-};
+  throw InputError("--metric: " + unknown_name("metric", metric, known.names()));
+}
 
 }  // namespace
 
-std::vector<Record> all_records(const std::filesystem::path& store) {
-  std::vector<Record> records = read_records(store);
-  add_derived(records, read_run(store).at("baseline"));
-  return records;
+void for_each_record(const std::filesystem::path& store,
+                     const std::function<void(const Record&)>& visit) {
+  RecordReader reader(store);
+  for_each_with_derived(reader, read_run(store).at("baseline"), visit);
 }
 
-void for_each_record(RecordReader& reader,
-                     const std::string& baseline,
-                     bool derived,
-                     const std::function<bool(const Record&)>& visit) {
-  using Derive = std::function<std::vector<Record>(const std::vector<Record>&)>;
-  const Derive parts[] = {{},
-                          [&](const auto& records) { return gains(records, baseline); },
-                          [](const auto& records) { return pair_counts(records); },
-                          [](const auto& records) { return run_times(records); }};
-  bool goes_on = true;
-  for (const Derive& derive : parts) {
-    if (!goes_on || (derive && !derived)) return;
-    reader.for_each_chunk([&](std::vector<Record>& records) {
-      if (derive) records = derive(records);
-      goes_on = std::ranges::all_of(records, visit);
-      return goes_on;
-    });
-  }
+std::vector<Record> all_records(const std::filesystem::path& store) {
+  std::vector<Record> out;
+  for_each_record(store, [&](const Record& r) { out.push_back(r); });
+  return out;
 }
 
 std::vector<Comparison> compare_store(const std::filesystem::path& store,
                                       const std::string& metric,
                                       const std::vector<std::string>& rules,
                                       CompareOptions options) {
-  FilteredRecords all(store, rules);
-  const bool derived = can_be_derived(metric);
-  const std::size_t own = all.field_of(metric, derived);
-  if (own == kNoField) {
-    all.reject(metric,
-               store.string() + ": no score to compare" + (rules.empty() ? "" : " after --where"));
-  }
-  if (options.baseline.empty()) options.baseline = read_run(store).at("baseline");
+  const std::string baseline = read_run(store).at("baseline");
+  if (options.baseline.empty()) options.baseline = baseline;
   if (options.baseline.empty()) {
     throw InputError(store.string() + ": the sweep has no baseline; set --baseline METHOD");
   }
-  if (!derived) all.keep_metrics(metric, own);
+  const std::string nothing =
+      store.string() + ": no score to compare" + (rules.empty() ? "" : " after --where");
+  RecordReader reader(store);
+  const std::vector<Record> stored = stored_definitions(reader);
+  if (stored.empty()) throw InputError(nothing);
+  std::vector<Record> definitions = stored;
+  add_derived(definitions, "");  // of any method: definitions have none
+  const char* const name = metric.empty() ? nullptr : matching_field(definitions, metric);
+  const auto is_wanted = [&](const Record& r) { return !name || field(r, name) == metric; };
+  std::set<std::pair<SharedText, SharedText>> kept;  // metric and label
+  for (const Record& r : stored) {
+    if (is_wanted(r)) kept.emplace(r.metric, r.label);
+  }
+  const bool is_derived =
+      std::any_of(definitions.begin() + static_cast<std::ptrdiff_t>(stored.size()),
+                  definitions.end(),
+                  [&](const Record& r) { return name && is_wanted(r); });
+  if (!is_derived) {
+    reader.keep_scores([kept](const Record& r) { return kept.contains({r.metric, r.label}); });
+  }
+  const auto passes = where(rules);
   const RecordSource wanted = [&](const auto& visit) {
-    all.for_each(derived, [&](const Record& r) {
-      if (r.metric.empty() || metric.empty() || field(r, kMetricFields[own]) == metric) visit(r);
-      return true;
-    });
+    bool has_score = false;
+    const auto visit_wanted = [&](const Record& r) {
+      if (!passes(r) || !(r.metric.empty() || is_wanted(r))) return;
+      has_score = has_score || !r.metric.empty();
+      visit(r);
+    };
+    is_derived ? for_each_with_derived(reader, baseline, visit_wanted)
+               : reader.for_each(visit_wanted);
+    if (!has_score) throw InputError(nothing);
   };
   return compare(wanted, options);
 }

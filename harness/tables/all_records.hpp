@@ -1,4 +1,4 @@
-/// Reads the records of tables from a store, including gain and time, and compares methods.
+/// Reads the records of tables from a store, including gains, pair counts and run times.
 #pragma once
 
 #include <filesystem>
@@ -7,20 +7,15 @@
 #include <vector>
 
 #include "harness/compare/compare.hpp"
-#include "harness/store/record_reader.hpp"
-#include "harness/tables/pivot.hpp"
 
 namespace loopbench::harness {
 
-/// Stored records, then gains, pair counts and run times: columns in this order.
-std::vector<Record> all_records(const std::filesystem::path& store);
+/// Visits the records sequence by sequence: those that are stored, then the derived ones.
+void for_each_record(const std::filesystem::path& store,
+                     const std::function<void(const Record&)>& visit);
 
-/// Visits the stored records and, if `derived`, the same records as all_records(), in that order,
-/// until `visit` returns false. Reads the store up to four times, with little memory.
-void for_each_record(RecordReader& reader,
-                     const std::string& baseline,
-                     bool derived,
-                     const std::function<bool(const Record&)>& visit);
+/// All of for_each_record().
+std::vector<Record> all_records(const std::filesystem::path& store);
 
 /// The comparisons that `loopbench compare` prints, for one metric selected by its label, the short
 /// name of a score ("error x") or its name, over the records that pass the filters `rules` (see

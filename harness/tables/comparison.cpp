@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "harness/tables/text.hpp"
+#include "harness/tables/record_csv.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -95,19 +95,19 @@ Mark mark_of(const Comparison& c, const MethodVerdict& m) {
 
 }  // namespace
 
-TableView table_view(const Comparison& c) {
+Table table_view(const Comparison& c) {
   const std::string unit = c.kind.unit.empty() ? "" : " [" + c.kind.unit + "]";
-  TableView out{title(c),
-                {"method",
-                 "median" + unit,
-                 "ratio",
-                 fmt::format("{:g} % interval", 100.0 * (1.0 - c.options.alpha)),
-                 "better/worse/equal",
-                 "p",
-                 "mean",
-                 "behind"},
-                {},
-                {statement(c)}};
+  Table out{title(c),
+            {"method",
+             "median" + unit,
+             "ratio",
+             fmt::format("{:g} % interval", 100.0 * (1.0 - c.options.alpha)),
+             "better/worse/equal",
+             "p",
+             "mean",
+             "behind"},
+            {},
+            {statement(c)}};
   double largest = 0.0;
   for (const MethodVerdict& m : c.methods) largest = std::max(largest, std::abs(m.median));
   for (const MethodVerdict& m : c.methods) {

@@ -5,18 +5,18 @@
 #include <vector>
 
 #include "harness/compare/compare.hpp"
-#include "harness/tables/table_view.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 
 /// One line per method, the leader first: median, typical ratio to the baseline with its interval,
 /// wins, losses and ties against it, p, geometric mean ratio, and how far it is behind the leader
 /// (~: not significantly). Best methods are marked. Notes: verdict, remarks.
-TableView table_view(const Comparison& comparison);
+Table table_view(const Comparison& comparison);
 
 /// For each method the smallest gain that as many groups would find with 80 %, and the number of
 /// groups that a gain (0..1) needs, given the deviation of its log ratios.
-TableView power_table(const Comparison& comparison, double gain);
+Table power_table(const Comparison& comparison, double gain);
 
 /// One line per method of every comparison, numbers in full precision; missing values are empty.
 std::string csv(const std::vector<Comparison>& comparisons);

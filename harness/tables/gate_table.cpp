@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/tables/table_view.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -52,16 +52,15 @@ std::string test_case(const std::string& sweep,
 }  // namespace
 
 std::string markdown(const GateReport& report, const std::string& sweep) {
-  TableView out{
-      fmt::format("{}: {}", sweep, report.passes() ? "passed" : "FAILED"),
-      {"cell", "score", "finding", "what"},
-      {},
-      {fmt::format("{}, {}, {} in {} and {}",
-                   counted_findings(report.count(Finding::Kind::regression), "regression"),
-                   counted_findings(report.count(Finding::Kind::improvement), "improvement"),
-                   counted_findings(report.count(Finding::Kind::added), "new cell"),
-                   counted_findings(report.cells, "cell"),
-                   counted_findings(report.scores, "score"))}};
+  Table out{fmt::format("{}: {}", sweep, report.passes() ? "passed" : "FAILED"),
+            {"cell", "score", "finding", "what"},
+            {},
+            {fmt::format("{}, {}, {} in {} and {}",
+                         counted_findings(report.count(Finding::Kind::regression), "regression"),
+                         counted_findings(report.count(Finding::Kind::improvement), "improvement"),
+                         counted_findings(report.count(Finding::Kind::added), "new cell"),
+                         counted_findings(report.cells, "cell"),
+                         counted_findings(report.scores, "score"))}};
   for (const std::string& note : report.notes) out.notes.push_back(note);
   for (const Finding& finding : report.findings) {
     out.lines.push_back({{finding.cell}, {finding.score}, {name(finding.kind)}, {finding.what}});

@@ -1,6 +1,6 @@
 #include <string_view>
 
-#include "harness/tables/table_view.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -51,33 +51,34 @@ std::string escaped_latex(const std::string& text) {
   return out;
 }
 
-std::string marked_latex(const TableViewEntry& entry) {
-  const std::string text = escaped_latex(entry.text);
-  if (entry.mark == Mark::best) return "\\textbf{" + text + "}";
-  if (entry.mark == Mark::second) return "\\underline{" + text + "}";
+std::string marked_latex(const TableCell& cell) {
+  const std::string text = escaped_latex(cell.text);
+  if (cell.mark == Mark::best) return "\\textbf{" + text + "}";
+  if (cell.mark == Mark::second) return "\\underline{" + text + "}";
   return text;
 }
 
 }  // namespace
 
-std::string latex(const TableView& table_view) {
-  const bool has_caption = !table_view.title.empty();
-  std::string out = has_caption ? "\\begin{table}\n\\centering\n\\caption{" +
-                                      escaped_latex(table_view.title) + "}\n"
-                                : "";
-  out += "\\begin{tabular}{l" + std::string(table_view.headings.size() - 1, 'r') + "}\n\\toprule\n";
-  for (std::size_t c = 0; c < table_view.headings.size(); ++c) {
-    out += (c == 0 ? "" : " & ") + escaped_latex(table_view.headings[c]);
+std::string latex(const Table& all) {
+  const Table table = without_empty_columns(all);
+  const bool has_caption = !table.title.empty();
+  std::string out =
+      has_caption ? "\\begin{table}\n\\centering\n\\caption{" + escaped_latex(table.title) + "}\n"
+                  : "";
+  out += "\\begin{tabular}{l" + std::string(table.headings.size() - 1, 'r') + "}\n\\toprule\n";
+  for (std::size_t c = 0; c < table.headings.size(); ++c) {
+    out += (c == 0 ? "" : " & ") + escaped_latex(table.headings[c]);
   }
   out += " \\\\\n\\midrule\n";
-  for (const auto& line : table_view.lines) {
+  for (const auto& line : table.lines) {
     for (std::size_t c = 0; c < line.size(); ++c)
       out += (c == 0 ? "" : " & ") + marked_latex(line[c]);
     out += " \\\\\n";
   }
   out += "\\bottomrule\n\\end{tabular}\n";
   if (has_caption) out += "\\end{table}\n";
-  for (const std::string& note : table_view.notes) out += "% " + one_line(note) + "\n";
+  for (const std::string& note : table.notes) out += "% " + one_line(note) + "\n";
   return out;
 }
 

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cctype>
 
-#include "harness/tables/text.hpp"
+#include "harness/base/wrap.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -31,9 +33,18 @@ std::string escaped_markdown(const std::string& text) {
   return out;
 }
 
-std::string marked_markdown(const TableViewEntry& entry) {
-  const char* around = entry.mark == Mark::best ? "**" : entry.mark == Mark::second ? "_" : "";
-  return around + escaped_markdown(entry.text) + around;
+std::string marked_markdown(const TableCell& cell) {
+  const char* around = cell.mark == Mark::best ? "**" : cell.mark == Mark::second ? "_" : "";
+  return around + escaped_markdown(cell.text) + around;
+}
+
+/// Width of the widest text of each column, at least 3 for the rule.
+std::vector<std::size_t> widths(const std::vector<std::vector<std::string>>& grid) {
+  std::vector<std::size_t> out(grid[0].size(), 3);
+  for (const auto& line : grid) {
+    for (std::size_t c = 0; c < line.size(); ++c) out[c] = std::max(out[c], width(line[c]));
+  }
+  return out;
 }
 
 std::string line_of(const std::vector<std::string>& texts, const std::vector<std::size_t>& wide) {
@@ -45,17 +56,16 @@ std::string line_of(const std::vector<std::string>& texts, const std::vector<std
 
 }  // namespace
 
-std::string markdown(const TableView& table_view) {
+std::string markdown(const Table& all) {
+  const Table table = without_empty_columns(all);
   std::vector<std::vector<std::string>> grid(1);
-  for (const std::string& heading : table_view.headings)
-    grid[0].push_back(escaped_markdown(heading));
-  for (const auto& line : table_view.lines) {
+  for (const std::string& heading : table.headings) grid[0].push_back(escaped_markdown(heading));
+  for (const auto& line : table.lines) {
     grid.emplace_back();
-    for (const TableViewEntry& entry : line) grid.back().push_back(marked_markdown(entry));
+    for (const TableCell& cell : line) grid.back().push_back(marked_markdown(cell));
   }
   const std::vector<std::size_t> wide = widths(grid);
-  std::string out =
-      table_view.title.empty() ? "" : "### " + escaped_markdown(table_view.title) + "\n\n";
+  std::string out = table.title.empty() ? "" : "### " + escaped_markdown(table.title) + "\n\n";
   out += line_of(grid[0], wide);
   std::vector<std::string> rule;
   for (std::size_t c = 0; c < wide.size(); ++c) {
@@ -63,12 +73,10 @@ std::string markdown(const TableView& table_view) {
   }
   out += line_of(rule, wide);
   for (std::size_t r = 1; r < grid.size(); ++r) out += line_of(grid[r], wide);
-  if (!table_view.notes.empty()) out += "\n";
-  for (const std::string& note : table_view.notes) out += "- " + escaped_markdown(note) + "\n";
+  if (!table.notes.empty()) out += "\n";
+  for (const std::string& note : table.notes) out += "- " + escaped_markdown(note) + "\n";
   return out;
 }
-
-std::string markdown(const Table& table) { return markdown(table_view(table)); }
 
 std::string markdown(const std::vector<Table>& tables) {
   std::string out;

@@ -1,5 +1,8 @@
 #include "harness/tables/pivot.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "datasets/core/error.hpp"
@@ -66,7 +69,7 @@ void mark(Table& out,
           const TableNumbers& table,
           bool along_columns,
           const RankingOptions& options) {
-  const std::size_t lanes = along_columns ? out.columns.size() : out.rows.size();
+  const std::size_t lanes = (along_columns ? table.columns : table.rows).texts().size();
   bool is_marked = false;
   std::string why_none;
   for (std::size_t l = 0; l < lanes; ++l) {
@@ -78,14 +81,14 @@ void mark(Table& out,
                             : mark_best(all, options);
     if (!marks.why_none.empty()) why_none = marks.why_none;
     for (std::size_t i = 0; i < entries.size(); ++i) {
-      TableEntry& entry = out.entries[entries[i].first][entries[i].second];
-      entry.mark = marks.marks[i];
-      is_marked = is_marked || entry.mark != Mark::none;
+      TableCell& cell = out.lines[entries[i].first][entries[i].second + 1];
+      cell.mark = marks.marks[i];
+      is_marked = is_marked || cell.mark != Mark::none;
       const auto values = static_cast<std::size_t>(std::ranges::count_if(
           all.competitors[i], [](const auto& one) { return one.second.has_value(); }));
-      if (entry.records == 0 || values >= runs) continue;
+      if (cell.mean->records == 0 || values >= runs) continue;
       const std::size_t most = possible(all, i);
-      if (values < most) entry.possible = entry.records + most - values;
+      if (values < most) cell.mean->possible = cell.mean->records + most - values;
     }
   }
   if (is_marked) {
@@ -113,6 +116,24 @@ void explain_averages(Table& out, const TableNumbers& table, const TableSpec& sp
   out.notes.insert(out.notes.begin(), text);
 }
 
+/// The mean of an entry, or the reason why it has none.
+TableMean mean_at(const TableNumbers& table, const TablePosition& position, bool plus_minus) {
+  TableMean out;
+  if (const auto lost = table.row_status.find(position.first); lost != table.row_status.end()) {
+    out.status = lost->second;
+  }
+  const EntryContents* entry = table.find(position);
+  if (entry == nullptr) return out;
+  if (!entry->status.empty()) out.status = entry->status;
+  if (entry->numbers.size() == 0) return out;
+  out.value = entry->numbers.average();
+  if (plus_minus) out.deviation = entry->numbers.deviation();
+  out.records = entry->numbers.size();
+  out.averaged = entry->numbers.averaged();
+  if (!out.value) out.status = out.averaged == 0 ? kNoCommonRun : "undefined";
+  return out;
+}
+
 Table finish(TableNumbers& table,
              const std::string& title,
              const TableSpec& spec,
@@ -120,10 +141,12 @@ Table finish(TableNumbers& table,
   // Only methods are compared: a best sequence is meaningless.
   const bool down_columns = std::ranges::count(spec.rows, "method") > 0;
   const bool along_rows = spec.columns == std::vector<std::string>{"method"};
-  Table out{title, "", table.columns.texts(), table.rows.texts(), {}, table.notes};
+  const std::vector<std::string>& columns = table.columns.texts();
+  Table out{title, {fmt::format("{}", fmt::join(spec.rows, ", "))}, {}, table.notes};
+  out.headings.insert(out.headings.end(), columns.begin(), columns.end());
   const std::vector<std::string> missing = grouped(table.missing);
   out.notes.insert(out.notes.end(), missing.begin(), missing.end());
-  if (const std::string counts = table.counts.text(out.columns); !counts.empty()) {
+  if (const std::string counts = table.counts.text(columns); !counts.empty()) {
     out.notes.push_back("number of errors, where it differs from the evaluated pairs: " + counts);
   }
   const std::string oracle =
@@ -135,27 +158,16 @@ Table finish(TableNumbers& table,
     if (!text.empty()) out.notes.insert(out.notes.begin(), text);
   }
   explain_averages(out, table, spec);
-  for (const std::string& name : spec.rows) out.corner += (out.corner.empty() ? "" : ", ") + name;
-  for (std::size_t r = 0; r < out.rows.size(); ++r) {
-    std::vector<TableEntry> line(out.columns.size());
-    for (std::size_t c = 0; c < out.columns.size(); ++c) {
-      if (const auto row = table.row_status.find(r); row != table.row_status.end()) {
-        line[c].status = row->second;
-      }
-      const EntryContents* entry = table.find({r, c});
-      if (entry == nullptr) continue;
-      if (!entry->status.empty()) line[c].status = entry->status;
-      if (entry->numbers.size() == 0) continue;
-      line[c].value = entry->numbers.average();
-      if (spec.plus_minus) line[c].deviation = entry->numbers.deviation();
-      line[c].records = entry->numbers.size();
-      line[c].averaged = entry->numbers.averaged();
-      if (!line[c].value) line[c].status = line[c].averaged == 0 ? kNoCommonRun : "undefined";
+  for (std::size_t r = 0; r < table.rows.texts().size(); ++r) {
+    std::vector<TableCell>& line = out.lines.emplace_back();
+    line.emplace_back(table.rows.texts()[r]);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      line.emplace_back().mean = mean_at(table, {r, c}, spec.plus_minus);
     }
-    out.entries.push_back(std::move(line));
   }
   if (down_columns) mark(out, table, true, options);
   if (along_rows) mark(out, table, false, options);
+  format_means(out);
   return out;
 }
 

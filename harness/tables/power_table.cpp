@@ -20,16 +20,15 @@ std::string groups_text(std::size_t groups) {
 
 }  // namespace
 
-TableView power_table(const Comparison& c, double gain) {
-  TableView out{
-      field(c.kind, "score") + ", " + c.kind.times + ": power against " + c.options.baseline,
-      {"method",
-       "groups",
-       "deviation",
-       "found with 80 %",
-       fmt::format("groups for {:g} %", 100.0 * gain)},
-      {},
-      {}};
+Table power_table(const Comparison& c, double gain) {
+  Table out{field(c.kind, "score") + ", " + c.kind.times + ": power against " + c.options.baseline,
+            {"method",
+             "groups",
+             "deviation",
+             "found with 80 %",
+             fmt::format("groups for {:g} %", 100.0 * gain)},
+            {},
+            {}};
   if (c.methods.empty()) {
     out.notes.push_back(statement(c));
     return out;

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "harness/store/read.hpp"
-#include "harness/tables/table_view.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 namespace {

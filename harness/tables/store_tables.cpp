@@ -5,15 +5,15 @@
 #include <deque>
 #include <future>
 #include <iterator>
-#include <optional>
+#include <set>
 #include <thread>
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
 #include "harness/model/where.hpp"
 #include "harness/store/read.hpp"
+#include "harness/store/record_reader.hpp"
 #include "harness/tables/all_records.hpp"
-#include "harness/tables/usual_table.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -23,25 +23,67 @@ namespace {
   throw InputError(store.string() + (rules.empty() ? ": has no rows" : ": no row matches --where"));
 }
 
+/// Keeps one kind of times; returns its name if there were several.
+std::string keep_one_time(std::vector<Record>& records) {
+  std::vector<std::string> times;
+  for (const Record& r : records) {
+    if (!r.metric.empty() && std::ranges::count(times, r.times.text()) == 0)
+      times.push_back(r.times);
+  }
+  if (times.size() < 2) return "";
+  const std::string kept = std::ranges::count(times, "dense") > 0 ? "dense" : times.front();
+  std::erase_if(records, [&](const Record& r) { return !r.metric.empty() && r.times != kept; });
+  return kept;
+}
+
+/// Keeps the first score that is shown; returns its name.
+std::string keep_one_score(std::vector<Record>& records, const std::vector<std::string>& show) {
+  const auto is_shown = [&](const Record& r) {
+    return !r.metric.empty() && (show.empty() || std::ranges::count(show, field(r, "score")) > 0);
+  };
+  const auto first = std::ranges::find_if(records, is_shown);
+  if (first == records.end()) return "";
+  const Record kept = *first;
+  std::erase_if(records, [&](const Record& r) {
+    return !r.metric.empty() && (metric_label(r) != metric_label(kept) ||
+                                 r.relation != kept.relation || r.axis != kept.axis);
+  });
+  return field(kept, "score");
+}
+
+/// Layouts such as `--split ''` or `--rows sequence` leave open which times and scores a cell
+/// contains. Keeps dense times (without any: the first) if the layout does not separate times;
+/// makes methods the columns if the layout does not contain them, and then keeps the first shown
+/// score. Returns a note about what is shown; empty if nothing was selected. O(n).
+std::string complete_layout(std::vector<Record>& records, TableSpec& spec) {
+  std::string score;
+  if (!separates(spec, {"method"})) {
+    spec.columns = {"method"};
+    std::erase(spec.split, "sequence");
+    std::erase(spec.split, "times");
+    if (!separates(spec, {"score", "metric", "label"})) score = keep_one_score(records, spec.show);
+  }
+  const std::string times = separates(spec, {"times"}) ? "" : keep_one_time(records);
+  std::string out;
+  if (!score.empty()) out = "score: " + score + " (others: --show)";
+  if (!times.empty())
+    out += (out.empty() ? "" : "; ") + ("times: " + times) + " (others: --where times=...)";
+  return out;
+}
+
 bool is_by_sequence(const TableSpec& spec) {
   return std::ranges::count(spec.split, "sequence") > 0 && separates(spec, {"method"}) &&
          separates(spec, {"times"});
 }
 
 /// Whether the records that pass have more than one protocol.
-bool has_protocols(RecordReader& reader,
-                   const std::string& baseline,
+bool has_protocols(const std::filesystem::path& store,
                    const std::function<bool(const Record&)>& is_kept) {
-  if (!reader.has_several_protocols()) return false;
-  std::optional<std::string> first;
-  bool found = false;
-  for_each_record(reader, baseline, true, [&](const Record& r) {
-    if (r.metric.empty() || !is_kept(r)) return true;
-    if (!first) first = r.protocol;
-    found = r.protocol != *first;
-    return !found;
+  std::set<SharedText> protocols;
+  for_each_record(store, [&](const Record& r) {
+    if (!r.metric.empty() && is_kept(r)) protocols.insert(r.protocol);
   });
-  return found;
+  return protocols.size() > 1;
 }
 
 std::vector<Table> tables_by_sequence(const std::filesystem::path& store,
@@ -51,7 +93,8 @@ std::vector<Table> tables_by_sequence(const std::filesystem::path& store,
   const std::string baseline = read_run(store).at("baseline");
   const auto is_kept = where(rules);
   RecordReader reader(store);
-  if (!separates(spec, {"protocol"}) && has_protocols(reader, baseline, is_kept)) {
+  if (!separates(spec, {"protocol"}) && reader.has_several_protocols() &&
+      has_protocols(store, is_kept)) {
     spec.split.emplace_back("protocol");
   }
   std::vector<Table> out;
@@ -97,7 +140,7 @@ std::vector<Table> store_tables(const std::filesystem::path& store,
   std::vector<Record> records = all_records(store);
   keep_where(records, rules);
   if (records.empty()) reject_empty(store, rules);
-  const std::string note = make_usual(records, spec);
+  const std::string note = complete_layout(records, spec);
   std::vector<Table> tables = pivot(records, spec, options);
   for (Table& table : tables) {
     if (!note.empty()) table.notes.insert(table.notes.begin(), note);

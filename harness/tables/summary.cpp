@@ -7,13 +7,14 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <string_view>
 
+#include "harness/compare/average.hpp"
 #include "harness/compare/compare.hpp"
 #include "harness/compare/name_order.hpp"
 #include "harness/compare/observations.hpp"
 #include "harness/compare/ranks.hpp"
 #include "harness/tables/notes.hpp"
+#include "harness/tables/pivot.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -72,25 +73,19 @@ std::map<std::string, std::string> derived_texts(const std::vector<Record>& reco
   std::map<std::string, std::string> out;
   if (own.empty()) return out;
   const TableSpec spec{.columns = {"metric"}, .split = {}, .value = value, .show = {}, .where = {}};
-  for (const auto& line : table_view(pivot(own, spec).front()).lines)
-    out[line[0].text] = line[1].text;
+  const Table table = pivot(own, spec).front();
+  for (const auto& line : table.lines) out[line[0].text] = line[1].text;
   return out;
 }
 
-/// "(oracle)" is a suffix of a row's name.
-std::string method_of(const std::string& row) {
-  constexpr std::string_view kSuffix = " (oracle)";
-  return row.ends_with(kSuffix) ? row.substr(0, row.size() - kSuffix.size()) : row;
-}
-
-void add_column(TableView& out,
+void add_column(Table& out,
                 const std::string& heading,
                 const std::map<std::string, std::string>& texts) {
   if (texts.empty()) return;
   out.headings.push_back(heading);
   for (auto& line : out.lines) {
     const auto found = texts.find(line[0].text);
-    line.push_back({found == texts.end() ? "-" : found->second, Mark::none});
+    line.emplace_back(found == texts.end() ? "-" : found->second);
   }
 }
 
@@ -173,11 +168,7 @@ std::map<std::string, double> mean_ranks(const std::vector<Record>& records,
     for (const std::string& method : lost) ranks[method].push_back(last);
   }
   std::map<std::string, double> out;
-  for (const auto& [method, own] : ranks) {
-    double sum = 0.0;
-    for (const double rank : own) sum += rank;
-    out[method] = sum / static_cast<double>(own.size());
-  }
+  for (const auto& [method, own] : ranks) out[method] = mean(own);
   return out;
 }
 
@@ -200,7 +191,7 @@ std::vector<std::string> reasons(const std::vector<Record>& records) {
 
 }  // namespace
 
-TableView summary(const std::vector<Record>& records, const SummaryOptions& options) {
+Table summary(const std::vector<Record>& records, const SummaryOptions& options) {
   const std::vector<Record> candidates = comparable(records, options);
   const auto lead =
       std::ranges::find_if(candidates, [](const Record& r) { return !r.metric.empty(); });
@@ -222,17 +213,15 @@ TableView summary(const std::vector<Record>& records, const SummaryOptions& opti
                        .where = {}};
   std::string unit = unit_of(*lead, options.value);
   if (!unit.empty()) unit = " [" + unit + "]";
-  TableView out;
+  // Records without a score belong to their sequence's column.
+  Table out = without_empty_columns(pivot(own, spec).front());
   if (has_sequences) {
-    // Records without a score belong to their sequence's column.
-    out = table_view(pivot(own, spec).front());
-    for (std::string& heading : out.headings) {
-      if (heading.ends_with(unit)) heading.resize(heading.size() - unit.size());
+    for (std::size_t c = 1; c < out.headings.size(); ++c) {
+      out.headings[c].resize(out.headings[c].size() - unit.size());
     }
   } else {
-    const Table all = pivot(own, spec).front();
-    out.headings = {all.corner};
-    for (const std::string& row : all.rows) out.lines.push_back({{row, Mark::none}});
+    out.headings.resize(1);
+    for (auto& line : out.lines) line.resize(1);
   }
   out.notes.clear();
   out.title = fmt::format("{}{}, {}, {}{}",
@@ -257,7 +246,7 @@ TableView summary(const std::vector<Record>& records, const SummaryOptions& opti
   add_column(out, "time [ms]", derived_texts(records, "time", *lead, "rmse"));
 
   const auto rank_of = [&](const auto& line) {
-    const auto found = ranks.find(method_of(line[0].text));
+    const auto found = ranks.find(line[0].text);
     return found == ranks.end() ? std::numeric_limits<double>::infinity() : found->second;
   };
   std::ranges::stable_sort(out.lines, {}, rank_of);

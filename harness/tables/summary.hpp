@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/tables/pivot.hpp"
-#include "harness/tables/table_view.hpp"
+#include "harness/model/record.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 
@@ -22,6 +22,6 @@ struct SummaryOptions {
 /// contain one verdict per score, at most five, or one if the runs are too few to prove anything.
 /// The records are those of `all_records`. Throws InputError for an unknown statistic. Without any
 /// score the table has no lines. O(n log n) plus the cost of `compare`.
-TableView summary(const std::vector<Record>& records, const SummaryOptions& options);
+Table summary(const std::vector<Record>& records, const SummaryOptions& options);
 
 }  // namespace loopbench::harness

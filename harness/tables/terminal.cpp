@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "harness/base/wrap.hpp"
-#include "harness/tables/table_view.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -23,14 +23,14 @@ std::size_t widest(const Lines& texts, std::size_t least) {
   return least;
 }
 
-std::vector<PrintedColumn> columns_of(const TableView& view) {
+std::vector<PrintedColumn> columns_of(const Table& table) {
   std::vector<PrintedColumn> out;
-  for (std::size_t c = 0; c < view.headings.size(); ++c) {
+  for (std::size_t c = 0; c < table.headings.size(); ++c) {
     PrintedColumn& column = out.emplace_back();
-    column.heading = {one_line(view.headings[c])};
+    column.heading = {one_line(table.headings[c])};
     bool has_mark = false;
-    for (const auto& line : view.lines) has_mark = has_mark || line[c].mark != Mark::none;
-    for (const auto& line : view.lines) {
+    for (const auto& line : table.lines) has_mark = has_mark || line[c].mark != Mark::none;
+    for (const auto& line : table.lines) {
       // The mark has its own column, so that digits are aligned.
       const char* sign = line[c].mark == Mark::best     ? "*"
                          : line[c].mark == Mark::second ? "+"
@@ -136,22 +136,23 @@ std::string block_text(const std::vector<PrintedColumn>& columns,
 
 }  // namespace
 
-std::string terminal(const TableView& table_view, const TerminalStyle& style) {
-  std::vector<PrintedColumn> columns = columns_of(table_view);
+std::string terminal(const Table& all, const TerminalStyle& style) {
+  const Table table = without_empty_columns(all);
+  std::vector<PrintedColumn> columns = columns_of(table);
   const auto is_too_wide = [&] { return style.width > 0 && total_width(columns) > style.width; };
   for (const std::size_t narrowest : {9UL, 4UL}) {
     if (is_too_wide()) break_headings(columns, narrowest);
   }
   if (is_too_wide()) shorten_names(columns[0], std::max<std::size_t>(12, style.width / 2));
   std::string out;
-  for (const std::string& line : wrapped(one_line(table_view.title), style.width)) {
+  for (const std::string& line : wrapped(one_line(table.title), style.width)) {
     if (!line.empty()) out += style.color ? "\033[1m" + line + "\033[0m\n" : line + "\n";
   }
   const auto parts = blocks(columns, style.width);
   for (std::size_t b = 0; b < parts.size(); ++b) {
     out += (b == 0 ? "" : "\n") + block_text(columns, parts[b], style.color);
   }
-  for (const std::string& note : table_view.notes) {
+  for (const std::string& note : table.notes) {
     const Lines lines =
         wrapped(one_line(note), style.width == 0 ? 0 : std::max<std::size_t>(20, style.width - 2));
     for (std::size_t l = 0; l < lines.size(); ++l) add_line(out, (l == 0 ? "" : "  ") + lines[l]);

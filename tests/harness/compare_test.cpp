@@ -8,7 +8,6 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/tables/comparison.hpp"
-#include "harness/tables/text.hpp"
 #include "tests/support/compared_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 

@@ -3,7 +3,8 @@
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
 #include "harness/tables/notes.hpp"
-#include "harness/tables/text.hpp"
+#include "harness/tables/pivot.hpp"
+#include "harness/tables/record_csv.hpp"
 
 namespace loopbench::export_test {
 
@@ -103,8 +104,8 @@ TEST(Pivot, AveragesWhatFallsTogether) {
   records[1].repeat = 1;
   const std::vector<Table> tables = pivot(records, TableSpec{});
   ASSERT_EQ(tables.size(), 1u);
-  EXPECT_DOUBLE_EQ(*tables[0].entries[0][0].value, 2.0);
-  EXPECT_EQ(tables[0].entries[0][0].records, 2u);
+  EXPECT_DOUBLE_EQ(*tables[0].lines[0][1].mean->value, 2.0);
+  EXPECT_EQ(tables[0].lines[0][1].mean->records, 2u);
 }
 
 TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
@@ -117,10 +118,10 @@ TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
   }
   records[1].repeat = 1;
   const std::vector<Table> tables = pivot(records, TableSpec{});
-  EXPECT_EQ(tables[0].entries[0][0].value, 1.0);  // without the second repeat
-  EXPECT_EQ(tables[0].entries[0][0].records, 1u);
-  EXPECT_EQ(tables[0].entries[1][0].value, std::nullopt);
-  EXPECT_EQ(tables[0].entries[1][0].status, "incomplete");
+  EXPECT_EQ(tables[0].lines[0][1].mean->value, 1.0);  // without the second repeat
+  EXPECT_EQ(tables[0].lines[0][1].mean->records, 1u);
+  EXPECT_EQ(tables[0].lines[1][1].mean->value, std::nullopt);
+  EXPECT_EQ(tables[0].lines[1][1].mean->status, "incomplete");
   EXPECT_EQ(tables[0].notes,
             (std::vector<std::string>{"raw, worse: incomplete: evaluated 1 of 9 poses"}));
   EXPECT_NE(csv(records).find(",9,"), std::string::npos);  // the long table keeps the number
@@ -131,8 +132,8 @@ TEST(Pivot, RefusesToAverageDifferentScores) {
   std::vector<Record> records{ate("raw", 1.0), ate("raw", 3.0)};
   records[1].relation = "rotation";
   records[1].unit = "deg";
-  EXPECT_EQ(pivot(records, TableSpec{})[0].columns,
-            (std::vector<std::string>{"ate [m]", "ate [deg]"}));  // distinguished by the unit
+  EXPECT_EQ(pivot(records, TableSpec{})[0].headings,
+            (std::vector<std::string>{"method", "ate [m]", "ate [deg]"}));  // distinguished by the unit
   records[1].unit = "m";
   EXPECT_THROW(pivot(records, TableSpec{}), InputError);
 }

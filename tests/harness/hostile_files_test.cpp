@@ -9,8 +9,8 @@
 #include "harness/base/hash.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
-#include "harness/tables/table_view.hpp"
-#include "harness/tables/text.hpp"
+#include "harness/tables/record_csv.hpp"
+#include "harness/tables/table.hpp"
 #include "tests/support/command.hpp"
 
 namespace loopbench::hostile_files_test {
@@ -90,7 +90,7 @@ TEST(Csv, EscapesControlCharactersAndFormulas) {
 
 TEST(Tables, PrintNothingButUtf8WithoutControlCharacters) {
   const std::string bad = "a\x1b[31m\xff\xc2\x9b";
-  TableView view{bad, {bad, bad}, {{{bad, Mark::none}, {bad, Mark::none}}}, {bad}};
+  Table view{bad, {bad, bad}, {{{bad, Mark::none}, {bad, Mark::none}}}, {bad}};
   const auto is_plain = [](std::string text) {
     std::erase(text, '\n');
     return first_unprintable(text) == text.size();
@@ -98,7 +98,7 @@ TEST(Tables, PrintNothingButUtf8WithoutControlCharacters) {
   EXPECT_TRUE(is_plain(markdown(view)));
   EXPECT_TRUE(is_plain(latex(view)));
   EXPECT_TRUE(is_plain(terminal(view)));
-  EXPECT_TRUE(is_plain(csv(view)));
+  EXPECT_TRUE(is_plain(text_csv(view)));
 }
 
 class HostileFiles : public testing::Test {

@@ -132,7 +132,9 @@ TEST(Oracle, RowsOfTablesAreMarked) {
   leaky.oracle = true;
   const std::vector<Table> tables = pivot({plain, leaky}, {});
   ASSERT_EQ(tables.size(), 1u);
-  EXPECT_EQ(tables[0].rows, (std::vector<std::string>{"dm", "paper_oracle (oracle)"}));
+  ASSERT_EQ(tables[0].lines.size(), 2u);
+  EXPECT_EQ(tables[0].lines[0][0].text, "dm");
+  EXPECT_EQ(tables[0].lines[1][0].text, "paper_oracle (oracle)");
   EXPECT_EQ(tables[0].notes, std::vector<std::string>{"oracle: the method uses the reference"});
 }
 

@@ -1,10 +1,11 @@
 /// What a table averages, over which runs, and which notes say so.
+#include "harness/tables/pivot.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "harness/compare/derived.hpp"
-#include "harness/tables/text.hpp"
 #include "tests/support/ate_record.hpp"
 
 namespace loopbench::pivot_test {
@@ -26,12 +27,12 @@ TEST(Pivot, MarksAlongRowsWhereTheColumnsAreMethods) {
   const TableSpec spec{
       .rows = {"metric"}, .columns = {"method"}, .split = {}, .show = {}, .where = {}};
   const std::vector<Table> tables = pivot(records, spec);
-  ASSERT_EQ(tables[0].entries.size(), 1u);
-  EXPECT_EQ(tables[0].entries[0][0].mark, Mark::none);
-  EXPECT_EQ(tables[0].entries[0][1].mark, Mark::best);
+  ASSERT_EQ(tables[0].lines.size(), 1u);
+  EXPECT_EQ(tables[0].lines[0][1].mark, Mark::none);
+  EXPECT_EQ(tables[0].lines[0][2].mark, Mark::best);
   const std::vector<Table> sequences =
       pivot(records, TableSpec{.rows = {"sequence"}, .show = {}, .where = {}});
-  EXPECT_EQ(sequences[0].entries[0][0].mark, Mark::none);  // sequences do not compete
+  EXPECT_EQ(sequences[0].lines[0][1].mark, Mark::none);  // sequences do not compete
   EXPECT_EQ(sequences[0].notes.size(), 1u);
 }
 
@@ -54,14 +55,15 @@ TEST(Pivot, MarksNoStatisticWithoutADirection) {
         .columns = {"score"}, .split = {}, .value = value, .show = {}, .where = {}};
     return pivot(records, spec).at(0);
   };
-  EXPECT_EQ(table("rmse").entries[1][0].mark, Mark::best);
+  EXPECT_EQ(table("rmse").lines[1][1].mark, Mark::best);
   for (const std::string value : {"sse", "count"}) {
-    for (const auto& row : table(value).entries) {
-      for (const TableEntry& entry : row) EXPECT_EQ(entry.mark, Mark::none) << value;
+    for (const auto& line : table(value).lines) {
+      for (const TableCell& cell : line) EXPECT_EQ(cell.mark, Mark::none) << value;
     }
   }
-  EXPECT_EQ(table("sse").columns, (std::vector<std::string>{"ate [m^2]", "ate [deg^2]"}));
-  EXPECT_EQ(table("count").columns, (std::vector<std::string>{"ate", "ate rotation"}));
+  EXPECT_EQ(table("sse").headings,
+            (std::vector<std::string>{"method", "ate [m^2]", "ate [deg^2]"}));
+  EXPECT_EQ(table("count").headings, (std::vector<std::string>{"method", "ate", "ate rotation"}));
 }
 
 TEST(Pivot, AveragesGainsByTheirRatios) {
@@ -72,8 +74,8 @@ TEST(Pivot, AveragesGainsByTheirRatios) {
   }
   for (const Record& gain : gains(records, "raw")) records.push_back(gain);
   const Table table = pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
-  EXPECT_NEAR(*table.entries[1][1].value, 100.0 * (1.0 - std::sqrt(2.0)), 1e-12);
-  EXPECT_EQ(*table.entries[0][1].value, 0.0);
+  EXPECT_NEAR(*table.lines[1][2].mean->value, 100.0 * (1.0 - std::sqrt(2.0)), 1e-12);
+  EXPECT_EQ(*table.lines[0][2].mean->value, 0.0);
   EXPECT_EQ(table.notes[0],
             "each number is the mean of up to 2 cells; gain is 1 - the geometric mean ratio to the "
             "baseline");
@@ -90,8 +92,8 @@ TEST(Pivot, StatesTheNumberOfRunsWhereAMethodFails) {
   }
   const std::vector<Table> tables =
       pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}});
-  EXPECT_EQ(table_view(tables[0]).lines[0][1].text, "1.500");  // repeat 0, not 3.000
-  EXPECT_EQ(table_view(tables[0]).lines[1][1].text, "1.000 (1 of 4)");
+  EXPECT_EQ(tables[0].lines[0][1].text, "1.500");  // repeat 0, not 3.000
+  EXPECT_EQ(tables[0].lines[1][1].text, "1.000 (1 of 4)");
   EXPECT_EQ(tables[0].notes[0], "means over the 1 run that every method finished");
   EXPECT_NE(json(tables).find("\"averaged\": 1"), std::string::npos);
   EXPECT_NE(json(tables).find("\"possible\": 4"), std::string::npos);
@@ -110,9 +112,11 @@ TEST(Pivot, ListsAFailureOnlyUnderItsOwnSequence) {
   }
   const std::vector<Table> tables = pivot(records, TableSpec{.show = {}, .where = {}});
   ASSERT_EQ(tables.size(), 3u);
-  EXPECT_EQ(tables[0].rows.size(), 2u);
-  EXPECT_EQ(tables[1].rows, std::vector<std::string>{"raw"});
-  EXPECT_EQ(tables[2].rows, std::vector<std::string>{"raw"});
+  EXPECT_EQ(tables[0].lines.size(), 2u);
+  ASSERT_EQ(tables[1].lines.size(), 1u);
+  EXPECT_EQ(tables[1].lines[0][0].text, "raw");
+  ASSERT_EQ(tables[2].lines.size(), 1u);
+  EXPECT_EQ(tables[2].lines[0][0].text, "raw");
 }
 
 /// Errors by method and repeat; nan: the method failed there.
@@ -139,21 +143,21 @@ TEST(Pivot, AveragesOverTheRunsThatEveryMethodFinished) {
                                        {"dm", {0.5, 1.5, 1.0, none}},
                                        {"gp", {none, 1.0, 4.0, 9.0}},
                                        {"bad", {none, none, none, none}}}));
-  EXPECT_EQ(*table.entries[0][0].value, 2.5);  // repeats 1 and 2 only
-  EXPECT_EQ(*table.entries[1][0].value, 1.25);
-  EXPECT_EQ(*table.entries[2][0].value, 2.5);
-  EXPECT_EQ(table.entries[0][0].averaged, 2u);
-  EXPECT_EQ(table.entries[0][0].records, 4u);
-  EXPECT_EQ(table_view(table).lines[2][1].text, "2.500 (3 of 4)");
-  EXPECT_EQ(table_view(table).lines[3][1].text, "failed");  // and restricts nobody
+  EXPECT_EQ(*table.lines[0][1].mean->value, 2.5);  // repeats 1 and 2 only
+  EXPECT_EQ(*table.lines[1][1].mean->value, 1.25);
+  EXPECT_EQ(*table.lines[2][1].mean->value, 2.5);
+  EXPECT_EQ(table.lines[0][1].mean->averaged, 2u);
+  EXPECT_EQ(table.lines[0][1].mean->records, 4u);
+  EXPECT_EQ(table.lines[2][1].text, "2.500 (3 of 4)");
+  EXPECT_EQ(table.lines[3][1].text, "failed");  // and restricts nobody
   EXPECT_EQ(table.notes[1], "means over the 2 runs that every method finished");
 }
 
 TEST(Pivot, HasNoMeanWithoutACommonRun) {
   const double none = std::nan("");
   const Table table = table_of(errors({{"raw", {1.0, none}}, {"dm", {none, 2.0}}}));
-  EXPECT_EQ(table_view(table).lines[0][1].text, "- (1 of 2)");
-  EXPECT_EQ(table_view(table).lines[1][1].text, "- (1 of 2)");
+  EXPECT_EQ(table.lines[0][1].text, "- (1 of 2)");
+  EXPECT_EQ(table.lines[1][1].text, "- (1 of 2)");
   EXPECT_EQ(table.notes[0], "no means (-): no run was finished by every method");
   EXPECT_NE(csv({table}).find("dense,raw,ate [m],,1,0,no common run,"), std::string::npos)
       << csv({table});
@@ -165,8 +169,8 @@ TEST(Pivot, AveragesGainsOverCommonRuns) {
       errors({{"raw", {1.0, 1.0, 1.0}}, {"dm", {0.5, 0.125, 7.0}}, {"gp", {2.0, 2.0, none}}});
   for (const Record& gain : gains(records, "raw")) records.push_back(gain);
   const Table table = table_of(records);
-  EXPECT_NEAR(*table.entries[1][1].value, 75.0, 1e-12);
-  EXPECT_NEAR(*table.entries[2][1].value, -100.0, 1e-12);
+  EXPECT_NEAR(*table.lines[1][2].mean->value, 75.0, 1e-12);
+  EXPECT_NEAR(*table.lines[2][2].mean->value, -100.0, 1e-12);
 }
 
 TEST(Pivot, ComparesOnlyCellsThatTriedTheSameRuns) {
@@ -176,8 +180,8 @@ TEST(Pivot, ComparesOnlyCellsThatTriedTheSameRuns) {
     if (r.method == "gp") r.sequence = "hall";
   }
   const Table table = table_of(records);
-  EXPECT_EQ(*table.entries[0][0].value, 1.0);
-  EXPECT_EQ(*table.entries[2][0].value, 6.0);  // of another sequence
+  EXPECT_EQ(*table.lines[0][1].mean->value, 1.0);
+  EXPECT_EQ(*table.lines[2][1].mean->value, 6.0);  // of another sequence
 }
 
 TEST(Pivot, MarksNothingAmongDescriptions) {
@@ -190,7 +194,7 @@ TEST(Pivot, MarksNothingAmongDescriptions) {
     }
   }
   const std::vector<Table> tables = pivot(records, TableSpec{});
-  for (const auto& row : tables[0].entries) EXPECT_EQ(row[0].mark, Mark::none);
+  for (const auto& line : tables[0].lines) EXPECT_EQ(line[1].mark, Mark::none);
 }
 
 }  // namespace

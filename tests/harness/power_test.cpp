@@ -38,7 +38,7 @@ TEST(PowerTable, StatesGainsAndGroups) {
   using namespace compared_sweep;  // NOLINT: its records
   std::vector<Record> records = sweep();
   const Comparison c = compared(records);
-  const TableView table = power_table(c, 0.05);
+  const Table table = power_table(c, 0.05);
   EXPECT_EQ(table.lines.size(), 3u);
   EXPECT_EQ(table.lines[0][0].text, "dual");
   EXPECT_EQ(table.lines[0][1].text, "8");

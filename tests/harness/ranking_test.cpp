@@ -42,9 +42,9 @@ void expect_consistent(const Comparison& c, const std::vector<Record>& records) 
             c.is_best)
       << text;
   const Table table = pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const bool is_marked = table.entries[row][0].mark == Mark::best;
-    const auto own = std::ranges::find(c.methods, table.rows[row], &MethodVerdict::method);
+  for (const auto& line : table.lines) {
+    const bool is_marked = line[1].mark == Mark::best;
+    const auto own = std::ranges::find(c.methods, line[0].text, &MethodVerdict::method);
     EXPECT_EQ(is_marked, c.is_best && is_leading(*own)) << text;
   }
 }

@@ -30,8 +30,7 @@ TEST(Html, NothingInAScriptEndsIt) {
 }
 
 TEST(Html, TablesEscapeAndMark) {
-  const TableView table_view{
-      "a<b", {"method", "x"}, {{{"m&m"}, {"1.0", Mark::best}}}, {"note <i>"}};
+  const Table table_view{"a<b", {"method", "x"}, {{{"m&m"}, {"1.0", Mark::best}}}, {"note <i>"}};
   const std::string html = html_table(table_view);
   EXPECT_NE(html.find("<caption>a&lt;b</caption>"), std::string::npos);
   EXPECT_NE(html.find("<th scope=\"row\">m&amp;m</th><td class=\"best\">1.0</td>"),

@@ -8,8 +8,8 @@
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
 #include "harness/model/where.hpp"
+#include "harness/tables/pivot.hpp"
 #include "harness/tables/summary.hpp"
-#include "harness/tables/text.hpp"
 #include "tests/support/ate_record.hpp"
 #include "tests/support/refusal_of.hpp"
 
@@ -166,7 +166,7 @@ TEST(Formats, EscapeNamesAndMarkTheBest) {
             "| dm_n3                   |     2.035 |\n\n"
             "- " +
                 notes + "- each number is the mean of up to 8 cells\n");
-  EXPECT_EQ(terminal(table_view(tables[0])),
+  EXPECT_EQ(terminal(tables[0]),
             "dense\n"
             "method         ate [m]\n"
             "-------------  --------\n"
@@ -174,7 +174,7 @@ TEST(Formats, EscapeNamesAndMarkTheBest) {
             "raw              1.035+\n"
             "dm_n3            2.035\n" +
                 notes + "each number is the mean of up to 8 cells\n");
-  EXPECT_EQ(latex(table_view(tables[0])),
+  EXPECT_EQ(latex(tables[0]),
             "\\begin{table}\n\\centering\n\\caption{dense}\n"
             "\\begin{tabular}{lr}\n\\toprule\n"
             "method & ate {[}m] \\\\\n\\midrule\n"
@@ -197,9 +197,9 @@ TEST(Formats, KeepNamesAndNumbersForMachines) {
 }
 
 TEST(Formats, KeepLessOrEqualReadable) {
-  EXPECT_NE(markdown(TableView{"p <= 0.05, p < 1, <b>", {"a"}, {}, {}})
-                .find("### p <= 0.05, p < 1, &lt;b>"),
-            std::string::npos);
+  EXPECT_NE(
+      markdown(Table{"p <= 0.05, p < 1, <b>", {"a"}, {}, {}}).find("### p <= 0.05, p < 1, &lt;b>"),
+      std::string::npos);
 }
 
 std::vector<Record> two_methods() {

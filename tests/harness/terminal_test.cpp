@@ -6,7 +6,7 @@
 
 #include "harness/base/shell.hpp"
 #include "harness/base/wrap.hpp"
-#include "harness/tables/table_view.hpp"
+#include "harness/tables/table.hpp"
 #include "tests/support/terminal_command.hpp"
 
 namespace loopbench::terminal_test {
@@ -22,9 +22,8 @@ std::size_t widest_line(const std::string& text) {
   return out;
 }
 
-TableView wide_table() {
-  TableView out{
-      "a title of this table", {"method", "error x [m]", "error y [m]", "gain [%]"}, {}, {}};
+Table wide_table() {
+  Table out{"a title of this table", {"method", "error x [m]", "error y [m]", "gain [%]"}, {}, {}};
   out.lines.push_back({{"uniform"}, {"0.723"}, {"0.850", Mark::best}, {"44.45"}});
   out.lines.push_back({{"raw"}, {"1.174"}, {"1.400"}, {"0.00"}});
   out.notes = {"a note that is longer than a narrow terminal"};
@@ -45,7 +44,7 @@ TEST(Terminal, BreaksHeadingsAndThenColumnsToFit) {
 
 TEST(Terminal, FitsAnyWidth) {
   for (const std::size_t columns : {40UL, 80UL, 120UL}) {
-    TableView view = wide_table();
+    Table view = wide_table();
     view.lines[0][0].text = "/a/long/path/to/the/runs/of/yesterday/estimate.txt";
     for (int i = 0; i < 6; ++i) {
       view.headings.push_back("another score [deg]");

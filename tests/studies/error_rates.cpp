@@ -58,10 +58,10 @@ bool has_false_claim(const Comparison& c, const Truth& truth) {
 /// The method that a table of the records marks as best; the number of methods if none is marked.
 std::size_t marked(const std::vector<Record>& all, std::size_t methods) {
   const Table table = pivot(all, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    for (const TableEntry& entry : table.entries[row]) {
-      if (entry.mark == Mark::best)
-        return static_cast<std::size_t>(std::stoi(table.rows[row].substr(1)));
+  for (const auto& line : table.lines) {
+    for (const TableCell& cell : line) {
+      if (cell.mark == Mark::best)
+        return static_cast<std::size_t>(std::stoi(line[0].text.substr(1)));
     }
   }
   return methods;

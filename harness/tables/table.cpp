@@ -1,0 +1,101 @@
+#include "harness/tables/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "harness/base/printable.hpp"
+#include "harness/base/wrap.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+std::string mean_text(const TableMean& mean, int digits) {
+  const std::string over =
+      mean.possible == 0 ? "" : fmt::format(" ({} of {})", mean.records, mean.possible);
+  const std::string deviation = mean.deviation ? " \u00b1 " + fixed(*mean.deviation, digits) : "";
+  if (mean.value) return fixed(*mean.value, digits) + deviation + over;
+  if (mean.status == kNoCommonRun) return "-" + over;
+  return mean.status.empty() ? "-" : mean.status;
+}
+
+/// Decimals of a column; none if all its values are integers.
+int column_digits(const Table& table, std::size_t column) {
+  double largest = 0.0;
+  bool all_integers = true;
+  for (const auto& line : table.lines) {
+    if (!line[column].mean) continue;
+    const double value = line[column].mean->value.value_or(0.0);
+    largest = std::max(largest, std::abs(value));
+    all_integers = all_integers && value == std::round(value);
+  }
+  return all_integers && largest > 0.0 ? 0 : decimals(largest);
+}
+
+/// Whether the mean says more than that there is no value.
+bool has_content(const TableMean& mean) {
+  return mean.value || (!mean.status.empty() && mean.status != "undefined" &&
+                        mean.status != "declined" && mean.status != kNoCommonRun);
+}
+
+}  // namespace
+
+int decimals(double largest) {
+  if (!(largest > 0.0) || !std::isfinite(largest)) return 4;
+  const int whole_digits = static_cast<int>(std::floor(std::log10(largest))) + 1;
+  return std::clamp(4 - whole_digits, 1, 4);
+}
+
+std::string fixed(double value, int digits) {
+  const std::string text = fmt::format("{:.{}f}", value, digits);
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  return is_zero && text[0] == '-' ? text.substr(1) : text;
+}
+
+void format_means(Table& table) {
+  for (std::size_t c = 1; c < table.headings.size(); ++c) {
+    const int digits = column_digits(table, c);
+    for (auto& line : table.lines) {
+      if (line[c].mean) line[c].text = mean_text(*line[c].mean, digits);
+    }
+  }
+}
+
+Table without_empty_columns(Table table) {
+  std::vector<std::size_t> kept;
+  bool has_means = false;
+  for (std::size_t c = 0; c < table.headings.size(); ++c) {
+    const bool is_of_texts = std::ranges::none_of(
+        table.lines, [&](const auto& line) { return line[c].mean.has_value(); });
+    const bool is_filled = std::ranges::any_of(
+        table.lines, [&](const auto& line) { return line[c].mean && has_content(*line[c].mean); });
+    has_means = has_means || is_filled;
+    if (is_of_texts || is_filled) kept.push_back(c);
+  }
+  if (!has_means || kept.size() == table.headings.size()) return table;
+  const auto keep = [&](auto& list) {
+    std::remove_reference_t<decltype(list)> out;
+    for (const std::size_t c : kept) out.push_back(std::move(list[c]));
+    list = std::move(out);
+  };
+  keep(table.headings);
+  for (auto& line : table.lines) keep(line);
+  return table;
+}
+
+std::string padded(const std::string& text, std::size_t columns, bool left) {
+  const std::string gap(columns - std::min(columns, width(text)), ' ');
+  return left ? text + gap : gap + text;
+}
+
+std::string one_line(const std::string& text) {
+  std::string out = text;
+  for (char& c : out) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return printable(out);
+}
+
+}  // namespace loopbench::harness

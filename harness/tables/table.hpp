@@ -1,0 +1,99 @@
+/// The table that every command prints, and its formats.
+#pragma once
+
+#include <concepts>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/tables/mark_best.hpp"
+
+namespace loopbench::harness {
+
+/// The mean behind a cell. If several methods finished different runs, it is over the runs that all
+/// of them finished.
+struct TableMean {
+  std::optional<double> value = {};
+  std::optional<double> deviation = {};  ///< sample standard deviation, if requested
+  std::size_t records = 0;               ///< records with a number (repeats, for example)
+  std::size_t averaged = 0;  ///< of these, those on runs that all compared cells finished
+  std::size_t possible = 0;  ///< records including failed and missing ones; 0: none is missing
+  std::string status = {};   ///< "declined", "failed", "no common run", ... if there is no value
+
+  friend bool operator==(const TableMean&, const TableMean&) = default;
+};
+
+struct TableCell {
+  TableCell() = default;
+  template <std::convertible_to<std::string> Text>
+  TableCell(const Text& own_text, Mark own_mark = Mark::none) : text(own_text), mark(own_mark) {}
+
+  std::string text;
+  Mark mark = Mark::none;  ///< significantly best or second best of its column or row
+  std::optional<TableMean> mean = {};
+
+  friend bool operator==(const TableCell&, const TableCell&) = default;
+};
+
+/// The first column has the row names and is left-aligned; the others are right-aligned.
+struct Table {
+  std::string title;
+  std::vector<std::string> headings;          ///< with units
+  std::vector<std::vector<TableCell>> lines;  ///< [row][column]
+  std::vector<std::string> notes;             ///< one per line, below the table
+};
+
+/// Properties of the terminal that a table is printed on.
+struct TerminalStyle {
+  std::size_t width = 0;  ///< in characters; 0: unlimited
+  bool color = false;     ///< whether escape sequences for bold and colour are allowed
+};
+
+/// Status of a cell without a run that all cells compared with it have finished.
+inline constexpr const char* kNoCommonRun = "no common run";
+
+/// Number of decimals of a column: four significant digits for its largest value.
+int decimals(double largest);
+
+/// `value` with that many decimals; -0.00 is printed as 0.00.
+std::string fixed(double value, int digits);
+
+/// Sets the texts of the cells that have a mean: the numbers with the decimals of each column,
+/// their standard deviation if known, and the number of runs if some are missing.
+void format_means(Table& table);
+
+/// Without the columns of means that have no value, if others have: the notes contain the reasons.
+/// The formats for reading leave them out.
+Table without_empty_columns(Table table);
+
+/// GitHub Markdown, padded for reading on a terminal. Best in bold, second best in italics.
+/// Markdown and HTML markup is escaped.
+std::string markdown(const Table& table);
+std::string markdown(const std::vector<Table>& tables);
+
+/// Aligned columns without markup: `*` after the best, `+` after the second best. If the table is
+/// wider than the terminal, headings are broken into lines, row names shortened, and the columns
+/// distributed over several blocks that each repeat the row names. Notes are wrapped.
+std::string terminal(const Table& table, const TerminalStyle& style = {});
+
+/// A booktabs tabular, in a table with a caption if it has a title; notes as comments. Best in
+/// bold, second best underlined. Escaped; needs \usepackage{booktabs} and UTF-8.
+std::string latex(const Table& table);
+
+/// The texts of the cells (RFC 4180), with the title as first column and without marks and notes.
+std::string text_csv(const Table& table);
+
+/// The means, one line each (RFC 4180), in full precision; `mark` is best, second or empty.
+std::string csv(const std::vector<Table>& tables);
+
+/// Array of {title, row_names, columns, rows, notes, cells[row][column] {value, records, averaged,
+/// deviation, possible, status, mark}}: the means; value is null unless status is ok.
+std::string json(const std::vector<Table>& tables);
+
+/// Padded with spaces to that width.
+std::string padded(const std::string& text, std::size_t columns, bool left);
+
+/// Replaces line breaks, tabs and other control characters by spaces.
+std::string one_line(const std::string& text);
+
+}  // namespace loopbench::harness
