@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
-#include <map>
 
+#include "harness/compare/name_order.hpp"
 #include "harness/report/html.hpp"
 #include "harness/report/sections.hpp"
 #include "metrics/numerics/median.hpp"
@@ -11,51 +10,46 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr double kMegabyte = 1e6;
+struct CellsOfMethod {
+  std::string name;  ///< as in other tables
+  std::vector<const CellRecord*> all;
+  std::vector<const CellRecord*> timed;  ///< with results and run times
+};
 
-/// Cells by method, methods in order of first appearance.
-std::vector<std::pair<std::string, std::vector<const CellRecord*>>> by_method(
-    const std::vector<CellRecord>& cells) {
-  std::vector<std::pair<std::string, std::vector<const CellRecord*>>> out;
+/// In order of first appearance.
+std::vector<CellsOfMethod> by_method(const std::vector<CellRecord>& cells) {
+  NameOrder methods;
+  std::vector<CellsOfMethod> out;
   for (const CellRecord& cell : cells) {
-    auto found = std::ranges::find_if(out, [&](const auto& g) { return g.first == cell.method; });
-    if (found == out.end()) found = out.insert(out.end(), {cell.method, {}});
-    found->second.push_back(&cell);
+    const std::size_t index = methods.index(cell.method);
+    if (index == out.size()) out.push_back({cell.method, {}, {}});
+    if (cell.oracle) out[index].name = cell.method.text() + " (oracle)";
+    out[index].all.push_back(&cell);
+    if (cell.runs > 0 && has_numbers(cell.status)) out[index].timed.push_back(&cell);
   }
   return out;
 }
 
-/// Name of the method in tables.
-std::string table_name(const std::string& method, const std::vector<const CellRecord*>& cells) {
-  const bool is_oracle = std::ranges::any_of(cells, &CellRecord::oracle);
-  return method + (is_oracle ? " (oracle)" : "");
-}
-
-/// Whether there are results, but all without times.
-bool lacks_times(const std::vector<CellRecord>& cells) {
-  return std::ranges::none_of(cells, [](const auto& cell) { return cell.runs > 0; }) &&
-         std::ranges::any_of(cells, [](const auto& cell) { return has_numbers(cell.status); });
-}
-
-std::string milliseconds(double seconds) { return fmt::format("{:.4g}", 1e3 * seconds); }
-
-/// Median over the cells that have the value, as text; otherwise a dash.
-template <class Get, class Text>
-std::string median_text(const std::vector<const CellRecord*>& cells, Get get, Text text) {
-  std::vector<double> values;
-  for (const CellRecord* cell : cells) {
-    if (const auto value = get(*cell)) values.push_back(static_cast<double>(*value));
-  }
-  return values.empty() ? "-" : text(metrics::median(values));
-}
-
+/// The values that the cells have.
 template <class Get>
-std::string largest_megabytes(const std::vector<const CellRecord*>& cells, Get get) {
-  std::optional<std::int64_t> out;
+std::vector<double> values_of(const std::vector<const CellRecord*>& cells, Get get) {
+  std::vector<double> out;
   for (const CellRecord* cell : cells) {
-    if (const auto value = get(*cell)) out = std::max(out.value_or(0), *value);
+    if (const auto value = get(*cell)) out.push_back(static_cast<double>(*value));
   }
-  return out ? fmt::format("{:.1f}", static_cast<double>(*out) / kMegabyte) : "-";
+  return out;
+}
+
+std::string milliseconds(const std::vector<double>& seconds) {
+  return seconds.empty() ? "-" : fmt::format("{:.4g}", 1e3 * metrics::median(seconds));
+}
+
+std::string median_count(const std::vector<double>& counts) {
+  return counts.empty() ? "-" : fmt::format("{:.6g}", metrics::median(counts));
+}
+
+std::string megabytes(const std::vector<double>& bytes) {
+  return bytes.empty() ? "-" : fmt::format("{:.1f}", 1e-6 * std::ranges::max(bytes));
 }
 
 std::optional<double> iterations(const CellRecord& cell) {
@@ -63,47 +57,36 @@ std::optional<double> iterations(const CellRecord& cell) {
   return found == cell.counts.end() ? std::nullopt : std::optional(found->value);
 }
 
-std::vector<const CellRecord*> timed_of(const std::vector<const CellRecord*>& cells) {
-  std::vector<const CellRecord*> out;
-  std::ranges::copy_if(cells, std::back_inserter(out), [](const CellRecord* cell) {
-    return cell->runs > 0 && has_numbers(cell->status);
-  });
-  return out;
-}
+/// Values by name, names in order of first appearance.
+struct NamedValues {
+  NameOrder order;
+  std::vector<std::vector<double>> values;
 
-std::string plain(double value) { return fmt::format("{:.6g}", value); }
-
-/// Medians by name, names in order of first appearance.
-class ByName {
- public:
   void add(const std::string& name, double value) {
-    if (!values_.contains(name)) names_.push_back(name);
-    values_[name].push_back(value);
+    const std::size_t index = order.index(name);
+    values.resize(order.names().size());
+    values[index].push_back(value);
   }
-  template <class Text>
-  void add_rows(Table& out, const std::string& method, const std::string& what, Text text) const {
-    for (const std::string& name : names_) {
-      out.lines.push_back({method, what, name, text(metrics::median(values_.at(name)))});
-    }
-  }
-
- private:
-  std::vector<std::string> names_;
-  std::map<std::string, std::vector<double>> values_;
 };
 
 /// One row per phase and count that a method reports: medians over its cells.
 Table reported(const std::vector<CellRecord>& cells) {
   Table out{"reported by the methods", {"method", "what", "name", "median"}, {}, {}};
-  for (const auto& [method, all] : by_method(cells)) {
-    ByName phases;
-    ByName counts;
-    for (const CellRecord* cell : timed_of(all)) {
+  for (const CellsOfMethod& method : by_method(cells)) {
+    NamedValues phases;
+    NamedValues counts;
+    for (const CellRecord* cell : method.timed) {
       for (const methods::Phase& phase : cell->phases) phases.add(phase.name, phase.seconds);
       for (const methods::Count& count : cell->counts) counts.add(count.name, count.value);
     }
-    phases.add_rows(out, table_name(method, all), "phase [ms]", milliseconds);
-    counts.add_rows(out, table_name(method, all), "count", plain);
+    for (std::size_t i = 0; i < phases.values.size(); ++i) {
+      out.lines.push_back(
+          {method.name, "phase [ms]", phases.order.names()[i], milliseconds(phases.values[i])});
+    }
+    for (std::size_t i = 0; i < counts.values.size(); ++i) {
+      out.lines.push_back(
+          {method.name, "count", counts.order.names()[i], median_count(counts.values[i])});
+    }
   }
   return out;
 }
@@ -121,36 +104,34 @@ Table costs(const std::vector<CellRecord>& cells) {
              "added [MB]",
              "iterations"},
             {},
-            {}};
-  if (lacks_times(cells)) return out;
-  bool shared = false;
-  bool alone = false;
-  for (const auto& [method, all] : by_method(cells)) {
-    const std::vector<const CellRecord*> timed = timed_of(all);
-    std::size_t failed = 0;
-    for (const CellRecord* cell : all) {
-      if (!has_numbers(cell->status) && cell->status != Status::declined) ++failed;
-      (cell->worker.text().find("serial") == std::string::npos ? shared : alone) = true;
-    }
+            {"medians over cells; memory: the largest resident size of the process while the "
+             "method ran, and its increase (memory that an earlier cell returned to the allocator "
+             "is reused without being counted)"}};
+  const bool has_times = std::ranges::any_of(cells, [](const auto& cell) { return cell.runs > 0; });
+  const bool has_results =
+      std::ranges::any_of(cells, [](const auto& cell) { return has_numbers(cell.status); });
+  if (has_results && !has_times) return out;
+  for (const CellsOfMethod& method : by_method(cells)) {
+    const auto failed = std::ranges::count_if(method.all, [](const CellRecord* cell) {
+      return !has_numbers(cell->status) && cell->status != Status::declined;
+    });
+    const auto values = [&](const auto& get) { return values_of(method.timed, get); };
     out.lines.push_back(
-        {table_name(method, all),
-         std::to_string(all.size()),
+        {method.name,
+         std::to_string(method.all.size()),
          std::to_string(failed),
-         median_text(
-             timed, [](const auto& c) { return std::optional(c.seconds); }, milliseconds),
-         median_text(
-             timed, [](const auto& c) { return c.cpu_seconds; }, milliseconds),
-         largest_megabytes(timed, [](const auto& c) { return c.peak_memory; }),
-         largest_megabytes(timed, [](const auto& c) { return c.added_memory; }),
-         median_text(timed, iterations, plain)});
+         milliseconds(values([](const auto& c) { return std::optional(c.seconds); })),
+         milliseconds(values([](const auto& c) { return c.cpu_seconds; })),
+         megabytes(values([](const auto& c) { return c.peak_memory; })),
+         megabytes(values([](const auto& c) { return c.added_memory; })),
+         median_count(values(iterations))});
   }
-  out.notes.push_back(
-      "medians over cells; memory: the largest resident size of the process while the method "
-      "ran, and its increase (memory that an earlier cell returned to the allocator is reused "
-      "without being counted)");
-  if (shared) {
+  const auto alone = std::ranges::count_if(cells, [](const auto& cell) {
+    return cell.worker.text().find("serial") != std::string::npos;
+  });
+  if (alone < std::ssize(cells)) {
     out.notes.push_back(
-        std::string(alone ? "some" : "all") +
+        std::string(alone > 0 ? "some" : "all") +
         " cells ran in parallel with others; `timing: true` in the config runs them one at a time");
   }
   return out;

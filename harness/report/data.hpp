@@ -32,9 +32,4 @@ bool reduce(Thinning& thinning, double share);
 /// which cells share.
 nlohmann::json traces_json(const ReportContent& content, const Thinning& thinning);
 
-/// [{kind, all, begin, end, names, choices}], a list of sections for each kind: begin and end
-/// relative to `origin` [s], and indices into `names` of the choices. At most kMostSections per
-/// kind.
-nlohmann::json sections_json(const std::vector<methods::Section>& sections, double origin);
-
 }  // namespace loopbench::harness

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "harness/compare/name_order.hpp"
 #include "harness/report/data.hpp"
 #include "harness/report/packed.hpp"
 #include "harness/store/traces.hpp"
@@ -13,6 +14,7 @@ constexpr std::size_t kMostPointsOfACell = 400;  // per cell: screen resolution
 constexpr std::size_t kGoodPoints = 100;         // fewer make curves look like polygons
 constexpr std::size_t kLeastPoints = 10;         // minimum for a curve
 constexpr std::size_t kMostClosures = 200;       // per sequence; more hide the trajectory
+constexpr std::size_t kMostSections = 600;       // per cell and kind; more are thinner than a pixel
 constexpr double kBytesOfAPoint = 14.0;  // four 16-bit words in base64, and a share of grids
 
 using Column = std::vector<double>;
@@ -65,6 +67,44 @@ CellErrors errors(const CellTrace& trace, std::size_t most) {
     out.y.push_back(s.error_y);
     out.z.push_back(s.error_z);
     out.angle.push_back(s.error_angle);
+  }
+  return out;
+}
+
+/// The sections of one kind.
+struct DrawnSections {
+  std::size_t all = 0;
+  Column begin, end;
+  NameOrder names;
+  std::vector<std::size_t> choices;
+
+  void add(const methods::Section& section, double origin) {
+    ++all;
+    if (begin.size() == kMostSections) return;
+    begin.push_back(section.begin - origin);
+    end.push_back(section.end - origin);
+    choices.push_back(names.index(section.what));
+  }
+};
+
+/// [{kind, all, begin, end, names, choices}], a list of sections for each kind: begin and end
+/// relative to `origin` [s], and indices into `names` of the choices.
+nlohmann::json sections_json(const std::vector<methods::Section>& sections, double origin) {
+  NameOrder kinds;
+  std::vector<DrawnSections> drawn;
+  for (const methods::Section& section : sections) {
+    const std::size_t kind = kinds.index(section.kind);
+    drawn.resize(kinds.names().size());
+    drawn[kind].add(section, origin);
+  }
+  nlohmann::json out = nlohmann::json::array();
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    out.push_back({{"kind", kinds.names()[i]},
+                   {"all", drawn[i].all},
+                   {"begin", packed(drawn[i].begin)},
+                   {"end", packed(drawn[i].end)},
+                   {"names", drawn[i].names.names()},
+                   {"choices", drawn[i].choices}});
   }
   return out;
 }

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <set>
 #include <tuple>
 
@@ -7,12 +10,6 @@
 namespace loopbench::harness {
 namespace {
 
-std::string listed(const std::set<std::string>& names) {
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
-  return out;
-}
-
 using Reason = std::tuple<std::string, std::string, std::string>;  // status, method, why
 
 struct Affected {
@@ -21,51 +18,55 @@ struct Affected {
   std::set<std::string> scores;
 };
 
+/// One line per reason; with a column for the scores if there are any.
+std::string reasons_table(const std::string& title,
+                          const std::map<Reason, Affected>& reasons,
+                          bool has_scores) {
+  if (reasons.empty()) return "";
+  Table out{title, {"method", "status"}, {}, {}};
+  if (has_scores) out.headings.emplace_back("scores");
+  for (const char* heading : {"cells", "sequences", "why"}) out.headings.emplace_back(heading);
+  const auto listed = [](const auto& names) { return fmt::format("{}", fmt::join(names, ", ")); };
+  for (const auto& [reason, affected] : reasons) {
+    const auto& [status, method, why] = reason;
+    std::vector<TableCell>& line = out.lines.emplace_back();
+    line = {method, status};
+    if (has_scores) line.emplace_back(listed(affected.scores));
+    line.emplace_back(std::to_string(affected.cells.size()));
+    line.emplace_back(listed(affected.sequences));
+    line.emplace_back(why);
+  }
+  return html_text_table(out);
+}
+
 /// Cells without scores, or with too little coverage.
-Table of_cells(const ReportContent& content) {
-  std::map<Reason, Affected> reasons;
+std::map<Reason, Affected> reasons_of_cells(const ReportContent& content) {
+  std::map<Reason, Affected> out;
   for (const CellRecord& cell : content.cells) {
     if (cell.status == Status::ok && cell.why.empty()) continue;
     const std::string status = cell.status == Status::ok ? "not evaluated" : to_text(cell.status);
     const std::string why =
         cell.signal.empty() ? cell.why.text() : cell.signal + ": " + cell.why.text();
-    Affected& affected = reasons[{status, cell.method, why}];
+    Affected& affected = out[{status, cell.method, why}];
     affected.cells.insert(cell.position);
     affected.sequences.insert(cell.sequence);
-  }
-  Table out{"cells without results", {"method", "status", "cells", "sequences", "why"}, {}, {}};
-  for (const auto& [reason, affected] : reasons) {
-    const auto& [status, method, why] = reason;
-    out.lines.push_back(
-        {method, status, std::to_string(affected.cells.size()), listed(affected.sequences), why});
   }
   return out;
 }
 
 /// Scores missing from cells that finished.
-Table of_scores(const ReportContent& content) {
-  std::set<std::int64_t> ended;
+std::map<Reason, Affected> reasons_of_scores(const ReportContent& content) {
+  std::set<std::int64_t> finished;
   for (const CellRecord& cell : content.cells) {
-    if (has_numbers(cell.status)) ended.insert(cell.position);
+    if (has_numbers(cell.status)) finished.insert(cell.position);
   }
-  std::map<Reason, Affected> reasons;
+  std::map<Reason, Affected> out;
   for (const Record& r : content.undefined) {
-    if (!ended.contains(r.cell)) continue;
-    Affected& affected = reasons[{to_text(r.status), r.method, r.why}];
+    if (!finished.contains(r.cell)) continue;
+    Affected& affected = out[{to_text(r.status), r.method, r.why}];
     affected.cells.insert(r.cell);
     affected.sequences.insert(r.sequence);
     affected.scores.insert(field(r, "score") + (r.unit.empty() ? "" : " [" + r.unit + "]"));
-  }
-  Table out{
-      "undefined scores", {"method", "status", "scores", "cells", "sequences", "why"}, {}, {}};
-  for (const auto& [reason, affected] : reasons) {
-    const auto& [status, method, why] = reason;
-    out.lines.push_back({method,
-                         status,
-                         listed(affected.scores),
-                         std::to_string(affected.cells.size()),
-                         listed(affected.sequences),
-                         why});
   }
   return out;
 }
@@ -73,12 +74,9 @@ Table of_scores(const ReportContent& content) {
 }  // namespace
 
 std::string failures_html(const ReportContent& content) {
-  std::string out;
-  for (const Table& listing : {of_cells(content), of_scores(content)}) {
-    if (!listing.lines.empty()) out += html_text_table(listing);
-  }
-  if (!out.empty()) return out;
-  return "<p>Every cell finished and every score has a value.</p>\n";
+  const std::string out = reasons_table("cells without results", reasons_of_cells(content), false) +
+                          reasons_table("undefined scores", reasons_of_scores(content), true);
+  return out.empty() ? "<p>Every cell finished and every score has a value.</p>\n" : out;
 }
 
 }  // namespace loopbench::harness

@@ -1,6 +1,7 @@
 #include "harness/report/sections.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -89,10 +90,8 @@ std::string summary_html(const ReportContent& content) {
   out +=
       "<p class=\"verdict\">" + html_text(statement(*headline)) + "</p>\n" + key_figure(*headline);
   if (!headline->oracles.empty()) {
-    std::string names;
-    for (const std::string& name : headline->oracles) names += (names.empty() ? "" : ", ") + name;
     out += "<p class=\"warning\">Excluded from verdicts because they use the reference: " +
-           html_text(names) + "</p>\n";
+           html_text(fmt::format("{}", fmt::join(headline->oracles, ", "))) + "</p>\n";
   }
   std::set<std::string> measured;
   for (const CellRecord& cell : content.cells) {

@@ -1,4 +1,4 @@
-#include <string_view>
+#include <map>
 
 #include "harness/tables/table.hpp"
 
@@ -6,47 +6,30 @@ namespace loopbench::harness {
 namespace {
 
 std::string escaped_latex(const std::string& text) {
+  static const std::map<char, std::string> kEscaped{
+      {'\\', "\\textbackslash{}"},
+      {'~', "\\textasciitilde{}"},
+      {'^', "\\textasciicircum{}"},
+      {'<', "\\textless{}"},
+      {'>', "\\textgreater{}"},
+      {'|', "\\textbar{}"},
+      {'"', "\\textquotedbl{}"},  // needs T1 fonts
+      {'[', "{[}"},               // else a length after a line break
+      {'&', "\\&"},
+      {'%', "\\%"},
+      {'$', "\\$"},
+      {'#', "\\#"},
+      {'_', "\\_"},
+      {'{', "\\{"},
+      {'}', "\\}"}};
   std::string out;
-  const std::string line = one_line(text);
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    switch (c) {
-      case '\\':
-        out += "\\textbackslash{}";
-        break;
-      case '~':
-        out += "\\textasciitilde{}";
-        break;
-      case '^':
-        out += "\\textasciicircum{}";
-        break;
-      case '<':
-        out += "\\textless{}";
-        break;
-      case '>':
-        out += "\\textgreater{}";
-        break;
-      case '|':
-        out += "\\textbar{}";
-        break;
-      case '"':
-        out += "\\textquotedbl{}";  // \usepackage[T1]{fontenc}
-        break;
-      case '[':  // after \\ it would start an optional length
-        out += "{[}";
-        break;
-      case '\xc2':  // of U+00B1, plus-minus
-        if (line.compare(i, 2, "\u00b1") == 0) {
-          out += "$\\pm$";
-          ++i;
-        } else {
-          out += c;
-        }
-        break;
-      default:
-        if (std::string_view("&%$#_{}").find(c) != std::string_view::npos) out += '\\';
-        out += c;
-    }
+  for (const char c : one_line(text)) {
+    const auto found = kEscaped.find(c);
+    out += found == kEscaped.end() ? std::string(1, c) : found->second;
+  }
+  const std::string plus_minus = "\u00b1";
+  for (std::size_t at = 0; (at = out.find(plus_minus, at)) != std::string::npos;) {
+    out.replace(at, plus_minus.size(), "$\\pm$");
   }
   return out;
 }

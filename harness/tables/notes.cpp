@@ -1,5 +1,8 @@
 #include "harness/tables/notes.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -7,24 +10,19 @@
 namespace loopbench::harness {
 namespace {
 
-void add_once(std::vector<std::string>& list, const std::string& text) {
-  if (!text.empty() && std::ranges::count(list, text) == 0) list.push_back(text);
-}
-
 std::string listed(const std::vector<std::string>& list) {
-  std::string out;
-  for (const std::string& text : list) out += (out.empty() ? "" : ", ") + text;
-  return out;
+  return fmt::format("{}", fmt::join(list, ", "));
 }
 
-/// The list of a key, keys in order of first appearance.
+/// A list of different texts for each key, keys in order of first appearance.
 template <class Key>
 class Lists {
  public:
-  std::vector<std::string>& of(const Key& key) {
+  void add(const Key& key, const std::string& text) {
     const auto [entry, is_new] = place_.emplace(key, lists.size());
     if (is_new) lists.emplace_back(key, std::vector<std::string>());
-    return lists[entry->second].second;
+    std::vector<std::string>& list = lists[entry->second].second;
+    if (!text.empty() && std::ranges::count(list, text) == 0) list.push_back(text);
   }
 
   std::vector<std::pair<Key, std::vector<std::string>>> lists;
@@ -38,11 +36,11 @@ class Lists {
 std::vector<std::string> grouped(const std::vector<Missing>& missing) {
   using Reason = std::tuple<std::string, std::string, std::string>;  // first of row, then of whats
   Lists<Reason> items;
-  for (const Missing& m : missing) add_once(items.of({m.row, m.status, m.why}), m.what);
+  for (const Missing& m : missing) items.add({m.row, m.status, m.why}, m.what);
   Lists<Reason> rows;
   for (const auto& [reason, list] : items.lists) {
     const auto& [row, status, why] = reason;
-    add_once(rows.of({listed(list), status, why}), row);
+    rows.add({listed(list), status, why}, row);
   }
   std::vector<std::string> out;
   for (const auto& [reason, list] : rows.lists) {

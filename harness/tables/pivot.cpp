@@ -12,6 +12,26 @@
 namespace loopbench::harness {
 namespace {
 
+/// Ignores single values and scores with as many errors as evaluated poses.
+void add_error_count(TableNumbers& table, std::size_t column, const Record& record) {
+  const std::size_t count = record.statistics.count;
+  if (count < 2 || count == static_cast<std::size_t>(record.pairs)) return;
+  auto& [least, most] = table.error_counts.try_emplace(column, count, count).first->second;
+  least = std::min(least, count);
+  most = std::max(most, count);
+}
+
+/// "rpe 1 s [m]: 396 to 398; ..."; empty if every value is over the evaluated poses.
+std::string error_counts_text(const TableNumbers& table) {
+  std::vector<std::string> out;
+  for (const auto& [column, range] : table.error_counts) {
+    const auto& [least, most] = range;
+    out.push_back(fmt::format("{}: {}", table.columns.texts()[column], least));
+    if (most != least) out.back() += fmt::format(" to {}", most);
+  }
+  return fmt::format("{}", fmt::join(out, "; "));
+}
+
 void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   const std::size_t row = table.rows.index(record);
   if (record.oracle) table.note("oracle: the method uses the reference");
@@ -51,17 +71,8 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
     if (is_loss(record)) entry.lost.insert(run);
     return;
   }
-  table.counts.add(column, record);
+  add_error_count(table, column, record);
   entry.numbers.add(record, run, table.group_of_run[run], spec.value);
-}
-
-/// Number of runs of all competitors together: an upper limit of possible().
-std::size_t runs_of_any(const MarkInput& input) {
-  std::vector<bool> is_there(input.group.size(), false);
-  for (const ByRun& own : input.competitors) {
-    for (const auto& [run, value] : own) is_there[run] = true;
-  }
-  return static_cast<std::size_t>(std::ranges::count(is_there, true));
 }
 
 /// Marks the best along every column (or every row) of the finished table.
@@ -75,7 +86,6 @@ void mark(Table& out,
   for (std::size_t l = 0; l < lanes; ++l) {
     const std::vector<TablePosition> entries = entry_indices(table, l, along_columns);
     const MarkInput all = mark_input(table, entries, along_columns);
-    const std::size_t runs = runs_of_any(all);
     const Marks marks = all.better == metrics::Better::neither
                             ? Marks{std::vector<Mark>(entries.size(), Mark::none), ""}
                             : mark_best(all, options);
@@ -86,7 +96,7 @@ void mark(Table& out,
       is_marked = is_marked || cell.mark != Mark::none;
       const auto values = static_cast<std::size_t>(std::ranges::count_if(
           all.competitors[i], [](const auto& one) { return one.second.has_value(); }));
-      if (cell.mean->records == 0 || values >= runs) continue;
+      if (cell.mean->records == 0) continue;
       const std::size_t most = possible(all, i);
       if (values < most) cell.mean->possible = cell.mean->records + most - values;
     }
@@ -146,7 +156,7 @@ Table finish(TableNumbers& table,
   out.headings.insert(out.headings.end(), columns.begin(), columns.end());
   const std::vector<std::string> missing = grouped(table.missing);
   out.notes.insert(out.notes.end(), missing.begin(), missing.end());
-  if (const std::string counts = table.counts.text(columns); !counts.empty()) {
+  if (const std::string counts = error_counts_text(table); !counts.empty()) {
     out.notes.push_back("number of errors, where it differs from the evaluated pairs: " + counts);
   }
   const std::string oracle =

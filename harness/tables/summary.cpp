@@ -33,28 +33,28 @@ bool is_same_score(const Record& a, const Record& b) {
          a.relation == b.relation && a.axis == b.axis;
 }
 
-/// The records that can lead the summary: one protocol, one kind of times, with a direction.
+/// The records that can lead the summary, and those of cells without scores: one protocol, one kind
+/// of times, with a direction.
 std::vector<Record> comparable(const std::vector<Record>& records, const SummaryOptions& options) {
-  std::vector<Record> out;
-  const auto is_directed = [](const Record& r) {
-    return !r.metric.empty() && !is_derived(r) && r.better != metrics::Better::neither;
+  std::vector<Record> out = records;
+  std::erase_if(out, [](const Record& r) {
+    return !r.metric.empty() && (is_derived(r) || r.better == metrics::Better::neither);
+  });
+  // Keeps the scores that pass, if any does.
+  const auto keep = [&](const auto& passes) {
+    const auto is_kept = [&](const Record& r) { return !r.metric.empty() && passes(r); };
+    if (std::ranges::none_of(out, is_kept)) return;
+    std::erase_if(out, [&](const Record& r) { return !r.metric.empty() && !passes(r); });
   };
-  const auto first = std::ranges::find_if(records, is_directed);
-  if (first == records.end()) return out;
-  const bool has_dense = std::ranges::any_of(
-      records, [&](const Record& r) { return is_directed(r) && r.times == "dense"; });
-  const std::string times = has_dense ? "dense" : first->times;
-  const auto is_shown = [&](const Record& r) {
+  const auto first = std::ranges::find_if(out, [](const Record& r) { return !r.metric.empty(); });
+  if (first == out.end()) return {};
+  const Record lead = *first;
+  keep([](const Record& r) { return r.times == "dense"; });
+  keep([&](const Record& r) { return r.times == lead.times; });
+  keep([&](const Record& r) { return r.protocol == lead.protocol; });
+  keep([&](const Record& r) {
     return options.show.empty() || std::ranges::count(options.show, field(r, "score")) > 0;
-  };
-  const auto is_wanted = [&](const Record& r) {
-    return is_directed(r) && r.times == times && r.protocol == first->protocol;
-  };
-  const bool any_shown =
-      std::ranges::any_of(records, [&](const Record& r) { return is_wanted(r) && is_shown(r); });
-  for (const Record& r : records) {
-    if (r.metric.empty() || (is_wanted(r) && (!any_shown || is_shown(r)))) out.push_back(r);
-  }
+  });
   return out;
 }
 
@@ -121,6 +121,8 @@ std::vector<std::string> verdicts(const std::vector<Record>& candidates,
   return out;
 }
 
+constexpr double kLost = std::numeric_limits<double>::max();  // worse than all values
+
 /// A value for which lower is better.
 double as_loss(double value, const Record& kind) {
   switch (kind.better) {
@@ -148,24 +150,19 @@ std::map<std::string, double> mean_ranks(const std::vector<Record>& records,
   drop_duplicates(kind);
   std::map<std::string, std::vector<double>> ranks;
   for (std::size_t run = 0; run < kind.runs.size(); ++run) {
-    std::vector<std::string> finished;
-    std::vector<std::string> lost;
-    std::vector<double> values;
+    std::vector<std::string> methods;
+    std::vector<double> losses;
+    bool has_value = false;
     for (std::size_t m = 0; m < kind.methods.size(); ++m) {
       const Observed& one = kind.values[m][run];
-      if (one.value) {
-        finished.push_back(kind.methods[m]);
-        values.push_back(as_loss(*one.value, kind.kind));
-      } else if (one.is_loss) {
-        lost.push_back(kind.methods[m]);
-      }
+      if (!one.value && !one.is_loss) continue;
+      methods.push_back(kind.methods[m]);
+      losses.push_back(one.value ? as_loss(*one.value, kind.kind) : kLost);
+      has_value = has_value || one.value;
     }
-    if (finished.empty()) continue;
-    const std::vector<double> own = midranks(values, kTieShare);
-    for (std::size_t i = 0; i < own.size(); ++i) ranks[finished[i]].push_back(own[i]);
-    const double last =
-        static_cast<double>(finished.size()) + 0.5 * (static_cast<double>(lost.size()) + 1.0);
-    for (const std::string& method : lost) ranks[method].push_back(last);
+    if (!has_value) continue;
+    const std::vector<double> own = midranks(losses, kTieShare);
+    for (std::size_t i = 0; i < own.size(); ++i) ranks[methods[i]].push_back(own[i]);
   }
   std::map<std::string, double> out;
   for (const auto& [method, own] : ranks) out[method] = mean(own);

@@ -36,25 +36,20 @@ std::string kind_of(const Record& r) {
          "]";
 }
 
-}  // namespace
-
-void ErrorCounts::add(std::size_t column, const Record& record) {
-  const std::size_t count = record.statistics.count;
-  if (count < 2 || count == static_cast<std::size_t>(record.pairs)) return;
-  auto& [least, most] = range_.try_emplace(column, count, count).first->second;
-  least = std::min(least, count);
-  most = std::max(most, count);
-}
-
-std::string ErrorCounts::text(const std::vector<std::string>& columns) const {
-  std::string out;
-  for (const auto& [column, range] : range_) {
-    const auto& [least, most] = range;
-    out += (out.empty() ? "" : "; ") + columns[column] + ": " + std::to_string(least);
-    if (most != least) out += " to " + std::to_string(most);
+/// Runs of recorded files are independent; their sequence is the recording.
+void add_recordings(MarkInput& out, const TableNumbers& table) {
+  std::map<std::string_view, std::size_t> numbers;
+  std::vector<std::size_t> of_group;
+  for (const std::string& group : table.groups.texts()) {
+    const std::string_view recording = recording_of(group);
+    if (recording.empty()) return;
+    of_group.push_back(numbers.emplace(recording, numbers.size()).first->second);
   }
-  return out;
+  for (const std::size_t group : table.group_of_run) out.sequence.push_back(of_group[group]);
+  out.is_paired = false;
 }
+
+}  // namespace
 
 TableNumbers::TableNumbers(const TableSpec& spec)
     : rows(with(spec.rows, "oracle"),
@@ -90,23 +85,6 @@ std::vector<TablePosition> entry_indices(const TableNumbers& table,
   }
   return out;
 }
-
-namespace {
-
-/// Runs of recorded files are independent; their sequence is the recording.
-void add_recordings(MarkInput& out, const TableNumbers& table) {
-  std::map<std::string_view, std::size_t> numbers;
-  std::vector<std::size_t> of_group;
-  for (const std::string& group : table.groups.texts()) {
-    const std::string_view recording = recording_of(group);
-    if (recording.empty()) return;
-    of_group.push_back(numbers.emplace(recording, numbers.size()).first->second);
-  }
-  for (const std::size_t group : table.group_of_run) out.sequence.push_back(of_group[group]);
-  out.is_paired = false;
-}
-
-}  // namespace
 
 MarkInput mark_input(const TableNumbers& table,
                      const std::vector<TablePosition>& positions,

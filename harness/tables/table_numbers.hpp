@@ -70,20 +70,6 @@ class EntryNumbers {
   bool is_oracle_ = false;
 };
 
-/// Number of errors behind the values of a table, if it differs from the evaluated poses. A
-/// relative error has fewer pairs than evaluated poses, a closure residual one error per closure.
-class ErrorCounts {
- public:
-  /// Ignores single values and scores with as many errors as evaluated poses.
-  void add(std::size_t column, const Record& record);
-
-  /// "rpe 1 s [m]: 396 to 398; ..."; empty if every value is over the evaluated poses.
-  std::string text(const std::vector<std::string>& columns) const;
-
- private:
-  std::map<std::size_t, std::pair<std::size_t, std::size_t>> range_;  ///< min, max by column
-};
-
 using TablePosition = std::pair<std::size_t, std::size_t>;  // row, column
 
 struct TablePositionHash {
@@ -124,7 +110,9 @@ struct TableNumbers {
   std::unordered_map<TablePosition, EntryContents, TablePositionHash> entries;
   std::map<std::size_t, RunSet> lost_by_row;  // runs without any score
   std::map<SharedText, RunSet> lost_by_method;
-  ErrorCounts counts;
+  /// Smallest and largest number of errors behind the values of a column, if it differs from the
+  /// evaluated poses: a relative error has fewer pairs, a closure residual one error per closure.
+  std::map<std::size_t, std::pair<std::size_t, std::size_t>> error_counts;
   std::map<std::size_t, std::string> row_status;  // status of runs without any score
   std::set<std::string> oracle_sequences;  // closures measured in or selected by the reference
   std::vector<Missing> missing;
