@@ -11,6 +11,10 @@
 
 namespace loopbench::harness {
 
+/// `reference`: the complete one, ascending stamps. O(n log n + m).
+DrawnEvaluation drawn_evaluation(const Trajectory& reference,
+                                 const metrics::Evaluation& evaluation);
+
 /// Evaluations with the same reference, which share figures.
 struct DrawnRuns {
   std::string sequence;  ///< label; empty if there is only one

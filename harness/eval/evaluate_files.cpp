@@ -16,13 +16,6 @@
 namespace loopbench::harness {
 namespace {
 
-std::vector<std::filesystem::path> all_files(const EvalArguments& a,
-                                             const std::vector<FilePair>& files) {
-  std::vector<std::filesystem::path> out{a.times};
-  for (const FilePair& pair : files) out.insert(out.end(), {pair.reference, pair.estimate});
-  return out;
-}
-
 /// With the names as given.
 std::vector<RecordedRun> runs_of(const std::vector<FilePair>& files, const EvalArguments& a) {
   std::vector<RecordedRun> out = labelled_runs(files, a.sequence);
@@ -33,63 +26,56 @@ std::vector<RecordedRun> runs_of(const std::vector<FilePair>& files, const EvalA
   return out;
 }
 
-void set_incomplete(EvaluatedFile& file, std::size_t protocol, const std::string& why) {
-  file.protocols[protocol].incomplete_reason = why;
-  for (ScoreResult& score : file.result.scores) {
-    if (score.protocol != protocol || score.status != Status::ok) continue;
-    score.status = Status::incomplete;
-    score.why = why;
-  }
-}
-
-/// Marks an evaluation as incomplete if less than a tenth of the estimate's and of the reference's
-/// poses found a partner: the stamps meet by chance, or the files belong to different clocks.
-void reject_few_pairs(std::vector<EvaluatedFile>& all) {
+/// Reason if less than a tenth of the estimate's and of the reference's poses found a partner: the
+/// stamps meet by chance, or the files belong to different clocks.
+std::string why_few_pairs(const EvaluationResult& own) {
   constexpr double kFew = 0.1;
-  for (EvaluatedFile& file : all) {
-    for (std::size_t p = 0; p < file.protocols.size(); ++p) {
-      const EvaluationResult& own = file.protocols[p];
-      if (!own.why_failed.empty() || !own.incomplete_reason.empty()) continue;
-      const auto pairs = static_cast<double>(own.coverage.pairs);
-      const auto references = static_cast<double>(own.reference_poses);
-      if (own.coverage.share() >= kFew || pairs >= kFew * references) continue;
-      set_incomplete(file,
-                     p,
-                     fmt::format("paired {} of {} poses with {} of the reference, less than a "
-                                 "tenth of either (--min-coverage 0 accepts it)",
-                                 own.coverage.pairs,
-                                 own.coverage.possible,
-                                 own.reference_poses));
-    }
-  }
+  const auto pairs = static_cast<double>(own.coverage.pairs);
+  const auto references = static_cast<double>(own.reference_poses);
+  if (own.coverage.share() >= kFew || pairs >= kFew * references) return "";
+  return fmt::format(
+      "paired {} of {} poses with {} of the reference, less than a tenth of either (--min-coverage "
+      "0 accepts it)",
+      own.coverage.pairs,
+      own.coverage.possible,
+      own.reference_poses);
 }
 
-/// Marks an evaluation as incomplete if its coverage is less than half of that of another estimate
-/// with the same reference and protocol, by the smaller of both shares.
-void compare_coverage(std::vector<EvaluatedFile>& all) {
+/// Reason if the coverage, the smaller of both shares, is less than half of the `best` of an
+/// estimate with the same reference and protocol.
+std::string why_less_coverage(const EvaluationResult& own, double best) {
   constexpr double kMuchLess = 0.5;
-  std::map<std::pair<std::string, std::size_t>, double> most;
+  if (own.coverage.least() >= kMuchLess * best) return "";
+  return fmt::format(
+      "evaluated {} of {} poses over {:.1f} % of the reference's time, less than half of the "
+      "{:.1f} % of another estimate",
+      own.coverage.pairs,
+      own.coverage.possible,
+      100.0 * own.coverage.span,
+      100.0 * best);
+}
+
+/// Marks evaluations as incomplete whose coverage is small; their scores remain.
+void check_coverage(std::vector<EvaluatedFile>& all) {
+  std::map<std::pair<std::string, std::size_t>, double> most;  // by reference and protocol
   for (const EvaluatedFile& file : all) {
     for (std::size_t p = 0; p < file.protocols.size(); ++p) {
-      const EvaluationResult& own = file.protocols[p];
-      double& best = most[{own.reference, p}];
-      best = std::max(best, own.coverage.least());
+      double& best = most[{file.protocols[p].reference, p}];
+      best = std::max(best, file.protocols[p].coverage.least());
     }
   }
   for (EvaluatedFile& file : all) {
     for (std::size_t p = 0; p < file.protocols.size(); ++p) {
       EvaluationResult& own = file.protocols[p];
-      const double best = most.at({own.reference, p});
-      const bool is_less = own.coverage.least() < kMuchLess * best;
-      if (!own.why_failed.empty() || !is_less) continue;
-      const std::string why = fmt::format(
-          "evaluated {} of {} poses over {:.1f} % of the reference's time, less than half of the "
-          "{:.1f} % of another estimate",
-          own.coverage.pairs,
-          own.coverage.possible,
-          100.0 * own.coverage.span,
-          100.0 * best);
-      set_incomplete(file, p, why);
+      if (!own.why_failed.empty()) continue;
+      own.incomplete_reason = why_less_coverage(own, most.at({own.reference, p}));
+      if (own.incomplete_reason.empty()) own.incomplete_reason = why_few_pairs(own);
+      if (own.incomplete_reason.empty()) continue;
+      for (ScoreResult& score : file.result.scores) {
+        if (score.protocol != p || score.status != Status::ok) continue;
+        score.status = Status::incomplete;
+        score.why = own.incomplete_reason;
+      }
     }
   }
 }
@@ -151,7 +137,9 @@ void require_evaluated(const std::vector<EvaluatedFile>& all) {
 
 std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
   const std::vector<FilePair> files = file_pairs(a);
-  reject_overwriting(all_files(a, files), a.per_pose);
+  std::vector<std::filesystem::path> inputs{a.times};
+  for (const FilePair& pair : files) inputs.insert(inputs.end(), {pair.reference, pair.estimate});
+  reject_overwriting(inputs, a.per_pose);
   std::vector<RecordedRun> labelled = runs_of(files, a);
   if (a.common.value_or(false)) set_common_times(labelled, a);
   const RecordedSweep sweep = recorded_sweep(std::move(labelled), a);
@@ -172,8 +160,7 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
     });
   }
   require_evaluated(all);
-  if (!a.min_coverage) compare_coverage(all);
-  if (!a.min_coverage) reject_few_pairs(all);
+  if (!a.min_coverage) check_coverage(all);
   return results_of(std::move(all), sweep.sweep);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "harness/tables/record_csv.hpp"
 
@@ -19,6 +20,81 @@ const Record* failed_metric(const EvaluationResult& result) {
 bool has_no_number(const EvaluationResult& result) {
   return std::ranges::none_of(result.records,
                               [](const Record& record) { return has_numbers(record.status); });
+}
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Params& params) {
+  Json out = Json::object();
+  for (const auto& [name, param] : params) {
+    out[name] = std::visit([](const auto& value) { return Json(value); }, param);
+  }
+  return out;
+}
+
+Json to_json(const Record& record) {
+  Json out{{"metric", std::string(record.metric)}, {"label", std::string(record.label)}};
+  if (!record.relation.empty()) {
+    out["relation"] = std::string(record.relation);
+    out["axis"] = std::string(record.axis);
+  }
+  if (!has_numbers(record.status)) {
+    out["why"] = std::string(record.why);
+    return out;
+  }
+  const metrics::Statistics& s = record.statistics;
+  out.update({{"unit", std::string(record.unit)},
+              {"rmse", s.rmse},
+              {"mean", s.mean},
+              {"median", s.median},
+              {"std", s.std},
+              {"min", s.min},
+              {"max", s.max},
+              {"count", s.count}});
+  return out;
+}
+
+Json to_json(const EvaluationResult& result) {
+  Json scores = Json::array();
+  Json undefined = Json::array();
+  Json failed = Json::array();
+  for (const Record& record : result.records) {
+    if (record.metric.empty()) continue;
+    Json& list = has_numbers(record.status)  ? scores
+                 : is_failure(record.status) ? failed
+                                             : undefined;
+    list.push_back(to_json(record));
+  }
+  Json out{{"reference", result.reference},
+           {"estimate", result.estimate},
+           {"protocol",
+            {{"name", result.protocol.name},
+             {"version", result.protocol.version},
+             {"changes", to_json(result.protocol.changes)},
+             {"rules", to_json(echo(result.protocol.rules))}}},
+           {"status", status(result)},
+           {"why", why_not_ok(result)}};
+  if (!result.reference_body.empty()) out["reference_body"] = result.reference_body;
+  if (!result.other_body.empty()) out["other_body"] = result.other_body;
+  if (result.why_failed.empty()) {
+    Json diagnosis = Json::object();
+    for (const metrics::Score& score : result.diagnosis)
+      diagnosis[score.relation] = score.statistics.mean;
+    out["pairs"] = result.coverage.pairs;
+    out["possible"] = result.coverage.possible;
+    out["coverage"] = result.coverage.share();
+    out["span"] = result.coverage.span;
+    out["alignment"] = {{"type", to_text(result.alignment.type)},
+                        {"scale", result.alignment.scale},
+                        {"rank", result.alignment.rank},
+                        {"condition", result.alignment.condition}};
+    out["diagnosis"] = std::move(diagnosis);
+    out["notes"] = result.notes;
+  }
+  out["metrics"] = std::move(scores);
+  out["undefined"] = std::move(undefined);
+  out["failed"] = std::move(failed);
+  return out;
 }
 
 }  // namespace
@@ -42,6 +118,12 @@ std::vector<Record> all_records(const std::vector<EvaluationResult>& results) {
     out.insert(out.end(), result.records.begin(), result.records.end());
   }
   return out;
+}
+
+std::string json(const std::vector<EvaluationResult>& results) {
+  Json all = Json::array();
+  for (const EvaluationResult& result : results) all.push_back(to_json(result));
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names can be any bytes
 }
 
 std::string pose_csv(const std::vector<EvaluationResult>& results) {

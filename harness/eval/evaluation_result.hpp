@@ -5,14 +5,24 @@
 #include <string>
 #include <vector>
 
-#include "harness/eval/drawn_evaluation.hpp"
 #include "harness/model/record.hpp"
+#include "harness/report/curve.hpp"
 #include "harness/tables/table.hpp"
 #include "metrics/errors/ape.hpp"
 #include "metrics/metric.hpp"
 #include "metrics/protocols/protocols.hpp"
 
 namespace loopbench::harness {
+
+/// One estimate, paired and aligned.
+struct DrawnEvaluation {
+  /// Without a name. Times count from the first pose of the reference file [s], distances along the
+  /// complete reference [m], so that the curves of all estimates of a reference have one origin.
+  /// Columns of the errors: error [m], angle [deg], and sorted_errors [m] of all poses.
+  DrawnCurve estimate;
+  DrawnCurve reference;        ///< the complete reference, subsampled
+  double position_rmse = 0.0;  ///< [m]
+};
 
 /// The scores are records, as of a sweep; the rest is what they do not contain.
 struct EvaluationResult {

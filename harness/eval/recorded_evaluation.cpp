@@ -9,6 +9,7 @@
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/parallel.hpp"
+#include "harness/eval/eval_figures.hpp"
 #include "harness/eval/recordings.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/run/add_scores.hpp"

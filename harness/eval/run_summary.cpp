@@ -57,18 +57,17 @@ std::string content_key(const Record& r) {
 RunSummary summary(const std::string& sequence,
                    const std::string& method,
                    const CountedRuns& counted) {
+  RunSummary out{sequence,
+                 method,
+                 counted.contents.size(),
+                 counted.repeats.size() - counted.contents.size(),
+                 {},
+                 {}};
   std::vector<double> values;
   for (const auto& [content, value] : counted.values) values.push_back(value);
-  RunSummary out{sequence, method, counted.contents.size(), 0, values.size(), 0, 0, 0, 0, {}};
-  out.copies = counted.repeats.size() - counted.contents.size();
   if (values.empty()) return out;
   std::ranges::sort(values);
-  for (const double value : values) out.mean += value / static_cast<double>(values.size());
-  const std::size_t middle = values.size() / 2;
-  out.median =
-      values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-  out.smallest = values.front();
-  out.largest = values.back();
+  out.values = metrics::statistics(values);
   out.interval = shift_interval(values, 0.05);
   return out;
 }
@@ -76,16 +75,16 @@ RunSummary summary(const std::string& sequence,
 std::vector<TableCell> row(const RunSummary& s) {
   const auto number = [](double value) { return fmt::format("{:.4f}", value); };
   std::vector<TableCell> out{{s.sequence + " / " + s.method},
-                             {fmt::format("{} of {}", s.successes, s.runs)}};
-  if (s.successes == 0) {
+                             {fmt::format("{} of {}", s.values.count, s.runs)}};
+  if (s.values.count == 0) {
     out.resize(6);
     return out;
   }
   const auto range = [&](double low, double high) { return number(low) + " to " + number(high); };
-  out.push_back({number(s.mean)});
+  out.push_back({number(s.values.mean)});
   out.push_back({s.interval ? range(s.interval->low, s.interval->high) : "-"});
-  out.push_back({number(s.median)});
-  out.push_back({range(s.smallest, s.largest)});
+  out.push_back({number(s.values.median)});
+  out.push_back({range(s.values.min, s.values.max)});
   return out;
 }
 
@@ -164,7 +163,7 @@ std::string report_of(const std::vector<Record>& records,
   const bool has_repeats =
       std::ranges::any_of(all, [](const RunSummary& each) { return each.runs + each.copies > 1; });
   const bool has_values =
-      std::ranges::any_of(all, [](const RunSummary& each) { return each.successes > 0; });
+      std::ranges::any_of(all, [](const RunSummary& each) { return each.values.count > 0; });
   if (!has_values || (methods.size() < 2 && !has_repeats)) return "";
   std::string out;
   if (has_repeats) out += "\n" + table_of(all, subject, score.unit, style);

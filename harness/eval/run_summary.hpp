@@ -10,18 +10,14 @@
 
 namespace loopbench::harness {
 
-/// Runs of one method on one sequence; or on all of them, with empty `sequence`.
+/// Runs of one method on one sequence.
 struct RunSummary {
   std::string sequence;
   std::string method;
-  std::size_t runs = 0;       ///< with different data
-  std::size_t copies = 0;     ///< further runs, whose data are those of another; not counted
-  std::size_t successes = 0;  ///< runs with a value: sufficient coverage, no failure
-  double mean = 0.0;          ///< of the successes
-  double median = 0.0;
-  double smallest = 0.0;
-  double largest = 0.0;
-  std::optional<Interval> interval;  ///< 95 % of the pseudo-median; none below six successes
+  std::size_t runs = 0;              ///< with different data
+  std::size_t copies = 0;            ///< further runs, whose data are those of another; not counted
+  metrics::Statistics values;        ///< of the runs with sufficient coverage and without failure
+  std::optional<Interval> interval;  ///< 95 % of the pseudo-median; none below six values
 };
 
 /// Summaries of the score with the protocol, label, relation, axis and unit of `score`, by sequence
