@@ -32,7 +32,7 @@ Score single(std::string relation, std::string axis, std::string unit, double va
 
 std::vector<MetricEntry> metrics() {
   return {
-      metric<AteOptions>(
+      metric<NoOptions>(
           "ate", "absolute trajectory error: distance and rotation angle of each pose", ate),
       metric<AxisErrorOptions>("axis_error", "position error along x, y and z", axis_error),
       metric<ApeOptions>("ape", "absolute error in one of evo's pose relations", ape),

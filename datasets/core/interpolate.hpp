@@ -1,4 +1,4 @@
-/// Interpolation between two poses: linear with SLERP, or along a screw motion.
+/// Interpolation between two poses: linear with SLERP.
 #pragma once
 
 #include "datasets/core/se3.hpp"
@@ -14,12 +14,6 @@ inline Rotation slerp(const Rotation& a, const Rotation& b, double u) {
 /// Interpolation in SO(3) x R^3: linear in position, SLERP in rotation.
 inline Pose interpolate(const Pose& a, const Pose& b, double u) {
   return {slerp(a.rotation, b.rotation, u), a.translation + u * (b.translation - a.translation)};
-}
-
-/// Interpolation in SE(3) with constant body twist from a to b; exact for a circular arc of a
-/// wheeled vehicle.
-inline Pose interpolate_screw(const Pose& a, const Pose& b, double u) {
-  return a * exp_se3(u * log_se3(a.inverse() * b));
 }
 
 }  // namespace loopbench

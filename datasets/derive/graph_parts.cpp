@@ -163,12 +163,6 @@ void subsample_closures(std::vector<Edge>& closures, const Trajectory& poses, st
   closures = std::move(kept);
 }
 
-Edge compose(const Edge& a, const Edge& b) {
-  ComposedEdge composed(a);
-  composed.append(b);
-  return composed.edge(a.from, b.to);
-}
-
 std::vector<Edge> bridge(const std::vector<Edge>& chain, const std::vector<std::size_t>& kept) {
   std::vector<Edge> out;
   out.reserve(kept.size());

@@ -16,46 +16,32 @@ namespace {
 enum class Layout { se2, quaternion, euler, quaternion_and_scale };
 
 struct Tag {
-  const char* word;
-  bool is_edge;
-  GraphKind kind;
+  std::string_view word;
   Layout pose;
   const char* columns;  ///< for error messages
+
+  bool is_edge() const { return word.starts_with("EDGE"); }
+  GraphKind kind() const {
+    if (pose == Layout::se2) return GraphKind::planar;
+    return pose == Layout::quaternion_and_scale ? GraphKind::similarity : GraphKind::spatial;
+  }
 };
 
 constexpr std::array kTags{
-    Tag{"VERTEX_SE2", false, GraphKind::planar, Layout::se2, "5: VERTEX_SE2 id x y yaw"},
-    Tag{"EDGE_SE2",
-        true,
-        GraphKind::planar,
-        Layout::se2,
-        "12: EDGE_SE2 i j x y yaw and 6 of information"},
-    Tag{"VERTEX_SE3:QUAT",
-        false,
-        GraphKind::spatial,
-        Layout::quaternion,
-        "9: VERTEX_SE3:QUAT id x y z qx qy qz qw"},
+    Tag{"VERTEX_SE2", Layout::se2, "5: VERTEX_SE2 id x y yaw"},
+    Tag{"EDGE_SE2", Layout::se2, "12: EDGE_SE2 i j x y yaw and 6 of information"},
+    Tag{"VERTEX_SE3:QUAT", Layout::quaternion, "9: VERTEX_SE3:QUAT id x y z qx qy qz qw"},
     Tag{"EDGE_SE3:QUAT",
-        true,
-        GraphKind::spatial,
         Layout::quaternion,
         "31: EDGE_SE3:QUAT i j x y z qx qy qz qw and 21 of information"},
     Tag{"VERTEX_RST3:QUAT",
-        false,
-        GraphKind::similarity,
         Layout::quaternion_and_scale,
         "10: VERTEX_RST3:QUAT id x y z qx qy qz qw scale"},
     Tag{"EDGE_RST3:QUAT",
-        true,
-        GraphKind::similarity,
         Layout::quaternion_and_scale,
         "32 or 39: EDGE_RST3:QUAT i j x y z qx qy qz qw scale and 21 or 28 of information"},
-    Tag{"VERTEX3", false, GraphKind::spatial, Layout::euler, "8: VERTEX3 id x y z roll pitch yaw"},
-    Tag{"EDGE3",
-        true,
-        GraphKind::spatial,
-        Layout::euler,
-        "30: EDGE3 i j x y z roll pitch yaw and 21 of information"},
+    Tag{"VERTEX3", Layout::euler, "8: VERTEX3 id x y z roll pitch yaw"},
+    Tag{"EDGE3", Layout::euler, "30: EDGE3 i j x y z roll pitch yaw and 21 of information"},
 };
 
 const Tag& find_tag(const TextFile& file, const Line& line, std::string_view word) {
@@ -63,7 +49,7 @@ const Tag& find_tag(const TextFile& file, const Line& line, std::string_view wor
     if (tag.word == word) return tag;
   }
   std::string known;
-  for (const Tag& tag : kTags) known += std::string(known.empty() ? "" : ", ") + tag.word;
+  for (const Tag& tag : kTags) (known += known.empty() ? "" : ", ") += tag.word;
   const auto format = guess(file, line);
   throw file.error(line.number,
                    "unknown tag '" + std::string(word.substr(0, 40)) +
@@ -213,16 +199,9 @@ void read_edge(const TextFile& file, Record record, const Line& line, Records& o
   out.ends.push_back(ends);
 }
 
-/// Records of a part of a file, and its number of lines.
-struct Part {
-  Records records;
-  std::size_t lines = 0;
-};
-
-Part read_g2o_part(TextFile& file, RotationInformation rotation_information) {
+Records read_g2o_part(TextFile& file, RotationInformation rotation_information) {
   first_line(file);
-  Part part;
-  Records& out = part.records;
+  Records out;
   const Tag* first = nullptr;
   std::size_t first_line_number = 0;
   for (Line line; file.next(line);) {
@@ -232,16 +211,16 @@ Part read_g2o_part(TextFile& file, RotationInformation rotation_information) {
     if (first == nullptr) {
       first = &tag;
       first_line_number = line.number;
-      out.kind = tag.kind;
+      out.kind = tag.kind();
     }
-    if (tag.kind != out.kind) {
+    if (tag.kind() != out.kind) {
       throw file.error(line.number,
-                       "found " + std::string(tag.word) + " in a file with " + first->word +
-                           " on line " + std::to_string(first_line_number) +
-                           ", expected one kind of pose");
+                       "found " + std::string(tag.word) + " in a file with " +
+                           std::string(first->word) + " on line " +
+                           std::to_string(first_line_number) + ", expected one kind of pose");
     }
     const Record record(file, line, tag, rotation_information);
-    if (tag.is_edge) {
+    if (tag.is_edge()) {
       if (out.edges.empty()) {
         out.edges.reserve(file.estimated_lines(line));
         out.ends.reserve(file.estimated_lines(line));
@@ -253,27 +232,26 @@ Part read_g2o_part(TextFile& file, RotationInformation rotation_information) {
     }
   }
   if (first == nullptr) throw file.error(0, "contains no vertices and no edges");
-  part.lines = file.lines();
-  return part;
+  out.lines = file.lines();
+  return out;
 }
 
 }  // namespace
 
 Records read_records(TextFile& file, RotationInformation rotation_information) {
-  std::vector<Part> parts = read_parallel(
+  std::vector<Records> parts = read_parallel(
       file,
       [rotation_information](TextFile& part) { return read_g2o_part(part, rotation_information); },
-      [](const Part& a, const Part& b) { return a.records.kind == b.records.kind; });
-  Records out = std::move(parts.front().records);
-  std::size_t lines = parts.front().lines;
+      [](const Records& a, const Records& b) { return a.kind == b.kind; });
+  Records out = std::move(parts.front());
   for (std::size_t i = 1; i < parts.size(); ++i) {
-    Records& more = parts[i].records;
-    for (VertexRecord& vertex : more.vertices) vertex.line += lines;
-    for (EdgeEnds& ends : more.ends) ends.line += lines;
+    Records& more = parts[i];
+    for (VertexRecord& vertex : more.vertices) vertex.line += out.lines;
+    for (EdgeEnds& ends : more.ends) ends.line += out.lines;
     append(out.vertices, std::move(more.vertices));
     append(out.ends, std::move(more.ends));
     append(out.edges, std::move(more.edges));
-    lines += parts[i].lines;
+    out.lines += more.lines;
   }
   return out;
 }

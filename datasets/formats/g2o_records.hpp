@@ -31,6 +31,7 @@ struct Records {
   std::vector<VertexRecord> vertices;
   std::vector<EdgeEnds> ends;
   std::vector<Edge> edges;  ///< one per `ends`; indices not set, information of a twist
+  std::size_t lines = 0;    ///< of the part of the file
 };
 
 /// Reads every VERTEX and EDGE line; FIX lines are skipped. Throws InputError for unknown tags, a

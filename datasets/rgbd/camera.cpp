@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "datasets/formats/text_file.hpp"
@@ -24,72 +25,67 @@ std::string_view trimmed(std::string_view text) {
 
 constexpr int kMostPixelsAcross = 8192;  // wider images are beyond the limit of pixels
 
-struct Entry {
-  std::string_view key;
-  std::string_view value;
-};
-
-class Reader {
+/// One line `key: value`.
+class CameraLine {
  public:
-  Reader(const TextFile& file, const Line& line) : file_(file), line_(line) {}
-
-  Entry entry() const {
-    const std::string_view text = line_.text.substr(0, line_.text.find(" #"));
+  CameraLine(const TextFile& file, const Line& line) : file_(file), line_(line.number) {
+    const std::string_view text = line.text.substr(0, line.text.find(" #"));
     const std::size_t colon = text.find(':');
     if (colon == std::string_view::npos) {
-      throw file_.error(line_.number, fmt::format("found '{}', expected 'key: value'", text));
+      throw error(fmt::format("found '{}', expected 'key: value'", text));
     }
-    return {trimmed(text.substr(0, colon)), trimmed(text.substr(colon + 1))};
+    key_ = trimmed(text.substr(0, colon));
+    value_ = trimmed(text.substr(colon + 1));
   }
 
-  double number(const Entry& entry) const {
-    double value = 0.0;
-    const char* const end = entry.value.data() + entry.value.size();
-    const auto [stop, error] = std::from_chars(entry.value.data(), end, value);
-    if (error != std::errc{} || stop != end || !std::isfinite(value)) {
-      throw file_.error(line_.number,
-                        fmt::format("{} = '{}': expected a number", entry.key, entry.value));
-    }
-    return value;
-  }
+  std::string_view key() const { return key_; }
+  InputError error(const std::string& what) const { return file_.error(line_, what); }
 
-  double positive(const Entry& entry) const {
-    const double value = number(entry);
+  double positive() const {
+    const double value = number(value_);
     if (value > 0.0) return value;
-    throw file_.error(line_.number,
-                      fmt::format("{} = {}: expected {} > 0", entry.key, value, entry.key));
+    throw error(fmt::format("{} = {}: expected {} > 0", key_, value, key_));
   }
 
-  int pixels(const Entry& entry) const {
-    const double value = number(entry);
+  int pixels() const {
+    const double value = number(value_);
     if (value >= 1.0 && value <= kMostPixelsAcross && value == std::floor(value)) {
       return static_cast<int>(value);
     }
-    throw file_.error(
-        line_.number,
-        fmt::format(
-            "{} = {}: expected a whole number from 1 to {}", entry.key, value, kMostPixelsAcross));
+    throw error(fmt::format(
+        "{} = {}: expected a whole number from 1 to {}", key_, value, kMostPixelsAcross));
   }
 
-  std::vector<double> list(const Entry& entry) const {
-    std::string_view rest = entry.value;
+  std::vector<double> list() const {
+    std::string_view rest = value_;
     if (rest.size() < 2 || rest.front() != '[' || rest.back() != ']') {
-      throw file_.error(line_.number,
-                        fmt::format("{}: expected a list [k1, k2, p1, p2, k3]", entry.key));
+      throw error(fmt::format("{}: expected a list [k1, k2, p1, p2, k3]", key_));
     }
     rest = rest.substr(1, rest.size() - 2);
     std::vector<double> out;
     while (!trimmed(rest).empty()) {
       const std::size_t comma = rest.find(',');
-      out.push_back(number({entry.key, trimmed(rest.substr(0, comma))}));
+      out.push_back(number(trimmed(rest.substr(0, comma))));
       rest = comma == std::string_view::npos ? std::string_view() : rest.substr(comma + 1);
     }
     return out;
   }
 
  private:
+  double number(std::string_view text) const {
+    double value = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, code] = std::from_chars(text.data(), end, value);
+    if (code != std::errc{} || stop != end || !std::isfinite(value)) {
+      throw error(fmt::format("{} = '{}': expected a number", key_, text));
+    }
+    return value;
+  }
+
   const TextFile& file_;
-  const Line& line_;
+  std::size_t line_;
+  std::string_view key_;
+  std::string_view value_;
 };
 
 }  // namespace
@@ -97,25 +93,25 @@ class Reader {
 Camera read_camera(const std::filesystem::path& path) {
   TextFile file(path);
   Camera camera;
+  const std::pair<const char*, double*> lengths[] = {{"fx", &camera.fx},
+                                                     {"fy", &camera.fy},
+                                                     {"cx", &camera.cx},
+                                                     {"cy", &camera.cy},
+                                                     {"depth_scale", &camera.depth_scale}};
   std::set<std::string, std::less<>> keys;
-  Line line;
-  while (file.next(line)) {
-    const Reader reader(file, line);
-    const Entry entry = reader.entry();
-    if (!keys.emplace(entry.key).second) {
-      throw file.error(line.number,
-                       fmt::format("key {} is repeated, expected each key once", entry.key));
+  for (Line text; file.next(text);) {
+    const CameraLine line(file, text);
+    if (!keys.emplace(line.key()).second) {
+      throw line.error(fmt::format("key {} is repeated, expected each key once", line.key()));
     }
-    if (entry.key == "width") camera.width = reader.pixels(entry);
-    if (entry.key == "height") camera.height = reader.pixels(entry);
-    if (entry.key == "fx") camera.fx = reader.positive(entry);
-    if (entry.key == "fy") camera.fy = reader.positive(entry);
-    if (entry.key == "cx") camera.cx = reader.positive(entry);
-    if (entry.key == "cy") camera.cy = reader.positive(entry);
-    if (entry.key == "depth_scale") camera.depth_scale = reader.positive(entry);
-    if (entry.key == "distortion") {
-      std::vector<double> k = reader.list(entry);
-      if (k.size() > 5) throw file.error(line.number, "distortion: expected at most 5 numbers");
+    for (const auto& [key, value] : lengths) {
+      if (line.key() == key) *value = line.positive();
+    }
+    if (line.key() == "width") camera.width = line.pixels();
+    if (line.key() == "height") camera.height = line.pixels();
+    if (line.key() == "distortion") {
+      std::vector<double> k = line.list();
+      if (k.size() > 5) throw line.error("distortion: expected at most 5 numbers");
       k.resize(5, 0.0);
       camera.k1 = k[0], camera.k2 = k[1], camera.p1 = k[2], camera.p2 = k[3], camera.k3 = k[4];
     }

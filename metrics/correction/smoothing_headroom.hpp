@@ -26,7 +26,7 @@ void fields(SmoothingHeadroomOptions& o, Visit visit) {
 /// the magnitudes), gain [%] = 100 (1 - rmse after / rmse before). The gain is an upper bound for a
 /// smoother that removes only high-frequency error.
 ///
-/// `sharp` removes exactly the periods below `window` (low_pass.hpp). The error is interpolated
+/// `sharp` removes exactly the periods below `window`. The error is interpolated
 /// linearly on an even grid at least twice as dense as the poses, so `before` is ate weighted by
 /// time, and gaps are bridged linearly. `moving_average` models a simple smoother of that width: it
 /// also removes part of the lower frequencies, so its gain is larger. A drift has (nearly)

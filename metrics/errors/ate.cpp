@@ -6,7 +6,7 @@
 
 namespace loopbench::metrics {
 
-std::vector<Score> ate(const Evaluation& evaluation, const AteOptions&) {
+std::vector<Score> ate(const Evaluation& evaluation, const NoOptions&) {
   const std::size_t n = evaluation.reference.size();
   std::vector<double> metres(n);
   std::vector<double> degrees(n);

@@ -5,14 +5,9 @@
 
 namespace loopbench::metrics {
 
-struct AteOptions {};
-
-template <class Visit>
-void fields(AteOptions&, Visit) {}
-
 /// translation 3d [m]: |p_reference - p_estimate|; rotation 3d [deg]: angle between the two
 /// orientations, 0..180. evo's translation_part and rotation_angle_deg. Rotation is undefined for
 /// trajectories that hold only positions (position_only.hpp). O(n).
-std::vector<Score> ate(const Evaluation& evaluation, const AteOptions& options = {});
+std::vector<Score> ate(const Evaluation& evaluation, const NoOptions& options = {});
 
 }  // namespace loopbench::metrics

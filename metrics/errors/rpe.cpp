@@ -12,6 +12,14 @@
 namespace loopbench::metrics {
 namespace {
 
+/// The poses of reference and estimate at both ends of a pair.
+struct PairedPoses {
+  const Pose& Q_i;
+  const Pose& Q_j;
+  const Pose& P_i;
+  const Pose& P_j;
+};
+
 /// Visits the four poses of every pair.
 struct Motions {
   const Trajectory& reference;
@@ -27,24 +35,24 @@ struct Motions {
       return pose_of(printed_relative_pose(printed_relative_pose(Q[i], Q[j]),
                                            printed_relative_pose(P[i], P[j])));
     }
-    return motion_error(protocol.form,
-                        reference[i].world_from_body,
-                        reference[j].world_from_body,
-                        estimate[i].world_from_body,
-                        estimate[j].world_from_body);
+    const auto [Q_i, Q_j, P_i, P_j] = poses(i, j);
+    return motion_error(protocol.form, Q_i, Q_j, P_i, P_j);
   }
 
-  /// visit(k, E, Q_i, Q_j, P_i, P_j), multi-threaded: it may write only to slot k.
+  PairedPoses poses(std::size_t i, std::size_t j) const {
+    return {reference[i].world_from_body,
+            reference[j].world_from_body,
+            estimate[i].world_from_body,
+            estimate[j].world_from_body};
+  }
+
+  /// visit(k, E, poses), multi-threaded: it may write only to slot k.
   template <class Visit>
   void each(Visit visit) const {
     parallel_for_blocks(pairs.size(), [&](std::size_t k, std::size_t end) {
       for (; k < end; ++k) {
         const auto& [i, j] = pairs[k];
-        const Pose& Q_i = reference[i].world_from_body;
-        const Pose& Q_j = reference[j].world_from_body;
-        const Pose& P_i = estimate[i].world_from_body;
-        const Pose& P_j = estimate[j].world_from_body;
-        visit(k, error(i, j), Q_i, Q_j, P_i, P_j);
+        visit(k, error(i, j), poses(i, j));
       }
     });
   }
@@ -66,12 +74,8 @@ std::vector<Score> usual(const Motions& motions, RpeFrame frame) {
   std::vector<double> degrees(metres.size());
   std::array<std::vector<double>, 3> axes;
   for (std::vector<double>& axis : axes) axis.resize(metres.size());
-  motions.each([&](std::size_t k,
-                   const Pose& E,
-                   const Pose& Q_i,
-                   const Pose& Q_j,
-                   const Pose& P_i,
-                   const Pose& P_j) {
+  motions.each([&](std::size_t k, const Pose& E, const PairedPoses& poses) {
+    const auto& [Q_i, Q_j, P_i, P_j] = poses;
     metres[k] = E.translation.norm();
     degrees[k] = kDegrees * rotation_angle(motions.protocol.angle, E.rotation);
     const Vector3 change =
@@ -91,24 +95,20 @@ std::vector<Score> usual(const Motions& motions, RpeFrame frame) {
 
 std::vector<Score> rpy(const Motions& motions, RpeFrame frame) {
   Rpy out(motions.pairs.size());
-  motions.each(
-      [&](std::size_t k, const Pose& E, const Pose&, const Pose&, const Pose&, const Pose& P_j) {
-        Rotation rotation = E.rotation;
-        if (frame == RpeFrame::world) rotation = P_j.rotation * rotation * P_j.rotation.conjugate();
-        out.set(k, rotation);
-      });
+  motions.each([&](std::size_t k, const Pose& E, const PairedPoses& poses) {
+    Rotation rotation = E.rotation;
+    const Rotation& body = poses.P_j.rotation;
+    if (frame == RpeFrame::world) rotation = body * rotation * body.conjugate();
+    out.set(k, rotation);
+  });
   return out.scores(motions.protocol.ddof);
 }
 
 std::vector<double> distances(const Motions& motions, Relation relation) {
   constexpr double kLeftOut = -1.0;  // marks skipped pairs; distances are not negative
   std::vector<double> out(motions.pairs.size(), kLeftOut);
-  motions.each([&](std::size_t k,
-                   const Pose&,
-                   const Pose& Q_i,
-                   const Pose& Q_j,
-                   const Pose& P_i,
-                   const Pose& P_j) {
+  motions.each([&](std::size_t k, const Pose&, const PairedPoses& poses) {
+    const auto& [Q_i, Q_j, P_i, P_j] = poses;
     const double reference = (Q_j.translation - Q_i.translation).norm();
     const double difference = std::abs(reference - (P_j.translation - P_i.translation).norm());
     if (relation == Relation::point_distance) {
@@ -162,7 +162,7 @@ std::vector<Score> scores(const Motions& motions,
     require_pairs(errors.size(), poses, min_pairs, options, Measured::reference);
   } else {
     errors.resize(motions.pairs.size());
-    motions.each([&](std::size_t k, const Pose& E, const auto&...) {
+    motions.each([&](std::size_t k, const Pose& E, const PairedPoses&) {
       errors[k] = measure(relation, E, motions.protocol.angle);
     });
   }

@@ -76,9 +76,6 @@ TEST(So3, LeftJacobianIsTheDerivativeOfExp) {
     expect_jacobian("left", left_jacobian_so3(phi), [&](const Vector3& d) {
       return log_so3(exp_so3(phi + d) * back);
     });
-    expect_jacobian("right", right_jacobian_so3(phi), [&](const Vector3& d) {
-      return log_so3(back * exp_so3(phi + d));
-    });
   }
 }
 
@@ -97,16 +94,7 @@ TEST(So3, InverseLeftJacobianIsTheDerivativeOfLog) {
 TEST(So3, JacobianTimesInverseIsIdentity) {
   for (const Vector3& phi : awkward_rotations()) {
     const Matrix3 left = left_jacobian_so3(phi) * inverse_left_jacobian_so3(phi);
-    const Matrix3 right = right_jacobian_so3(phi) * inverse_right_jacobian_so3(phi);
     EXPECT_LE((left - Matrix3::Identity()).norm(), 3e-15) << phi.transpose();
-    EXPECT_LE((right - Matrix3::Identity()).norm(), 3e-15) << phi.transpose();
-  }
-}
-
-TEST(So3, LeftJacobianIsRotatedRightJacobian) {
-  for (const Vector3& phi : awkward_rotations()) {
-    const Matrix3 R = exp_so3(phi).toRotationMatrix();
-    EXPECT_LE((left_jacobian_so3(phi) - R * right_jacobian_so3(phi)).norm(), 3e-15);
   }
 }
 

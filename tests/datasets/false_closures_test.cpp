@@ -7,8 +7,8 @@
 
 #include "datasets/dataset.hpp"
 #include "tests/datasets/random_poses.hpp"
+#include "tests/datasets/scratch.hpp"
 #include "tests/support/refusal_of.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::false_closures_test {
 namespace {
@@ -64,17 +64,13 @@ TEST(FalseClosures, ProvenanceCountsWhatWasAdded) {
   folder.file("est.txt", poses);
   folder.file("loops.txt", "0 12 0 0 0 0 0 0 1\n1 7 0 0 0 0 0 0 1\n2 8 0 0 0 0 0 0 1\n");
   const auto closures = [&](double share) {
-    for (const DatasetEntry& entry : datasets()) {
-      if (entry.name != "trajectory") continue;
-      return entry
-          .load({{"estimate", "est.txt"},
-                 {"closures.source", "file"},
-                 {"closures.file", "loops.txt"},
-                 {"false_closures.share", share}},
-                {{folder.path()}})
-          .provenance.closures;
-    }
-    throw std::logic_error("no such dataset");
+    return load_dataset("trajectory",
+                        {{"estimate", "est.txt"},
+                         {"closures.source", "file"},
+                         {"closures.file", "loops.txt"},
+                         {"false_closures.share", share}},
+                        {{folder.path()}})
+        .provenance.closures;
   };
   EXPECT_EQ(closures(0.0), "file: loops.txt (3)");
   EXPECT_EQ(closures(0.5), "file: loops.txt (6), 3 of 6 false and added");

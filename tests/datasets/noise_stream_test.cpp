@@ -10,7 +10,7 @@
 #include "datasets/simulated/simulated.hpp"
 #include "datasets/trajectory_dataset.hpp"
 #include "tests/datasets/random_poses.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/datasets/scratch.hpp"
 
 namespace loopbench::noise_stream_test {
 namespace {
@@ -135,14 +135,9 @@ TEST(NoiseStream, AMovedFolderDrawsTheSameNoise) {
       text += std::to_string(i) + " " + std::to_string(std::abs(10 - i)) + " 0 0 0 0 0 1\n";
     }
     folder.file("est.txt", text);
-    for (const DatasetEntry& entry : datasets()) {
-      if (entry.name != "trajectory") continue;
-      const std::string file = (folder.path() / "est.txt").string();
-      return entry
-          .load({{"estimate", file}, {"reference", file}, {"closures.source", "reference"}}, {})
-          .problem.closures;
-    }
-    throw std::logic_error("no such dataset");
+    const std::string file = (folder.path() / "est.txt").string();
+    const Params given{{"estimate", file}, {"reference", file}, {"closures.source", "reference"}};
+    return load_dataset("trajectory", given).problem.closures;
   };
   const TemporaryFolder first, second;
   const std::vector<Edge> a = closures(first), b = closures(second);

@@ -6,8 +6,8 @@
 #include "datasets/derive/graph_parts.hpp"
 #include "datasets/derive/odometry.hpp"
 #include "tests/datasets/random_poses.hpp"
+#include "tests/datasets/scratch.hpp"
 #include "tests/support/refusal_of.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::pose_graph_dataset_test {
 namespace {
@@ -195,10 +195,7 @@ constexpr const char* kSquare =
     "EDGE_SE2 3 0 1.1 0 1.5707963267948966 1 0 0 1 0 1\n";
 
 Sequence load(const std::filesystem::path& folder, const Params& given) {
-  for (const DatasetEntry& entry : datasets()) {
-    if (entry.name == "pose_graph") return entry.load(given, {{folder}});
-  }
-  throw std::logic_error("no such dataset");
+  return load_dataset("pose_graph", given, {{folder}});
 }
 
 TEST(PoseGraphDataset, LoadsAPlanarGraphWithATruthOfEdges) {

@@ -8,6 +8,7 @@
 
 #include "datasets/dataset.hpp"
 #include "datasets/derive/poses_at.hpp"
+#include "tests/datasets/scratch.hpp"
 
 namespace loopbench::published_data_test {
 namespace {
@@ -26,10 +27,7 @@ class PublishedData : public testing::Test {
   }
 
   Sequence load(const std::string& name, const Params& given) {
-    for (const DatasetEntry& entry : datasets()) {
-      if (entry.name == name) return entry.load(given, root_);
-    }
-    throw std::logic_error("no dataset " + name);
+    return load_dataset(name, given, root_);
   }
 
   DataRoot root_;

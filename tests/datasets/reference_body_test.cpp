@@ -7,8 +7,8 @@
 
 #include "datasets/dataset.hpp"
 #include "tests/datasets/random_poses.hpp"
+#include "tests/datasets/scratch.hpp"
 #include "tests/support/refusal_of.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::reference_body_test {
 namespace {
@@ -45,21 +45,7 @@ TEST(ReferenceBody, UndoesEveryOffset) {
 
 TEST(ReferenceBody, SameBodyKeepsEveryBit) {
   const Trajectory truth = random_walk(20, 4, 1.0, 0.5);
-  const Trajectory same = to_estimate_body(truth, {});
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    EXPECT_EQ(same[i].world_from_body.rotation.coeffs(),
-              truth[i].world_from_body.rotation.coeffs());
-    EXPECT_EQ(same[i].world_from_body.translation, truth[i].world_from_body.translation);
-  }
-}
-
-Sequence loaded(const std::string& dataset,
-                const std::filesystem::path& folder,
-                const Params& given) {
-  for (const DatasetEntry& entry : datasets()) {
-    if (entry.name == dataset) return entry.load(given, {{folder}});
-  }
-  throw std::logic_error("no such dataset");
+  EXPECT_TRUE(same_bits(to_estimate_body(truth, {}), truth));
 }
 
 TEST(ReferenceBody, IsAnOptionOfTrajectoriesAndGraphs) {
@@ -68,14 +54,13 @@ TEST(ReferenceBody, IsAnOptionOfTrajectoriesAndGraphs) {
   folder.file("marker.txt", "0 2 0 0 0 0 0 1\n1 3 2 0 0 0 0.70710678118 0.70710678118\n");
   folder.file("vo.g2o", "EDGE_SE2 0 1 3 0 1.5707963267948966 1 0 0 1 0 1\n");
   folder.file("marker.g2o", "EDGE_SE2 0 1 1 2 1.5707963267948966 1 0 0 1 0 1\n");
-  const Sequence trajectory = loaded(
+  const DataRoot root{{folder.path()}};
+  const Sequence trajectory = load_dataset(
       "trajectory",
-      folder.path(),
-      {{"estimate", "estimate.txt"}, {"reference", "marker.txt"}, {"reference_body.x", 2.0}});
-  const Sequence graph =
-      loaded("pose_graph",
-             folder.path(),
-             {{"path", "vo.g2o"}, {"truth", "marker.g2o"}, {"reference_body.x", 2.0}});
+      {{"estimate", "estimate.txt"}, {"reference", "marker.txt"}, {"reference_body.x", 2.0}},
+      root);
+  const Sequence graph = load_dataset(
+      "pose_graph", {{"path", "vo.g2o"}, {"truth", "marker.g2o"}, {"reference_body.x", 2.0}}, root);
   for (const Sequence& sequence : {trajectory, graph}) {
     ASSERT_EQ(sequence.reference.size(), 2u);
     const Pose step =
@@ -83,9 +68,10 @@ TEST(ReferenceBody, IsAnOptionOfTrajectoriesAndGraphs) {
     EXPECT_TRUE(step.translation.isApprox(Vector3(3.0, 0.0, 0.0), 1e-9)) << step.translation;
   }
   const auto refusal = refusal_of([&] {
-    loaded("trajectory",
-           folder.path(),
-           {{"estimate", "estimate.txt"}, {"reference", "marker.txt"}, {"reference_body.qx", 1.0}});
+    load_dataset(
+        "trajectory",
+        {{"estimate", "estimate.txt"}, {"reference", "marker.txt"}, {"reference_body.qx", 1.0}},
+        root);
   });
   EXPECT_THAT(refusal, HasSubstr("expected a unit quaternion"));
 }

@@ -1,10 +1,11 @@
-/// Helpers of the tests on files: samples, pipes and error messages.
+/// Helpers of the tests on files and datasets: samples, pipes, error messages.
 #pragma once
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -12,7 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "datasets/core/error.hpp"
+#include "datasets/dataset.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
@@ -49,6 +50,23 @@ inline std::string content(const std::filesystem::path& file) {
   std::ostringstream out;
   out << std::ifstream(file, std::ios::binary).rdbuf();
   return out.str();
+}
+
+/// Loads a sequence as a config does.
+inline Sequence load_dataset(const std::string& name,
+                             const Params& given,
+                             const DataRoot& root = {}) {
+  for (const DatasetEntry& entry : datasets()) {
+    if (entry.name == name) return entry.load(given, root);
+  }
+  throw std::logic_error("no dataset " + name);
+}
+
+inline bool same_bits(const Trajectory& a, const Trajectory& b) {
+  return std::ranges::equal(a, b, [](const StampedPose& x, const StampedPose& y) {
+    return x.stamp == y.stamp && x.world_from_body.translation == y.world_from_body.translation &&
+           x.world_from_body.rotation.coeffs() == y.world_from_body.rotation.coeffs();
+  });
 }
 
 /// Returns the message of the InputError thrown by `act`. The test fails without an InputError.

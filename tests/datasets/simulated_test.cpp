@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "datasets/core/polyline.hpp"
+#include "tests/datasets/scratch.hpp"
 
 namespace loopbench::simulated_test {
 namespace {
@@ -25,12 +26,7 @@ std::string refusal(const Params& given) {
   return "";
 }
 
-bool same_bits(const Trajectory& a, const Trajectory& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-    return x.stamp == y.stamp && x.world_from_body.translation == y.world_from_body.translation &&
-           x.world_from_body.rotation.coeffs() == y.world_from_body.rotation.coeffs();
-  });
-}
+using loopbench::same_bits;  // of trajectories
 
 bool same_bits(const std::vector<Edge>& a, const std::vector<Edge>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Edge& x, const Edge& y) {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "tests/datasets/random_poses.hpp"
+#include "tests/datasets/scratch.hpp"
 #include "tests/support/refusal_of.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::trajectory_dataset_test {
 namespace {
@@ -116,10 +116,7 @@ std::string walk() {
 }
 
 Sequence load(const std::filesystem::path& folder, const Params& given) {
-  for (const DatasetEntry& entry : datasets()) {
-    if (entry.name == "trajectory") return entry.load(given, {{folder}});
-  }
-  throw std::logic_error("no such dataset");
+  return load_dataset("trajectory", given, {{folder}});
 }
 
 TEST(TrajectoryDataset, LoadsFilesAndTellsWhereAllCameFrom) {

@@ -25,14 +25,6 @@ Trajectory wild_trajectory(std::size_t count) {
   return out;
 }
 
-bool same_bits(const Trajectory& a, const Trajectory& b) {
-  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](auto& x, auto& y) {
-           return x.stamp == y.stamp &&
-                  x.world_from_body.translation == y.world_from_body.translation &&
-                  x.world_from_body.rotation.coeffs() == y.world_from_body.rotation.coeffs();
-         });
-}
-
 TEST(Tum, ReadsStampPositionQuaternion) {
   const Trajectory poses = read_trajectory(sample("good/tum.txt"));
   ASSERT_EQ(poses.size(), 3u);

@@ -7,7 +7,6 @@
 #include "datasets/core/cubic.hpp"
 #include "datasets/formats/formats.hpp"
 #include "metrics/correction/interpolation_floor.hpp"
-#include "metrics/correction/low_pass.hpp"
 #include "metrics/correction/smoothing_headroom.hpp"
 #include "support.hpp"
 
@@ -86,13 +85,18 @@ TEST(SmoothingHeadroom, RefusesNoErrorAndNoTime) {
             "smoothing_headroom: needs two poses with different stamps");
 }
 
-TEST(MovingAverage, ByHandShrinksAtTheEndsAndBesideHoles) {
-  const Series series{
-      {0.0, 1.0, 2.0, 3.0, 10.0, 11.0, 12.0},
-      {{1, 0, 0}, {4, 0, 0}, {1, 0, 0}, {9, 0, 0}, {5, 0, 0}, {8, 0, 0}, {2, 0, 0}}};
-  std::vector<double> x;
-  for (const Vector3& mean : moving_average(series, 2.0)) x.push_back(mean.x());
-  EXPECT_EQ(x, (std::vector<double>{1.0, 2.0, 14.0 / 3.0, 9.0, 5.0, 5.0, 2.0}));
+TEST(SmoothingHeadroom, MovingAverageShrinksAtTheEndsAndBesideHoles) {
+  const std::vector<double> errors{1, 4, 1, 9, 5, 8, 2};
+  Evaluation e;
+  for (const double stamp : {0.0, 1.0, 2.0, 3.0, 10.0, 11.0, 12.0}) {
+    e.reference.push_back({stamp, {}});
+    e.estimate.push_back({stamp, {Rotation::Identity(), {errors[e.estimate.size()], 0, 0}}});
+  }
+  const auto scores = smoothing_headroom(e, {.window = 2.0, .filter = Filter::moving_average});
+  const Statistics after = find(scores, "after", "3d");  // 1, 2, 14 / 3, 9, 5, 5, 2
+  EXPECT_EQ(after.max, 9.0);
+  EXPECT_EQ(after.median, 14.0 / 3.0);
+  EXPECT_NEAR(after.sse, 1.0 + 4.0 + 196.0 / 9.0 + 81.0 + 25.0 + 25.0 + 4.0, 1e-12);
 }
 
 // An independent cosine transform in another language gives 1.935, 4.617, 11.686 % on a grid of

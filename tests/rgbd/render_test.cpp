@@ -3,7 +3,6 @@
 
 #include "datasets/rgbd/render/rendered_room.hpp"
 #include "datasets/rgbd/render/scene.hpp"
-#include "datasets/rgbd/render/sensor.hpp"
 
 namespace loopbench::render_test {
 
