@@ -60,50 +60,38 @@ std::string all_of(std::FILE* file, const std::string& name, std::size_t limit) 
   return out;
 }
 
-/// A file in memory.
-class MemoryFile {
- public:
-  explicit MemoryFile(std::string name)
-      : name_(std::move(name)), file_(memfd_create("loopbench", MFD_CLOEXEC)) {
-    if (file_ < 0) throw unreadable(name_);
-    handle_ = std::shared_ptr<const int>(new int(file_), [](const int* file) {
-      close(*file);
-      delete file;
-    });
-  }
-
-  void append(std::string_view bytes) {
-    while (!bytes.empty()) {
-      const ssize_t count = write(file_, bytes.data(), bytes.size());
-      if (count < 0) throw unreadable(name_);
-      bytes.remove_prefix(static_cast<std::size_t>(count));
-      size_ += static_cast<std::size_t>(count);
-    }
-  }
-
-  OpenedFile opened() const {
-    return {name_, "/proc/self/fd/" + std::to_string(file_), size_, handle_};
-  }
-
- private:
-  std::string name_;
-  int file_;
-  std::size_t size_ = 0;
-  std::shared_ptr<const void> handle_;
-};
+/// An empty file in memory; `file` is set to its descriptor.
+OpenedFile memory_file(const std::string& name, int& file) {
+  file = memfd_create("loopbench", MFD_CLOEXEC);
+  if (file < 0) throw unreadable(name);
+  std::shared_ptr<const void> closes(new int(file), [](const int* descriptor) {
+    close(*descriptor);
+    delete descriptor;
+  });
+  return {name, "/proc/self/fd/" + std::to_string(file), 0, std::move(closes)};
+}
 
 /// The content in memory, decompressed if it is compressed.
 OpenedFile expanded(const std::string& name, const std::string& content, std::size_t limit) {
-  MemoryFile out(name);
+  int file = -1;
+  OpenedFile out = memory_file(name, file);
+  const auto append = [&](std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t count = write(file, bytes.data(), bytes.size());
+      if (count < 0) throw unreadable(name);
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+      out.size += static_cast<std::size_t>(count);
+    }
+  };
   const std::optional<Codec> codec = codec_of(content);
   if (!codec) {
-    out.append(content);
-    return out.opened();
+    append(content);
+    return out;
   }
   const std::size_t most =
       std::min({limit, kMostInMemory, std::max(kAnyExpansion, kMostExpansion * content.size())});
   try {
-    decompress(*codec, content, most, [&](std::string_view part) { out.append(part); });
+    decompress(*codec, content, most, append);
   } catch (const ExpandsTooFar& reason) {
     throw input_error(name,
                       0,
@@ -112,7 +100,7 @@ OpenedFile expanded(const std::string& name, const std::string& content, std::si
   } catch (const DamagedStream& damage) {
     throw input_error(name, 0, std::string("cannot be decompressed: ") + damage.what());
   }
-  return out.opened();
+  return out;
 }
 
 /// Content of pipes, which can be read only once.
@@ -165,7 +153,7 @@ OpenedFile open_input(const std::filesystem::path& file,
                       const std::string& expected,
                       std::size_t limit) {
   OpenedFile out{file.string(), file.string()};
-  if (is_standard_input(file)) {
+  if (file == "-") {
     out = from_pipe("-", limit);
     out.name = "standard input";
   } else {

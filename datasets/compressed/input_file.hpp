@@ -21,9 +21,6 @@ struct OpenedFile {
   InputError error(const std::string& what) const { return input_error(name, 0, what); }
 };
 
-/// Whether the name stands for standard input.
-inline bool is_standard_input(const std::filesystem::path& file) { return file == "-"; }
-
 /// Whether the file is a pipe with a name, where opening waits for a writer. Pipes that a shell has
 /// connected (/dev/stdin, /dev/fd/N) are none.
 bool is_named_pipe(const std::filesystem::path& file);

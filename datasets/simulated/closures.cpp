@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "datasets/derive/odometry.hpp"
 #include "datasets/random.hpp"
 #include "datasets/simulated/odometry.hpp"
 
@@ -23,7 +22,10 @@ std::vector<Revisit> subsampled(const std::vector<Revisit>& pairs, std::size_t c
 Matrix6 information(const SimulatedClosures& options) {
   const double sigma_t = std::max(options.sigma_t, kSigmaFloor);
   const double sigma_r = std::max(options.sigma_r, kSigmaFloor);
-  return isotropic_information(sigma_t * sigma_t, sigma_r * sigma_r);
+  Matrix6 out = Matrix6::Zero();
+  out.diagonal().head<3>().setConstant(1.0 / (sigma_t * sigma_t));
+  out.diagonal().tail<3>().setConstant(1.0 / (sigma_r * sigma_r));
+  return out;
 }
 
 /// Draws a pair of keyframes at different places, at least min_gap apart in time.
