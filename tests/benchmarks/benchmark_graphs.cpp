@@ -71,8 +71,7 @@ void factorise(const Problem& problem, benchmark::State& state) {
   state.counters["MB"] = test::peak_megabytes() - before;
 }
 
-void solve(const Problem& problem, benchmark::State& state) {
-  const PoseGraphOptimizer method({.start = PoseGraphOptimizer::Start::chordal});
+void correct(const Corrector& method, const Problem& problem, benchmark::State& state) {
   Report report;
   const double before = test::reset_peak();
   for (auto _ : state) {
@@ -80,20 +79,6 @@ void solve(const Problem& problem, benchmark::State& state) {
     benchmark::DoNotOptimize(method.correct(problem, report));
   }
   state.counters["MB"] = test::peak_megabytes() - before;
-  for (const Count& count : report.counts) {
-    if (count.name == "iterations") state.counters["iterations"] = count.value;
-    if (count.name == "cost") state.counters["chi2"] = 2.0 * count.value;
-  }
-}
-
-/// A method with default options on a real chain.
-template <class Method>
-void correct(const Problem& problem, benchmark::State& state) {
-  Report report;
-  for (auto _ : state) {
-    report = {};
-    benchmark::DoNotOptimize(Method({}).correct(problem, report));
-  }
   for (const Count& count : report.counts) {
     if (count.name == "iterations") state.counters["iterations"] = count.value;
     if (count.name == "cost") state.counters["chi2"] = 2.0 * count.value;
@@ -108,6 +93,14 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   const char* root = std::getenv("LOOPBENCH_DATA");
   std::map<std::string, Problem> problems;
+  const Dual dual({});
+  const PoseGraphOptimizer pose_graph({});
+  const PoseGraphOptimizer chordal({.start = PoseGraphOptimizer::Start::chordal});
+  const auto time = [](const std::string& name, auto run) {
+    benchmark::RegisterBenchmark(name.c_str(), run)
+        ->MeasureProcessCPUTime()
+        ->Unit(benchmark::kMillisecond);
+  };
   for (const std::string name : {"intel",
                                  "INTEL_1228_with_vertices",
                                  "M3500_with_vertices",
@@ -121,15 +114,9 @@ int main(int argc, char** argv) {
     try {
       const Problem& problem =
           problems.emplace(name, load_pose_graph(options, {{root}}).problem).first->second;
-      const auto time = [&](const char* step, auto run) {
-        benchmark::RegisterBenchmark(
-            (step + (" " + name)).c_str(),
-            [&problem, run](benchmark::State& state) { run(problem, state); })
-            ->MeasureProcessCPUTime()
-            ->Unit(benchmark::kMillisecond);
-      };
-      time("factorise", factorise);
-      time("pose_graph", solve);
+      time("factorise " + name, [&](benchmark::State& state) { factorise(problem, state); });
+      time("pose_graph " + name,
+           [&](benchmark::State& state) { correct(chordal, problem, state); });
     } catch (const DataMissing& missing) {
       std::cerr << missing.what() << '\n';
     }
@@ -141,14 +128,9 @@ int main(int argc, char** argv) {
     if (root == nullptr) throw DataMissing("LOOPBENCH_DATA is not set");
     const Problem& problem =
         problems.emplace("KITTI_00", load_pose_graph(options, {{root}}).problem).first->second;
-    const auto time = [&](const char* name, auto run) {
-      benchmark::RegisterBenchmark(
-          name, [&problem, run](benchmark::State& state) { run(problem, state); })
-          ->MeasureProcessCPUTime()
-          ->Unit(benchmark::kMillisecond);
-    };
-    time("chain KITTI_00 dual", correct<Dual>);
-    time("chain KITTI_00 pose_graph", correct<PoseGraphOptimizer>);
+    time("chain KITTI_00 dual", [&](benchmark::State& state) { correct(dual, problem, state); });
+    time("chain KITTI_00 pose_graph",
+         [&](benchmark::State& state) { correct(pose_graph, problem, state); });
   } catch (const DataMissing& missing) {
     std::cerr << missing.what() << '\n';
   }
