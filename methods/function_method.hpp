@@ -1,7 +1,7 @@
 /// Methods without options from functions.
 #pragma once
 
-#include <concepts>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -10,81 +10,70 @@
 
 namespace loopbench::methods {
 
-/// A corrector: returns one pose per keyframe.
-template <class F>
-concept CorrectingFunction = requires(const F& f, const Problem& problem) {
-  { f(problem) } -> std::convertible_to<Trajectory>;
-};
+/// Returns one pose per keyframe.
+using CorrectingFunction = std::function<Trajectory(const Problem&)>;
 
-/// A smoother or a joint method: returns a curve over the keyframes.
-template <class F>
-concept EstimatingFunction = requires(const F& f, const Problem& problem) {
-  { f(problem) } -> std::convertible_to<std::unique_ptr<const Curve>>;
-};
+/// Returns a curve over the keyframes.
+using CurveFunction = std::function<std::unique_ptr<const Curve>(const Problem&)>;
 
-template <CorrectingFunction F>
 class FunctionCorrector final : public Corrector {
  public:
-  explicit FunctionCorrector(F function) : function_(std::move(function)) {}
+  explicit FunctionCorrector(CorrectingFunction function) : function_(std::move(function)) {}
   Trajectory correct(const Problem& problem, Report&) const override { return function_(problem); }
 
  private:
-  F function_;
+  CorrectingFunction function_;
 };
 
-template <EstimatingFunction F>
 class FunctionSmoother final : public Smoother {
  public:
-  explicit FunctionSmoother(F function) : function_(std::move(function)) {}
+  explicit FunctionSmoother(CurveFunction function) : function_(std::move(function)) {}
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report&) const override {
     return function_(problem);
   }
 
  private:
-  F function_;
+  CurveFunction function_;
 };
 
-template <EstimatingFunction F>
 class FunctionMethod final : public Estimator {
  public:
-  explicit FunctionMethod(F function) : function_(std::move(function)) {}
+  explicit FunctionMethod(CurveFunction function) : function_(std::move(function)) {}
   std::unique_ptr<const Curve> estimate(const Problem& problem, Report&) const override {
     return function_(problem);
   }
 
  private:
-  F function_;
+  CurveFunction function_;
 };
 
-/// An entry whose stage is the `Base` that `T` wraps around the function.
-template <class Base, class T, class F>
-MethodEntry function_entry(std::string name, Kind kind, std::string summary, F function) {
-  MethodEntry out{std::move(name), kind, std::move(summary), {}, {}};
-  out.make = [function](const Params& given) -> Stage {
+/// An entry whose stage is a `T`, one of the classes above, of the function.
+template <class T, class Function>
+MethodEntry function_entry(std::string name, Kind kind, std::string summary, Function function) {
+  const auto make = [function = std::move(function)](const Params& given) -> Stage {
     with(NoOptions{}, given);  // rejects all options
-    return std::unique_ptr<const Base>(std::make_unique<T>(function));
+    return std::make_unique<const T>(function);
   };
-  return out;
+  return {std::move(name), kind, std::move(summary), {}, make};
 }
 
 /// An entry without options: method("mine", "what it computes", [](const Problem& problem) { ...
 /// return poses; }). Throw metrics::Undefined from the function if it is not applicable.
-template <CorrectingFunction F>
-MethodEntry method(std::string name, std::string summary, F function) {
-  return function_entry<Corrector, FunctionCorrector<F>>(
-      std::move(name), Kind::corrector, std::move(summary), std::move(function));
+inline MethodEntry method(std::string name, std::string summary, CorrectingFunction correct) {
+  return function_entry<FunctionCorrector>(
+      std::move(name), Kind::corrector, std::move(summary), std::move(correct));
 }
-template <EstimatingFunction F>
-MethodEntry method(std::string name, std::string summary, F function) {
-  return function_entry<Estimator, FunctionMethod<F>>(
-      std::move(name), Kind::joint, std::move(summary), std::move(function));
+
+/// The same for a joint method: the function returns a curve over the keyframes.
+inline MethodEntry method(std::string name, std::string summary, CurveFunction estimate) {
+  return function_entry<FunctionMethod>(
+      std::move(name), Kind::joint, std::move(summary), std::move(estimate));
 }
 
 /// The same for a smoother: the function returns a curve through or near the keyframes.
-template <EstimatingFunction F>
-MethodEntry smoother(std::string name, std::string summary, F function) {
-  return function_entry<Smoother, FunctionSmoother<F>>(
-      std::move(name), Kind::smoother, std::move(summary), std::move(function));
+inline MethodEntry smoother(std::string name, std::string summary, CurveFunction smooth) {
+  return function_entry<FunctionSmoother>(
+      std::move(name), Kind::smoother, std::move(summary), std::move(smooth));
 }
 
 }  // namespace loopbench::methods

@@ -7,7 +7,7 @@
 #include "datasets/core/fields.hpp"
 #include "harness/python/arrays.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
-#include "methods/smoothers/manifold/families/polynomial.hpp"
+#include "methods/smoothers/manifold/families/graph.hpp"
 #include "methods/smoothers/manifold/fit_axes.hpp"
 #include "methods/smoothers/manifold/planar.hpp"
 #include "methods/smoothers/manifold/psi.hpp"

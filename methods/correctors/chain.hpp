@@ -27,13 +27,14 @@ inline std::string chain_fault(const Problem& problem) {
   return "";
 }
 
-/// Returns why a chain cannot be corrected by at most `max_closures` loops, or an empty text.
-/// O(n).
-inline std::string loops_fault(const Problem& problem, int max_closures) {
+/// Returns why a chain cannot be corrected by at most `max_closures` loops, or an empty text. O(n).
+inline std::string loops_fault(const Problem& problem,
+                               std::int64_t max_closures,
+                               const std::string& option = "max_closures") {
   if (problem.closures.empty()) return "the problem has no loop closures";
   if (problem.closures.size() > static_cast<std::size_t>(max_closures)) {
-    return std::to_string(problem.closures.size()) +
-           " closures exceed max_closures = " + std::to_string(max_closures);
+    return std::to_string(problem.closures.size()) + " closures exceed " + option + " = " +
+           std::to_string(max_closures);
   }
   return chain_fault(problem);
 }

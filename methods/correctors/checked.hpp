@@ -32,12 +32,8 @@ class PairwiseConsistent final : public Corrector {
       : max_closures_(options.max_closures), base_(options.base) {}
 
   std::string why_declined(const Problem& problem) const override {
-    if (problem.closures.empty()) return "the problem has no loop closures";
-    if (std::string fault = chain_fault(problem); !fault.empty()) return fault;
-    if (problem.closures.size() > static_cast<std::size_t>(max_closures_)) {
-      return std::to_string(problem.closures.size()) +
-             " closures exceed pcm.max_closures = " + std::to_string(max_closures_);
-    }
+    std::string fault = loops_fault(problem, max_closures_, "pcm.max_closures");
+    if (!fault.empty()) return fault;
     // What the base declines with a single closure, it declines with any of them.
     return base_.why_declined(
         {problem.keyframes, problem.odometry, {problem.closures.front()}, {}, problem.planar});

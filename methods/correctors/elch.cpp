@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <queue>
+#include <utility>
 
 namespace loopbench::methods {
 namespace {
@@ -37,32 +37,27 @@ class LoopGraph {
   }
 
  private:
-  /// Dijkstra's algorithm from several sources. before[i] is the predecessor of i, or i for a
-  /// source.
+  /// Numbers of edges from the nearest source, by breadth-first search. before[i] is the
+  /// predecessor of i, the one with the lowest index, or i for a source.
   std::vector<double> distances(const std::vector<std::size_t>& sources,
                                 std::vector<std::size_t>& before) const {
     std::vector<double> out(shortcuts_.size(), std::numeric_limits<double>::infinity());
-    using Entry = std::pair<double, std::size_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    for (const std::size_t s : sources) {
-      out[s] = 0.0;
-      before[s] = s;
-      queue.push({0.0, s});
-    }
-    while (!queue.empty()) {
-      const auto [distance, i] = queue.top();
-      queue.pop();
-      if (distance > out[i]) continue;
-      const auto relax = [&, at = i, one_farther = distance + 1.0](std::size_t to) {
-        if (one_farther < out[to]) {
-          out[to] = one_farther;
-          before[to] = at;
-          queue.push({out[to], to});
-        }
-      };
-      if (i > 0) relax(i - 1);
-      if (i + 1 < shortcuts_.size()) relax(i + 1);
-      for (const std::size_t to : shortcuts_[i]) relax(to);
+    std::vector<std::size_t> reached;
+    const auto reach = [&](std::size_t to, std::size_t from, double distance) {
+      if (distance >= out[to]) return;
+      out[to] = distance;
+      before[to] = from;
+      reached.push_back(to);
+    };
+    for (const std::size_t s : sources) reach(s, s, 0.0);
+    for (double distance = 1.0; !reached.empty(); ++distance) {
+      std::vector<std::size_t> last = std::exchange(reached, {});
+      std::ranges::sort(last);
+      for (const std::size_t i : last) {
+        if (i > 0) reach(i - 1, i, distance);
+        if (i + 1 < shortcuts_.size()) reach(i + 1, i, distance);
+        for (const std::size_t to : shortcuts_[i]) reach(to, i, distance);
+      }
     }
     return out;
   }
@@ -80,11 +75,6 @@ void distribute_error(Trajectory& poses, const Edge& loop, const std::vector<dou
 }
 
 }  // namespace
-
-std::string Elch::why_declined(const Problem& problem) const {
-  if (problem.closures.empty()) return "the problem has no loop closures";
-  return "";
-}
 
 Trajectory Elch::correct(const Problem& problem, Report& report) const {
   check_closures(problem, "elch");

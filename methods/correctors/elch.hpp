@@ -2,7 +2,6 @@
 #pragma once
 
 #include "methods/correctors/shares.hpp"
-#include "methods/method.hpp"
 
 namespace loopbench::methods {
 
@@ -19,19 +18,14 @@ namespace loopbench::methods {
 /// Source: Sprickerhof, Nuechter, Lingemann, Hertzberg, ECMR 2009. The pivot is the loop's start
 /// instead of the world's origin as in common code, so the result does not depend on the world
 /// frame.
-class Elch final : public Corrector {
+class Elch final : public LoopCorrector {
  public:
-  struct Options {};
+  using Options = NoOptions;
   explicit Elch(const Options&) {}
-
-  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `closures`, `largest_closing_error` [m]. Throws std::runtime_error when closures are
   /// not sorted by (to, from) or refer to a missing keyframe.
   Trajectory correct(const Problem& problem, Report& report) const override;
 };
-
-template <class Visit>
-void fields(Elch::Options&, Visit) {}
 
 }  // namespace loopbench::methods

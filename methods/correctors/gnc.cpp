@@ -17,12 +17,6 @@ namespace {
 /// minimum differ by less. [-]
 constexpr double kSameMinimum = 0.999;
 
-/// Number of closures with a weight above one half; the others count as rejected.
-std::size_t kept_count(const std::vector<double>& weights) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(weights, [](double weight) { return weight > 0.5; }));
-}
-
 /// Returns the indices of the consistent closures, or none when the check is not applicable.
 std::vector<std::size_t> indices_of_consistent(const Problem& problem) {
   if (problem.closures.size() > static_cast<std::size_t>(kMaxComparedClosures)) {
@@ -119,6 +113,11 @@ class GncRuns {
 };
 
 }  // namespace
+
+std::size_t kept_count(const std::vector<double>& weights) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(weights, [](double weight) { return weight > 0.5; }));
+}
 
 double gnc_weight(Gnc kind, double squared, double c2, double mu) {
   if (kind == Gnc::gm) {

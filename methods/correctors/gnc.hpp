@@ -57,6 +57,9 @@ struct GncSolution {
   double cost_before = 0.0;
 };
 
+/// Number of closures with a weight above one half; the others count as rejected.
+std::size_t kept_count(const std::vector<double>& weights);
+
 /// Starts from the pairwise consistent closures (consistency.hpp), with initial values computed
 /// from them alone because a relaxation with false closures is biased. Starts from all closures
 /// when no consistent set is available: the odometry is not a complete chain, edges change the

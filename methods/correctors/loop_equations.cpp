@@ -3,15 +3,15 @@
 #include <stdexcept>
 
 namespace loopbench::methods {
-namespace {
 
-/// The six entries of closure k.
-template <class Vector>
-auto of_loop(Vector& all, std::size_t k) {
-  return all.template segment<6>(static_cast<Eigen::Index>(6 * k));
+std::vector<Eigen::Index> gap_rows(const std::vector<std::size_t>& closures, bool planar) {
+  const std::vector<int> axes = planar ? std::vector{0, 1, 5} : std::vector{0, 1, 2, 3, 4, 5};
+  std::vector<Eigen::Index> out;
+  for (const std::size_t k : closures) {
+    for (const int axis : axes) out.push_back(static_cast<Eigen::Index>(6 * k) + axis);
+  }
+  return out;
 }
-
-}  // namespace
 
 LoopEquations loop_equations(LoopJacobian jacobian,
                              const LoopSums& sums,
@@ -71,7 +71,7 @@ Eigen::VectorXd loop_error_change(const LoopJacobian& jacobian,
       running_sum(sums, [&](std::size_t i) -> Twist { return jacobian.edge[i] * errors[i]; });
   Eigen::VectorXd out(static_cast<Eigen::Index>(6 * sums.loops()));
   for (std::size_t k = 0; k < sums.loops(); ++k) {
-    of_loop(out, k) = jacobian.loop[k] * sums.over(running, k);
+    of_closure(out, k) = jacobian.loop[k] * sums.over(running, k);
   }
   return out;
 }
@@ -81,7 +81,7 @@ std::vector<Twist> constraint_force_increments(const LoopJacobian& jacobian,
                                                const Eigen::VectorXd& lambda) {
   std::vector<Twist> out(jacobian.edge.size() + 1, Twist::Zero());
   for (std::size_t k = 0; k < closures.size(); ++k) {
-    const Twist pull = jacobian.loop[k].transpose() * of_loop(lambda, k);
+    const Twist pull = jacobian.loop[k].transpose() * of_closure(lambda, k);
     out[closures[k].from] += pull;
     out[closures[k].to] -= pull;
   }

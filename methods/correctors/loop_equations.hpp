@@ -79,6 +79,15 @@ struct LoopJacobian {
   Eigen::VectorXd gap;  ///< c, six numbers per closure
 };
 
+/// The six entries of closure k in a vector over all closures.
+template <class Vector>
+auto of_closure(Vector& all, std::size_t k) {
+  return all.template segment<6>(static_cast<Eigen::Index>(6 * k));
+}
+
+/// Rows of the gap vector that belong to `closures`: six per closure, or x, y and yaw if planar.
+std::vector<Eigen::Index> gap_rows(const std::vector<std::size_t>& closures, bool planar);
+
 /// Odometry errors e_i and drift rates beta_j.
 struct Corrections {
   std::vector<Twist> errors;

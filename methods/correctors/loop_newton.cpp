@@ -32,8 +32,7 @@ class NewtonSystem {
         edges_(jacobian_.edge.size()) {
     const Eigen::VectorXd lambda = equations.factor.solve(jacobian_.gap);
     for (std::size_t k = 0; k < closures.size(); ++k) {
-      wrench_of_.push_back(jacobian_.loop[k].transpose() *
-                           lambda.segment<6>(static_cast<Eigen::Index>(6 * k)));
+      wrench_of_.push_back(jacobian_.loop[k].transpose() * of_closure(lambda, k));
     }
     wrench_ = constraint_force_increments(jacobian_, closures, lambda);
     for (std::size_t i = 1; i < wrench_.size(); ++i) wrench_[i] += wrench_[i - 1];

@@ -19,7 +19,7 @@ Corrections add_scaled(Corrections a, double share, const Corrections& b) {
 double loop_squares(const Eigen::VectorXd& loop_errors, const NoiseModel& noise_model) {
   double sum = 0.0;
   for (std::size_t k = 0; k < noise_model.closure_information.size(); ++k) {
-    const Twist eta = loop_errors.segment<6>(static_cast<Eigen::Index>(6 * k));
+    const Twist eta = of_closure(loop_errors, k);
     sum += eta.dot(noise_model.closure_information[k] * eta);
   }
   return sum;
@@ -168,8 +168,7 @@ Eigen::VectorXd LoopedChain::loop_errors(const std::vector<Pose>& poses) const {
   Eigen::VectorXd out(static_cast<Eigen::Index>(6 * problem_.closures.size()));
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
     const Edge& loop = problem_.closures[k];
-    out.segment<6>(static_cast<Eigen::Index>(6 * k)) =
-        edge_error(loop, poses[loop.from], poses[loop.to]);
+    of_closure(out, k) = edge_error(loop, poses[loop.from], poses[loop.to]);
   }
   return out;
 }
@@ -182,7 +181,7 @@ LoopJacobian LoopedChain::linearise() const {
   }
   out.gap = loop_errors(poses_);
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
-    const Twist eta = out.gap.segment<6>(static_cast<Eigen::Index>(6 * k));
+    const Twist eta = of_closure(out.gap, k);
     out.loop.push_back(inverse_right_jacobian_se3(eta) *
                        adjoint(poses_[problem_.closures[k].to].inverse()));
   }
@@ -193,7 +192,7 @@ LoopJacobian LoopedChain::linearise() const {
 Corrections LoopedChain::gradient(const LoopJacobian& jacobian) const {
   Eigen::VectorXd weighted = loop_errors(poses_);
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
-    auto each = weighted.segment<6>(static_cast<Eigen::Index>(6 * k));
+    auto each = of_closure(weighted, k);
     each = (noise_model_.closure_information[k] * each).eval();
   }
   const std::vector<Twist> pull =

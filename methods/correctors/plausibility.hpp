@@ -1,5 +1,5 @@
-/// Tests whether the residuals of a solution are consistent with the covariances it was computed
-/// with.
+/// Tests whether stated covariances are plausible: against the residuals of the solution computed
+/// with them, and whether closures are nearly exact, which makes sparse normal equations singular.
 #pragma once
 
 #include <cstddef>
@@ -24,5 +24,15 @@ bool is_too_large(double chi2, std::size_t freedom);
 /// distribution and chi2_per_dof differs from 1 by more than a factor of 4 (standard deviations
 /// wrong by a factor of 2). Adds nothing without degrees of freedom.
 void report_chi2(double chi2, std::size_t freedom, Report& report);
+
+/// Whether a closure's information exceeds 1e6 times the largest information of the odometry, for
+/// translation or rotation. A closure with a thousandth of an odometry edge's deviation takes a
+/// millionth of a gap; a larger information changes the solution by less than rounding does.
+/// O(edges).
+bool is_stiff(const Problem& problem);
+
+/// Returns the problem with the closures' information scaled down to that bound. Rows and columns
+/// are scaled equally, so correlations do not change. O(edges).
+Problem with_bounded_stiffness(const Problem& problem);
 
 }  // namespace loopbench::methods

@@ -9,7 +9,6 @@
 #include "methods/correctors/gnc.hpp"
 #include "methods/correctors/plausibility.hpp"
 #include "methods/correctors/scale_drift.hpp"
-#include "methods/correctors/stiffness.hpp"
 #include "methods/correctors/variance_components.hpp"
 #include "methods/solvers/initial_values.hpp"
 #include "methods/solvers/pose_graph_solver.hpp"
@@ -159,9 +158,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     iterations = gnc.iterations;
     before = gnc.cost_before;
     report.count("gnc_rounds", gnc.rounds);
-    report.count("closures_kept",
-                 static_cast<double>(
-                     std::ranges::count_if(weights, [](double weight) { return weight > 0.5; })));
+    report.count("closures_kept", static_cast<double>(kept_count(weights)));
   }
   std::optional<double> annealed_from;
   if (is_bounded(options_.loss) && options_.anneal && options_.gnc == Gnc::off) {
@@ -187,8 +184,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   report.count("cost_before", before);
   report.count("cost", summary.cost);
   if (options_.loss == RobustLoss::none) {
-    const auto kept = std::ranges::count_if(weights, [](double weight) { return weight > 0.5; });
-    const std::size_t edges = problem.odometry.size() + static_cast<std::size_t>(kept);
+    const std::size_t edges = problem.odometry.size() + kept_count(weights);
     const std::size_t degrees = freedom(problem.keyframes.size(), edges, dimensions(group));
     report_chi2(2.0 * summary.cost, degrees, report);
   }

@@ -26,7 +26,7 @@ namespace loopbench::methods {
 /// odometry drift between its keyframes, so starting from all closures rejects true closures where
 /// drift is large; the consistency check takes that drift into account. All closures are weighted
 /// in either case. Closures that are stated as almost exact are solved with bounded information
-/// (stiffness.hpp).
+/// (plausibility.hpp).
 ///
 /// Complexity: a few sparse factorisations, near linear in keyframes for chains; 10 to 30 times
 /// that for GNC. Sources: Grisetti et al., A tutorial on graph-based SLAM, 2010; Agarwal et al.,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "datasets/core/problem.hpp"
-#include "methods/report.hpp"
+#include "methods/method.hpp"
 
 namespace loopbench::methods {
 
@@ -41,6 +41,14 @@ struct LoopShares {
 std::optional<LoopShares> loop_shares(const std::vector<double>& shares,
                                       const std::vector<bool>& frozen,
                                       const Edge& loop);
+
+/// A corrector that needs nothing but loop closures.
+class LoopCorrector : public Corrector {
+ public:
+  std::string why_declined(const Problem& problem) const override {
+    return problem.closures.empty() ? "the problem has no loop closures" : "";
+  }
+};
 
 /// Correction of a loop's closing error by rotation about its start and shift. The pivot is the
 /// loop's start, so the result does not depend on the world frame.

@@ -91,11 +91,6 @@ class TwoPassChain {
 
 }  // namespace
 
-std::string TwoPass::why_declined(const Problem& problem) const {
-  if (problem.closures.empty()) return "the problem has no loop closures";
-  return "";
-}
-
 Trajectory TwoPass::correct(const Problem& problem, Report& report) const {
   check_closures(problem, "two_pass");
   const Trajectory& keyframes = problem.keyframes;

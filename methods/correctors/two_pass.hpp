@@ -3,7 +3,6 @@
 #pragma once
 
 #include "methods/correctors/shares.hpp"
-#include "methods/method.hpp"
 
 namespace loopbench::methods {
 
@@ -21,7 +20,7 @@ namespace loopbench::methods {
 /// Loops are closed one after the other in the order (to, from). O(keyframes + sum of loop
 /// lengths). Source: trajectory bending of COP-SLAM (Dubbelman, Browning, ICRA 2012 and T-RO 2015),
 /// implemented from the equations, with the shares as an option.
-class TwoPass final : public Corrector {
+class TwoPass final : public LoopCorrector {
  public:
   struct Options {
     StepWeights rotation_weights = StepWeights::index;
@@ -30,8 +29,6 @@ class TwoPass final : public Corrector {
     bool scale = true;
   };
   explicit TwoPass(const Options& options) : options_(options) {}
-
-  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `closures`, `largest_closing_error` [m]. Throws std::runtime_error when closures are
   /// not sorted by (to, from) or refer to a missing keyframe.

@@ -40,11 +40,6 @@ class UniformChain {
 
 }  // namespace
 
-std::string Uniform::why_declined(const Problem& problem) const {
-  if (problem.closures.empty()) return "the problem has no loop closures";
-  return "";
-}
-
 Trajectory Uniform::correct(const Problem& problem, Report& report) const {
   check_closures(problem, "uniform");
   const std::vector<double> shares = step_weights(problem.keyframes, options_.weights);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "methods/correctors/shares.hpp"
-#include "methods/method.hpp"
 
 namespace loopbench::methods {
 
@@ -20,7 +19,7 @@ namespace loopbench::methods {
 ///
 /// Complexity O(keyframes + sum of loop lengths). Source: the rotation part as in Surmann,
 /// Nuechter et al. (6D SLAM) and Sprickerhof et al. (ELCH), pivot moved to the loop's start.
-class Uniform final : public Corrector {
+class Uniform final : public LoopCorrector {
  public:
   enum class RotationMode { none, slerp };
 
@@ -30,8 +29,6 @@ class Uniform final : public Corrector {
     LoopOverlap overlap = LoopOverlap::all;
   };
   explicit Uniform(const Options& options) : options_(options) {}
-
-  std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `closures`, `largest_closing_error` [m] over all closures after the last one was
   /// closed. Throws std::runtime_error when closures are not sorted by (to, from) or refer to a

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "methods/correctors/looped_chain.hpp"
 
@@ -25,21 +26,13 @@ struct LoopCovariance {
   Eigen::MatrixXd translation, rotation, mixed, closures;
 };
 
-std::vector<Eigen::Index> rows_of(const Problem& problem) {
-  const std::vector<int> axes =
-      problem.planar ? std::vector{0, 1, 5} : std::vector{0, 1, 2, 3, 4, 5};
-  std::vector<Eigen::Index> out;
-  for (std::size_t k = 0; k < problem.closures.size(); ++k) {
-    for (const int axis : axes) out.push_back(static_cast<Eigen::Index>(6 * k) + axis);
-  }
-  return out;
-}
-
 LoopCovariance loop_covariance(const Problem& problem,
                                const NoiseModel& stated,
                                const LoopedChain& chain) {
   const LoopJacobian jacobian = chain.linearise();
-  const auto rows = rows_of(problem);
+  std::vector<std::size_t> all_closures(problem.closures.size());
+  std::iota(all_closures.begin(), all_closures.end(), std::size_t{0});
+  const std::vector<Eigen::Index> rows = gap_rows(all_closures, problem.planar);
   const auto through = [&](auto part) -> Eigen::MatrixXd {
     const Eigen::MatrixXd all = propagate_covariance(
         jacobian, chain.sums(), running_sum(chain.sums(), [&](std::size_t i) -> Matrix6 {

@@ -1,7 +1,11 @@
 /// Fits a continuous-time trajectory to odometry and loop closures jointly.
 #pragma once
 
+#include "methods/correctors/chain.hpp"
 #include "methods/method.hpp"
+#include "methods/smoothers/parts.hpp"
+#include "methods/smoothers/spline/curve.hpp"
+#include "methods/solvers/spline_solver.hpp"
 
 namespace loopbench::methods {
 
@@ -25,10 +29,37 @@ class SplineFit final : public Estimator {
   };
   explicit SplineFit(const Options& options) : options_(options) {}
 
-  std::string why_declined(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override {
+    const auto least = static_cast<std::size_t>(options_.order);
+    std::string why = too_few_keyframes(problem.keyframes, least);
+    return why.empty() ? chain_fault(problem) : why;
+  }
 
   /// Counts: `controls`, `iterations`, `cost_before`, `cost` (chi^2 / 2).
-  std::unique_ptr<const Curve> estimate(const Problem& problem, Report& report) const override;
+  std::unique_ptr<const Curve> estimate(const Problem& problem, Report& report) const override {
+    const Trajectory& keyframes = problem.keyframes;
+    const SplineBasis basis = basis_with_fewer_knots(
+        static_cast<std::size_t>(options_.order), stamps(keyframes), options_.knots_per_keyframe);
+    // The cost does not depend on the world frame. Near the origin the rounding error is small.
+    const Pose world_from_start = keyframes.front().world_from_body;
+    std::vector<Pose> controls = initial_controls_for(basis, keyframes);
+    for (Pose& control : controls) control = normalized(world_from_start.inverse() * control);
+    SplineProblem fit;
+    fit.fix_start = true;
+    for (const std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
+      for (const Edge& edge : *edges) {
+        fit.edges.push_back({keyframes[edge.from].stamp, keyframes[edge.to].stamp, edge});
+      }
+    }
+    const SplineSummary summary = solve_spline(basis, controls, fit, options_.max_iterations);
+    for (Pose& control : controls) control = normalized(world_from_start * control);
+    report.count("controls", static_cast<double>(controls.size()));
+    report.count("iterations", summary.iterations);
+    report.count("cost_before", summary.cost_before);
+    report.count("cost", summary.cost);
+    if (!summary.converged) report.notes.push_back("stopped at max_iterations before convergence");
+    return std::make_unique<CumulativeCurve>(basis, controls);
+  }
 
  private:
   Options options_;

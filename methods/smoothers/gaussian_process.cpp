@@ -1,23 +1,135 @@
 #include "methods/smoothers/gaussian_process.hpp"
 
 #include <limits>
+#include <optional>
 #include <utility>
 
-#include "datasets/core/knot_span.hpp"
+#include "datasets/core/knot_curve.hpp"
 #include "datasets/core/polyline.hpp"
-#include "methods/smoothers/gp/evidence.hpp"
+#include "methods/smoothers/gp/posterior.hpp"
+#include "methods/smoothers/parts.hpp"
+#include "methods/smoothers/penalised/reinsch.hpp"
+#include "methods/smoothers/penalised/unrolled.hpp"
 #include "methods/smoothers/pose_runs.hpp"
 
 namespace loopbench::methods {
 namespace {
 
+/// Hyperparameters fixed by the user; empty values are estimated. Powers are per mean interval.
+struct GpFixedParameters {
+  std::optional<double> sigma_t, sigma_r, power_t, power_r;
+};
+
+/// Result of estimate_parameters(): coordinate descent of -log evidence on a lattice of exponents
+/// (10^(k / 8)), with steps of half a decade at first and then halved steps. `states` is the
+/// linearisation point. About 50 eliminations of O(n).
+struct GpEstimate {
+  GpParameters parameters;
+  int evaluations = 0;
+};
+
+double round_to_lattice(double value) {
+  return std::pow(10.0, std::round(8.0 * std::log10(value)) / 8.0);
+}
+
+struct ScalarNoise {
+  double sigma, power;
+};
+
+/// Estimates noise and power of translation or rotation from the smoothing spline.
+ScalarNoise noise_from_spline(const std::vector<double>& times,
+                              const std::vector<Vector3>& y,
+                              int P,
+                              Criterion criterion) {
+  double extent = 1e-3;
+  for (const Vector3& value : y) extent = std::max(extent, (value - y.front()).norm());
+  const Reinsch reinsch(times);
+  // Above this bound the normal equations lose precision.
+  const double lambda = std::min(select_lambda(reinsch, times, y, criterion), 1e6);
+  const double energy = reinsch.fit(y, lambda).energy.sum();
+  const double freedom = 3.0 * static_cast<double>(y.size() - 2);
+  const double sigma = round_to_lattice(std::max(std::sqrt(energy / freedom), 1e-9 * extent));
+  double power = sigma * sigma / lambda;
+  // The jerk power that produces the same acceleration over the smoothing time of the spline.
+  if (P == 3) power /= std::max(1.0, std::pow(lambda, 2.0 / 3.0));
+  return {sigma, round_to_lattice(power)};
+}
+
+/// Returns initial hyperparameters from the scalar form of the model for P = 2, the smoothing
+/// spline (reinsch.hpp), with the restricted likelihood or GCV. For sparse keyframes the evidence
+/// has several local maxima, so both criteria should be tried.
+GpParameters initial_parameters(const Trajectory& measured,
+                                int P,
+                                Criterion criterion,
+                                const GpFixedParameters& given) {
+  std::vector<double> times = stamps(measured);
+  const double first = times.front();
+  const double interval = (times.back() - first) / static_cast<double>(times.size() - 1);
+  for (double& time : times) time = (time - first) / interval;
+  const std::vector<Rotation> rotations = attitudes(measured);
+  const UnrolledRotations path(rotations);
+  std::vector<Vector3> unrolled;
+  for (std::size_t i = 0; i < rotations.size(); ++i)
+    unrolled.push_back(path.unroll(i, rotations[i]));
+  const ScalarNoise t = noise_from_spline(times, positions_of(measured), P, criterion);
+  const ScalarNoise r = noise_from_spline(times, unrolled, P, criterion);
+  return {given.sigma_t.value_or(t.sigma),
+          given.sigma_r.value_or(r.sigma),
+          given.power_t.value_or(t.power),
+          given.power_r.value_or(r.power)};
+}
+
 template <int P>
-class GpCurve final : public Curve {
+GpEstimate estimate_parameters(const GpPosterior<P>& posterior,
+                               const typename GpPosterior<P>::States& states,
+                               const GpParameters& start,
+                               const GpFixedParameters& given) {
+  constexpr double kMinDecrease = 1e-3;  // [nats]; a smaller difference may be rounding
+  constexpr int kFarthest = 32;          // lattice steps: four decades from the start
+  GpEstimate out{start, 1};
+  double lowest = posterior.negative_evidence(states, start);
+  struct Coordinate {
+    double GpParameters::*value;
+    bool fixed;
+    int moved = 0;
+  };
+  std::array<Coordinate, 4> coordinates{
+      Coordinate{&GpParameters::power_t, given.power_t.has_value()},
+      Coordinate{&GpParameters::sigma_t, given.sigma_t.has_value()},
+      Coordinate{&GpParameters::power_r, given.power_r.has_value()},
+      Coordinate{&GpParameters::sigma_r, given.sigma_r.has_value()}};
+  for (int step = 4; step >= 1; step /= 2) {
+    for (bool improved = true; improved;) {
+      improved = false;
+      for (Coordinate& coordinate : coordinates) {
+        if (coordinate.fixed) continue;
+        for (const int change : {step, -step}) {
+          if (std::abs(coordinate.moved + change) > kFarthest) continue;
+          GpParameters trial = out.parameters;
+          trial.*coordinate.value =
+              start.*coordinate.value * std::pow(10.0, (coordinate.moved + change) / 8.0);
+          const double value = posterior.negative_evidence(states, trial);
+          ++out.evaluations;
+          if (!(value < lowest - kMinDecrease)) continue;
+          lowest = value;
+          out.parameters = trial;
+          coordinate.moved += change;
+          improved = true;
+          break;
+        }
+      }
+    }
+  }
+  return out;
+}
+
+template <int P>
+class GpCurve final : public KnotCurve {
  public:
   GpCurve(std::vector<double> stamps,
           const GpPosterior<P>& posterior,
           std::vector<GpState<P>> states)
-      : stamps_(std::move(stamps)), states_(std::move(states)) {
+      : KnotCurve(std::move(stamps)), states_(std::move(states)) {
     // Derivatives are scaled by the interval length, so the weights are those of a unit interval.
     for (std::size_t i = 0; i + 1 < states_.size(); ++i) {
       Interval each;
@@ -33,30 +145,20 @@ class GpCurve final : public Curve {
     }
   }
 
-  double start() const override { return stamps_.front(); }
-  double end() const override { return stamps_.back(); }
-
-  using Curve::sample;
-  void sample(std::span<const double> times, std::span<Pose> poses) const override {
-    KnotSpan span(stamps_);
-    for (std::size_t k = 0; k < times.size(); ++k) {
-      const std::size_t i = span.find(times[k]);
-      const double s = (times[k] - stamps_[i]) / (stamps_[i + 1] - stamps_[i]);
-      const auto weights = Prior<P>::between(s);
-      Twist xi = Twist::Zero();
-      for (int a = 0; a < P; ++a) {
-        const auto index = static_cast<std::size_t>(a);
-        xi += weights.from[a] * intervals_[i].from[index] + weights.to[a] * intervals_[i].to[index];
-      }
-      poses[k] = normalized(states_[i].pose * exp_se3(xi));
+ private:
+  Pose evaluate(std::size_t i, double time) const override {
+    const auto weights = Prior<P>::between(fraction(i, time));
+    Twist xi = Twist::Zero();
+    for (int a = 0; a < P; ++a) {
+      const auto index = static_cast<std::size_t>(a);
+      xi += weights.from[a] * intervals_[i].from[index] + weights.to[a] * intervals_[i].to[index];
     }
+    return normalized(states_[i].pose * exp_se3(xi));
   }
 
- private:
   struct Interval {
     std::array<Twist, P> from, to;  ///< local states at either end
   };
-  std::vector<double> stamps_;
   std::vector<GpState<P>> states_;
   std::vector<Interval> intervals_;
 };
@@ -108,9 +210,7 @@ std::unique_ptr<const Curve> GaussianProcess::smooth_with(const Trajectory& keyf
 }
 
 std::string GaussianProcess::why_declined(const Problem& problem) const {
-  if (problem.keyframes.size() >= min_keyframes()) return "";
-  return std::to_string(problem.keyframes.size()) + " keyframes, fewer than " +
-         std::to_string(min_keyframes());
+  return too_few_keyframes(problem.keyframes, min_keyframes());
 }
 
 std::size_t GaussianProcess::min_keyframes() const {

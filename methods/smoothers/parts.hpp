@@ -1,6 +1,8 @@
-/// Positions and rotations of a keyframe list, for smoothers that process them separately.
+/// Positions and rotations of a keyframe list, for smoothers that process them separately, and the
+/// check of its size.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "datasets/core/trajectory.hpp"
@@ -19,6 +21,12 @@ inline std::vector<Rotation> attitudes(const Trajectory& poses) {
   out.reserve(poses.size());
   for (const StampedPose& pose : poses) out.push_back(pose.world_from_body.rotation);
   return out;
+}
+
+/// Returns why a method that requires `least` keyframes declines, or an empty text.
+inline std::string too_few_keyframes(const Trajectory& keyframes, std::size_t least) {
+  if (keyframes.size() >= least) return "";
+  return std::to_string(keyframes.size()) + " keyframes, fewer than " + std::to_string(least);
 }
 
 }  // namespace loopbench::methods

@@ -5,7 +5,8 @@
 #include <utility>
 
 #include "datasets/core/interpolate.hpp"
-#include "datasets/core/knot_span.hpp"
+#include "datasets/core/knot_curve.hpp"
+#include "methods/smoothers/parts.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -111,29 +112,20 @@ class LocalPolynomial {
   std::array<Term, kMostTerms> term_;
 };
 
-class LocalCurve final : public Curve {
+class LocalCurve final : public KnotCurve {
  public:
   LocalCurve(std::vector<double> stamps, std::vector<LocalPolynomial> pieces)
-      : stamps_(std::move(stamps)), pieces_(std::move(pieces)) {}
-
-  double start() const override { return stamps_.front(); }
-  double end() const override { return stamps_.back(); }
-
-  using Curve::sample;
-  void sample(std::span<const double> times, std::span<Pose> poses) const override {
-    KnotSpan span(stamps_);
-    for (std::size_t k = 0; k < times.size(); ++k) {
-      const std::size_t i = span.find(times[k]);
-      poses[k] = pieces_[i].at(times[k]);
-      if (i + 1 == stamps_.size()) continue;  // only one keyframe
-      const double u = (times[k] - stamps_[i]) / (stamps_[i + 1] - stamps_[i]);
-      const double share = u * u * (3.0 - 2.0 * u);
-      poses[k] = normalized(interpolate(poses[k], pieces_[i + 1].at(times[k]), share));
-    }
-  }
+      : KnotCurve(std::move(stamps)), pieces_(std::move(pieces)) {}
 
  private:
-  std::vector<double> stamps_;
+  Pose evaluate(std::size_t i, double time) const override {
+    const Pose before = pieces_[i].at(time);
+    if (i + 1 == pieces_.size()) return before;  // only one keyframe
+    const double u = fraction(i, time);
+    const double share = u * u * (3.0 - 2.0 * u);
+    return normalized(interpolate(before, pieces_[i + 1].at(time), share));
+  }
+
   std::vector<LocalPolynomial> pieces_;
 };
 
@@ -164,10 +156,7 @@ SavitzkyGolay::SavitzkyGolay(const Options& options) : options_(options) {
 }
 
 std::string SavitzkyGolay::why_declined(const Problem& problem) const {
-  const auto needed = static_cast<std::size_t>(options_.degree + 1);
-  if (problem.keyframes.size() >= needed) return "";
-  return std::to_string(problem.keyframes.size()) +
-         " keyframes, fewer than degree + 1 = " + std::to_string(needed);
+  return too_few_keyframes(problem.keyframes, static_cast<std::size_t>(options_.degree) + 1);
 }
 
 std::unique_ptr<const Curve> SavitzkyGolay::smooth(const Problem& problem, Report& report) const {

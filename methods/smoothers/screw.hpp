@@ -1,10 +1,7 @@
 /// Screw interpolation between keyframes: the geodesic of SE(3).
 #pragma once
 
-#include <utility>
-
-#include "datasets/core/interpolate.hpp"
-#include "datasets/core/knot_span.hpp"
+#include "datasets/core/knot_curve.hpp"
 #include "methods/method.hpp"
 
 namespace loopbench::methods {
@@ -16,7 +13,7 @@ namespace loopbench::methods {
 /// query.
 class Screw final : public Smoother {
  public:
-  struct Options {};
+  using Options = NoOptions;
   explicit Screw(const Options&) {}
 
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report&) const override {
@@ -24,42 +21,25 @@ class Screw final : public Smoother {
   }
 
  private:
-  class ScrewCurve final : public Curve {
+  class ScrewCurve final : public KnotCurve {
    public:
-    explicit ScrewCurve(const Trajectory& poses) : poses_(poses), stamps_(stamps(poses)) {
+    explicit ScrewCurve(const Trajectory& poses) : KnotCurve(stamps(poses)), poses_(poses) {
       for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
         twists_.push_back(
             log_se3(poses[i].world_from_body.inverse() * poses[i + 1].world_from_body));
       }
     }
 
-    double start() const override { return stamps_.front(); }
-    double end() const override { return stamps_.back(); }
-
-    using Curve::sample;
-    void sample(std::span<const double> times, std::span<Pose> poses) const override {
-      KnotSpan span(stamps_);
-      for (std::size_t k = 0; k < times.size(); ++k) {
-        const std::size_t i = span.find(times[k]);
-        if (times[k] == stamps_[i]) {  // return nodes without rounding
-          poses[k] = poses_[i].world_from_body;
-        } else if (times[k] == stamps_[i + 1]) {
-          poses[k] = poses_[i + 1].world_from_body;
-        } else {
-          const double u = (times[k] - stamps_[i]) / (stamps_[i + 1] - stamps_[i]);
-          poses[k] = normalized(poses_[i].world_from_body * exp_se3(u * twists_[i]));
-        }
-      }
+   private:
+    Pose evaluate(std::size_t i, double time) const override {
+      const Pose& before = poses_[i].world_from_body;
+      if (time == knots()[i]) return before;  // exact at the knots, without rounding
+      if (time == knots()[i + 1]) return poses_[i + 1].world_from_body;
+      return normalized(before * exp_se3(fraction(i, time) * twists_[i]));
     }
 
-   private:
     Trajectory poses_;
-    std::vector<double> stamps_;
     std::vector<Twist> twists_;  ///< relative motion over each interval
   };
 };
-
-template <class Visit>
-void fields(Screw::Options&, Visit) {}
-
 }  // namespace loopbench::methods

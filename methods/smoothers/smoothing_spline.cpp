@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "datasets/core/knot_span.hpp"
+#include "datasets/core/knot_curve.hpp"
 #include "methods/smoothers/parts.hpp"
 #include "methods/smoothers/penalised/unrolled.hpp"
 
@@ -14,7 +14,7 @@ struct Knot {
   Vector3 value, bend;
 };
 
-std::vector<Knot> knots(const Reinsch::Fit& fit) {
+std::vector<Knot> knots_of(const Reinsch::Fit& fit) {
   std::vector<Knot> out;
   out.reserve(fit.values.size());
   for (std::size_t i = 0; i < fit.values.size(); ++i) out.push_back({fit.values[i], fit.bends[i]});
@@ -28,34 +28,25 @@ Vector3 between(const Knot* knot, double u, double interval) {
          sixth * (v * u * ((1.0 + v) * knot[0].bend + (1.0 + u) * knot[1].bend));
 }
 
-class SmoothedCurve final : public Curve {
+class SmoothedCurve final : public KnotCurve {
  public:
   SmoothedCurve(std::vector<double> stamps,
                 std::vector<Knot> points,
                 UnrolledRotations path,
                 std::vector<Knot> unrolled)
-      : stamps_(std::move(stamps)),
+      : KnotCurve(std::move(stamps)),
         points_(std::move(points)),
         path_(std::move(path)),
         unrolled_(std::move(unrolled)) {}
 
-  double start() const override { return stamps_.front(); }
-  double end() const override { return stamps_.back(); }
-
-  using Curve::sample;
-  void sample(std::span<const double> times, std::span<Pose> poses) const override {
-    KnotSpan span(stamps_);
-    for (std::size_t k = 0; k < times.size(); ++k) {
-      const std::size_t i = span.find(times[k]);
-      const double interval = stamps_[i + 1] - stamps_[i];
-      const double u = (times[k] - stamps_[i]) / interval;
-      poses[k] = {path_.roll(i, u, between(&unrolled_[i], u, interval)),
-                  between(&points_[i], u, interval)};
-    }
+ private:
+  Pose evaluate(std::size_t i, double time) const override {
+    const double interval = knots()[i + 1] - knots()[i];
+    const double u = fraction(i, time);
+    return {path_.roll(i, u, between(&unrolled_[i], u, interval)),
+            between(&points_[i], u, interval)};
   }
 
- private:
-  std::vector<double> stamps_;
   std::vector<Knot> points_;
   UnrolledRotations path_;
   std::vector<Knot> unrolled_;
@@ -64,9 +55,7 @@ class SmoothedCurve final : public Curve {
 }  // namespace
 
 std::string SmoothingSpline::why_declined(const Problem& problem) const {
-  if (problem.keyframes.size() < 3)
-    return std::to_string(problem.keyframes.size()) + " keyframes, fewer than 3";
-  return "";
+  return too_few_keyframes(problem.keyframes, 3);
 }
 
 std::unique_ptr<const Curve> SmoothingSpline::smooth(const Problem& problem, Report& report) const {
@@ -98,7 +87,7 @@ std::unique_ptr<const Curve> SmoothingSpline::smooth(const Problem& problem, Rep
   report.count("iterations", rotation.iterations);
   if (!rotation.converged) report.notes.push_back("the rotation fit did not converge");
   return std::make_unique<SmoothedCurve>(
-      times, knots(positions), rotation.path, knots(rotation.fit));
+      times, knots_of(positions), rotation.path, knots_of(rotation.fit));
 }
 
 }  // namespace loopbench::methods

@@ -2,6 +2,9 @@
 #pragma once
 
 #include "methods/method.hpp"
+#include "methods/smoothers/parts.hpp"
+#include "methods/smoothers/spline/curve.hpp"
+#include "methods/solvers/spline_solver.hpp"
 
 namespace loopbench::methods {
 
@@ -19,10 +22,33 @@ class SplineRegression final : public Smoother {
   };
   explicit SplineRegression(const Options& options) : options_(options) {}
 
-  std::string why_declined(const Problem& problem) const override;
+  std::string why_declined(const Problem& problem) const override {
+    return too_few_keyframes(problem.keyframes, static_cast<std::size_t>(options_.order));
+  }
 
   /// Counts: `controls`, `iterations`, `cost` (half the sum of both terms [m^2, rad^2]).
-  std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
+  std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override {
+    const Trajectory& keyframes = problem.keyframes;
+    const SplineBasis basis = basis_with_fewer_knots(
+        static_cast<std::size_t>(options_.order), stamps(keyframes), options_.knots_per_keyframe);
+    std::vector<Pose> controls = initial_controls_for(basis, keyframes);
+    SplineProblem fit;
+    // Positions relative to the first keyframe, to avoid rounding errors far from the world origin.
+    const Vector3 origin = keyframes.front().world_from_body.translation;
+    for (Pose& control : controls) control.translation -= origin;
+    for (const auto& [stamp, pose] : keyframes) {
+      fit.poses.push_back({stamp, {pose.rotation, pose.translation - origin}});
+    }
+    const SplineSummary summary = solve_spline(basis, controls, fit);
+    for (Pose& control : controls) control.translation += origin;
+    report.count("controls", static_cast<double>(controls.size()));
+    report.count("iterations", summary.iterations);
+    report.count("cost", summary.cost);
+    if (!summary.converged) {
+      report.notes.push_back("stopped at the iteration limit before convergence");
+    }
+    return std::make_unique<CumulativeCurve>(basis, controls);
+  }
 
  private:
   Options options_;

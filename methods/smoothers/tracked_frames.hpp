@@ -14,7 +14,7 @@ namespace loopbench::methods {
 /// curve equals that polyline. O(keyframes + frames) to construct, O(1) amortised per query.
 class TrackedFrames final : public Smoother {
  public:
-  struct Options {};
+  using Options = NoOptions;
   explicit TrackedFrames(const Options&) {}
 
   /// Declines problems without keyframes, or without a tracked frame between them.
@@ -46,8 +46,5 @@ class TrackedFrames final : public Smoother {
     return out;
   }
 };
-
-template <class Visit>
-void fields(TrackedFrames::Options&, Visit) {}
 
 }  // namespace loopbench::methods

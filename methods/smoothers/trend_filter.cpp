@@ -59,7 +59,7 @@ TrendChoice choose_fit(const Trend& trend,
   TrendChoice best{line(trend, y), top};
   double lowest = score(y, best.fit, extent, options.refit);
   const auto fitted = [&](double lambda) {
-    Trend::Fit fit = trend.fit(y, lambda, {});
+    Trend::Fit fit = trend.fit(y, lambda);
     best.iterations += fit.iterations;
     best.converged = best.converged && fit.converged;
     if (options.refit) trend.refit(y, fit);
@@ -86,9 +86,7 @@ TrendChoice choose_fit(const Trend& trend,
 }  // namespace
 
 std::string TrendFilter::why_declined(const Problem& problem) const {
-  if (problem.keyframes.size() < 3)
-    return std::to_string(problem.keyframes.size()) + " keyframes, fewer than 3";
-  return "";
+  return too_few_keyframes(problem.keyframes, 3);
 }
 
 std::unique_ptr<const Curve> TrendFilter::smooth(const Problem& problem, Report& report) const {
@@ -117,12 +115,12 @@ std::unique_ptr<const Curve> TrendFilter::smooth(const Problem& problem, Report&
     } else if (options_.refit || rotation_choice.fit.kinks.empty()) {
       rotation_choice.fit.values = trend.refitted(flat, rotation_choice.fit.kinks);
     } else {
-      rotation_choice.fit = trend.fit(flat, rotation_choice.lambda, {});
+      rotation_choice.fit = trend.fit(flat, rotation_choice.lambda);
       iterations += rotation_choice.fit.iterations;
     }
     return rotation_choice.fit;
   };
-  const double tolerance = options_.refit ? 1e-11 : 1e-2 * Trend::Settings{}.tolerance;
+  const double tolerance = options_.refit ? 1e-11 : 1e-2 * Trend::kTolerance;
   const auto rotation = smoothed_rotations(attitudes(problem.keyframes), fit_points, tolerance);
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i].world_from_body.rotation = rotation.path.roll(i, 0.0, rotation.fit.values[i]);

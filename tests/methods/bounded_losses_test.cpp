@@ -1,10 +1,10 @@
 // Dynamic covariance scaling and switchable constraints with default options.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "datasets/simulated/simulated.hpp"
 #include "methods/correctors/pose_graph.hpp"
+#include "tests/support/corrected.hpp"
+#include "tests/support/counts.hpp"
 
 namespace loopbench::bounded_losses_test {
 
@@ -26,16 +26,8 @@ Sequence driving(std::int64_t seed, double false_share) {
 
 /// RMS position error [m], not aligned: the first pose is exact.
 double error(const Sequence& sequence, const PoseGraphOptimizer::Options& options) {
-  Report report;
-  const Trajectory out = PoseGraphOptimizer(options).correct(sequence.problem, report);
-  double sum = 0.0;
-  std::size_t j = 0;
-  for (const StampedPose& k : out) {
-    const Trajectory& truth = sequence.reference;
-    while (j + 1 < truth.size() && truth[j].stamp < k.stamp - 1e-6) ++j;
-    sum += (k.world_from_body.translation - truth[j].world_from_body.translation).squaredNorm();
-  }
-  return std::sqrt(sum / static_cast<double>(out.size()));
+  const Trajectory out = test::corrected<PoseGraphOptimizer>(sequence.problem, options);
+  return test::rmse(out, test::at_stamps_of(out, sequence.reference));
 }
 
 TEST(BoundedLosses, KeepTrueClosuresOnADriveWith30PercentFalse) {
@@ -69,7 +61,7 @@ TEST(BoundedLosses, TakeTheLowerOfBothMinima) {
       const auto cost = [&](bool anneal) {
         Report report;
         PoseGraphOptimizer({.loss = loss, .anneal = anneal}).correct(problem, report);
-        return std::ranges::find(report.counts, "cost", &Count::name)->value;
+        return test::count(report, "cost");
       };
       EXPECT_LE(cost(true), cost(false) * (1.0 + 1e-9)) << to_text(loss);
     }

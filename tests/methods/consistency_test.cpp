@@ -9,6 +9,8 @@
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/max_clique.hpp"
 #include "methods/correctors/pose_graph.hpp"
+#include "tests/support/corrected.hpp"
+#include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace loopbench::consistency_test {
@@ -17,17 +19,13 @@ using namespace methods;
 
 namespace {
 
-Pose at(double x) { return {Rotation::Identity(), {x, 0.0, 0.0}}; }
+using test::at_x;
 
 /// Steps of 1 m along x with variance 1 on every axis; closures with variance 0.25.
 Problem line(const std::vector<std::tuple<std::size_t, std::size_t, double>>& closures) {
-  Problem problem;
-  for (int i = 0; i <= 10; ++i) {
-    problem.keyframes.push_back({double(i), at(i)});
-    if (i > 0) problem.odometry.push_back({std::size_t(i - 1), std::size_t(i), at(1.0)});
-  }
+  Problem problem = test::along_x({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
   for (const auto& [from, to, metres] : closures) {
-    problem.closures.push_back({from, to, at(metres), 4.0 * Matrix6::Identity()});
+    problem.closures.push_back({from, to, at_x(metres), 4.0 * Matrix6::Identity()});
   }
   return problem;
 }
@@ -104,13 +102,10 @@ TEST(Consistency, KeepsTheLargestConsistentSet) {
 TEST(Consistency, CheckedCorrectorUsesConsistentClosuresOnly) {
   const Problem consistent_only = line({{0, 8, 8.4}, {0, 9, 9.4}, {1, 10, 9.4}});
   Problem problem = consistent_only;
-  problem.closures.insert(problem.closures.begin() + 1, {3, 8, at(-200.0), Matrix6::Identity()});
-  Report report, plain;
-  const Trajectory checked = PairwiseConsistent<Dual>({}).correct(problem, report);
-  const Trajectory expected = Dual({}).correct(consistent_only, plain);
-  for (std::size_t i = 0; i < checked.size(); ++i) {
-    EXPECT_TRUE(is_close(checked[i].world_from_body, expected[i].world_from_body, 1e-12, 1e-12));
-  }
+  problem.closures.insert(problem.closures.begin() + 1, {3, 8, at_x(-200.0), Matrix6::Identity()});
+  Report report;
+  const Trajectory checked = test::corrected<PairwiseConsistent<Dual>>(problem, {}, &report);
+  test::expect_close(checked, test::corrected<Dual>(consistent_only), 1e-12);
   EXPECT_EQ(report.counts.front().name, "closures_consistent");
   EXPECT_EQ(report.counts.front().value, 3.0);
   PairwiseConsistentOptions<Dual> few;

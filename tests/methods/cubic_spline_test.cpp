@@ -1,11 +1,10 @@
-#include "methods/smoothers/cubic_spline.hpp"
-
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "methods/smoothers/interpolating_splines.hpp"
 #include "methods/smoothers/spline/interpolate.hpp"
-#include "tests/support/problems.hpp"
+#include "tests/support/noisy_paths.hpp"
 
 namespace loopbench::cubic_spline_test {
 
@@ -14,15 +13,6 @@ using namespace methods;
 namespace {
 
 using namespace test;
-
-std::unique_ptr<const Curve> spline(Trajectory keyframes) {
-  Report report;
-  Problem problem;
-  problem.keyframes = std::move(keyframes);
-  auto curve = CubicSpline({}).smooth(problem, report);
-  EXPECT_TRUE(report.notes.empty());
-  return curve;
-}
 
 /// Random walk with uneven stamps, steps up to half a metre and about half a radian.
 Trajectory wandering(std::size_t n, std::uint64_t seed = 7) {
@@ -84,7 +74,7 @@ std::vector<double> evenly_spaced(double begin, double end, int count) {
 TEST(CubicSpline, PassesThroughTheKeyframes) {
   for (const std::size_t n : {1u, 2u, 3u, 4u, 5u, 200u}) {
     const Trajectory keyframes = wandering(n);
-    const auto curve = spline(keyframes);
+    const auto curve = smooth<CubicSpline>(keyframes);
     EXPECT_EQ(curve->start(), keyframes.front().stamp);
     EXPECT_EQ(curve->end(), keyframes.back().stamp);
     for (const auto& [stamp, pose] : keyframes) {
@@ -96,7 +86,7 @@ TEST(CubicSpline, PassesThroughTheKeyframes) {
 TEST(CubicSpline, EqualsTheTextbookNaturalSpline) {
   for (const std::size_t n : {3u, 4u, 30u}) {
     const Trajectory keyframes = wandering(n);
-    const auto curve = spline(keyframes);
+    const auto curve = smooth<CubicSpline>(keyframes);
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<double> values;
       for (const StampedPose& pose : keyframes) {
@@ -118,7 +108,7 @@ TEST(CubicSpline, RotationAboutOneAxisIsTheNaturalSplineOfTheAngle) {
   for (std::size_t i = 0; i < times.size(); ++i) {
     keyframes.push_back({times[i], {exp_so3(angles[i] * axis), Vector3::Zero()}});
   }
-  const auto curve = spline(keyframes);
+  const auto curve = smooth<CubicSpline>(keyframes);
   const Textbook textbook(times, angles);
   for (const double time : evenly_spaced(0.0, 3.0, 97)) {
     EXPECT_LT((log_so3(curve->at(time).rotation) - textbook.at(time) * axis).norm(), 1e-12);
@@ -137,7 +127,7 @@ TEST(CubicSpline, ReproducesUniformMotion) {
     for (std::size_t i = 0; i < n; ++i, time += i % 2 == 0 ? 0.9 : 0.2) {
       keyframes.push_back({time, truth(time)});
     }
-    const auto curve = spline(keyframes);
+    const auto curve = smooth<CubicSpline>(keyframes);
     for (const double at : evenly_spaced(curve->start(), curve->end(), 50)) {
       EXPECT_TRUE(is_close(curve->at(at), truth(at), 1e-12, 1e-12)) << n << " at " << at;
     }
@@ -171,7 +161,7 @@ Vector3 angular_velocity(const Curve& curve, double time, double h) {
 TEST(CubicSpline, HasNoKinkInSpeedOrAccelerationAtTheKeyframes) {
   Trajectory keyframes = wandering(14);
   for (StampedPose& pose : keyframes) pose.stamp -= 1000.0;  // reduces rounding in the differences
-  const auto curve = spline(keyframes);
+  const auto curve = smooth<CubicSpline>(keyframes);
   const double h = 1e-4;
   for (std::size_t i = 1; i + 1 < keyframes.size(); ++i) {
     const double time = keyframes[i].stamp;
@@ -189,7 +179,7 @@ TEST(CubicSpline, HasNoKinkInSpeedOrAccelerationAtTheKeyframes) {
 TEST(CubicSpline, HasNoAccelerationAtItsEnds) {
   Trajectory keyframes = wandering(9);
   for (StampedPose& pose : keyframes) pose.stamp -= 1000.0;
-  const auto curve = spline(keyframes);
+  const auto curve = smooth<CubicSpline>(keyframes);
   for (const auto& [time, h] : {std::pair{curve->start(), 1e-4}, {curve->end(), -1e-4}}) {
     EXPECT_LT(acceleration(*curve, time, h).norm(), 1e-3);
     EXPECT_LT(angular_acceleration(*curve, time, h).norm(), 5e-3);

@@ -3,34 +3,18 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "datasets/core/polyline.hpp"
+#include "datasets/formats/formats.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
+#include "tests/support/corrected.hpp"
+#include "tests/support/counts.hpp"
 
 namespace loopbench::dm_real_data_test {
 
 using namespace methods;
 
 namespace {
-
-// Reads TUM trajectories that are known to be valid.
-Trajectory read(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  Trajectory out;
-  for (std::string line; std::getline(in, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    std::istringstream text(line);
-    StampedPose pose;
-    Vector3& p = pose.world_from_body.translation;
-    Rotation& q = pose.world_from_body.rotation;
-    text >> pose.stamp >> p.x() >> p.y() >> p.z() >> q.x() >> q.y() >> q.z() >> q.w();
-    q.normalize();
-    out.push_back(pose);
-  }
-  return out;
-}
 
 struct Setting {
   const char* folder;
@@ -52,7 +36,7 @@ class DmOnTum : public testing::Test {
 
   // Samples the reference at uniform keyframes and every 1/30 s.
   void load_setting(const Setting& run) {
-    const Polyline reference(read(tum_ / run.folder / "groundtruth.txt"));
+    const Polyline reference(read_trajectory(tum_ / run.folder / "groundtruth.txt"));
     std::vector<double> times;
     for (std::size_t i = 0; i < run.keyframes; ++i) {
       const double u = static_cast<double>(i) / static_cast<double>(run.keyframes - 1);
@@ -66,13 +50,7 @@ class DmOnTum : public testing::Test {
   }
 
   double error(const Curve& curve) const {  // RMSE in 3D [mm]
-    const Trajectory got = curve.sample(dense_);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < got.size(); ++i) {
-      sum += (got[i].world_from_body.translation - truth_[i].world_from_body.translation)
-                 .squaredNorm();
-    }
-    return 1e3 * std::sqrt(sum / static_cast<double>(got.size()));
+    return 1e3 * test::rmse(curve.sample(dense_), truth_);
   }
 
   double error(int planar, int spatial) {
@@ -82,12 +60,7 @@ class DmOnTum : public testing::Test {
     return error(*Dm(options_).smooth(problem_, report_));
   }
 
-  double counted(const std::string& name) const {
-    for (const Count& count : report_.counts) {
-      if (count.name == name) return count.value;
-    }
-    return -1.0;
-  }
+  double counted(const std::string& name) const { return test::count(report_, name); }
 
   std::filesystem::path tum_;
   Problem problem_;

@@ -3,6 +3,7 @@
 
 #include "manifold_paths.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
+#include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::dm_switches_test {
@@ -69,13 +70,7 @@ class EverySwitch : public testing::TestWithParam<Switch> {
     report_ = {};
     return Dm(with(Dm::Options{}, GetParam().params)).smooth(problem, report_);
   }
-  double counted(const Text& name) const {
-    for (const Count& count : report_.counts) {
-      if (count.name == name) return count.value;
-    }
-    ADD_FAILURE() << "no count " << name;
-    return -1.0;
-  }
+  double counted(const Text& name) const { return test::count(report_, name); }
   Text given(const Text& name) const {
     const auto found = GetParam().params.find(name);
     return found == GetParam().params.end() ? "" : to_text(found->second);
@@ -112,8 +107,8 @@ TEST_P(EverySwitch, MotionIsTheDerivativeOfTheSamples) {
   const auto curve = smoothed(problem);
   const auto& pieces = dynamic_cast<const manifold::ManifoldCurve&>(*curve);
   const double h = 1e-5;
-  for (std::size_t edge = 0; edge + 1 < pieces.stamps().size(); ++edge) {
-    const double t = std::lerp(pieces.stamps()[edge], pieces.stamps()[edge + 1], 0.37);
+  for (std::size_t edge = 0; edge + 1 < pieces.knots().size(); ++edge) {
+    const double t = std::lerp(pieces.knots()[edge], pieces.knots()[edge + 1], 0.37);
     const auto motion = pieces.motion(edge, t);
     const Vector3 slope = (curve->at(t + h).translation - curve->at(t - h).translation) / (2 * h);
     EXPECT_LT((motion.value - curve->at(t).translation).norm(), 1e-12);
@@ -149,7 +144,7 @@ TEST(DmSwitches, QuinticBridgesAreC2AtTheirEnds) {
   Report report;
   const auto curve = Dm(options).smooth(problem, report);
   const auto& pieces = dynamic_cast<const manifold::ManifoldCurve&>(*curve);
-  const auto& t = pieces.stamps();
+  const auto& t = pieces.knots();
   for (std::size_t i = 1; i + 1 < t.size(); ++i) {
     const double half = 0.5 * std::min(t[i] - t[i - 1], t[i + 1] - t[i]);
     for (const auto& [edge, at] : {std::pair{i - 1, t[i] - half}, std::pair{i, t[i] + half}}) {

@@ -4,6 +4,7 @@
 
 #include "datasets/core/interpolate.hpp"
 #include "manifold_paths.hpp"
+#include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::dm_test {
@@ -23,11 +24,7 @@ std::unique_ptr<const Curve> smoothed(const Problem& problem, const Dm::Options&
 double counted(const Problem& problem, const Dm::Options& options, const std::string& name) {
   Report report;
   Dm(options).smooth(problem, report);
-  for (const Count& count : report.counts) {
-    if (count.name == name) return count.value;
-  }
-  ADD_FAILURE() << "no count " << name;
-  return -1.0;
+  return test::count(report, name);
 }
 
 Vector3 position(const Curve& curve, double time) { return curve.at(time).translation; }
@@ -44,19 +41,6 @@ INSTANTIATE_TEST_SUITE_P(Dm,
                                          spatial(8),
                                          Dm::Options{.planar = 4, .spatial = 6},
                                          Dm::Options{.planar = 5, .spatial = 8}));
-
-TEST_P(EveryVariant, IsIndependentOfTheWorldFrame) {
-  Problem problem = keyframes_only(wandering(80, 3));
-  problem.frames = wandering(80, 3);
-  problem.keyframes.erase(problem.keyframes.begin() + 20, problem.keyframes.begin() + 26);
-  const Pose there_from_here{exp_so3({1.1, -2.0, 0.4}), {30.0, -50.0, 8.0}};
-  const auto original = smoothed(problem, GetParam());
-  const auto moved = smoothed(test::moved_by(there_from_here, problem), GetParam());
-  EXPECT_GT(counted(problem, GetParam(), "quasi_keyframes"), 0.0);
-  for (const double t : times_over(problem.keyframes, 997)) {
-    EXPECT_TRUE(is_close(there_from_here * original->at(t), moved->at(t), 1e-9, 1e-9)) << t;
-  }
-}
 
 TEST_P(EveryVariant, IsTwiceContinuouslyDifferentiable) {
   const Trajectory keyframes = wandering(60, 5);

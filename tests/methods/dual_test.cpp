@@ -5,6 +5,8 @@
 #include <Eigen/Cholesky>
 
 #include "methods/correctors/chain.hpp"
+#include "tests/support/corrected.hpp"
+#include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace loopbench::dual_test {
@@ -13,18 +15,11 @@ using namespace methods;
 
 namespace {
 
-using test::random_twist;
-using test::walk;
-
-std::vector<Pose> poses(const Trajectory& trajectory) {
-  std::vector<Pose> out;
-  for (const StampedPose& p : trajectory) out.push_back(p.world_from_body);
-  return out;
-}
+using namespace test;
 
 /// Solves a pose graph by dense Gauss-Newton with numeric derivatives.
 std::vector<Pose> dense_gauss_newton(const Problem& problem, int iterations) {
-  std::vector<Pose> x = poses(problem.keyframes);
+  std::vector<Pose> x = poses_of(problem.keyframes);
   std::vector<Edge> edges = problem.odometry;
   edges.insert(edges.end(), problem.closures.begin(), problem.closures.end());
   const auto N = static_cast<Eigen::Index>(6 * (x.size() - 1));  // the first pose is fixed
@@ -70,34 +65,22 @@ std::vector<Pose> dense_gauss_newton(const Problem& problem, int iterations) {
 TEST(Dual, EqualsAPoseGraphSolvedByDenseGaussNewton) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const Problem problem = walk(seed, 14, 0.05);
-    Report report;
-    const Trajectory dual =
-        Dual({.max_iterations = 100, .tolerance = 0.0}).correct(problem, report);
+    const Trajectory dual = corrected<Dual>(problem, {.max_iterations = 100, .tolerance = 0.0});
     const std::vector<Pose> reference = dense_gauss_newton(problem, 20);
     for (std::size_t i = 0; i < dual.size(); ++i) {
       EXPECT_TRUE(is_close(dual[i].world_from_body, reference[i], 1e-6, 1e-6)) << seed << " " << i;
     }
-    const double cost = chain_cost(problem, poses(dual));
+    const double cost = chain_cost(problem, poses_of(dual));
     EXPECT_NEAR(cost, chain_cost(problem, reference), 1e-9 * cost);
-    EXPECT_LT(cost, 0.8 * chain_cost(problem, poses(problem.keyframes)));
+    EXPECT_LT(cost, 0.8 * chain_cost(problem, poses_of(problem.keyframes)));
   }
 }
 
 TEST(Dual, DistributesOneScalarLoopAnalytically) {
   // Straight along x, translation only, equal weights: each of n steps gets gap / (n + ratio).
-  Problem problem;
-  for (int i = 0; i <= 4; ++i) {
-    problem.keyframes.push_back({double(i), {Rotation::Identity(), Vector3(i, 0, 0)}});
-    if (i > 0) {
-      problem.odometry.push_back({std::size_t(i - 1),
-                                  std::size_t(i),
-                                  {Rotation::Identity(), Vector3(1, 0, 0)},
-                                  Matrix6::Identity()});
-    }
-  }
+  Problem problem = along_x({0, 1, 2, 3, 4});
   // The closure measures 5 m instead of 4 m, with half the information of a step.
-  problem.closures.push_back(
-      {0, 4, {Rotation::Identity(), Vector3(5, 0, 0)}, 0.5 * Matrix6::Identity()});
+  problem.closures.push_back({0, 4, at_x(5.0), 0.5 * Matrix6::Identity()});
   Report report;
   const Trajectory out = Dual({}).correct(problem, report);
   for (int i = 0; i <= 4; ++i) {  // variances: 4 steps of 1 and a closure of 2, so 1/6 m each
@@ -110,17 +93,13 @@ TEST(Dual, DistributesOneScalarLoopAnalytically) {
 
 TEST(Dual, ResultDoesNotDependOnTheInitialKeyframes) {
   Problem problem = walk(5, 16, 0.05);
-  Report report;
-  const Trajectory a = Dual({.max_iterations = 100, .tolerance = 0.0}).correct(problem, report);
+  const Trajectory a = corrected<Dual>(problem, {.max_iterations = 100, .tolerance = 0.0});
   std::mt19937_64 random(1);
   for (std::size_t i = 1; i < problem.keyframes.size(); ++i) {
     Pose& pose = problem.keyframes[i].world_from_body;
     pose = pose * exp_se3(random_twist(random, 0.1, 0.1));
   }
-  const Trajectory b = Dual({.max_iterations = 100, .tolerance = 0.0}).correct(problem, report);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_TRUE(is_close(a[i].world_from_body, b[i].world_from_body, 1e-6, 1e-6)) << i;
-  }
+  expect_close(a, corrected<Dual>(problem, {.max_iterations = 100, .tolerance = 0.0}), 1e-6);
 }
 
 TEST(Dual, DeclinesIncompleteChainsAndTooManyLoops) {

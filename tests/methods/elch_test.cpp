@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/correctors/uniform.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::elch_test {
@@ -11,33 +12,21 @@ using namespace methods;
 
 namespace {
 
-Trajectory elch(const Problem& problem) {
-  Report report;
-  return Elch({}).correct(problem, report);
-}
+using namespace test;
 
 TEST(Elch, EqualsUniformForOneLoop) {
   const Problem problem = test::drifting(
       test::hand_held_truth(50), twist({0.002, 0.001, 0.003}, {0.001, 0.002, 0.01}), {{5, 40}});
-  Report report;
-  const Trajectory expected = Uniform({}).correct(problem, report);
-  const Trajectory ours = elch(problem);
-  for (std::size_t i = 0; i < ours.size(); ++i) {
-    EXPECT_TRUE(is_close(ours[i].world_from_body, expected[i].world_from_body, 1e-9, 1e-9)) << i;
-  }
+  expect_close(corrected<Elch>(problem), corrected<Uniform>(problem), 1e-9);
 }
 
 TEST(Elch, UsesTheShortcutOfAnEarlierLoop) {
   // Positions 0 .. 8 along x. The first loop joins 6 to 0 without error; the second, 0 -> 8, has an
   // error of 3 m. Its shortest path is 0 - 6 - 7 - 8, so 6, 7, 8 move by 1, 2, 3 m, and 1 .. 5 move
   // with the nearer end.
-  Problem problem;
-  for (int i = 0; i <= 8; ++i) {
-    problem.keyframes.push_back({double(i), {Rotation::Identity(), Vector3(i, 0, 0)}});
-  }
-  problem.closures = {{0, 6, {Rotation::Identity(), {6, 0, 0}}, Matrix6::Identity()},
-                      {0, 8, {Rotation::Identity(), {8, 3, 0}}, Matrix6::Identity()}};
-  const Trajectory out = elch(problem);
+  Problem problem = along_x({0, 1, 2, 3, 4, 5, 6, 7, 8});
+  problem.closures = {{0, 6, at_x(6.0)}, {0, 8, {Rotation::Identity(), {8, 3, 0}}}};
+  const Trajectory out = corrected<Elch>(problem);
   const double expected[] = {0, 0, 0, 0, 1, 1, 1, 2, 3};
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (i == 3) continue;  // equally far from 0 and 6
@@ -49,7 +38,7 @@ TEST(Elch, ClosesItsLastLoop) {
   const Problem problem = test::drifting(test::hand_held_truth(60),
                                          twist({0.002, -0.001, 0.003}, {0.001, 0.002, 0.01}),
                                          {{5, 30}, {10, 45}, {2, 57}});
-  const Trajectory out = elch(problem);
+  const Trajectory out = corrected<Elch>(problem);
   const Edge& last = problem.closures.back();
   EXPECT_TRUE(is_close(out[last.from].world_from_body * last.from_from_to,
                        out[last.to].world_from_body,

@@ -7,6 +7,7 @@
 #include "datasets/core/fields.hpp"
 #include "manifold_paths.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
+#include "tests/support/problems.hpp"
 
 namespace loopbench::fit_axes_test {
 
@@ -36,19 +37,12 @@ Trajectory level_walk() {
 const Pose kMoved{Rotation(Eigen::AngleAxisd(1.1, Vector3(0.3, -0.5, 0.8).normalized())),
                   {4.0, -2.0, 7.0}};
 
-Problem moved(Problem problem) {
-  for (Trajectory* poses : {&problem.keyframes, &problem.frames}) {
-    for (StampedPose& pose : *poses) pose.world_from_body = kMoved * pose.world_from_body;
-  }
-  return problem;
-}
-
 double largest_difference(const Dm::Options& options) {
   Report report;
   Problem problem;
   problem.keyframes = level_walk();
   const auto here = Dm(options).smooth(problem, report);
-  const auto there = Dm(options).smooth(moved(problem), report);
+  const auto there = Dm(options).smooth(test::moved_by(kMoved, problem), report);
   double out = 0.0;
   for (double t = 0.0; t <= 11.8; t += 0.05) {
     out = std::max(out, (kMoved * here->at(t).translation - there->at(t).translation).norm());
@@ -62,7 +56,7 @@ TEST(FitAxes, GravityIsTheDirectionThatLevelCamerasShare) {
   EXPECT_LT((axes.conjugate() * Vector3::UnitZ() - Vector3::UnitZ()).norm(), 1e-12);
   Problem problem;
   problem.keyframes = walk;
-  const Rotation seen = manifold::level_axes(moved(problem).keyframes);
+  const Rotation seen = manifold::level_axes(test::moved_by(kMoved, problem).keyframes);
   EXPECT_LT((seen * kMoved.rotation).angularDistance(axes), 1e-9);
   EXPECT_TRUE(manifold::level_axes({}).isApprox(Rotation::Identity()));
 }

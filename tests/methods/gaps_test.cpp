@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "datasets/core/interpolate.hpp"
-#include "methods/smoothers/b_spline.hpp"
-#include "methods/smoothers/cubic_spline.hpp"
 #include "methods/smoothers/gaussian_process.hpp"
+#include "methods/smoothers/interpolating_splines.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
 #include "methods/smoothers/pose_runs.hpp"
 #include "tests/support/counts.hpp"

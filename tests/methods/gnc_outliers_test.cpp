@@ -8,6 +8,7 @@
 #include "datasets/pose_graph_dataset.hpp"
 #include "datasets/simulated/simulated.hpp"
 #include "methods/correctors/pose_graph.hpp"
+#include "tests/support/corrected.hpp"
 
 namespace loopbench::gnc_outliers_test {
 
@@ -15,33 +16,29 @@ using namespace methods;
 
 namespace {
 
-/// RMS position error after rigid alignment [m]; the stamps are equal.
+/// RMS position error after rigid alignment [m]. Keyframes without a reference are ignored.
 double absolute_error(const Trajectory& keyframes, const Trajectory& reference) {
-  std::vector<Vector3> estimated, true_positions;
-  std::size_t j = 0;
-  for (const StampedPose& k : keyframes) {
-    while (j + 1 < reference.size() && reference[j].stamp < k.stamp - 1e-6) ++j;
-    if (std::abs(reference[j].stamp - k.stamp) > 1e-6) continue;
-    estimated.push_back(k.world_from_body.translation);
-    true_positions.push_back(reference[j].world_from_body.translation);
+  const Trajectory nearest = test::at_stamps_of(keyframes, reference);
+  const auto most = static_cast<Eigen::Index>(keyframes.size());
+  Eigen::Matrix3Xd a(3, most), b(3, most);
+  Eigen::Index count = 0;
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    if (std::abs(nearest[i].stamp - keyframes[i].stamp) > 1e-6) continue;
+    a.col(count) = keyframes[i].world_from_body.translation;
+    b.col(count++) = nearest[i].world_from_body.translation;
   }
-  using Points = Eigen::Matrix3Xd;
-  const auto count = static_cast<Eigen::Index>(estimated.size());
-  const Points a = Eigen::Map<const Points>(estimated.front().data(), 3, count);
-  const Points b = Eigen::Map<const Points>(true_positions.front().data(), 3, count);
+  a.conservativeResize(3, count);
+  b.conservativeResize(3, count);
   const Eigen::Matrix4d fit = Eigen::umeyama(a, b, false);
-  const Points fitted =
+  const Eigen::Matrix3Xd fitted =
       (fit.topLeftCorner<3, 3>() * a).colwise() + Vector3(fit.topRightCorner<3, 1>());
   return std::sqrt((fitted - b).squaredNorm() / static_cast<double>(count));
 }
 
-double error_with(const Sequence& sequence, const PoseGraphOptimizer::Options& options) {
-  Report report;
-  return absolute_error(PoseGraphOptimizer(options).correct(sequence.problem, report),
+double error_of(const Sequence& sequence, Gnc gnc) {
+  return absolute_error(test::corrected<PoseGraphOptimizer>(sequence.problem, {.gnc = gnc}),
                         sequence.reference);
 }
-
-double error_of(const Sequence& sequence, Gnc gnc) { return error_with(sequence, {.gnc = gnc}); }
 
 TEST(GncOutliers, ThirtyPercentAddAtMostTenPercentErrorOnSimulatedChains) {
   for (const SimulatedPath path : {SimulatedPath::driving, SimulatedPath::room}) {

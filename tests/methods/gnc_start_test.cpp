@@ -6,8 +6,10 @@
 #include "datasets/derive/poses_at.hpp"
 #include "datasets/pose_graph_dataset.hpp"
 #include "datasets/simulated/simulated.hpp"
-#include "methods/correctors/stiffness.hpp"
-#include "methods/method.hpp"
+#include "methods/correctors/plausibility.hpp"
+#include "methods/find_method.hpp"
+#include "tests/support/corrected.hpp"
+#include "tests/support/counts.hpp"
 
 namespace loopbench::gnc_start_test {
 
@@ -19,24 +21,15 @@ struct Corrected {
   Trajectory keyframes;
   Report report;
 
-  double count(const std::string& name) const {
-    for (const Count& c : report.counts) {
-      if (c.name == name) return c.value;
-    }
-    return std::nan("");
-  }
+  double count(const std::string& name) const { return test::count(report, name); }
 };
 
 /// Corrects the problem by a method of the catalogue with default options.
 Corrected corrected(const std::string& name, const Problem& problem) {
-  for (const MethodEntry& entry : methods::methods()) {
-    if (entry.name != name) continue;
-    const Stage stage = entry.make({});
-    Corrected out;
-    out.keyframes = std::get<std::unique_ptr<const Corrector>>(stage)->correct(problem, out.report);
-    return out;
-  }
-  throw std::out_of_range(name);
+  const Stage stage = find_method(name).make({});
+  Corrected out;
+  out.keyframes = std::get<std::unique_ptr<const Corrector>>(stage)->correct(problem, out.report);
+  return out;
 }
 
 Sequence drive(double false_share) {

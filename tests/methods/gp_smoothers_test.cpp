@@ -4,10 +4,10 @@
 #include <random>
 
 #include "methods/smoothers/gaussian_process.hpp"
-#include "methods/smoothers/gp/evidence.hpp"
+#include "methods/smoothers/gp/posterior.hpp"
 #include "methods/smoothers/smoothing_spline.hpp"
 #include "tests/support/counts.hpp"
-#include "tests/support/random_chain.hpp"
+#include "tests/support/noisy_paths.hpp"
 
 namespace loopbench::gp_smoothers_test {
 
@@ -17,29 +17,8 @@ namespace {
 
 using namespace test;
 
-std::unique_ptr<const Curve> smooth(const Trajectory& keyframes,
-                                    const GaussianProcess::Options& options,
-                                    Report* report = nullptr) {
-  Report unused;
-  Problem problem;
-  problem.keyframes = keyframes;
-  return GaussianProcess(options).smooth(problem, report ? *report : unused);
-}
-
-GaussianProcess::Options wnoj(GaussianProcess::Options options = {}) {
-  options.prior = GaussianProcess::Prior::acceleration;
-  return options;
-}
-
-std::vector<double> uneven(std::size_t n) {
-  std::vector<double> out;
-  double time = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    out.push_back(time);
-    time += 0.1 + 0.6 * std::pow(std::sin(1.7 * static_cast<double>(i)), 2);
-  }
-  return out;
-}
+const Params kPriors[] = {{{"prior", std::string("velocity")}},
+                          {{"prior", std::string("acceleration")}}};
 
 TEST(GaussianProcess, ReproducesAConstantTwistExactly) {
   // A helix at constant speed: the driving noise is zero.
@@ -47,10 +26,9 @@ TEST(GaussianProcess, ReproducesAConstantTwistExactly) {
   const auto truth = [&](double time) {
     return start * exp_se3(time * twist({0.8, 0.1, 0.2}, {0.1, -0.2, 0.7}));
   };
-  Trajectory keyframes;
-  for (const double stamp : uneven(15)) keyframes.push_back({stamp, truth(stamp)});
-  for (const auto& options : {GaussianProcess::Options{}, wnoj()}) {
-    const auto curve = smooth(keyframes, options);
+  const Trajectory keyframes = sampled_at(uneven(15), truth);
+  for (const Params& prior : kPriors) {
+    const auto curve = smooth<GaussianProcess>(keyframes, prior);
     for (double time = 0.0; time < keyframes.back().stamp; time += 0.07) {
       EXPECT_TRUE(is_close(curve->at(time), truth(time), 1e-9, 1e-9)) << time;
     }
@@ -72,12 +50,9 @@ Trajectory wave(std::size_t n, double sigma) {
 TEST(GaussianProcess, ConstantVelocityPriorWithoutRotationIsTheSmoothingSpline) {
   const Trajectory keyframes = wave(25, 0.03);
   // lambda = sigma^2 / power; rotations are fixed.
-  const auto process =
-      smooth(keyframes, {.sigma_t = 0.1, .sigma_r = 1e-7, .power_t = 0.5, .power_r = 1e-12});
-  Problem problem;
-  problem.keyframes = keyframes;
-  Report report;
-  const auto spline = SmoothingSpline({.lambda_t = 0.02}).smooth(problem, report);
+  const auto process = smooth<GaussianProcess>(
+      keyframes, {{"sigma_t", 0.1}, {"sigma_r", 1e-7}, {"power_t", 0.5}, {"power_r", 1e-12}});
+  const auto spline = smooth<SmoothingSpline>(keyframes, {{"lambda_t", 0.02}});
   for (double time = 0.0; time < keyframes.back().stamp; time += 0.07) {
     EXPECT_LT((process->at(time).translation - spline->at(time).translation).norm(), 1e-6) << time;
   }
@@ -138,23 +113,12 @@ Trajectory noisy_path(std::uint64_t seed, const Trajectory& truth) {
   return out;
 }
 
-Trajectory path(std::size_t n) {
-  Trajectory out;
-  for (const double time : uneven(n)) {
-    const double s = 0.11 * time;
-    out.push_back({time,
-                   {exp_so3({0.3 * std::sin(3.0 * s), 0.2 * std::cos(2.0 * s), 2.0 * s}),
-                    {2.0 * std::cos(2.0 * s), 1.5 * std::sin(2.0 * s), 0.4 * std::sin(5.0 * s)}}});
-  }
-  return out;
-}
-
 TEST(GaussianProcess, EstimatesTheNoiseAndRemovesAThirdOfIt) {
-  const Trajectory truth = path(120);
+  const Trajectory truth = hand_held_truth(120);
   const Trajectory keyframes = noisy_path(1, truth);
-  for (const auto& options : {GaussianProcess::Options{}, wnoj()}) {
+  for (const Params& prior : kPriors) {
     Report report;
-    const auto curve = smooth(keyframes, options, &report);
+    const auto curve = smooth<GaussianProcess>(keyframes, prior, &report);
     EXPECT_NEAR(count(report, "sigma_t"), 0.02, 0.006);
     EXPECT_NEAR(count(report, "sigma_r"), 0.01, 0.003);
     double before = 0.0, after = 0.0, rotation_before = 0.0, rotation_after = 0.0;
@@ -173,17 +137,10 @@ TEST(GaussianProcess, EstimatesTheNoiseAndRemovesAThirdOfIt) {
 }
 
 TEST(GaussianProcess, HasNoKink) {
-  const Trajectory keyframes = noisy_path(2, path(20));
-  for (const auto& options : {GaussianProcess::Options{}, wnoj()}) {
-    const auto curve = smooth(keyframes, options);
-    constexpr double h = 1e-5;
-    for (std::size_t i = 1; i + 1 < keyframes.size(); ++i) {
-      const Pose current = curve->at(keyframes[i].stamp);
-      const auto rate = [&](double side) {
-        return Twist(log_se3(current.inverse() * curve->at(keyframes[i].stamp + side)) / side);
-      };
-      EXPECT_LT((rate(h) - rate(-h)).norm(), 1e-3) << i;
-    }
+  const Trajectory keyframes = noisy_path(2, hand_held_truth(20));
+  for (const Params& prior : kPriors) {
+    const auto curve = smooth<GaussianProcess>(keyframes, prior);
+    expect_no_kink(*curve, keyframes);
   }
 }
 

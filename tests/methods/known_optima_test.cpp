@@ -1,13 +1,14 @@
 // Public pose graphs and chains with known optima, if LOOPBENCH_DATA contains them.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdlib>
 
 #include "datasets/pose_graph_dataset.hpp"
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
+#include "tests/support/corrected.hpp"
+#include "tests/support/counts.hpp"
 
 namespace loopbench::known_optima_test {
 
@@ -40,7 +41,7 @@ TEST_P(KnownOptimum, IsReached) {
   }
   Report report;
   PoseGraphOptimizer({.start = PoseGraphOptimizer::Start::chordal}).correct(problem, report);
-  const double chi2 = 2.0 * std::ranges::find(report.counts, "cost", &Count::name)->value;
+  const double chi2 = 2.0 * test::count(report, "cost");
   EXPECT_LT(chi2, GetParam().chi2 * (1.0 + 1e-4));
 }
 
@@ -64,20 +65,13 @@ TEST(KnownOptimum, DualAndPoseGraphAgreeOnKitti00) {
   } catch (const DataMissing& missing) {
     GTEST_SKIP() << missing.what();
   }
-  Report report;
   const Trajectory dual =
-      Dual({.max_iterations = 1000, .tolerance = 1e-15}).correct(problem, report);
+      test::corrected<Dual>(problem, {.max_iterations = 1000, .tolerance = 1e-15});
   const Trajectory graph =
-      PoseGraphOptimizer({.max_iterations = 2000, .tolerance = 1e-15}).correct(problem, report);
-  std::vector<Pose> a, b;
-  double distance = 0.0;
-  for (std::size_t i = 0; i < dual.size(); ++i) {
-    a.push_back(dual[i].world_from_body);
-    b.push_back(graph[i].world_from_body);
-    distance = std::max(distance, (a[i].translation - b[i].translation).norm());
-  }
-  EXPECT_LT(distance, 1e-4);
-  EXPECT_NEAR(chain_cost(problem, a), chain_cost(problem, b), 1e-6 * chain_cost(problem, a));
+      test::corrected<PoseGraphOptimizer>(problem, {.max_iterations = 2000, .tolerance = 1e-15});
+  EXPECT_LT(test::largest_distance(dual, graph), 1e-4);
+  const double cost = chain_cost(problem, test::poses_of(dual));
+  EXPECT_NEAR(cost, chain_cost(problem, test::poses_of(graph)), 1e-6 * cost);
 }
 
 TEST(KnownOptimum, DualFindsTheLowerMinimumOfMit) {
@@ -87,9 +81,7 @@ TEST(KnownOptimum, DualFindsTheLowerMinimumOfMit) {
   } catch (const DataMissing& missing) {
     GTEST_SKIP() << missing.what();
   }
-  const auto chi2 = [](const Report& report) {
-    return 2.0 * std::ranges::find(report.counts, "cost", &Count::name)->value;
-  };
+  const auto chi2 = [](const Report& report) { return 2.0 * test::count(report, "cost"); };
   Report from_keyframes, dual, graph;
   Dual({.start = Dual::Start::keyframes}).correct(problem, from_keyframes);
   Dual({}).correct(problem, dual);

@@ -3,10 +3,10 @@
 #include <numbers>
 
 #include "manifold_paths.hpp"
-#include "methods/smoothers/manifold/families/arc.hpp"
-#include "methods/smoothers/manifold/families/polynomial.hpp"
-#include "methods/smoothers/manifold/families/quadric.hpp"
+#include "methods/smoothers/manifold/families/graph.hpp"
 #include "methods/smoothers/manifold/fit_axes.hpp"
+#include "methods/smoothers/manifold/pieces.hpp"
+#include "methods/smoothers/manifold/spatial.hpp"
 
 namespace loopbench::methods::manifold::manifold_families_test {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "manifold_paths.hpp"
-#include "methods/smoothers/manifold/piecewise_curve.hpp"
+#include "methods/smoothers/manifold/joints.hpp"
 #include "methods/smoothers/manifold/spline.hpp"
 
 namespace loopbench::methods::manifold::manifold_joints_test {

@@ -18,6 +18,13 @@ inline Trajectory through(const std::vector<Vector3>& points) {
   return out;
 }
 
+/// One pose per second along x, so steps equal speeds.
+inline Trajectory with_speeds(const std::vector<double>& speeds) {
+  std::vector<Vector3> points{Vector3::Zero()};
+  for (const double v : speeds) points.push_back(points.back() + Vector3(v, 0.0, 0.0));
+  return through(points);
+}
+
 /// Hand-held motion: random heading, height and rotation, uneven steps and stamps.
 inline Trajectory wandering(std::size_t count, std::uint64_t seed) {
   std::mt19937_64 random(seed);

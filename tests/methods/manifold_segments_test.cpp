@@ -7,6 +7,7 @@
 #include "methods/smoothers/manifold/dm.hpp"
 #include "methods/smoothers/manifold/segments.hpp"
 #include "methods/smoothers/manifold/windows.hpp"
+#include "tests/support/counts.hpp"
 
 namespace loopbench::methods::manifold::manifold_segments_test {
 namespace {
@@ -14,33 +15,25 @@ namespace {
 using Ranges = std::vector<NodeRange>;
 using Windows = std::vector<Window>;
 
-Nodes with_speeds(const std::vector<double>& speeds) {
-  std::vector<Vector3> points{Vector3::Zero()};
-  for (const double v : speeds) points.push_back(points.back() + Vector3(v, 0.0, 0.0));
-  return Nodes(through(points));
-}
-
-Ranges segments_by(SpeedRule rule, double band, const std::vector<double>& speeds) {
-  return segments(with_speeds(speeds), {.speed_band = band, .speed = rule});
-}
-
-TEST(SpeedRule, AdjacentComparesWithThePreviousEdge) {
+TEST(SpeedRule, SplitsWhereTheSpeedLeavesTheBand) {
+  const auto segments_by =
+      [](SpeedRule rule, std::optional<double> band, const std::vector<double>& speeds) {
+        return segments(Nodes(with_speeds(speeds)), {.speed_band = band, .speed = rule});
+      };
+  const auto range = SpeedRule::range;
+  EXPECT_EQ(segments_by(range, 0.3, {1.0, 1.2, 1.1, 2.0, 2.1}), (Ranges{{0, 3}, {3, 5}}));
+  EXPECT_EQ(segments_by(range, 0.3, {1.0, 1.2, 1.4, 1.6}), (Ranges{{0, 2}, {2, 4}}));
+  EXPECT_EQ(segments_by(range, std::nullopt, {0.0, 0.0, 0.0}), (Ranges{{0, 3}}));
+  // Without a band, the mean speed 1.5: 2.6 - 1.2 = 1.4 fits, 2.6 - 0.7 = 1.9 does not.
+  EXPECT_EQ(segments_by(range, std::nullopt, {1.2, 2.6, 0.7, 1.5}), (Ranges{{0, 2}, {2, 4}}));
+  // Compared with the previous edge.
   EXPECT_EQ(segments_by(SpeedRule::adjacent, 0.3, {1.0, 1.2, 1.4, 1.6, 2.0}),
             (Ranges{{0, 4}, {4, 5}}));
-}
-
-TEST(SpeedRule, BinsComparesWithFixedSteps) {
   // Bins of 0.5: 0.9 and 1.1 are close in speed but in different bins.
   EXPECT_EQ(segments_by(SpeedRule::bins, 0.5, {0.6, 0.9, 1.1, 1.4}), (Ranges{{0, 2}, {2, 4}}));
-}
-
-TEST(SpeedRule, RunningMeanComparesWithTheSegmentSoFar) {
   // The mean of 1.0 and 1.2 is 1.1, so 1.35 is within 0.3; the mean is then 1.183 and 1.5 is not.
   EXPECT_EQ(segments_by(SpeedRule::running_mean, 0.3, {1.0, 1.2, 1.35, 1.5}),
             (Ranges{{0, 3}, {3, 4}}));
-}
-
-TEST(SpeedRule, AbsoluteComparesWithTheThreshold) {
   EXPECT_EQ(segments_by(SpeedRule::absolute, 1.0, {0.2, 0.9, 1.1, 3.0, 0.5}),
             (Ranges{{0, 2}, {2, 4}, {4, 5}}));
 }
@@ -81,9 +74,9 @@ TEST(Kappa, OfACircleIsOneOverItsRadius) {
 }
 
 TEST(ShortSegments, MergeIntoTheNeighbourOfSimilarSpeed) {
-  const Nodes nodes = with_speeds({1.0, 1.0, 1.0, 1.8, 2.0, 2.0, 2.0});
+  const Nodes nodes(with_speeds({1.0, 1.0, 1.0, 1.8, 2.0, 2.0, 2.0}));
   EXPECT_EQ(merge_short_segments(nodes, {{0, 3}, {3, 4}, {4, 7}}, 3), (Ranges{{0, 3}, {3, 7}}));
-  const Nodes other = with_speeds({1.0, 1.0, 1.0, 1.2, 2.0, 2.0, 2.0});
+  const Nodes other(with_speeds({1.0, 1.0, 1.0, 1.2, 2.0, 2.0, 2.0}));
   EXPECT_EQ(merge_short_segments(other, {{0, 3}, {3, 4}, {4, 7}}, 3), (Ranges{{0, 4}, {4, 7}}));
 }
 
@@ -147,10 +140,7 @@ TEST(DmReport, ListsSegmentsAndWindowsAsSections) {
   std::map<std::string, std::vector<Section>> kinds;
   for (const Section& section : report.sections) kinds[section.kind].push_back(section);
   const auto counted = [&](const std::string& name) {
-    for (const Count& count : report.counts) {
-      if (count.name == name) return static_cast<std::size_t>(count.value);
-    }
-    return std::size_t{0};
+    return static_cast<std::size_t>(test::count(report, name));
   };
   EXPECT_EQ(kinds["segment"].size(), counted("segments"));
   EXPECT_EQ(kinds["window"].size(), counted("windows"));

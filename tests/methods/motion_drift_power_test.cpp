@@ -5,6 +5,7 @@
 #include "datasets/random.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/motion_drift/motion_drift.hpp"
+#include "tests/support/corrected.hpp"
 
 namespace loopbench::motion_drift_power_test {
 
@@ -78,9 +79,8 @@ TEST(MotionDriftPower, NoiseByDistanceReachesTheTheoreticalGain) {
     std::vector<double> errors;
     for (const double step : steps) errors.push_back(random.normal3().x() * 0.1 * std::sqrt(step));
     const Problem problem = walk_along_x(steps, errors);
-    Report report;
-    ours += mean_square(MotionDrift(options).correct(problem, report), steps) / seeds;
-    dual += mean_square(Dual({}).correct(problem, report), steps) / seeds;
+    ours += mean_square(test::corrected<MotionDrift>(problem, options), steps) / seeds;
+    dual += mean_square(test::corrected<Dual>(problem), steps) / seeds;
   }
   EXPECT_NEAR(ours, best, 0.12 * best);
   EXPECT_NEAR(dual, even, 0.12 * even);
@@ -122,9 +122,8 @@ TEST(MotionDriftPower, SteadyDriftReachesTheTheoreticalGain) {
     std::vector<double> errors;
     for (const double step : steps) errors.push_back(rate * step + 0.01 * random.normal3().x());
     const Problem problem = walk_along_x(steps, errors);
-    Report report;
-    ours += mean_square(MotionDrift(options).correct(problem, report), steps) / seeds;
-    dual += mean_square(Dual({}).correct(problem, report), steps) / seeds;
+    ours += mean_square(test::corrected<MotionDrift>(problem, options), steps) / seeds;
+    dual += mean_square(test::corrected<Dual>(problem), steps) / seeds;
   }
   EXPECT_NEAR(ours, best, 0.12 * best);
   EXPECT_NEAR(dual, even, 0.2 * even);  // one rate per walk: few degrees of freedom
@@ -174,23 +173,13 @@ Laps laps(int seed, double drift) {
   return out;
 }
 
-double rmse_of(const Trajectory& estimate, const Trajectory& truth) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    sum += (estimate[i].world_from_body.translation - truth[i].world_from_body.translation)
-               .squaredNorm();
-  }
-  return std::sqrt(sum / static_cast<double>(truth.size()));
-}
-
 /// Geometric mean over seeds of the error relative to that of `dual`.
 double against_dual(const MotionDrift::Options& options, double drift, int seeds) {
   double sum = 0.0;
   for (int seed = 1; seed <= seeds; ++seed) {
     const Laps data = laps(seed, drift);
-    Report report;
-    sum += std::log(rmse_of(MotionDrift(options).correct(data.problem, report), data.truth) /
-                    rmse_of(Dual({}).correct(data.problem, report), data.truth));
+    sum += std::log(test::rmse(test::corrected<MotionDrift>(data.problem, options), data.truth) /
+                    test::rmse(test::corrected<Dual>(data.problem), data.truth));
   }
   return std::exp(sum / seeds);
 }

@@ -8,6 +8,7 @@
 #include "methods/correctors/looped_chain.hpp"
 #include "methods/correctors/motion_drift/loop_averages.hpp"
 #include "methods/correctors/motion_drift/motion_drift.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::motion_drift_weak_closures_test {
@@ -15,6 +16,8 @@ namespace loopbench::motion_drift_weak_closures_test {
 using namespace methods;
 
 namespace {
+
+using namespace test;
 
 Matrix6 information_of(double sigma) { return Matrix6::Identity() / (sigma * sigma); }
 
@@ -35,20 +38,6 @@ Problem with_weak_closure(Problem problem, double sigma) {
 
 Eigen::VectorXd gap_of(const Problem& problem) {
   return LoopedChain(problem, stated_noise_model(problem)).linearise().gap;
-}
-
-double largest_distance(const Trajectory& a, const Trajectory& b) {
-  double out = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    out =
-        std::max(out, (a[i].world_from_body.translation - b[i].world_from_body.translation).norm());
-  }
-  return out;
-}
-
-Trajectory corrected(const Problem& problem) {
-  Report report;
-  return MotionDrift({}).correct(problem, report);
 }
 
 /// Prior medians of all terms for default options.
@@ -94,10 +83,10 @@ TEST(MotionDriftWeakClosures, EqualVariancesGiveEqualWeights) {
 
 TEST(MotionDriftWeakClosures, AWeakClosureDoesNotChangeTheTrajectory) {
   const Problem problem = drive();
-  const Trajectory without = corrected(problem);
+  const Trajectory without = corrected<MotionDrift>(problem);
   const double moved = largest_distance(without, problem.keyframes);
   for (const double sigma : {1e3, 1e5}) {
-    const Trajectory with = corrected(with_weak_closure(problem, sigma));
+    const Trajectory with = corrected<MotionDrift>(with_weak_closure(problem, sigma));
     EXPECT_LT(largest_distance(with, without), 0.2 * moved) << sigma;
   }
 }
@@ -108,9 +97,9 @@ TEST(MotionDriftWeakClosures, DeviationsInAnotherUnitDoNotChangeTheTrajectory) {
   for (std::vector<Edge>* edges : {&scaled.odometry, &scaled.closures}) {
     for (Edge& edge : *edges) edge.information *= 1e-6;
   }
-  const Trajectory out = corrected(problem);
+  const Trajectory out = corrected<MotionDrift>(problem);
   const double moved = largest_distance(out, problem.keyframes);
-  EXPECT_LT(largest_distance(corrected(scaled), out), 0.2 * moved);
+  EXPECT_LT(largest_distance(corrected<MotionDrift>(scaled), out), 0.2 * moved);
 }
 
 }  // namespace

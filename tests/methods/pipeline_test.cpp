@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "methods/correctors/uniform.hpp"
-#include "methods/smoothers/cubic_spline.hpp"
+#include "methods/function_method.hpp"
+#include "methods/smoothers/interpolating_splines.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::pipeline_test {
@@ -13,18 +14,6 @@ using namespace methods;
 namespace {
 
 using namespace test;
-
-/// A corrector that calls a function, used for invalid correctors.
-class FunctionCorrector final : public Corrector {
- public:
-  explicit FunctionCorrector(std::function<Trajectory(Trajectory)> work) : work_(std::move(work)) {}
-  Trajectory correct(const Problem& problem, Report&) const override {
-    return work_(problem.keyframes);
-  }
-
- private:
-  std::function<Trajectory(Trajectory)> work_;
-};
 
 TEST(WithKeyframes, FramesFollowARigidMotion) {
   const Problem before = hand_held();
@@ -57,7 +46,7 @@ TEST(WithKeyframes, DropsFramesOutsideTheKeyframes) {
 }
 
 TEST(Compose, RejectsACorrectorThatDropsAKeyframeOrChangesAStamp) {
-  const auto expect_rejected = [](const std::function<Trajectory(Trajectory)>& work) {
+  const auto expect_rejected = [](const CorrectingFunction& work) {
     const auto alone = compose(std::make_unique<FunctionCorrector>(work), nullptr);
     const auto both = compose(std::make_unique<FunctionCorrector>(work),
                               std::make_unique<CubicSpline>(CubicSpline::Options{}));
@@ -65,11 +54,13 @@ TEST(Compose, RejectsACorrectorThatDropsAKeyframeOrChangesAStamp) {
     EXPECT_THROW(alone->estimate(hand_held(), report), std::runtime_error);
     EXPECT_THROW(both->estimate(hand_held(), report), std::runtime_error);
   };
-  expect_rejected([](Trajectory poses) {
+  expect_rejected([](const Problem& problem) {
+    Trajectory poses = problem.keyframes;
     poses.pop_back();
     return poses;
   });
-  expect_rejected([](Trajectory poses) {
+  expect_rejected([](const Problem& problem) {
+    Trajectory poses = problem.keyframes;
     poses[3].stamp += 0.001;
     return poses;
   });

@@ -7,6 +7,7 @@
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/solvers/initial_values.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
@@ -17,22 +18,12 @@ using namespace methods;
 
 namespace {
 
-using test::count;
-using test::random_information;
-using test::random_twist;
-using test::walk;
+using namespace test;
 using Options = PoseGraphOptimizer::Options;
 
-Trajectory corrected(const Problem& problem, const Options& options = {}) {
-  Report report;
-  return PoseGraphOptimizer(options).correct(problem, report);
-}
-
-std::vector<Pose> poses(const Trajectory& trajectory) {
-  std::vector<Pose> out;
-  for (const StampedPose& p : trajectory) out.push_back(p.world_from_body);
-  return out;
-}
+constexpr auto optimised = [](const Problem& problem, const Options& options = {}) {
+  return corrected<PoseGraphOptimizer>(problem, options);
+};
 
 double largest_difference(const Trajectory& a, const Trajectory& b) {
   double largest = 0.0;
@@ -46,20 +37,18 @@ double largest_difference(const Trajectory& a, const Trajectory& b) {
 TEST(PoseGraph, EqualsDualOnAChain) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Problem problem = walk(seed, 200, 0.02);
-    Report report;
-    const Trajectory dual =
-        Dual({.max_iterations = 200, .tolerance = 0.0}).correct(problem, report);
-    const Trajectory graph = corrected(problem);
+    const Trajectory dual = corrected<Dual>(problem, {.max_iterations = 200, .tolerance = 0.0});
+    const Trajectory graph = optimised(problem);
     EXPECT_LT(largest_difference(dual, graph), 1e-4) << seed;
-    const double cost = chain_cost(problem, poses(graph));
-    EXPECT_NEAR(chain_cost(problem, poses(dual)), cost, 1e-6 * cost);
+    const double cost = chain_cost(problem, poses_of(graph));
+    EXPECT_NEAR(chain_cost(problem, poses_of(dual)), cost, 1e-6 * cost);
   }
 }
 
 TEST(PoseGraph, HasZeroGradientAtItsMinimum) {
   // The analytic Jacobians are correct if no numeric direction lowers the cost.
   const Problem problem = walk(9, 20, 0.1);
-  const std::vector<Pose> best = poses(corrected(problem));
+  const std::vector<Pose> best = poses_of(optimised(problem));
   const double minimum = chain_cost(problem, best);
   for (std::size_t i = 1; i < best.size(); ++i) {
     for (int d = 0; d < 6; ++d) {
@@ -78,8 +67,8 @@ TEST(PoseGraph, HasZeroGradientAtItsMinimum) {
 
 TEST(PoseGraph, ResultDoesNotDependOnTheStartNearTheMinimum) {
   const Problem problem = walk(4, 60, 0.02);
-  EXPECT_LT(largest_difference(corrected(problem),
-                               corrected(problem, {.start = PoseGraphOptimizer::Start::odometry})),
+  EXPECT_LT(largest_difference(optimised(problem),
+                               optimised(problem, {.start = PoseGraphOptimizer::Start::odometry})),
             1e-6);
 }
 
@@ -121,7 +110,7 @@ TEST(PoseGraph, GraduatedNonConvexityRejectsFalseClosures) {
     const Trajectory robust = PoseGraphOptimizer({.gnc = kind}).correct(problem, report);
     const auto kept = std::ranges::find(report.counts, "closures_kept", &Count::name);
     EXPECT_EQ(kept->value, 12.0) << to_text(kind);
-    const double plain = (corrected(problem).back().world_from_body.translation -
+    const double plain = (optimised(problem).back().world_from_body.translation -
                           truth.back().world_from_body.translation)
                              .norm();
     const double error =
@@ -136,7 +125,7 @@ TEST(PoseGraph, KeepsEveryClosureWhenAllAreTrue) {
   std::erase_if(problem.closures, [](const Edge& e) { return e.to - e.from == 101; });
   Report report;
   const Trajectory gnc = PoseGraphOptimizer({.gnc = Gnc::tls}).correct(problem, report);
-  EXPECT_LT(largest_difference(gnc, corrected(problem)), 1e-9);
+  EXPECT_LT(largest_difference(gnc, optimised(problem)), 1e-9);
 }
 
 TEST(PoseGraph, RobustLossesReduceTheInfluenceOfOutliers) {
@@ -145,7 +134,7 @@ TEST(PoseGraph, RobustLossesReduceTheInfluenceOfOutliers) {
   Pose& measured = problem.closures[0].from_from_to;
   measured.translation += Vector3(50.0, 0.0, 0.0);
   const auto moved = [&](RobustLoss loss) {
-    const Trajectory out = corrected(problem, {.loss = loss});
+    const Trajectory out = optimised(problem, {.loss = loss});
     const std::size_t to = problem.closures[0].to;
     return (out[to].world_from_body.translation - problem.keyframes[to].world_from_body.translation)
         .norm();
@@ -158,20 +147,12 @@ TEST(PoseGraph, RobustLossesReduceTheInfluenceOfOutliers) {
   EXPECT_LT(moved(RobustLoss::switchable), 0.01 * plain);
 }
 
-/// Three keyframes on a line: steps measured as 1 m, the total as 2.3 m, equal information.
-Problem three_on_a_line() {
-  const auto at = [](double x) { return Pose{Rotation::Identity(), {x, 0.0, 0.0}}; };
-  Problem problem;
-  for (int i = 0; i < 3; ++i) problem.keyframes.push_back({double(i), at(i)});
-  problem.odometry = {{0, 1, at(1.0)}, {1, 2, at(1.0)}};
-  problem.closures = {{0, 2, at(2.3)}};
-  return problem;
-}
-
 TEST(PoseGraph, DistributesAGapEvenly) {
-  // 0.3 m over three equal variances: 0.1 m each, cost 1/2 * 3 * 0.01. In every group.
+  // Steps measured as 1 m, the total as 2.3 m: 0.3 m over three equal variances, 0.1 m each, cost
+  // 1/2 * 3 * 0.01. In every group.
   for (const char* group : {"se2", "se3", "sim3"}) {
-    Problem problem = three_on_a_line();
+    Problem problem = along_x({0, 1, 2});
+    problem.closures = {{0, 2, at_x(2.3)}};
     problem.planar = true;
     Report report;
     const Options options = with(Options{}, {{"group", std::string(group)}, {"scale_sigma", 1e-9}});
@@ -188,13 +169,8 @@ TEST(PoseGraph, DistributesAScaleChangeEvenly) {
   // information take a fifth of its logarithm each, so steps grow by q = 16^(1/5). The closure's
   // length matches such a path, so only scales are inconsistent.
   const double q = std::pow(16.0, 0.2);
-  const auto at = [](double x) { return Pose{Rotation::Identity(), {x, 0.0, 0.0}}; };
-  Problem problem;
-  for (int i = 0; i < 5; ++i) {
-    problem.keyframes.push_back({double(i), at(i)});
-    if (i > 0) problem.odometry.push_back({std::size_t(i - 1), std::size_t(i), at(1.0)});
-  }
-  problem.closures.push_back({0, 4, at(1.0 + q + q * q + q * q * q)});
+  Problem problem = along_x({0, 1, 2, 3, 4});
+  problem.closures.push_back({0, 4, at_x(1.0 + q + q * q + q * q * q)});
   problem.closures[0].scale = 16.0;
   Report report;
   const Trajectory out =
@@ -219,10 +195,10 @@ TEST(PoseGraph, AcceptsConnectedGraphsOnly) {
     Pose& pose = problem.keyframes[i].world_from_body;
     pose = pose * exp_se3(random_twist(random, 0.1, 0.05));
   }
-  EXPECT_LT(largest_difference(corrected(problem), truth), 1e-6);
+  EXPECT_LT(largest_difference(optimised(problem), truth), 1e-6);
   for (const auto start :
        {PoseGraphOptimizer::Start::odometry, PoseGraphOptimizer::Start::chordal}) {
-    EXPECT_LT(largest_difference(corrected(problem, {.start = start}), truth), 1e-6);
+    EXPECT_LT(largest_difference(optimised(problem, {.start = start}), truth), 1e-6);
   }
   std::erase_if(problem.closures, [](const Edge& e) { return e.from < 21 && e.to >= 21; });
   ASSERT_FALSE(problem.closures.empty());
@@ -232,7 +208,7 @@ TEST(PoseGraph, AcceptsConnectedGraphsOnly) {
 
 TEST(PoseGraph, FindsTheSameMinimumInThePlaneAndInSpace) {
   const Pose tilted{exp_so3({0.4, -1.1, 2.0}), {30.0, -20.0, 10.0}};
-  const Problem problem = test::moved_by(tilted, test::planar());
+  const Problem problem = moved_by(tilted, planar());
   Report in_plane, in_space;
   const Trajectory a = PoseGraphOptimizer({}).correct(problem, in_plane);
   const Trajectory b =
@@ -256,7 +232,7 @@ TEST(PoseGraph, ChordalValuesAreExactWhenMeasurementsAre) {
 TEST(PoseGraph, RejectsSingularInformation) {
   Problem problem = walk(2, 10, 0.01);
   problem.odometry[3].information.setZero();
-  EXPECT_THROW(corrected(problem), std::runtime_error);
+  EXPECT_THROW(optimised(problem), std::runtime_error);
 }
 
 }  // namespace

@@ -8,13 +8,17 @@
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/solvers/groups/sim3.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/counts.hpp"
+#include "tests/support/problems.hpp"
 
 namespace loopbench::scale_drift_test {
 
 using namespace methods;
 
 namespace {
+
+using namespace test;
 
 /// One lap of a square of 40 m in steps of one metre. The scale grows by `creep` per step without
 /// being measured by the odometry; the closure from the end to the start measures it.
@@ -46,15 +50,6 @@ ScaleDrift scale_drift(double creep, double precision) {
   return out;
 }
 
-double rms_to(const Trajectory& estimate, const Trajectory& truth) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    sum += (estimate[i].world_from_body.translation - truth[i].world_from_body.translation)
-               .squaredNorm();
-  }
-  return std::sqrt(sum / static_cast<double>(truth.size()));
-}
-
 TEST(ScaleDrift, IsDistributedOverTheLoopAndTheClosure) {
   // 40 edges and a closure with equal scale information and no pose information: each edge takes
   // 1/41 of the gap of 40 creeps.
@@ -74,15 +69,9 @@ TEST(ScaleDrift, IsDistributedOverTheLoopAndTheClosure) {
 TEST(ScaleDrift, IsSharedByOverlappingLoops) {
   // Chain of 3 edges, loops 0-2 and 1-3 with log scales 1 and 2: (N + I) = [3 1; 1 3], so
   // lambda = (1/8, 5/8) and the edges change by 1/8, 6/8, 5/8.
-  Problem problem;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto x = static_cast<double>(i);
-    problem.keyframes.push_back({x, {Rotation::Identity(), Vector3(x, 0, 0)}});
-    if (i < 3) problem.odometry.push_back({i, i + 1, {Rotation::Identity(), Vector3(1, 0, 0)}});
-  }
-  const Pose two{Rotation::Identity(), Vector3(2, 0, 0)};
+  Problem problem = along_x({0, 1, 2, 3});
   const Matrix6 weak = Matrix6::Identity() * 1e-12;
-  problem.closures = {{0, 2, two, weak, std::exp(1.0)}, {1, 3, two, weak, std::exp(2.0)}};
+  problem.closures = {{0, 2, at_x(2), weak, std::exp(1.0)}, {1, 3, at_x(2), weak, std::exp(2.0)}};
   const Problem rigid = remove_scale_drift(problem);
   EXPECT_NEAR(rigid.odometry[0].from_from_to.translation.x(), 1.0, 1e-9);
   EXPECT_NEAR(rigid.odometry[1].from_from_to.translation.x(), std::exp(1.0 / 8), 1e-9);
@@ -95,14 +84,13 @@ TEST(ScaleDrift, IsSharedByOverlappingLoops) {
 
 TEST(ScaleDrift, DualEqualsTheSim3PoseGraph) {
   const ScaleDrift square = scale_drift(0.01, 1e4);
-  Report report;
-  const Trajectory graph = PoseGraphOptimizer({}).correct(square.problem, report);
-  const Trajectory dual = Dual({}).correct(square.problem, report);
-  const Trajectory drift = MotionDrift({}).correct(square.problem, report);
-  const Trajectory rigid = Dual({.scale = false}).correct(square.problem, report);
-  EXPECT_LT(rms_to(dual, square.truth), 0.1 * rms_to(rigid, square.truth));
-  EXPECT_LT(rms_to(drift, square.truth), 0.1 * rms_to(rigid, square.truth));
-  EXPECT_LT(rms_to(dual, graph), 1e-3 * rms_to(rigid, graph));
+  const Trajectory graph = corrected<PoseGraphOptimizer>(square.problem);
+  const Trajectory dual = corrected<Dual>(square.problem);
+  const Trajectory drift = corrected<MotionDrift>(square.problem);
+  const Trajectory rigid = corrected<Dual>(square.problem, {.scale = false});
+  EXPECT_LT(rmse(dual, square.truth), 0.1 * rmse(rigid, square.truth));
+  EXPECT_LT(rmse(drift, square.truth), 0.1 * rmse(rigid, square.truth));
+  EXPECT_LT(rmse(dual, graph), 1e-3 * rmse(rigid, graph));
 }
 
 TEST(ScaleDrift, DualWeightsTranslationInTheSameScaleAsThePoseGraph) {
@@ -112,8 +100,7 @@ TEST(ScaleDrift, DualWeightsTranslationInTheSameScaleAsThePoseGraph) {
   const Problem rigid = remove_scale_drift(square.problem);
   EXPECT_NEAR(rigid.closures[0].information(0, 0), 1e4, 1e-9);
 
-  Report report;
-  const Trajectory dual = Dual({}).correct(square.problem, report);
+  const Trajectory dual = corrected<Dual>(square.problem);
   std::vector<ScaledPose> poses;
   for (std::size_t i = 0; i < dual.size(); ++i) {
     poses.push_back({dual[i].world_from_body, 1.0});
@@ -131,7 +118,7 @@ TEST(ScaleDrift, DualWeightsTranslationInTheSameScaleAsThePoseGraph) {
   }
   Report graph;
   PoseGraphOptimizer({}).correct(square.problem, graph);
-  const double minimum = 2.0 * test::count(graph, "cost");
+  const double minimum = 2.0 * count(graph, "cost");
   EXPECT_GT(chi2, minimum * (1.0 - 1e-9));
   EXPECT_LT(chi2, minimum * 1.001);
 }

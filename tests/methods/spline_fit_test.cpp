@@ -5,10 +5,11 @@
 
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/pose_graph.hpp"
-#include "methods/smoothers/b_spline.hpp"
+#include "methods/smoothers/interpolating_splines.hpp"
 #include "methods/smoothers/spline/basis.hpp"
 #include "methods/smoothers/spline_regression.hpp"
 #include "methods/solvers/spline_solver.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
@@ -97,15 +98,11 @@ TEST(SplineRegression, WithFewKnotsReproducesSplines) {
 
 TEST(SplineFit, WithOneKnotPerKeyframeInterpolatesThePoseGraphOptimum) {
   for (const Problem& problem : {walk(3, 30, 0.02), hand_held()}) {
-    Report report, other;
+    Report report;
     const auto curve = SplineFit({}).estimate(problem, report);
-    const Trajectory optimum = PoseGraphOptimizer({}).correct(problem, other);
-    for (const auto& [stamp, pose] : optimum) {
-      EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-5, 1e-5)) << stamp;
-    }
-    std::vector<Pose> poses;
-    for (const auto& [stamp, pose] : optimum) poses.push_back(pose);
-    const double cost = chain_cost(problem, poses);
+    const Trajectory optimum = corrected<PoseGraphOptimizer>(problem);
+    expect_close(curve->sample(stamps(optimum)), optimum, 1e-5);
+    const double cost = chain_cost(problem, poses_of(optimum));
     EXPECT_NEAR(count(report, "cost"), cost, 1e-6 * cost);
   }
 }

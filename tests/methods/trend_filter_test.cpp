@@ -77,7 +77,7 @@ TEST(TrendFilter, KinkOfThreePointsIsSoftThresholded) {
   const std::vector<Vector3> y{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}};
   EXPECT_NEAR(trend.min_lambda_of_line(y), 1.0 / 3.0, 1e-15);
   for (const double lambda : {0.05, 0.2, 0.5}) {
-    const auto fit = trend.fit(y, lambda, {.tolerance = 1e-10});
+    const auto fit = trend.fit(y, lambda, 1e-10);
     const double expected = std::min(lambda, 1.0 / 3.0);
     EXPECT_TRUE(fit.converged);
     EXPECT_NEAR(fit.values[0].x(), expected, 1e-8);
@@ -93,7 +93,7 @@ TEST(TrendFilter, SatisfiesTheOptimalityConditions) {
   const std::vector<Vector3> y = wavy(kTwelve);
   const Trend trend(kTwelve);
   const double lambda = 0.2 * trend.min_lambda_of_line(y);
-  const auto fit = trend.fit(y, lambda, {.tolerance = 1e-11});
+  const auto fit = trend.fit(y, lambda, 1e-11);
   ASSERT_TRUE(fit.converged);
   std::vector<double> times = kTwelve;
   for (double& time : times) time /= trend.interval();

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "methods/correctors/dual.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::two_pass_test {
@@ -15,10 +16,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Trajectory corrected(const Problem& problem, const TwoPass::Options& options = {}) {
-  Report report;
-  return TwoPass(options).correct(problem, report);
-}
+using test::corrected;
 
 double gap(const Edge& loop, const Trajectory& t) {
   const Pose target = t[loop.from].world_from_body * loop.from_from_to;
@@ -29,10 +27,9 @@ double gap(const Edge& loop, const Trajectory& t) {
 
 /// Steps of 1 m along x without rotation, and one closure from the first to the last keyframe.
 Problem straight(int steps, const Pose& measured, double scale = 1.0) {
-  Problem out;
-  for (int i = 0; i <= steps; ++i) {
-    out.keyframes.push_back({double(i), {Rotation::Identity(), Vector3(i, 0, 0)}});
-  }
+  std::vector<double> positions;
+  for (int i = 0; i <= steps; ++i) positions.push_back(i);
+  Problem out = test::along_x(positions);
   out.closures.push_back({0, std::size_t(steps), measured, Matrix6::Identity(), scale});
   return out;
 }
@@ -43,7 +40,7 @@ TEST(TwoPass, RotatesTheLaterStepsAndThenDistributesTheShift) {
   // that, no shift remains.
   const double r = std::sqrt(0.5);
   const Problem problem = straight(2, {exp_so3({0, 0, kPi / 2}), Vector3(1.0 + r, r, 0.0)});
-  const Trajectory out = corrected(problem);
+  const Trajectory out = corrected<TwoPass>(problem);
   EXPECT_TRUE(
       is_close(out[1].world_from_body, {exp_so3({0, 0, kPi / 4}), {1, 0, 0}}, 1e-12, 1e-12));
   EXPECT_TRUE(is_close(out[2].world_from_body, problem.closures[0].from_from_to, 1e-12, 1e-12));
@@ -51,18 +48,18 @@ TEST(TwoPass, RotatesTheLaterStepsAndThenDistributesTheShift) {
   // An additional shift of (0, 0, 3) is distributed evenly.
   Problem lifted = problem;
   lifted.closures[0].from_from_to.translation.z() = 3.0;
-  EXPECT_NEAR(corrected(lifted)[1].world_from_body.translation.z(), 1.5, 1e-12);
+  EXPECT_NEAR(corrected<TwoPass>(lifted)[1].world_from_body.translation.z(), 1.5, 1e-12);
 }
 
 TEST(TwoPass, DistributesScaleAsAPowerOfTheShare) {
   // Four steps measured as 1, with a scale that grows by 16 = 2^4 over the loop: 1, 2, 4, 8.
   const Problem problem = straight(4, {Rotation::Identity(), Vector3(15, 0, 0)}, 16.0);
-  const Trajectory out = corrected(problem);
+  const Trajectory out = corrected<TwoPass>(problem);
   const double expected[] = {0.0, 1.0, 3.0, 7.0, 15.0};
   for (std::size_t i = 0; i < out.size(); ++i) {
     EXPECT_NEAR(out[i].world_from_body.translation.x(), expected[i], 1e-9);
   }
-  const Trajectory rigid = corrected(problem, {.scale = false});
+  const Trajectory rigid = corrected<TwoPass>(problem, {.scale = false});
   EXPECT_NEAR(rigid[1].world_from_body.translation.x(), 3.75, 1e-12);
 }
 
@@ -78,7 +75,7 @@ TEST(TwoPass, ScaleIsNotDistributedTwiceByOverlappingLoops) {
                                              {loop(0, 4, 15, 16), loop(0, 4, 15, 16)}};
   for (const std::vector<Edge>& closures : cases) {
     problem.closures = closures;
-    const Trajectory out = corrected(problem);
+    const Trajectory out = corrected<TwoPass>(problem);
     for (std::size_t i = 0; i < out.size(); ++i) {
       EXPECT_NEAR(out[i].world_from_body.translation.x(), expected[i], 1e-9) << i;
     }
@@ -88,7 +85,7 @@ TEST(TwoPass, ScaleIsNotDistributedTwiceByOverlappingLoops) {
 TEST(TwoPass, MovesTheTailRigidly) {
   Problem problem = straight(6, {});
   problem.closures = {{0, 2, {exp_so3({0, 0, kPi / 2}), Vector3(1, 1, 0)}, Matrix6::Identity()}};
-  const Trajectory out = corrected(problem);
+  const Trajectory out = corrected<TwoPass>(problem);
   EXPECT_TRUE(is_close(out[6].world_from_body, {exp_so3({0, 0, kPi / 2}), {1, 5, 0}}, 1e-9, 1e-9));
 }
 
@@ -96,9 +93,9 @@ TEST(TwoPass, OpenKeepsAllLoopsClosedWholeOnlyTheLast) {
   const Problem problem = test::drifting(test::hand_held_truth(60),
                                          twist({0.002, -0.001, 0.003}, {0.001, 0.002, 0.01}),
                                          {{5, 30}, {10, 45}, {2, 57}});
-  const Trajectory open = corrected(problem, {.overlap = LoopOverlap::open});
+  const Trajectory open = corrected<TwoPass>(problem, {.overlap = LoopOverlap::open});
   for (const Edge& loop : problem.closures) EXPECT_LT(gap(loop, open), 1e-9);
-  const Trajectory whole = corrected(problem);
+  const Trajectory whole = corrected<TwoPass>(problem);
   EXPECT_LT(gap(problem.closures.back(), whole), 1e-9);
   EXPECT_GT(gap(problem.closures.front(), whole), 1e-3);
 }
@@ -108,24 +105,17 @@ TEST(TwoPass, EqualsMaximumLikelihoodForOneExactLoop) {
   // evenly, so the two differ only by the lever arm. For a pure shift on a straight line without
   // rotation there is none, so they agree exactly.
   Problem problem = straight(8, {Rotation::Identity(), Vector3(8.2, 0.1, -0.05)});
-  for (std::size_t i = 0; i < 8; ++i) {
-    Matrix6 information = Matrix6::Identity();
-    information.bottomRightCorner<3, 3>() *= 1e12;  // no rotation
-    problem.odometry.push_back({i, i + 1, {Rotation::Identity(), {1, 0, 0}}, information});
+  for (Edge& step : problem.odometry) {
+    step.information.bottomRightCorner<3, 3>() *= 1e12;  // no rotation
   }
   problem.closures[0].information *= 1e12;
-  Report report;
-  const Trajectory dual = Dual({}).correct(problem, report);
-  const Trajectory two_pass = corrected(problem);
-  for (std::size_t i = 0; i < two_pass.size(); ++i) {
-    EXPECT_TRUE(is_close(two_pass[i].world_from_body, dual[i].world_from_body, 1e-6, 1e-6)) << i;
-  }
+  test::expect_close(corrected<TwoPass>(problem), corrected<Dual>(problem), 1e-6);
 }
 
 TEST(TwoPass, RejectsUnsortedClosures) {
   Problem problem = straight(6, {});
   problem.closures = {{0, 5, {}, Matrix6::Identity()}, {0, 3, {}, Matrix6::Identity()}};
-  EXPECT_THROW(corrected(problem), std::runtime_error);
+  EXPECT_THROW(corrected<TwoPass>(problem), std::runtime_error);
   problem.closures.clear();
   EXPECT_EQ(TwoPass({}).why_declined(problem), "the problem has no loop closures");
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/corrected.hpp"
+#include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::uniform_test {
@@ -18,12 +20,7 @@ struct Result {
 
   Vector3 place(std::size_t i) const { return poses[i].world_from_body.translation; }
   double yaw(std::size_t i) const { return log_so3(poses[i].world_from_body.rotation).z(); }
-  double count(const std::string& name) const {
-    for (const Count& count : report.counts) {
-      if (count.name == name) return count.value;
-    }
-    throw std::logic_error("no count " + name);
-  }
+  double count(const std::string& name) const { return test::count(report, name); }
 };
 
 Result corrected(const Problem& problem, const Params& params = {}) {
@@ -35,16 +32,6 @@ Result corrected(const Problem& problem, const Params& params = {}) {
 }
 
 Params option(const std::string& name, const std::string& word) { return {{name, word}}; }
-
-/// Keyframes at the given positions along x, a second apart by default, with identity rotation.
-Problem along_x(const std::vector<double>& positions, const std::vector<double>& times = {}) {
-  Problem out;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const double stamp = times.empty() ? static_cast<double>(i) : times[i];
-    out.keyframes.push_back({stamp, {Rotation::Identity(), {positions[i], 0.0, 0.0}}});
-  }
-  return out;
-}
 
 Edge closure(std::size_t from, std::size_t to, const Vector3& place, double yaw = 0.0) {
   return {from, to, turned_about_z(yaw, place)};
@@ -168,18 +155,9 @@ TEST(Uniform, RecoversACircleWithConstantYawDrift) {
   // Even distribution assumes a constant bias per step, so most of the error must vanish.
   const Problem drifted = circle(41, 0.01);
   const Problem truth = circle(41, 0.0);
-  const Result result = corrected(drifted);
-  const auto largest_error = [&](const Trajectory& poses) {
-    double out = 0.0;
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      const Vector3 error =
-          poses[i].world_from_body.translation - truth.keyframes[i].world_from_body.translation;
-      out = std::max(out, error.head<2>().norm());
-    }
-    return out;
-  };
-  EXPECT_GT(largest_error(drifted.keyframes), 1.5);
-  EXPECT_LT(largest_error(result.poses), 0.5 * largest_error(drifted.keyframes));
+  const double before = largest_distance(drifted.keyframes, truth.keyframes);
+  EXPECT_GT(before, 1.5);
+  EXPECT_LT(largest_distance(corrected(drifted).poses, truth.keyframes), 0.5 * before);
 }
 
 }  // namespace

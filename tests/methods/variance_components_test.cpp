@@ -6,6 +6,7 @@
 #include "datasets/simulated/simulated.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/counts.hpp"
 #include "tests/support/random_chain.hpp"
 
@@ -15,6 +16,8 @@ using namespace methods;
 
 namespace {
 
+using namespace test;
+
 Sequence simulated(std::int64_t seed) {
   SimulatedOptions options;
   options.path = SimulatedPath::driving;
@@ -23,16 +26,8 @@ Sequence simulated(std::int64_t seed) {
   return load_simulated(options);
 }
 
-double rms_between(const Trajectory& a, const Trajectory& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    sum += (a[i].world_from_body.translation - b[i].world_from_body.translation).squaredNorm();
-  }
-  return std::sqrt(sum / static_cast<double>(a.size()));
-}
-
 TEST(VarianceComponents, FactorsMultiplyFullCovariances) {
-  const Problem problem = test::walk(3, 10, 0.1);
+  const Problem problem = walk(3, 10, 0.1);
   const Problem scaled = with_factors(problem, {4.0, 9.0});
   const Matrix6 before = problem.odometry[2].information.inverse();
   const Matrix6 after = scaled.odometry[2].information.inverse();
@@ -64,18 +59,11 @@ TEST(VarianceComponents, RescaledDualIsAsGoodAsWithTheTrueCovariances) {
   for (int seed = 1; seed <= 6; ++seed) {
     const Sequence sequence = simulated(seed);
     const Problem misstated = with_factors(sequence.problem, {100.0, 0.01});
-    Report report;
-    const Trajectory best = Dual({}).correct(sequence.problem, report);
-    Trajectory truth;
-    std::size_t j = 0;
-    for (const StampedPose& k : best) {
-      while (j + 1 < sequence.reference.size() && sequence.reference[j].stamp < k.stamp - 1e-6) ++j;
-      truth.push_back(sequence.reference[j]);
-    }
-    right += rms_between(best, truth);
-    wrong += rms_between(Dual({}).correct(misstated, report), truth);
-    with_estimated_factors +=
-        rms_between(Dual({.rescale = true}).correct(misstated, report), truth);
+    const Trajectory best = corrected<Dual>(sequence.problem);
+    const Trajectory truth = at_stamps_of(best, sequence.reference);
+    right += rmse(best, truth);
+    wrong += rmse(corrected<Dual>(misstated), truth);
+    with_estimated_factors += rmse(corrected<Dual>(misstated, {.rescale = true}), truth);
   }
   EXPECT_GT(wrong, 1.1 * right);
   EXPECT_LT(with_estimated_factors, 1.03 * right);
@@ -84,11 +72,11 @@ TEST(VarianceComponents, RescaledDualIsAsGoodAsWithTheTrueCovariances) {
 TEST(VarianceComponents, DualAndPoseGraphAgreeWithRescale) {
   const Problem misstated = with_factors(simulated(2).problem, {100.0, 0.01});
   Report a, b;
-  const Trajectory dual = Dual({.rescale = true}).correct(misstated, a);
-  const Trajectory graph = PoseGraphOptimizer({.rescale = true}).correct(misstated, b);
-  EXPECT_EQ(test::count(a, "factor_t"), test::count(b, "factor_t"));
-  EXPECT_EQ(test::count(a, "factor_r"), test::count(b, "factor_r"));
-  EXPECT_LT(rms_between(dual, graph), 1e-3);
+  const Trajectory dual = corrected<Dual>(misstated, {.rescale = true}, &a);
+  const Trajectory graph = corrected<PoseGraphOptimizer>(misstated, {.rescale = true}, &b);
+  EXPECT_EQ(count(a, "factor_t"), count(b, "factor_t"));
+  EXPECT_EQ(count(a, "factor_r"), count(b, "factor_r"));
+  EXPECT_LT(rmse(dual, graph), 1e-3);
 }
 
 }  // namespace

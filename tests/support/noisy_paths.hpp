@@ -1,5 +1,7 @@
-// Paths with known noise, and the error of a smoother's curve with respect to the true path.
+// Paths with known noise, smoothers on keyframes, and properties of their curves.
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <random>
 
@@ -12,6 +14,25 @@ using namespace methods;
 
 inline const std::vector<double> kTwelve{
     0.0, 0.3, 0.5, 1.1, 1.3, 2.0, 2.2, 2.9, 3.1, 3.5, 4.2, 4.4};
+
+/// Stamps 0.1 to 0.7 s apart.
+inline std::vector<double> uneven(std::size_t n, double begin = 0.0) {
+  std::vector<double> out;
+  double time = begin;
+  for (std::size_t i = 0; i < n; ++i) {
+    out.push_back(time);
+    time += 0.1 + 0.6 * std::pow(std::sin(1.7 * static_cast<double>(i)), 2);
+  }
+  return out;
+}
+
+/// The poses of the path `truth` at the stamps.
+template <class Truth>
+Trajectory sampled_at(const std::vector<double>& stamps, Truth truth) {
+  Trajectory out;
+  for (const double stamp : stamps) out.push_back({stamp, truth(stamp)});
+  return out;
+}
 
 inline std::vector<Vector3> wavy(const std::vector<double>& stamps) {
   std::vector<Vector3> out;
@@ -50,7 +71,27 @@ std::unique_ptr<const Curve> smooth(const Trajectory& keyframes,
   Report own;
   Problem problem;
   problem.keyframes = keyframes;
-  return T(with(typename T::Options{}, params)).smooth(problem, report ? *report : own);
+  const T smoother(with(typename T::Options{}, params));
+  EXPECT_EQ(smoother.why_declined(problem), "");
+  auto curve = smoother.smooth(problem, report ? *report : own);
+  EXPECT_TRUE(own.notes.empty());
+  return curve;
+}
+
+/// Expects equal velocities and angular velocities on both sides of every inner keyframe.
+inline void expect_no_kink(const Curve& curve, const Trajectory& keyframes) {
+  constexpr double h = 1e-5;
+  for (std::size_t i = 1; i + 1 < keyframes.size(); ++i) {
+    const double t = keyframes[i].stamp;
+    const Pose current = curve.at(t);
+    const auto rate = [&](double side) {
+      const Pose other = curve.at(t + side);
+      return Twist(twist(other.translation - current.translation,
+                         log_so3(current.rotation.conjugate() * other.rotation)) /
+                   side);
+    };
+    EXPECT_LT((rate(h) - rate(-h)).norm(), 1e-3) << i;
+  }
 }
 
 }  // namespace loopbench::test

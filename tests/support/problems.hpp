@@ -53,6 +53,21 @@ inline void add_frames(Problem& problem, int count) {
   }
 }
 
+inline Pose at_x(double x) { return {Rotation::Identity(), {x, 0.0, 0.0}}; }
+
+/// Keyframes at the given positions along x [m], a second apart by default, and the exact odometry
+/// between them with unit information.
+inline Problem along_x(const std::vector<double>& positions,
+                       const std::vector<double>& times = {}) {
+  Problem out;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const double stamp = times.empty() ? static_cast<double>(i) : times[i];
+    out.keyframes.push_back({stamp, at_x(positions[i])});
+    if (i > 0) out.odometry.push_back({i - 1, i, at_x(positions[i] - positions[i - 1])});
+  }
+  return out;
+}
+
 inline Pose turned_about_z(double yaw, const Vector3& place) {
   return {exp_so3({0.0, 0.0, yaw}), place};
 }

@@ -10,16 +10,6 @@
 namespace loopbench::methods {
 namespace {
 
-/// Rows of the full gap vector that belong to `closures`: six per closure, three if planar.
-std::vector<Eigen::Index> rows_of(const std::vector<std::size_t>& closures, bool planar) {
-  const std::vector<int> axes = planar ? std::vector{0, 1, 5} : std::vector{0, 1, 2, 3, 4, 5};
-  std::vector<Eigen::Index> out;
-  for (const std::size_t k : closures) {
-    for (const int axis : axes) out.push_back(static_cast<Eigen::Index>(6 * k) + axis);
-  }
-  return out;
-}
-
 Matrix6 block_of(Component component, const Matrix6& matrix) {
   Matrix6 out = Matrix6::Zero();
   const Eigen::Index at = component == Component::translation ? 0 : 3;
@@ -110,7 +100,7 @@ Evidence evidence_of(const MotionModel& model,
                      const std::vector<std::size_t>& closures) {
   const LoopJacobian jacobian = chain.linearise();
   Evidence out;
-  out.rows = rows_of(closures, problem.planar);
+  out.rows = gap_rows(closures, problem.planar);
   out.gap = jacobian.gap(out.rows);
   for (const Term& term : model) {
     const Eigen::MatrixXd share = share_of(term, jacobian, chain.sums(), problem, motions);

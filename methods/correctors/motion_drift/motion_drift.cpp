@@ -6,8 +6,6 @@
 
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/motion_drift/evidence.hpp"
-#include "methods/correctors/motion_drift/large_moves.hpp"
-#include "methods/correctors/motion_drift/motion.hpp"
 #include "methods/correctors/scale_drift.hpp"
 
 namespace loopbench::methods {
@@ -116,6 +114,37 @@ std::vector<MotionModel> thinned(const std::vector<MotionModel>& draws, std::siz
   if (closures <= kFewClosures || draws.size() <= kAveraged) return draws;
   std::vector<MotionModel> out;
   for (const std::size_t i : evenly_spaced(draws.size(), kAveraged)) out.push_back(draws[i]);
+  return out;
+}
+
+struct LargestMove {
+  double moved = 0.0;      ///< largest displacement of any keyframe [m]
+  double explained = 0.0;  ///< largest displacement explained by the gap of one closure [m]
+};
+
+/// Compares the largest displacement of a correction with the displacement that the loop gaps
+/// explain. A gap of t [m] and r [rad] explains t + r R, where R is the
+/// distance from the loop's last keyframe to the keyframe farthest from it. `gap` holds six numbers
+/// per closure. O(keyframes closures).
+LargestMove largest_move(const Problem& problem,
+                         const Eigen::VectorXd& gap,
+                         const Trajectory& corrected) {
+  const auto distance = [](const StampedPose& a, const StampedPose& b) {
+    return (a.world_from_body.translation - b.world_from_body.translation).norm();
+  };
+  LargestMove out;
+  for (std::size_t i = 0; i < corrected.size(); ++i) {
+    out.moved = std::max(out.moved, distance(corrected[i], problem.keyframes[i]));
+  }
+  for (std::size_t k = 0; k < problem.closures.size(); ++k) {
+    double farthest = 0.0;
+    for (const StampedPose& keyframe : problem.keyframes) {
+      farthest = std::max(farthest, distance(keyframe, problem.keyframes[problem.closures[k].to]));
+    }
+    const auto twist = of_closure(gap, k);
+    out.explained =
+        std::max(out.explained, twist.head<3>().norm() + farthest * twist.tail<3>().norm());
+  }
   return out;
 }
 

@@ -20,13 +20,12 @@ namespace loopbench::methods {
 ///   at most `prior.drift_reach` times the motion that the loops enclose (limit_drift()).
 ///
 /// A few loops do not determine these variances. The method therefore draws noise models from the
-/// posterior: a prior (prior.hpp) times the likelihood of the loop gaps (posterior.hpp). It
-/// corrects the chain by the expected errors averaged over the drawn models (mean_errors()) and
-/// relinearises until convergence. No reference is needed. The prior also contains simpler
-/// hypotheses: all covariances as stated, one factor for the odometry and one each for the
-/// closures, no drift. Where the loops carry little information the result stays near that of
-/// `dual`. Values given as options replace the prior medians; with `fit: false` they are used
-/// unchanged.
+/// posterior: a prior times the likelihood of the loop gaps (posterior.hpp). It corrects the chain
+/// by the expected errors averaged over the drawn models (mean_errors()) and relinearises until
+/// convergence. No reference is needed. The prior also contains simpler hypotheses: all covariances
+/// as stated, one factor for the odometry and one each for the closures, no drift. Where the loops
+/// carry little information the result stays near that of `dual`. Values given as options replace
+/// the prior medians; with `fit: false` they are used unchanged.
 ///
 /// With more than `average_closures` closures the posterior is narrow, and one model is used: the
 /// geometric mean of the models drawn under the most probable hypothesis. Scale changes of edges
@@ -67,9 +66,9 @@ class MotionDrift final : public Corrector {
   /// Counts: `iterations`; `log_evidence` of the gaps; `probability.*`, the posterior probabilities
   /// of the hypotheses; the values of the most probable hypothesis, named and scaled like the
   /// options (noise: variances; drift: standard deviations of the rates; 0: term excluded);
-  /// `largest_move` of a keyframe and `explained_move` [m] (large_moves.hpp). Adds a note when
-  /// largest_move is far above explained_move. Throws std::runtime_error when the loop equations
-  /// cannot be solved.
+  /// `largest_move` of a keyframe and `explained_move` [m], what the gap of one closure explains.
+  /// Adds a note when largest_move is far above explained_move. Throws std::runtime_error when the
+  /// loop equations cannot be solved.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:

@@ -1,10 +1,9 @@
-#include "methods/correctors/motion_drift/prior.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "methods/correctors/motion_drift/loop_averages.hpp"
+#include "methods/correctors/motion_drift/posterior.hpp"
 
 namespace loopbench::methods {
 namespace {

@@ -1,9 +1,9 @@
 /// Result of the manifold smoother: spline, planar pieces and heights as a function of time.
 #pragma once
 
-#include "datasets/core/curve.hpp"
+#include "datasets/core/knot_curve.hpp"
+#include "methods/smoothers/manifold/joints.hpp"
 #include "methods/smoothers/manifold/pieces.hpp"
-#include "methods/smoothers/manifold/piecewise_curve.hpp"
 #include "methods/smoothers/manifold/spatial.hpp"
 
 namespace loopbench::methods::manifold {
@@ -37,32 +37,38 @@ struct Parts {
   }
 };
 
-class ManifoldCurve final : public Curve {
+class ManifoldCurve final : public KnotCurve {
  public:
   /// Requires at least two nodes. Orientation is the slerp of theirs.
-  ManifoldCurve(const Trajectory& nodes, Parts parts);
+  ManifoldCurve(const Trajectory& nodes, Parts parts)
+      : KnotCurve(stamps(nodes)), parts_(std::move(parts)) {
+    rotation_steps_.reserve(nodes.size());
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+      const Rotation& current = nodes[i].world_from_body.rotation;
+      const Rotation& next = nodes[i + 1].world_from_body.rotation;
+      rotation_steps_.push_back({current, log_so3(current.conjugate() * next)});
+    }
+  }
 
-  double start() const override { return stamps_.front(); }
-  double end() const override { return stamps_.back(); }
-
-  using Curve::sample;
-  void sample(std::span<const double> times, std::span<Pose> poses) const override;
-
-  const std::vector<double>& stamps() const { return stamps_; }
   const Parts& parts() const { return parts_; }
 
   /// Position [m], velocity and acceleration (analytic), evaluated with the pieces of `edge` even
   /// at its end points. Evaluating both edges of a node gives the jump there.
-  MotionJet motion(std::size_t edge, double time) const;
+  MotionJet motion(std::size_t edge, double time) const {
+    return parts_.base + parts_.point(edge, time_jet(time));
+  }
 
  private:
-  Rotation rotation(std::size_t edge, double time) const;
+  Pose evaluate(std::size_t edge, double time) const override {
+    const RotationStep& step = rotation_steps_[edge];
+    return {step.start * exp_so3(fraction(edge, time) * step.turn),
+            parts_.base + parts_.point(edge, time)};
+  }
 
   struct RotationStep {
     Rotation start;
     Vector3 turn;  ///< rotation vector from `start` to the next node [rad]
   };
-  std::vector<double> stamps_;
   std::vector<RotationStep> rotation_steps_;  ///< one per edge, so each logarithm is computed once
   Parts parts_;
 };

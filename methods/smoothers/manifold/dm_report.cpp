@@ -1,49 +1,10 @@
 #include "methods/smoothers/manifold/dm_report.hpp"
 
-#include "methods/smoothers/manifold/curvature.hpp"
 #include "methods/smoothers/manifold/curve.hpp"
+#include "methods/smoothers/manifold/jet.hpp"
 
 namespace loopbench::methods::manifold {
 namespace {
-
-/// Largest jumps over all inner nodes. A B-spline of order 3 has its acceleration jumps between
-/// nodes.
-struct Continuity {
-  double position = 0.0;      ///< C0 [m]
-  double velocity = 0.0;      ///< C1 [m/s]
-  double acceleration = 0.0;  ///< C2 [m/s^2]
-  double slope = 0.0;         ///< G1: angle between the tangents [rad]
-  double curvature = 0.0;     ///< G2: between the curvature vectors [1/m]
-};
-
-/// Measures the jumps. Nodes where the speed on either side is below 1/1000 of the mean speed are
-/// ignored for slope and curvature, because the direction is undefined there. O(nodes).
-Continuity continuity(const ManifoldCurve& curve) {
-  constexpr double min_speed_ratio = 1e-3;  // [of the mean speed]
-  const std::vector<double>& stamps = curve.stamps();
-  Continuity out;
-  double length = 0.0;
-  Vector3 last = curve.motion(0, stamps.front()).value;
-  for (std::size_t i = 1; i < stamps.size(); ++i) {
-    const Vector3 current = curve.motion(i - 1, stamps[i]).value;
-    length += (current - last).norm();
-    last = current;
-  }
-  const double slowest = min_speed_ratio * length / (stamps.back() - stamps.front());
-  for (std::size_t i = 1; i + 1 < stamps.size(); ++i) {
-    const MotionJet a = curve.motion(i - 1, stamps[i]);
-    const MotionJet b = curve.motion(i, stamps[i]);
-    out.position = std::max(out.position, (b.value - a.value).norm());
-    out.velocity = std::max(out.velocity, (b.first - a.first).norm());
-    out.acceleration = std::max(out.acceleration, (b.second - a.second).norm());
-    if (!(a.first.norm() > slowest) || !(b.first.norm() > slowest)) continue;
-    out.slope = std::max(out.slope, angle_between_directions(a.first, b.first));
-    const Vector3 curvature_jump =
-        curvature_vector(b.first, b.second) - curvature_vector(a.first, a.second);
-    out.curvature = std::max(out.curvature, curvature_jump.norm());
-  }
-  return out;
-}
 
 double mean_nodes(const std::vector<Window>& windows) {
   double sum = 0.0;
@@ -115,12 +76,34 @@ void describe(const Nodes& nodes, const SpatialFit& fit, Report& report) {
 }
 
 void describe_jumps(const ManifoldCurve& curve, Report& report) {
-  const Continuity jumps = continuity(curve);
-  report.count("jump_position", jumps.position);
-  report.count("jump_velocity", jumps.velocity);
-  report.count("jump_acceleration", jumps.acceleration);
-  report.count("jump_slope", jumps.slope);
-  report.count("jump_curvature", jumps.curvature);
+  constexpr double min_speed_ratio = 1e-3;  // [of the mean speed]
+  const std::vector<double>& stamps = curve.knots();
+  double length = 0.0;
+  Vector3 last = curve.motion(0, stamps.front()).value;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    const Vector3 current = curve.motion(i - 1, stamps[i]).value;
+    length += (current - last).norm();
+    last = current;
+  }
+  const double slowest = min_speed_ratio * length / (stamps.back() - stamps.front());
+  double position = 0.0, velocity = 0.0, acceleration = 0.0, slope = 0.0, bend = 0.0;
+  for (std::size_t i = 1; i + 1 < stamps.size(); ++i) {
+    const MotionJet a = curve.motion(i - 1, stamps[i]);
+    const MotionJet b = curve.motion(i, stamps[i]);
+    position = std::max(position, (b.value - a.value).norm());
+    velocity = std::max(velocity, (b.first - a.first).norm());
+    acceleration = std::max(acceleration, (b.second - a.second).norm());
+    if (!(a.first.norm() > slowest) || !(b.first.norm() > slowest)) continue;
+    slope = std::max(slope, angle_between_directions(a.first, b.first));
+    const Vector3 curvature_jump =
+        curvature_vector(b.first, b.second) - curvature_vector(a.first, a.second);
+    bend = std::max(bend, curvature_jump.norm());
+  }
+  report.count("jump_position", position);          // C0 [m]
+  report.count("jump_velocity", velocity);          // C1 [m/s]
+  report.count("jump_acceleration", acceleration);  // C2 [m/s^2]
+  report.count("jump_slope", slope);                // G1: angle between the tangents [rad]
+  report.count("jump_curvature", bend);             // G2: between the curvature vectors [1/m]
 }
 
 }  // namespace loopbench::methods::manifold

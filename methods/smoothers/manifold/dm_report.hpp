@@ -18,7 +18,9 @@ void describe(const Nodes& nodes, const PlanarFit& fit, Report& report);
 void describe(const Nodes& nodes, const SpatialFit& fit, Report& report);
 
 /// Adds the largest jumps of position, velocity, acceleration, tangent and curvature over all inner
-/// nodes.
+/// nodes. Nodes where the speed on either side is below 1/1000 of the mean speed are ignored for
+/// tangent and curvature, because the direction is undefined there. A B-spline of order 3 has its
+/// acceleration jumps between nodes. O(nodes).
 void describe_jumps(const ManifoldCurve& curve, Report& report);
 
 }  // namespace loopbench::methods::manifold

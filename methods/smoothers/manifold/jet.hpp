@@ -94,4 +94,16 @@ inline Jet<double> along(const Vector3& direction, const MotionJet& v) {
   return {direction.dot(v.value), direction.dot(v.first), direction.dot(v.second)};
 }
 
+/// Component of S'' perpendicular to S' over |S'|^2: points to the centre of curvature, length
+/// kappa [1/m].
+inline Vector3 curvature_vector(const Vector3& first, const Vector3& second) {
+  return (second - first.dot(second) / first.squaredNorm() * first) / first.squaredNorm();
+}
+
+/// |S' x S''| / |S'|^3 [1/m], equation (6); 0 at rest.
+inline double curvature(const Vector3& first, const Vector3& second) {
+  const double speed = first.norm();
+  return speed > 0.0 ? first.cross(second).norm() / (speed * speed * speed) : 0.0;
+}
+
 }  // namespace loopbench::methods::manifold

@@ -43,4 +43,13 @@ inline double angle_between_directions(const Vector3& a, const Vector3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+/// Menger curvature: one over the radius of the circle through three points [1/m]; 0 if two
+/// coincide.
+inline double discrete_curvature(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const Vector3 ab = b - a;
+  const Vector3 bc = c - b;
+  const double sides = ab.norm() * bc.norm() * (c - a).norm();
+  return sides > 0.0 ? 2.0 * ab.cross(bc).norm() / sides : 0.0;
+}
+
 }  // namespace loopbench::methods::manifold

@@ -1,7 +1,6 @@
 #include "methods/smoothers/penalised/trend.hpp"
 
 #include "datasets/core/banded.hpp"
-#include "methods/smoothers/penalised/trend_dual.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -29,11 +28,9 @@ double Trend::min_lambda_of_line(const std::vector<Vector3>& y) const {
   return out;
 }
 
-Trend::Fit Trend::fit(const std::vector<Vector3>& y,
-                      double lambda,
-                      const Settings& settings) const {
-  const TrendDual dual = solve_trend_dual(
-      slope_change_.outer(), slope_change_.of(y), lambda, settings.tolerance, settings.most);
+Trend::Fit Trend::fit(const std::vector<Vector3>& y, double lambda, double tolerance) const {
+  const TrendDual dual =
+      solve_trend_dual(slope_change_.outer(), slope_change_.of(y), lambda, tolerance);
   Fit out{y, {}, dual.iterations, dual.converged};
   slope_change_.add_transposed(dual.forces, -1.0, out.values);
   for (const std::size_t row : dual.bends) out.kinks.push_back(row + 1);

@@ -1,12 +1,10 @@
-#include "methods/smoothers/penalised/trend_dual.hpp"
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "methods/smoothers/penalised/pentadiagonal.hpp"
+#include "methods/smoothers/penalised/trend.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -172,8 +170,8 @@ class TrendBarrier {
 TrendDual solve_trend_dual(const Pentadiagonal& outer,
                            const std::vector<Vector3>& bends,
                            double lambda,
-                           double tolerance,
-                           int most) {
+                           double tolerance) {
+  constexpr int kMaxSteps = 300;
   constexpr double kFaster = 10.0;  // growth of t from one centre to the next
   constexpr double kCentred = 0.5;  // sufficient predicted decrease per row at a centre
   constexpr double kRounding = 1e-4;
@@ -189,7 +187,7 @@ TrendDual solve_trend_dual(const Pentadiagonal& outer,
   TrendBarrier barrier(outer, bends, lambda);
   TrendDual out;
   double t = 2.0 * rows / energy;
-  while (!out.converged && out.iterations < most) {
+  while (!out.converged && out.iterations < kMaxSteps) {
     ++out.iterations;
     const double predicted = barrier.step(t);
     // Bound on the duality gap: two per row over t at a centre.

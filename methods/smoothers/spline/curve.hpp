@@ -5,8 +5,7 @@
 #include <array>
 #include <utility>
 
-#include "datasets/core/curve.hpp"
-#include "datasets/core/knot_span.hpp"
+#include "datasets/core/knot_curve.hpp"
 #include "methods/smoothers/spline/basis.hpp"
 
 namespace loopbench::methods {
@@ -14,11 +13,11 @@ namespace loopbench::methods {
 /// p(t) = sum_j N_j(t) c_j,   R(t) = C_0 prod_{j>=1} Exp(B_j(t) Log(C_{j-1}^T C_j)),
 /// B_j = N_j + N_{j+1} + ... Both are C^{k-2} in time. O(k^2) per time for sorted times.
 /// Source: Kim, Kim & Shin 1995; Sommer et al., CVPR 2020.
-class CumulativeCurve final : public Curve {
+class CumulativeCurve final : public KnotCurve {
  public:
   /// Requires one control pose per basis function.
   CumulativeCurve(SplineBasis basis, const std::vector<Pose>& controls)
-      : basis_(std::move(basis)), controls_(controls.size()) {
+      : KnotCurve(basis.breaks()), basis_(std::move(basis)), controls_(controls.size()) {
     for (std::size_t j = 0; j < controls.size(); ++j) {
       controls_[j] = {controls[j], Vector3::Zero()};
       if (j == 0) continue;
@@ -26,27 +25,19 @@ class CumulativeCurve final : public Curve {
     }
   }
 
-  double start() const override { return basis_.breaks().front(); }
-  double end() const override { return basis_.breaks().back(); }
-
-  using Curve::sample;
-  void sample(std::span<const double> times, std::span<Pose> poses) const override {
-    KnotSpan span(basis_.breaks());
-    for (std::size_t k = 0; k < times.size(); ++k) {
-      const std::size_t piece = span.find(times[k]);
-      const SplineBasis::Values B = basis_.cumulative(piece, times[k]);
-      const Control* c = &controls_[piece];
-      Vector3 point = c[0].pose.translation;
-      Rotation rotation = c[0].pose.rotation;
-      for (std::size_t j = 1; j < basis_.order(); ++j) {
-        point += B[j] * (c[j].pose.translation - c[j - 1].pose.translation);
-        rotation = rotation * exp_so3(B[j] * c[j].step);
-      }
-      poses[k] = {rotation.normalized(), point};
+ private:
+  Pose evaluate(std::size_t piece, double time) const override {
+    const SplineBasis::Values B = basis_.cumulative(piece, time);
+    const Control* c = &controls_[piece];
+    Vector3 point = c[0].pose.translation;
+    Rotation rotation = c[0].pose.rotation;
+    for (std::size_t j = 1; j < basis_.order(); ++j) {
+      point += B[j] * (c[j].pose.translation - c[j - 1].pose.translation);
+      rotation = rotation * exp_so3(B[j] * c[j].step);
     }
+    return {rotation.normalized(), point};
   }
 
- private:
   struct Control {
     Pose pose;
     Vector3 step;  ///< Log(C_{j-1}^T C_j) [rad]

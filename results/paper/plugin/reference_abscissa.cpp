@@ -53,7 +53,7 @@ void ReferenceAbscissa::sample(std::span<const double> times, std::span<Pose> po
   }
   const Trajectory reference = reference_.sample(known);
   const Vector3& base = curve_->parts().base;
-  KnotSpan span(curve_->stamps());
+  KnotSpan span(curve_->knots());
   for (std::size_t i = 0; i < which.size(); ++i) {
     const std::size_t edge = span.find(known[i]);
     const Vector3 seen = reference[i].world_from_body.translation - base;

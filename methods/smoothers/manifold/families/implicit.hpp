@@ -6,8 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "methods/smoothers/manifold/families/extent.hpp"
-#include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
+#include "methods/smoothers/manifold/families/fitting.hpp"
 #include "methods/smoothers/manifold/jet.hpp"
 
 namespace loopbench::methods::manifold {

@@ -1,11 +1,10 @@
-#include "methods/smoothers/manifold/families/polynomial.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/QR>
 #include <algorithm>
 
-#include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
+#include "methods/smoothers/manifold/families/fitting.hpp"
+#include "methods/smoothers/manifold/families/graph.hpp"
 
 namespace loopbench::methods::manifold {
 

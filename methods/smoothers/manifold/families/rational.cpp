@@ -1,8 +1,7 @@
-#include "methods/smoothers/manifold/families/rational.hpp"
-
 #include <Eigen/QR>
 
-#include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
+#include "methods/smoothers/manifold/families/fitting.hpp"
+#include "methods/smoothers/manifold/families/graph.hpp"
 
 namespace loopbench::methods::manifold {
 namespace {

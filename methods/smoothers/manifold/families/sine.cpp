@@ -1,9 +1,8 @@
-#include "methods/smoothers/manifold/families/sine.hpp"
-
 #include <Eigen/QR>
 #include <numbers>
 
-#include "methods/smoothers/manifold/families/levenberg_marquardt.hpp"
+#include "methods/smoothers/manifold/families/fitting.hpp"
+#include "methods/smoothers/manifold/families/graph.hpp"
 
 namespace loopbench::methods::manifold {
 namespace {

@@ -1,4 +1,4 @@
-#include "methods/smoothers/spline/through.hpp"
+#include "methods/smoothers/interpolating_splines.hpp"
 
 #include <utility>
 

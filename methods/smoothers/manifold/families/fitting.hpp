@@ -1,4 +1,5 @@
-/// Levenberg-Marquardt for few parameters and nodes, for the nonlinear curve families.
+/// Extent of a window's points and Levenberg-Marquardt for few parameters and nodes, for the fits
+/// of the curve families.
 ///
 /// A window has 3 to 12 residuals and 3 to 10 parameters. This solver keeps everything on the
 /// stack; setting up a general solver would take longer than the solution.
@@ -6,6 +7,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <span>
+
+#include "methods/smoothers/manifold/frame.hpp"
 
 namespace loopbench::methods::manifold {
 
@@ -52,5 +56,23 @@ Parameters levenberg_marquardt(Parameters start,
   }
   return start;
 }
+
+/// Bounding box of points, for centring and scaling their coordinates.
+struct Extent {
+  Vector2 low, high;  ///< [m]
+
+  explicit Extent(std::span<const Vector2> points) : low(points.front()), high(points.front()) {
+    for (const Vector2& point : points) {
+      low = low.cwiseMin(point);
+      high = high.cwiseMax(point);
+    }
+  }
+  Vector2 centre() const { return 0.5 * (low + high); }
+  Vector2 size() const { return high - low; }
+};
+
+// Joints evaluate a curve up to one node past its window, which is half of the range for the
+// shortest window, so poles must be at least that far away.
+constexpr double kPoleMargin = 0.5;  // fraction of the range of x
 
 }  // namespace loopbench::methods::manifold

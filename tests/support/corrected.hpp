@@ -1,0 +1,68 @@
+/// Runs a corrector, and distances between trajectories.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "methods/method.hpp"
+
+namespace loopbench::test {
+
+/// Keyframes corrected by `Method`.
+template <class Method>
+Trajectory corrected(const Problem& problem,
+                     const typename Method::Options& options = {},
+                     methods::Report* report = nullptr) {
+  methods::Report unused;
+  return Method(options).correct(problem, report ? *report : unused);
+}
+
+inline std::vector<Pose> poses_of(const Trajectory& trajectory) {
+  std::vector<Pose> out;
+  for (const StampedPose& each : trajectory) out.push_back(each.world_from_body);
+  return out;
+}
+
+/// Distances between the positions of two trajectories with the same stamps, not aligned [m].
+inline std::vector<double> distances(const Trajectory& a, const Trajectory& b) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    out.push_back((a[i].world_from_body.translation - b[i].world_from_body.translation).norm());
+  }
+  return out;
+}
+
+inline double largest_distance(const Trajectory& a, const Trajectory& b) {
+  return std::ranges::max(distances(a, b));
+}
+
+/// Root mean square of distances() [m].
+inline double rmse(const Trajectory& a, const Trajectory& b) {
+  double sum = 0.0;
+  for (const double each : distances(a, b)) sum += each * each;
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+/// The poses of `reference` that are nearest to the stamps of `keyframes`, at most 1 us earlier.
+inline Trajectory at_stamps_of(const Trajectory& keyframes, const Trajectory& reference) {
+  Trajectory out;
+  std::size_t j = 0;
+  for (const StampedPose& keyframe : keyframes) {
+    while (j + 1 < reference.size() && reference[j].stamp < keyframe.stamp - 1e-6) ++j;
+    out.push_back(reference[j]);
+  }
+  return out;
+}
+
+/// Expects equal poses up to the tolerance, in [m] and [rad].
+inline void expect_close(const Trajectory& a, const Trajectory& b, double tolerance) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_TRUE(is_close(a[i].world_from_body, b[i].world_from_body, tolerance, tolerance)) << i;
+  }
+}
+
+}  // namespace loopbench::test
