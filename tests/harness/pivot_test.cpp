@@ -1,10 +1,12 @@
 /// What a table averages, over which runs, and which notes say so.
 #include "harness/tables/pivot.hpp"
+#include "harness/tables/record_csv.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
 #include "tests/support/ate_record.hpp"
 
@@ -195,6 +197,76 @@ TEST(Pivot, MarksNothingAmongDescriptions) {
   }
   const std::vector<Table> tables = pivot(records, TableSpec{});
   for (const auto& line : tables[0].lines) EXPECT_EQ(line[1].mark, Mark::none);
+}
+
+TEST(Gain, IsMeasuredFromTheBaselineOfTheSameTimes) {
+  std::vector<Record> records{
+      ate("raw", 0.2), ate("uniform", 0.05), ate("raw", 0.4), ate("uniform", 0.5)};
+  records[2].times = records[3].times = "keyframes";
+  const std::vector<Record> g = gains(records, "raw");
+  ASSERT_EQ(g.size(), 4u);
+  EXPECT_DOUBLE_EQ(g[0].statistics.rmse, 0.0);
+  EXPECT_DOUBLE_EQ(g[1].statistics.rmse, 75.0);
+  EXPECT_DOUBLE_EQ(g[3].statistics.rmse, -25.0);  // worse is negative
+  EXPECT_EQ(g[3].unit, "%");
+  EXPECT_TRUE(gains({ate("raw", 0.2)}, "").empty());
+}
+
+TEST(Gain, IsDeclinedWhereTheBaselineIsPerfect) {
+  const std::vector<Record> g = gains({ate("raw", 1e-16), ate("uniform", 0.15)}, "raw");
+  EXPECT_EQ(g[1].status, Status::declined);
+  EXPECT_EQ(g[1].why, "the error of the baseline raw is zero");
+}
+
+TEST(RunTimes, AreOnePerCellAndTimes) {
+  std::vector<Record> records{ate("raw", 0.2), ate("raw", 0.1), ate("bad", 0.0)};
+  records[2].status = Status::failed;
+  records[1].axis = "x";
+  for (Record& r : records) r.milliseconds = 2.5;
+  const std::vector<Record> t = run_times(records);
+  ASSERT_EQ(t.size(), 1u);
+  EXPECT_EQ(t[0].statistics.rmse, 2.5);
+  EXPECT_EQ(t[0].unit, "ms");
+}
+
+TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
+  std::vector<Record> records{ate("raw", 1.0), ate("raw", 3.0), ate("worse", 9.0)};
+  records.push_back(records[2]);
+  records[3].axis = "x";
+  for (const std::size_t i : {1u, 2u, 3u}) {
+    records[i].status = Status::incomplete;
+    records[i].why = "evaluated 1 of 9 poses";
+  }
+  records[1].repeat = 1;
+  const std::vector<Table> tables = pivot(records, TableSpec{});
+  EXPECT_EQ(tables[0].lines[0][1].mean->value, 1.0);  // without the second repeat
+  EXPECT_EQ(tables[0].lines[0][1].mean->records, 1u);
+  EXPECT_EQ(tables[0].lines[1][1].mean->value, std::nullopt);
+  EXPECT_EQ(tables[0].lines[1][1].mean->status, "incomplete");
+  EXPECT_EQ(tables[0].notes,
+            (std::vector<std::string>{"raw, worse: incomplete: evaluated 1 of 9 poses"}));
+  EXPECT_NE(csv(records).find(",9,"), std::string::npos);  // the long table keeps the number
+  EXPECT_TRUE(gains(records, "worse").empty());
+}
+
+TEST(Pivot, RefusesToAverageDifferentScores) {
+  std::vector<Record> records{ate("raw", 1.0), ate("raw", 3.0)};
+  records[1].relation = "rotation";
+  records[1].unit = "deg";
+  EXPECT_EQ(
+      pivot(records, TableSpec{})[0].headings,
+      (std::vector<std::string>{"method", "ate [m]", "ate [deg]"}));  // distinguished by the unit
+  records[1].unit = "m";
+  EXPECT_THROW(pivot(records, TableSpec{}), InputError);
+}
+
+TEST(Pivot, RefusesUnknownColumnsByName) {
+  TableSpec spec;
+  spec.rows = {"mehtod"};
+  EXPECT_THROW(pivot({ate("raw", 1.0)}, spec), InputError);
+  spec = {};
+  spec.value = "rms";
+  EXPECT_THROW(pivot({ate("raw", 1.0)}, spec), InputError);
 }
 
 }  // namespace

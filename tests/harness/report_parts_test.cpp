@@ -1,4 +1,5 @@
-// Building blocks of the report page: escaped text, packed numbers, the rule of the Pareto front.
+/// Building blocks of the report page: escaped text, packed numbers, the amount of data, the rule
+/// of the Pareto front.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,9 +7,13 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "datasets/core/error.hpp"
 #include "harness/report/assets.hpp"
+#include "harness/report/data.hpp"
 #include "harness/report/html.hpp"
 #include "harness/report/packed.hpp"
+#include "harness/report/report.hpp"
+#include "tests/studies/synthetic_store.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::report_parts_test {
@@ -30,8 +35,8 @@ TEST(Html, NothingInAScriptEndsIt) {
 }
 
 TEST(Html, TablesEscapeAndMark) {
-  const Table table_view{"a<b", {"method", "x"}, {{{"m&m"}, {"1.0", Mark::best}}}, {"note <i>"}};
-  const std::string html = html_table(table_view);
+  const Table table{"a<b", {"method", "x"}, {{{"m&m"}, {"1.0", Mark::best}}}, {"note <i>"}};
+  const std::string html = html_table(table);
   EXPECT_NE(html.find("<caption>a&lt;b</caption>"), std::string::npos);
   EXPECT_NE(html.find("<th scope=\"row\">m&amp;m</th><td class=\"best\">1.0</td>"),
             std::string::npos);
@@ -53,6 +58,60 @@ TEST(Packed, ThinsWithBothEndsKept) {
   EXPECT_EQ(subsampled_indices(101, 3), (std::vector<std::size_t>{0, 50, 100}));
   EXPECT_EQ(subsampled_indices(9, 1), (std::vector<std::size_t>{0}));
   EXPECT_TRUE(subsampled_indices(0, 5).empty());
+}
+
+TEST(Thinning, TakesPointsThenRepeatsThenPoints) {
+  Thinning thinning{400, 5};
+  EXPECT_TRUE(reduce(thinning, 0.5));
+  EXPECT_EQ(thinning.points, 200u);
+  EXPECT_TRUE(reduce(thinning, 0.1));
+  EXPECT_EQ(thinning.points, 100u);
+  EXPECT_TRUE(reduce(thinning, 0.9));
+  EXPECT_EQ(thinning.repeats, 3u);
+  EXPECT_TRUE(reduce(thinning, 0.9) && reduce(thinning, 0.9));
+  EXPECT_EQ(thinning.repeats, 1u);
+  EXPECT_TRUE(reduce(thinning, 0.99));
+  EXPECT_EQ(thinning.points, 99u);
+  EXPECT_TRUE(reduce(thinning, 0.0));
+  EXPECT_EQ(thinning.points, 10u);
+  EXPECT_FALSE(reduce(thinning, 0.5));
+}
+
+/// Ten sequences of 40 methods.
+TEST(Report, LeavesOutSequencesThatDoNotFit) {
+  std::vector<Record> records;
+  for (int i = 0; i < 400; ++i) {
+    Record& r = records.emplace_back();
+    r.cell = i;
+    r.sequence = "sequence " + std::to_string(i / 40);
+    r.method = "m" + std::to_string(i % 40);
+    r.protocol = "p";
+    r.times = "dense";
+    r.metric = "ate";
+    r.relation = "translation";
+    r.axis = "3d";
+    r.unit = "m";
+    r.statistics.rmse = r.statistics.mean = 1.0 + i % 40;
+  }
+  const TemporaryFolder folder;
+  synthetic::write_store(records, folder.path());
+  const ReportContent content = read_report_content(folder.path());
+  EXPECT_EQ(content.shown, 10u);
+  const std::string whole = report_html(content);
+  EXPECT_EQ(whole.find("sequences, because"), std::string::npos);
+
+  const std::string part = report_html(content, whole.size() - 1000);
+  EXPECT_LT(part.size(), whole.size() - 1000);
+  EXPECT_NE(part.find("show the first 9 of 10 sequences"), std::string::npos);
+  EXPECT_NE(part.find("data-sequence=\"sequence 8\""), std::string::npos);
+  EXPECT_EQ(part.find("data-sequence=\"sequence 9\""), std::string::npos);
+  EXPECT_NE(part.find("over 10 "), std::string::npos) << "verdicts cover all";
+
+  const ReportContent little = read_report_content(folder.path(), 1000);
+  EXPECT_EQ(little.shown, 3u);  // 100 records of 40 each
+  EXPECT_EQ(little.shown_cells.size(), 120u);
+  EXPECT_EQ(little.cells.size(), 400u);
+  EXPECT_THROW(report_html(content, 1000), InputError);
 }
 
 /// The page's script front.js on these points, as node runs it: "1" on the front, "0" off it.

@@ -8,7 +8,9 @@
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
 #include "harness/model/where.hpp"
+#include "harness/tables/notes.hpp"
 #include "harness/tables/pivot.hpp"
+#include "harness/tables/record_csv.hpp"
 #include "harness/tables/summary.hpp"
 #include "tests/support/ate_record.hpp"
 #include "tests/support/refusal_of.hpp"
@@ -200,6 +202,53 @@ TEST(Formats, KeepLessOrEqualReadable) {
   EXPECT_NE(
       markdown(Table{"p <= 0.05, p < 1, <b>", {"a"}, {}, {}}).find("### p <= 0.05, p < 1, &lt;b>"),
       std::string::npos);
+}
+
+TEST(Formats, StateReasonsForMissingValues) {
+  std::vector<Record> records{ate("raw", 0.25), ate("bad", 0.0)};
+  records[1].metric.clear();
+  records[1].status = Status::failed;
+  records[1].why = "no such luck";
+  const std::string text = markdown(pivot(records, TableSpec{}));
+  EXPECT_NE(text.find("| bad    |  failed |\n\n- bad: failed: no such luck\n"), std::string::npos)
+      << text;
+}
+
+TEST(Notes, SayAReasonOnce) {
+  EXPECT_EQ(
+      grouped({{"raw", "ate rotation", "declined", "no attitude"},
+               {"raw", "rpe rotation", "declined", "no attitude"},
+               {"raw", "ate rotation", "declined", "no attitude"},
+               {"raw", "closure_residual", "declined", "no closures"},
+               {"bad", "", "failed", "no luck"},
+               {"uniform", "ate rotation", "declined", "no attitude"},
+               {"uniform", "rpe rotation", "declined", "no attitude"},
+               {"uniform", "closure_residual", "failed", "no closures"}}),
+      (std::vector<std::string>{"raw, uniform: ate rotation, rpe rotation declined: no attitude",
+                                "raw: closure_residual declined: no closures",
+                                "bad: failed: no luck",
+                                "uniform: closure_residual failed: no closures"}));
+}
+
+TEST(Csv, QuotesAndKeepsFullPrecision) {
+  std::vector<Record> records{ate("a, \"b\"", 0.1)};
+  const std::string text = csv(records);
+  EXPECT_NE(text.find("\nroom,0,\"a, "
+                      "\"\"b\"\"\",,false,false,\"evo (align=se3, "
+                      "first=10)\",,dense,ate,ate,translation,3d,m,lower,,0,0.1,"),
+            std::string::npos)
+      << text;
+  records[0].statistics.rmse = 1.0 / 3.0;
+  EXPECT_NE(csv(pivot(records, TableSpec{})).find("0.3333333333333333"), std::string::npos);
+}
+
+TEST(Decimals, KeepFourSignificantDigitsOfTheLargest) {
+  EXPECT_EQ(decimals(0.109), 4);
+  EXPECT_EQ(decimals(9.9), 3);
+  EXPECT_EQ(decimals(31.5), 2);
+  EXPECT_EQ(decimals(31500.0), 1);
+  EXPECT_EQ(decimals(0.0), 4);
+  EXPECT_EQ(fixed(-1e-9, 4), "0.0000");
 }
 
 std::vector<Record> two_methods() {

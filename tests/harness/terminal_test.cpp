@@ -127,7 +127,7 @@ TEST_F(OnATerminal, TablesAreColouredUnlessTheUserObjects) {
   EXPECT_LE(widest_line(run("compare results/c", 80, "TERM=dumb").out), 80u);
 }
 
-TEST_F(OnATerminal, TheUsualTableIsOneTable) {
+TEST_F(OnATerminal, AnIncompleteLayoutIsOneTable) {
   folder_.file("c.yaml", kConfig);
   ASSERT_EQ(piped("run c.yaml").exit_code, 0);
   const auto tables = [](const std::string& text) {
@@ -223,22 +223,6 @@ TEST_F(OnATerminal, HelpFits) {
     // Examples are printed in one line each, so that they can be copied.
     EXPECT_LE(widest_line(narrow.substr(0, narrow.find("Examples:"))), 80u) << narrow;
   }
-  const std::string eval = run("eval --help", 80).out;
-  EXPECT_NE(eval.find("\n  -d, --delta NUMBER      Distance between paired poses for rpe, in "
-                      "--delta_unit\n"),
-            std::string::npos)
-      << eval;
-  EXPECT_NE(eval.find("\n  --n_to_align N          Number of first pairs used for the alignment\n"),
-            std::string::npos)
-      << eval;
-  EXPECT_NE(eval.find("\n                          in the estimates' body frame [m]\n"),
-            std::string::npos)
-      << eval;
-  EXPECT_NE(eval.find("(not with --csv, --store)"), std::string::npos) << eval;
-  EXPECT_NE(piped("run --help")
-                .out.find("\n  -j, --jobs N            Number of workers; does not "
-                          "affect results (default: "),
-            std::string::npos);
 }
 
 }  // namespace
