@@ -1,10 +1,12 @@
 #include "harness/run/run_cell.hpp"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <set>
 
 #include "harness/catalogue/external_methods.hpp"
 #include "harness/catalogue/floating_point_guard.hpp"
@@ -14,6 +16,7 @@
 #include "harness/run/doctor_notes.hpp"
 #include "harness/run/estimate_files.hpp"
 #include "harness/run/oracle_method.hpp"
+#include "harness/run/sequence_identity.hpp"
 #include "methods/pipeline.hpp"
 #include "metrics/trajectory/tracking_gaps.hpp"
 
@@ -71,8 +74,20 @@ TimedRun timed_run(const methods::Estimator& method, const Problem& problem) {
   return out;
 }
 
-/// Runs and measures the method; memory is measured outside the timed part. The times of a short
-/// first run are replaced by those of another run, because this process is new; its result is kept.
+/// Hash of the poses at the keyframes and the frames between them; empty if some are invalid, which
+/// check_curve() reports.
+std::string hash_of_curve(const Curve* curve, const Problem& problem) try {
+  if (curve == nullptr) return "";
+  const CheckedCurve checked(*curve);
+  return hash_of_poses(checked.sample(stamps(problem.keyframes))) +
+         hash_of_poses(checked.sample(stamps(problem.frames)));
+} catch (const std::exception&) {
+  return "";
+}
+
+/// Runs and measures the method; memory is that of the first run, measured outside the timed part.
+/// The times of a short first run are replaced by those of another run, because this process is new;
+/// its result is kept. Results of several runs that are not bit-identical are noted.
 std::unique_ptr<const Curve> timed(CellResult& result,
                                    const methods::Estimator& method,
                                    const Problem& problem,
@@ -80,6 +95,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
   const FloatingPointGuard guard;
   const std::int64_t before = peak_memory();
   TimedRun last;
+  std::set<std::string> results;
   for (int run = 0; run < runs; ++run) {
     last = {};  // so that the destruction of its curve is not timed with the next run
     last = timed_run(method, problem);
@@ -93,10 +109,20 @@ std::unique_ptr<const Curve> timed(CellResult& result,
     }
     result.seconds.push_back(last.seconds);
     result.cpu_seconds.push_back(last.cpu_seconds);
+    if (run == 0) {
+      result.peak_memory = peak_memory();
+      result.added_memory = *result.peak_memory - before;
+    }
+    if (runs > 1) results.insert(hash_of_curve(last.curve.get(), problem));
   }
   result.report = std::move(last.report);
-  result.peak_memory = peak_memory();
-  result.added_memory = *result.peak_memory - before;
+  if (results.size() > 1) {
+    result.report.notes.push_back(
+        fmt::format("{}nondeterministic: {} runs on the same input gave {} different trajectories",
+                    kDoctorPrefix,
+                    runs,
+                    results.size()));
+  }
   return std::move(last.curve);
 }
 

@@ -50,12 +50,6 @@ class ContentHash {
   std::string bytes_;  ///< data not yet hashed, after the hash of the preceding data
 };
 
-std::string hash_of_poses(const Trajectory& poses) {
-  ContentHash hash;
-  hash.add(poses);
-  return hash.text();
-}
-
 /// Hash of the distances from the first position, which do not depend on the format of the file,
 /// on the world frame or the axes, nor on the body, whose offset is undone. Formats and the offset
 /// change the last digits, so distances are rounded; few decimal numbers are near a limit of the
@@ -76,6 +70,12 @@ std::string hash_of_shape(const Trajectory& poses, const Pose& body_from_referen
 }
 
 }  // namespace
+
+std::string hash_of_poses(const Trajectory& poses) {
+  ContentHash hash;
+  hash.add(poses);
+  return hash.text();
+}
 
 std::string content_of(const Sequence& sequence) {
   const Problem& problem = sequence.problem;

@@ -12,6 +12,9 @@ namespace loopbench::harness {
 /// equal content are one observation. O(poses + edges).
 std::string content_of(const Sequence& sequence);
 
+/// Hash of stamps and poses, bit by bit. O(n).
+std::string hash_of_poses(const Trajectory& poses);
+
 /// Source of the noise in a sequence; sequences with equal source are not independent.
 ///
 /// `reference:HASH`: measured data, hash of the shape of the reference: distances from its first

@@ -255,7 +255,7 @@ TEST_F(CheckOutput, ACurveIsCheckedWheneverItIsSampled) {
   EXPECT_EQ(why_smoothed([](const Problem& problem) {
               const auto calls = std::make_shared<int>(0);
               return std::make_unique<Changed>(problem.keyframes, [=](auto, auto poses) {
-                if (++*calls <= 3) return;
+                if (++*calls <= 5) return;
                 for (Pose& p : poses) p.rotation.coeffs() *= 5.0;
               });
             }),
