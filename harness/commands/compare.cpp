@@ -85,10 +85,9 @@ void add_compare(CLI::App& app, int& exit_code) {
       arguments->metric,
       "Label or name of a metric, or a score: ate, error x; ate unless --where selects one");
   command
-      ->add_option(
-          "--power",
-          arguments->power,
-          "Print the smallest gains that this design finds, and the groups for this one [-]")
+      ->add_option("--power",
+                   arguments->power,
+                   "Print the smallest gains that this design finds, and what this one needs [-]")
       ->type_name("GAIN")
       ->check(number_between(1e-4, 0.99));
   command
@@ -100,12 +99,11 @@ void add_compare(CLI::App& app, int& exit_code) {
                    "Significance level; intervals have level 1 - alpha [-]")
       ->check(number_between(1e-6, 0.5))
       ->capture_default_str();
-  const std::map<std::string, Over> units{
-      {"groups", Over::groups}, {"runs", Over::runs}, {"sequences", Over::sequences}};
+  const std::map<std::string, Over> units{{"groups", Over::groups}, {"sequences", Over::sequences}};
   command
       ->add_option("--over",
                    arguments->options.over,
-                   "Unit of independent observations: groups of runs, single runs, or sequences")
+                   "Unit of independent observations: groups of dependent runs, or sequences")
       ->transform(one_of("observation", units));
   declare_ties(*command, arguments->options.tie, arguments->options.relevant);
   command->add_flag(

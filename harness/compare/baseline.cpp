@@ -31,28 +31,18 @@ std::string sequence_name(const GateCell& cell) {
 std::string name(const GateCell& cell) { return sequence_name(cell) + " / " + cell.method; }
 
 std::string name(const GateScore& score) {
-  std::string out = score.label.empty() ? score.metric : score.label;
-  for (const std::string& word : {score.relation, score.axis}) {
+  std::string out = metric_label(score);
+  for (const std::string& word : {score.relation.text(), score.axis.text()}) {
     if (!word.empty()) out += " " + word;
   }
   return out + ", " + score.times + ", " + score.protocol;
 }
 
 Record as_record(const GateCell& cell, const GateScore& score) {
-  Record out;
+  Record out = score;
   out.sequence = cell.sequence;
   out.repeat = cell.repeat;
   out.method = cell.method;
-  out.protocol = score.protocol;
-  out.times = score.times;
-  out.metric = score.metric;
-  out.label = score.label;
-  out.relation = score.relation;
-  out.axis = score.axis;
-  out.unit = score.unit;
-  out.status = score.status;
-  out.better = score.better;
-  out.target = score.target;
   return out;
 }
 
@@ -71,22 +61,13 @@ GateCell gate_cell(const Record& r) {
 }
 
 GateScore gate_score(const Record& r, const std::set<std::string>& statistics) {
-  GateScore out;
-  out.protocol = r.protocol;
-  out.times = r.times;
-  out.metric = r.metric;
-  out.label = r.label;
-  out.relation = r.relation;
-  out.axis = r.axis;
-  out.unit = r.unit;
-  out.better = r.better;
-  out.target = r.target;
-  out.status = r.status;
-  if (!has_numbers(r.status)) return out;
-  out.pairs = r.pairs;
-  out.possible = r.possible;
-  out.count = static_cast<std::int64_t>(r.statistics.count);
-  for (const std::string& statistic : statistics) out.values[statistic] = value(r, statistic);
+  GateScore out{r, 0, {}};
+  if (has_numbers(r.status)) {
+    out.count = static_cast<std::int64_t>(r.statistics.count);
+    for (const std::string& statistic : statistics) out.values[statistic] = value(r, statistic);
+  } else {
+    out.pairs = out.possible = 0;
+  }
   return out;
 }
 

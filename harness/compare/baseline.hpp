@@ -31,20 +31,8 @@ Tolerance time_limit(double relative);
 /// Whether a limit is about times (its `where` has metric=time); otherwise times are not checked.
 bool limits_time(const std::vector<Tolerance>& limits);
 
-/// One score of one cell: its labels and the statistics with a limit.
-struct GateScore {
-  std::string protocol;
-  std::string times;
-  std::string metric;  ///< catalogue name
-  std::string label;   ///< of the metric in the config
-  std::string relation;
-  std::string axis;
-  std::string unit;
-  metrics::Better better = metrics::Better::lower;
-  double target = 0.0;  ///< best value where `better` is target
-  Status status = Status::ok;
-  std::int64_t pairs = 0;                ///< evaluated pose pairs
-  std::int64_t possible = 0;             ///< possible pose pairs
+/// One score of one cell with the statistics that have a limit. Names of its cell need not be set.
+struct GateScore : Record {
   std::int64_t count = 0;                ///< errors behind the statistics, for example RPE pairs
   std::map<std::string, double> values;  ///< by statistic; empty if the status has no number
 };

@@ -31,8 +31,10 @@ std::optional<Ratio> ratio_of(const Pair& pair, const KeptRuns& kept, const Comp
   if (pair.mean && !pair.has_zero) out.geometric_mean = std::exp(sign * *pair.mean);
   const auto sequences = pair.by_sequence();
   if (2 * sequences.size() > pair.values.size() || sequences.size() < 2) return out;
-  for (const auto& [sequence, mean] : sequences) {
-    out.by_sequence.emplace_back(kept.sequences[sequence], std::exp(sign * mean));
+  for (const SequenceMean& one : sequences) {
+    out.by_sequence.push_back({kept.sequences[one.sequence],
+                               std::exp(sign * one.mean),
+                               std::abs(one.mean) > 2.0 * one.error});
   }
   return out;
 }
@@ -63,6 +65,8 @@ MethodVerdict counts_of(const Observations& all, const KeptRuns& kept, std::size
     if (one.value) values.push_back(*one.value);
     if (one.value) covered += one.coverage;
     if (one.is_loss) reasons.push_back(one.status);
+  }
+  for (const Observed& one : all.values[kept.methods[method_index]]) {
     if (one.status == to_text(Status::declined)) ++out.declines;
   }
   if (!values.empty()) out.coverage = covered / static_cast<double>(values.size());
@@ -91,6 +95,7 @@ Comparison compare_one(const Observations& all, std::size_t copies, const Compar
   out.kind = all.kind;
   out.options = options;
   out.copies = copies;
+  out.unstable.assign(all.unstable.begin(), all.unstable.end());
   const KeptRuns kept = select_runs(all, out);
   std::vector<std::string> names;
   for (const std::size_t m : kept.methods) names.push_back(all.methods[m]);
@@ -119,7 +124,7 @@ Comparison compare_one(const Observations& all, std::size_t copies, const Compar
   return out;
 }
 
-/// Collects oracle_methods().
+/// Methods that use the reference on a run where another method does not.
 class OracleMethods {
  public:
   void add(const Record& r) {
@@ -154,12 +159,6 @@ class OracleMethods {
 }  // namespace
 
 bool is_leading(const MethodVerdict& method) { return method.standing < Standing::behind; }
-
-std::vector<std::string> oracle_methods(const std::vector<Record>& records) {
-  OracleMethods out;
-  for (const Record& r : records) out.add(r);
-  return out.names();
-}
 
 std::vector<Comparison> compare(const std::vector<Record>& records, const CompareOptions& options) {
   return compare(

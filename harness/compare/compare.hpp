@@ -19,7 +19,6 @@ namespace loopbench::harness {
 /// Unit of observation.
 enum class Over {
   groups,    ///< runs with the same Record::group, or single runs without a group
-  runs,      ///< every run, assumed independent even if groups are known
   sequences  ///< all runs of a sequence or of a group: generalises to other sequences
 };
 
@@ -33,13 +32,19 @@ struct CompareOptions {
   bool paired = false;     ///< also pair runs of files, by their names; those of sweeps always are
 };
 
+/// Mean ratio on one sequence.
+struct SequenceRatio {
+  std::string sequence;
+  double ratio = 1.0;
+  bool is_clear = false;  ///< differs from 1 by more than two standard errors
+};
+
 /// Ratio of two methods, the first by the second.
 struct Ratio {
   Interval typical;           ///< Hodges-Lehmann, with a simultaneous interval
   bool has_interval = false;  ///< false: too few groups; typical.low and high equal the estimate
   std::optional<double> geometric_mean;  ///< over groups on which both have values; none with zeros
-  /// Mean by sequence, if each sequence has several groups.
-  std::vector<std::pair<std::string, double>> by_sequence;
+  std::vector<SequenceRatio> by_sequence;  ///< if each sequence has several groups
 };
 
 struct MethodVerdict {
@@ -48,7 +53,7 @@ struct MethodVerdict {
   std::size_t runs = 0;        ///< runs with a value
   std::size_t fails = 0;       ///< runs that count as a loss
   std::string why_fails;       ///< "crashed 1, failed 2"
-  std::size_t declines = 0;    ///< runs without a claim
+  std::size_t declines = 0;    ///< of all possible runs
   double coverage = 1.0;       ///< of the reference, mean over its values, 0..1
   std::optional<Ratio> ratio;  ///< to the baseline; none for values below zero, most runs failed
   std::size_t wins = 0;        ///< groups better than the baseline
@@ -79,9 +84,9 @@ struct Comparison {
   std::size_t copies = 0;              ///< runs with the same content as another, not counted
   std::size_t sequences = 0;           ///< sequences of the runs used
   std::size_t possible_sequences = 0;  ///< sequences of the possible runs
-  /// Sequences of evaluated files with an earlier one's recording: "c2 of c1".
+  /// Sequences with an earlier one's recording: "c2 of c1".
   std::vector<std::string> same_recordings;
-  std::size_t known_groups = 0;        ///< groups of the runs, for any options.over
+  std::vector<std::string> unstable;   ///< methods with different values on equal data
   std::vector<MethodVerdict> methods;  ///< the leader first, others by their ratio to the baseline
   std::vector<Gap> gaps;
   std::vector<std::string> oracles;          ///< excluded methods that use the reference
@@ -109,9 +114,6 @@ using RecordSource = std::function<void(const std::function<void(const Record&)>
 /// The same for records that are not in memory, which are visited once or twice.
 std::vector<Comparison> compare(const RecordSource& records, const CompareOptions& options);
 
-/// Methods that use the reference on a run where another method does not.
-std::vector<std::string> oracle_methods(const std::vector<Record>& records);
-
 /// Methods that cover clearly less of the reference than another one.
 std::vector<std::string> methods_with_less_coverage(const Comparison& comparison);
 
@@ -127,7 +129,7 @@ std::string verdict(const Comparison& comparison);
 /// "translation ate, rmse [m], dense, loopbench: " and the verdict.
 std::string statement(const Comparison& comparison);
 
-/// Properties of the data that limit the claims: observations first, then copies, gaps and oracles.
+/// Properties of the data that limit the claims: observations, copies, gaps and oracles.
 std::vector<std::string> conditions(const Comparison& comparison);
 
 /// The conditions, the tests and their limitations.

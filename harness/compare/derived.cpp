@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
@@ -62,19 +63,6 @@ Record one_number(const Record& r,
   return one;
 }
 
-bool has_time(const Record& r) { return !std::isnan(r.milliseconds); }
-
-Record run_time(const Record& r) {
-  static const SharedText metric = "time";
-  static const SharedText unit = "ms";
-  return one_number(r, metric, unit, metrics::Better::lower, r.milliseconds);
-}
-
-Record pair_count(const Record& r) {
-  static const SharedText metric = "pairs";
-  return one_number(r, metric, {}, metrics::Better::neither, static_cast<double>(r.pairs));
-}
-
 }  // namespace
 
 std::vector<Record> gains(const std::vector<Record>& records, const std::string& baseline) {
@@ -113,28 +101,32 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
 }
 
 std::vector<Record> run_times(const std::vector<Record>& records) {
+  const SharedText metric = "time";
+  const SharedText unit = "ms";
   std::vector<Record> out;
   for (const std::size_t i : first_scores(records)) {
-    if (has_time(records[i])) out.push_back(run_time(records[i]));
+    const Record& r = records[i];
+    if (std::isnan(r.milliseconds)) continue;
+    out.push_back(one_number(r, metric, unit, metrics::Better::lower, r.milliseconds));
   }
   return out;
 }
 
 std::vector<Record> pair_counts(const std::vector<Record>& records) {
+  const SharedText metric = "pairs";
   std::vector<Record> out;
-  for (const std::size_t i : first_scores(records)) out.push_back(pair_count(records[i]));
+  for (const std::size_t i : first_scores(records)) {
+    const auto pairs = static_cast<double>(records[i].pairs);
+    out.push_back(one_number(records[i], metric, {}, metrics::Better::neither, pairs));
+  }
   return out;
 }
 
 void add_derived(std::vector<Record>& records, const std::string& baseline) {
-  const std::vector<Record> gain = gains(records, baseline);
-  const std::vector<std::size_t> first = first_scores(records);
-  records.reserve(records.size() + gain.size() + 2 * first.size());
-  records.insert(records.end(), gain.begin(), gain.end());
-  for (const std::size_t i : first) records.push_back(pair_count(records[i]));
-  for (const std::size_t i : first) {
-    if (has_time(records[i])) records.push_back(run_time(records[i]));
-  }
+  std::vector<Record> derived = gains(records, baseline);
+  std::ranges::move(pair_counts(records), std::back_inserter(derived));
+  std::ranges::move(run_times(records), std::back_inserter(derived));
+  std::ranges::move(derived, std::back_inserter(records));
 }
 
 }  // namespace loopbench::harness

@@ -8,9 +8,9 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/fields.hpp"
-#include "harness/compare/baseline_definitions.hpp"
 #include "harness/compare/consistent_loss.hpp"
 #include "harness/compare/gate_limits.hpp"
+#include "harness/compare/snapshot.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -48,9 +48,10 @@ bool has_vanished(const GateScore& score, double before, double now) {
 /// Reason why the two numbers cannot be compared, or empty.
 std::string why_not_comparable(const GateScore& before, const GateScore& now) {
   if (now.metric != before.metric) {
-    return fmt::format("metric '{}', was '{}'", now.metric, before.metric);
+    return fmt::format("metric '{}', was '{}'", now.metric.text(), before.metric.text());
   }
-  if (now.unit != before.unit) return fmt::format("unit '{}', was '{}'", now.unit, before.unit);
+  if (now.unit != before.unit)
+    return fmt::format("unit '{}', was '{}'", now.unit.text(), before.unit.text());
   if (now.better == before.better && now.target == before.target) return "";
   const auto direction = [](const GateScore& score) {
     return score.better == metrics::Better::target ? fmt::format("target {}", score.target)
@@ -204,7 +205,7 @@ class Checker {
          fmt::format("{} {:.9g} {}, was {:.9g} ({:+.3g} %, limit {:.3g})",
                      statistic,
                      now,
-                     score.unit,
+                     score.unit.text(),
                      before,
                      before == 0.0 ? 0.0 : 100.0 * (now / before - 1.0),
                      allowed));

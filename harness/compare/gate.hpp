@@ -35,7 +35,7 @@ struct GateReport {
 /// Whether `now` is the complete sweep, or a part whose missing cells are accepted.
 enum class GateExtent { complete, part };
 
-/// Throws InputError if the baseline was computed with other definitions (see definitions.hpp), has
+/// Throws InputError if the baseline was computed with other definitions (see snapshot.hpp), has
 /// no cell in common with the results, or has a limit that selects no score. Removed sequences or
 /// methods are reported as missing cells, not as other definitions. O(n log n) and one joint test
 /// of all methods and scores.

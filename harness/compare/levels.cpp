@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/compare/typical_difference.hpp"
+#include "harness/compare/signed_rank.hpp"
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "harness/compare/ranks.hpp"
+
 namespace loopbench::harness {
 namespace {
 
@@ -104,9 +106,12 @@ std::size_t drop_duplicates(Observations& all) {
       kept.push_back(run);
       continue;
     }
-    for (std::vector<Observed>& of_method : all.values) {
-      Observed& one = of_method[found->second];
-      const Observed& copy = of_method[run];
+    for (std::size_t m = 0; m < all.values.size(); ++m) {
+      Observed& one = all.values[m][found->second];
+      const Observed& copy = all.values[m][run];
+      const bool has_both = one.value && copy.value;
+      if (has_both && !tied(*one.value, *copy.value, kTieShare))
+        all.unstable.insert(all.methods[m]);
       if (copy.is_loss || (!one.value && !one.is_loss)) one = copy;
     }
   }

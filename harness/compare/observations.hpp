@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,7 @@ struct Observations {
   std::vector<std::string> methods;
   std::vector<ObservedRun> runs;
   std::vector<std::vector<Observed>> values;  ///< [method][run]
+  std::set<std::string> unstable;             ///< methods that drop_duplicates() found to be random
 };
 
 /// Builds observations(), record by record.
@@ -84,7 +86,8 @@ std::vector<Observations> observations(const std::vector<Record>& records,
                                        const std::string& value);
 
 /// Keeps the first run of every set with equal content; a loss on one of them is a loss on the kept
-/// run. Returns the number of dropped runs.
+/// run. Returns the number of dropped runs, and collects methods whose values on equal content
+/// differ by more than a tie.
 std::size_t drop_duplicates(Observations& all);
 
 }  // namespace loopbench::harness

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "harness/compare/average.hpp"
@@ -232,32 +233,43 @@ std::optional<Interval> Pair::typical(double alpha) const {
   return out;
 }
 
-std::vector<std::pair<std::size_t, double>> Pair::by_sequence() const {
-  std::vector<std::pair<std::size_t, double>> out;
-  for (auto& [sequence, of_sequence] : split(*this)) {
-    std::vector<double> finite = of_sequence;
-    std::erase_if(finite, [](double value) { return !is_finite(value); });
-    if (!finite.empty()) out.emplace_back(sequence, harness::mean(finite));
+std::vector<SequenceMean> Pair::by_sequence() const {
+  std::vector<SequenceMean> out;
+  std::map<std::size_t, std::vector<double>> sequences = split(*this);
+  for (auto& [number, of_sequence] : sequences) {
+    std::erase_if(of_sequence, [](double value) { return !is_finite(value); });
+    if (of_sequence.empty()) continue;
+    double observations = static_cast<double>(of_sequence.size());
+    if (!strata.empty()) observations = std::sqrt(observations);  // runs, not pairs of them
+    const double error = observations > 1.0
+                             ? sample_deviation(of_sequence) / std::sqrt(observations)
+                             : std::numeric_limits<double>::infinity();
+    out.push_back({number, harness::mean(of_sequence), error});
   }
   return out;
 }
 
 std::optional<double> Pair::deviation() const {
-  if (!strata.empty()) return std::nullopt;
   std::vector<double> finite;
   for (const double value : values) {
     if (is_finite(value)) finite.push_back(value);
   }
   const auto sequences = by_sequence();
-  if (sequences.size() < 2 || 2 * sequences.size() > finite.size()) {
+  const bool has_strata = !strata.empty();
+  if (!has_strata && (sequences.size() < 2 || 2 * sequences.size() > finite.size())) {
     return finite.size() < 2 ? std::nullopt : std::optional(sample_deviation(finite));
   }
-  const std::map<std::size_t, double> means(sequences.begin(), sequences.end());
+  std::map<std::size_t, double> means;
+  for (const SequenceMean& one : sequences) means[one.sequence] = one.mean;
   double squares = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (is_finite(values[i])) squares += std::pow(values[i] - means.at(sequence[i]), 2);
   }
-  return std::sqrt(squares / static_cast<double>(finite.size() - sequences.size()));
+  const auto n = static_cast<double>(finite.size());
+  const auto k = static_cast<double>(sequences.size());
+  // Of independent runs, each of sqrt(n / k) runs is in as many pairs.
+  const double freedom = has_strata ? n - std::sqrt(n * k) : n - k;
+  return freedom > 0.0 ? std::optional(std::sqrt(squares / freedom)) : std::nullopt;
 }
 
 Pair compared(const Levels& levels, std::size_t first, std::size_t second) {

@@ -13,7 +13,7 @@
 
 #include "harness/compare/levels.hpp"
 #include "harness/compare/rank_sum.hpp"
-#include "harness/compare/typical_difference.hpp"
+#include "harness/compare/signed_rank.hpp"
 
 namespace loopbench::harness {
 
@@ -22,6 +22,13 @@ namespace loopbench::harness {
 /// errors cannot exceed it (Kimball's inequality).
 double corrected(double p, std::size_t tests);
 double level_of_one(double alpha, std::size_t tests);
+
+/// Mean of the finite differences of a sequence, with its standard error (infinite for one).
+struct SequenceMean {
+  std::size_t sequence = 0;
+  double mean = 0.0;
+  double error = 0.0;
+};
 
 struct Pair {
   /// Differences, the first method minus the second; negative: the first is better. +-kBeyond: one
@@ -58,11 +65,11 @@ struct Pair {
   std::optional<Interval> typical(double alpha) const;
 
   /// Standard deviation of the finite values; if every sequence has several, about their means.
-  /// None for independent runs.
+  /// None for independent runs with one run each.
   std::optional<double> deviation() const;
 
-  /// Mean of the finite values of each sequence that has one, by number of the sequence.
-  std::vector<std::pair<std::size_t, double>> by_sequence() const;
+  /// Of each sequence that has finite values, by number of the sequence.
+  std::vector<SequenceMean> by_sequence() const;
 };
 
 /// O(n log n), and O(n^3) up to 50 groups; independent runs: O(runs^2).

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "harness/compare/rank_sum.hpp"
 #include "harness/compare/signed_rank.hpp"
 
 namespace loopbench::harness {
@@ -20,8 +21,9 @@ double uniform(std::mt19937_64& bits) {
   return (static_cast<double>(bits() >> 11) + 0.5) * 0x1p-53;
 }
 
-/// Share of the draws whose ranks of positive values sum to `critical` at most.
-double simulated(double effect, std::size_t groups, std::size_t critical) {
+/// Share of the draws that are significant: their p is small enough or, where that takes long, the
+/// ranks of their positive values sum to `critical` at most.
+double simulated(double effect, std::size_t groups, double alpha, std::size_t critical) {
   std::mt19937_64 bits(groups);
   std::vector<double> values(groups);
   int found = 0;
@@ -30,6 +32,11 @@ double simulated(double effect, std::size_t groups, std::size_t critical) {
       value = std::sqrt(-2.0 * std::log(uniform(bits))) *
                   std::cos(2.0 * std::numbers::pi * uniform(bits)) -
               effect;
+    }
+    if (groups <= kMostOrdered) {
+      const SignedRank test = signed_rank(values);
+      found += test.p <= alpha && test.positive < test.negative ? 1 : 0;
+      continue;
     }
     std::ranges::sort(values, {}, [](double value) { return std::abs(value); });
     std::size_t sum = 0;
@@ -52,9 +59,20 @@ double normal_quantile(double p) {
 
 }  // namespace
 
+double Power::smallest_of_strata(std::size_t runs) const {
+  const std::vector<Stratum> strata(strata_, {runs, runs});
+  if (2.0 * rank_sum_tail(strata, 0) > alpha_) return std::numeric_limits<double>::infinity();
+  const double distance = normal_quantile(1.0 - 0.5 * alpha_) + normal_quantile(kWanted);
+  const auto n = static_cast<double>(runs);
+  const double deviation = std::sqrt((2.0 * n + 1.0) / (12.0 * static_cast<double>(strata_))) / n;
+  const double ahead = 0.5 + distance * deviation;  // share of the pairs of runs
+  return ahead < 1.0 ? normal_quantile(ahead) : std::numeric_limits<double>::infinity();
+}
+
 double Power::smallest_effect(std::size_t groups) {
   const auto [found, is_new] = known_.emplace(groups, std::numeric_limits<double>::infinity());
   if (!is_new) return found->second;
+  if (strata_ > 0) return found->second = smallest_of_strata(groups);
   const auto critical = critical_rank_sum(groups, alpha_);
   if (!critical) return found->second;
   if (groups > kMostSimulated) {
@@ -66,7 +84,7 @@ double Power::smallest_effect(std::size_t groups) {
   double high = 10.0;
   while (high - low > 1e-3 * high) {
     const double middle = 0.5 * (low + high);
-    (simulated(middle, groups, *critical) < kWanted ? low : high) = middle;
+    (simulated(middle, groups, alpha_, *critical) < kWanted ? low : high) = middle;
   }
   return found->second = high;
 }

@@ -14,15 +14,19 @@ std::string percent_text(double percent) {
                                                      : fmt::format("{:.2g}", percent);
 }
 
-/// Whether the second value is better than the first by more than a relevant difference.
+}  // namespace
+
 bool is_gain(double ratio, const Comparison& c) {
   const double gain = c.kind.better == metrics::Better::higher ? std::log(ratio) : -std::log(ratio);
   return gain > std::log1p(c.options.relevant);
 }
 
-}  // namespace
-
-std::string joined_names(const std::vector<std::string>& names, const char* last) {
+std::string joined_names(std::vector<std::string> names, const char* last) {
+  constexpr std::size_t kMost = 4;
+  if (names.size() > kMost) {
+    names[kMost - 1] = fmt::format("{} others", names.size() - (kMost - 1));
+    names.resize(kMost);
+  }
   std::string out;
   for (std::size_t i = 0; i < names.size(); ++i) {
     out += (i == 0 ? "" : i + 1 == names.size() ? last : ", ") + names[i];
@@ -52,20 +56,18 @@ std::string ratio_text(const Ratio& ratio, const std::string& other, const Compa
 std::string sequences_text(const Ratio& ratio, const Comparison& c) {
   std::vector<std::string> better;
   std::vector<std::string> worse;
-  for (const auto& [sequence, value] : ratio.by_sequence) {
-    if (is_gain(value, c)) better.push_back(sequence);
-    if (is_gain(1.0 / value, c)) worse.push_back(sequence);
+  for (const SequenceRatio& one : ratio.by_sequence) {
+    const std::string named =
+        fmt::format("{} ({} %)", one.sequence, percent_text(100.0 * std::abs(one.ratio - 1.0)));
+    if (one.is_clear && is_gain(one.ratio, c)) better.push_back(named);
+    if (one.is_clear && is_gain(1.0 / one.ratio, c)) worse.push_back(named);
   }
-  const auto listed = [&](const std::vector<std::string>& names) {
-    return names.size() <= 3 ? joined_names(names)
-                             : fmt::format("{} of {} sequences", names.size(), c.sequences);
-  };
-  if (is_gain(1.0 / ratio.typical.estimate, c)) {
-    return better.empty() ? "" : ", but better on " + listed(better);
-  }
-  if (!worse.empty()) return ", but worse on " + listed(worse);
+  const bool is_worse = is_gain(1.0 / ratio.typical.estimate, c);
+  if (is_worse) std::swap(better, worse);
+  if (!worse.empty())
+    return (is_worse ? ", but better on " : ", but worse on ") + joined_names(worse);
   const bool is_everywhere = better.empty() || better.size() == ratio.by_sequence.size();
-  return is_everywhere ? "" : ", all of it on " + listed(better);
+  return is_everywhere ? "" : ", all of it on " + joined_names(better);
 }
 
 }  // namespace loopbench::harness

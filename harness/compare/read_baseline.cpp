@@ -16,84 +16,51 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A limit, which users edit; `at` is its place in the file. Throws InputError.
-class LimitReader {
- public:
-  LimitReader(const Json& node, std::string at) : node_(node), at_(std::move(at)) {}
-
-  Tolerance read() const {
-    if (!node_.is_object()) reject("", "expected an object");
-    // A misspelt key would be a limit that is not applied.
-    static const std::vector<std::string> known{
-        "where", "value", "values", "relative", "absolute", "tie", "alpha"};
-    for (const auto& entry : node_.items()) {
-      if (std::ranges::count(known, entry.key()) > 0) continue;
-      reject("", unknown_name("key of a limit", entry.key(), known));
-    }
-    Tolerance out;
-    out.where = texts("where");
-    out.values = statistics();
-    try {
-      where(out.where);
-      for (const std::string& statistic : out.values) value(Record{}, statistic);
-    } catch (const InputError& error) {
-      reject("", error.what());
-    }
-    out.relative = number("relative");
-    out.absolute = number("absolute");
-    out.tie = number("tie");
-    out.alpha.reset();
-    if (node_.contains("alpha")) out.alpha = number("alpha");
-    return out;
+Tolerance limit_of(const Json& node, const std::string& at) {
+  if (!node.is_object()) throw InputError(at + ": expected an object");
+  // A misspelt key would be a limit that is not applied.
+  static const std::vector<std::string> known{
+      "where", "values", "relative", "absolute", "tie", "alpha"};
+  for (const auto& entry : node.items()) {
+    if (std::ranges::count(known, entry.key()) > 0) continue;
+    throw InputError(at + ": " + unknown_name("key of a limit", entry.key(), known));
   }
-
- private:
-  [[noreturn]] void reject(const std::string& key, const std::string& what) const {
-    throw InputError(at_ + (key.empty() ? "" : "." + key) + ": " + what);
-  }
-
-  const Json& member(const char* key) const {
-    const auto found = node_.find(key);
-    if (found == node_.end()) reject(key, "is missing");
+  const auto member = [&](const std::string& key) -> const Json& {
+    const auto found = node.find(key);
+    if (found == node.end()) throw InputError(at + "." + key + ": is missing");
     return *found;
-  }
-
-  double number(const char* key) const {
+  };
+  const auto number = [&](const std::string& key) {
     const Json& found = member(key);
-    if (!found.is_number() || found.get<double>() < 0.0) {
-      reject(key, "expected a non-negative number, found " + found.dump());
-    }
-    return found.get<double>();
-  }
-
-  std::vector<std::string> texts(const char* key) const {
+    if (found.is_number() && found.get<double>() >= 0.0) return found.get<double>();
+    throw InputError(at + "." + key + ": expected a non-negative number, found " + found.dump());
+  };
+  const auto texts = [&](const std::string& key) {
     const Json& found = member(key);
     const auto is_text = [](const Json& entry) { return entry.is_string(); };
-    if (!found.is_array() || !std::ranges::all_of(found, is_text)) {
-      reject(key, "expected a list of texts, found " + found.dump());
+    if (found.is_array() && std::ranges::all_of(found, is_text)) {
+      return found.get<std::vector<std::string>>();
     }
-    return found.get<std::vector<std::string>>();
+    throw InputError(at + "." + key + ": expected a list of texts, found " + found.dump());
+  };
+  Tolerance out{texts("where"), texts("values"), number("relative"), number("absolute")};
+  out.tie = number("tie");
+  out.alpha.reset();
+  if (node.contains("alpha")) out.alpha = number("alpha");
+  if (out.values.empty()) throw InputError(at + ".values: expected at least one statistic");
+  try {
+    where(out.where);
+    for (const std::string& statistic : out.values) value(Record{}, statistic);
+  } catch (const InputError& error) {
+    throw InputError(at + ": " + error.what());
   }
-
-  /// Until format 2 a limit had one `value`, usually rmse, and did not check the maximum.
-  std::vector<std::string> statistics() const {
-    if (node_.contains("value")) {
-      return node_["value"] == "rmse" ? Tolerance{}.values
-                                      : std::vector{node_["value"].get<std::string>()};
-    }
-    std::vector<std::string> out = texts("values");
-    if (out.empty()) reject("values", "expected a list of statistics, found []");
-    return out;
-  }
-
-  const Json& node_;
-  std::string at_;
-};
+  return out;
+}
 
 std::vector<Tolerance> limits_of(const Json& root, const std::string& file) {
   std::vector<Tolerance> out;
   for (const Json& entry : root.at("limits")) {
-    const std::string at = fmt::format("{}: limits[{}]", file, out.size());
-    out.push_back(LimitReader(entry, at).read());
+    out.push_back(limit_of(entry, fmt::format("{}: limits[{}]", file, out.size())));
   }
   return out;
 }
@@ -108,13 +75,14 @@ T known(const Json& node) {
 /// Identification of a score, without its numbers.
 GateScore requested_score(const Json& node) {
   GateScore out;
-  node.at("protocol").get_to(out.protocol);
-  node.at("times").get_to(out.times);
-  node.at("metric").get_to(out.metric);
-  node.at("label").get_to(out.label);
-  node.at("relation").get_to(out.relation);
-  node.at("axis").get_to(out.axis);
-  node.at("unit").get_to(out.unit);
+  const auto text = [&](const char* key) { return node.at(key).get<std::string>(); };
+  out.protocol = text("protocol");
+  out.times = text("times");
+  out.metric = text("metric");
+  out.label = text("label");
+  out.relation = text("relation");
+  out.axis = text("axis");
+  out.unit = text("unit");
   out.better = known<metrics::Better>(node.at("better"));
   out.target = node.value("target", 0.0);
   return out;

@@ -14,10 +14,12 @@ using Lines = std::vector<std::string>;
 std::string joined(const Lines& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
 Lines about_runs(const Comparison& c) {
-  Lines out{"over " + unit_text(c)};
+  Lines out;
   if (c.runs < c.possible) {
-    out[0] += fmt::format(" of {} possible: those on which two methods have a value or failed",
-                          c.possible);
+    out.push_back(
+        fmt::format("{} of {} possible runs: those on which two methods have a value or failed",
+                    c.runs,
+                    c.possible));
   }
   if (c.copies > 0) {
     out.push_back(fmt::format("{} run{} the data of another and {} not counted",
@@ -25,17 +27,16 @@ Lines about_runs(const Comparison& c) {
                               c.copies == 1 ? " repeats" : "s repeat",
                               c.copies == 1 ? "is" : "are"));
   }
+  if (!c.unstable.empty()) {
+    out.push_back("not deterministic, values differ on equal data: " + joined(c.unstable));
+  }
   if (!c.same_recordings.empty()) {
     out.push_back(
         "not independent, because the references are one recording (guessed from their geometry "
-        "unless stated by --group): " +
+        "unless a group is stated): " +
         joined(c.same_recordings));
   }
-  if (c.options.over == Over::runs && c.known_groups < c.runs) {
-    out.push_back(fmt::format(
-        "assumes that all runs are independent (--over runs), although they form {} groups",
-        c.known_groups));
-  } else if (c.has_strata) {
+  if (c.has_strata) {
     out.push_back(
         fmt::format("the runs of a sequence are independent: methods are compared by rank sums "
                     "within {}, for more runs of {}; --paired pairs runs of equal names",
@@ -54,26 +55,29 @@ Lines about_runs(const Comparison& c) {
   return out;
 }
 
+/// What a method lacks, for methods that lack the same.
+std::string gap_text(const Gap& gap, const Comparison& c) {
+  if (!gap.is_ranked) return fmt::format("not ranked, no value ({})", gap.why);
+  const auto found = std::ranges::find(c.methods, gap.method, &MethodVerdict::method);
+  if (found == c.methods.end() || found->fails == 0) {
+    return fmt::format("no value on {} of {} runs ({})", gap.missing, c.possible, gap.why);
+  }
+  return fmt::format(
+      "failed on {} of {} runs ({}), which are losses in the tests and not in median and mean",
+      found->fails,
+      c.runs,
+      found->why_fails);
+}
+
 Lines about_methods(const Comparison& c) {
   Lines out;
+  std::vector<std::pair<std::string, Lines>> gaps;  // methods by what they lack
   for (const Gap& gap : c.gaps) {
-    const auto found = std::ranges::find(c.methods, gap.method, &MethodVerdict::method);
-    const std::size_t fails = found == c.methods.end() ? 0 : found->fails;
-    if (!gap.is_ranked) {
-      out.push_back(fmt::format("{} is not ranked, it has no value: {}", gap.method, gap.why));
-    } else if (fails > 0) {
-      out.push_back(
-          fmt::format("{} fails on {} of {} runs ({}): they count as losses in the tests and are "
-                      "excluded from its median and mean ratio",
-                      gap.method,
-                      fails,
-                      c.runs,
-                      found->why_fails));
-    } else {
-      out.push_back(
-          fmt::format("{} lacks {} of {} runs: {}", gap.method, gap.missing, c.possible, gap.why));
-    }
+    const std::string text = gap_text(gap, c);
+    const auto same = std::ranges::find(gaps, text, &std::pair<std::string, Lines>::first);
+    (same == gaps.end() ? gaps.emplace_back(text, Lines()) : *same).second.push_back(gap.method);
   }
+  for (const auto& [text, methods] : gaps) out.push_back(text + ": " + joined(methods));
   const std::string coverage = coverage_text(c, methods_with_less_coverage(c));
   if (!coverage.empty()) {
     out.push_back(coverage + "; errors are over the parts that are covered");
@@ -91,8 +95,8 @@ Lines about_methods(const Comparison& c) {
 /// "room 0.52, city 0.61".
 std::string by_sequence(const Ratio& ratio) {
   Lines out;
-  for (const auto& [sequence, value] : ratio.by_sequence) {
-    out.push_back(fmt::format("{} {:.3f}", sequence, value));
+  for (const SequenceRatio& one : ratio.by_sequence) {
+    out.push_back(fmt::format("{} {:.3f}", one.sequence, one.ratio));
   }
   return joined(out);
 }
@@ -159,14 +163,6 @@ Lines remarks(const Comparison& c) {
       c.options.alpha,
       c.options.tie,
       c.options.relevant));
-  if (!c.can_show) {
-    out.push_back(fmt::format("no p: {} cannot show a difference at {:g} in {} test{}, {}",
-                              unit_text(c),
-                              c.options.alpha,
-                              c.tests,
-                              c.tests == 1 ? "" : "s",
-                              needed_text(c)));
-  }
   for (std::string& line : about_ratios(c)) out.push_back(std::move(line));
   return out;
 }

@@ -26,6 +26,13 @@ std::vector<std::size_t> ranked_methods(const Observations& all, Comparison& out
   return ranked;
 }
 
+/// What runs of one recording share; empty where no recording is known.
+std::string recording_key(const ObservedRun& run) {
+  const std::string_view recording = recording_of(run.group);
+  const bool is_measured = run.group.starts_with("reference:");
+  return recording.empty() && is_measured ? run.group : std::string(recording);
+}
+
 /// Group number of each run: runs that share a key of either kind are in one group.
 std::vector<std::size_t> joined(const std::vector<std::vector<std::string>>& keys) {
   std::vector<std::size_t> group(keys.size());
@@ -56,8 +63,7 @@ std::vector<std::size_t> groups(const Observations& all,
   for (const std::size_t run : runs) {
     const ObservedRun& r = all.runs[run];
     std::vector<std::string>& own = keys.emplace_back();
-    if (over == Over::runs) own.push_back("run " + r.name);
-    if (over != Over::runs) own.push_back("group " + r.group);
+    own.push_back("group " + r.group);
     if (over == Over::sequences) own.push_back("sequence " + sequence_key(r));
   }
   return joined(keys);
@@ -83,6 +89,7 @@ KeptRuns select_runs(const Observations& all, Comparison& out) {
   KeptRuns kept{ranked_methods(all, out), {}, {}, {}};
   NameOrder sequences;
   std::set<std::string> possible_sequences;
+  std::map<std::string, std::string> first_labels;  // of the sequences by recording
   std::set<std::string> same_recordings;
   out.is_paired = out.options.paired || std::ranges::any_of(all.runs, [](const ObservedRun& run) {
                     return recording_of(run.group).empty();
@@ -101,8 +108,9 @@ KeptRuns select_runs(const Observations& all, Comparison& out) {
     const std::size_t sequence = sequences.index(sequence_key(all.runs[run]));
     const std::string& label = all.runs[run].sequence;
     if (sequence == kept.sequences.size()) kept.sequences.push_back(label);
-    if (const std::string& first = kept.sequences[sequence]; label != first) {
-      same_recordings.insert(label + " of " + first);
+    if (const std::string key = recording_key(all.runs[run]); !key.empty()) {
+      const std::string& first = first_labels.emplace(key, label).first->second;
+      if (label != first) same_recordings.insert(label + " of " + first);
     }
     kept.values.sequence.push_back(sequence);
     if (all.runs[run].has_oracle_closures) measured.insert(all.runs[run].sequence);
@@ -119,7 +127,6 @@ KeptRuns select_runs(const Observations& all, Comparison& out) {
   kept.values.target = all.kind.target;
   kept.values.is_paired = out.is_paired;
   out.groups = count(kept.values.group);
-  out.known_groups = count(groups(all, kept.runs, Over::groups));
   out.runs = kept.runs.size();
   out.possible = all.runs.size();
   out.sequences = kept.sequences.size();

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -12,22 +13,17 @@
 namespace loopbench::harness {
 namespace {
 
-/// P(T <= t), T being the sum of the ranks with positive sign. The distribution is symmetric, so
-/// that `t` up to half of the sum of all is enough.
-double exact_tail(const std::vector<double>& ranks, double t) {
-  // Midranks are doubled to be integers. Up to 53 ranks all probabilities are multiples of 2^-53,
-  // without rounding.
-  const bool is_whole = std::ranges::all_of(ranks, [](double r) { return r == std::floor(r); });
-  const double scale = is_whole ? 1.0 : 2.0;
-  const auto most = static_cast<std::size_t>(std::lround(scale * t));
-  std::vector<double> chance(most + 1, 0.0);
-  std::vector<double> next(most + 1, 0.0);
+/// P(S <= s) for the sum S of the scores with positive sign, which are whole numbers. The
+/// distribution is symmetric, so that `s` up to half of the sum of all is enough.
+double exact_tail(const std::vector<std::size_t>& scores, std::size_t s) {
+  // Up to 53 scores all probabilities are multiples of 2^-53, without rounding.
+  std::vector<double> chance(s + 1, 0.0);
+  std::vector<double> next(s + 1, 0.0);
   chance[0] = 1.0;
   std::size_t reached = 0;
-  for (const double rank : ranks) {
-    const auto step = static_cast<std::size_t>(std::lround(scale * rank));
-    reached = std::min(reached + step, most);
-    for (std::size_t sum = 0; sum < std::min(step, most + 1); ++sum) next[sum] = 0.5 * chance[sum];
+  for (const std::size_t step : scores) {
+    reached = std::min(reached + step, s);
+    for (std::size_t sum = 0; sum < std::min(step, s + 1); ++sum) next[sum] = 0.5 * chance[sum];
     const double* const before = chance.data();
     double* const after = next.data();
     for (std::size_t sum = step; sum <= reached; ++sum) {
@@ -36,6 +32,21 @@ double exact_tail(const std::vector<double>& ranks, double t) {
     std::swap(chance, next);
   }
   return std::accumulate(chance.begin(), chance.end(), 0.0);
+}
+
+/// The same for a sum `t` of `count` of the ranks; among equal sums of few ranks, more ranks are
+/// the larger score. Midranks are doubled to be integers.
+double exact_tail(const std::vector<double>& ranks, double t, std::size_t count) {
+  const bool is_whole = std::ranges::all_of(ranks, [](double r) { return r == std::floor(r); });
+  const bool is_ordered = ranks.size() <= kMostOrdered;
+  const std::size_t weight = is_ordered ? ranks.size() + 1 : 1;
+  const auto score = [&](double sum, std::size_t terms) {
+    const auto whole = static_cast<std::size_t>(std::lround((is_whole ? 1.0 : 2.0) * sum));
+    return weight * whole + (is_ordered ? terms : 0);
+  };
+  std::vector<std::size_t> scores;
+  for (const double rank : ranks) scores.push_back(score(rank, 1));
+  return exact_tail(scores, score(t, count));
 }
 
 /// Variance given the observed ranks, which is correct with ties and dropped zeros.
@@ -48,6 +59,29 @@ double normal_tail(const std::vector<double>& ranks, double t) {
   }
   return normal_cdf((t + 0.5 - center) / std::sqrt(variance));
 }
+
+/// Integers in the order of doubles.
+std::int64_t rank_of(double value) {
+  const auto bits = std::bit_cast<std::int64_t>(value);
+  return bits >= 0 ? bits : std::numeric_limits<std::int64_t>::min() - bits;
+}
+
+double of_rank(std::int64_t rank) {
+  return std::bit_cast<double>(rank >= 0 ? rank : std::numeric_limits<std::int64_t>::min() - rank);
+}
+
+/// Number of means of two values up to `most`.
+std::size_t means_up_to(std::span<const double> sorted, double most) {
+  std::size_t count = 0;
+  std::size_t end = sorted.size();
+  for (std::size_t i = 0; i < end; ++i) {
+    while (end > i && 0.5 * (sorted[i] + sorted[end - 1]) > most) --end;
+    count += end - i;
+  }
+  return count;
+}
+
+std::size_t pairs(std::size_t n) { return n * (n + 1) / 2; }
 
 }  // namespace
 
@@ -63,6 +97,7 @@ SignedRank signed_rank(std::span<const double> differences, std::size_t most_exa
     ordered.push_back(magnitude << 1 | (difference > 0.0 ? 1 : 0));
   }
   std::ranges::sort(ordered);
+  std::size_t positive = 0;   // number of positive differences
   std::vector<double> ranks;  // of non-zero differences; ties get the mean of their ranks
   for (std::size_t begin = 0, end = 0; begin < ordered.size(); begin = end) {
     const std::uint64_t magnitude = ordered[begin] >> 1;
@@ -71,15 +106,18 @@ SignedRank signed_rank(std::span<const double> differences, std::size_t most_exa
     const double shared = 0.5 * static_cast<double>(begin + 1 + end);
     for (std::size_t i = begin; i < end; ++i) {
       ranks.push_back(shared);
-      ((ordered[i] & 1) != 0 ? out.positive : out.negative) += shared;
+      const bool is_positive = (ordered[i] & 1) != 0;
+      (is_positive ? out.positive : out.negative) += shared;
+      positive += is_positive ? 1 : 0;
     }
   }
   out.count = ranks.size();
   if (ranks.empty()) return out;
-  const double smaller = std::min(out.positive, out.negative);
+  const auto [smaller, count] =
+      std::min(std::pair(out.positive, positive), std::pair(out.negative, out.count - positive));
   const bool is_exact = ranks.size() <= most_exact;
-  out.p =
-      std::min(1.0, 2.0 * (is_exact ? exact_tail(ranks, smaller) : normal_tail(ranks, smaller)));
+  out.p = std::min(
+      1.0, 2.0 * (is_exact ? exact_tail(ranks, smaller, count) : normal_tail(ranks, smaller)));
   return out;
 }
 
@@ -88,10 +126,72 @@ std::optional<std::size_t> critical_rank_sum(std::size_t n, double alpha) {
   std::iota(ranks.begin(), ranks.end(), 1.0);
   return largest_rejected(n * (n + 1) / 4, alpha, [&](std::size_t sum) {
     const auto t = static_cast<double>(sum);
-    return n <= kMostExact ? exact_tail(ranks, t) : normal_tail(ranks, t);
+    return n <= kMostExact ? exact_tail(ranks, t, n) : normal_tail(ranks, t);
   });
 }
 
 double least_p(std::size_t n) { return std::min(1.0, std::pow(2.0, 1.0 - static_cast<double>(n))); }
+
+double walsh_average(std::span<const double> sorted, std::size_t k) {
+  const auto first = std::ranges::find_if(sorted, [](double v) { return v > -0.5 * kBeyond; });
+  const auto last =
+      std::ranges::find_if(first, sorted.end(), [](double v) { return v >= 0.5 * kBeyond; });
+  const auto below = static_cast<std::size_t>(first - sorted.begin());
+  const auto above = static_cast<std::size_t>(sorted.end() - last);
+  const std::span<const double> finite(first, last);
+  const std::size_t lowest = pairs(below) + below * finite.size() + below * above / 2;
+  if (k <= lowest) return -kBeyond;
+  if (k > lowest + pairs(finite.size())) return kBeyond;
+  std::int64_t low = rank_of(finite.front());
+  std::int64_t high = rank_of(finite.back());
+  while (low < high) {
+    const std::int64_t middle =
+        low + static_cast<std::int64_t>(
+                  (static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low)) / 2);
+    if (means_up_to(finite, of_rank(middle)) >= k - lowest) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return of_rank(high);
+}
+
+double pseudo_median(std::span<const double> sorted) {
+  const std::size_t count = pairs(sorted.size());
+  const double lower = walsh_average(sorted, (count + 1) / 2);
+  const double upper = walsh_average(sorted, count / 2 + 1);
+  if (lower == -kBeyond || upper == kBeyond) {  // finite if one of the two is
+    if (std::abs(lower) != kBeyond) return lower;
+    return std::abs(upper) != kBeyond || lower == upper ? upper : 0.0;
+  }
+  return 0.5 * (lower + upper);
+}
+
+namespace {
+
+/// The smallest shift that the test does not reject, given its critical sum.
+double smallest_shift(std::span<const double> sorted, std::size_t critical, double alpha) {
+  const double end = walsh_average(sorted, critical + 1);
+  if (sorted.size() > kMostOrdered || std::abs(end) == kBeyond) return end;
+  // Up to the next mean the sum is one more, which the number of ranks can reject.
+  const double next = walsh_average(sorted, critical + 2);
+  std::vector<double> shifted(sorted.begin(), sorted.end());
+  for (double& value : shifted) value -= 0.5 * (end + next);
+  const bool has_next = end < next && next < kBeyond;
+  return has_next && signed_rank(shifted).p <= alpha ? next : end;
+}
+
+}  // namespace
+
+std::optional<Interval> shift_interval(std::span<const double> sorted, double alpha) {
+  const std::optional<std::size_t> sum = critical_rank_sum(sorted.size(), alpha);
+  if (!sum) return std::nullopt;
+  std::vector<double> mirrored(sorted.rbegin(), sorted.rend());
+  for (double& value : mirrored) value = -value;
+  return Interval{pseudo_median(sorted),
+                  smallest_shift(sorted, *sum, alpha),
+                  -smallest_shift(mirrored, *sum, alpha)};
+}
 
 }  // namespace loopbench::harness

@@ -1,4 +1,6 @@
-/// Wilcoxon's signed-rank test of the symmetry of paired differences about zero.
+/// Wilcoxon's signed-rank test of the symmetry of paired differences about zero, and the
+/// Hodges-Lehmann estimate with the interval that inverts it (Hollander and Wolfe, Nonparametric
+/// Statistical Methods, 3.1 to 3.3).
 #pragma once
 
 #include <cstddef>
@@ -9,6 +11,10 @@ namespace loopbench::harness {
 
 /// More differences use the normal approximation.
 inline constexpr std::size_t kMostExact = 50;
+
+/// Equal rank sums of so many differences are ordered by the number of their ranks, so that the
+/// attainable levels are closer to any nominal one: 4.7 instead of 3.9 % for 8 differences and 5 %.
+inline constexpr std::size_t kMostOrdered = 20;
 
 struct SignedRank {
   std::size_t count = 0;  ///< number of non-zero differences
@@ -29,6 +35,27 @@ std::optional<std::size_t> critical_rank_sum(std::size_t n, double alpha);
 
 /// The smallest two-sided p for n differences: 2^(1 - n), if all have one sign.
 double least_p(std::size_t n);
+
+/// A difference to a failure or to an error of zero, which exceeds all others.
+inline constexpr double kBeyond = 1e300;
+
+struct Interval {
+  double estimate = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// The k-th smallest, from 1, of the n (n + 1) / 2 means of two of the values or of one with
+/// itself. Values of +-kBeyond stay that, and half of the means of opposite ones belong to either
+/// end. `sorted` is ascending. O(64 n).
+double walsh_average(std::span<const double> sorted, std::size_t k);
+
+/// Median of the same means; at least one value. O(64 n).
+double pseudo_median(std::span<const double> sorted);
+
+/// The pseudo-median and all shifts that the signed-rank test does not reject at level `alpha`;
+/// nullopt if the test rejects none, because there are too few values. Ends can be +-kBeyond.
+std::optional<Interval> shift_interval(std::span<const double> sorted, double alpha);
 
 /// P(Z <= z) of the standard normal distribution, to a few ulp in both tails.
 double normal_cdf(double z);

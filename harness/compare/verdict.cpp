@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "harness/compare/ratio_text.hpp"
 
@@ -33,55 +34,31 @@ std::vector<std::string> names_where(const Comparison& c, Holds holds) {
   return out;
 }
 
-/// "better than raw on 14 of 16 groups", where no ratio is defined.
-std::string without_ratio(const MethodVerdict& method, const Comparison& c) {
-  const bool is_better = method.wins > method.losses;
-  const std::size_t groups = method.wins + method.losses + method.ties;
-  if (method.wins == method.losses) {
-    return fmt::format("better than {} on as many groups as worse ({} of {})",
-                       c.options.baseline,
-                       method.wins,
-                       groups);
-  }
+/// Difference of a method to the baseline: its ratio or, where none is defined, "better than raw on
+/// 14 of 16 groups".
+std::string distance(const MethodVerdict& m, const Comparison& c) {
+  const std::size_t groups = m.wins + m.losses + m.ties;
+  if (groups > 0 && m.ties == groups) return "equal to " + c.options.baseline;
+  if (m.ratio) return ratio_text(*m.ratio, c.options.baseline, c);
   return fmt::format("{} than {} on {} of {} groups",
-                     is_better ? "better" : "worse",
+                     m.wins >= m.losses ? "better" : "worse",
                      c.options.baseline,
-                     std::max(method.wins, method.losses),
+                     std::max(m.wins, m.losses),
                      groups);
-}
-
-/// Difference of a method to the baseline.
-std::string distance(const MethodVerdict& method, const Comparison& c) {
-  const CompareOptions& options = c.options;
-  const bool is_tie = method.ties > 0 && method.wins + method.losses == 0;
-  // A method that fails on some runs has losses although its values are equal.
-  const bool is_equal = method.ratio && method.fails > 0 &&
-                        std::abs(method.ratio->typical.estimate - 1.0) <= options.tie;
-  if (is_tie || is_equal) return "equal to " + options.baseline;
-  return method.ratio ? ratio_text(*method.ratio, options.baseline, c) : without_ratio(method, c);
-}
-
-/// At most three names, and how many others there are.
-std::vector<std::string> first_names(std::vector<std::string> names) {
-  constexpr std::size_t kMost = 4;
-  if (names.size() <= kMost) return names;
-  const std::size_t others = names.size() - (kMost - 1);
-  names.resize(kMost - 1);
-  names.push_back(fmt::format("{} others", others));
-  return names;
 }
 
 /// "; fails: dual 2, raw 6 of 8 runs; declines: pcm 3": methods and their numbers of runs.
 std::string missing_text(const Comparison& c) {
-  const auto listed = [&](const char* what, std::size_t MethodVerdict::*count) {
+  const auto listed = [&](const char* what, std::size_t MethodVerdict::*count, std::size_t runs) {
     std::vector<std::string> named;
     for (const MethodVerdict& m : c.methods) {
       if (m.*count > 0) named.push_back(fmt::format("{} {}", m.method, m.*count));
     }
     if (named.empty()) return std::string();
-    return fmt::format("; {}: {} of {} runs", what, joined_names(first_names(named)), c.runs);
+    return fmt::format("; {}: {} of {} runs", what, joined_names(named), runs);
   };
-  return listed("fails", &MethodVerdict::fails) + listed("declines", &MethodVerdict::declines);
+  return listed("fails", &MethodVerdict::fails, c.runs) +
+         listed("declines", &MethodVerdict::declines, c.possible);
 }
 
 std::string contradiction_text(const Comparison& c, const MethodVerdict& method) {
@@ -101,19 +78,42 @@ std::string result(const Comparison& c, const MethodVerdict& method) {
   return out + contradiction_text(c, method);
 }
 
-/// "; 5.2 % below dual, the next [2.0, 8.1]": the margin that decides.
+/// "; 5.2 % below dual, the next [2.0, 8.1]": the margin to the best method that is behind.
 std::string next_text(const Comparison& c) {
   const MethodVerdict* next = nullptr;
+  const auto margin = [](const MethodVerdict& m) {
+    return std::abs(std::log(m.from_leader->typical.estimate));
+  };
   for (const MethodVerdict& m : c.methods) {
-    if (is_leading(m) || m.method == c.options.baseline || !m.from_leader) continue;
-    const auto margin = [](const MethodVerdict& of) {
-      return std::abs(std::log(of.from_leader->typical.estimate));
-    };
+    const bool is_behind = m.standing == Standing::behind && m.method != c.options.baseline;
+    if (!is_behind || !m.from_leader) continue;
     if (next == nullptr || margin(m) < margin(*next)) next = &m;
   }
-  if (next == nullptr) return "";
-  return "; " + ratio_text(*next->from_leader, next->method + ", the next", c) +
-         sequences_text(*next->from_leader, c);
+  if (next == nullptr || c.methods.size() == 2) return "";
+  const std::string named =
+      next->method + (c.is_best ? ", the next" : ", the next that is significantly worse");
+  return "; " + ratio_text(*next->from_leader, named, c) + sequences_text(*next->from_leader, c);
+}
+
+/// "; on sparse, dm and gp are better": where the order of methods that are not significantly
+/// different depends on the sequence.
+std::string exceptions_text(const Comparison& c) {
+  std::map<std::string, std::vector<std::string>> better;  // by sequence
+  for (const MethodVerdict& m : c.methods) {
+    if (m.standing != Standing::open || !m.from_leader) continue;
+    for (const SequenceRatio& one : m.from_leader->by_sequence) {
+      if (one.is_clear && is_gain(1.0 / one.ratio, c)) better[one.sequence].push_back(m.method);
+    }
+  }
+  std::vector<std::string> parts;
+  for (const auto& [sequence, methods] : better) {
+    parts.push_back(fmt::format("on {} {} {} better than {}",
+                                sequence,
+                                joined_names(methods),
+                                methods.size() == 1 ? "is" : "are",
+                                c.methods.front().method));
+  }
+  return parts.empty() ? "" : "; the order depends on the sequence: " + joined_names(parts);
 }
 
 std::string why_no_comparison(const Comparison& c) {
@@ -139,7 +139,7 @@ std::string leaders_text(const Comparison& c) {
   const auto equal = names_where(c, [](const MethodVerdict& m) {
     return m.standing == Standing::leader || m.standing == Standing::equal;
   });
-  return joined_names(first_names(equal)) + (equal.size() == 1 ? " is " : " are equal, ");
+  return joined_names(equal) + (equal.size() == 1 ? " is " : " are equal, ");
 }
 
 std::string best_text(const Comparison& c, const std::vector<std::string>& leaders) {
@@ -148,7 +148,7 @@ std::string best_text(const Comparison& c, const std::vector<std::string>& leade
                                  ? "significantly better than the other method"
                                  : "significantly better than each of the other methods";
   const std::string tail = "; " + better + next_text(c);
-  const std::string names = joined_names(first_names(leaders));
+  const std::string names = joined_names(leaders);
   if (leaders.size() == 1) {
     return baseline.standing == Standing::leader
                ? "the baseline " + names + " is best" + only_other(c) + tail
@@ -173,23 +173,24 @@ std::string undecided_text(const Comparison& c) {
   const auto winners = names_where(c, [](const MethodVerdict& m) { return m.beats_baseline; });
   const std::string rest = open.size() + 1 == c.methods.size() && open.size() > 1
                                ? "any other method"
-                               : joined_names(first_names(open), " or ");
+                               : joined_names(open, " or ");
   const Standing baseline = find(c, c.options.baseline)->standing;
   if (baseline == Standing::leader || baseline == Standing::equal) {
     return "no method is significantly better than the baseline " + c.options.baseline +
            ", which is not significantly better than " + rest + only_other(c);
   }
   const std::string lead = leaders_text(c) + result(c, first);
+  const std::string tail = exceptions_text(c) + next_text(c);
   if (first.beats_baseline) {
     return "no method is significantly best: " + lead + ", but not significantly better than " +
-           rest;
+           rest + tail;
   }
   if (winners.empty()) {
     return "no method is significantly better than the baseline " + c.options.baseline + ": " +
-           lead;
+           lead + exceptions_text(c);
   }
   return "no method is significantly best: significantly better than " + c.options.baseline +
-         (winners.size() == 1 ? " is " : " are ") + joined_names(winners) + "; " + lead;
+         (winners.size() == 1 ? " is " : " are ") + joined_names(winners) + "; " + lead + tail;
 }
 
 }  // namespace

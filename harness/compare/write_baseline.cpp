@@ -15,13 +15,13 @@ using Json = nlohmann::ordered_json;
 
 /// Identification of a score, without its numbers.
 Json requested_score_json(const GateScore& s) {
-  Json out{{"protocol", s.protocol},
-           {"times", s.times},
-           {"metric", s.metric},
-           {"label", s.label},
-           {"relation", s.relation},
-           {"axis", s.axis},
-           {"unit", s.unit},
+  Json out{{"protocol", s.protocol.text()},
+           {"times", s.times.text()},
+           {"metric", s.metric.text()},
+           {"label", s.label.text()},
+           {"relation", s.relation.text()},
+           {"axis", s.axis.text()},
+           {"unit", s.unit.text()},
            {"better", to_text(s.better)}};
   if (s.better == metrics::Better::target) out["target"] = s.target;
   return out;

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "harness/base/wrap.hpp"
-#include "harness/compare/typical_difference.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -179,11 +178,7 @@ std::string report_of(const std::vector<Record>& records,
   options.paired = paired;
   for (const Comparison& comparison : compare(scores, options)) {
     out += "\n" + lines_of("verdict: " + statement(comparison), style);
-    const std::vector<std::string> limits = conditions(comparison);
-    const bool uses_all = comparison.runs == comparison.possible;
-    for (std::size_t i = uses_all ? 1 : 0; i < limits.size(); ++i) {  // the verdict has the first
-      out += lines_of("- " + limits[i], style);
-    }
+    for (const std::string& limit : conditions(comparison)) out += lines_of("- " + limit, style);
   }
   return out;
 }

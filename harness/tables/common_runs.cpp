@@ -72,31 +72,20 @@ std::string runs_text(const std::set<std::size_t>& runs) {
   return out;
 }
 
-/// Note below a table with means over common runs.
-class CommonRunsNote {
- public:
-  /// Records that a mean in this column (or row) is over `runs` runs.
-  void add(const std::string& name, std::size_t runs) { runs_[name].insert(runs); }
-
-  /// "means over the 4 runs that every method finished"; empty if nothing was added.
-  std::string text() const;
-
- private:
-  std::map<std::string, std::set<std::size_t>> runs_;
-};
-
-std::string CommonRunsNote::text() const {
-  if (runs_.empty()) return "";
-  const std::set<std::size_t>& first = runs_.begin()->second;
+/// "means over the 4 runs that every method finished", for the numbers of runs of the means in each
+/// column (or row); empty without any.
+std::string common_runs_note(const std::map<std::string, std::set<std::size_t>>& counts) {
+  if (counts.empty()) return "";
+  const std::set<std::size_t>& first = counts.begin()->second;
   const bool is_one = std::ranges::all_of(
-      runs_, [&](const auto& entry) { return first.size() == 1 && entry.second == first; });
-  if (is_one && *first.begin() == 0) return "no means (-): no run was finished by every method";
+      counts, [&](const auto& entry) { return first.size() == 1 && entry.second == first; });
+  if (is_one && first.contains(0)) return "no means (-): no run was finished by every method";
   if (is_one) {
     return "means over the " + std::to_string(*first.begin()) +
-           (*first.begin() == 1 ? " run" : " runs") + " that every method finished";
+           (first.contains(1) ? " run" : " runs") + " that every method finished";
   }
   std::string out;
-  for (const auto& [name, runs] : runs_) {
+  for (const auto& [name, runs] : counts) {
     out += (out.empty() ? "" : ", ") + name + ": " + runs_text(runs);
   }
   return "means over the runs that every method finished (" + out + ")";
@@ -106,18 +95,18 @@ std::string CommonRunsNote::text() const {
 
 std::string keep_common_runs(TableNumbers& table, bool along_columns) {
   const std::vector<std::string>& names = (along_columns ? table.columns : table.rows).texts();
-  CommonRunsNote note;
+  std::map<std::string, std::set<std::size_t>> counts;
   for (std::size_t l = 0; l < names.size(); ++l) {
     const std::vector<TablePosition> positions = entry_indices(table, l, along_columns);
     const std::vector<EntryRuns> entries = entry_runs(table, positions, along_columns);
     const std::vector<RunSet> common = common_runs(entries);
     for (std::size_t i = 0; i < entries.size(); ++i) {
       if (entries[i].finished == common[i]) continue;
-      note.add(names[l], common[i].size());
+      counts[names[l]].insert(common[i].size());
       table.entries.at(positions[i]).numbers.keep(common[i]);
     }
   }
-  return note.text();
+  return common_runs_note(counts);
 }
 
 }  // namespace loopbench::harness

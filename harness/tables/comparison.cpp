@@ -11,21 +11,9 @@
 namespace loopbench::harness {
 namespace {
 
-std::string title(const Comparison& c) {
-  std::string out;
-  const std::string relation = c.kind.relation == "translation" ? "" : c.kind.relation;
-  const std::string axis = c.kind.axis == "3d" ? "" : c.kind.axis;
-  for (const std::string& word : {metric_label(c.kind).text(), relation, axis, c.options.value}) {
-    if (!word.empty()) out += (out.empty() ? "" : " ") + word;
-  }
-  return out + ", " + c.kind.times + ", " + c.kind.protocol;
-}
-
 std::string p_text(double p) { return p < 0.0001 ? "< 0.0001" : fmt::format("{:.4f}", p); }
 
-const char* over_name(Over over) {
-  return over == Over::groups ? "groups" : over == Over::runs ? "runs" : "sequences";
-}
+const char* over_name(Over over) { return over == Over::groups ? "groups" : "sequences"; }
 
 std::string interval_text(const Ratio& ratio) {
   return ratio.has_interval ? fmt::format("{:.4f} .. {:.4f}", ratio.typical.low, ratio.typical.high)
@@ -94,6 +82,16 @@ Mark mark_of(const Comparison& c, const MethodVerdict& m) {
 }
 
 }  // namespace
+
+std::string title(const Comparison& c) {
+  std::string out;
+  const std::string relation = c.kind.relation == "translation" ? "" : c.kind.relation;
+  const std::string axis = c.kind.axis == "3d" ? "" : c.kind.axis;
+  for (const std::string& word : {metric_label(c.kind).text(), relation, axis, c.options.value}) {
+    if (!word.empty()) out += (out.empty() ? "" : " ") + word;
+  }
+  return out + ", " + c.kind.times + ", " + c.kind.protocol;
+}
 
 Table table_view(const Comparison& c) {
   const std::string unit = c.kind.unit.empty() ? "" : " [" + c.kind.unit + "]";
@@ -199,7 +197,7 @@ std::string json(const std::vector<Comparison>& comparisons, int indent) {
     for (const MethodVerdict& m : c.methods) {
       Json by_sequence = Json::object();
       if (m.ratio) {
-        for (const auto& [sequence, ratio] : m.ratio->by_sequence) by_sequence[sequence] = ratio;
+        for (const SequenceRatio& one : m.ratio->by_sequence) by_sequence[one.sequence] = one.ratio;
       }
       entry["methods"].push_back(
           {{"method", m.method},

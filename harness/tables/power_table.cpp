@@ -21,22 +21,27 @@ std::string groups_text(std::size_t groups) {
 }  // namespace
 
 Table power_table(const Comparison& c, double gain) {
-  Table out{field(c.kind, "score") + ", " + c.kind.times + ": power against " + c.options.baseline,
+  const std::string unit = c.has_strata ? "runs per sequence" : "groups";
+  Table out{title(c) + ": power against " + c.options.baseline,
             {"method",
-             "groups",
+             unit,
              "deviation",
              "found with 80 %",
-             fmt::format("groups for {:g} %", 100.0 * gain)},
+             fmt::format("{} for {:g} %", unit, 100.0 * gain)},
             {},
             {}};
   if (c.methods.empty()) {
     out.notes.push_back(statement(c));
     return out;
   }
-  Power power(level_of_one(c.options.alpha, c.tests));
+  Power power(level_of_one(c.options.alpha, c.tests), c.has_strata ? c.sequences : 0);
   for (const MethodVerdict& m : c.methods) {
     if (m.method == c.options.baseline) continue;
-    const std::size_t groups = m.wins + m.losses + m.ties;
+    std::size_t groups = m.wins + m.losses + m.ties;
+    if (c.has_strata) {  // pairs of runs
+      const auto pairs = static_cast<double>(groups) / static_cast<double>(c.sequences);
+      groups = static_cast<std::size_t>(std::lround(std::sqrt(pairs)));
+    }
     const bool is_known = m.deviation && *m.deviation > 0.0;
     out.lines.push_back(
         {{m.method},
@@ -47,12 +52,12 @@ Table power_table(const Comparison& c, double gain) {
   }
   out.notes.push_back("over " + unit_text(c));
   out.notes.push_back(fmt::format(
-      "deviation: standard deviation of log ratios to {} between groups{}; found with 80 %: the "
-      "smallest gain that so many groups show in 80 % of the cases at {:g}, corrected for {} "
-      "test{}, "
-      "if log ratios are normal",
+      "deviation: standard deviation of log ratios to {}{}; found with 80 %: the smallest gain "
+      "shown in 80 % of the cases at {:g}, corrected for {} test{}, if log ratios are normal",
       c.options.baseline,
-      c.sequences > 1 && c.sequences < c.groups ? ", within sequences" : "",
+      c.has_strata                                ? " of two runs of a sequence"
+      : c.sequences > 1 && c.sequences < c.groups ? " between groups, within sequences"
+                                                  : " between groups",
       c.options.alpha,
       c.tests,
       c.tests == 1 ? "" : "s"));

@@ -71,7 +71,7 @@ std::vector<Record> one_of_four() {
 TEST(Sequences, ThatDifferAreInTheSentenceAndTheirDifferencesNotInTheInterval) {
   const Comparison c = compared(one_of_four(), {.baseline = "raw"});
   const std::string text = verdict(c);
-  EXPECT_NE(text.find(", all of it on sparse, p = "), std::string::npos) << text;
+  EXPECT_NE(text.find(", all of it on sparse (20.0 %), p = "), std::string::npos) << text;
   EXPECT_NE(text.find("; over 64 runs of 4 sequences"), std::string::npos) << text;
   EXPECT_TRUE(has_remark(c,
                          "mean ratio dual / raw by sequence: room 0.999, city 0.999, hall 0.999, "

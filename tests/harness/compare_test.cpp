@@ -87,8 +87,7 @@ TEST(Verdict, NamesMethodsThatAreNotSignificantlyDifferent) {
   const std::string text = verdict(compared(records, {.baseline = "uniform", .alpha = 0.2}));
   EXPECT_EQ(text.find("no method is significantly best: "), 0u) << text;
   EXPECT_TRUE(has(text, "dual and twin are equal, 13.5 % below uniform [")) << text;
-  EXPECT_TRUE(has(text, "], p = 0.023, but not significantly better than pose_graph; over 8 runs"))
-      << text;
+  EXPECT_TRUE(has(text, "], p = 0.023, but not significantly better than pose_graph; ")) << text;
 }
 
 TEST(Verdict, DoesNotClaimWhatSoFewRunsCannotShow) {
@@ -100,10 +99,6 @@ TEST(Verdict, DoesNotClaimWhatSoFewRunsCannotShow) {
             "show a difference among 4 methods at 0.05 (7 are needed)");
   EXPECT_FALSE(c.methods[0].ratio->has_interval);
   EXPECT_FALSE(c.methods[0].p);
-  EXPECT_TRUE(
-      has_note(c,
-               "no p: 4 runs of 1 sequence cannot show a difference at 0.05 in 2 tests, 7 are "
-               "needed"));
 }
 
 TEST(Verdict, StatesThatNothingBeatsTheBaseline) {
@@ -179,7 +174,7 @@ TEST(Direction, OfATargetIsTheDistanceToIt) {
   EXPECT_EQ(c.methods[2].method, "raw");
   EXPECT_TRUE(c.is_best);
   EXPECT_TRUE(has(verdict(c), " % closer to 1 than uniform [")) << verdict(c);
-  EXPECT_TRUE(has(remarks(c)[2], "typical |value - 1| / uniform")) << remarks(c)[2];
+  EXPECT_TRUE(has(remarks(c)[1], "typical |value - 1| / uniform")) << remarks(c)[1];
 }
 
 TEST(Coverage, OfALeaderThatIsLessThanThatOfOthersLeavesNoBest) {

@@ -138,17 +138,5 @@ TEST(GateText, DoubtsErrorsThatVanish) {
   EXPECT_EQ(doubts(0.02), 0);
 }
 
-TEST(BaselineFile, KeepsTheLimitsOfFormat2AndComparesMaximaToo) {
-  const TemporaryFolder folder;
-  const auto file =
-      folder.file("old.json",
-                  "{\"loopbench_baseline\": 2, \"limits\": [{\"where\": [], \"value\": \"rmse\", "
-                  "\"relative\": 0.5, \"absolute\": 0, \"tie\": 0}]}");
-  const std::vector<Tolerance> limits = read_limits(file);
-  ASSERT_EQ(limits.size(), 1u);
-  EXPECT_EQ(limits[0].values, (std::vector<std::string>{"rmse", "max"}));
-  EXPECT_EQ(limits[0].relative, 0.5);
-}
-
 }  // namespace
 }  // namespace loopbench::gate_file_test

@@ -8,7 +8,6 @@
 #include "harness/compare/rank_sum.hpp"
 #include "harness/compare/ranks.hpp"
 #include "harness/compare/signed_rank.hpp"
-#include "harness/compare/typical_difference.hpp"
 
 namespace loopbench::inference_test {
 
@@ -47,7 +46,31 @@ TEST(Ranks, AreSharedByEquals) {
   EXPECT_EQ(midranks(close, 1e-9), (Numbers{1.5, 1.5, 3.0}));
 }
 
-TEST(SignedRank, GivesTheExactValuesOfR) {
+/// By enumerating all sign patterns: the definition. Patterns of `count` ranks with the sum `t`
+/// come before those of more ranks with the same sum.
+double enumerated(const Numbers& ranks, double t, std::size_t count) {
+  double tail = 0.0;
+  const std::size_t patterns = std::size_t{1} << ranks.size();
+  for (std::size_t pattern = 0; pattern < patterns; ++pattern) {
+    double sum = 0.0;
+    std::size_t terms = 0;
+    for (std::size_t i = 0; i < ranks.size(); ++i) {
+      const bool is_in = (pattern >> i & 1) != 0;
+      sum += is_in ? ranks[i] : 0.0;
+      terms += is_in ? 1 : 0;
+    }
+    tail += sum < t || (sum == t && terms <= count) ? 1.0 : 0.0;
+  }
+  return std::min(1.0, 2.0 * tail / static_cast<double>(patterns));
+}
+
+Numbers ranks_to(std::size_t n) {
+  Numbers out;
+  for (std::size_t i = 1; i <= n; ++i) out.push_back(static_cast<double>(i));
+  return out;
+}
+
+TEST(SignedRank, GivesTheSumsOfRAndOrdersEqualOnes) {
   // R 4: wilcox.test(x, y, paired = TRUE): V = 40, p-value = 0.03906.
   const SignedRank depressed = signed_rank(depression());
   EXPECT_EQ(depressed.positive, 40.0);
@@ -56,12 +79,12 @@ TEST(SignedRank, GivesTheExactValuesOfR) {
   const SignedRank maize =
       signed_rank(Numbers{6, 8, 14, 16, 23, 24, 28, 29, 41, -48, 49, 56, 60, -67, 75});
   EXPECT_EQ(maize.negative, 24.0);
-  EXPECT_DOUBLE_EQ(maize.p, 0.041259765625);
-  // scipy/stats/tests/test_morestats.py, test_exact_pval: computed with R 3.4.1.
-  const Numbers ten =
-      differences({1.81, 0.82, 1.56, -0.48, 0.81, 1.28, -1.04, 0.23, -0.75, 0.14},
-                  {0.71, 0.65, -0.2, 0.85, -1.1, -0.45, -0.84, -0.24, -0.68, -0.76});
-  EXPECT_NEAR(signed_rank(ten).p, 0.1054688, 6e-8);
+  EXPECT_LE(maize.p, 0.041259765625);  // of all patterns with this sum
+  EXPECT_DOUBLE_EQ(maize.p, enumerated(ranks_to(15), 24.0, 2));
+  // Of eight values, both patterns with a sum of 4 have 7 / 128 in R; one of them is below 5 %.
+  EXPECT_DOUBLE_EQ(signed_rank(Numbers{1, 2, 3, -4, 5, 6, 7, 8}).p, 6.0 / 128.0);
+  EXPECT_DOUBLE_EQ(signed_rank(Numbers{-1, 2, -3, 4, 5, 6, 7, 8}).p, 7.0 / 128.0);
+  EXPECT_EQ(signed_rank(Numbers{-1, -2, 3}).p, signed_rank(Numbers{1, 2, -3}).p);
 }
 
 TEST(SignedRank, GivesTheNormalValuesOfR) {
@@ -75,20 +98,6 @@ TEST(SignedRank, GivesTheNormalValuesOfR) {
   EXPECT_EQ(signed_rank(coarse).positive, 423.0);
 }
 
-/// By enumerating all sign patterns: the definition.
-double enumerated(const Numbers& ranks, double t) {
-  double lower = 0.0;
-  double upper = 0.0;
-  const std::size_t patterns = std::size_t{1} << ranks.size();
-  for (std::size_t pattern = 0; pattern < patterns; ++pattern) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < ranks.size(); ++i) sum += (pattern >> i & 1) != 0 ? ranks[i] : 0.0;
-    lower += sum <= t ? 1.0 : 0.0;
-    upper += sum >= t ? 1.0 : 0.0;
-  }
-  return std::min(1.0, 2.0 * std::min(lower, upper) / static_cast<double>(patterns));
-}
-
 TEST(SignedRank, IsExactWithTiesAndZeros) {
   // Magnitudes 0 0 1 1 2 3 3 3: ranks 1.5 1.5 | 3.5 3.5 5 7 7 7, of which Pratt keeps the last six.
   const Numbers d{0.0, 1.0, -1.0, 0.0, 2.0, 3.0, 3.0, 3.0};
@@ -96,7 +105,7 @@ TEST(SignedRank, IsExactWithTiesAndZeros) {
   EXPECT_EQ(test.count, 6u);
   EXPECT_EQ(test.positive, 29.5);
   EXPECT_EQ(test.negative, 3.5);
-  EXPECT_DOUBLE_EQ(test.p, enumerated({3.5, 3.5, 5, 7, 7, 7}, 29.5));
+  EXPECT_DOUBLE_EQ(test.p, enumerated({3.5, 3.5, 5, 7, 7, 7}, 3.5, 1));
 }
 
 TEST(SignedRank, OfNothingButTiesIsNoDifference) {
@@ -171,6 +180,21 @@ TEST(TypicalDifference, HasTheIntervalOfR) {
   EXPECT_NEAR(found->low, 0.01, 1e-9);
   EXPECT_NEAR(found->high, 0.786, 1e-9);
   EXPECT_FALSE(shift_interval(std::span(values).first(5), 0.05));
+  // It ends where p crosses the level.
+  Numbers some{-0.7, 1.0, 2.1, 3.3, 4.7};
+  for (double next = 6.2; some.size() < 12; next *= 1.27) {
+    some.push_back(next);
+    const auto interval = shift_interval(some, 0.05);
+    const auto p_at = [&](double shift) {
+      Numbers shifted = some;
+      for (double& value : shifted) value -= shift;
+      return signed_rank(shifted).p;
+    };
+    EXPECT_LE(p_at(interval->low - 1e-6), 0.05);
+    EXPECT_GT(p_at(interval->low + 1e-6), 0.05);
+    EXPECT_GT(p_at(interval->high - 1e-6), 0.05);
+    EXPECT_LE(p_at(interval->high + 1e-6), 0.05);
+  }
 }
 
 }  // namespace

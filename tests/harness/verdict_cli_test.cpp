@@ -55,9 +55,8 @@ TEST_F(VerdictCli, CompareGivesAVerdict) {
   EXPECT_TRUE(
       has(result.out, "\n- translation ate, rmse [m], keyframes, loopbench: uniform is best: "))
       << result.out;
-  EXPECT_TRUE(
-      has(result.out,
-          "\n- over 8 runs of 2 sequences\n- claims hold for more runs of these 2 sequences"))
+  EXPECT_TRUE(has(result.out,
+                  "; over 8 runs of 2 sequences\n- claims hold for more runs of these 2 sequences"))
       << result.out;
   EXPECT_EQ(run("compare r --where unit=m").out, result.out);  // reproducible
   const CommandResult few = run("compare r --where unit=m,sequence=room,repeat=0");
@@ -76,7 +75,8 @@ TEST_F(VerdictCli, CompareNeedsNoMetricBesideAFilter) {
 TEST_F(VerdictCli, CompareStatesItsPower) {
   const CommandResult result = run("compare r --where unit=m --power 0.05");
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.out.rfind("### ate, keyframes: power against raw\n\n| method", 0), 0u)
+  EXPECT_EQ(
+      result.out.rfind("### ate rmse, keyframes, loopbench: power against raw\n\n| method", 0), 0u)
       << result.out;
   EXPECT_TRUE(has(result.out, "| groups for 5 % |")) << result.out;
   EXPECT_EQ(run("compare r --power 2").exit_code, 2);

@@ -1,0 +1,246 @@
+/// Wrong verdicts of earlier procedures, each with the smallest sweep that showed it. The numbers
+/// are those of the list of defects.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/compare/derived.hpp"
+#include "tests/studies/synthetic_records.hpp"
+#include "tests/support/compared_sweep.hpp"
+
+namespace loopbench::verdict_defects_test {
+
+using namespace metrics;
+using namespace harness;
+
+namespace {
+
+using namespace compared_sweep;  // NOLINT: its records are what every test here is about
+
+const CompareOptions kAgainstRaw{.baseline = "raw"};
+
+const MethodVerdict& find(const Comparison& c, const std::string& method) {
+  return *std::ranges::find(c.methods, method, &MethodVerdict::method);
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// An error that differs between runs.
+double size_of(int run) { return 0.1 + 0.013 * run; }
+
+/// Runs of `raw`, and of `dual` with these ratios to it.
+std::vector<Record> pairs(const std::vector<double>& ratios) {
+  std::vector<Record> out;
+  for (int run = 0; run < std::ssize(ratios); ++run) {
+    out.push_back(score("room", run, "raw", size_of(run)));
+    out.push_back(score("room", run, "dual", ratios[static_cast<std::size_t>(run)] * size_of(run)));
+  }
+  return out;
+}
+
+/// About `ratio`, all different.
+std::vector<double> about(double ratio, int runs) {
+  std::vector<double> out;
+  for (int run = 0; run < runs; ++run) out.push_back(ratio * (1.0 + 0.001 * run));
+  return out;
+}
+
+TEST(Defect1, ADivergingThirdMethodChangesNoNumberOfOthers) {
+  std::vector<Record> records = pairs(about(0.75, 12));
+  const MethodVerdict alone = find(compared(records, kAgainstRaw), "dual");
+  const std::vector<Record> gain = gains(records, "raw");
+  for (int run = 0; run < 12; ++run) {
+    records.push_back(score("room", run, "lost", run < 10 ? 1e9 : 0.7 * size_of(run)));
+  }
+  const MethodVerdict beside = find(compared(records, kAgainstRaw), "dual");
+  EXPECT_EQ(beside.ratio->typical.estimate, alone.ratio->typical.estimate);
+  EXPECT_EQ(*beside.ratio->geometric_mean, *alone.ratio->geometric_mean);
+  EXPECT_EQ(beside.wins, 12u);
+  EXPECT_TRUE(beside.beats_baseline);
+  const std::vector<Record> all = gains(records, "raw");
+  for (const Record& r : gain) {
+    const auto same = std::ranges::find_if(all, [&](const Record& other) {
+      return other.method == r.method && other.repeat == r.repeat;
+    });
+    EXPECT_EQ(same->statistics.rmse, r.statistics.rmse);
+  }
+  EXPECT_EQ(
+      std::ranges::count_if(
+          all, [](const Record& r) { return r.method == "lost" && r.statistics.rmse < -1e9; }),
+      10);
+}
+
+TEST(Defect2, AMethodThatFailsNearlyAlwaysVetoesNothing) {
+  std::vector<Record> records = pairs(about(0.73, 24));
+  for (int run = 0; run < 24; ++run) {
+    records.push_back(run == 4 ? score("room", run, "mostly fails", 0.3 * size_of(run))
+                               : failed("room", run, "mostly fails"));
+  }
+  const Comparison c = compared(records, kAgainstRaw);
+  EXPECT_TRUE(verdict(c).starts_with("dual is best: ")) << verdict(c);
+  EXPECT_TRUE(has(verdict(c), "; fails: mostly fails 23 of 24 runs; ")) << verdict(c);
+}
+
+TEST(Defect3, PIsThatOfTheTestWhereRankAndMeanDisagree) {
+  std::vector<double> ratios = about(1.05, 20);
+  ratios[7] = 0.01;  // one win, 19 losses
+  const Comparison c = compared(pairs(ratios), kAgainstRaw);
+  const MethodVerdict& dual = find(c, "dual");
+  EXPECT_LT(*dual.p, 0.01);
+  EXPECT_GT(dual.ratio->typical.low, 1.0);
+  EXPECT_LT(*dual.ratio->geometric_mean, 1.0);
+  EXPECT_FALSE(c.is_best);
+  EXPECT_TRUE(has(verdict(c), "on most runs, but the geometric mean ratio is 0.8")) << verdict(c);
+}
+
+TEST(Defect4, RunsThatAreFarBetterKeepTheClaim) {
+  std::vector<double> ratios = about(0.95, 10);
+  EXPECT_TRUE(compared(pairs(ratios), kAgainstRaw).is_best);
+  ratios[3] = ratios[7] = 0.61;
+  EXPECT_TRUE(compared(pairs(ratios), kAgainstRaw).is_best);
+}
+
+TEST(Defect5, TheOrderOfEqualMethodsOnOneSequenceIsInTheSentence) {
+  std::vector<Record> records;  // smooth is 0.3 % below dm, but 3 % above it on `sparse`
+  for (int seed = 0; seed < 16; ++seed) {
+    for (const std::string sequence : {"room", "city", "hall", "sparse"}) {
+      const double noise = 1.0 + 0.0001 * ((seed * 7) % 16 - 7.5);
+      const bool is_sparse = sequence == "sparse";
+      records.push_back(score(sequence, seed, "raw", 2.0 * size_of(seed)));
+      records.push_back(score(sequence, seed, "dm", (is_sparse ? 0.8 : 1.0) * size_of(seed)));
+      records.push_back(
+          score(sequence, seed, "smooth", (is_sparse ? 0.824 : 0.997) * noise * size_of(seed)));
+      records.push_back(score(sequence, seed, "dual", 1.001 / noise * size_of(seed)));
+    }
+  }
+  const std::string text = verdict(compared(records, kAgainstRaw));
+  EXPECT_TRUE(has(text, "no method is significantly best: smooth is ")) << text;
+  EXPECT_TRUE(has(text, "the order depends on the sequence: on sparse dm is better than smooth"))
+      << text;
+  EXPECT_TRUE(has(text, " below dual, the next that is significantly worse [")) << text;
+  EXPECT_TRUE(has(text, "all of it on sparse (17.")) << text;
+}
+
+TEST(Defect6, AFailedRunCostsARunAndNotItsGroup) {
+  std::vector<Record> records;
+  for (int run = 0; run < 160; ++run) {
+    const std::string sequence = std::to_string(run);
+    records.push_back(score(sequence, 0, "raw", size_of(run)));
+    records.push_back(run % 20 == 3 ? failed(sequence, 0, "dual")
+                                    : score(sequence, 0, "dual", 0.5 * size_of(run)));
+    for (Record* r : {&records[records.size() - 2], &records.back()}) {
+      r->group = "route " + std::to_string(run / 20);
+    }
+  }
+  const Comparison c = compared(records, kAgainstRaw);
+  EXPECT_EQ(c.groups, 8u);
+  EXPECT_TRUE(c.is_best) << verdict(c);
+}
+
+TEST(Defect7, AFailureIsALossWhateverAThirdMethodsErrors) {
+  std::vector<Record> records = pairs(about(0.6, 20));
+  for (const std::size_t run : {3u, 11u}) records[2 * run + 1] = failed("room", int(run), "dual");
+  const MethodVerdict alone = find(compared(records, kAgainstRaw), "dual");
+  for (int run = 0; run < 20; ++run) {
+    records.push_back(
+        score("room", run, "lost", run == 3 ? 1e6 : (1.2 + 0.01 * run) * size_of(run)));
+  }
+  const Comparison c = compared(records, kAgainstRaw);
+  EXPECT_EQ(find(c, "dual").losses, alone.losses);
+  EXPECT_TRUE(alone.beats_baseline);
+  EXPECT_TRUE(c.is_best) << verdict(c);
+}
+
+TEST(Defect8, HalfOfThePathIsNeverBest) {
+  std::vector<Record> records = pairs(about(0.68, 12));
+  for (Record& r : records) {
+    r.pairs = r.possible = 100;
+    r.span = r.method == "dual" ? 0.52 : 1.0;
+  }
+  const Comparison c = compared(records, kAgainstRaw);
+  EXPECT_FALSE(c.is_best);
+  EXPECT_TRUE(verdict(c).starts_with("no method is called best: dual covers 52 % of the reference"))
+      << verdict(c);
+}
+
+TEST(Defect10, ASecondLabelOfAMethodCostsNothing) {
+  std::vector<Record> records = pairs(about(0.9, 6));
+  const double p = *find(compared(records, kAgainstRaw), "dual").p;
+  for (Record r : pairs(about(0.9, 6))) {
+    r.method = r.method + " again";
+    records.push_back(r);
+  }
+  const Comparison c = compared(records, kAgainstRaw);
+  EXPECT_EQ(*find(c, "dual").p, p);
+  EXPECT_TRUE(c.is_best) << verdict(c);
+}
+
+TEST(Defect12, TheLeadersIntervalHoldsAmongTwentyOneEqualMethods) {
+  std::mt19937_64 bits(5);
+  const synthetic::Truth equal{.effects = std::vector<double>(21, 0.0), .groups = 20};
+  int excluded = 0;
+  for (int draw = 0; draw < 150; ++draw) {
+    const std::vector<Record> records = synthetic::records(equal, synthetic::shapes()[0], bits);
+    const Interval leader = compared(records, {.baseline = "m0"}).methods.front().ratio->typical;
+    excluded += leader.low > 1.0 || leader.high < 1.0 ? 1 : 0;
+  }
+  EXPECT_LE(excluded, 18);  // 5 % and four standard errors; it was 20 %
+}
+
+TEST(Defect13, TheMarginToTheNextIsInTheSentence) {
+  std::vector<Record> records = pairs(about(0.56, 12));
+  for (int run = 0; run < 12; ++run) {
+    records.push_back(
+        score("room", run, "near", 1.005 * 0.56 * (1.0 + 0.001 * run) * size_of(run)));
+    records.push_back(score("room", run, "next", 1.03 * 0.56 * (1.0 + 0.001 * run) * size_of(run)));
+  }
+  const std::string text = verdict(compared(records, kAgainstRaw));
+  EXPECT_TRUE(
+      text.starts_with("dual and near are best, within 1 % of one another: dual is 43.7 % "
+                       "below raw ["))
+      << text;
+  EXPECT_TRUE(has(text, "; 2.9 % below next, the next [")) << text;
+  // A difference that does not matter is no advantage, for any p.
+  std::vector<double> ratios;
+  for (int run = 0; run < 40; ++run) ratios.push_back(1.0 - 1e-5 * (1.0 + 0.01 * run));
+  const std::string same = verdict(compared(pairs(ratios), kAgainstRaw));
+  EXPECT_TRUE(same.starts_with("dual and raw are best, within 1 % of one another: ")) << same;
+}
+
+TEST(Defect14, MethodsThatAreExcludedOnSomeRunsDoNotEndTheComparison) {
+  std::vector<Record> records = pairs(about(0.7, 8));
+  for (int run = 0; run < 8; ++run) {
+    const std::string learnt = run < 4 ? "learnt on b" : "learnt on a";
+    records.push_back(score("room", run, learnt, 0.9 * size_of(run)));
+  }
+  const Comparison c = compared(records, kAgainstRaw);
+  EXPECT_EQ(c.runs, 8u);
+  EXPECT_EQ(c.methods.size(), 4u);
+  EXPECT_EQ(find(c, "dual").wins, 8u);
+}
+
+TEST(Defect14, DeclinesAreNoFailures) {
+  std::vector<Record> records = pairs(about(0.7, 8));
+  for (const std::size_t run : {1u, 2u}) {
+    records[2 * run + 1] = failed("room", int(run), "dual");
+    records[2 * run + 1].status = Status::declined;
+  }
+  const Comparison c = compared(records, kAgainstRaw);
+  EXPECT_EQ(find(c, "dual").fails, 0u);
+  EXPECT_EQ(find(c, "dual").losses, 0u);
+  EXPECT_TRUE(has(verdict(c), "; declines: dual 2 of 8 runs; ")) << verdict(c);
+}
+
+TEST(Defect14, DifferentValuesOnEqualDataAreReported) {
+  std::vector<Record> records = pairs(about(0.7, 3));
+  for (Record& r : records) r.content = "c0ffee";
+  for (std::size_t i = 0; i < records.size(); i += 2) records[i].statistics.rmse = 0.1;
+  const std::vector<std::string> notes = conditions(compared(records, kAgainstRaw));
+  EXPECT_EQ(std::ranges::count(notes, "not deterministic, values differ on equal data: dual"), 1);
+}
+
+}  // namespace
+}  // namespace loopbench::verdict_defects_test
