@@ -12,6 +12,7 @@
 #include "harness/eval/recordings.hpp"
 #include "harness/model/cell_records.hpp"
 #include "harness/model/recorded_run.hpp"
+#include "harness/model/same_recording.hpp"
 
 namespace loopbench::harness {
 namespace {

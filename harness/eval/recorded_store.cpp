@@ -13,6 +13,7 @@
 #include "datasets/core/parallel.hpp"
 #include "harness/eval/recorded_evaluation.hpp"
 #include "harness/eval/recordings.hpp"
+#include "harness/model/same_recording.hpp"
 #include "harness/run/build.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/resume.hpp"

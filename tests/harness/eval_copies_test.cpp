@@ -5,7 +5,7 @@
 #include <fstream>
 #include <set>
 
-#include "harness/eval/recordings.hpp"
+#include "harness/model/same_recording.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/recorded_files.hpp"
