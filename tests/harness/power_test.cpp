@@ -72,7 +72,7 @@ TEST(PowerTable, OfIndependentRunsCountsThoseOfASequence) {
       records.back().group = recorded_group(std::to_string(run), sequence);
     }
   }
-  const TableView table = power_table(compared(records), 0.2);
+  const Table table = power_table(compared(records), 0.2);
   EXPECT_EQ(table.headings[1], "runs per sequence");
   EXPECT_EQ(table.lines[0][1].text, "10");
   // 0.0, 0.1, .. 0.9 have a deviation of 0.303, differences of two 0.428.
