@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <fstream>
 #include <system_error>
 
 #include "datasets/core/error.hpp"
+#include "harness/base/child_process.hpp"
 #include "harness/base/run_filter.hpp"
-#include "harness/base/write_file.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -61,15 +60,6 @@ void download_part(const PublicFile& wanted, const fs::path& part) {
   }
 }
 
-/// The expected hash: of the catalogue, else of the first download; empty if there is none.
-std::string expected_hash(const PublicFile& wanted, const fs::path& file) {
-  if (!wanted.sha256.empty()) return wanted.sha256;
-  std::ifstream in(pin_of(file));
-  std::string out;
-  in >> out;
-  return out;
-}
-
 }  // namespace
 
 std::string sha256_of_file(const fs::path& file) {
@@ -80,26 +70,16 @@ std::string sha256_of_file(const fs::path& file) {
   return result.output.substr(0, kDigits);
 }
 
-fs::path pin_of(const fs::path& file) { return file.string() + ".sha256"; }
-
 Fetched fetch(const PublicFile& wanted, const fs::path& folder) {
   const fs::path file = folder / wanted.file;
-  const std::string expected = expected_hash(wanted, file);
-  const auto write_pin = [&](const std::string& hash) {
-    write_file(pin_of(file), hash + "  " + file.filename().string() + "\n");
-  };
   if (fs::exists(file)) {
     const std::string found = sha256_of_file(file);
-    if (expected.empty()) {
-      write_pin(found);
-      return Fetched::pinned;
-    }
-    if (found == expected) return Fetched::present;
+    if (found == wanted.sha256) return Fetched::present;
     throw InputError(
         fmt::format("{}: its SHA-256 is {}, expected {}; remove the file to download it again",
                     file.string(),
                     found,
-                    expected));
+                    wanted.sha256));
   }
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
@@ -108,20 +88,17 @@ Fetched fetch(const PublicFile& wanted, const fs::path& folder) {
   const fs::path part = file.string() + ".part";
   download_part(wanted, part);
   const std::string found = sha256_of_file(part);
-  if (!expected.empty() && found != expected) {
+  if (found != wanted.sha256) {
     fs::remove(part);
-    throw InputError(fmt::format(
-        "{}: the content has changed and was rejected: its SHA-256 is {}, expected {}{}",
-        wanted.url,
-        found,
-        expected,
-        wanted.sha256.empty() ? " as in " + pin_of(file).string() : ""));
+    throw InputError(
+        fmt::format("{}: the content has changed and was rejected: its SHA-256 is {}, expected {}",
+                    wanted.url,
+                    found,
+                    wanted.sha256));
   }
   fs::rename(part, file, error);
   if (error) throw InputError(file.string() + ": cannot be written: " + error.message());
-  if (!expected.empty()) return Fetched::downloaded;
-  write_pin(found);
-  return Fetched::pinned;
+  return Fetched::downloaded;
 }
 
 }  // namespace loopbench::harness

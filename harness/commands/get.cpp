@@ -45,13 +45,9 @@ int get(const GetArguments& arguments) {
     const PublicFile& wanted = *std::ranges::find(known, name, &PublicFile::name);
     fmt::print("{}: {}, licence: {}\n", name, wanted.url, wanted.licence);
     std::fflush(stdout);
-    const Fetched outcome = fetch(wanted, arguments.data);
+    const bool was_there = fetch(wanted, arguments.data) == Fetched::present;
     const std::string file = (std::filesystem::path(arguments.data) / wanted.file).string();
-    const char* what = outcome == Fetched::present      ? "is there, SHA-256 verified"
-                       : outcome == Fetched::downloaded ? "downloaded, SHA-256 verified"
-                                                        : "downloaded for the first time: its "
-                                                          "SHA-256 is now expected, not verified";
-    fmt::print("{}: {}\n", file, what);
+    fmt::print("{}: {}, SHA-256 verified\n", file, was_there ? "is there" : "downloaded");
   }
   return kExitOk;
 }
@@ -69,11 +65,7 @@ void add_get(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--catalogue", arguments->catalogue, "YAML file with another catalogue")
       ->type_name("FILE");
-  command->footer(
-      "Interrupted downloads continue, and content with another hash is rejected. An entry of "
-      "your\n"
-      "catalogue without sha256 is pinned: the hash of the first download is written to\n"
-      "FILE.sha256 and expected from then on.");
+  command->footer("Interrupted downloads continue, and content with another hash is rejected.");
   command->callback([arguments, &exit_code] { exit_code = get(*arguments); });
 }
 

@@ -108,27 +108,27 @@ bool is_sha256(const std::string& text) {
 }
 
 PublicFile public_file(const YamlNode& entry, const std::string& catalogue) {
-  const auto text = [&](const std::string& key, bool is_required) {
+  const auto text = [&](const std::string& key, bool is_required = true) {
     const YamlNode* node = entry.find(key);
     const bool is_text = node != nullptr && node->type == YamlNode::Type::scalar;
     if (is_required && !is_text) {
       throw input_error(
-          catalogue, entry.line, "expected an entry with name, url, licence and file");
+          catalogue, entry.line, "expected an entry with name, url, licence, sha256 and file");
     }
     return is_text ? node->text : std::string();
   };
-  PublicFile out{text("name", true),
-                 text("url", true),
-                 text("licence", true),
-                 text("sha256", false),
-                 text("file", true),
+  PublicFile out{text("name"),
+                 text("url"),
+                 text("licence"),
+                 text("sha256"),
+                 text("file"),
                  text("summary", false)};
   for (const YamlEntry& each : entry.map) {
     if (std::ranges::count(kFields, each.key) == 0) {
       throw input_error(catalogue, each.value.line, "no field is named '" + each.key + "'");
     }
   }
-  if (!out.sha256.empty() && !is_sha256(out.sha256)) {
+  if (!is_sha256(out.sha256)) {
     throw input_error(catalogue,
                       entry.line,
                       "sha256: expected 64 lower-case hexadecimal digits, found " + out.sha256);

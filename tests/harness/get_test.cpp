@@ -49,15 +49,17 @@ TEST(PublicFiles, RejectWrongEntries) {
     const std::string out = refusal_of([&] { read_public_files(file); });
     return out.substr(std::min(out.size(), file.string().size()));
   };
-  const std::string start = "- {name: a, url: b, licence: c, file: ";
+  const std::string digits(64, '0');
+  const std::string start = "- {name: a, url: b, licence: c, sha256: '" + digits + "', file: ";
   EXPECT_EQ(refusal(start + "d}"), "");
   EXPECT_EQ(refusal(start + "../d}"),
             ":1: file: expected a path below the data folder, found ../d");
   EXPECT_EQ(refusal(start + "/d}"), ":1: file: expected a path below the data folder, found /d");
-  EXPECT_EQ(refusal(start + "d, sha256: ab}"),
+  EXPECT_EQ(refusal("- {name: a, url: b, licence: c, sha256: ab, file: d}"),
             ":1: sha256: expected 64 lower-case hexadecimal digits, found ab");
   EXPECT_EQ(refusal(start + "d, md5: ab}"), ":1: no field is named 'md5'");
-  EXPECT_EQ(refusal("- {name: a}"), ":1: expected an entry with name, url, licence and file");
+  EXPECT_EQ(refusal("- {name: a}"),
+            ":1: expected an entry with name, url, licence, sha256 and file");
   EXPECT_EQ(refusal("a: b"), ":1: expected a list of {name, url, licence, sha256, file}");
 }
 
@@ -98,17 +100,6 @@ TEST_F(Get, RejectsChangedContent) {
   EXPECT_FALSE(std::filesystem::exists(file_.string() + ".part"));
 }
 
-TEST_F(Get, PinsTheFirstDownload) {
-  EXPECT_EQ(get(""), Fetched::pinned);
-  EXPECT_EQ(read_all(pin_of(file_)), hash_ + "  a.bin\n");
-  EXPECT_EQ(get(""), Fetched::present);
-  std::filesystem::remove(file_);
-  server_.set_content("other");
-  EXPECT_NE(why_not("").find("was rejected"), std::string::npos);
-  server_.set_content(content_);
-  EXPECT_EQ(get(""), Fetched::downloaded);
-}
-
 TEST_F(Get, ContinuesAnInterruptedDownload) {
   server_.cut_after = 60'000;
   EXPECT_NE(why_not(hash_).find("run the command again to continue"), std::string::npos);
@@ -134,14 +125,15 @@ TEST_F(Get, AcceptsAPartThatIsComplete) {
 }
 
 TEST_F(Get, TheCommandPrintsSourceAndLicence) {
-  folder_.file("c.yaml", "- {name: a, url: '" + server_.url() + "', licence: CC0, file: a.bin}\n");
+  folder_.file("c.yaml",
+               "- {name: a, url: '" + server_.url() +
+                   "', licence: CC0, file: a.bin, sha256: " + hash_ + "}\n");
   const CommandResult first = loopbench_command("get a --catalogue c.yaml --data data", folder_);
   EXPECT_EQ(first.exit_code, 0) << first.err;
   EXPECT_EQ(first.out,
             "a: " + server_.url() +
                 ", licence: CC0\n"
-                "data/a.bin: downloaded for the first time: its SHA-256 is now expected, not "
-                "verified\n");
+                "data/a.bin: downloaded, SHA-256 verified\n");
   EXPECT_EQ(loopbench_command("get b --catalogue c.yaml", folder_).err,
             "loopbench: no sequence is named 'b'; did you mean 'a'?\n");
   EXPECT_NE(loopbench_command("get", folder_).out.find("tum_fr1_room "), std::string::npos);
