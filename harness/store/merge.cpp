@@ -47,15 +47,13 @@ class Merge {
     database_.execute(
         "PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF; PRAGMA cache_size = -65536");
     create_tables(database_);
-    // The cells of `main` with their original and their present labels.
+    // The cells of `main`, and those to be added.
     database_.execute(
         "CREATE TEMP TABLE known (id INTEGER PRIMARY KEY, key TEXT, sequence TEXT, repeat INTEGER, "
-        "method TEXT, label TEXT, failed INTEGER); "
-        "CREATE INDEX known_cell ON known(key, sequence, repeat, method); "
-        "CREATE INDEX known_label ON known(sequence, repeat, label); "
-        "CREATE TEMP TABLE added (id INTEGER PRIMARY KEY, place INTEGER, label TEXT, failed "
-        "INTEGER, "
-        "replaced INTEGER)");
+        "method TEXT, failed INTEGER); "
+        "CREATE INDEX known_label ON known(sequence, repeat, method); "
+        "CREATE TEMP TABLE added (id INTEGER PRIMARY KEY, place INTEGER, failed INTEGER, replaced "
+        "INTEGER)");
   }
 
   void add(const std::filesystem::path& store) {
@@ -69,7 +67,7 @@ class Merge {
       check_inputs();
       list_cells();
       replace_failed();
-      choose_labels();
+      check_labels();
       choose_positions();
       copy_cells();
       copy_descriptions();
@@ -134,11 +132,11 @@ class Merge {
   }
 
   /// Fills `added` with the cells of the store's config, except those that `main` has. A known cell
-  /// has the same key and, because two labels can have the same key, the same original labels.
+  /// has the same key and, because two labels can have the same key, the same labels.
   void list_cells() {
     database_.execute(
         "DELETE FROM added; "
-        "INSERT INTO added SELECT s.id, s.position, s.method, s.failed_scores > 0 OR s.status IN "
+        "INSERT INTO added SELECT s.id, s.position, s.failed_scores > 0 OR s.status IN "
         "('failed', 'crashed', 'timeout', 'out_of_memory'), "
         "k.id FROM source.cell s LEFT JOIN known k ON k.key = s.key AND k.sequence = s.sequence "
         "AND k.repeat = s.repeat AND k.method = s.method WHERE s.position IS NOT NULL");
@@ -149,11 +147,9 @@ class Merge {
         "WHERE id = replaced))");
   }
 
-  /// A cell takes the position and label of an earlier one that failed.
+  /// A cell takes the position of an earlier one that failed.
   void replace_failed() {
-    database_.execute(
-        "UPDATE added SET place = c.position, label = c.method FROM main.cell c WHERE c.id = "
-        "replaced");
+    database_.execute("UPDATE added SET place = c.position FROM main.cell c WHERE c.id = replaced");
     std::vector<std::int64_t> failed;
     Statement row = database_.prepare("SELECT replaced FROM added WHERE replaced IS NOT NULL");
     while (row.step()) failed.push_back(row.integer());
@@ -163,26 +159,15 @@ class Merge {
     }
   }
 
-  /// Adds the build to the label of a cell that another build also computed.
-  void choose_labels() {
-    const std::string taken =
-        " FROM known k WHERE k.sequence = s.sequence AND k.repeat = s.repeat AND k.label = "
-        "added.label)";
-    const auto reject = [&](const std::string& condition) {
-      Statement row = database_.prepare(
-          "SELECT s.sequence, s.method FROM added JOIN source.cell s USING (id) WHERE " +
-          condition + " AND EXISTS (SELECT 1" + taken);
-      if (!row.bind(build_).step()) return;
-      const std::string sequence = row.text();
-      throw InputError(store_ + ": " + sequence + " / " + row.text() +
-                       " is also in an earlier store, with different options, inputs or protocols");
-    };
-    reject("s.build = ?");
-    database_.execute(
-        "UPDATE added SET label = label || ' (build ' || substr(s.build, 1, 8) || ')' FROM "
-        "source.cell s WHERE s.id = added.id AND EXISTS (SELECT 1" +
-        taken);
-    reject("s.build <> ?");
+  void check_labels() {
+    Statement row = database_.prepare(
+        "SELECT s.sequence, s.method FROM added JOIN source.cell s USING (id) JOIN known k ON "
+        "k.sequence = s.sequence AND k.repeat = s.repeat AND k.method = s.method");
+    if (!row.step()) return;
+    const std::string sequence = row.text();
+    throw InputError(store_ + ": " + sequence + " / " + row.text() +
+                     " is also in an earlier store, with different options, inputs, protocols or "
+                     "builds");
   }
 
   /// Cells keep their positions where these are free; the others come after all of them.
@@ -197,9 +182,8 @@ class Merge {
   void copy_cells() {
     const std::string offset =
         std::to_string(number("SELECT coalesce(max(id), 0) FROM main.cell")) + " + ";
-    std::string columns = kCellColumns;  // with the new position and labels
+    std::string columns = kCellColumns;  // with the new position
     columns.replace(columns.find("position"), 8, "place");
-    columns.replace(columns.find("method"), 6, "label");
     for (const char* table : {"input", "sequence_trace", "sequence"}) {
       const std::string name = table;
       database_.execute("INSERT OR IGNORE INTO main." + name + " SELECT * FROM source." + name +
@@ -211,8 +195,8 @@ class Merge {
                       ", row_checksum(" + columns + ", " + kSequenceColumns + ") FROM " + rows +
                       " LEFT JOIN source.sequence AS sequence USING (sequence_key) ORDER BY id");
     database_.execute("INSERT INTO known SELECT " + offset +
-                      "id, key, cell.sequence, cell.repeat, cell.method, label, failed FROM " +
-                      rows + " ORDER BY id");
+                      "id, key, cell.sequence, cell.repeat, cell.method, failed FROM " + rows +
+                      " ORDER BY id");
     for (const CellTable& table : kCellTables) {
       const std::string name = table.name;
       database_.execute("INSERT INTO main." + name + " (cell, " + table.columns +
@@ -228,8 +212,8 @@ class Merge {
   /// the baseline is that of the first store, and stores of different sizes have no planned number.
   void copy_descriptions() {
     database_.execute(
-        "INSERT INTO main.run SELECT key, value FROM source.run WHERE key NOT IN ('exported', "
-        "'cells') ON CONFLICT (key) DO UPDATE SET value = CASE WHEN key = 'planned' THEN '' ELSE "
+        "INSERT INTO main.run SELECT key, value FROM source.run WHERE key <> 'cells' "
+        "ON CONFLICT (key) DO UPDATE SET value = CASE WHEN key = 'planned' THEN '' ELSE "
         "value || char(10) || excluded.value END WHERE key <> 'baseline' AND instr(char(10) || "
         "value || char(10), char(10) || excluded.value || char(10)) = 0; "
         "INSERT OR IGNORE INTO main.provenance SELECT * FROM source.provenance WHERE "

@@ -24,8 +24,7 @@ struct MergeOptions {
 /// Writes the cells of all `stores` (those of their current configs) into the new store `out`, one
 /// store after the other; on error nothing is written. Skips a cell with the same key and labels as
 /// an earlier one, unless the earlier one failed and this one did not; two labels for the same key
-/// are both kept. Cells keep their positions where these are free. With `mixed_builds`, the build
-/// is added to the method label of a cell that another build also computed. O(bytes), about 300
+/// are both kept. Cells keep their positions where these are free. O(bytes), about 300
 /// bytes of memory per cell of the output. Throws InputError if `out` exists (without `add`), for
 /// cells of several builds, cells with equal labels but other differences, sequences read from
 /// different files, and stores of `eval --store` with different options of reading.
