@@ -107,6 +107,10 @@ bool is_oracle(const Catalogue& catalogue, const std::string& name) {
   const auto found = std::ranges::find(catalogue.methods, name, &methods::MethodEntry::name);
   return found != catalogue.methods.end() && found->make_oracle;
 }
+bool uses_reference(const MethodChoice& method, const Catalogue& catalogue) {
+  return std::ranges::any_of(method.stages,
+                             [&](const Choice& stage) { return is_oracle(catalogue, stage.name); });
+}
 const metrics::MetricEntry& find_metric(const Catalogue& catalogue, const std::string& name) {
   return find(catalogue.metrics, "metric", name);
 }

@@ -43,6 +43,8 @@ const DatasetEntry& find_dataset(const Catalogue& catalogue, const std::string& 
 const methods::MethodEntry& find_method(const Catalogue& catalogue, const std::string& name);
 /// Whether the method of that name has access to the reference (MethodEntry::make_oracle).
 bool is_oracle(const Catalogue& catalogue, const std::string& name);
+/// Whether a stage of the method has.
+bool uses_reference(const MethodChoice& method, const Catalogue& catalogue);
 const metrics::MetricEntry& find_metric(const Catalogue& catalogue, const std::string& name);
 
 }  // namespace loopbench::harness

@@ -121,11 +121,6 @@ bool is_own_file(const std::filesystem::path& file) {
   return std::filesystem::is_regular_file(std::filesystem::symlink_status(file, none));
 }
 
-std::filesystem::path& uncached_programs() {
-  static std::filesystem::path folder;
-  return folder;
-}
-
 /// Restrictions of the program: it sees its sequence, but not the reference.
 SandboxOptions sandbox_of(const CommandDatasetOptions& o,
                           const DataRoot& root,
@@ -178,8 +173,9 @@ std::filesystem::path program_output(const CommandDatasetOptions& o,
                                      const std::filesystem::path& sequence,
                                      const std::filesystem::path& cache,
                                      const std::string& key) {
-  std::filesystem::path all = cache.empty() ? uncached_programs() : cache / "programs";
-  if (all.empty()) all = std::filesystem::temp_directory_path() / "loopbench-programs";
+  const std::filesystem::path all =
+      cache.empty() ? std::filesystem::temp_directory_path() / "loopbench-programs"
+                    : cache / "programs";
   const std::filesystem::path out = all / key;
   if (is_whole(out)) return out;
   std::filesystem::create_directories(all);
@@ -254,8 +250,6 @@ Sequence load_command(const CommandDatasetOptions& o,
 }
 
 }  // namespace
-
-void set_uncached_programs(const std::filesystem::path& folder) { uncached_programs() = folder; }
 
 DatasetEntry command_dataset(const std::filesystem::path& cache) {
   return dataset<CommandDatasetOptions>(

@@ -14,11 +14,7 @@ namespace loopbench::harness {
 
 inline constexpr const char* kCommandDataset = "command";
 
-/// Sets the folder for outputs of programs if there is no cache, for this process and its workers;
-/// default: loopbench-programs in TMPDIR.
-void set_uncached_programs(const std::filesystem::path& folder);
-
-/// Its entry. Outputs of programs are kept in `cache`; empty: see set_uncached_programs().
+/// Its entry. Outputs of programs are kept in `cache`; empty: in TMPDIR, which ends with a worker.
 DatasetEntry command_dataset(const std::filesystem::path& cache);
 
 }  // namespace loopbench::harness

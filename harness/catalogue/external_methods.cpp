@@ -51,10 +51,7 @@ bool uses_programs(const Sweep& sweep) {
 }
 
 std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep) {
-  if (!uses_programs(sweep)) return nullptr;
-  auto out = std::make_unique<const ScratchFolder>();
-  set_uncached_programs(out->path() / "programs");
-  return out;
+  return uses_programs(sweep) ? std::make_unique<const ScratchFolder>() : nullptr;
 }
 
 void prepare_programs(const MethodChoice& choice, const CommandSetting& setting) {

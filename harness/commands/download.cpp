@@ -6,7 +6,6 @@
 #include <system_error>
 
 #include "datasets/core/error.hpp"
-#include "harness/base/child_process.hpp"
 #include "harness/base/run_filter.hpp"
 
 namespace loopbench::harness {

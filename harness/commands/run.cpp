@@ -17,12 +17,10 @@
 #include "harness/commands/run_output.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/config/read_sweep.hpp"
-#include "harness/run/bad_inputs.hpp"
 #include "harness/run/build.hpp"
 #include "harness/run/doctor_notes.hpp"
 #include "harness/run/estimate_files.hpp"
 #include "harness/run/isolated_sweep.hpp"
-#include "harness/run/progress.hpp"
 #include "harness/store/shard.hpp"
 #include "harness/store/store.hpp"
 #include "harness/tables/all_records.hpp"
@@ -104,7 +102,7 @@ int run(const RunArguments& arguments, const Source& source) {
     } catch (const MissingPart& missing) {  // the inputs can be checked without it
       print_error("loopbench: this build cannot run it: {}\n", missing.what());
     }
-    return report_bad_inputs(bad_inputs(sweep, planned, known, root));
+    return report_bad_inputs(sweep, planned, known, root);
   }
   require_parts(sweep, planned, known);
   if (planned.empty() && is_shard) {
@@ -183,19 +181,10 @@ int run(const RunArguments& arguments, const Source& source) {
     return exit_code;
   }
 
-  // Writing the tables of many cells takes longer than checking that none is missing.
-  const auto is_there = [&](const char* name) {  // links are replaced, not followed
-    return std::filesystem::is_regular_file(std::filesystem::symlink_status(out / name));
-  };
-  const bool is_up_to_date = resumed.exported && done == 0 && is_there("table.md") &&
-                             is_there("table.csv") && is_there("rows.csv");
   const bool has_tables = all.size() <= kMostCellsInTables;
   const std::vector<Record> records = has_tables ? all_records(file) : std::vector<Record>{};
   if (has_tables) fmt::print("{}", summary_text(records, sweep));  // even if a table of it fails
-  if (has_tables && !is_up_to_date) {
-    write_tables(file, sweep, records, out);
-    store->exported();
-  }
+  if (has_tables) write_tables(file, sweep, records, out);
   store->close();
   store.reset();
   const std::string earlier =

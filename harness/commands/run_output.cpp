@@ -1,14 +1,22 @@
 #include "harness/commands/run_output.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <set>
 
+#include "datasets/core/error.hpp"
+#include "harness/base/own_process.hpp"
 #include "harness/base/print_error.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/shell.hpp"
 #include "harness/base/wrap.hpp"
 #include "harness/base/write_file.hpp"
+#include "harness/catalogue/load_sequence.hpp"
+#include "harness/catalogue/loading.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/model/where.hpp"
@@ -35,7 +43,78 @@ std::string reasons_text(const std::vector<Record>& records) {
   return out + (out.empty() ? "" : "\n");
 }
 
+/// Loads every sequence of the cells once (with its first seed), or inspects it if loading is slow.
+/// Returns "LABEL: reason" for each sequence that cannot be loaded. Throws MissingPart if this
+/// build cannot read a file.
+std::vector<std::string> bad_inputs(const Sweep& sweep,
+                                    const std::vector<Cell>& cells,
+                                    const Catalogue& catalogue,
+                                    const DataRoot& root) {
+  std::vector<std::string> out;
+  std::set<std::size_t> seen;
+  for (const Cell& cell : cells) {
+    if (!seen.insert(cell.dataset).second) continue;
+    const DatasetChoice& choice = sweep.datasets[cell.dataset];
+    const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
+    try {
+      in_own_process(
+          [&] {
+            if (entry.inspect) {
+              entry.inspect(choice.dataset.options, root);
+            } else {
+              load_sequence(cell, sweep, catalogue, root);
+            }
+            return std::string();
+          },
+          {sweep.limits.seconds, sweep.limits.memory});
+    } catch (const MissingPart&) {
+      throw;
+    } catch (const ProcessFailure& error) {
+      out.push_back(choice.label + ": a process that loaded it " + error.what());
+    } catch (const std::exception& error) {
+      out.push_back(choice.label + ": " + error.what());
+    }
+  }
+  return out;
+}
+
+std::size_t terminal_width() {
+  winsize size{};
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : 80;
+}
+
+/// "[####......] 12/30  8.1 cells/s  2 s left  label".
+std::string progress_line(std::size_t done,
+                          std::size_t total,
+                          double seconds,
+                          const std::string& label) {
+  const double rate = seconds > 0.0 ? static_cast<double>(done) / seconds : 0.0;
+  const double left = rate > 0.0 ? static_cast<double>(total - done) / rate : 0.0;
+  const std::string text =
+      fmt::format("{:.1f} cells/s  {:.0f} s left  {}", rate, left, printable(label));
+  return loading_line(text, done, total);
+}
+
 }  // namespace
+
+Progress::Progress(std::size_t total) : visible_(isatty(STDERR_FILENO) == 1), total_(total) {}
+
+Progress::~Progress() {
+  if (visible_) print_error("\r\033[K");
+}
+
+void Progress::step(const std::string& label) {
+  ++done_;
+  const auto now = Clock::now();
+  if (!visible_ || (done_ < total_ && now - drawn_ < std::chrono::milliseconds(100))) return;
+  drawn_ = now;
+  const double seconds = std::chrono::duration<double>(now - begin_).count();
+  // One column short, because writing the last column wraps on some terminals.
+  const std::string line = progress_line(done_, total_, seconds, label);
+  print_error("\r\033[K{}", line.substr(0, terminal_width() - 1));
+  std::fflush(stderr);
+}
 
 void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
   for (const Cell& cell : planned) {
@@ -49,7 +128,19 @@ void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
   fmt::print("{} cells, {} metrics each\n", planned.size(), sweep.metrics.size());
 }
 
-int report_bad_inputs(const std::vector<std::string>& reasons) {
+void require_parts(const Sweep& sweep, const std::vector<Cell>& cells, const Catalogue& catalogue) {
+  for (const Cell& cell : cells) {
+    const DatasetChoice& choice = sweep.datasets[cell.dataset];
+    const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
+    if (!entry.missing_part.empty()) throw MissingPart(choice.label + ": " + entry.missing_part);
+  }
+}
+
+int report_bad_inputs(const Sweep& sweep,
+                      const std::vector<Cell>& cells,
+                      const Catalogue& catalogue,
+                      const DataRoot& root) {
+  const std::vector<std::string> reasons = bad_inputs(sweep, cells, catalogue, root);
   if (reasons.empty()) return kExitOk;
   for (const std::string& reason : reasons) {
     print_error("loopbench: {}\n", printable(reason));

@@ -2,10 +2,13 @@
 /// continue with.
 #pragma once
 
+#include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "harness/catalogue/catalogue.hpp"
 #include "harness/model/cells.hpp"
 #include "harness/model/record.hpp"
 #include "harness/model/sweep.hpp"
@@ -13,11 +16,40 @@
 
 namespace loopbench::harness {
 
+/// Progress line with cells, rate and remaining time; only if standard error is a terminal.
+class Progress {
+ public:
+  /// Prints nothing unless stderr is a terminal.
+  explicit Progress(std::size_t total);
+  ~Progress();  ///< clears the line
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Counts a finished cell; redraws at most ten times a second.
+  void step(const std::string& label);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool visible_;
+  std::size_t total_;
+  std::size_t done_ = 0;
+  Clock::time_point begin_ = Clock::now();
+  Clock::time_point drawn_{};
+};
+
 /// Prints the list of cells.
 void print_plan(const Sweep& sweep, const std::vector<Cell>& planned);
 
-/// Prints the reasons why sequences cannot be loaded to standard error; returns the exit code.
-int report_bad_inputs(const std::vector<std::string>& reasons);
+/// Throws MissingPart when a sequence of the cells needs a part that this build was made without.
+void require_parts(const Sweep& sweep, const std::vector<Cell>& cells, const Catalogue& catalogue);
+
+/// Prints to standard error which sequences of the cells cannot be loaded, and why; returns the
+/// exit code. Throws MissingPart if this build cannot read a file.
+int report_bad_inputs(const Sweep& sweep,
+                      const std::vector<Cell>& cells,
+                      const Catalogue& catalogue,
+                      const DataRoot& root);
 
 /// Prints to standard error which damaged cells are recomputed, if any.
 void report_damage(const Resumed& resumed, const std::filesystem::path& store);

@@ -1,5 +1,7 @@
 #include "harness/model/record.hpp"
 
+#include <utility>
+
 #include "datasets/core/error.hpp"
 #include "harness/base/suggest.hpp"
 
@@ -16,6 +18,41 @@ std::string short_score(const Record& record) {
   return out;
 }
 
+using FieldText = std::string (*)(const Record&);
+constexpr std::pair<const char*, FieldText> kFields[] = {
+    {"sequence", [](const Record& r) { return r.sequence.text(); }},
+    {"repeat", [](const Record& r) { return std::to_string(r.repeat); }},
+    {"method", [](const Record& r) { return r.method.text(); }},
+    {"closures", [](const Record& r) { return r.closures.text(); }},
+    {"protocol", [](const Record& r) { return r.protocol.text(); }},
+    {"protocol_version", [](const Record& r) { return r.protocol_version.text(); }},
+    {"times", [](const Record& r) { return r.times.text(); }},
+    {"metric", [](const Record& r) { return r.metric.text(); }},
+    {"label", [](const Record& r) { return metric_label(r).text(); }},
+    {"relation", [](const Record& r) { return r.relation.text(); }},
+    {"axis", [](const Record& r) { return r.axis.text(); }},
+    {"unit", [](const Record& r) { return r.unit.text(); }},
+    {"status", [](const Record& r) { return to_text(r.status); }},
+    {"score", short_score}};
+
+using StatisticNumber = double (*)(const metrics::Statistics&);
+constexpr std::pair<const char*, StatisticNumber> kStatistics[] = {
+    {"rmse", [](const metrics::Statistics& s) { return s.rmse; }},
+    {"mean", [](const metrics::Statistics& s) { return s.mean; }},
+    {"median", [](const metrics::Statistics& s) { return s.median; }},
+    {"std", [](const metrics::Statistics& s) { return s.std; }},
+    {"min", [](const metrics::Statistics& s) { return s.min; }},
+    {"max", [](const metrics::Statistics& s) { return s.max; }},
+    {"sse", [](const metrics::Statistics& s) { return s.sse; }},
+    {"count", [](const metrics::Statistics& s) { return static_cast<double>(s.count); }}};
+
+template <class Table>
+std::vector<std::string> known_names(const Table& table) {
+  std::vector<std::string> out;
+  for (const auto& entry : table) out.emplace_back(entry.first);
+  return out;
+}
+
 }  // namespace
 
 const SharedText& metric_label(const Record& record) {
@@ -23,50 +60,17 @@ const SharedText& metric_label(const Record& record) {
 }
 
 std::string field(const Record& record, const std::string& name) {
-  if (name == "sequence") return record.sequence;
-  if (name == "repeat") return std::to_string(record.repeat);
-  if (name == "method") return record.method;
-  if (name == "closures") return record.closures;
-  if (name == "protocol") return record.protocol;
-  if (name == "protocol_version") return record.protocol_version;
-  if (name == "times") return record.times;
-  if (name == "metric") return record.metric;
-  if (name == "label") return metric_label(record);
-  if (name == "relation") return record.relation;
-  if (name == "axis") return record.axis;
-  if (name == "unit") return record.unit;
-  if (name == "status") return to_text(record.status);
-  if (name == "score") return short_score(record);
-  throw InputError(unknown_name("column",
-                                name,
-                                {"sequence",
-                                 "repeat",
-                                 "method",
-                                 "closures",
-                                 "protocol",
-                                 "protocol_version",
-                                 "times",
-                                 "metric",
-                                 "label",
-                                 "relation",
-                                 "axis",
-                                 "unit",
-                                 "status",
-                                 "score"}));
+  for (const auto& [known, text] : kFields) {
+    if (name == known) return text(record);
+  }
+  throw InputError(unknown_name("column", name, known_names(kFields)));
 }
 
 double value(const Record& record, const std::string& name) {
-  const metrics::Statistics& s = record.statistics;
-  if (name == "rmse") return s.rmse;
-  if (name == "mean") return s.mean;
-  if (name == "median") return s.median;
-  if (name == "std") return s.std;
-  if (name == "min") return s.min;
-  if (name == "max") return s.max;
-  if (name == "sse") return s.sse;
-  if (name == "count") return static_cast<double>(s.count);
-  throw InputError(unknown_name(
-      "statistic", name, {"rmse", "mean", "median", "std", "min", "max", "sse", "count"}));
+  for (const auto& [known, number] : kStatistics) {
+    if (name == known) return number(record.statistics);
+  }
+  throw InputError(unknown_name("statistic", name, known_names(kStatistics)));
 }
 
 bool has_direction(const std::string& statistic) {

@@ -13,7 +13,6 @@
 #include "harness/catalogue/loading.hpp"
 #include "harness/run/cell_queue.hpp"
 #include "harness/run/check_output.hpp"
-#include "harness/run/oracle_method.hpp"
 #include "harness/run/pack.hpp"
 #include "harness/run/worker_process.hpp"
 

@@ -15,7 +15,6 @@
 #include "harness/run/check_output.hpp"
 #include "harness/run/doctor_notes.hpp"
 #include "harness/run/estimate_files.hpp"
-#include "harness/run/oracle_method.hpp"
 #include "harness/run/sequence_identity.hpp"
 #include "methods/pipeline.hpp"
 #include "metrics/trajectory/tracking_gaps.hpp"
@@ -35,6 +34,21 @@ metrics::Context context_of(const Sequence& sequence,
           .times = times,
           .protocol = protocol,
           .loop_candidates = &sequence.loop_candidates};
+}
+
+/// Whether all positions are equal to within 1e-9 of the reference's largest distance from its
+/// first one. False for fewer than three poses, and for a reference at rest. O(n).
+bool has_equal_positions(const Trajectory& estimate, const Trajectory& reference) {
+  constexpr double kTolerance = 1e-9;  // of the size
+  if (reference.size() < 3 || reference.size() != estimate.size()) return false;
+  double size = 0.0;
+  double difference = 0.0;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    const auto& position = reference[i].world_from_body.translation;
+    size = std::max(size, (position - reference.front().world_from_body.translation).norm());
+    difference = std::max(difference, (estimate[i].world_from_body.translation - position).norm());
+  }
+  return size > 0.0 && difference <= kTolerance * size;
 }
 
 using Clock = std::chrono::steady_clock;

@@ -231,13 +231,7 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
   out.damaged = damaged;
   out.unchanged = out.unchanged && damaged.empty();
   out.unchanged = out.unchanged && is_description_current();
-  Statement row = database_->prepare("SELECT 1 FROM run WHERE key = 'exported'");
-  out.exported = out.unchanged && row.step();
-  row.reset();
-  if (!out.unchanged) {
-    changes();
-    write_description();
-  }
+  if (!out.unchanged) write_description();
   transaction.commit();
   return out;
 }
@@ -246,7 +240,6 @@ void Store::write(const CellResult& result) {
   if (!database_) create();
   if (!writer_) {
     Transaction transaction(*database_);
-    changes();
     write_provenance(*database_, provenance_);
     transaction.commit();
     writer_ = std::make_unique<CellWriter>(*database_, key_of_provenance(provenance_));
@@ -258,12 +251,6 @@ void Store::write(const CellResult& result) {
 void Store::sync() {
   if (database_) database_->execute("PRAGMA wal_checkpoint(PASSIVE)");
   synced_ = std::chrono::steady_clock::now();
-}
-
-void Store::changes() { database_->execute("DELETE FROM run WHERE key = 'exported'"); }
-
-void Store::exported() {
-  database_->execute("INSERT OR REPLACE INTO run VALUES ('exported', 'yes')");
 }
 
 }  // namespace loopbench::harness

@@ -46,7 +46,6 @@ struct Resumed {
   std::size_t incomplete = 0;        ///< of those, with coverage below min_coverage
   bool unchanged = false;            ///< the store holds exactly this sweep and config
   std::vector<std::string> damaged;  ///< labels of damaged cells, which count as missing
-  bool exported = false;             ///< derived files are up to date, see Store::exported()
 };
 
 class CellWriter;
@@ -81,16 +80,12 @@ class Store {
   /// Waits until all written cells are on the disk. Throws InputError.
   void sync();
 
-  /// Records that all derived files are up to date; reset by the next change.
-  void exported();
-
   /// Waits until everything is on the disk and leaves a single file. Call at the end: the
   /// destructor does the same without errors. Throws InputError, for example if the disk fails.
   void close();
 
  private:
   void create();
-  void changes();
   void write_description();
   bool is_description_current();
 

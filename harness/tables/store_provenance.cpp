@@ -23,9 +23,7 @@ void add_entry(std::vector<std::string>& out, const std::string& key, const std:
 }
 
 /// Rows of the table run that describe the state of the store, not its contents.
-bool is_internal(const std::string& key) {
-  return key == "exported" || key == "planned" || key == "shard";
-}
+bool is_internal(const std::string& key) { return key == "planned" || key == "shard"; }
 
 std::vector<std::string> provenance_entries(const StoreProvenance& provenance) {
   std::vector<std::string> out;

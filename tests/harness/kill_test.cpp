@@ -149,13 +149,6 @@ TEST_F(Ended, OfTwoSweepsOnOneStoreOneIsToldToWait) {
   EXPECT_EQ(store_text(store("k")), store_text(store("whole")));
 }
 
-TEST_F(Ended, TenWorkersWriteWhatOneDoes) {
-  folder_.file("c.yaml", kConfig);
-  ASSERT_EQ(run("run c.yaml --out one --jobs 1").exit_code, 0);
-  ASSERT_EQ(run("run c.yaml --out ten --jobs 10").exit_code, 0);
-  EXPECT_EQ(store_text(store("one")), store_text(store("ten")));
-}
-
 TEST_F(Ended, RunningAgainSaysHowMuchWasThere) {
   folder_.file("c.yaml", kConfig);
   ASSERT_EQ(run("run c.yaml --out k --only 'a / '").exit_code, 0);
@@ -216,15 +209,6 @@ TEST_F(Ended, AFolderThatTakesNoFilesIsOneClearError) {
   const CommandResult result = run("run c.yaml --out /proc/self");  // not writable even for root
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("results.sqlite: cannot be opened"), std::string::npos) << result.err;
-}
-
-TEST_F(Ended, MergeFromTheCommandLine) {
-  folder_.file("c.yaml", kConfig);
-  ASSERT_EQ(run("run c.yaml --out 1 --only 'a / '").exit_code, 0);
-  ASSERT_EQ(run("run c.yaml --out 2 --only 'b / '").exit_code, 0);
-  const CommandResult merged = run("merge 1 2 -o 3");
-  EXPECT_EQ(merged.out, "48 cells in 3/results.sqlite\n") << merged.err;
-  EXPECT_EQ(run("merge 1 2 -o 3").exit_code, 2);
 }
 
 }  // namespace

@@ -205,15 +205,5 @@ TEST(OracleClosures, OfASimulatedSensorWithoutNoiseAreNone) {
   EXPECT_FALSE(metadata_of_sequence(sweep, folder, 0).oracle_closures);
 }
 
-TEST(Group, IsAWordInTheConfig) {
-  const TemporaryFolder folder;
-  try {
-    sweep_of("  - {dataset: simulated, group: [a, b]}\n", folder);
-    ADD_FAILURE() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("c.yaml:2: group: expected a string"));
-  }
-}
-
 }  // namespace
 }  // namespace loopbench::sequence_identity_test

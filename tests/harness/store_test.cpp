@@ -34,6 +34,9 @@ TEST_F(StoreTest, AChangedOptionRunsExactlyTheCellsItTouches) {
   EXPECT_EQ(read_cells(file_)[1].method_options, "shift: by=2");
   EXPECT_EQ(run(kUsual).cells, Labels{}) << "what was there before is kept under its key";
   EXPECT_EQ(read_cells(file_)[1].method_options, "shift: by=1");
+  std::string text = kUsual;
+  text.replace(text.find("0.2"), 3, "0.3");
+  EXPECT_EQ(run(text).cells, (Labels{"b / straight", "b / shifted"})) << "another dataset";
 }
 
 TEST_F(StoreTest, AScoreKeepsItsMetricsNameItsLabelAndItsDirection) {
@@ -56,13 +59,6 @@ TEST_F(StoreTest, AScoreKeepsItsMetricsNameItsLabelAndItsDirection) {
     EXPECT_EQ(records[i].better, expected[i % 4]);
     EXPECT_EQ(records[i].target, i % 4 == 2 ? 1.0 : 0.0);
   }
-}
-
-TEST_F(StoreTest, AChangedDatasetRunsItsCells) {
-  run(kUsual);
-  std::string text = kUsual;
-  text.replace(text.find("0.2"), 3, "0.3");
-  EXPECT_EQ(run(text).cells, (Labels{"b / straight", "b / shifted"}));
 }
 
 TEST_F(StoreTest, ANewMethodRunsAloneAndTakesItsPlace) {
@@ -171,12 +167,6 @@ TEST_F(StoreTest, ChangedBytesOfAnInputRunItsCells) {
   EXPECT_EQ(run(text).cells, Labels{});
   folder_.file("x/bias", "0.4");
   EXPECT_EQ(run(text).cells, Labels{"f / straight"});
-}
-
-TEST_F(StoreTest, ASecondSweepIsToldOfTheFirst) {
-  run(kUsual);
-  const FolderLock first(folder_.path());
-  expect_refused("another sweep is writing its results here");
 }
 
 TEST_F(StoreTest, ADamagedStoreIsRefused) {

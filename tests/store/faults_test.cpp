@@ -39,7 +39,6 @@ class Faults : public TinyStore {
       done_.insert(sweep.datasets[r.cell.dataset].label + " / " +
                    sweep.methods[r.cell.method].label);
     });
-    if (!resumed.missing.empty()) store.exported();
     store.close();
   }
 

@@ -9,7 +9,6 @@
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/model/result.hpp"
-#include "harness/run/oracle_method.hpp"
 #include "harness/run/run_cell.hpp"
 #include "harness/run/summarise_sequence.hpp"
 
