@@ -1,5 +1,6 @@
-/// The datasets, methods and metrics of a config or a command line, with names and options checked.
-/// The functions throw InputError `file:line:` for an unknown name or option, or an invalid value.
+/// The datasets, methods, metrics and protocols of a config or a command line, with names and
+/// options checked. The functions throw InputError `file:line:` for an unknown name or option, or
+/// an invalid value.
 #pragma once
 
 #include <string>
@@ -9,6 +10,7 @@
 #include "harness/config/entry.hpp"
 #include "harness/config/paths.hpp"
 #include "harness/model/sweep.hpp"
+#include "metrics/protocols/protocols.hpp"
 
 namespace loopbench::harness {
 
@@ -26,5 +28,13 @@ std::vector<MethodChoice> method_choices(const ConfigEntry& entry, const Catalog
 std::vector<MetricChoice> metric_choices(const ConfigEntry& entry,
                                          const Catalogue& catalogue,
                                          const std::vector<metrics::NamedProtocol>& protocols);
+
+/// The protocol of that name with changes. Throws InputError with a suggestion, OptionError.
+metrics::NamedProtocol known_protocol(const std::string& name, const Params& changes);
+
+/// `evo`, or `{base: evo, max_diff: 0.02, segments: {step: 5}}` (the default base is loopbench), or
+/// a list of them with different labels. Throws InputError `file:line:` with a
+/// suggestion for an unknown name.
+std::vector<metrics::NamedProtocol> protocol_choices(const YamlNode& node);
 
 }  // namespace loopbench::harness

@@ -1,6 +1,7 @@
 #include "harness/config/entry.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "harness/config/values.hpp"
 
@@ -82,6 +83,34 @@ ConfigEntry parse_entry(const std::string& text, const std::string& where) {
     }
   }
   return out;
+}
+
+void restore_text_options(std::vector<Setting>& settings, const std::vector<OptionInfo>& options) {
+  for (Setting& setting : settings) {
+    const auto option = std::ranges::find(options, setting.name, &OptionInfo::name);
+    const bool is_text = option != options.end() && option->is_text && !setting.text.empty();
+    if (is_text) setting.value = setting.text;
+  }
+}
+
+Params to_params(const std::vector<Setting>& settings) {
+  Params out;
+  for (const Setting& setting : settings) out[setting.name] = setting.value;
+  return out;
+}
+
+Params parse_settings(const std::vector<std::string>& texts,
+                      const std::vector<OptionInfo>& options) {
+  std::vector<Setting> out;
+  for (const std::string& text : texts) {
+    out.push_back(parse_setting(text, "--set"));
+    const double* const real = std::get_if<double>(&out.back().value);
+    if (real != nullptr && !std::isfinite(*real)) {
+      throw InputError("--set: " + text + ": expected a finite number");
+    }
+  }
+  restore_text_options(out, options);
+  return to_params(out);
 }
 
 std::vector<std::string> split_stages(const std::string& text) {

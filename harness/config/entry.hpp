@@ -30,6 +30,17 @@ ConfigEntry parse_entry(const std::string& text, const std::string& where);
 /// Parses `option=value`.
 Setting parse_setting(const std::string& text, const std::string& where);
 
+/// The values of `--set NAME=VALUE`, whose names and ranges are checked by whoever applies them.
+/// Throws InputError.
+Params parse_settings(const std::vector<std::string>& texts,
+                      const std::vector<OptionInfo>& options);
+
+/// Replaces the values of text options by the scalars as written: `label: 00`, `estimate: 007`,
+/// `name: 1e3`. The option check reports unknown names.
+void restore_text_options(std::vector<Setting>& settings, const std::vector<OptionInfo>& options);
+
+Params to_params(const std::vector<Setting>& settings);
+
 /// The names between the plus signs of "uniform + dm_n4", trimmed.
 std::vector<std::string> split_stages(const std::string& text);
 

@@ -12,9 +12,8 @@
 namespace loopbench::harness {
 namespace {
 
-/// Limits far above real sweeps: a few lines can request more than fits into memory.
+/// Far above real sweeps: a few lines can request more than fits into memory.
 constexpr std::size_t kMostPoints = 10'000;
-constexpr std::size_t kMostSettings = 200;  // per grid point
 
 using Axis = std::vector<std::vector<Setting>>;  // one inner list per step along the axis
 
@@ -100,16 +99,6 @@ void expect_few_points(std::size_t count, const Place& place) {
   throw place.error(fmt::format("sweeps over more than {} combinations", kMostPoints));
 }
 
-/// Checks the number of options set in one entry, swept or not.
-void expect_few_settings(const YamlNode& entry, std::size_t fixed) {
-  std::size_t count = fixed;
-  for (const char* key : {"sweep", "zip"}) {
-    if (const YamlNode* node = entry.find(key)) count += node->map.size();
-  }
-  if (count <= kMostSettings) return;
-  throw entry.error(fmt::format("sets {} options, expected at most {}", count, kMostSettings));
-}
-
 Axis zipped(const YamlNode& zip) {
   Axis axis;
   for (const auto& [name, node] : zip.map) {
@@ -156,7 +145,6 @@ std::vector<GridPoint> expand(const YamlNode& entry, const std::vector<std::stri
     if (key == "sweep" || key == "zip" || std::ranges::count(reserved, key) > 0) continue;
     flatten(node, key, points.front().settings);
   }
-  expect_few_settings(entry, points.front().settings.size());
   if (const YamlNode* sweep = entry.find("sweep")) {
     require_map(*sweep, "sweep", "a map from option to values");
     for (const auto& [name, node] : sweep->map) {

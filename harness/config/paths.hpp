@@ -25,8 +25,8 @@ std::string with_wildcard_texts(const std::string& pattern, const std::vector<st
 /// Expands paths among the settings of a dataset: `~` and variables; a pattern becomes one point
 /// per file, sorted by name and searched in `folders` if relative. Of several patterns the first is
 /// searched; in the others, the wildcards stand for the same texts. `matched` of the points
-/// contains these texts. Throws InputError `file:line:` without a matching file, for a matching
-/// pipe or device, or if the number of wildcards differs.
+/// contains these texts. Throws InputError `file:line:` without a matching file, or if the number
+/// of wildcards differs.
 std::vector<GridPoint> expand_paths(const GridPoint& point,
                                     const std::vector<OptionInfo>& options,
                                     const Folders& folders);

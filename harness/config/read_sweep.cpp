@@ -10,7 +10,6 @@
 #include "harness/base/pattern.hpp"
 #include "harness/base/suggest.hpp"
 #include "harness/config/choices.hpp"
-#include "harness/config/protocol_choice.hpp"
 #include "harness/config/sweep_settings.hpp"
 #include "harness/config/values.hpp"
 

@@ -65,8 +65,6 @@ std::vector<Exclusion> as_exclusions(const YamlNode& node, const std::string& na
   if (node.type != YamlNode::Type::list) {
     throw node.error("exclude: expected a list of {dataset, method} patterns");
   }
-  constexpr std::size_t kMost = 1'000;
-  if (node.list.size() > kMost) throw node.error("exclude: more than 1000 entries");
   std::vector<Exclusion> out;
   for (const YamlNode& entry : node.list) {
     require_keys(entry, name, {"dataset", "method"});

@@ -10,8 +10,6 @@
 #include "datasets/bags/bag_trajectory.hpp"
 #include "harness/base/numbers.hpp"
 #include "harness/config/choices.hpp"
-#include "harness/config/protocol_choice.hpp"
-#include "harness/config/source_text.hpp"
 #include "metrics/errors/ape.hpp"
 #include "metrics/pairing/select_pairs.hpp"
 
@@ -48,19 +46,16 @@ void reject_folder(const std::string& estimate, const EvalArguments& a) {
                    "stamped_traj_estimate*.txt");
 }
 
-/// Maps evo's words to ours.
-std::string our_relation(const std::string& word) {
+/// Maps evo's words for relations and units to ours.
+std::string our_word(const std::string& word) {
   const std::map<std::string, std::string> evo{{"full", "full_transformation"},
                                                {"trans_part", "translation_part"},
                                                {"rot_part", "rotation_part"},
                                                {"angle_deg", "rotation_angle_deg"},
-                                               {"angle_rad", "rotation_angle_rad"}};
-  const auto found = evo.find(word);
-  return found == evo.end() ? word : found->second;
-}
-
-std::string our_unit(const std::string& word) {
-  const std::map<std::string, std::string> evo{{"f", "frames"}, {"d", "deg"}, {"r", "rad"}};
+                                               {"angle_rad", "rotation_angle_rad"},
+                                               {"f", "frames"},
+                                               {"d", "deg"},
+                                               {"r", "rad"}};
   const auto found = evo.find(word);
   return found == evo.end() ? word : found->second;
 }
@@ -113,11 +108,11 @@ void add_defaults(std::vector<MetricChoice>& out, const metrics::Protocol& proto
 std::vector<MetricChoice> metrics_of_evo(const EvalArguments& a) {
   metrics::Relation relation = metrics::Relation::usual;
   if (!a.relation.empty()) {
-    FieldType<metrics::Relation>::assign("pose_relation", relation, our_relation(a.relation));
+    FieldType<metrics::Relation>::assign("pose_relation", relation, our_word(a.relation));
   }
   metrics::DeltaUnit unit = metrics::DeltaUnit::frames;
   if (!a.delta_unit.empty()) {
-    FieldType<metrics::DeltaUnit>::assign("delta_unit", unit, our_unit(a.delta_unit));
+    FieldType<metrics::DeltaUnit>::assign("delta_unit", unit, our_word(a.delta_unit));
   }
   Params motion{{"delta", a.delta.value_or(1.0)}, {"unit", to_text(unit)}};
   std::vector<MetricChoice> out;

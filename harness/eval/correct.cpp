@@ -9,7 +9,6 @@
 #include "datasets/formats/formats.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/config/choices.hpp"
-#include "harness/config/source_text.hpp"
 #include "harness/run/doctor_notes.hpp"
 #include "harness/run/run_cell.hpp"
 #include "metrics/correction/closure_residual.hpp"

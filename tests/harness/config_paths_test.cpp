@@ -1,6 +1,5 @@
 /// Paths, anchors and collected errors in configs.
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -78,19 +77,6 @@ TEST_F(ConfigPaths, APatternIsOneDatasetPerFile) {
             "    0  x ([1]) / raw");
   EXPECT_EQ(dry_run(own + "'x[1].txt'}]\n" + rest, " --data data").out.substr(0, 16),
             "    0  x / raw\n1");
-}
-
-TEST_F(ConfigPaths, APatternMatchesNoPipes) {
-  std::filesystem::create_directories(folder_.path() / "est");
-  folder_.file("est/a.txt", poses_);
-  ASSERT_EQ(mkfifo((folder_.path() / "est/pipe.txt").c_str(), 0600), 0);
-  const CommandResult result = dry_run(
-      "datasets:\n  - {dataset: trajectory, label: my, estimate: 'est/*.txt', closures: {source: "
-      "none}}\nmethods: [raw]\nmetrics: [ate]\n");
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_EQ(result.err,
-            "loopbench: c.yaml:2: estimate: est/*.txt matches est/pipe.txt, which is neither a "
-            "regular file nor a folder\n");
 }
 
 TEST_F(ConfigPaths, AnchorsHaveAPlaceAtTopLevel) {

@@ -72,28 +72,14 @@ TEST(ConfigShape, AScalarOrAListWhereAMapBelongsIsRejected) {
   };
   EXPECT_EQ(refusal("limits: 60\n"),
             "c.yaml:5: limits: found '60', expected a map of seconds, memory, cells");
-  EXPECT_EQ(refusal("limits: [60]\n"),
-            "c.yaml:5: limits: found a list, expected a map of seconds, memory, cells");
-  EXPECT_EQ(refusal("limits:\n"),
-            "c.yaml:5: limits: found nothing, expected a map of seconds, memory, cells");
   EXPECT_EQ(refusal("limits: {cells: 0}\n"),
             "c.yaml:5: limits.cells: expected a whole number, 1 to 1000000000");
-  EXPECT_EQ(refusal("limits: {memory: any}\n"),
-            "c.yaml:5: limits.memory: expected a size (2GiB) or none");
   EXPECT_EQ(refusal("limits: {memory: none, cells: 2000000}\n"), "");
-  EXPECT_EQ(refusal("table: nonsense\n"),
-            "c.yaml:5: table: found 'nonsense', expected a map of rows, columns, split, value, "
-            "show, where, plus_minus");
-  EXPECT_EQ(refusal("exclude: [raw]\n"),
-            "c.yaml:5: exclude: found 'raw', expected a map of dataset, method");
   EXPECT_EQ(refusal("exclude: raw\n"),
             "c.yaml:5: exclude: expected a list of {dataset, method} patterns");
   EXPECT_EQ(refusal("description: [a]\n"), "c.yaml:5: description: expected a string");
   EXPECT_EQ(why(config("{dataset: simulated, keyframes: {}}")),
             "c.yaml:2: keyframes: has no value");
-  EXPECT_EQ(
-      why(config("{dataset: simulated, sweep: {keyframes: {from: 1, to: 2, steps: 2, log: [1]}}}")),
-      "c.yaml:2: log: expected true or false");
 }
 
 TEST(ConfigTable, NamesAreCheckedWhenTheConfigIsRead) {
@@ -104,8 +90,6 @@ TEST(ConfigTable, NamesAreCheckedWhenTheConfigIsRead) {
             "c.yaml:5: table.rows: no column is named 'methods'; did you mean 'method'?");
   EXPECT_EQ(refusal("table:\n  rows: [method]\n  columns: [scor]\n"),
             "c.yaml:7: table.columns: no column is named 'scor'; did you mean 'score'?");
-  EXPECT_EQ(refusal("table: {split: [time]}\n"),
-            "c.yaml:5: table.split: no column is named 'time'; did you mean 'times'?");
   EXPECT_EQ(refusal("table: {value: rms}\n"),
             "c.yaml:5: table.value: no statistic is named 'rms'; did you mean 'rmse'?");
   EXPECT_EQ(refusal("table: {rows: [sequence, repeat], split: [], value: max}\n"), "");
@@ -130,12 +114,6 @@ TEST(ConfigMetric, OptionsThatContradictEachOtherAreRejected) {
   };
   EXPECT_EQ(refusal("{metric: rpe, delta: 1.5, unit: frames}"),
             "c.yaml:4: rpe: delta = 1.5: expected a whole number of frames");
-  EXPECT_EQ(refusal("{metric: rpe, delta: 200, unit: deg}"),
-            "c.yaml:4: rpe: delta = 200.0: expected at most 180 degrees");
-  EXPECT_EQ(refusal("{metric: ape, relation: point_distance_error_ratio}"),
-            "c.yaml:4: ape: relation = point_distance_error_ratio: is defined only for relative "
-            "errors; use rpe");
-  EXPECT_NE(refusal("{metric: segments, lengths: 8 apples}"), "");
   EXPECT_EQ(refusal("{metric: rpe, pairs: tum}"),
             "c.yaml:4: rpe: pairs = tum: needs a protocol with pairs = tum");
   EXPECT_EQ(refusal("{metric: rpe, pairs: tum}", "protocol: tum\n"), "");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "datasets/core/error.hpp"
+#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::yaml_test {
 
@@ -11,12 +12,7 @@ using namespace harness;
 namespace {
 
 std::string why(const std::string& text) {
-  try {
-    parse_yaml(text, "c.yaml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of([&] { parse_yaml(text, "c.yaml"); });
 }
 
 TEST(Yaml, KeepsTypesAndLines) {
