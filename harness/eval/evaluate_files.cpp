@@ -96,24 +96,27 @@ void join_contents(std::vector<EvaluationResult>& results) {
   }
 }
 
+/// The only record of an evaluation that failed.
+Record failed_record(CellResult result, const EvaluationResult& own, const Sweep& sweep) {
+  result.scores.clear();
+  result.status = Status::failed;
+  result.why = own.why_failed;
+  Record out = records_of(result, sweep).front();
+  out.protocol = own.protocol.label();
+  out.protocol_version = own.protocol.version;
+  return out;
+}
+
 /// The results with their records.
 std::vector<EvaluationResult> results_of(std::vector<EvaluatedFile> all, const Sweep& sweep) {
   std::vector<EvaluationResult> out;
   for (EvaluatedFile& file : all) {
     const std::vector<Record> records = records_of(file.result, sweep);
-    CellResult without_scores = file.result;
-    without_scores.scores.clear();
     for (EvaluationResult& own : file.protocols) {
+      if (!own.why_failed.empty()) own.records = {failed_record(file.result, own, sweep)};
       for (const Record& record : records) {
-        if (record.protocol == own.protocol.label() && own.why_failed.empty())
-          own.records.push_back(record);
-      }
-      if (!own.why_failed.empty()) {
-        own.records = records_of(without_scores, sweep);
-        own.records.front().protocol = own.protocol.label();
-        own.records.front().protocol_version = own.protocol.version;
-        own.records.front().status = Status::failed;
-        own.records.front().why = own.why_failed;
+        const bool is_own = own.why_failed.empty() && record.protocol == own.protocol.label();
+        if (is_own) own.records.push_back(record);
       }
       out.push_back(std::move(own));
     }

@@ -4,7 +4,7 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/formats/regular_file.hpp"
-#include "harness/config/yaml.hpp"
+#include "harness/config/values.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -25,17 +25,22 @@ bool is_text(const Path& file) {
   return is_known && std::filesystem::is_regular_file(file);
 }
 
-std::string align_of(const YamlNode& node, bool is_first_pose, const std::string& file) {
-  const std::string word = node.type == YamlNode::Type::scalar ? node.text : "";
+/// The name of an alignment of all frames, or of the first one.
+std::string align_of(const YamlNode& node, bool is_first_pose) {
+  const std::string& word = node.text;
   if (word == "none") return word;
   if (is_first_pose && word == "se3") return "origin";
   if (is_first_pose && word == "posyaw") return "posyaw_origin";
   const bool is_known = word == "sim3" || word == "se3" || word == "posyaw";
   if (is_known && !is_first_pose) return word;
-  throw input_error(file,
-                    node.line,
-                    "align_type: expected sim3 | se3 | posyaw | none" +
-                        std::string(is_first_pose ? "; for one frame se3 | posyaw | none" : ""));
+  throw node.error("align_type: expected sim3 | se3 | posyaw | none" +
+                   std::string(is_first_pose ? "; for one frame se3 | posyaw | none" : ""));
+}
+
+std::int64_t as_frames(const YamlNode& node, const std::string& key) {
+  const auto* integer = std::get_if<std::int64_t>(&node.scalar);
+  if (integer != nullptr && (*integer == -1 || *integer > 0)) return *integer;
+  throw node.error(key + ": expected -1 or a whole number above 0");
 }
 
 /// Rejects runs of datasets without a reference in `truths`.
@@ -59,33 +64,13 @@ void expect_truths(const Path& truths, const Path& algorithms) {
 Params rpg_settings(const Path& folder) {
   const Path path = folder / "eval_cfg.yaml";
   if (!std::filesystem::is_regular_file(path)) return {};
-  const std::string file = path.string();
   constexpr std::size_t kLargest = std::size_t{1} << 20;  // [bytes]
-  const YamlNode node = parse_yaml(read_regular_file(path, kLargest, "file"), file);
-  if (node.type != YamlNode::Type::map) {
-    throw input_error(file, 1, "expected align_type and align_num_frames");
-  }
+  const YamlNode node = parse_yaml(read_regular_file(path, kLargest, "file"), path.string());
+  require_keys(node, "settings", {"align_type", "align_num_frames"});
   std::int64_t frames = -1;
-  if (const YamlNode* given = node.find("align_num_frames")) {
-    const auto* integer = std::get_if<std::int64_t>(&given->scalar);
-    if (given->type != YamlNode::Type::scalar || integer == nullptr || *integer < -1 ||
-        *integer == 0) {
-      throw input_error(
-          file, given->line, "align_num_frames: expected -1 or a whole number above 0");
-    }
-    frames = *integer;
-  }
+  read_key(node, "align_num_frames", frames, as_frames);
   Params out;
-  for (const auto& [key, value] : node.map) {
-    if (key == "align_type") {
-      out["align"] = align_of(value, frames == 1, file);
-    } else if (key != "align_num_frames") {
-      throw input_error(
-          file,
-          value.line,
-          "no setting is named '" + key + "', expected align_type or align_num_frames");
-    }
-  }
+  if (const YamlNode* type = node.find("align_type")) out["align"] = align_of(*type, frames == 1);
   if (frames > 1) out["align_first"] = frames;
   return out;
 }

@@ -7,6 +7,8 @@
 #include <set>
 
 #include "harness/base/wrap.hpp"
+#include "harness/compare/compare.hpp"
+#include "harness/compare/typical_difference.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -41,49 +43,56 @@ std::vector<SharedText> protocols_of(const std::vector<Record>& records) {
   return out;
 }
 
-/// Runs of one method on one sequence. Runs with equal data have the same content.
+/// Runs of one method on one sequence. Runs with equal data have the same content and count once.
 struct CountedRuns {
-  std::set<std::int64_t> repeats;
-  std::set<std::string> contents;
-  std::map<std::string, double> values;  ///< of the successes, by content
+  std::string sequence;
+  std::string method;
+  std::set<std::int64_t> repeats = {};
+  std::set<std::string> contents = {};
+  std::map<std::string, double> values = {};  ///< of the successes, by content
+
+  std::size_t copies() const { return repeats.size() - contents.size(); }
 };
 
-/// Runs whose content is unknown are different.
-std::string content_key(const Record& r) {
-  return r.content.empty() ? "run " + std::to_string(r.repeat) : r.content.text();
-}
-
-RunSummary summary(const std::string& sequence,
-                   const std::string& method,
-                   const CountedRuns& counted) {
-  RunSummary out{sequence,
-                 method,
-                 counted.contents.size(),
-                 counted.repeats.size() - counted.contents.size(),
-                 {},
-                 {}};
-  std::vector<double> values;
-  for (const auto& [content, value] : counted.values) values.push_back(value);
-  if (values.empty()) return out;
-  std::ranges::sort(values);
-  out.values = metrics::statistics(values);
-  out.interval = shift_interval(values, 0.05);
+/// By sequence and method, in the order of the records.
+std::vector<CountedRuns> counted_runs(const std::vector<Record>& records, const Record& score) {
+  std::vector<CountedRuns> out;
+  using Key = std::pair<std::string, std::string>;
+  std::map<Key, std::size_t> places;
+  for (const Record& r : records) {
+    const auto [place, is_new] = places.emplace(Key(r.sequence, r.method), out.size());
+    if (is_new) out.push_back({r.sequence, r.method});
+    CountedRuns& runs = out[place->second];
+    // Runs whose content is unknown are different.
+    const std::string content =
+        r.content.empty() ? "run " + std::to_string(r.repeat) : r.content.text();
+    runs.repeats.insert(r.repeat);
+    runs.contents.insert(content);
+    if (r.status == Status::ok && is_score(r, score)) {
+      runs.values.emplace(content, r.statistics.rmse);
+    }
+  }
   return out;
 }
 
-std::vector<TableCell> row(const RunSummary& s) {
+std::vector<TableCell> row(const CountedRuns& runs) {
   const auto number = [](double value) { return fmt::format("{:.4f}", value); };
-  std::vector<TableCell> out{{s.sequence + " / " + s.method},
-                             {fmt::format("{} of {}", s.values.count, s.runs)}};
-  if (s.values.count == 0) {
+  const auto range = [&](double low, double high) { return number(low) + " to " + number(high); };
+  std::vector<TableCell> out{{runs.sequence + " / " + runs.method},
+                             {fmt::format("{} of {}", runs.values.size(), runs.contents.size())}};
+  std::vector<double> values;
+  for (const auto& [content, value] : runs.values) values.push_back(value);
+  if (values.empty()) {
     out.resize(6);
     return out;
   }
-  const auto range = [&](double low, double high) { return number(low) + " to " + number(high); };
-  out.push_back({number(s.values.mean)});
-  out.push_back({s.interval ? range(s.interval->low, s.interval->high) : "-"});
-  out.push_back({number(s.values.median)});
-  out.push_back({range(s.values.min, s.values.max)});
+  std::ranges::sort(values);
+  const metrics::Statistics all = metrics::statistics(values);
+  const std::optional<Interval> interval = shift_interval(values, 0.05);
+  out.push_back({number(all.mean)});
+  out.push_back({interval ? range(interval->low, interval->high) : "-"});
+  out.push_back({number(all.median)});
+  out.push_back({range(all.min, all.max)});
   return out;
 }
 
@@ -96,7 +105,7 @@ std::string lines_of(const std::string& text, const std::optional<TerminalStyle>
   return out;
 }
 
-std::string table_of(const std::vector<RunSummary>& all,
+std::string table_of(const std::vector<CountedRuns>& all,
                      const std::string& subject,
                      const std::string& unit,
                      const std::optional<TerminalStyle>& style) {
@@ -109,9 +118,9 @@ std::string table_of(const std::vector<RunSummary>& all,
               "range [" + unit + "]"},
              {},
              {}};
-  for (const RunSummary& each : all) view.lines.push_back(row(each));
+  for (const CountedRuns& each : all) view.lines.push_back(row(each));
   std::size_t copies = 0;
-  for (const RunSummary& each : all) copies += each.copies;
+  for (const CountedRuns& each : all) copies += each.copies();
   std::string out = style ? terminal(view, *style) : markdown(view);
   if (copies > 0) {
     out += "\n" + lines_of(fmt::format("- {} of the files {} the data of another run of {} method "
@@ -125,44 +134,19 @@ std::string table_of(const std::vector<RunSummary>& all,
   return out;
 }
 
-}  // namespace
-
-std::vector<RunSummary> summarise_runs(const std::vector<Record>& records, const Record& score) {
-  using Key = std::pair<std::string, std::string>;
-  std::vector<Key> order;
-  std::map<Key, CountedRuns> runs;
-  for (const Record& r : records) {
-    const Key key{r.sequence, r.method};
-    CountedRuns& counted = runs[key];
-    if (counted.repeats.empty()) order.push_back(key);
-    counted.repeats.insert(r.repeat);
-    counted.contents.insert(content_key(r));
-    if (r.status == Status::ok && is_score(r, score)) {
-      counted.values.emplace(content_key(r), r.statistics.rmse);
-    }
-  }
-  std::vector<RunSummary> out;
-  for (const Key& key : order) {
-    out.push_back(summary(key.first, key.second, runs[key]));
-  }
-  return out;
-}
-
-namespace {
-
 /// Table and verdict of one score; `subject` names it.
 std::string report_of(const std::vector<Record>& records,
                       const Record& score,
                       const std::string& subject,
                       const std::optional<TerminalStyle>& style,
                       bool paired) {
-  const std::vector<RunSummary> all = summarise_runs(records, score);
+  const std::vector<CountedRuns> all = counted_runs(records, score);
   std::set<std::string> methods;
-  for (const RunSummary& each : all) methods.insert(each.method);
+  for (const CountedRuns& each : all) methods.insert(each.method);
   const bool has_repeats =
-      std::ranges::any_of(all, [](const RunSummary& each) { return each.runs + each.copies > 1; });
+      std::ranges::any_of(all, [](const CountedRuns& each) { return each.repeats.size() > 1; });
   const bool has_values =
-      std::ranges::any_of(all, [](const RunSummary& each) { return each.values.count > 0; });
+      std::ranges::any_of(all, [](const CountedRuns& each) { return !each.values.empty(); });
   if (!has_values || (methods.size() < 2 && !has_repeats)) return "";
   std::string out;
   if (has_repeats) out += "\n" + table_of(all, subject, score.unit, style);

@@ -213,13 +213,6 @@ TEST(Eval, ErrorsOfPosesHaveNoTurnWhereThereIsNoAttitude) {
   EXPECT_TRUE(row.ends_with(",0,0,0,0,0,,,,")) << row;  // stamp, x y z, distance
 }
 
-TEST(Eval, JsonIsAListAlsoOfOne) {
-  const std::string file = golden("gt.txt");
-  EXPECT_TRUE(Json::parse(eval({file, file, "--json"})).is_array());
-  EXPECT_EQ(Json::parse(eval({file, file, "--json"})).size(), 1u);
-  EXPECT_EQ(Json::parse(eval({file, file, file, "--json"})).size(), 2u);
-}
-
 TEST(Eval, AFailedEstimateKeepsTheBodyOfTheReference) {
   const TemporaryFolder folder;
   const std::string bad = folder.file("bad.txt", "not a pose\n").string();

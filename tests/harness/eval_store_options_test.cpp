@@ -137,35 +137,27 @@ TEST_F(EvalStoreOptions, EqualRunsOfOneMethodCountOnce) {
   EXPECT_THAT(out, HasSubstr("9 of the files repeat the data of another run"));
 }
 
-TEST(RunSummary, IntervalIsWithinTheErrors) {
+TEST(RunReport, IntervalIsWithinTheErrors) {
   std::vector<Record> records;
   for (int run = 0; run < 10; ++run) {
     Record& r = records.emplace_back();
     r.sequence = "s";
     r.method = "m";
     r.repeat = run;
+    r.protocol = "p";
     r.metric = "ate";
     r.better = metrics::Better::lower;
     r.statistics.rmse = run == 0 ? 5.0 : 0.01 * run;
   }
-  const std::vector<RunSummary> all = summarise_runs(records, records.front());
-  ASSERT_EQ(all.size(), 1u);
-  ASSERT_TRUE(all[0].interval);
   // The ninth and the 47th of 55 means of two of 0.01 to 0.09 and 5.
-  EXPECT_DOUBLE_EQ(all[0].interval->low, 0.03);
-  EXPECT_DOUBLE_EQ(all[0].interval->high, 2.51);
+  EXPECT_THAT(run_report(records), HasSubstr("| 0.0300 to 2.5100 |"));
 }
 
 TEST_F(EvalStoreOptions, RejectsAFolderOfRunsWithTheAcceptedLayouts) {
   const std::string folder = path("systems/good/office");
-  for (const bool is_stored : {false, true}) {
-    std::vector<std::string> arguments{path("truths/office.txt"), folder};
-    if (is_stored) arguments.insert(arguments.end(), {"--store", path("store")});
-    const std::string error = test::refusal<InputError>(arguments);
-    EXPECT_THAT(error, HasSubstr(folder + ": is a folder"));
-    EXPECT_THAT(error, HasSubstr(folder + "/*.txt"));
-    EXPECT_THAT(error, HasSubstr("ALGORITHM/DATASET/RUN.txt"));
-  }
+  const std::string error = test::refusal<InputError>({path("truths/office.txt"), folder});
+  EXPECT_THAT(error, HasSubstr(folder + ": is a folder"));
+  EXPECT_THAT(error, HasSubstr("ALGORITHM/DATASET/RUN.txt"));
 }
 
 TEST_F(EvalStoreOptions, TheGateComparesNewOutputsWithTheOldOnes) {

@@ -65,22 +65,5 @@ TEST_F(EvalOnATerminal, SeveralEstimatesFitAndEndWithAVerdict) {
               HasSubstr("\nverdict: translation ate, rmse [m], keyframes, evo: "));
 }
 
-TEST_F(EvalOnATerminal, StoresEndWithATableThatFits) {
-  for (const char* system : {"one", "two"}) {
-    const std::filesystem::path runs = folder_.path() / "systems" / system / "gt";
-    std::filesystem::create_directories(runs);
-    for (const char* run : {"1.txt", "2.txt"}) {
-      std::filesystem::copy_file(
-          folder_.path() / (std::string(system) == "one" ? "a.txt" : "b.txt"), runs / run);
-    }
-  }
-  std::filesystem::create_directories(folder_.path() / "truths");
-  std::filesystem::copy_file(folder_.path() / "gt.txt", folder_.path() / "truths" / "gt.txt");
-  const std::string text = run("eval truths systems --store s", 80).out;
-  EXPECT_LE(widest(text), 80u) << text;
-  EXPECT_THAT(text, HasSubstr(" / one "));
-  EXPECT_THAT(text, HasSubstr("4 runs in s/results.sqlite"));
-}
-
 }  // namespace
 }  // namespace loopbench::eval_terminal_test

@@ -92,16 +92,6 @@ TEST_F(TrajStamps, AssumedStampsArePrinted) {
   EXPECT_THAT(traj({"convert", est, "--to", "kitti", "-o", path("a.txt")}).errors, IsEmpty());
 }
 
-TEST_F(TrajStamps, SyncNeedsAFolder) {
-  const std::string est = tum("est.txt", {"0", "1"});
-  for (const std::vector<std::string>& out : {std::vector<std::string>{}, {"-o", "-"}}) {
-    std::vector<std::string> arguments{"sync", est, "--ref", est};
-    arguments.insert(arguments.end(), out.begin(), out.end());
-    EXPECT_EQ(traj_refusal(arguments), "sync: expected -o FOLDER, it writes two files per input");
-  }
-  EXPECT_FALSE(std::filesystem::exists("-"));
-}
-
 TEST_F(TrajStamps, ADashIsStandardOutputBesideAFolderOfThatName) {
   const std::string est = tum("est.txt", {"0", "1"});
   const std::filesystem::path before = std::filesystem::current_path();
