@@ -110,11 +110,26 @@ void write_report(const EvalArguments& a,
   fmt::print(stderr, "{}\n", printable(a.report));
 }
 
+/// Runs with the names of --labels: one for each file, or else one for each method.
+std::vector<RecordedRun> named_runs(const EvalArguments& a) {
+  std::vector<RecordedRun> runs = labelled_runs(file_pairs(a), a.sequence);
+  std::vector<std::string> methods;
+  for (const RecordedRun& run : runs) {
+    const bool is_known = std::ranges::count(methods, run.method) > 0;
+    if (!is_known || a.figures.labels.size() == runs.size()) methods.push_back(run.method);
+  }
+  const std::vector<std::string> labels = labels_of(a.figures, methods);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto place = std::ranges::find(methods, runs[i].method) - methods.begin();
+    runs[i].method = labels[labels.size() == runs.size() ? i : static_cast<std::size_t>(place)];
+  }
+  return runs;
+}
+
 /// Figures and report of the estimates under the first protocol.
 void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
   if (a.plot.empty() && a.report.empty()) return;
-  const std::vector<DrawnRuns> drawn =
-      drawn_sequences(all, labelled_runs(file_pairs(a), a.sequence));
+  const std::vector<DrawnRuns> drawn = drawn_sequences(all, named_runs(a));
   if (drawn.empty()) throw InputError("--plot, --report: no estimate could be evaluated");
   for (const DrawnRuns& each : drawn) {
     if (each.note.empty()) continue;
@@ -122,22 +137,29 @@ void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>&
     fmt::print(stderr, "{}\n", printable(note));
   }
   reject_standard_output("--report", a.report);
+  std::filesystem::path plot = a.plot;
+  std::vector<std::string> suffixes{".svg", ".pdf", ".png"};
+  if (is_figure_name(plot)) {
+    suffixes = {plot.extension().string()};
+    plot.replace_extension();
+  }
   std::set<std::string> prefixes;
   std::vector<FigureData> figures;
   for (const DrawnRuns& each : drawn) {
     FigureData& data = figures.emplace_back(figure_data(each));
-    if (!a.report.empty()) data.figures = figures_for_page();
+    if (!a.report.empty()) data.figures = figures_for_page(a.figures);
     if (a.plot.empty()) continue;
-    std::string prefix = a.plot;
+    std::string prefix = plot.string();
     if (!each.sequence.empty()) prefix += "_" + file_stem(each.sequence);
     while (!prefixes.insert(prefix).second) prefix += "_";  // labels that differ in punctuation
-    std::ranges::move(figures_for_paper(prefix, a.plot_size), std::back_inserter(data.figures));
+    std::ranges::move(figures_for_paper(prefix, suffixes, a.figures),
+                      std::back_inserter(data.figures));
   }
   const std::vector<std::string> images = draw(figures);
   if (!a.report.empty()) write_report(a, all, drawn, images);
   for (const FigureData& data : figures) {
     for (const DrawnFigure& figure : data.figures) {
-      for (const auto& file : figure.files) fmt::print(stderr, "{}\n", printable(file.string()));
+      fmt::print(stderr, "{}", printable(file_list(figure)));
     }
   }
 }

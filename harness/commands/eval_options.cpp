@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "harness/commands/checks.hpp"
+#include "harness/commands/figure_options.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -101,31 +102,6 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
   seconds("--offset,--t_offset", "offset", "Time offset added to the estimates' stamps [s]");
 }
 
-/// As those of `plot`.
-void declare_plot_size(CLI::App& command, ErrorFigureSize& size) {
-  command
-      .add_option("--size",
-                  size.panel,
-                  "Width and height of a panel of --plot [in]; default: 3.5 in divided by the "
-                  "columns")
-      ->delimiter(',')
-      ->expected(2)
-      ->check(CLI::Range(0.5, 50.0))
-      ->type_name("WIDTH,HEIGHT")
-      ->needs("--plot");
-  command.add_option("--font", size.font, "Font size of --plot [pt]")
-      ->check(CLI::Range(2.0, 100.0))
-      ->capture_default_str()
-      ->needs("--plot");
-  command
-      .add_option("--columns",
-                  size.columns,
-                  "Panels in a row of --plot; default: 2 for trajectories, 1 for curves")
-      ->check(CLI::Range(1, 10))
-      ->type_name("N")
-      ->needs("--plot");
-}
-
 }  // namespace
 
 void declare(CLI::App& command, EvalArguments& a) {
@@ -182,10 +158,11 @@ void declare(CLI::App& command, EvalArguments& a) {
       .add_option(
           "--plot,--save_plot",
           a.plot,
-          "Figures PREFIX_trajectories, PREFIX_errors and PREFIX_axes as .svg, .pdf and .png, by "
-          "default as wide as one column of a paper (3.5 in)")
+          "Figures PREFIX_trajectories, PREFIX_errors and PREFIX_axes as .svg, .pdf and .png, or "
+          "as .pgf for PREFIX.pgf (likewise .svg, .pdf, .png), by default as wide as one column "
+          "of a paper (3.5 in)")
       ->type_name("PREFIX");
-  declare_plot_size(command, a.plot_size);
+  declare_figure_options(command, a.figures, "--plot");
   command
       .add_option(
           "--report", a.report, "HTML page with the table and all figures, needs matplotlib")

@@ -117,6 +117,7 @@ const std::map<std::string, std::string> kExamples{
     {"traj plot",
      "  loopbench traj plot run.txt -o run.pdf\n"
      "  loopbench traj plot a.txt b.txt --ref reference.txt -o compared.svg\n"
+     "  loopbench traj plot a.txt b.txt --panels plane --size 3.3,2.8 --labels A,B -o map.pgf\n"
      "  loopbench traj plot run.bag --all-topics -o run.png\n"},
     {"doctor",
      "  loopbench doctor reference.txt estimate.txt\n"

@@ -8,6 +8,7 @@
 #include "harness/base/suggest.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/figure_options.hpp"
 #include "harness/model/where.hpp"
 #include "harness/report/content.hpp"
 #include "harness/report/store_figures.hpp"
@@ -22,11 +23,20 @@ struct PlotArguments {
   std::vector<std::string> formats{"svg", "pdf"};
   std::vector<std::string> methods;
   std::vector<std::string> sequences;
-  std::vector<std::string> panels{"xy", "xyz", "x", "y", "z", "angle"};
-  std::size_t columns = 2;
-  std::vector<double> size{3.5, 2.8};  ///< of a panel [in]: one column of a paper
-  double font = 8.0;                   ///< [pt]
+  std::vector<std::string> panels{"plane", "xyz", "x", "y", "z", "angle"};
+  FigureOptions figures;
 };
+
+/// "se3 alignment" of the first protocol of a sweep, whose trajectories are stored; empty if the
+/// store does not state it.
+std::string alignment_of(const ReportContent& content) {
+  const auto found = content.run.find("protocol");
+  const std::string rules = found == content.run.end() ? "" : found->second;
+  const std::size_t begin = rules.find("align=");
+  if (begin == std::string::npos) return "";
+  const std::string how = rules.substr(begin + 6, rules.find(',', begin) - begin - 6);
+  return ", " + (how == "none" ? "no" : how) + " alignment";
+}
 
 /// Each word is a label or comma-separated labels; a label can contain commas itself.
 std::vector<std::string> known_labels(const std::string& kind,
@@ -54,6 +64,7 @@ int write_figures(const PlotArguments& arguments) {
       arguments.sequences.empty()
           ? content.sequences
           : known_labels("sequence", arguments.sequences, content.sequences);
+  const std::vector<std::string> labels = labels_of(arguments.figures, methods);
   reject_standard_output("-o", arguments.folder);
   const std::filesystem::path folder = arguments.folder;
   Traces traces(arguments.store);
@@ -68,20 +79,21 @@ int write_figures(const PlotArguments& arguments) {
       fmt::print("{}: has no stored trajectories of these methods\n", printable(sequence));
       continue;
     }
+    data.title += alignment_of(content);
+    for (DrawnCurve& curve : data.curves) {
+      const auto place = std::ranges::find(methods, curve.name) - methods.begin();
+      if (place < std::ssize(labels)) curve.name = labels[static_cast<std::size_t>(place)];
+    }
     // The index separates labels that map to the same file name.
     const std::string stem = fmt::format("{:02}_{}", s + 1, file_stem(sequence));
     for (const bool of_errors : {false, true}) {
-      DrawnFigure figure{{}, figure_panels(arguments.panels, of_errors)};
+      DrawnFigure figure{{}, figure_panels(arguments.panels, of_errors), arguments.figures};
       if (figure.panels.empty()) continue;
       for (const std::string& format : arguments.formats) {
         const char* const what = of_errors ? "_errors." : "_trajectories.";
         figure.files.push_back(folder / (stem + what + format));
-        written += figure.files.back().string() + "\n";
       }
-      figure.columns = arguments.columns;
-      figure.width = arguments.size[0];
-      figure.height = arguments.size[1];
-      figure.font = arguments.font;
+      written += file_list(figure);
       data.figures.push_back(std::move(figure));
     }
     all.push_back(std::move(data));
@@ -97,8 +109,7 @@ int write_figures(const PlotArguments& arguments) {
 
 void add_plot(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<PlotArguments>();
-  CLI::App* command =
-      app.add_subcommand("plot", "Plot the trajectories and errors of a sweep as vector graphics");
+  CLI::App* command = app.add_subcommand("plot", "Plot the trajectories and errors of a sweep");
   command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
       ->required();
   command->add_option("-o,--out", arguments->folder, "Output folder")
@@ -112,33 +123,20 @@ void add_plot(CLI::App& app, int& exit_code) {
                       arguments->sequences,
                       "Comma-separated sequence labels, in \"...\" likewise (default: all)");
   command
-      ->add_option("--panels",
-                   arguments->panels,
-                   "Comma-separated panels: trajectories in xy, xz, yz and in space (xyz), errors "
-                   "in x, y, z and angle")
+      ->add_option(
+          "--panels",
+          arguments->panels,
+          "Comma-separated panels: trajectories in the plane of the largest extent (plane), "
+          "in xy, xz, yz and in space (xyz), errors in x, y, z and angle")
       ->delimiter(',')
       ->check(CLI::IsMember(panel_names()))
       ->type_name("WORDS")
-      ->default_str("xy,xyz,x,y,z,angle");
-  command
-      ->add_option("--format",
-                   arguments->formats,
-                   "File formats: svg, pdf, png, json (the data of the figure) or several")
+      ->default_str("plane,xyz,x,y,z,angle");
+  command->add_option("--format", arguments->formats, "File formats: svg, pdf, png, pgf or several")
       ->delimiter(',')
-      ->check(CLI::IsMember({"svg", "pdf", "png", "json"}))
+      ->check(CLI::IsMember(std::vector<std::string>(kFigureFormats.begin(), kFigureFormats.end())))
       ->default_str("svg,pdf");
-  command
-      ->add_option("--size", arguments->size, "Width and height of a panel [in]; default: 3.5,2.8")
-      ->delimiter(',')
-      ->expected(2)
-      ->check(CLI::Range(0.5, 50.0))
-      ->type_name("WIDTH,HEIGHT");
-  command->add_option("--font", arguments->font, "Font size [pt]")
-      ->check(CLI::Range(2.0, 100.0))
-      ->capture_default_str();
-  command->add_option("--columns", arguments->columns, "Panels in a row")
-      ->check(CLI::Range(1, 10))
-      ->capture_default_str();
+  declare_figure_options(*command, arguments->figures, "");
   command->callback([arguments, &exit_code] { exit_code = write_figures(*arguments); });
 }
 

@@ -267,11 +267,13 @@ int plot_files(const TrajArguments& a) {
   if (!a.reference.empty()) reference = read_named(a.reference, a.reading);
   protect_inputs(a, {a.out});
   reject_standard_output("-o", a.out);
-  check_figure_name(a.out);
-  FigureData data = trajectory_figure(all, reference);
+  if (!is_figure_name(a.out)) {
+    throw InputError(a.out + ": expected a file name that ends in .svg, .pdf, .png or .pgf");
+  }
+  FigureData data = trajectory_figure(all, reference, a.panels, a.figures);
   data.figures.front().files = {a.out};
   draw({data});
-  fmt::print("{}\n", printable(a.out));
+  fmt::print("{}", printable(file_list(data.figures.front())));
   return kExitOk;
 }
 

@@ -5,6 +5,7 @@
 
 #include "datasets/core/fields.hpp"
 #include "harness/commands/checks.hpp"
+#include "harness/commands/figure_options.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -142,10 +143,30 @@ const std::vector<VerbInfo>& verb_infos() {
         },
         declare_output}},
       {"plot",
-       "Plot trajectories: three planes, position, orientation and speed over time",
+       "Plot trajectories: their plane, space, position, orientation and speed over time",
        {[](CLI::App& verb, TrajArguments& a) {
          verb.add_option("--ref", a.reference, "Reference trajectory")->type_name("FILE");
-         verb.add_option("-o,--out", a.out, "Output file: .svg, .pdf, .png or .json")->required();
+         verb.add_option("-o,--out", a.out, "Output file: .svg, .pdf, .png or .pgf")->required();
+         verb.add_option("--panels",
+                         a.panels,
+                         "Comma-separated panels: the plane of the largest extent (plane), xy, xz, "
+                         "yz, space (xyz), x, y, z, roll, pitch, yaw, speed; default: all but xy, "
+                         "xz and yz")
+             ->delimiter(',')
+             ->check(CLI::IsMember({"plane",
+                                    "xy",
+                                    "xz",
+                                    "yz",
+                                    "xyz",
+                                    "x",
+                                    "y",
+                                    "z",
+                                    "roll",
+                                    "pitch",
+                                    "yaw",
+                                    "speed"}))
+             ->type_name("WORDS");
+         declare_figure_options(verb, a.figures, "");
        }}}};
   return all;
 }

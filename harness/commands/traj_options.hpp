@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "harness/eval/named_trajectory.hpp"
+#include "harness/eval/trajectory_figures.hpp"
 #include "harness/eval/trajectory_selection.hpp"
 #include "harness/eval/transformation.hpp"
 
@@ -43,7 +44,9 @@ struct TrajArguments {
   double offset = 0.0;     ///< added to the stamps of the files [s]
   std::string align = "se3";
   std::size_t align_first = 0;
-  std::string plane;
+  std::string plane;                                            ///< of `project`
+  std::vector<std::string> panels = usual_trajectory_panels();  ///< of `plot`
+  FigureOptions figures;
 };
 
 using TrajVerb = std::function<int(const TrajArguments&)>;

@@ -40,7 +40,7 @@ struct EvalArguments {
   bool csv = false;
   std::string per_pose;  ///< output file; empty: none
   std::string plot;      ///< prefix of figure files; empty: none
-  ErrorFigureSize plot_size;
+  FigureOptions figures;
   std::string report;          ///< HTML file; empty: none
   std::string store;           ///< folder of a store for the results; empty: none
   std::string sequence;        ///< label of the reference in the store; empty: from its file name

@@ -61,7 +61,7 @@ std::vector<DrawnEvaluation> representative(std::vector<RatedRun> runs, bool is_
   const auto named = [&](std::size_t i, const char* role) {
     DrawnEvaluation out = runs[i].drawn;
     out.estimate.name += role;
-    out.estimate.style.dash = 1;  // no other run of its method has its colour
+    out.estimate.dash = 0;  // no other run of its method has its colour
     return out;
   };
   const std::size_t middle = (runs.size() - 1) / 2;
@@ -69,7 +69,7 @@ std::vector<DrawnEvaluation> representative(std::vector<RatedRun> runs, bool is_
   if (!is_only) return {named(middle, " (median)")};
   std::vector<DrawnEvaluation> out{
       named(0, " (best)"), named(middle, " (median)"), named(runs.size() - 1, " (worst)")};
-  for (std::size_t i = 0; i < out.size(); ++i) out[i].estimate.style = curve_style(i);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].estimate.style = i;
   return out;
 }
 
@@ -112,8 +112,8 @@ struct NameNumbers {
 /// Of each of kErrorFigures.
 const std::array<std::vector<std::string>, kErrorFigures.size()>& panels() {
   static const std::array<std::vector<std::string>, kErrorFigures.size()> all{
-      {{"xy", "xz", "yz", "xyz"},
-       {"error by time", "error by distance", "angle by time", "angle by distance", "histogram"},
+      {{"plane", "xyz"},
+       {"error by time", "angle by time", "histogram"},
        {"x by time", "y by time", "z by time", "roll by time", "pitch by time", "yaw by time"}}};
   return all;
 }
@@ -170,7 +170,12 @@ std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
     const std::size_t repeat = before[{run.reference, run.method}]++;
     if (!all[i].why_failed.empty()) continue;
     if (place.emplace(run.reference, out.size()).second) {
-      out.push_back({references.names.size() > 1 ? run.sequence : "", {}, ""});
+      const metrics::Align align = all[i].alignment.type;
+      const std::string how = align == metrics::Align::none ? "no" : to_text(align);
+      out.push_back({references.names.size() > 1 ? run.sequence : "",
+                     run.sequence + ", " + how + " alignment (ATE as RMSE)",
+                     {},
+                     ""});
       candidates.emplace_back();
     }
     RatedRun& candidate = candidates[place[run.reference]].emplace_back(
@@ -178,49 +183,54 @@ std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
     DrawnCurve& curve = candidate.drawn.estimate;
     const bool has_repeats = count[{run.reference, run.method}] > 1;
     curve.name = run.method + (has_repeats ? " " + run.run : "");
-    curve.style = curve_style(methods.names.size() > 1 ? methods.number(run.method) : repeat);
-    if (methods.names.size() > 1 && has_repeats) curve.style.dash = dash_of(repeat);
+    curve.style = methods.names.size() > 1 ? methods.number(run.method) : repeat;
+    if (methods.names.size() > 1 && has_repeats) curve.dash = 1 + static_cast<int>(repeat % 5);
   }
   for (std::size_t i = 0; i < out.size(); ++i) choose_drawn(candidates[i], out[i]);
   return out;
 }
 
 FigureData figure_data(const DrawnRuns& runs) {
-  FigureData out{"", runs.note, {}, {}};
+  FigureData out{runs.title, runs.note, {}, {}};
   if (!runs.drawn.empty()) out.curves.push_back(runs.drawn.front().reference);
-  for (const DrawnEvaluation& each : runs.drawn) out.curves.push_back(each.estimate);
+  for (const DrawnEvaluation& each : runs.drawn) {
+    out.curves.push_back(each.estimate);
+    out.curves.back().rmse = each.position_rmse;
+  }
   return out;
 }
 
-std::vector<DrawnFigure> figures_for_paper(const std::string& prefix, const ErrorFigureSize& size) {
+std::vector<DrawnFigure> figures_for_paper(const std::string& prefix,
+                                           const std::vector<std::string>& suffixes,
+                                           const FigureOptions& options) {
   constexpr double kColumnWidth = 3.5;                  // of a paper [in]
   constexpr double kMapShape = 0.9, kCurveShape = 0.4;  // height over width
   std::vector<DrawnFigure> out;
   for (std::size_t i = 0; i < kErrorFigures.size(); ++i) {
     const bool is_map = i == 0;
-    DrawnFigure figure;
-    figure.panels = panels()[i];
-    figure.columns = size.columns > 0 ? size.columns : (is_map ? 2 : 1);
-    figure.width = kColumnWidth / static_cast<double>(figure.columns);
-    figure.height = figure.width * (is_map || figure.columns > 1 ? kMapShape : kCurveShape);
-    if (size.panel.size() == 2) {
-      figure.width = size.panel[0];
-      figure.height = size.panel[1];
+    DrawnFigure& figure = out.emplace_back(DrawnFigure{{}, panels()[i], options});
+    const std::size_t columns = options.columns.value_or(is_map ? 2 : 1);
+    figure.options.columns = columns;
+    if (options.size.empty()) {
+      const double width = kColumnWidth / static_cast<double>(columns);
+      figure.options.size = {width, width * (is_map || columns > 1 ? kMapShape : kCurveShape)};
     }
-    figure.font = size.font;
-    for (const char* const extension : {".svg", ".pdf", ".png"}) {
-      figure.files.emplace_back(prefix + "_" + kErrorFigures[i] + extension);
+    if (!options.font && options.style.empty()) figure.options.font = 7.0;
+    for (const std::string& suffix : suffixes) {
+      figure.files.emplace_back(prefix + "_" + kErrorFigures[i] + suffix);
     }
-    out.push_back(std::move(figure));
   }
   return out;
 }
 
-std::vector<DrawnFigure> figures_for_page() {
+std::vector<DrawnFigure> figures_for_page(const FigureOptions& options) {
   std::vector<DrawnFigure> out;
-  for (std::size_t i = 0; i < kErrorFigures.size(); ++i) {
-    const std::size_t columns = panels()[i].size() == 6 ? 3 : 2;
-    out.push_back({{}, panels()[i], columns, 4.5, 3.6, 11.0});
+  for (const std::vector<std::string>& each : panels()) {
+    DrawnFigure& figure = out.emplace_back(DrawnFigure{{}, each, {}});
+    figure.options.plane = options.plane;
+    figure.options.columns = each.size() > 2 ? 3 : 2;
+    figure.options.size = {4.5, 3.6};
+    figure.options.font = 11.0;
   }
   return out;
 }

@@ -18,6 +18,7 @@ DrawnEvaluation drawn_evaluation(const Trajectory& reference,
 /// Evaluations with the same reference, which share figures.
 struct DrawnRuns {
   std::string sequence;  ///< label; empty if there is only one
+  std::string title;     ///< sequence, alignment and score in the legend
   std::vector<DrawnEvaluation> drawn;
   std::string note;  ///< how many estimates are not drawn; empty: all are
 };
@@ -33,27 +34,22 @@ inline constexpr std::size_t kMostDrawnEstimates = 6;  ///< in a figure; more hi
 std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
                                        const std::vector<RecordedRun>& runs);
 
-/// - trajectories: xy, xz, yz and space, start and end marked, coloured by position error for a
-///   single estimate;
-/// - errors: position and rotation error over time and over distance, and the histogram of the
-///   position error;
+/// - trajectories: the plane of the largest extent and space, start and end marked, coloured by
+///   position error for a single estimate;
+/// - errors: position and rotation error over time, and the histogram of the position error;
 /// - axes: x, y, z, roll, pitch and yaw over time, with the complete reference.
 inline constexpr std::array kErrorFigures{"trajectories", "errors", "axes"};
-
-/// Size of the figures for a paper.
-struct ErrorFigureSize {
-  std::vector<double> panel;  ///< width and height [in]; empty: 3.5 in are divided by the columns
-  std::size_t columns = 0;    ///< panels in a row; 0: 2 maps, 1 panel of curves
-  double font = 7.0;          ///< [pt]
-};
 
 /// The curves of estimates of one reference, without figures.
 FigureData figure_data(const DrawnRuns& runs);
 
-/// kErrorFigures as PREFIX_NAME.svg, .pdf and .png, by default as wide as one column of a paper.
-std::vector<DrawnFigure> figures_for_paper(const std::string& prefix, const ErrorFigureSize& size);
+/// kErrorFigures as PREFIX_NAME and each suffix (".svg"), by default as wide as one column of a
+/// paper, with 2 maps or 1 panel of curves in a row.
+std::vector<DrawnFigure> figures_for_paper(const std::string& prefix,
+                                           const std::vector<std::string>& suffixes,
+                                           const FigureOptions& options);
 
-/// kErrorFigures without files, for a page.
-std::vector<DrawnFigure> figures_for_page();
+/// kErrorFigures without files, for a page; of the options only the plane.
+std::vector<DrawnFigure> figures_for_page(const FigureOptions& options);
 
 }  // namespace loopbench::harness

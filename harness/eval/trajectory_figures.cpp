@@ -1,17 +1,15 @@
 #include "harness/eval/trajectory_figures.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kMostRowsOfTrajectories = 2000;  // of a curve; more are not visible
 
-DrawnCurve curve_of(const std::string& name,
-                    const CurveStyle& style,
-                    const Trajectory& poses,
-                    double origin) {
-  DrawnCurve out{name, style, {}};
+/// Adds the columns of a trajectory.
+DrawnCurve with_columns(DrawnCurve out, const Trajectory& poses, double origin) {
   add_poses(out, poses, origin);
   std::vector<std::string> peaks;
   if (poses.size() > 1) {
@@ -28,10 +26,21 @@ DrawnCurve curve_of(const std::string& name,
   return out;
 }
 
+std::vector<std::string> short_names(const std::vector<NamedTrajectory>& all) {
+  std::vector<std::string> stems, names;
+  for (const NamedTrajectory& each : all) {
+    names.push_back(each.name);
+    stems.push_back(output_stem(each.name));
+  }
+  return std::set(stems.begin(), stems.end()).size() == all.size() ? stems : names;
+}
+
 }  // namespace
 
 FigureData trajectory_figure(const std::vector<NamedTrajectory>& all,
-                             const std::optional<NamedTrajectory>& reference) {
+                             const std::optional<NamedTrajectory>& reference,
+                             const std::vector<std::string>& panels,
+                             const FigureOptions& options) {
   double origin =
       reference ? reference->file.poses.front().stamp : all.front().file.poses.front().stamp;
   for (const NamedTrajectory& each : all) {
@@ -39,18 +48,20 @@ FigureData trajectory_figure(const std::vector<NamedTrajectory>& all,
   }
   FigureData out;
   if (reference) {
-    out.curves.push_back(curve_of("reference", kReferenceStyle, reference->file.poses, origin));
+    out.curves.push_back(with_columns(reference_curve(), reference->file.poses, origin));
+    out.title = "no alignment";
   }
+  const std::vector<std::string> names = labels_of(options, short_names(all));
   for (std::size_t i = 0; i < all.size(); ++i) {
-    out.curves.push_back(curve_of(all[i].name, curve_style(i), all[i].file.poses, origin));
+    const DrawnCurve curve{.name = names[i], .style = i};
+    out.curves.push_back(with_columns(curve, all[i].file.poses, origin));
   }
-  DrawnFigure& figure = out.figures.emplace_back(DrawnFigure{{}, {}, 4, 4.5, 3.6, 9.0});
-  figure.panels = {"xy", "xz", "yz", "xyz", "x by time", "y by time", "z by time"};
-  for (const char* const panel : {"roll by time", "pitch by time", "yaw by time"}) {
-    figure.panels.emplace_back(panel);
+  DrawnFigure& figure = out.figures.emplace_back(DrawnFigure{{}, {}, options});
+  if (!options.columns) figure.options.columns = 3;
+  for (const std::string& panel : panels) {
+    const bool is_map = panel == "plane" || panel.find_first_not_of("xyz") == std::string::npos;
+    figure.panels.push_back(is_map && panel.size() > 1 ? panel : panel + " by time");
   }
-  const auto has_speed = [](const DrawnCurve& curve) { return curve.columns.contains("speed"); };
-  if (std::ranges::any_of(out.curves, has_speed)) figure.panels.emplace_back("speed by time");
   return out;
 }
 

@@ -2,25 +2,25 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "datasets/core/trajectory.hpp"
-#include "harness/report/style.hpp"
 
 namespace loopbench::harness {
 
 /// A trajectory or its errors: columns of equal length, see harness/python/loopbench/draw.py.
 struct DrawnCurve {
   std::string name;
-  CurveStyle style = curve_style(0);
+  std::size_t style = 0;         ///< index of its colour and dash
+  int dash = 0;                  ///< 1 to 5; 0: that of the style
+  std::optional<double> rmse{};  ///< of the position error [m]; none: not stated in the legend
   std::map<std::string, std::vector<double>> columns;
 };
 
-inline constexpr CurveStyle kReferenceStyle{kReferenceColor, 1};
-
-/// DrawnCurve "reference" without columns.
-inline DrawnCurve reference_curve() { return {"reference", kReferenceStyle, {}}; }
+/// DrawnCurve "reference" without columns; this name determines its style.
+inline DrawnCurve reference_curve() { return {.name = "reference"}; }
 
 /// Adds the columns time (stamps minus `origin` [s]), x, y, z [m], roll, pitch and yaw [deg].
 void add_poses(DrawnCurve& curve, const Trajectory& poses, double origin);

@@ -1,5 +1,8 @@
 #include "harness/report/draw.hpp"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -11,9 +14,25 @@ namespace loopbench::harness {
 namespace {
 
 nlohmann::json json_of(const DrawnCurve& curve) {
-  nlohmann::json out{
-      {"name", printable(curve.name)}, {"color", curve.style.color}, {"dash", curve.style.dash}};
+  nlohmann::json out{{"name", printable(curve.name)}, {"style", curve.style}};
+  if (curve.dash > 0) out["dash"] = curve.dash;
+  if (curve.rmse) out["rmse"] = *curve.rmse;
   for (const auto& [name, values] : curve.columns) out[name] = values;
+  return out;
+}
+
+nlohmann::json json_of(const DrawnFigure& figure) {
+  std::vector<std::string> files;
+  for (const std::filesystem::path& file : figure.files) files.push_back(file.string());
+  const FigureOptions& options = figure.options;
+  nlohmann::json out{{"files", files},
+                     {"panels", figure.panels},
+                     {"script", options.script},
+                     {"style", options.style}};
+  if (!options.plane.empty()) out["plane"] = options.plane;
+  if (!options.size.empty()) out["size"] = options.size;
+  if (options.columns) out["columns"] = *options.columns;
+  if (options.font) out["font"] = *options.font;
   return out;
 }
 
@@ -23,15 +42,7 @@ nlohmann::json json_of(const FigureData& data) {
                      {"curves", nlohmann::json::array()},
                      {"figures", nlohmann::json::array()}};
   for (const DrawnCurve& curve : data.curves) out["curves"].push_back(json_of(curve));
-  for (const DrawnFigure& figure : data.figures) {
-    std::vector<std::string> files;
-    for (const std::filesystem::path& file : figure.files) files.push_back(file.string());
-    out["figures"].push_back({{"files", files},
-                              {"panels", figure.panels},
-                              {"columns", figure.columns},
-                              {"size", {figure.width, figure.height}},
-                              {"font", figure.font}});
-  }
+  for (const DrawnFigure& figure : data.figures) out["figures"].push_back(json_of(figure));
   return out;
 }
 
@@ -47,6 +58,7 @@ std::filesystem::path script() {
                    (folder.parent_path() / "share/loopbench/python").string());
 }
 
+/// Runs render.py, which reads all of its input before it writes.
 FilterResult run_python(const std::string& input) {
   try {
     return run_filter({"python3", script().string()}, input);
@@ -71,12 +83,27 @@ std::vector<std::string> draw(const std::vector<FigureData>& all) {
   return json::parse(result.output).get<std::vector<std::string>>();
 }
 
-void check_figure_name(const std::filesystem::path& file) {
+bool is_figure_name(const std::filesystem::path& file) {
   const std::string extension = file.extension().string();
-  for (const char* const known : {".svg", ".pdf", ".png", ".json"}) {
-    if (extension == known) return;
-  }
-  throw InputError(file.string() + ": expected a file name that ends in .svg, .pdf, .png or .json");
+  return std::ranges::any_of(
+      kFigureFormats, [&](const char* format) { return "." + std::string(format) == extension; });
+}
+
+std::string file_list(const DrawnFigure& figure) {
+  std::string out;
+  for (const std::filesystem::path& file : figure.files) out += file.string() + "\n";
+  if (!figure.options.script || figure.files.empty()) return out;
+  return out + std::filesystem::path(figure.files.front()).replace_extension("py").string() + "\n";
+}
+
+std::vector<std::string> labels_of(const FigureOptions& options,
+                                   const std::vector<std::string>& names) {
+  if (options.labels.empty()) return names;
+  if (options.labels.size() == names.size()) return options.labels;
+  throw InputError(fmt::format("--labels: expected {} for {}, found {}",
+                               names.size(),
+                               fmt::join(names, ", "),
+                               options.labels.size()));
 }
 
 }  // namespace loopbench::harness

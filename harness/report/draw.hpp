@@ -1,7 +1,9 @@
 /// Draws figures with the Python package (module loopbench.draw, matplotlib).
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,19 +11,38 @@
 
 namespace loopbench::harness {
 
-/// Panels: "xy", "xz", "yz", "xyz" (space), "COLUMN by time", "COLUMN by distance", "histogram".
-struct DrawnFigure {
-  std::vector<std::filesystem::path> files;  ///< .svg, .pdf, .png, or .json for the data
-  std::vector<std::string> panels;
-  std::size_t columns = 2;           ///< panels in a row
-  double width = 3.5, height = 2.8;  ///< of a panel [in]
-  double font = 8.0;                 ///< [pt]
+inline constexpr std::array kFigureFormats{"svg", "pdf", "png", "pgf"};
+
+/// Options of `plot`, `eval --plot` and `traj plot`; without a value those of loopbench.draw.
+struct FigureOptions {
+  std::vector<std::string> style;      ///< style sheets of matplotlib, files or names
+  std::vector<std::string> labels;     ///< names of the estimates
+  std::string plane;                   ///< xy, xz or yz; empty: the one of the largest extent
+  std::vector<double> size;            ///< width and height of a panel [in]
+  std::optional<std::size_t> columns;  ///< panels in a row
+  std::optional<double> font;          ///< [pt]
+  bool script = false;                 ///< also write the data and a Python script that draws them
 };
+
+/// The labels, one for each of `names`, or the names themselves without labels. Throws InputError.
+std::vector<std::string> labels_of(const FigureOptions& options,
+                                   const std::vector<std::string>& names);
+
+/// Panels: "plane", "xy", "xz", "yz", "xyz" (space), "COLUMN by time", "COLUMN by distance",
+/// "histogram".
+struct DrawnFigure {
+  std::vector<std::filesystem::path> files;  ///< the same name with suffixes of kFigureFormats
+  std::vector<std::string> panels;
+  FigureOptions options;
+};
+
+/// The files of a figure and its script, one per line.
+std::string file_list(const DrawnFigure& figure);
 
 /// Figures of the same curves.
 struct FigureData {
   std::string title;
-  std::string note;  ///< a line below the legend, or empty
+  std::string note;  ///< a line below the title, or empty
   std::vector<DrawnCurve> curves;
   std::vector<DrawnFigure> figures;
 };
@@ -30,7 +51,7 @@ struct FigureData {
 /// InputError if Python or matplotlib is missing, or a file cannot be written.
 std::vector<std::string> draw(const std::vector<FigureData>& all);
 
-/// Throws InputError unless the file name ends in .svg, .pdf, .png or .json.
-void check_figure_name(const std::filesystem::path& file);
+/// Whether the file name ends in one of kFigureFormats.
+bool is_figure_name(const std::filesystem::path& file);
 
 }  // namespace loopbench::harness

@@ -1,9 +1,10 @@
 #include "harness/report/store_figures.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
-
-#include "harness/report/style.hpp"
+#include <set>
 
 namespace loopbench::harness {
 namespace {
@@ -54,7 +55,8 @@ DrawnCurve curve_of(const CellTrace& trace, const Vector3& origin) {
 }  // namespace
 
 const std::vector<std::string>& panel_names() {
-  static const std::vector<std::string> names{"xy", "xz", "yz", "xyz", "x", "y", "z", "angle"};
+  static const std::vector<std::string> names{
+      "plane", "xy", "xz", "yz", "xyz", "x", "y", "z", "angle"};
   return names;
 }
 
@@ -75,11 +77,16 @@ FigureData sequence_figure_data(const std::vector<CellRecord>& cells,
                                 const std::string& sequence,
                                 const std::vector<std::string>& methods,
                                 const std::vector<std::string>& all_methods) {
-  std::optional<std::int64_t> first;
+  std::set<std::int64_t> repeats;
   for (const CellRecord& cell : cells) {
-    if (cell.sequence == sequence) first = std::min(first.value_or(cell.repeat), cell.repeat);
+    if (cell.sequence == sequence) repeats.insert(cell.repeat);
   }
   FigureData out{sequence, "", {}, {}};
+  if (repeats.empty()) return out;
+  const std::int64_t first = *repeats.begin();
+  if (repeats.size() > 1) {
+    out.title += fmt::format(", repeat {} (first of {})", first, repeats.size());
+  }
   Vector3 origin = Vector3::Zero();
   for (const std::string& method : methods) {
     const auto cell = std::ranges::find_if(cells, [&](const CellRecord& c) {
@@ -96,7 +103,7 @@ FigureData sequence_figure_data(const std::vector<CellRecord>& cells,
     DrawnCurve& curve = out.curves.emplace_back(curve_of(*trace, origin));
     const auto index = std::ranges::find(all_methods, method) - all_methods.begin();
     curve.name = method;
-    curve.style = curve_style(static_cast<std::size_t>(index));
+    curve.style = static_cast<std::size_t>(index);
   }
   return out;
 }

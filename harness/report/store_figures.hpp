@@ -10,16 +10,17 @@
 
 namespace loopbench::harness {
 
-/// Names of panels: trajectories in the planes "xy", "xz" and "yz" and in space ("xyz"); errors
-/// "x", "y", "z" [m] and "angle" [deg] along the path.
+/// Names of panels: trajectories in the plane of the largest extent ("plane"), in "xy", "xz", "yz"
+/// and in space ("xyz"); errors "x", "y", "z" [m] and "angle" [deg] along the path.
 const std::vector<std::string>& panel_names();
 
 /// The panels of panel_names() that show trajectories, or else errors, as panels of a DrawnFigure.
 std::vector<std::string> figure_panels(const std::vector<std::string>& names, bool of_errors);
 
-/// Curves for one sequence: the reference, and `methods` on its first repeat, in their order;
-/// methods without a trace are skipped. The style of a method depends on its index in `all_methods`
-/// of the sweep, so that it is the same in every figure. No curves without a trace.
+/// Curves for one sequence: the reference, and `methods` on its first repeat, which the title
+/// states, in their order; methods without a trace are skipped. The style of a method depends on
+/// its index in `all_methods` of the sweep, so that it is the same in every figure. No curves
+/// without a trace.
 FigureData sequence_figure_data(const std::vector<CellRecord>& cells,
                                 Traces& traces,
                                 const std::string& sequence,

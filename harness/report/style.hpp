@@ -6,30 +6,18 @@
 
 namespace loopbench::harness {
 
-inline constexpr const char* kReferenceColor = "#9aa1ab";
-
 struct CurveStyle {
   const char* color;
   int dash;  ///< 1: solid, 2 to 5: dashed
 };
 
-/// Solid, then four dash types.
-inline constexpr int dash_of(std::size_t index) { return 1 + static_cast<int>(index % 5); }
-
 /// Style of the curve with this index, of a method among all methods of a sweep or of a file among
-/// all files of a command. Ten colours, then the same colours dashed.
+/// all files of a command. The colours are those of python/loopbench/panels.py; each has a dash,
+/// too, and 40 curves differ.
 inline CurveStyle curve_style(std::size_t index) {
-  constexpr std::array kColors{"#d93025",
-                               "#0b6fd3",
-                               "#0f9d58",
-                               "#e8710a",
-                               "#7b3ff2",
-                               "#00a3a3",
-                               "#c2185b",
-                               "#b58900",
-                               "#4a5bd4",
-                               "#8d5524"};
-  return {kColors[index % kColors.size()], dash_of(index / kColors.size())};
+  constexpr std::array kColors{
+      "#cc4c02", "#0068b0", "#2aa59a", "#7d1d6f", "#efb400", "#7fb8ec", "#5c3a14", "#f2a0c0"};
+  return {kColors[index % kColors.size()], 1 + static_cast<int>(index % 5)};
 }
 
 }  // namespace loopbench::harness

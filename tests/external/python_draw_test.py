@@ -3,7 +3,8 @@
 import itertools
 import json
 import math
-import os
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -94,34 +95,93 @@ class Draw(unittest.TestCase):
         data = {"curves": [curve(f"method {i}") for i in range(20)]}
         legend = draw.figure(data, ["xy", "xz"]).legends[0]
         names = [text.get_text() for text in legend.get_texts()]
-        self.assertEqual(names[-2:], ["method 10", "and 9 more"])
+        self.assertEqual(names[-2:], ["method 10", "and 11 more"])
 
     def test_colours_are_those_of_the_data_or_of_the_order(self):
-        data = data_of("one", "two")
-        data["curves"][2].update(color="#123456", dash=2)
+        data = data_of("one", "two", "three")
+        data["curves"][2].update(color="#123456", dash=1)
+        data["curves"][3].update(style=4)
         lines = draw.figure(data, ["error by time"]).axes[0].lines
-        self.assertEqual([line.get_color() for line in lines], [panels.COLORS[0], "#123456"])
-        self.assertEqual([line.get_linestyle() for line in lines], ["-", "--"])
+        expected = [panels.COLORS[0], "#123456", panels.COLORS[4]]
+        self.assertEqual([line.get_color() for line in lines], expected)
+        self.assertEqual([line.get_linestyle() for line in lines], ["-", "-", "--"])
+
+    def test_colours_are_those_of_the_report(self):
+        header = Path(__file__).parents[2] / "harness/report/style.hpp"
+        self.assertEqual(re.findall('"(#[0-9a-f]{6})"', header.read_text()), [*panels.COLORS])
+
+    def test_style_sheets_and_settings_of_the_user_win(self):
+        line = lambda **options: draw.figure(data_of("one"), ["error by time"], **options).axes[0]
+        with tempfile.TemporaryDirectory() as folder:
+            sheet = Path(folder) / "paper.mplstyle"
+            sheet.write_text("font.family: serif\nfont.size: 6\naxes.prop_cycle: cycler(color=['k'])")
+            with matplotlib.rc_context({"lines.linewidth": 3.0}):
+                axes = line(style=[str(sheet)])
+            self.assertEqual((axes.lines[0].get_color(), axes.lines[0].get_linewidth()), ("k", 3.0))
+            self.assertEqual((axes.xaxis.label.get_family(), axes.xaxis.label.get_size()),
+                             (["serif"], 6.0))
+            self.assertEqual(line(style=[str(sheet)], font=9).xaxis.label.get_size(), 9.0)
+        with self.assertRaises(OSError):
+            line(style=["no_such_style"])
+
+    def test_the_plane_is_that_of_the_largest_extent(self):
+        data = data_of("one")
+        for each in data["curves"]:  # camera axes
+            each["y"], each["z"] = [0.01 * x for x in each["x"]], each["y"]
+        for plane, labels in ((None, "xzxzy"), ("yz", "yzyzx")):
+            flat, space = draw.figure(data, ["plane", "xyz"], plane=plane).axes[:2]
+            axes = (flat.xaxis, flat.yaxis, space.xaxis, space.yaxis, space.zaxis)
+            self.assertEqual("".join(axis.get_label_text()[0] for axis in axes), labels)
+            is_flat = "exaggerated" in space.get_zlabel()
+            self.assertEqual(is_flat, plane is None)
+            self.assertEqual(space.zaxis_inverted(), plane is None)  # y points down
+            limits = (space.get_xlim(), space.get_ylim(), space.get_zlim())
+            box = np.ptp(limits, axis=1) / space._box_aspect  # [m] per unit of the drawn box
+            self.assertAlmostEqual(box[0] / box[1], 1.0)
+            self.assertAlmostEqual(box[0] / box[2], 50.0 if is_flat else 1.0)
+
+    def test_lines_coloured_by_error_are_joined(self):
+        lines = draw.figure(data_of("one"), ["xy"]).axes[0].collections[0]
+        segments = np.array(lines.get_segments())
+        self.assertEqual(lines.get_capstyle(), "round")
+        np.testing.assert_array_equal(segments[1:, 0], segments[:-1, 1])
 
     def test_files_are_complete_and_equal_for_equal_data(self):
         with tempfile.TemporaryDirectory() as folder:
-            for suffix, begin in (("svg", b"<?xml"), ("pdf", b"%PDF-"), ("png", b"\x89PNG")):
+            for suffix, begin in (("svg", b"<?xml"), ("pdf", b"%PDF-"), ("png", b"\x89PNG"),
+                                  ("pgf", b"%% Creator")):
                 files = [Path(folder) / "new" / f"{i}.{suffix}" for i in range(2)]
                 for file in files:
-                    draw.save(draw.figure(data_of("it's <here>"), ["xy", "xyz"]), file)
+                    draw.save(draw.figure(data_of("it's <here>_$"), ["xy", "xyz"]), file)
                 written = files[0].read_bytes()
                 self.assertTrue(written.startswith(begin))
                 self.assertEqual(written, files[1].read_bytes(), suffix)
-            self.assertIn("it's &lt;here&gt;", (Path(folder) / "new/0.svg").read_text())
+            self.assertIn("it's &lt;here&gt;_$", (Path(folder) / "new/0.svg").read_text())
+            self.assertIn(r"it's <here>\_\$", (Path(folder) / "new/0.pgf").read_text())
+            self.compile(folder, "0.pgf")
 
-    def test_the_script_draws_the_data_that_it_writes(self):
+    def compile(self, folder, name):
+        if shutil.which("pdflatex") is None:
+            return
+        page = r"\documentclass{article}\usepackage{pgf}\begin{document}\input{%s}\end{document}"
+        line = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", page % name]
+        out = subprocess.run(line, cwd=Path(folder) / "new", stdout=subprocess.PIPE, text=True)
+        self.assertEqual(out.returncode, 0, out.stdout)
+
+    def test_the_script_draws_the_same_figure(self):
         with tempfile.TemporaryDirectory() as folder:
-            figure = {"files": ["a.json"], "panels": ["xy"], "columns": 1, "size": [3, 2], "font": 8}
+            (Path(folder) / "my.mplstyle").write_text("axes.edgecolor: blue")
+            figure = {"files": ["a.svg", "a.pdf"], "panels": ["plane"], "columns": 1,
+                      "size": [3, 2], "style": ["my.mplstyle", "ggplot"], "script": True}
             document = json.dumps([{**data_of("one"), "figures": [figure]}])
             script = [sys.executable, render.__file__]
             subprocess.run(script, input=document.encode(), cwd=folder, check=True)
-            subprocess.run([*script, "a.json"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
-            self.assertGreater(os.path.getsize(Path(folder) / "a.svg"), 1000)
+            files = [Path(folder) / name for name in ("a.svg", "a.pdf")]
+            drawn = [file.read_bytes() for file in files]
+            for file in files:
+                file.unlink()
+            subprocess.run([sys.executable, "-B", Path(folder) / "a.py"], cwd="/", check=True)
+            self.assertEqual([file.read_bytes() for file in files], drawn)
 
 
 if __name__ == "__main__":

@@ -64,11 +64,12 @@ TEST(Figures, OfATrajectoryHaveNoSpeedOfOnePose) {
   NamedTrajectory one{"turning", {}, {}};
   one.file.poses = {{1.0, {exp_so3({0.0, 0.0, 0.5}), Vector3::Zero()}},
                     {2.0, {exp_so3({0.0, 0.0, 1.0}), Vector3::UnitX()}}};
-  const FigureData two = trajectory_figure({one}, std::nullopt);
-  EXPECT_THAT(two.curves[0].columns.at("speed"), ElementsAre(1.0, 1.0));
-  EXPECT_EQ(two.figures[0].panels.back(), "speed by time");
+  const auto columns = [&] {
+    return trajectory_figure({one}, std::nullopt, usual_trajectory_panels(), {}).curves[0].columns;
+  };
+  EXPECT_THAT(columns().at("speed"), ElementsAre(1.0, 1.0));
   one.file.poses.resize(1);
-  EXPECT_EQ(trajectory_figure({one}, std::nullopt).figures[0].panels.back(), "yaw by time");
+  EXPECT_FALSE(columns().contains("speed"));
 }
 
 std::vector<EvaluationResult> results(const std::vector<FilePair>& files,
@@ -93,7 +94,7 @@ TEST(Figures, NamesAreTheShortestThatDiffer) {
   const auto all = drawn_sequences(results(files, {}), labelled_runs(files, ""));
   ASSERT_THAT(all, SizeIs(1));
   EXPECT_THAT(names(all[0]), ElementsAre("ba", "rp"));
-  EXPECT_STRNE(all[0].drawn[0].estimate.style.color, all[0].drawn[1].estimate.style.color);
+  EXPECT_NE(all[0].drawn[0].estimate.style, all[0].drawn[1].estimate.style);
   const std::vector<FilePair> unusual{{"t.csv", "x/a/e.txt"}, {"t.csv", "y/a/e.txt"}};
   EXPECT_THAT(names(drawn_sequences(results(unusual, {}), labelled_runs(unusual, ""))[0]),
               ElementsAre("x/a/e.txt", "y/a/e.txt"));
@@ -118,8 +119,8 @@ TEST(Figures, ManyRunsAreRepresentedByTheMedianOfEachMethod) {
   EXPECT_THAT(names(all[1]), ElementsAre("ba 0 (median)", "rp 0 (median)"));
   EXPECT_EQ(all[1].note, "8 of 10 estimates are not drawn (chosen by ATE)");
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_STREQ(all[0].drawn[i].estimate.style.color, all[1].drawn[i].estimate.style.color);
-    EXPECT_EQ(all[0].drawn[i].estimate.style.dash, 1);
+    EXPECT_EQ(all[0].drawn[i].estimate.style, all[1].drawn[i].estimate.style);
+    EXPECT_EQ(all[0].drawn[i].estimate.dash, 0);
   }
 }
 
@@ -152,6 +153,48 @@ TEST(Figures, EvalFiguresAreOneColumnWideUnlessASizeIsGiven) {
   EXPECT_THAT(svg("b_errors.svg"), HasSubstr("width=\"432pt\""));
   EXPECT_THAT(svg("b_errors.svg"), HasSubstr("font: 9px"));
   EXPECT_EQ(loopbench_command(eval + "--size 2,1.5", folder).exit_code, 2);
+}
+
+TEST(Figures, EvalStatesSequenceAlignmentAndScoreAndTakesLabels) {
+  if (!has_matplotlib()) GTEST_SKIP() << "needs python3-matplotlib";
+  const TemporaryFolder folder;
+  write_tum(folder.path() / "gt.txt", path(0.0, 50.0));
+  write_tum(folder.path() / "a_long_name.txt", path(5.0, 50.0, 0.1));
+  write_tum(folder.path() / "other_name.txt", path(5.0, 50.0, 0.2));
+  const std::string eval = "eval gt.txt a_long_name.txt other_name.txt --align none --plot ";
+  const CommandResult drawn = loopbench_command(eval + "f/p.svg --labels A,B_1", folder);
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  EXPECT_EQ(drawn.err, "f/p_trajectories.svg\nf/p_errors.svg\nf/p_axes.svg\n");
+  const std::string svg = read_all(folder.path() / "f/p_trajectories.svg");
+  EXPECT_THAT(svg, HasSubstr(">gt, no alignment (ATE as RMSE)<"));
+  EXPECT_THAT(svg, HasSubstr(">A (0.0692 m)<"));
+  EXPECT_THAT(svg, HasSubstr(">B_1 (0.138 m)<"));
+  EXPECT_THAT(loopbench_command(eval + "p --labels A", folder).err,
+              HasSubstr("--labels: expected 2 for a_long_name, other_name, found 1"));
+}
+
+TEST(Figures, TrajPlotHasShortNamesAndDrawsThePlaneOfCameraAxes) {
+  if (!has_matplotlib()) GTEST_SKIP() << "needs python3-matplotlib";
+  const TemporaryFolder folder;
+  Trajectory poses = path(0.0, 50.0);
+  for (StampedPose& pose : poses) pose.world_from_body.translation.z() = pose.stamp;
+  std::filesystem::create_directories(folder.path() / "runs");
+  write_tum(folder.path() / "runs/first.txt", poses);
+  const std::string plot = "traj plot runs/first.txt --panels plane --columns 1 ";
+  const auto axes = [&](const std::string& options) {
+    const CommandResult result = loopbench_command(plot + "-o f.svg " + options, folder);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::string svg = read_all(folder.path() / "f.svg");
+    EXPECT_THAT(svg, HasSubstr(options.empty() ? ">first<" : ">Mine<"));
+    std::string out;
+    for (const char* const name : {"x", "y", "z"}) {
+      if (svg.find(std::string(">") + name + " [m]<") != std::string::npos) out += name;
+    }
+    return out;
+  };
+  EXPECT_EQ(axes(""), "xz");
+  EXPECT_EQ(axes("--plane yz --labels Mine"), "yz");
+  EXPECT_THAT(loopbench_command(plot + "-o f.txt", folder).err, HasSubstr(".png or .pgf"));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "harness/report/html.hpp"
 #include "harness/report/packed.hpp"
 #include "harness/report/store_figures.hpp"
+#include "harness/report/style.hpp"
 #include "harness/store/store.hpp"
 #include "tests/support/run_here.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -149,8 +150,8 @@ TEST_F(OfASweep, MethodsHaveTheStylesAndTheChoiceOfPlot) {
     if (curve.name == "reference") continue;
     const auto m = static_cast<std::size_t>(std::ranges::find(content.methods, curve.name) -
                                             content.methods.begin());
-    EXPECT_EQ(scores["styles"][m]["color"], curve.style.color) << curve.name;
-    EXPECT_EQ(scores["styles"][m]["dash"], curve.style.dash) << curve.name;
+    EXPECT_EQ(scores["styles"][m]["color"], curve_style(curve.style).color) << curve.name;
+    EXPECT_EQ(scores["styles"][m]["dash"], curve_style(curve.style).dash) << curve.name;
   }
   EXPECT_EQ(style_order(content).front(), "straight");  // the baseline
 }

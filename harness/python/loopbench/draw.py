@@ -3,33 +3,45 @@
 Data are curves with columns of equal length::
 
     {"title": "room", "note": "", "curves": [
-        {"name": "reference", "color": "#9aa1ab", "x": [...], "y": [...], "z": [...]},
+        {"name": "reference", "x": [...], "y": [...], "z": [...]},
         {"name": "dual", "x": [...], "distance": [...], "error_x": [...], ...}]}
 
 Columns: time [s], distance [m], x, y, z [m], roll, pitch, yaw [deg], speed [m/s]; error, error_x,
 error_y, error_z [m] and angle [deg] are errors; sorted_errors are the position errors of all poses,
-for histograms. Colours and dashes (1 to 5) are optional. `loopbench plot STORE --format json`
-writes such data as the first entry of a list::
+for histograms. A curve can have a style (an index of colour and dash), a color and a dash (1 to 5)
+of its own. `loopbench plot STORE --script` writes such data, and the lines that draw them::
 
-    from loopbench import draw
-    data = json.load(open("figures/01_room_errors.json"))[0]
-    fig = draw.figure(data, ["error_x by distance"], size=(3.3, 2.0))
+    data = json.load(open("figures/01_room_errors.json"))
+    fig = draw.figure(data, ["error_x by distance"], size=(3.3, 2.0), style=["paper.mplstyle"])
     fig.axes[0].set_title("mine")
     draw.save(fig, "mine.pdf")
+
+Colours, fonts and lines that the user has set (matplotlibrc, rcParams) are kept.
 """
 
 from __future__ import annotations
 
 import io
 import os
+import shutil
+import textwrap
 import warnings
 from pathlib import Path
 from typing import Any, Mapping, Sequence
+from unittest import mock
 
 import matplotlib
+import matplotlib.style
+from cycler import cycler
+from matplotlib import rcParams, rcParamsDefault
+from matplotlib.backends import backend_pgf
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.font_manager import font_scalings
 from matplotlib.lines import Line2D
+from matplotlib.text import Text
+from matplotlib.textpath import TextToPath
+from matplotlib.ticker import MaxNLocator
 
 from . import panels as parts
 
@@ -38,7 +50,10 @@ _RC = {
     "svg.fonttype": "none",
     "svg.hashsalt": "loopbench",
     "pdf.fonttype": 42,
-    "text.parse_math": False,
+    "pgf.texsystem": "pdflatex",
+    "pgf.rcfonts": False,
+    "axes.prop_cycle": cycler(color=parts.COLORS),
+    "image.cmap": parts.ERROR_COLORS.name,
     "axes.edgecolor": "#666666",
     "axes.grid": True,
     "axes.axisbelow": True,
@@ -50,17 +65,38 @@ _RC = {
     "figure.facecolor": "white",
     "legend.frameon": False,
 }
+_SIZES = ("axes.labelsize", "xtick.labelsize", "ytick.labelsize", "legend.fontsize")
 
 
-def _rc(font: float) -> dict[str, Any]:
-    ticks = {f"{axis}tick.major.{key}": 0.3 * font for axis in "xy" for key in ("size", "pad")}
-    return {
-        **_RC,
-        **ticks,
-        **dict.fromkeys((f"{axis}tick.labelsize" for axis in "xy"), font),
-        **dict.fromkeys(("font.size", "axes.labelsize", "legend.fontsize"), font),
-        "axes.labelpad": 0.25 * font,
-    }
+class DrawnFigure(Figure):
+    """A figure with the settings to save it."""
+
+    settings: dict[str, Any]
+
+
+def _settings(font: float | None, style: Sequence[str]) -> dict[str, Any]:
+    """Own settings, below what the user has set, below style sheets, below `font`."""
+    size = font or 8.0
+    ticks = {f"{axis}tick.major.{key}": 0.3 * size for axis in "xy" for key in ("size", "pad")}
+    lengths = {"font.size": size, "axes.labelpad": 0.25 * size}
+    lines = {"lines.linewidth": 0.12 * size, "lines.markersize": 0.4 * size}
+    own = {**_RC, **ticks, **lengths, **lines}
+    own = {key: value for key, value in own.items() if rcParams[key] == rcParamsDefault[key]}
+    with matplotlib.rc_context(own), matplotlib.style.context(list(style)):
+        if font is not None:
+            rcParams.update(dict.fromkeys(("font.size", *_SIZES), font))
+        out = dict(rcParams.copy())
+    out.pop("backend", None)
+    return out
+
+
+def _largest_font() -> float:
+    """Of the texts of a figure [pt]."""
+    size = rcParams["font.size"]
+    return max(
+        size * font_scalings[each] if isinstance(each, str) else each
+        for each in (size, *(rcParams[key] for key in _SIZES))
+    )
 
 
 def _shortened(text: str, most: int) -> str:
@@ -77,14 +113,16 @@ def _legend_entries(data: Mapping[str, Any], panels: Sequence[str]) -> list[tupl
         look = parts.style(curve, index)
         index += curve.get("name") != "reference"
         if curve.get("name") and any(parts.is_drawn(curve, panel) for panel in panels):
-            entries.setdefault(curve["name"], Line2D([], [], **look))
+            score = f" ({curve['rmse']:.3g} m)" if "rmse" in curve else ""
+            entries.setdefault(curve["name"] + score, Line2D([], [], **look))
     colored = parts.colored_curve(data)
-    if any(map(parts.is_map, panels)) and colored is not None:
-        color = parts.style(colored, 0)["color"]
-        entries[colored["name"]].set_color(parts.ERROR_COLORS(0.5))
-        mark = {"color": color, "linestyle": ""}
-        entries["start"] = Line2D([], [], marker="o", fillstyle="none", **mark)
-        entries["end"] = Line2D([], [], marker="s", **mark)
+    maps = [panel for panel in panels if parts.is_map(panel)]
+    if maps and colored is not None:
+        estimate = [*entries.values()][-1]
+        estimate.set(color=matplotlib.colormaps[rcParams["image.cmap"]](0.5), linestyle="-")
+    if maps and parts.ends(data, maps[0]):
+        entries["start"] = Line2D([], [], **parts.START)
+        entries["end"] = Line2D([], [], **parts.END)
     return [(handle, name) for name, handle in entries.items()]
 
 
@@ -114,6 +152,8 @@ def _add_legend(fig: Figure, entries: list[tuple[Any, str]], top: float, font: f
             columnspacing=1.2,
             labelspacing=0.35,
         )
+        for text in legend.get_texts():
+            text.set_parse_math(False)
         box = legend.get_window_extent(fig.canvas.get_renderer())
         if box.width <= width * fig.dpi or columns == 1:
             return float(box.height / fig.dpi) + 0.3 * font / 72.0
@@ -126,10 +166,11 @@ def _add_color_bar(fig: Figure, data: Mapping[str, Any], em: float) -> None:
     width, height = fig.get_size_inches()
     axes = fig.add_axes((0.2, 3.2 * em / height, 0.6, 0.7 * em / height))
     scale = matplotlib.colors.Normalize(0.0, largest)
-    colors = matplotlib.cm.ScalarMappable(scale, parts.ERROR_COLORS)
+    colors = matplotlib.cm.ScalarMappable(scale)
     bar = fig.colorbar(colors, cax=axes, orientation="horizontal", label=parts.LABELS["error"])
-    bar.set_ticks([0.25 * largest * i for i in range(5)])
-    bar.ax.xaxis.set_major_formatter("{x:.3g}")
+    bar.locator = MaxNLocator(4)
+    bar.update_ticks()
+    bar.solids.set(rasterized=False, edgecolor="face")
     bar.ax.grid(False)
 
 
@@ -140,13 +181,14 @@ def _add_panel(
     page = [*fig.get_size_inches()] * 2
     font = 72.0 * em
     left, bottom, right, top = (5.9 * em, 3.6 * em, 1.4 * em, 0.7 * em)
-    if panel == "xyz":
+    is_space = parts.is_map(panel) and len(panel) == 3
+    if is_space:
         left, bottom, right, top = (1.4 * em, 2.0 * em, 4.2 * em, 0.0)
     size = (max(0.1, box[2] - left - right), max(0.1, box[3] - bottom - top))
     frame = (box[0] + left, box[1] + bottom, *size)
     place = [length / whole for length, whole in zip(frame, page)]
-    axes = fig.add_axes(place, projection="3d" if panel == "xyz" else None)
-    if panel == "xyz":
+    axes = fig.add_axes(place, projection="3d" if is_space else None)
+    if is_space:
         for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
             # matplotlib adds 21 and 8 pt, for any size of the font
             axis.labelpad = (2.1 if axis is axes.zaxis else 2.3) * font - 21.0
@@ -164,36 +206,47 @@ def figure(
     panels: Sequence[str],
     columns: int = 2,
     size: Sequence[float] = (3.5, 2.8),
-    font: float = 8.0,
-) -> Figure:
+    font: float | None = None,
+    style: Sequence[str] = (),
+    plane: str | None = None,
+) -> DrawnFigure:
     """Panels row by row with one legend above and, for a single estimate, a colour bar below them.
 
-    panels: "xy", "xz", "yz", "xyz" (space), "COLUMN by time", "COLUMN by distance", "histogram".
-    size: width and height of a panel [in]; font: [pt].
+    panels: "plane", "xy", "xz", "yz", "xyz" (space), "COLUMN by time", "COLUMN by distance",
+    "histogram". size: width and height of a panel [in]; font: [pt], default: that of the style
+    sheets or 8. style: style sheets of matplotlib, files or names. plane: that of "plane", which is
+    horizontal in "xyz" (default: the one of the largest extent).
     """
+    plane = plane or parts.largest_plane(data)
+    space = plane + min(set("xyz") - set(plane))
+    panels = [{"plane": plane, "xyz": space}.get(panel, panel) for panel in panels]
+    drawn = [panel for panel in panels if any(parts.is_drawn(c, panel) for c in data["curves"])]
+    panels = drawn or panels  # a file of positions has no angles, one pose no speed
     columns = min(columns, len(panels))
     rows = -(-len(panels) // columns)
-    em = font / 72.0
-    has_maps = any(parts.is_map(each) for each in panels)
-    bar = 4.4 * em if has_maps and parts.colored_curve(data) is not None else 0.0
-    with matplotlib.rc_context(_rc(font)):
-        fig = Figure(figsize=(size[0] * columns, 10.0))
+    settings = _settings(font, style)
+    with matplotlib.rc_context(settings):
+        font = _largest_font()
+        em = font / 72.0
+        has_maps = any(parts.is_map(each) for each in panels)
+        bar = 4.4 * em if has_maps and parts.colored_curve(data) is not None else 0.0
+        fig = DrawnFigure(figsize=(size[0] * columns, 10.0))
+        fig.settings = settings
         FigureCanvasAgg(fig)
-        title, note = data.get("title", ""), data.get("note", "")
+        most = int(fig.get_figwidth() / (0.52 * em))
+        texts = [data.get("title", ""), data.get("note", "")]
+        lines = [line for text in texts for line in textwrap.wrap(text, most)]
         head = _add_legend(fig, _legend_entries(data, panels), 10.0, font)
-        height = bar + size[1] * rows + head + 1.6 * em * (bool(title) + bool(note))
+        height = bar + size[1] * rows + head + 1.6 * em * len(lines)
         fig.set_figheight(height)
         top = height
-        if title:
-            most = int(fig.get_figwidth() / (0.58 * em))
-            fig.text(0.5, (top - 1.3 * em) / height, _shortened(title, most), ha="center")
+        for line in lines:
+            place = (0.4 * em / fig.get_figwidth(), (top - 1.3 * em) / height)
+            fig.text(*place, line, parse_math=False)
             top -= 1.6 * em
         for legend in fig.legends:
             legend.set_bbox_to_anchor((0.0, top / height))
         top -= head
-        if note:
-            fig.text(em / fig.get_figwidth(), (top - 1.1 * em) / height, note)
-            top -= 1.6 * em
         for i, panel in enumerate(panels):
             box = (size[0] * (i % columns), top - size[1] * (1 + i // columns), size[0], size[1])
             _add_panel(fig, data, panel, box, em)
@@ -202,15 +255,51 @@ def figure(
     return fig
 
 
+_LATEX = str.maketrans(
+    {
+        **{character: "\\" + character for character in "&%$#_{}"},
+        "\\": r"\textbackslash{}",
+        "^": r"\textasciicircum{}",
+        "~": r"\textasciitilde{}",
+    }
+)
+
+
+def _pgf(fig: Figure) -> bytes:
+    """Without LaTeX on this machine, texts are measured in matplotlib's font instead of LaTeX's."""
+    literal = {each: each.get_text() for each in fig.findobj(Text) if not each.get_parse_math()}
+    originals = {text.translate(_LATEX): text for text in literal.values()}
+
+    def size_without_latex(renderer: Any, text: str, font: Any, ismath: Any) -> tuple[float, ...]:
+        text = originals.get(text, text)
+        size = TextToPath().get_text_width_height_descent(text, font, bool(ismath))
+        return tuple(length * renderer.dpi / 72.0 for length in size)
+
+    name = "get_text_width_height_descent"
+    has_latex = shutil.which(rcParams["pgf.texsystem"]) is not None
+    size = getattr(backend_pgf.RendererPgf, name) if has_latex else size_without_latex
+    out = io.BytesIO()
+    with mock.patch.object(backend_pgf.RendererPgf, name, size):
+        for each, text in literal.items():
+            each.set_text(text.translate(_LATEX))
+        fig.savefig(out, format="pgf")
+    for each, text in literal.items():
+        each.set_text(text)
+    return out.getvalue()
+
+
 def image(fig: Figure, suffix: str) -> bytes:
-    """The figure as a file of this type (svg, pdf or png); equal figures have equal bytes."""
+    """The figure as a file of this type: svg, pdf, png or pgf. Equal figures have equal bytes."""
     out = io.BytesIO()
     # 300 dots per inch, as journals require, unless the page is wider than one of a journal.
     dots = min(300.0, max(150.0, 3000.0 / fig.get_figwidth()))
     dates = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
     fast = {"pil_kwargs": {"compress_level": 3}} if suffix == "png" else {}
-    with matplotlib.rc_context(_RC), warnings.catch_warnings():
+    settings = getattr(fig, "settings", None) or _settings(None, ())
+    with matplotlib.rc_context(settings), warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Glyph .* missing")
+        if suffix == "pgf":
+            return _pgf(fig)
         fig.savefig(out, format=suffix, dpi=dots, metadata=dates.get(suffix), **fast)
     return out.getvalue()
 
@@ -229,5 +318,5 @@ def replace_file(file: str | os.PathLike[str], content: bytes) -> None:
 
 
 def save(fig: Figure, file: str | os.PathLike[str]) -> None:
-    """Writes SVG, PDF or PNG, by the file's suffix."""
+    """Writes SVG, PDF, PNG or PGF, by the file's suffix."""
     replace_file(file, image(fig, Path(file).suffix[1:]))

@@ -5,26 +5,31 @@ from __future__ import annotations
 import math
 from typing import Any, Iterable, Mapping, Sequence
 
-import matplotlib
 import numpy as np
 import numpy.typing as npt
+from matplotlib import colormaps, rcParams
 from matplotlib.collections import LineCollection
-from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.colors import ListedColormap
 from matplotlib.ticker import MaxNLocator, MultipleLocator
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
 Curve = Mapping[str, Any]
 
-REFERENCE_COLOR = "#9aa1ab"
+# Distinguishable with normal, deuteranopic and protanopic sight; the same as in report/style.hpp.
 COLORS = (
-    "#d93025", "#0b6fd3", "#0f9d58", "#e8710a", "#7b3ff2",
-    "#00a3a3", "#c2185b", "#b58900", "#4a5bd4", "#8d5524",
+    "#cc4c02", "#0068b0", "#2aa59a", "#7d1d6f", "#efb400", "#7fb8ec", "#5c3a14", "#f2a0c0",
 )  # fmt: skip
 DASHES: tuple[Any, ...] = (
-    "-", (0, (5, 2)), (0, (1, 1.5)), (0, (5, 1.5, 1, 1.5)), (0, (5, 1.5, 1, 1.5, 1, 1.5))
+    "-", (0, (6, 1.5)), (0, (5, 1.2, 1.2, 1.2)), (0, (2.5, 1)), (0, (7, 1.2, 1.2, 1.2, 1.2, 1.2))
 )  # fmt: skip
-LINE_WIDTH = 1.4  # [pt] at a font size of 10 pt
-ERROR_COLORS = LinearSegmentedColormap.from_list("error", ("#2c7bb6", "#ffd24d", "#d7191c"))
+# Thin and dark, above wider and lighter lines of estimates, so that neither hides the other.
+REFERENCE = {"color": "#202020", "linestyle": (0, (4, 2)), "zorder": 2.3}
+START = {"marker": "o", "fillstyle": "none", "linestyle": "", "color": "#202020"}
+END = {"marker": "s", "linestyle": "", "color": "#202020"}
+# From dark to light for every kind of sight; without the yellow that is invisible on white.
+ERROR_COLORS = ListedColormap(colormaps["plasma"](np.linspace(0.0, 0.86, 256)), "loopbench_error")
+if ERROR_COLORS.name not in colormaps:
+    colormaps.register(ERROR_COLORS)
 LABELS = {
     "time": "time [s]",
     "distance": "distance [m]",
@@ -46,16 +51,28 @@ _MOST_COLORED = 1000  # segments of a line whose colour is the error
 
 
 def is_map(panel: str) -> bool:
-    return panel in ("xy", "xz", "yz", "xyz")
+    return set(panel) <= set("xyz")
+
+
+def largest_plane(data: Mapping[str, Any]) -> str:
+    """The plane of the largest extent of the reference, or of all curves without a reference."""
+    curves = [each for each in data["curves"] if is_drawn(each, "xyz")]
+    curves = [each for each in curves if each.get("name") == "reference"] or curves
+    extents = [high - low for low, high in (_bounds(curves, name) for name in "xyz")]
+    return min(("xy", "xz", "yz"), key=lambda plane: extents[3 - sum(map("xyz".index, plane))])
 
 
 def style(curve: Curve, index: int) -> dict[str, Any]:
-    """Colour and dash of a curve: its own, or those of its index."""
-    own = REFERENCE_COLOR if curve.get("name") == "reference" else COLORS[index % len(COLORS)]
-    color = curve.get("color", own)
-    dash = curve.get("dash", 1 + index // len(COLORS) % len(DASHES))
-    width = LINE_WIDTH * matplotlib.rcParams["font.size"] / 10.0
-    return {"color": color, "linestyle": DASHES[dash - 1], "linewidth": width}
+    """Colour, dash and width of a curve: its own, or those of its style or else of its index."""
+    width = rcParams["lines.linewidth"]
+    if curve.get("name") == "reference":
+        return {**REFERENCE, "linewidth": 0.55 * width}
+    number = curve.get("style", index)
+    cycle = rcParams["axes.prop_cycle"].by_key()
+    colors, dashes = cycle.get("color", COLORS), cycle.get("linestyle", DASHES)
+    color = curve.get("color", colors[number % len(colors)])
+    dash = dashes[(curve.get("dash", number + 1) - 1) % len(dashes)]
+    return {"color": color, "linestyle": dash, "linewidth": width}
 
 
 def column(curve: Curve, name: str) -> npt.NDArray[np.float64]:
@@ -76,6 +93,15 @@ def colored_curve(data: Mapping[str, Any]) -> Curve | None:
     return estimates[0] if len(estimates) == 1 and "error" in estimates[0] else None
 
 
+def ends(data: Mapping[str, Any], panel: str) -> list[list[list[float]]]:
+    """First and last point of the coloured estimate or of the first curve, usually the reference."""
+    curves = [colored_curve(data), *data["curves"]]
+    for curve in curves:
+        if curve is not None and is_drawn(curve, panel) and len(curve[panel[0]]) > 0:
+            return [[[curve[name][row]] for name in panel] for row in (0, -1)]
+    return []
+
+
 def _round_step(step: float) -> float:
     """The largest of 1, 2 and 5 times a power of ten that is at most `step`."""
     power = 10.0 ** math.floor(math.log10(step))
@@ -90,7 +116,7 @@ def _bounds(curves: Iterable[Curve], name: str) -> tuple[float, float]:
 
 def _fitting_step(step: float, limits: Sequence[float], scale: float) -> float:
     """`step` or the next 1, 2 or 5 times a power of ten whose labels do not touch."""
-    em = scale * matplotlib.rcParams["font.size"] / 72.0  # [m]
+    em = scale * rcParams["font.size"] / 72.0  # [m]
     while step < limits[1] - limits[0]:
         ticks = step * np.arange(math.ceil(limits[0] / step), math.floor(limits[1] / step) + 1)
         if max((len(f"{tick:.6g}") for tick in ticks), default=0) * 0.66 * em + 0.6 * em <= step:
@@ -126,22 +152,23 @@ def _inner_ticks(low: float, high: float, is_small: bool) -> npt.NDArray[np.floa
         step = _round_step(0.55 * step)
 
 
-def _spatial_scales(axes: Any, curves: Sequence[Curve], size: Sequence[float]) -> None:
-    """Equal scales of x and y; that of z fills the cube."""
-    is_small = min(size) < 20.0 * matplotlib.rcParams["font.size"] / 72.0
-    bounds = [_bounds(curves, name) for name in "xyz"]
-    longest = max(bounds[0][1] - bounds[0][0], bounds[1][1] - bounds[1][0]) or 1.0
-    for (low, high), name in zip(bounds[:2], "xy"):
-        middle = 0.5 * (low + high)
-        low, high = middle - 0.54 * longest, middle + 0.54 * longest
-        getattr(axes, f"set_{name}lim")(low, high)
-        getattr(axes, f"set_{name}ticks")(_inner_ticks(low, high, is_small))
-    low, high = bounds[2]
-    if not high - low > 1e-9 * longest:
-        low, high = low - 1.0, high + 1.0
-    axes.set_zlim(low, high)
-    axes.set_zticks(_inner_ticks(low, high, is_small))
-    axes.set_box_aspect((1.0, 1.0, 0.62), zoom=1.05)
+def _spatial_scales(axes: Any, curves: Sequence[Curve], order: str, size: Sequence[float]) -> None:
+    """Equal scales, but a flat trajectory is exaggerated along its normal, as the label states."""
+    is_small = min(size) < 20.0 * rcParams["font.size"] / 72.0
+    bounds = [_bounds(curves, name) for name in order]
+    longest = max(high - low for low, high in bounds) or 1.0
+    flat = (bounds[2][1] - bounds[2][0]) / longest
+    factor = _round_step(0.6 / flat) if 1e-9 < flat < 0.15 else 1.0
+    box = (1.0, 1.0, max(0.62, min(1.0, 1.08 * flat)))
+    for (low, high), name, side, scale in zip(bounds, "xyz", box, (1.0, 1.0, factor)):
+        middle, half = 0.5 * (low + high), 0.54 * longest * side / scale
+        getattr(axes, f"set_{name}lim")(middle - half, middle + half)
+        getattr(axes, f"set_{name}ticks")(_inner_ticks(middle - half, middle + half, is_small))
+    if order == "xzy":  # x, z and -y are right-handed: y points down in camera axes
+        axes.invert_zaxis()
+    if factor != 1.0:
+        axes.set_zlabel(f"{LABELS[order[2]]}, exaggerated {factor:g}$\\times$")
+    axes.set_box_aspect(box, zoom=1.05)
     axes.view_init(elev=28, azim=-55)
     axes.computed_zorder = False  # later curves cover earlier ones, as in planes
 
@@ -152,7 +179,8 @@ def _add_colored(axes: Any, points: npt.NDArray[np.float64], errors: Any, width:
     segments = np.stack([points[rows[:-1]], points[rows[1:]]], axis=1)
     largest = float(np.max(errors, initial=0.0)) or 1.0
     kind = Line3DCollection if points.shape[1] == 3 else LineCollection
-    lines = kind(segments, cmap=ERROR_COLORS, linewidths=1.4 * width, capstyle="round")
+    lines = kind(segments, cmap=rcParams["image.cmap"], linewidths=1.4 * width)
+    lines.set_capstyle("round")  # without it, segments at an angle have gaps
     lines.set_array(np.maximum(errors[rows[:-1]], errors[rows[1:]]))
     lines.set_clim(0.0, largest)
     lines.set_zorder(2.1)
@@ -160,7 +188,7 @@ def _add_colored(axes: Any, points: npt.NDArray[np.float64], errors: Any, width:
 
 
 def draw_map(axes: Any, data: Mapping[str, Any], panel: str, size: Sequence[float]) -> None:
-    """Positions in a plane or, for "xyz", in space. `size`: of the frame [in]."""
+    """Positions along the named axes: two, or three for space. `size`: of the frame [in]."""
     curves = [each for each in data["curves"] if is_drawn(each, panel)]
     colored = colored_curve(data)
     index = 0
@@ -173,23 +201,21 @@ def draw_map(axes: Any, data: Mapping[str, Any], panel: str, size: Sequence[floa
             _add_colored(axes, points, column(curve, "error"), look["linewidth"])
         else:
             axes.plot(*points.T, **look)
-        if not is_reference and len(points) > 0:
-            mark = {"color": look["color"], "markersize": 2.5 * look["linewidth"], "zorder": 2.2}
-            axes.plot(*points[:1].T, marker="o", fillstyle="none", linestyle="", **mark)
-            axes.plot(*points[-1:].T, marker="s", linestyle="", **mark)
-    axes.set_xlabel(LABELS[panel[0]])
-    axes.set_ylabel(LABELS[panel[1]])
+    for name, axis in zip(panel, "xyz"):
+        getattr(axes, f"set_{axis}label")(LABELS[name])
+    for points, look in zip(ends(data, panel), (START, END)):
+        axes.plot(*points, zorder=2.4, **look)
     if len(panel) == 3:
-        axes.set_zlabel(LABELS["z"])
-        _spatial_scales(axes, curves, size)
+        _spatial_scales(axes, curves, panel, size)
     else:
         _equal_scales(axes, curves, panel, size)
 
 
 def _few_ticks(axes: Any, size: Sequence[float], font: float) -> None:
     em = font / 72.0
-    axes.xaxis.set_major_locator(MaxNLocator(max(2, min(8, int(size[0] / (5 * em))))))
-    axes.yaxis.set_major_locator(MaxNLocator(max(2, min(6, int(size[1] / (2 * em))))))
+    steps = [1, 2, 2.5, 5, 10]
+    axes.xaxis.set_major_locator(MaxNLocator(max(2, min(8, int(size[0] / (3.2 * em)))), steps=steps))
+    axes.yaxis.set_major_locator(MaxNLocator(max(2, min(6, int(size[1] / (2 * em)))), steps=steps))
 
 
 def broken_at_wraps(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
@@ -215,7 +241,7 @@ def draw_curves(axes: Any, data: Mapping[str, Any], panel: str, size: Sequence[f
     axes.margins(x=0.0)
     axes.set_xlabel(LABELS[along])
     axes.set_ylabel(LABELS[name])
-    _few_ticks(axes, size, matplotlib.rcParams["font.size"])
+    _few_ticks(axes, size, rcParams["font.size"])
 
 
 def draw_histogram(axes: Any, data: Mapping[str, Any], size: Sequence[float]) -> None:
@@ -235,4 +261,4 @@ def draw_histogram(axes: Any, data: Mapping[str, Any], size: Sequence[float]) ->
     axes.set_ylabel("share of poses [%]")
     axes.margins(x=0.0)
     axes.set_ylim(bottom=0.0)
-    _few_ticks(axes, size, matplotlib.rcParams["font.size"])
+    _few_ticks(axes, size, rcParams["font.size"])

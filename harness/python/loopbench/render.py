@@ -2,21 +2,24 @@
 
     python3 render.py [FILE]
 
-The document is a list of data as in `draw`, each with figures: [{files, panels, columns, size,
-font}]. Files that end in .svg, .pdf or .png are written as such; .json is a document with the data
-of the figure. Standard output is a JSON list of SVG texts: the figures without files. Exit code 2:
-a text on standard output describes the failure.
+The document is a list of data as in `draw`, each with figures: [{files, panels, script, and
+arguments of draw.figure}]. A script is written beside the files, with the data of the figure.
+Standard output is a JSON list of SVG texts: the figures without files. Exit code 2: a text on
+standard output describes the failure.
 """
 
 from __future__ import annotations
 
 import json
+import logging
 import os
 import sys
 import traceback
+from pathlib import Path
 from typing import Any
 
 _DEBIAN = "/usr/bin/python3"
+_OPTIONS = ("columns", "size", "font", "style", "plane")  # of draw.figure
 
 
 def _check_matplotlib() -> None:
@@ -33,27 +36,66 @@ def _check_matplotlib() -> None:
     sys.exit(2)
 
 
+_SCRIPT = '''"""Draws {name} from {name}.json; needs matplotlib. Edit and run it."""
+
+import json
+import sys
+from pathlib import Path
+
+sys.path.append({package!r})
+from loopbench import draw
+
+here = Path(__file__).parent
+data = json.loads((here / "{name}.json").read_text())
+# Names and texts: data["title"], data["note"], data["curves"][1]["name"]
+figure = draw.figure(
+    data,
+    {arguments},
+)
+# Panels are axes of matplotlib: figure.axes[0].set_ylim(0.0, 0.1)
+for suffix in {suffixes}:
+    draw.save(figure, here / f"{name}.{{suffix}}")
+'''
+
+
+def _write_script(data: dict[str, Any], panels: Any, options: dict[str, Any], files: Any) -> None:
+    from loopbench import draw
+
+    stem = Path(files[0]).with_suffix("")
+    options = {key: value for key, value in options.items() if value not in ([], None)}
+    values = {
+        "name": stem.name,
+        "package": str(Path(__file__).resolve().parents[1]),
+        "arguments": ",\n    ".join([repr(panels), *(f"{k}={v!r}" for k, v in options.items())]),
+        "suffixes": [Path(file).suffix[1:] for file in files],
+    }
+    draw.replace_file(f"{stem}.json", json.dumps(data).encode())
+    draw.replace_file(f"{stem}.py", _SCRIPT.format(**values).encode())
+
+
 def _draw(data: dict[str, Any], wanted: dict[str, Any]) -> str | None:
     from loopbench import draw
 
+    options = {key: value for key, value in wanted.items() if key in _OPTIONS}
+    if "style" in options:
+        is_file = os.path.isfile
+        options["style"] = [os.path.abspath(s) if is_file(s) else s for s in options["style"]]
+    fig = draw.figure(data, wanted["panels"], **options)
     files = wanted.get("files", [])
-    drawn = [each for each in files if not each.endswith(".json")]
-    fig = None
-    if drawn or not files:
-        fig = draw.figure(data, wanted["panels"], wanted["columns"], wanted["size"], wanted["font"])
     for file in files:
-        if fig is not None and file in drawn:
-            draw.save(fig, file)
-        else:
-            own = {**data, "figures": [{**wanted, "files": [file[:-5] + ".svg"]}]}
-            draw.replace_file(file, json.dumps([own]).encode())
-    return None if files or fig is None else draw.image(fig, "svg").decode()
+        draw.save(fig, file)
+    if wanted.get("script"):
+        own = {key: value for key, value in data.items() if key != "figures"}
+        _write_script(own, wanted["panels"], options, files)
+    return None if files else draw.image(fig, "svg").decode()
 
 
 def _draw_share(jobs: list[Any], first: int, step: int) -> dict[str, Any]:
     try:
         return {"drawn": {i: _draw(*jobs[i]) for i in range(first, len(jobs), step)}}
     except OSError as error:
+        if error.filename is None:  # a style sheet that matplotlib does not find
+            return {"failed": str(error)}
         return {"failed": f"{error.filename}: cannot be written: {error.strerror}"}
 
 
@@ -86,6 +128,9 @@ def main() -> None:
     sys.dont_write_bytecode = True  # the folder may be a package's
     sys.path[0] = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     _check_matplotlib()
+    seen: set[str] = set()
+    once = lambda record: not (record.msg in seen or seen.add(record.msg))  # noqa: E731
+    logging.getLogger("matplotlib.font_manager").addFilter(once)
     with open(sys.argv[1]) if len(sys.argv) > 1 else sys.stdin as document:
         jobs = [(data, wanted) for data in json.load(document) for wanted in data["figures"]]
     shares = _draw_all(jobs)

@@ -1,4 +1,4 @@
-// Top view: all methods, and two methods side by side, coloured by error.
+// The plane of the largest extent: all methods, and two methods side by side, coloured by error.
 (() => {
   "use strict";
   const R = window.R;
@@ -12,12 +12,19 @@
   };
   R.extent = extent;
 
-  const band = (group, reference, x, y) => group.append("path").attr("class", "band")
-    .attr("d", d3.line().x((i) => x(reference.x[i])).y((i) => y(reference.y[i]))(d3.range(reference.t.length)));
+  // Two axes: x and y, or x and z in camera axes.
+  const planeOf = (reference) => {
+    const size = (axis) => extent([reference[axis]]).reduce((low, high) => high - low);
+    const normal = d3.least(["z", "y", "x"], size);
+    return ["x", "y", "z"].filter((axis) => axis !== normal);
+  };
 
-  const around = (traces) => ({
-    x: { label: "x [m]", domain: R.padded(extent(traces.map((t) => t.x))) },
-    y: { label: "y [m]", domain: R.padded(extent(traces.map((t) => t.y))) },
+  const band = (group, reference, x, y, [a, b]) => group.append("path").attr("class", "band")
+    .attr("d", d3.line().x((i) => x(reference[a][i])).y((i) => y(reference[b][i]))(d3.range(reference.t.length)));
+
+  const around = (traces, [a, b]) => ({
+    x: { label: `${a} [m]`, domain: R.padded(extent(traces.map((t) => t[a]))) },
+    y: { label: `${b} [m]`, domain: R.padded(extent(traces.map((t) => t[b]))) },
   });
 
   R.follow(() => {
@@ -26,16 +33,17 @@
     const s = R.state.sequence;
     const reference = R.reference(s);
     const methods = R.shown().filter((m) => R.trace(s, m.place));
-    R.caption(host, "Top view (x, y)", R.runName(s));
+    const [a, b] = reference ? planeOf(reference) : ["x", "y"];
+    R.caption(host, `Plane of the largest extent (${a}, ${b})`, R.runName(s));
     if (!reference) return R.nothing(host, "No stored trajectories of this sequence (traces: false).");
     const traces = methods.map((m) => R.trace(s, m.place));
     R.chart(host, {
-      label: `Trajectories of ${R.scores.sequences[s]}, top view`, height: 470, equal: true, zoom: true,
-      ...around([reference, ...traces]),
+      label: `Trajectories of ${R.scores.sequences[s]}, plane ${a}, ${b}`, height: 470, equal: true, zoom: true,
+      ...around([reference, ...traces], [a, b]),
       draw: (group, x, y) => {
-        band(group, reference, x, y);
-        methods.forEach((m, i) => R.curve(group, traces[i].x, traces[i].y, x, y, m));
-        group.append("circle").attr("cx", x(reference.x[0])).attr("cy", y(reference.y[0])).attr("r", 4.5)
+        band(group, reference, x, y, [a, b]);
+        methods.forEach((m, i) => R.curve(group, traces[i][a], traces[i][b], x, y, m));
+        group.append("circle").attr("cx", x(reference[a][0])).attr("cy", y(reference[b][0])).attr("r", 4.5)
           .style("fill", "var(--ink)").append("title").text("start of the reference");
       },
     });
@@ -57,16 +65,17 @@
       const level = Math.min(kLevels - 1, Math.floor((kLevels * trace.norm[i]) / most));
       if (Number.isFinite(level)) levels[level].push(i);
     }
+    const [a, b] = planeOf(reference);
     R.chart(host, {
       label: `${title}: ${m.label} on ${R.scores.sequences[s]}, coloured by position error`, height: 440, equal: true, zoom: true, ...axes,
       draw: (group, x, y) => {
-        band(group, reference, x, y);
+        band(group, reference, x, y, [a, b]);
         levels.forEach((places, level) => group.append("path").attr("class", "curve").style("stroke-width", 3)
           .style("stroke", ramp((level + 0.5) / kLevels))
-          .attr("d", places.map((i) => `M${x(trace.x[i - 1])},${y(trace.y[i - 1])}L${x(trace.x[i])},${y(trace.y[i])}`).join("")));
+          .attr("d", places.map((i) => `M${x(trace[a][i - 1])},${y(trace[b][i - 1])}L${x(trace[a][i])},${y(trace[b][i])}`).join("")));
         for (const [from, to] of reference.closures) {
           const [i, k] = [R.placeAt(trace.t, from), R.placeAt(trace.t, to)];
-          const [x1, y1, x2, y2] = [x(trace.x[i]), y(trace.y[i]), x(trace.x[k]), y(trace.y[k])];
+          const [x1, y1, x2, y2] = [x(trace[a][i]), y(trace[b][i]), x(trace[a][k]), y(trace[b][k])];
           const loop = group.append("g").attr("class", "loop");
           loop.append("line").attr("x1", x1).attr("y1", y1).attr("x2", x2).attr("y2", y2);
           for (const [cx, cy] of [[x1, y1], [x2, y2]]) loop.append("circle").attr("cx", cx).attr("cy", cy).attr("r", 3);
@@ -86,7 +95,7 @@
     const pair = [R.methods[R.state.before], R.methods[R.state.after]];
     const traces = pair.map((m) => R.trace(s, m.place)).filter(Boolean);
     const most = d3.max(traces, (t) => d3.max(t.norm)) || 1;
-    const axes = around([reference, ...traces]);
+    const axes = around([reference, ...traces], planeOf(reference));
     coloured(before, "Before", pair[0], most, axes, reference, s);
     coloured(after, "After", pair[1], most, axes, reference, s);
     const svg = d3.select(legend).append("svg").attr("viewBox", "0 0 440 34").style("max-width", "440px").attr("role", "img").attr("aria-label", "Colours of position errors");
