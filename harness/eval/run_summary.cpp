@@ -8,7 +8,7 @@
 
 #include "harness/base/wrap.hpp"
 #include "harness/compare/compare.hpp"
-#include "harness/compare/typical_difference.hpp"
+#include "harness/compare/signed_rank.hpp"
 
 namespace loopbench::harness {
 namespace {

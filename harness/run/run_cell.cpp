@@ -100,8 +100,8 @@ std::string hash_of_curve(const Curve* curve, const Problem& problem) try {
 }
 
 /// Runs and measures the method; memory is that of the first run, measured outside the timed part.
-/// The times of a short first run are replaced by those of another run, because this process is new;
-/// its result is kept. Results of several runs that are not bit-identical are noted.
+/// The times of a short first run are replaced by those of another run, because this process is
+/// new; its result is kept. Results of several runs that are not bit-identical are noted.
 std::unique_ptr<const Curve> timed(CellResult& result,
                                    const methods::Estimator& method,
                                    const Problem& problem,
