@@ -24,7 +24,7 @@ set(order
   "datasets/rgbd/features"
   "datasets/rgbd/tracking"
   "datasets/rgbd/dense datasets/rgbd/loops datasets/rgbd/folder datasets/rgbd/render"
-  "datasets/rgbd/pack_stages datasets/rgbd/without_opencv"
+  "datasets/rgbd/without_opencv"
   "datasets/rgbd/frontend.hpp"
   "datasets/rgbd/stage_cache"
   "datasets/rgbd/frontend.cpp"

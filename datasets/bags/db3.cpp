@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
-#include <cstring>
+#include <fstream>
 #include <map>
 #include <memory>
 
-#include "datasets/bags/byte_reader.hpp"
 #include "datasets/bags/messages.hpp"
 #include "datasets/compressed/decompress.hpp"
 
@@ -38,7 +37,11 @@ std::string uri_of(const std::string& path) {
 int load_into(sqlite3* db, const OpenedFile& file) {
   auto* const bytes = static_cast<unsigned char*>(sqlite3_malloc64(file.size));
   if (bytes == nullptr) return SQLITE_NOMEM;
-  std::memcpy(bytes, BagSource(file).bytes(0, file.size).data(), file.size);
+  std::ifstream in(file.path, std::ios::binary);
+  if (!in.read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(file.size))) {
+    sqlite3_free(bytes);
+    return SQLITE_IOERR_READ;
+  }
   // SQLite rejects a database in memory that has a write-ahead log, which is a second file.
   constexpr std::size_t kWriteVersion = 18, kReadVersion = 19;
   if (file.size > kReadVersion) bytes[kWriteVersion] = bytes[kReadVersion] = 1;

@@ -49,7 +49,10 @@ const Tag& find_tag(const TextFile& file, const Line& line, std::string_view wor
     if (tag.word == word) return tag;
   }
   std::string known;
-  for (const Tag& tag : kTags) (known += known.empty() ? "" : ", ") += tag.word;
+  for (const Tag& tag : kTags) {
+    known += known.empty() ? "" : ", ";
+    known += tag.word;
+  }
   const auto format = guess(file, line);
   throw file.error(line.number,
                    "unknown tag '" + std::string(word.substr(0, 40)) +

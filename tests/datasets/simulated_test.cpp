@@ -226,9 +226,6 @@ TEST(Simulated, DefaultsDriftLikeOpenVisualOdometry) {
 TEST(Simulated, OptionsAreRefusedByRule) {
   EXPECT_EQ(refusal({{"path", std::string("moon")}}),
             "path = moon: expected one of room | office | driving | line | still | spin");
-  EXPECT_EQ(refusal({{"seed", std::int64_t{-1}}}), "seed = -1: expected 0 <= seed");
-  EXPECT_EQ(refusal({{"laps", std::int64_t{0}}}), "laps = 0: expected 1 <= laps");
-  EXPECT_EQ(refusal({{"noise.gain", -0.5}}), "noise.gain = -0.5: expected 0 <= noise.gain <= 1000");
   EXPECT_EQ(refusal({{"closures.false_share", 1.0}}),
             "closures.false_share = 1.0: expected 0 <= closures.false_share <= 0.95");
   EXPECT_EQ(refusal({{"closures.min_gap", 0.0}}),
@@ -236,7 +233,6 @@ TEST(Simulated, OptionsAreRefusedByRule) {
   EXPECT_EQ(refusal({{"keyframes", std::int64_t{5000}}}),
             "keyframes = 5000: expected keyframes <= 1468, the number of frames");
   EXPECT_EQ(refusal({{"laps", std::int64_t{1} << 40}}).substr(0, 6), "laps: ");
-  EXPECT_NE(refusal({{"keyframe", std::int64_t{5}}}).find("unknown option"), std::string::npos);
   EXPECT_EQ(refusal({{"planar", true}, {"drift.pitch_per_metre", 0.01}}),
             "drift.pitch_per_metre = 0.01: causes motion out of the plane, expected 0 with planar "
             "= true");
