@@ -32,7 +32,7 @@ struct PlotArguments {
 std::string alignment_of(const ReportContent& content) {
   const auto found = content.run.find("protocol");
   const std::string rules = found == content.run.end() ? "" : found->second;
-  const std::size_t begin = rules.find("align=");
+  const std::size_t begin = rules.find("align=", rules.find("]: "));  // after name and changes
   if (begin == std::string::npos) return "";
   const std::string how = rules.substr(begin + 6, rules.find(',', begin) - begin - 6);
   return ", " + (how == "none" ? "no" : how) + " alignment";

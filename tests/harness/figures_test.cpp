@@ -167,8 +167,8 @@ TEST(Figures, EvalStatesSequenceAlignmentAndScoreAndTakesLabels) {
   EXPECT_EQ(drawn.err, "f/p_trajectories.svg\nf/p_errors.svg\nf/p_axes.svg\n");
   const std::string svg = read_all(folder.path() / "f/p_trajectories.svg");
   EXPECT_THAT(svg, HasSubstr(">gt, no alignment (ATE as RMSE)<"));
-  EXPECT_THAT(svg, HasSubstr(">A (0.0692 m)<"));
-  EXPECT_THAT(svg, HasSubstr(">B_1 (0.138 m)<"));
+  EXPECT_THAT(svg, HasSubstr(">A (0.0707 m)<"));
+  EXPECT_THAT(svg, HasSubstr(">B_1 (0.141 m)<"));
   EXPECT_THAT(loopbench_command(eval + "p --labels A", folder).err,
               HasSubstr("--labels: expected 2 for a_long_name, other_name, found 1"));
 }
