@@ -43,14 +43,20 @@ std::string printable(std::string_view text) {
   return out;
 }
 
-std::string limited(std::string_view text, std::size_t most) {
-  if (text.size() <= most) return std::string(text);
+std::string_view beginning(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return text;
   const auto continues = [&](std::size_t at) {
     return (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80;
   };
   std::size_t kept = most;
   while (kept > 0 && most - kept < 4 && continues(kept)) --kept;
-  return fmt::format("{} ... ({} more bytes)", text.substr(0, kept), text.size() - kept);
+  return text.substr(0, kept);
+}
+
+std::string limited(std::string_view text, std::size_t most) {
+  const std::string_view kept = beginning(text, most);
+  if (kept.size() == text.size()) return std::string(text);
+  return fmt::format("{} ... ({} more bytes)", kept, text.size() - kept.size());
 }
 
 void make_printable(std::span<char> text, char& previous) {

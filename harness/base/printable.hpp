@@ -12,6 +12,9 @@ namespace loopbench::harness {
 /// UTF-8 by "\x1b", so that file names and contents cannot send terminal escape sequences.
 std::string printable(std::string_view text);
 
+/// At most `most` bytes of the text, without a part of a UTF-8 character at the end.
+std::string_view beginning(std::string_view text, std::size_t most);
+
 /// The text, or its first `most` bytes (without a part of a UTF-8 character) and the number of
 /// omitted ones.
 std::string limited(std::string_view text, std::size_t most);

@@ -136,9 +136,11 @@ void check_scores(const std::vector<metrics::Score>& scores) {
 }
 
 std::string stored_reason(std::string_view text) {
-  std::string out = printable(text);
+  const std::string_view kept = beginning(text, kLongestNote);
+  std::string out(beginning(printable(kept), kLongestNote));
   std::ranges::replace(out, '\n', ' ');
-  return limited(out, kLongestNote);
+  const std::size_t omitted = text.size() - kept.size();
+  return omitted == 0 ? out : out + fmt::format(" ... ({} more bytes)", omitted);
 }
 
 }  // namespace loopbench::harness
