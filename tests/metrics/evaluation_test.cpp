@@ -162,11 +162,6 @@ TEST(Evaluation, SaysWhatDidNotMeet) {
             "the estimate has no poses");
 }
 
-TEST(Evaluation, SaysThatTheAlignmentIsDegenerate) {
-  const Trajectory straight = at({0, 1, 2, 3});
-  EXPECT_THROW(evaluate(straight, straight, {.align = Align::se3}), std::runtime_error);
-}
-
 TEST(Evaluation, EvaluatesACurveAtItsKeyframes) {
   const Polyline curve(at({1, 2, 4}));
   const Evaluation got =

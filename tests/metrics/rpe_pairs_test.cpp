@@ -83,18 +83,5 @@ TEST(RpeAxes, AreComponentsOfTheErrorTransform) {
   }
 }
 
-TEST(RpeAxes, TheListSaysWhatTheyAre) {
-  for (const MetricEntry& entry : metrics::metrics()) {
-    if (entry.name != "rpe") continue;
-    for (const OptionInfo& option : entry.options) {
-      if (option.name != "frame") continue;
-      EXPECT_EQ(option.value, Param(std::string("body")));
-      EXPECT_NE(option.help.find("components of the error transform"), std::string::npos);
-      return;
-    }
-  }
-  FAIL() << "rpe has no option frame";
-}
-
 }  // namespace
 }  // namespace loopbench::test::rpe_pairs_test
