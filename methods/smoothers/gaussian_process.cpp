@@ -66,7 +66,7 @@ GpParameters initial_parameters(const Trajectory& measured,
   const double first = times.front();
   const double interval = (times.back() - first) / static_cast<double>(times.size() - 1);
   for (double& time : times) time = (time - first) / interval;
-  const std::vector<Rotation> rotations = attitudes(measured);
+  const std::vector<Rotation> rotations = rotations_of(measured);
   const UnrolledRotations path(rotations);
   std::vector<Vector3> unrolled;
   for (std::size_t i = 0; i < rotations.size(); ++i)

@@ -13,15 +13,15 @@ namespace {
 class PositionAndRotationCurve final : public Curve {
  public:
   PositionAndRotationCurve(std::unique_ptr<const Curve> positions,
-                           std::unique_ptr<const Curve> attitudes)
-      : positions_(std::move(positions)), attitudes_(std::move(attitudes)) {}
+                           std::unique_ptr<const Curve> rotations)
+      : positions_(std::move(positions)), rotations_(std::move(rotations)) {}
 
   double start() const override { return positions_->start(); }
   double end() const override { return positions_->end(); }
 
   using Curve::sample;
   void sample(std::span<const double> times, std::span<Pose> poses) const override {
-    attitudes_->sample(times, poses);
+    rotations_->sample(times, poses);
     std::vector<Pose> translations(times.size());
     positions_->sample(times, translations);
     for (std::size_t k = 0; k < poses.size(); ++k)
@@ -30,7 +30,7 @@ class PositionAndRotationCurve final : public Curve {
 
  private:
   std::unique_ptr<const Curve> positions_;
-  std::unique_ptr<const Curve> attitudes_;
+  std::unique_ptr<const Curve> rotations_;
 };
 
 using SolveControls = std::function<SplineControls(const Trajectory&)>;

@@ -47,7 +47,7 @@ class CubicSpline final : public Smoother {
       const SplineBasis basis(kOrder, stamps(keyframes));
       return SplineControls{basis,
                             natural_controls(basis, positions_of(keyframes)),
-                            natural_rotation_controls(basis, attitudes(keyframes))};
+                            natural_rotation_controls(basis, rotations_of(keyframes))};
     });
   }
 };
@@ -73,7 +73,7 @@ class BSplineThrough final : public Smoother {
       const auto basis = SplineBasis::for_sites(static_cast<std::size_t>(options_.order), sites);
       return SplineControls{basis,
                             interpolating_controls(basis, sites, positions_of(keyframes)),
-                            interpolating_rotation_controls(basis, sites, attitudes(keyframes))};
+                            interpolating_rotation_controls(basis, sites, rotations_of(keyframes))};
     });
   }
 

@@ -16,7 +16,7 @@ inline std::vector<Vector3> positions_of(const Trajectory& poses) {
   return out;
 }
 
-inline std::vector<Rotation> attitudes(const Trajectory& poses) {
+inline std::vector<Rotation> rotations_of(const Trajectory& poses) {
   std::vector<Rotation> out;
   out.reserve(poses.size());
   for (const StampedPose& pose : poses) out.push_back(pose.world_from_body.rotation);

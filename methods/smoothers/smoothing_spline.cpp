@@ -75,7 +75,7 @@ std::unique_ptr<const Curve> SmoothingSpline::smooth(const Problem& problem, Rep
   double lambda = options_.lambda_r.value_or(0.0);
   int rounds = 0;
   const auto rotation =
-      smoothed_rotations(attitudes(problem.keyframes), [&](const std::vector<Vector3>& flat) {
+      smoothed_rotations(rotations_of(problem.keyframes), [&](const std::vector<Vector3>& flat) {
         constexpr int kChoices = 3;
         if (!options_.lambda_r && rounds++ < kChoices) {
           lambda = select_lambda(reinsch, times, flat, options_.criterion);

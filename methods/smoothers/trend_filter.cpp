@@ -121,7 +121,7 @@ std::unique_ptr<const Curve> TrendFilter::smooth(const Problem& problem, Report&
     return rotation_choice.fit;
   };
   const double tolerance = options_.refit ? 1e-11 : 1e-2 * Trend::kTolerance;
-  const auto rotation = smoothed_rotations(attitudes(problem.keyframes), fit_points, tolerance);
+  const auto rotation = smoothed_rotations(rotations_of(problem.keyframes), fit_points, tolerance);
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i].world_from_body.rotation = rotation.path.roll(i, 0.0, rotation.fit.values[i]);
   }

@@ -1,10 +1,10 @@
 // Dynamic covariance scaling and switchable constraints with default options.
 #include <gtest/gtest.h>
 
-#include "datasets/simulated/simulated.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "tests/support/corrected.hpp"
 #include "tests/support/counts.hpp"
+#include "tests/support/simulated_drive.hpp"
 
 namespace loopbench::bounded_losses_test {
 
@@ -15,13 +15,7 @@ namespace {
 constexpr RobustLoss kBounded[] = {RobustLoss::dcs, RobustLoss::switchable};
 
 Sequence driving(std::int64_t seed, double false_share) {
-  SimulatedOptions options;
-  options.path = SimulatedPath::driving;
-  options.planar = true;
-  options.seed = seed;
-  options.closures.max = 20;
-  options.closures.false_share = false_share;
-  return load_simulated(options);
+  return test::simulated_drive({.seed = seed, .false_share = false_share});
 }
 
 /// RMS position error [m], not aligned: the first pose is exact.

@@ -1,4 +1,4 @@
-/// Acceptance figures of the design on the two TUM references of the article (design section 11).
+/// Acceptance figures of the design on the two TUM references of the article.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -48,6 +48,12 @@ std::pair<double, double> chord_deviation(const Curve& curve,
   return out;
 }
 
+void expect_near_keyframes(const Curve& curve, const Trajectory& keyframes, double tolerance) {
+  for (const StampedPose& pose : keyframes) {
+    EXPECT_TRUE(is_close(curve.at(pose.stamp), pose.world_from_body, tolerance, tolerance));
+  }
+}
+
 constexpr GaussianProcess::Prior kPriors[] = {GaussianProcess::Prior::velocity,
                                               GaussianProcess::Prior::acceleration};
 
@@ -94,9 +100,7 @@ TEST(GaussianProcess, AGapOf1000SecondsIsAChord) {
     EXPECT_LT(metres, 1e-9);
     EXPECT_LT(radians, 1e-9);
     EXPECT_GT(chord_deviation(*curve, problem.keyframes, 20).first, 1e-4);  // smooth elsewhere
-    for (const StampedPose& pose : problem.keyframes) {
-      EXPECT_TRUE(is_close(curve->at(pose.stamp), pose.world_from_body, 0.02, 0.02));
-    }
+    expect_near_keyframes(*curve, problem.keyframes, 0.02);
   }
 }
 
@@ -121,9 +125,7 @@ TEST(GaussianProcess, AcceptsAPairOneMicrosecondApart) {
     Report report;
     const auto curve = GaussianProcess({.prior = prior}).smooth(problem, report);
     EXPECT_EQ(count(report, "chords"), 1.0);
-    for (const StampedPose& pose : problem.keyframes) {
-      EXPECT_TRUE(is_close(curve->at(pose.stamp), pose.world_from_body, 0.02, 0.02));
-    }
+    expect_near_keyframes(*curve, problem.keyframes, 0.02);
   }
 }
 
@@ -155,9 +157,7 @@ void expect_one_great_arc(const Smoother& smoother) {
     curved_before += chord_deviation(*smooth, plain.keyframes, i).second > 1e-6;
   }
   EXPECT_GE(curved, curved_before - 1);
-  for (const StampedPose& pose : problem.keyframes) {
-    EXPECT_TRUE(is_close(curve->at(pose.stamp), pose.world_from_body, 1e-9, 1e-9));
-  }
+  expect_near_keyframes(*curve, problem.keyframes, 1e-9);
 }
 
 TEST(CubicSpline, AStepOf150DegreesIsOneGreatArc) { expect_one_great_arc(CubicSpline({})); }

@@ -5,11 +5,11 @@
 
 #include "datasets/derive/poses_at.hpp"
 #include "datasets/pose_graph_dataset.hpp"
-#include "datasets/simulated/simulated.hpp"
 #include "methods/correctors/plausibility.hpp"
 #include "methods/find_method.hpp"
 #include "tests/support/corrected.hpp"
 #include "tests/support/counts.hpp"
+#include "tests/support/simulated_drive.hpp"
 
 namespace loopbench::gnc_start_test {
 
@@ -32,14 +32,7 @@ Corrected corrected(const std::string& name, const Problem& problem) {
   return out;
 }
 
-Sequence drive(double false_share) {
-  SimulatedOptions options;
-  options.path = SimulatedPath::driving;
-  options.planar = true;
-  options.closures.max = 20;
-  options.closures.false_share = false_share;
-  return load_simulated(options);
-}
+Sequence drive(double false_share) { return test::simulated_drive({.false_share = false_share}); }
 
 double rmse(const Trajectory& keyframes, const Sequence& sequence) {
   const auto truth = poses_at(sequence.reference, stamps(keyframes), {});

@@ -89,6 +89,26 @@ Dense dense(const MotionModel& model, const Problem& problem) {
   return out;
 }
 
+/// Covariance of the gaps, given that of the closures.
+Eigen::MatrixXd gap_covariance(const Dense& by_hand, const std::vector<Matrix6>& closures) {
+  Eigen::MatrixXd out = by_hand.A * by_hand.S * by_hand.A.transpose();
+  for (std::size_t k = 0; k < closures.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(6 * k);
+    out.block<6, 6>(at, at) += closures[k];
+  }
+  return out;
+}
+
+/// Expected errors of the edges given the gaps: e = -S A' (A S A' + S_L)^-1 c.
+Eigen::VectorXd conditional_mean(const MotionModel& model,
+                                 const Problem& problem,
+                                 const std::vector<Matrix6>& closures) {
+  const Dense by_hand = dense(model, problem);
+  const std::vector<Twist> none(problem.odometry.size(), Twist::Zero());
+  return -by_hand.S * by_hand.A.transpose() *
+         gap_covariance(by_hand, closures).ldlt().solve(closure_errors(problem, none));
+}
+
 TEST(MotionDriftEvidence, EqualsTheDenseGapDensity) {
   Problem problem = test::walk(2, 12, 0.05);
   for (Edge& loop :
@@ -100,12 +120,9 @@ TEST(MotionDriftEvidence, EqualsTheDenseGapDensity) {
   const LoopedChain chain(problem, stated_noise_model(problem));
   const Evidence evidence = evidence_of(model, chain, problem, motions(problem), {0, 1, 2});
 
-  const Dense by_hand = dense(model, problem);
-  Eigen::MatrixXd C = by_hand.A * by_hand.S * by_hand.A.transpose();
-  for (std::size_t k = 0; k < problem.closures.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(6 * k);
-    C.block<6, 6>(at, at) += 1.5 * problem.closures[k].information.inverse();
-  }
+  std::vector<Matrix6> closures;
+  for (const Edge& loop : problem.closures) closures.push_back(1.5 * loop.information.inverse());
+  const Eigen::MatrixXd C = gap_covariance(dense(model, problem), closures);
   const Eigen::VectorXd gap =
       closure_errors(problem, std::vector<Twist>(problem.odometry.size(), Twist::Zero()));
   EXPECT_TRUE(evidence.gap.isApprox(gap, 1e-9));
@@ -130,21 +147,14 @@ TEST(MotionDriftEvidence, UsesPlanarRowsAndSelectedClosuresOnly) {
 }
 
 TEST(MotionDriftEvidence, OneSolveIsTheConditionalMeanOfTheModel) {
-  // Errors are small enough for the problem to be linear: e = -S A' (A S A' + S_L)^-1 c.
+  // Errors are small enough for the problem to be linear.
   const Problem problem = test::walk(4, 10, 1e-6);
   const MotionModel model = every_term();
-  const Dense by_hand = dense(model, problem);
   const NoiseModel noise_model = noise_model_of(model, problem, motions(problem));
   LoopedChain chain(problem, noise_model);
   for (int i = 0; i < 10; ++i) chain.step();
-  Eigen::MatrixXd C = by_hand.A * by_hand.S * by_hand.A.transpose();
-  for (std::size_t k = 0; k < problem.closures.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(6 * k);
-    C.block<6, 6>(at, at) += noise_model.closure_covariance[k];
-  }
-  const std::vector<Twist> none(problem.odometry.size(), Twist::Zero());
   const Eigen::VectorXd expected_value =
-      -by_hand.S * by_hand.A.transpose() * C.ldlt().solve(closure_errors(problem, none));
+      conditional_mean(model, problem, noise_model.closure_covariance);
   const Trajectory out = chain.keyframes();
   for (std::size_t i = 0; i < problem.odometry.size(); ++i) {
     const Twist e =
@@ -162,19 +172,13 @@ TEST(MotionDriftEvidence, MeanErrorsAverageTheConditionalMeans) {
   const std::vector<EdgeMotion> edge_motions = motions(problem);
   const LoopedChain chain(problem, noise_model_of(model, problem, edge_motions));
   const auto expected = [&](const MotionModel& of) -> Eigen::VectorXd {
-    const Dense by_hand = dense(of, problem);
-    const NoiseModel noise_model = noise_model_of(of, problem, edge_motions);
-    Eigen::MatrixXd C = by_hand.A * by_hand.S * by_hand.A.transpose();
-    for (std::size_t k = 0; k < problem.closures.size(); ++k) {
-      const auto at = static_cast<Eigen::Index>(6 * k);
+    NoiseModel noise_model = noise_model_of(of, problem, edge_motions);
+    for (Matrix6& covariance : noise_model.closure_covariance) {
       // Separate factors on translation and rotation drop the correlation of a closure.
-      Matrix6 uncorrelated = noise_model.closure_covariance[k];
-      uncorrelated.block<3, 3>(0, 3).setZero();
-      uncorrelated.block<3, 3>(3, 0).setZero();
-      C.block<6, 6>(at, at) += uncorrelated;
+      covariance.block<3, 3>(0, 3).setZero();
+      covariance.block<3, 3>(3, 0).setZero();
     }
-    const std::vector<Twist> none(edge_motions.size(), Twist::Zero());
-    return -by_hand.S * by_hand.A.transpose() * C.ldlt().solve(closure_errors(problem, none));
+    return conditional_mean(of, problem, noise_model.closure_covariance);
   };
   const Eigen::VectorXd first = expected(model);
   const Eigen::VectorXd second = expected(other);

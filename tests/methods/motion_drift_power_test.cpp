@@ -45,6 +45,23 @@ double mean_square(const Trajectory& estimate, const std::vector<double>& steps)
   return sum;
 }
 
+/// Mean square errors of motion_drift and of dual over 300 walks, with the errors of the steps
+/// drawn by `draw`.
+template <class Draw>
+std::pair<double, double> mean_squares(const MotionDrift::Options& options,
+                                       const std::vector<double>& steps,
+                                       Draw draw) {
+  std::pair<double, double> out{0.0, 0.0};
+  constexpr int kSeeds = 300;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    Random random({seed}, Purpose::odometry);
+    const Problem problem = walk_along_x(steps, draw(random));
+    out.first += mean_square(test::corrected<MotionDrift>(problem, options), steps) / kSeeds;
+    out.second += mean_square(test::corrected<Dual>(problem), steps) / kSeeds;
+  }
+  return out;
+}
+
 /// 12 slow steps and 6 fast steps.
 std::vector<double> slow_and_fast() {
   std::vector<double> out(12, 0.2);
@@ -71,17 +88,11 @@ TEST(MotionDriftPower, NoiseByDistanceReachesTheTheoreticalGain) {
   options.noise[0] = {0.0, 0.0, 0.01, 0.0, 0.0};
   options.noise[1] = {0.0, 1e-6, 0.0, 0.0, 0.0};
   options.closures = {1.0, 1.0};
-  double ours = 0.0;
-  double dual = 0.0;
-  const int seeds = 300;
-  for (int seed = 1; seed <= seeds; ++seed) {
-    Random random({seed}, Purpose::odometry);
+  const auto [ours, dual] = mean_squares(options, steps, [&](Random& random) {
     std::vector<double> errors;
     for (const double step : steps) errors.push_back(random.normal3().x() * 0.1 * std::sqrt(step));
-    const Problem problem = walk_along_x(steps, errors);
-    ours += mean_square(test::corrected<MotionDrift>(problem, options), steps) / seeds;
-    dual += mean_square(test::corrected<Dual>(problem), steps) / seeds;
-  }
+    return errors;
+  });
   EXPECT_NEAR(ours, best, 0.12 * best);
   EXPECT_NEAR(dual, even, 0.12 * even);
   EXPECT_NEAR(even / best, 2.5, 0.5);
@@ -113,18 +124,12 @@ TEST(MotionDriftPower, SteadyDriftReachesTheTheoreticalGain) {
   options.noise[1] = {0.0, 1e-6, 0.0, 0.0, 0.0};
   options.drift[0][2] = 0.01;
   options.closures = {1.0, 1.0};
-  double ours = 0.0;
-  double dual = 0.0;
-  const int seeds = 300;
-  for (int seed = 1; seed <= seeds; ++seed) {
-    Random random({seed}, Purpose::odometry);
+  const auto [ours, dual] = mean_squares(options, steps, [&](Random& random) {
     const double rate = 0.01 * random.normal3().x();
     std::vector<double> errors;
     for (const double step : steps) errors.push_back(rate * step + 0.01 * random.normal3().x());
-    const Problem problem = walk_along_x(steps, errors);
-    ours += mean_square(test::corrected<MotionDrift>(problem, options), steps) / seeds;
-    dual += mean_square(test::corrected<Dual>(problem), steps) / seeds;
-  }
+    return errors;
+  });
   EXPECT_NEAR(ours, best, 0.12 * best);
   EXPECT_NEAR(dual, even, 0.2 * even);  // one rate per walk: few degrees of freedom
   EXPECT_GT(even / best, 3.0);

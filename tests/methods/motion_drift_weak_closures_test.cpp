@@ -4,12 +4,12 @@
 
 #include <numeric>
 
-#include "datasets/simulated/simulated.hpp"
 #include "methods/correctors/looped_chain.hpp"
 #include "methods/correctors/motion_drift/loop_averages.hpp"
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 #include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
+#include "tests/support/simulated_drive.hpp"
 
 namespace loopbench::motion_drift_weak_closures_test {
 
@@ -21,12 +21,7 @@ using namespace test;
 
 Matrix6 information_of(double sigma) { return Matrix6::Identity() / (sigma * sigma); }
 
-Problem drive() {
-  SimulatedOptions options;
-  options.path = SimulatedPath::driving;
-  options.closures.max = 6;
-  return load_simulated(options).problem;
-}
+Problem drive() { return simulated_drive({.closures = 6, .planar = false}).problem; }
 
 Problem with_weak_closure(Problem problem, double sigma) {
   const std::size_t last = problem.keyframes.size() - 1;

@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "datasets/simulated/simulated.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "tests/support/corrected.hpp"
 #include "tests/support/counts.hpp"
 #include "tests/support/random_chain.hpp"
+#include "tests/support/simulated_drive.hpp"
 
 namespace loopbench::variance_components_test {
 
@@ -19,11 +19,7 @@ namespace {
 using namespace test;
 
 Sequence simulated(std::int64_t seed) {
-  SimulatedOptions options;
-  options.path = SimulatedPath::driving;
-  options.seed = seed;
-  options.closures.max = 10;
-  return load_simulated(options);
+  return simulated_drive({.closures = 10, .seed = seed, .planar = false});
 }
 
 TEST(VarianceComponents, FactorsMultiplyFullCovariances) {

@@ -1,7 +1,7 @@
 /// Step 5: psi, the "optimal tangent vector" among candidates psi_1..psi_i.
 ///
-/// The article defines neither the candidates, nor the cost, nor the use; design section 6 does.
-/// psi does not change orientations.
+/// The article defines neither the candidates, nor the cost, nor the use. psi does not change
+/// orientations.
 #pragma once
 
 #include <array>

@@ -102,7 +102,7 @@ std::vector<double> torsions(const Nodes& nodes);
 
 /// Splits at least two nodes into consecutive segments. A segment grows while its speeds satisfy
 /// the rule; a kappa or a torsion above its threshold closes it and starts the next segment at that
-/// node with new speed statistics. Source: article section 3.3; design readings 5.2 and 5.3. O(n).
+/// node with new speed statistics. Source: article section 3.3. O(n).
 std::vector<NodeRange> segments(const Nodes& nodes,
                                 const SegmentRule& rule,
                                 std::span<const double> kappa);

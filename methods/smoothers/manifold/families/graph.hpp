@@ -31,8 +31,8 @@ Polynomial fit_polynomial(std::span<const Vector2> points, int degree);
 
 /// Coefficients of y = +f(x) in metres of the window's frame, in the article's notation and order:
 /// "alpha(2,0) = 1.238, ..., alpha(0,1) = 1, alpha(0,0) = -0.5163". The article's F = ... + y = 0
-/// would mean y = -f(x), but its printed numbers fit the ground truth with the other sign (design
-/// section 3), which is used here.
+/// would mean y = -f(x), but its printed numbers fit the ground truth with the other sign, which is
+/// used here.
 std::string coefficient_text(const Polynomial& curve, int degree);
 
 /// sin1: y = a sin(b x + c).
