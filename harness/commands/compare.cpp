@@ -47,7 +47,8 @@ int print_power(const CompareArguments& arguments, const std::vector<Comparison>
   return kExitOk;
 }
 
-std::string text_of(const std::vector<Comparison>& comparisons, const OutputOptions& output) {
+std::string comparisons_text(const std::vector<Comparison>& comparisons,
+                             const OutputOptions& output) {
   if (output.format() == ExportFormat::csv) return csv(comparisons);
   if (output.format() == ExportFormat::json) return json(comparisons);
   std::vector<Table> tables;
@@ -60,7 +61,7 @@ int print_comparison(const CompareArguments& arguments) {
   const std::vector<Comparison> comparisons =
       compare_store(arguments.store, metric_of(arguments), arguments.where, arguments.options);
   if (arguments.power) return print_power(arguments, comparisons);
-  write_output(text_of(comparisons, arguments.output),
+  write_output(comparisons_text(comparisons, arguments.output),
                arguments.output,
                "comparisons",
                std::move(provenance),

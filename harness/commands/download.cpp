@@ -17,7 +17,7 @@ constexpr int kNoRange = 33;    ///< of curl: the server cannot continue a downl
 constexpr int kHttpError = 22;  ///< of curl
 
 /// Starts a program without a shell.
-FilterResult run_program(const std::vector<std::string>& words, const std::string& package) {
+FilterResult run_installed(const std::vector<std::string>& words, const std::string& package) {
   try {
     return run_filter(words);
   } catch (const std::system_error&) {
@@ -27,20 +27,20 @@ FilterResult run_program(const std::vector<std::string>& words, const std::strin
 }
 
 int curl(const std::string& url, const fs::path& part) {
-  return run_program({"curl",
-                      "--fail",
-                      "--location",
-                      "--proto",  // "=": also after redirections
-                      "=http,https",
-                      isatty(STDERR_FILENO) == 1 ? "--progress-bar" : "--silent",
-                      "--show-error",
-                      "--continue-at",
-                      "-",
-                      "--output",
-                      part.string(),
-                      "--",
-                      url},
-                     "curl")
+  return run_installed({"curl",
+                        "--fail",
+                        "--location",
+                        "--proto",  // "=": also after redirections
+                        "=http,https",
+                        isatty(STDERR_FILENO) == 1 ? "--progress-bar" : "--silent",
+                        "--show-error",
+                        "--continue-at",
+                        "-",
+                        "--output",
+                        part.string(),
+                        "--",
+                        url},
+                       "curl")
       .exit_code;
 }
 
@@ -64,7 +64,7 @@ void download_part(const PublicFile& wanted, const fs::path& part) {
 std::string sha256_of_file(const fs::path& file) {
   constexpr std::size_t kDigits = 64;
   const FilterResult result =
-      run_program({"sha256sum", "--zero", "--", file.string()}, "coreutils");
+      run_installed({"sha256sum", "--zero", "--", file.string()}, "coreutils");
   if (result.exit_code != 0) throw InputError(file.string() + ": cannot be read");
   return result.output.substr(0, kDigits);
 }

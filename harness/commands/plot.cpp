@@ -10,7 +10,7 @@
 #include "harness/commands/commands.hpp"
 #include "harness/commands/figure_options.hpp"
 #include "harness/model/where.hpp"
-#include "harness/report/content.hpp"
+#include "harness/report/report.hpp"
 #include "harness/report/store_figures.hpp"
 #include "harness/tables/store_provenance.hpp"
 

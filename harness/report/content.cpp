@@ -1,11 +1,10 @@
-#include "harness/report/content.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
+#include "harness/report/report.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/record_reader.hpp"
 

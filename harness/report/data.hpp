@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "harness/report/content.hpp"
+#include "harness/report/report.hpp"
 
 namespace loopbench::harness {
 
@@ -18,14 +18,14 @@ nlohmann::json scores_json(const ReportContent& content);
 struct Thinning {
   std::size_t points = 0;   ///< maximum per cell
   std::size_t repeats = 1;  ///< of each sequence, the first ones
+
+  bool operator==(const Thinning&) const = default;
 };
 
-/// All repeats with as many points as a screen shows, reduced until they take about `bytes`.
-Thinning initial_thinning(const ReportContent& content, std::size_t bytes);
-
-/// Reduces to about `share` of the bytes: points down to kGoodPoints (drawn.cpp), then repeats,
-/// then points down to kLeastPoints. False if no further reduction is possible.
-bool reduce(Thinning& thinning, double share);
+/// As much as takes about `bytes`: at most all repeats with as many points as a screen shows. Takes
+/// repeats away while a cell would have fewer points than a smooth curve needs. The least amount is
+/// one repeat with kLeastPoints (drawn.cpp).
+Thinning thinning_for(const ReportContent& content, double bytes);
 
 /// {points, sequences, grids, cells} from the traces. Sequences: reference, and closures by repeat.
 /// Cells: grid, errors, and sections of the path; the evaluation times of a cell are in its grid,

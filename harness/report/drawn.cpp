@@ -130,30 +130,19 @@ std::vector<std::size_t> drawn_cells(const std::vector<CellRecord>& cells, std::
 
 }  // namespace
 
-Thinning initial_thinning(const ReportContent& content, std::size_t bytes) {
-  Thinning out{kMostPointsOfACell, 1};
+Thinning thinning_for(const ReportContent& content, double bytes) {
+  Thinning out{0, 1};
   for (const auto& [sequence, own] : repeats_of(content.shown_cells)) {
     out.repeats = std::max(out.repeats, own.size());
   }
-  for (;;) {
-    const std::size_t points = out.points * drawn_cells(content.shown_cells, out.repeats).size();
-    const double share =
-        static_cast<double>(bytes) / (kBytesOfAPoint * static_cast<double>(points));
-    if (points == 0 || share >= 1.0 || !reduce(out, share)) return out;
+  for (;; out.repeats = (out.repeats + 1) / 2) {
+    const std::size_t cells = drawn_cells(content.shown_cells, out.repeats).size();
+    const double points =
+        bytes / (kBytesOfAPoint * static_cast<double>(std::max<std::size_t>(1, cells)));
+    out.points = static_cast<std::size_t>(
+        std::clamp(points, double{kLeastPoints}, double{kMostPointsOfACell}));
+    if (out.points >= kGoodPoints || out.repeats == 1) return out;
   }
-}
-
-bool reduce(Thinning& thinning, double share) {
-  const bool is_fine = thinning.points > kGoodPoints;
-  if (!is_fine && thinning.repeats > 1) {
-    thinning.repeats = (thinning.repeats + 1) / 2;
-    return true;
-  }
-  const std::size_t least = is_fine ? kGoodPoints : kLeastPoints;
-  if (thinning.points <= least) return false;
-  const auto wanted = static_cast<std::size_t>(share * static_cast<double>(thinning.points));
-  thinning.points = std::max(least, std::min(thinning.points - 1, wanted));
-  return true;
 }
 
 nlohmann::json traces_json(const ReportContent& content, const Thinning& thinning) {

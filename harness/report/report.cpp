@@ -96,15 +96,17 @@ std::string thinned_html(const ReportContent& content, std::size_t bytes) {
                       {"scripts", script_elements(nonce)}};
   std::size_t taken = data_text(data).size();
   for (const auto& [name, text] : values) taken += text.size();
-  Thinning thinning = initial_thinning(content, bytes - std::min(bytes, taken));
+  const Thinning least = thinning_for(content, 0.0);
+  const auto available = static_cast<double>(bytes - std::min(bytes, taken));
+  double room = available;
   for (;;) {
+    const Thinning thinning = thinning_for(content, room);
     data["traces"] = traces_json(content, thinning);
     values["data"] = script_text(data_text(data));
     std::string html = filled(asset_text("page/report.html"), values);
-    if (html.size() <= bytes) return html;
-    const double traces = static_cast<double>(html.size() - std::min(html.size(), taken));
-    const double room = static_cast<double>(bytes - std::min(bytes, taken));
-    if (!reduce(thinning, room / std::max(1.0, traces))) return html;
+    if (html.size() <= bytes || thinning == least) return html;
+    const auto traces = static_cast<double>(html.size() - std::min(html.size(), taken));
+    room *= std::min(0.95, available / std::max(1.0, traces));
   }
 }
 

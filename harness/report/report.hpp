@@ -1,11 +1,60 @@
-/// HTML report of a sweep in one self-contained file.
+/// HTML report of a sweep in one self-contained file, and its contents.
 #pragma once
 
+#include <filesystem>
+#include <map>
+#include <span>
 #include <string>
+#include <vector>
 
-#include "harness/report/content.hpp"
+#include "harness/compare/compare.hpp"
+#include "harness/model/sequence_metadata.hpp"
 
 namespace loopbench::harness {
+
+inline constexpr std::size_t kReportBytes = 9'000'000;  ///< default size limit
+
+struct ReportContent {
+  std::filesystem::path store;
+  std::map<std::string, std::string> run;
+  std::map<std::string, std::string> provenance;
+  std::map<std::string, std::vector<InputFile>> inputs;
+  std::vector<CellRecord> cells;
+  std::vector<Comparison> comparisons;  ///< one for each score; empty without a baseline
+  std::vector<Record> undefined;        ///< scores without a value
+  std::vector<std::string> sequences;   ///< labels in the order of the sweep
+  std::vector<std::string> methods;     ///< likewise
+
+  /// Tables by sequence and figures are of the first sequences, as many as a report can hold.
+  std::size_t shown = 0;
+  std::vector<CellRecord> shown_cells;
+  std::vector<Record> records;  ///< of shown cells, including gains, pair counts and times
+
+  std::span<const std::string> shown_sequences() const { return std::span(sequences).first(shown); }
+
+  /// Reduces `shown`.
+  void show(std::size_t sequences);
+
+  /// The headline comparison of the summary: position ATE under the first protocol, dense if
+  /// available, otherwise the first comparison. Null if none compares two methods.
+  const Comparison* headline() const;
+};
+
+/// Shows as many sequences as could fit into `bytes`. The memory is bounded by `bytes`, the number
+/// of cells (about 600 bytes each) and the number of compared values (32 bytes each). Throws
+/// InputError if it is not a store, or a store without cells.
+ReportContent read_report_content(const std::filesystem::path& store,
+                                  std::size_t bytes = kReportBytes);
+
+/// The methods that `plot` and the report draw by default: the baseline and the best-ranked
+/// methods, at most five. Methods whose medians differ by less than 3 % are not drawn twice, as
+/// their curves coincide, unless only one would remain. Without a ranking the first methods of the
+/// sweep.
+std::vector<std::string> default_methods(const ReportContent& content);
+
+/// All methods, the baseline first, then in the order of the sweep. Their indices determine their
+/// styles (curve_style()) in `plot` and in the report.
+std::vector<std::string> style_order(const ReportContent& content);
 
 /// Tables and verdicts are plain HTML; figures are drawn from embedded data by the page's scripts
 /// (d3, embedded). Until the file is smaller than `bytes`, trajectories are thinned, later repeats

@@ -2,9 +2,9 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "harness/report/curve.hpp"
 #include "harness/report/data.hpp"
 #include "harness/report/packed.hpp"
-#include "harness/report/style.hpp"
 
 namespace loopbench::harness {
 namespace {

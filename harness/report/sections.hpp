@@ -3,7 +3,8 @@
 
 #include <string>
 
-#include "harness/report/content.hpp"
+#include "harness/report/report.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 

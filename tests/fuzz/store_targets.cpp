@@ -1,7 +1,6 @@
 #include <stdexcept>
 
 #include "datasets/core/error.hpp"
-#include "harness/report/content.hpp"
 #include "harness/report/report.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/traces.hpp"

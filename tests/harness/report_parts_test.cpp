@@ -61,20 +61,24 @@ TEST(Packed, ThinsWithBothEndsKept) {
 }
 
 TEST(Thinning, TakesPointsThenRepeatsThenPoints) {
-  Thinning thinning{400, 5};
-  EXPECT_TRUE(reduce(thinning, 0.5));
-  EXPECT_EQ(thinning.points, 200u);
-  EXPECT_TRUE(reduce(thinning, 0.1));
-  EXPECT_EQ(thinning.points, 100u);
-  EXPECT_TRUE(reduce(thinning, 0.9));
-  EXPECT_EQ(thinning.repeats, 3u);
-  EXPECT_TRUE(reduce(thinning, 0.9) && reduce(thinning, 0.9));
-  EXPECT_EQ(thinning.repeats, 1u);
-  EXPECT_TRUE(reduce(thinning, 0.99));
-  EXPECT_EQ(thinning.points, 99u);
-  EXPECT_TRUE(reduce(thinning, 0.0));
-  EXPECT_EQ(thinning.points, 10u);
-  EXPECT_FALSE(reduce(thinning, 0.5));
+  ReportContent content;
+  for (int i = 0; i < 20; ++i) {  // five repeats of four methods
+    CellRecord& cell = content.shown_cells.emplace_back();
+    cell.sequence = "room";
+    cell.repeat = i / 4;
+  }
+  const auto is_thinned = [&](double bytes, std::size_t points, std::size_t repeats) {
+    const Thinning out = thinning_for(content, bytes);
+    EXPECT_EQ(out.repeats, repeats) << bytes;
+    EXPECT_NEAR(static_cast<double>(out.points), static_cast<double>(points), 1.0) << bytes;
+  };
+  constexpr double kPoint = 14.0;  // [bytes]
+  is_thinned(1e9, 400, 5);
+  is_thinned(20 * 150 * kPoint, 150, 5);
+  is_thinned(20 * 90 * kPoint, 150, 3);
+  is_thinned(4 * 120 * kPoint, 120, 1);
+  is_thinned(4 * 50 * kPoint, 50, 1);
+  is_thinned(0.0, 10, 1);
 }
 
 /// Ten sequences of 40 methods.

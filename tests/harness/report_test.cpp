@@ -13,7 +13,7 @@
 #include "harness/report/html.hpp"
 #include "harness/report/packed.hpp"
 #include "harness/report/store_figures.hpp"
-#include "harness/report/style.hpp"
+#include "harness/report/curve.hpp"
 #include "harness/store/store.hpp"
 #include "tests/support/run_here.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -15,7 +15,7 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
 Curve = Mapping[str, Any]
 
-# Distinguishable with normal, deuteranopic and protanopic sight; the same as in report/style.hpp.
+# Distinguishable with normal, deuteranopic and protanopic sight; the same as in report/curve.hpp.
 COLORS = (
     "#cc4c02", "#0068b0", "#2aa59a", "#7d1d6f", "#efb400", "#7fb8ec", "#5c3a14", "#f2a0c0",
 )  # fmt: skip
