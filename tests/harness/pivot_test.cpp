@@ -1,6 +1,5 @@
 /// What a table averages, over which runs, and which notes say so.
 #include "harness/tables/pivot.hpp"
-#include "harness/tables/record_csv.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
+#include "harness/tables/record_csv.hpp"
 #include "tests/support/ate_record.hpp"
 
 namespace loopbench::pivot_test {

@@ -9,11 +9,11 @@
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
+#include "harness/report/curve.hpp"
 #include "harness/report/data.hpp"
 #include "harness/report/html.hpp"
 #include "harness/report/packed.hpp"
 #include "harness/report/store_figures.hpp"
-#include "harness/report/curve.hpp"
 #include "harness/store/store.hpp"
 #include "tests/support/run_here.hpp"
 #include "tests/support/temporary_folder.hpp"
