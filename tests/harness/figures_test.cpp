@@ -158,15 +158,17 @@ TEST(Figures, EvalFiguresAreOneColumnWideUnlessASizeIsGiven) {
 TEST(Figures, EvalStatesSequenceAlignmentAndScoreAndTakesLabels) {
   if (!has_matplotlib()) GTEST_SKIP() << "needs python3-matplotlib";
   const TemporaryFolder folder;
-  write_tum(folder.path() / "gt.txt", path(0.0, 50.0));
-  write_tum(folder.path() / "a_long_name.txt", path(5.0, 50.0, 0.1));
-  write_tum(folder.path() / "other_name.txt", path(5.0, 50.0, 0.2));
-  const std::string eval = "eval gt.txt a_long_name.txt other_name.txt --align none --plot ";
+  std::filesystem::create_directory(folder.path() / "room");
+  write_tum(folder.path() / "room/gt.txt", path(0.0, 50.0));
+  write_tum(folder.path() / "room/a_long_name.txt", path(5.0, 50.0, 0.1));
+  write_tum(folder.path() / "room/other_name.txt", path(5.0, 50.0, 0.2));
+  const std::string eval =
+      "eval room/gt.txt room/a_long_name.txt room/other_name.txt --align none --plot ";
   const CommandResult drawn = loopbench_command(eval + "f/p.svg --labels A,B_1", folder);
   ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
   EXPECT_EQ(drawn.err, "f/p_trajectories.svg\nf/p_errors.svg\nf/p_axes.svg\n");
   const std::string svg = read_all(folder.path() / "f/p_trajectories.svg");
-  EXPECT_THAT(svg, HasSubstr(">gt, no alignment (ATE as RMSE)<"));
+  EXPECT_THAT(svg, HasSubstr(">room, no alignment (ATE as RMSE)<"));
   EXPECT_THAT(svg, HasSubstr(">A (0.0707 m)<"));
   EXPECT_THAT(svg, HasSubstr(">B_1 (0.141 m)<"));
   EXPECT_THAT(loopbench_command(eval + "p --labels A", folder).err,
