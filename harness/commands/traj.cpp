@@ -77,8 +77,6 @@ int write_changed(const TrajArguments& a, Change change) {
 std::vector<metrics::IndexPair> paired_indices(const TrajArguments& a,
                                                const NamedTrajectory& reference,
                                                const NamedTrajectory& estimate) {
-  using metrics::Crossing;
-  using metrics::Limit;
   reject_two_clocks(reference, estimate, a.reading);
   const std::vector<double> of_reference = stamps(reference.file.poses);
   const std::vector<double> of_estimate = stamps(estimate.file.poses);
@@ -87,8 +85,8 @@ std::vector<metrics::IndexPair> paired_indices(const TrajArguments& a,
                              : metrics::match_one_to_one(of_reference,
                                                          of_estimate,
                                                          a.max_diff,
-                                                         Limit::inclusive,
-                                                         Crossing::refused,
+                                                         metrics::Limit::inclusive,
+                                                         metrics::Crossing::refused,
                                                          a.offset);
   if (!out.empty()) return out;
   throw InputError(fmt::format(
