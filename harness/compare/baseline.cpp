@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "harness/compare/observations.hpp"
+
 namespace loopbench::harness {
 
 Tolerance time_limit(double relative) {
@@ -24,11 +26,7 @@ bool is_dirty(const std::map<std::string, std::string>& build_summary) {
   return source != build_summary.end() && source->second.find("dirty") != std::string::npos;
 }
 
-std::string sequence_name(const GateCell& cell) {
-  return cell.sequence + (cell.repeat == 0 ? "" : " (repeat " + std::to_string(cell.repeat) + ")");
-}
-
-std::string name(const GateCell& cell) { return sequence_name(cell) + " / " + cell.method; }
+std::string name(const GateCell& cell) { return run_name(cell) + " / " + cell.method; }
 
 std::string name(const GateScore& score) {
   std::string out = metric_label(score);
@@ -38,27 +36,7 @@ std::string name(const GateScore& score) {
   return out + ", " + score.times + ", " + score.protocol;
 }
 
-Record as_record(const GateCell& cell, const GateScore& score) {
-  Record out = score;
-  out.sequence = cell.sequence;
-  out.repeat = cell.repeat;
-  out.method = cell.method;
-  return out;
-}
-
 namespace {
-
-GateCell gate_cell(const Record& r) {
-  GateCell out;
-  out.sequence = r.sequence;
-  out.repeat = r.repeat;
-  out.method = r.method;
-  out.oracle = r.oracle;
-  out.oracle_data = r.oracle_closures;
-  out.group = r.group;
-  out.content = r.content;
-  return out;
-}
 
 GateScore gate_score(const Record& r, const std::set<std::string>& statistics) {
   GateScore out{r, 0, {}};
@@ -86,13 +64,11 @@ std::vector<GateCell> gate_cells(const std::vector<Record>& records,
   std::map<std::int64_t, std::size_t> positions;
   for (const Record& r : records) {
     const auto [found, is_new] = positions.emplace(r.cell, out.size());
-    if (is_new) out.push_back(gate_cell(r));
-    GateCell& cell = out[found->second];
-    if (r.metric.empty()) {
-      cell.status = r.status;
-    } else {
-      cell.scores.push_back(gate_score(r, statistics));
+    if (is_new) {
+      out.push_back({r, {}});
+      if (!r.metric.empty()) out.back().status = Status::ok;  // a cell with scores has no failure
     }
+    if (!r.metric.empty()) out[found->second].scores.push_back(gate_score(r, statistics));
   }
   return out;
 }

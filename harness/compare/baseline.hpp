@@ -31,21 +31,14 @@ Tolerance time_limit(double relative);
 /// Whether a limit is about times (its `where` has metric=time); otherwise times are not checked.
 bool limits_time(const std::vector<Tolerance>& limits);
 
-/// One score of one cell with the statistics that have a limit. Names of its cell need not be set.
+/// One score of one cell with the statistics that have a limit.
 struct GateScore : Record {
   std::int64_t count = 0;                ///< errors behind the statistics, for example RPE pairs
   std::map<std::string, double> values;  ///< by statistic; empty if the status has no number
 };
 
-struct GateCell {
-  std::string sequence;
-  std::int64_t repeat = 0;
-  std::string method;
-  bool oracle = false;       ///< the method or its data uses the reference
-  bool oracle_data = false;  ///< its loop closures were measured in the reference
-  std::string group;         ///< see Record::group
-  std::string content;       ///< see Record::content
-  Status status = Status::ok;
+/// The record of a cell without its scores, and these.
+struct GateCell : Record {
   std::vector<GateScore> scores;
 };
 
@@ -71,15 +64,11 @@ struct Baseline {
 /// Whether some of its cells were computed by a build with uncommitted changes.
 bool is_dirty(const std::map<std::string, std::string>& build_summary);
 
-/// "room (repeat 2)", "room (repeat 2) / uniform".
-std::string sequence_name(const GateCell& cell);
+/// "room (repeat 2) / uniform".
 std::string name(const GateCell& cell);
 
 /// "ate translation 3d, dense, loopbench".
 std::string name(const GateScore& score);
-
-/// The record to which `where` is applied.
-Record as_record(const GateCell& cell, const GateScore& score);
 
 /// The cells of a store's records (without derived ones), with the statistics in `limits`. Throws
 /// InputError for an unknown statistic. O(n log n).

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <tuple>
 
 #include "datasets/core/error.hpp"
@@ -124,72 +123,19 @@ Comparison compare_one(const Observations& all, std::size_t copies, const Compar
   return out;
 }
 
-/// Methods that use the reference on a run where another method does not.
-class OracleMethods {
- public:
-  void add(const Record& r) {
-    if (r.sequence == last_.sequence && r.repeat == last_.repeat && r.method == last_.method)
-      return;
-    last_ = {r.sequence, r.repeat, r.method};
-    if (!r.oracle) fair_runs_.insert(run_name(r));
-    if (r.oracle) runs_of_[r.method].insert(run_name(r));
-  }
-
-  std::vector<std::string> names() const {
-    std::vector<std::string> out;
-    for (const auto& [method, runs] : runs_of_) {
-      const auto is_fair = [&](const std::string& run) { return fair_runs_.contains(run); };
-      if (std::ranges::any_of(runs, is_fair)) out.push_back(method);
-    }
-    return out;
-  }
-
- private:
-  struct LastCell {
-    SharedText sequence;
-    std::int64_t repeat = -1;
-    SharedText method;
-  };
-
-  LastCell last_;                    // records of one cell mostly follow each other
-  std::set<std::string> fair_runs_;  // with a method that does not use the reference
-  std::map<std::string, std::set<std::string>> runs_of_;
-};
-
 }  // namespace
 
 bool is_leading(const MethodVerdict& method) { return method.standing < Standing::behind; }
 
 std::vector<Comparison> compare(const std::vector<Record>& records, const CompareOptions& options) {
-  return compare(
-      [&](const auto& visit) {
-        for (const Record& r : records) visit(r);
-      },
-      options);
+  return compare(observations(records, options.value), options);
 }
 
-std::vector<Comparison> compare(const RecordSource& records, const CompareOptions& options) {
-  value(Record{}, options.value);  // rejects an unknown statistic
+std::vector<Comparison> compare(std::vector<Observations> all, const CompareOptions& options) {
   if (!has_direction(options.value)) {
     throw InputError("value: '" + options.value +
                      "' depends on the number of errors: no value is better than another; expected "
                      "rmse, mean, median, std, min or max");
-  }
-  OracleMethods excluded;
-  ObservationsBuilder everything(options.value);
-  records([&](const Record& r) {
-    excluded.add(r);
-    everything.add(r);
-  });
-  const std::vector<std::string> oracles = excluded.names();
-  std::vector<Observations> all = everything.build();
-  if (!oracles.empty()) {
-    all.clear();
-    ObservationsBuilder fair(options.value);
-    records([&](const Record& r) {
-      if (std::ranges::count(oracles, r.method.text()) == 0) fair.add(r);
-    });
-    all = fair.build();
   }
   if (all.empty()) throw InputError("no scores to compare");
   if (std::ranges::count(all[0].methods, options.baseline) == 0) {
@@ -200,7 +146,7 @@ std::vector<Comparison> compare(const RecordSource& records, const CompareOption
     if (table.kind.better == metrics::Better::neither) continue;
     const std::size_t copies = drop_duplicates(table);
     out.push_back(compare_one(table, copies, options));
-    out.back().oracles = oracles;
+    out.back().oracles = table.oracles;
     table.values.clear();  // large
   }
   if (out.empty()) {

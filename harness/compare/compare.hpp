@@ -5,7 +5,6 @@
 /// and the best is found in ranking.hpp. No correction for multiple scores.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -108,11 +107,8 @@ bool is_leading(const MethodVerdict& method);
 /// statistic. Comparisons without a common run, or with one method, have no methods.
 std::vector<Comparison> compare(const std::vector<Record>& records, const CompareOptions& options);
 
-/// Visits the same records in the same order at every call.
-using RecordSource = std::function<void(const std::function<void(const Record&)>& visit)>;
-
-/// The same for records that are not in memory, which are visited once or twice.
-std::vector<Comparison> compare(const RecordSource& records, const CompareOptions& options);
+/// The same for observations of `options.value`.
+std::vector<Comparison> compare(std::vector<Observations> all, const CompareOptions& options);
 
 /// Methods that cover clearly less of the reference than another one.
 std::vector<std::string> methods_with_less_coverage(const Comparison& comparison);

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "harness/compare/average.hpp"
+#include "harness/compare/observations.hpp"
 #include "harness/compare/ranks.hpp"
 
 namespace loopbench::harness {
@@ -69,7 +70,7 @@ void ConsistentLosses::add(const GateCell& cell,
   if (is_copy) return;
   const std::string group = !cell.group.empty()     ? "group " + cell.group
                             : !cell.content.empty() ? "content " + cell.content
-                                                    : "run " + sequence_name(cell);
+                                                    : "run " + run_name(cell);
   const double size = std::max(std::abs(before), std::abs(worse));
   const bool is_tie =
       std::abs(worse) <= limit.tie * size || std::abs(worse) <= kSmallestChange * limit.absolute;

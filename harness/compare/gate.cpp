@@ -63,7 +63,7 @@ std::string why_not_comparable(const GateScore& before, const GateScore& now) {
 class Checker {
  public:
   Checker(const Baseline& baseline, const Snapshot& now, GateExtent extent)
-      : extent_(extent), limit_of_(baseline.limits) {
+      : extent_(extent), limit_of_(limit_of(baseline.limits)) {
     for (const GateCell& cell : now.cells) now_.emplace(key(cell), &cell);
     const auto is_there = [&](const GateCell& cell) { return now_.contains(key(cell)); };
     if (std::ranges::none_of(baseline.snapshot.cells, is_there)) {
@@ -125,7 +125,9 @@ class Checker {
            what + (is ? ", was not" : " no longer"));
     };
     flag(before.oracle, now.oracle, "oracle: the method or its data uses the reference");
-    flag(before.oracle_data, now.oracle_data, "oracle: closures are measured in the reference");
+    flag(before.oracle_closures,
+         now.oracle_closures,
+         "oracle: closures are measured in the reference");
   }
 
   void add(const GateCell& before) {
@@ -154,7 +156,7 @@ class Checker {
   }
 
   void compare(const GateCell& cell, const GateScore& before, const GateScore& now) {
-    const Tolerance* const limit = limit_of_(cell, before);
+    const Tolerance* const limit = limit_of_(before);
     ++(limit == nullptr ? unlimited_ : report_.scores);
     const auto regression = [&](const std::string& what) {
       find(Finding::Kind::regression, name(cell), name(before), what);
@@ -212,7 +214,7 @@ class Checker {
   }
 
   GateExtent extent_;
-  LimitOfScore limit_of_;
+  std::function<const Tolerance*(const Record&)> limit_of_;
   std::size_t implausible_ = 0;  // errors that nearly vanished
   std::string first_implausible_;
   std::size_t unlimited_ = 0;  // scores without a limit

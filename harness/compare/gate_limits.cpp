@@ -14,8 +14,7 @@ namespace {
 bool selects_a_score(const Tolerance& limit, const Snapshot& snapshot) {
   const auto keeps = where(limit.where);
   return std::ranges::any_of(snapshot.cells, [&](const GateCell& cell) {
-    return std::ranges::any_of(
-        cell.scores, [&](const GateScore& score) { return keeps(as_record(cell, score)); });
+    return std::ranges::any_of(cell.scores, keeps);
   });
 }
 
@@ -30,16 +29,14 @@ std::string numbers_of(const Tolerance& limit) {
 
 }  // namespace
 
-LimitOfScore::LimitOfScore(const std::vector<Tolerance>& limits) {
-  for (const Tolerance& limit : limits) filters_.push_back({where(limit.where), &limit});
-}
-
-const Tolerance* LimitOfScore::operator()(const GateCell& cell, const GateScore& score) const {
-  const Record record = as_record(cell, score);
-  for (const Filter& filter : filters_) {
-    if (filter.keeps(record)) return filter.limit;
-  }
-  return nullptr;
+std::function<const Tolerance*(const Record&)> limit_of(const std::vector<Tolerance>& limits) {
+  std::vector<std::function<bool(const Record&)>> filters;
+  for (const Tolerance& limit : limits) filters.push_back(where(limit.where));
+  return [filters, &limits](const Record& score) {
+    const auto selects = [&](const auto& keeps) { return keeps(score); };
+    const auto found = std::ranges::find_if(filters, selects) - filters.begin();
+    return found == std::ssize(filters) ? nullptr : &limits[static_cast<std::size_t>(found)];
+  };
 }
 
 void require_used_limits(const Baseline& baseline) {

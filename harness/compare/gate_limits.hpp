@@ -1,4 +1,4 @@
-/// The limit that applies to a score.
+/// The limits of a gate.
 #pragma once
 
 #include <functional>
@@ -9,20 +9,9 @@
 
 namespace loopbench::harness {
 
-class LimitOfScore {
- public:
-  explicit LimitOfScore(const std::vector<Tolerance>& limits);
-
-  /// The first limit whose `where` selects the score; null if none does.
-  const Tolerance* operator()(const GateCell& cell, const GateScore& score) const;
-
- private:
-  struct Filter {
-    std::function<bool(const Record&)> keeps;
-    const Tolerance* limit = nullptr;
-  };
-  std::vector<Filter> filters_;
-};
+/// A function that returns the first of the limits whose `where` selects a score, or null. It keeps
+/// references to `limits`.
+std::function<const Tolerance*(const Record&)> limit_of(const std::vector<Tolerance>& limits);
 
 /// Throws InputError if the baseline has no limits, or a limit that selects none of its scores:
 /// such a limit is misspelt and would let every change pass. A baseline without any score is only

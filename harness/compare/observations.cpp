@@ -45,11 +45,13 @@ std::string group_name(const Record& r) { return r.group.empty() ? run_name(r) :
 
 bool is_loss(const Record& r) { return r.status != Status::ok && r.status != Status::declined; }
 
-ObservationsBuilder::ObservationsBuilder(std::string value)
-    : value_(std::move(value)),
+ObservationsBuilder::ObservationsBuilder(std::string statistic)
+    : value_(std::move(statistic)),
       kinds_({"protocol", "times", "metric", "label", "relation", "axis"}, score_key),
       methods_({"method"}, [](const Record& r) { return r.method.text(); }),
-      run_names_({"sequence", "repeat"}, run_name) {}
+      run_names_({"sequence", "repeat"}, run_name) {
+  value(Record{}, value_);  // rejects an unknown statistic
+}
 
 void ObservationsBuilder::put(Observations& table, const Unscored& one) {
   if (table.values.size() <= one.method) table.values.resize(one.method + 1);
@@ -62,6 +64,11 @@ void ObservationsBuilder::add(const Record& r) {
   const Unscored one{methods_.index(r), run_names_.index(r), observed(r, value_)};
   if (one.run == runs_.size()) {
     runs_.push_back({run_name(r), r.sequence, group_name(r), r.content, r.oracle_closures});
+  }
+  if (r.oracle) {
+    oracle_runs_.emplace(one.method, one.run);
+  } else {
+    runs_[one.run].is_fair = true;
   }
   if (r.metric.empty()) {
     for (Observations& table : tables_) put(table, one);
@@ -79,12 +86,27 @@ void ObservationsBuilder::add(const Record& r) {
   put(tables_[kind], one);
 }
 
+std::set<std::size_t> ObservationsBuilder::oracle_methods() const {
+  std::set<std::size_t> out;
+  for (const auto& [method, run] : oracle_runs_) {
+    if (runs_[run].is_fair) out.insert(method);
+  }
+  return out;
+}
+
 std::vector<Observations> ObservationsBuilder::build() {
+  const std::vector<std::string>& names = methods_.texts();
+  const std::set<std::size_t> oracles = oracle_methods();
   for (Observations& table : tables_) {
-    table.methods = methods_.texts();
     table.runs = runs_;
-    table.values.resize(table.methods.size());
-    for (std::vector<Observed>& of_method : table.values) of_method.resize(runs_.size());
+    table.values.resize(names.size());
+    std::vector<std::vector<Observed>> all = std::exchange(table.values, {});
+    for (std::size_t m = 0; m < names.size(); ++m) {
+      (oracles.contains(m) ? table.oracles : table.methods).push_back(names[m]);
+      if (oracles.contains(m)) continue;
+      all[m].resize(runs_.size());
+      table.values.push_back(std::move(all[m]));
+    }
   }
   return std::move(tables_);
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/model/record.hpp"
@@ -38,6 +39,7 @@ struct ObservedRun {
   std::string group;
   std::string content;  ///< runs of equal non-empty content are one observation
   bool has_oracle_closures = false;
+  bool is_fair = false;  ///< some method does not use the reference
 };
 
 struct Observations {
@@ -47,18 +49,21 @@ struct Observations {
   std::vector<std::string> methods;
   std::vector<ObservedRun> runs;
   std::vector<std::vector<Observed>> values;  ///< [method][run]
-  std::set<std::string> unstable;             ///< methods that drop_duplicates() found to be random
+  std::vector<std::string> oracles;  ///< excluded: use the reference on a run where others do not
+  std::set<std::string> unstable;    ///< methods that drop_duplicates() found to be random
 };
 
-/// Builds observations(), record by record.
+/// Collects the values of every score (protocol, times, metric, relation, axis), record by record.
 class ObservationsBuilder {
  public:
-  explicit ObservationsBuilder(std::string value);
+  /// Throws InputError for an unknown statistic.
+  explicit ObservationsBuilder(std::string statistic);
 
-  /// Throws InputError for an unknown statistic. O(1).
+  /// O(1).
   void add(const Record& record);
 
-  /// Call once.
+  /// One table for each score in order of appearance; only finite numbers with status ok count.
+  /// Every table contains all runs and methods but the oracles. Call once.
   std::vector<Observations> build();
 
  private:
@@ -69,6 +74,7 @@ class ObservationsBuilder {
   };
 
   static void put(Observations& table, const Unscored& one);
+  std::set<std::size_t> oracle_methods() const;
 
   std::string value_;
   TextIndex kinds_;
@@ -76,12 +82,11 @@ class ObservationsBuilder {
   TextIndex run_names_;
   std::vector<ObservedRun> runs_;
   std::vector<Observations> tables_;
-  std::vector<Unscored> unscored_;  ///< records without a score, which count in every table
+  std::vector<Unscored> unscored_;   ///< records without a score, which count in every table
+  std::set<std::pair<std::size_t, std::size_t>> oracle_runs_;  ///< method and run
 };
 
-/// One table for every score (protocol, times, metric, relation, axis) in the records, in order of
-/// appearance; only finite numbers with status ok count. Every table contains all runs and methods
-/// of the records. Throws InputError for an unknown statistic. O(n log n).
+/// The tables of these records. Throws InputError for an unknown statistic. O(n log n).
 std::vector<Observations> observations(const std::vector<Record>& records,
                                        const std::string& value);
 

@@ -114,15 +114,19 @@ GateCell cell_of(const Json& node,
                  const std::vector<GateScore>& scores,
                  const std::vector<Tolerance>& limits) {
   GateCell out;
-  node.at("sequence").get_to(out.sequence);
-  node.at("repeat").get_to(out.repeat);
-  node.at("method").get_to(out.method);
+  out.sequence = node.at("sequence").get<std::string>();
+  out.repeat = node.at("repeat").get<std::int64_t>();
+  out.method = node.at("method").get<std::string>();
   out.oracle = node.value("oracle", false);
-  out.oracle_data = node.value("oracle_data", false);
+  out.oracle_closures = node.value("oracle_data", false);
   out.status = known<Status>(node.at("status"));
   if (!node.contains("pairs")) return out;
   for (std::size_t i = 0; i < scores.size(); ++i) {
-    if (!node["pairs"].at(i).is_null()) out.scores.push_back(score_of(node, i, scores[i], limits));
+    if (node["pairs"].at(i).is_null()) continue;
+    GateScore& score = out.scores.emplace_back(score_of(node, i, scores[i], limits));
+    score.sequence = out.sequence;
+    score.repeat = out.repeat;
+    score.method = out.method;
   }
   return out;
 }

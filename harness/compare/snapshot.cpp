@@ -9,6 +9,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
+#include "harness/compare/observations.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/record_reader.hpp"
@@ -60,7 +61,7 @@ void add_recorded_sequences(const std::filesystem::path& store,
                             Snapshot& out) {
   const auto inputs = read_inputs(store);
   for (const GateCell& cell : out.cells) {
-    const std::string label = sequence_name(cell);
+    const std::string label = run_name(cell);
     const auto files = inputs.find(label);
     if (files == inputs.end() || out.sequences.contains(label)) continue;
     const auto reference = std::ranges::find(files->second, "reference", &InputFile::option);
@@ -73,10 +74,10 @@ void add_sequences(const std::filesystem::path& store, Snapshot& out) {
   const auto inputs = read_inputs(store);
   const auto options = read_dataset_options(store);
   for (const CellRecord& cell : read_cells(store)) {
-    GateCell named;
+    Record named;
     named.sequence = cell.sequence;
     named.repeat = cell.repeat;
-    const std::string label = sequence_name(named);
+    const std::string label = run_name(named);
     if (out.sequences.contains(label)) continue;
     const auto files = inputs.find(label);
     const auto own = options.find(label);
@@ -86,10 +87,10 @@ void add_sequences(const std::filesystem::path& store, Snapshot& out) {
   }
   std::set<std::string> grouped;
   for (const GateCell& cell : out.cells) {
-    const std::string label = sequence_name(cell);
+    const std::string label = run_name(cell);
     if (!cell.content.empty()) out.contents[label] = cell.content;
     // Larger groups leave fewer independent runs, so that the test could no longer fail.
-    const bool is_stated = cell.group.starts_with("group:");
+    const bool is_stated = cell.group.text().starts_with("group:");
     if (is_stated && grouped.insert(label).second) out.sequences[label] += "; " + cell.group;
   }
 }

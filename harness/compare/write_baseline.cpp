@@ -28,9 +28,10 @@ Json requested_score_json(const GateScore& s) {
 }
 
 Json head(const GateCell& cell) {
-  Json out{{"sequence", cell.sequence}, {"repeat", cell.repeat}, {"method", cell.method}};
+  Json out{
+      {"sequence", cell.sequence.text()}, {"repeat", cell.repeat}, {"method", cell.method.text()}};
   if (cell.oracle) out["oracle"] = true;
-  if (cell.oracle_data) out["oracle_data"] = true;
+  if (cell.oracle_closures) out["oracle_data"] = true;
   out["status"] = to_text(cell.status);
   return out;
 }

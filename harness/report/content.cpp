@@ -20,21 +20,20 @@ void add_new(std::vector<std::string>& list, const std::string& text) {
 void read_scores(const std::string& baseline, std::size_t bytes, ReportContent& out) {
   constexpr std::size_t kLeastBytesOfAScore = 10;
   RecordReader reader(out.store);
-  bool has_score = false;
+  CompareOptions options;
+  options.baseline = baseline;
+  ObservationsBuilder observed(options.value);
   std::set<SharedText> taken;
-  const auto take = [&](const Record& r) {
-    has_score = has_score || !r.metric.empty();
+  reader.for_each([&](const Record& r) {
+    if (!baseline.empty()) observed.add(r);
     const bool has_value = has_numbers(r.status);
     if (!r.metric.empty() && !has_value) out.undefined.push_back(r);
     const bool has_room = out.records.size() < bytes / kLeastBytesOfAScore;
     if (taken.empty() || has_room) taken.insert(r.sequence);
     if (taken.contains(r.sequence)) out.records.push_back(r);
-  };
-  reader.for_each(take);
-  if (baseline.empty() || !has_score) return;
-  CompareOptions options;
-  options.baseline = baseline;
-  out.comparisons = compare([&](const auto& visit) { reader.for_each(visit); }, options);
+  });
+  std::vector<Observations> all = observed.build();
+  if (!all.empty()) out.comparisons = compare(std::move(all), options);
 }
 
 }  // namespace

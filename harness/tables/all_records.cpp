@@ -92,18 +92,14 @@ std::vector<Comparison> compare_store(const std::filesystem::path& store,
     reader.keep_scores([kept](const Record& r) { return kept.contains({r.metric, r.label}); });
   }
   const auto passes = where(rules);
-  const RecordSource wanted = [&](const auto& visit) {
-    bool has_score = false;
-    const auto visit_wanted = [&](const Record& r) {
-      if (!passes(r) || !(r.metric.empty() || is_wanted(r))) return;
-      has_score = has_score || !r.metric.empty();
-      visit(r);
-    };
-    is_derived ? for_each_with_derived(reader, baseline, visit_wanted)
-               : reader.for_each(visit_wanted);
-    if (!has_score) throw InputError(nothing);
+  ObservationsBuilder wanted(options.value);
+  const auto add = [&](const Record& r) {
+    if (passes(r) && (r.metric.empty() || is_wanted(r))) wanted.add(r);
   };
-  return compare(wanted, options);
+  is_derived ? for_each_with_derived(reader, baseline, add) : reader.for_each(add);
+  std::vector<Observations> all = wanted.build();
+  if (all.empty()) throw InputError(nothing);
+  return compare(std::move(all), options);
 }
 
 }  // namespace loopbench::harness

@@ -30,6 +30,9 @@ inline GateCell cell(int repeat, const std::string& method, double rmse) {
   out.repeat = repeat;
   out.method = method;
   out.scores = {ate(rmse)};
+  out.scores[0].sequence = out.sequence;
+  out.scores[0].repeat = out.repeat;
+  out.scores[0].method = out.method;
   return out;
 }
 
