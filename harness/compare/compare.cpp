@@ -89,11 +89,12 @@ void sort_methods(std::vector<MethodVerdict>& methods, metrics::Better better) {
   std::ranges::stable_sort(methods, {}, key);
 }
 
-Comparison compare_one(const Observations& all, std::size_t copies, const CompareOptions& options) {
+Comparison compare_one(Observations& all, const CompareOptions& options) {
   Comparison out;
   out.kind = all.kind;
   out.options = options;
-  out.copies = copies;
+  out.oracles = all.oracles;
+  out.copies = drop_duplicates(all);
   out.unstable.assign(all.unstable.begin(), all.unstable.end());
   const KeptRuns kept = select_runs(all, out);
   std::vector<std::string> names;
@@ -144,9 +145,7 @@ std::vector<Comparison> compare(std::vector<Observations> all, const CompareOpti
   std::vector<Comparison> out;
   for (Observations& table : all) {
     if (table.kind.better == metrics::Better::neither) continue;
-    const std::size_t copies = drop_duplicates(table);
-    out.push_back(compare_one(table, copies, options));
-    out.back().oracles = table.oracles;
+    out.push_back(compare_one(table, options));
     table.values.clear();  // large
   }
   if (out.empty()) {

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <random>
 
-#include "harness/compare/average.hpp"
 #include "harness/compare/observations.hpp"
 #include "harness/compare/ranks.hpp"
+#include "metrics/numerics/average.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -29,7 +29,7 @@ std::vector<double> signed_ranks(const std::map<std::size_t, std::vector<double>
   std::vector<double> means;
   std::vector<double> magnitudes;
   for (const auto& [group, of_group] : changes) {
-    means.push_back(mean(of_group));
+    means.push_back(metrics::mean(of_group));
     magnitudes.push_back(std::abs(means.back()));
   }
   const std::vector<double> ranks = midranks(magnitudes);
@@ -131,7 +131,7 @@ void ConsistentLosses::report(GateReport& out) const {
     ++loss.scores;
     if (own >= loss.p) continue;
     std::vector<double> means;
-    for (const auto& [group, of_group] : series.changes) means.push_back(mean(of_group));
+    for (const auto& [group, of_group] : series.changes) means.push_back(metrics::mean(of_group));
     loss.p = own;
     loss.finding = {
         Finding::Kind::regression,
@@ -141,7 +141,7 @@ void ConsistentLosses::report(GateReport& out) const {
                     statistic,
                     series.runs,
                     groups == series.runs ? "" : fmt::format(" in {} independent groups", groups),
-                    100.0 * mean(means),
+                    100.0 * metrics::mean(means),
                     own)};
   }
   for (auto& [method, loss] : losses) {

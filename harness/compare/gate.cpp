@@ -72,9 +72,8 @@ class Checker {
     }
     for (const GateCell& cell : baseline.snapshot.cells) add(cell);
     for (const GateCell& cell : now.cells) {
-      if (!seen_.contains(key(cell))) {
+      if (now_.contains(key(cell)))
         find(Finding::Kind::added, name(cell), "", "not in the baseline");
-      }
     }
     losses_.report(report_);
     if (unlimited_ > 0) {
@@ -135,12 +134,12 @@ class Checker {
     if (found == now_.end() && extent_ == GateExtent::part) return;
     ++report_.cells;
     report_.names.push_back(name(before));
-    seen_.emplace(key(before), true);
     if (found == now_.end()) {
       find(Finding::Kind::regression, name(before), "", "missing");
       return;
     }
     const GateCell& now = *found->second;
+    now_.erase(found);
     oracle(before, now);
     if (!status(before.status, now.status, name(before), "")) return;
     std::map<std::string, const GateScore*> scores;
@@ -217,9 +216,8 @@ class Checker {
   std::function<const Tolerance*(const Record&)> limit_of_;
   std::size_t implausible_ = 0;  // errors that nearly vanished
   std::string first_implausible_;
-  std::size_t unlimited_ = 0;  // scores without a limit
-  std::map<CellKey, const GateCell*> now_;
-  std::map<CellKey, bool> seen_;
+  std::size_t unlimited_ = 0;               // scores without a limit
+  std::map<CellKey, const GateCell*> now_;  // that the baseline did not have so far
   ConsistentLosses losses_;
   GateReport report_;
 };

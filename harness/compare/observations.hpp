@@ -82,7 +82,7 @@ class ObservationsBuilder {
   TextIndex run_names_;
   std::vector<ObservedRun> runs_;
   std::vector<Observations> tables_;
-  std::vector<Unscored> unscored_;   ///< records without a score, which count in every table
+  std::vector<Unscored> unscored_;  ///< records without a score, which count in every table
   std::set<std::pair<std::size_t, std::size_t>> oracle_runs_;  ///< method and run
 };
 

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
-#include "harness/compare/average.hpp"
 #include "harness/compare/signed_rank.hpp"
+#include "metrics/numerics/average.hpp"
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {
@@ -70,30 +71,19 @@ void add(Pair& out, double value, std::size_t sequence) {
   ++(value < 0.0 ? out.wins : value > 0.0 ? out.losses : out.ties);
 }
 
-/// Collects the mean over groups of the mean over runs.
-class MeanOfMeans {
- public:
-  explicit MeanOfMeans(Pair& out) : out_(out) {}
-
-  /// Difference on a run of the current group on which both have a value.
-  void add(double difference) {
-    const bool is_zero = !is_finite(difference);
-    group_.push_back(is_zero ? std::copysign(kZeroRatio, difference) : difference);
-    out_.has_zero = out_.has_zero || is_zero;
+/// Sets the mean over groups of the mean over their runs on which both have a value.
+void set_mean(Pair& out, std::vector<std::vector<double>> groups) {
+  std::vector<double> means;
+  for (std::vector<double>& of_group : groups) {
+    for (double& difference : of_group) {
+      if (is_finite(difference)) continue;
+      difference = std::copysign(kZeroRatio, difference);
+      out.has_zero = true;
+    }
+    if (!of_group.empty()) means.push_back(metrics::mean(of_group));
   }
-  void end_group() {
-    if (!group_.empty()) groups_.push_back(mean(group_));
-    group_.clear();
-  }
-  void finish() {
-    if (!groups_.empty()) out_.mean = mean(groups_);
-  }
-
- private:
-  Pair& out_;
-  std::vector<double> group_;
-  std::vector<double> groups_;
-};
+  if (!means.empty()) out.mean = metrics::mean(means);
+}
 
 void test_signed_ranks(Pair& out) {
   const SignedRank ranks = signed_rank(out.values);
@@ -114,23 +104,20 @@ void test_rank_sums(Pair& out) {
 
 Pair of_paired_runs(const Levels& levels, std::size_t first, std::size_t second) {
   Pair out;
-  MeanOfMeans means(out);
-  std::vector<double> all;  // differences of the runs of a group
+  std::vector<std::vector<double>> both(levels.groups());  // differences of runs with both values
   for (std::size_t group = 0; group < levels.groups(); ++group) {
-    all.clear();
+    std::vector<double> all;
     for (const std::size_t run : levels.runs_of(group)) {
       if (!levels.is_known(first, run) || !levels.is_known(second, run)) continue;
       const bool has_first = levels.has_value(first, run);
       const bool has_second = levels.has_value(second, run);
       if (!has_first && !has_second) continue;
       all.push_back(levels.difference(first, second, run));
-      if (has_first && has_second) means.add(all.back());
+      if (has_first && has_second) both[group].push_back(all.back());
     }
-    if (all.empty()) continue;
-    add(out, middle_of(all), levels.sequence_of(group));
-    means.end_group();
+    if (!all.empty()) add(out, middle_of(all), levels.sequence_of(group));
   }
-  means.finish();
+  set_mean(out, std::move(both));
   test_signed_ranks(out);
   return out;
 }
@@ -157,20 +144,21 @@ Pair of_independent_runs(const Levels& levels, std::size_t first, std::size_t se
   std::vector<Stratum> strata;
   std::map<std::size_t, std::vector<double>> differences;
   Pair out;
-  MeanOfMeans means(out);
+  std::vector<std::vector<double>> both;  // differences of two values, by sequence
   for (const auto& [sequence, of_first] : firsts) {
     const auto found = seconds.find(sequence);
     if (found == seconds.end()) continue;
     strata.push_back({of_first.size(), found->second.size()});
+    both.emplace_back();
     for (const double a : of_first) {
       for (const double b : found->second) {
         differences[sequence].push_back(levels.difference(first, second, a, b));
-        if (!std::isnan(a) && !std::isnan(b)) means.add(differences[sequence].back());
+        const bool has_both = !std::isnan(a) && !std::isnan(b);
+        if (has_both) both.back().push_back(differences[sequence].back());
       }
     }
-    means.end_group();
   }
-  means.finish();
+  set_mean(out, std::move(both));
   const auto repeated =
       std::ranges::count_if(strata, [](const Stratum& one) { return one.pairs() > 1; });
   const bool has_runs = 2 * repeated >= std::ssize(strata);
@@ -242,9 +230,9 @@ std::vector<SequenceMean> Pair::by_sequence() const {
     double observations = static_cast<double>(of_sequence.size());
     if (!strata.empty()) observations = std::sqrt(observations);  // runs, not pairs of them
     const double error = observations > 1.0
-                             ? sample_deviation(of_sequence) / std::sqrt(observations)
+                             ? metrics::sample_deviation(of_sequence) / std::sqrt(observations)
                              : std::numeric_limits<double>::infinity();
-    out.push_back({number, harness::mean(of_sequence), error});
+    out.push_back({number, metrics::mean(of_sequence), error});
   }
   return out;
 }
@@ -257,7 +245,7 @@ std::optional<double> Pair::deviation() const {
   const auto sequences = by_sequence();
   const bool has_strata = !strata.empty();
   if (!has_strata && (sequences.size() < 2 || 2 * sequences.size() > finite.size())) {
-    return finite.size() < 2 ? std::nullopt : std::optional(sample_deviation(finite));
+    return finite.size() < 2 ? std::nullopt : std::optional(metrics::sample_deviation(finite));
   }
   std::map<std::size_t, double> means;
   for (const SequenceMean& one : sequences) means[one.sequence] = one.mean;

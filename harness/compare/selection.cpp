@@ -4,7 +4,7 @@
 #include <numeric>
 #include <set>
 
-#include "harness/compare/name_order.hpp"
+#include "harness/model/name_order.hpp"
 #include "harness/model/recorded_run.hpp"
 
 namespace loopbench::harness {

@@ -1,14 +1,13 @@
 #include "harness/compare/signed_rank.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
+
+#include "harness/compare/ranks.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -60,16 +59,6 @@ double normal_tail(const std::vector<double>& ranks, double t) {
   return normal_cdf((t + 0.5 - center) / std::sqrt(variance));
 }
 
-/// Integers in the order of doubles.
-std::int64_t rank_of(double value) {
-  const auto bits = std::bit_cast<std::int64_t>(value);
-  return bits >= 0 ? bits : std::numeric_limits<std::int64_t>::min() - bits;
-}
-
-double of_rank(std::int64_t rank) {
-  return std::bit_cast<double>(rank >= 0 ? rank : std::numeric_limits<std::int64_t>::min() - rank);
-}
-
 /// Number of means of two values up to `most`.
 std::size_t means_up_to(std::span<const double> sorted, double most) {
   std::size_t count = 0;
@@ -89,27 +78,16 @@ double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); 
 
 SignedRank signed_rank(std::span<const double> differences, std::size_t most_exact) {
   SignedRank out;
-  // The bits of magnitudes are ordered as the magnitudes are, and leave room for the sign.
-  std::vector<std::uint64_t> ordered;
-  ordered.reserve(differences.size());
-  for (const double difference : differences) {
-    const auto magnitude = std::bit_cast<std::uint64_t>(std::abs(difference));
-    ordered.push_back(magnitude << 1 | (difference > 0.0 ? 1 : 0));
-  }
-  std::ranges::sort(ordered);
+  std::vector<double> magnitudes;
+  for (const double difference : differences) magnitudes.push_back(std::abs(difference));
+  const std::vector<double> all = midranks(magnitudes);
   std::size_t positive = 0;   // number of positive differences
-  std::vector<double> ranks;  // of non-zero differences; ties get the mean of their ranks
-  for (std::size_t begin = 0, end = 0; begin < ordered.size(); begin = end) {
-    const std::uint64_t magnitude = ordered[begin] >> 1;
-    while (end < ordered.size() && ordered[end] >> 1 == magnitude) ++end;
-    if (magnitude == 0) continue;
-    const double shared = 0.5 * static_cast<double>(begin + 1 + end);
-    for (std::size_t i = begin; i < end; ++i) {
-      ranks.push_back(shared);
-      const bool is_positive = (ordered[i] & 1) != 0;
-      (is_positive ? out.positive : out.negative) += shared;
-      positive += is_positive ? 1 : 0;
-    }
+  std::vector<double> ranks;  // of non-zero differences
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (differences[i] == 0.0) continue;
+    ranks.push_back(all[i]);
+    (differences[i] > 0.0 ? out.positive : out.negative) += all[i];
+    positive += differences[i] > 0.0 ? 1 : 0;
   }
   out.count = ranks.size();
   if (ranks.empty()) return out;
@@ -142,19 +120,15 @@ double walsh_average(std::span<const double> sorted, std::size_t k) {
   const std::size_t lowest = pairs(below) + below * finite.size() + below * above / 2;
   if (k <= lowest) return -kBeyond;
   if (k > lowest + pairs(finite.size())) return kBeyond;
-  std::int64_t low = rank_of(finite.front());
-  std::int64_t high = rank_of(finite.back());
-  while (low < high) {
-    const std::int64_t middle =
-        low + static_cast<std::int64_t>(
-                  (static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low)) / 2);
-    if (means_up_to(finite, of_rank(middle)) >= k - lowest) {
-      high = middle;
-    } else {
-      low = middle + 1;
-    }
+  const auto are_enough = [&](double most) { return means_up_to(finite, most) >= k - lowest; };
+  double low = finite.front();
+  double high = finite.back();
+  if (are_enough(low)) return low;
+  for (double middle = std::midpoint(low, high); low < middle && middle < high;
+       middle = std::midpoint(low, high)) {
+    (are_enough(middle) ? high : low) = middle;
   }
-  return of_rank(high);
+  return high;
 }
 
 double pseudo_median(std::span<const double> sorted) {

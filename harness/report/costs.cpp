@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "harness/compare/name_order.hpp"
+#include "harness/model/name_order.hpp"
 #include "harness/report/html.hpp"
 #include "harness/report/sections.hpp"
 #include "metrics/numerics/median.hpp"

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "harness/compare/name_order.hpp"
+#include "harness/model/name_order.hpp"
 #include "harness/report/data.hpp"
 #include "harness/report/packed.hpp"
 #include "harness/store/traces.hpp"

@@ -7,7 +7,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/base/suggest.hpp"
 #include "harness/compare/derived.hpp"
-#include "harness/compare/name_order.hpp"
+#include "harness/model/name_order.hpp"
 #include "harness/model/where.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/record_reader.hpp"

@@ -3,9 +3,9 @@
 #include <map>
 #include <utility>
 
-#include "harness/compare/average.hpp"
 #include "harness/compare/observations.hpp"
 #include "harness/tables/table_numbers.hpp"
+#include "metrics/numerics/average.hpp"
 
 namespace loopbench::harness {
 
@@ -65,9 +65,9 @@ double EntryNumbers::gain() const {
   for (const auto& [group, gains] : by_group) {
     std::vector<double> logarithms;
     for (const auto& [run, gain] : gains) logarithms.push_back(std::log(1.0 - 0.01 * gain));
-    groups.push_back(mean(logarithms));
+    groups.push_back(metrics::mean(logarithms));
   }
-  return 100.0 * (1.0 - std::exp(mean(groups)));
+  return 100.0 * (1.0 - std::exp(metrics::mean(groups)));
 }
 
 std::optional<double> EntryNumbers::average() const {
@@ -76,14 +76,14 @@ std::optional<double> EntryNumbers::average() const {
   const auto zeros = std::ranges::count(all, 100.0);
   const bool has_no_mean = is_gain_ && zeros > 0 && zeros < std::ssize(all);
   if (all.empty() || has_no_mean) return std::nullopt;
-  const double out = is_gain_ ? gain() : mean(all);
+  const double out = is_gain_ ? gain() : metrics::mean(all);
   return std::isfinite(out) ? std::optional(out) : std::nullopt;
 }
 
 std::optional<double> EntryNumbers::deviation() const {
   const std::vector<double> all = kept();
   if (all.size() < 2) return std::nullopt;
-  const double out = sample_deviation(all);
+  const double out = metrics::sample_deviation(all);
   return std::isfinite(out) ? std::optional(out) : std::nullopt;
 }
 

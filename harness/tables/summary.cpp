@@ -8,13 +8,13 @@
 #include <map>
 #include <set>
 
-#include "harness/compare/average.hpp"
 #include "harness/compare/compare.hpp"
-#include "harness/compare/name_order.hpp"
 #include "harness/compare/observations.hpp"
 #include "harness/compare/ranks.hpp"
+#include "harness/model/name_order.hpp"
 #include "harness/tables/notes.hpp"
 #include "harness/tables/pivot.hpp"
+#include "metrics/numerics/average.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -165,7 +165,7 @@ std::map<std::string, double> mean_ranks(const std::vector<Record>& records,
     for (std::size_t i = 0; i < own.size(); ++i) ranks[methods[i]].push_back(own[i]);
   }
   std::map<std::string, double> out;
-  for (const auto& [method, own] : ranks) out[method] = mean(own);
+  for (const auto& [method, own] : ranks) out[method] = metrics::mean(own);
   return out;
 }
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "harness/compare/average.hpp"
 #include "harness/compare/rank_sum.hpp"
 #include "harness/compare/ranks.hpp"
 #include "harness/compare/signed_rank.hpp"
+#include "metrics/numerics/average.hpp"
 
 namespace loopbench::inference_test {
 

@@ -1,6 +1,6 @@
 #include "tests/studies/synthetic_store.hpp"
 
-#include "harness/compare/name_order.hpp"
+#include "harness/model/name_order.hpp"
 #include "harness/store/store.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 

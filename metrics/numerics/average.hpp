@@ -1,9 +1,9 @@
-/// Mean and standard deviation. (The median is in metrics/numerics/median.hpp.)
+/// Mean and standard deviation. (The median is in median.hpp.)
 #pragma once
 
 #include <span>
 
-namespace loopbench::harness {
+namespace loopbench::metrics {
 
 /// Arithmetic mean. Throws std::invalid_argument for an empty list.
 double mean(std::span<const double> values);
@@ -11,4 +11,4 @@ double mean(std::span<const double> values);
 /// Standard deviation with divisor n - 1. Throws std::invalid_argument for fewer than two values.
 double sample_deviation(std::span<const double> values);
 
-}  // namespace loopbench::harness
+}  // namespace loopbench::metrics

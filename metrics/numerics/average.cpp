@@ -1,9 +1,9 @@
-#include "harness/compare/average.hpp"
+#include "metrics/numerics/average.hpp"
 
 #include <cmath>
 #include <stdexcept>
 
-namespace loopbench::harness {
+namespace loopbench::metrics {
 
 double mean(std::span<const double> values) {
   if (values.empty()) throw std::invalid_argument("mean of an empty list");
@@ -20,4 +20,4 @@ double sample_deviation(std::span<const double> values) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
-}  // namespace loopbench::harness
+}  // namespace loopbench::metrics
