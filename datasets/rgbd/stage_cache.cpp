@@ -20,7 +20,8 @@ constexpr std::size_t kSealBytes = sizeof(std::uint64_t);
 constexpr std::size_t kLargestEntry = std::size_t{4} << 30;  // [bytes]
 
 std::string seal(const CacheEntry& entry, std::string_view bytes) {
-  const std::uint64_t sum = mixed(mixed(mixed(kSealSeed, entry.build), entry.name), bytes);
+  const std::uint64_t sum =
+      hash_combine(hash_combine(hash_combine(kSealSeed, entry.build), entry.name), bytes);
   std::string out(kSealBytes, '\0');
   std::memcpy(out.data(), &sum, kSealBytes);
   return out;
@@ -71,11 +72,11 @@ StageCache::StageCache(const FrontendHooks& hooks,
                        const FrontendOptions& options)
     : folder_(hooks.cache), build_(hooks.build) {
   if (folder_.empty()) return;
-  const std::uint64_t features = mixed(source.content(), to_text(echo(options.features)));
-  const std::uint64_t track = mixed(features, to_text(echo(options.track)));
+  const std::uint64_t features = hash_combine(source.content(), to_text(echo(options.features)));
+  const std::uint64_t track = hash_combine(features, to_text(echo(options.track)));
   frames_ = cache_name("features", features);
   tracked_ = cache_name("track", track);
-  const std::uint64_t loops = mixed(track, to_text(echo(options.loops)));
+  const std::uint64_t loops = hash_combine(track, to_text(echo(options.loops)));
   loops_ = cache_name("loops", loops);
   refined_ = cache_name("refined", loops);
 }

@@ -52,10 +52,10 @@ std::int64_t process_memory(const std::string& process) {
 
 TreeUsage descendants_usage(std::int64_t at_fork,
                             int most_processes,
-                            const std::vector<pid_t>& spared) {
+                            const std::vector<pid_t>& keep_alive) {
   TreeUsage out;
   std::vector<pid_t> waiting = own_children();
-  std::erase_if(waiting, [&](pid_t child) { return std::ranges::count(spared, child) > 0; });
+  std::erase_if(waiting, [&](pid_t child) { return std::ranges::count(keep_alive, child) > 0; });
   while (!waiting.empty() && out.processes <= most_processes) {
     const pid_t process = waiting.back();
     waiting.pop_back();
@@ -78,13 +78,13 @@ std::int64_t tree_memory(pid_t process) {
   return out;
 }
 
-void end_strays(const std::vector<pid_t>& spared) {
+void end_strays(const std::vector<pid_t>& keep_alive) {
   siginfo_t none;
   const int error = waitid(P_ALL, 0, &none, WEXITED | WNOHANG | WNOWAIT) == 0 ? 0 : errno;
   if (error == ECHILD) return;  // faster than reading the list
   for (;;) {
     std::vector<pid_t> strays = own_children();
-    std::erase_if(strays, [&](pid_t child) { return std::ranges::count(spared, child) > 0; });
+    std::erase_if(strays, [&](pid_t child) { return std::ranges::count(keep_alive, child) > 0; });
     if (strays.empty()) return;
     for (const pid_t stray : strays) kill(stray, SIGKILL);
     for (const pid_t stray : strays) {

@@ -18,11 +18,11 @@ struct TreeUsage {
 };
 
 /// Usage of all descendants of the calling thread. Each counts with what it has beyond `at_fork`
-/// bytes; `spared` children do not count; a copy of a process that has grown before counts with its
-/// growth again. Stops counting after `most_processes` of them.
+/// bytes; `keep_alive` children do not count; a copy of a process that has grown before counts with
+/// its growth again. Stops counting after `most_processes` of them.
 TreeUsage descendants_usage(std::int64_t at_fork,
                             int most_processes,
-                            const std::vector<pid_t>& spared = {});
+                            const std::vector<pid_t>& keep_alive = {});
 
 /// Memory of a process and all its descendants [bytes].
 std::int64_t tree_memory(pid_t process);
@@ -30,9 +30,9 @@ std::int64_t tree_memory(pid_t process);
 /// Private and shared memory of a process, or "self" [bytes]; without mapped files. 0 if unknown.
 std::int64_t process_memory(const std::string& process);
 
-/// In a subreaper: kills its children but those in `spared`, with their descendants, and waits for
-/// their end.
-void end_strays(const std::vector<pid_t>& spared);
+/// In a subreaper: kills its children but those in `keep_alive`, with their descendants, and waits
+/// for their end.
+void end_strays(const std::vector<pid_t>& keep_alive);
 
 /// While it exists, this process adopts descendants whose parents have ended. At the end it ends
 /// all that remain.

@@ -32,11 +32,11 @@ Pattern Pattern::of_option(std::string_view option, std::string_view expression)
   }
 }
 
-bool Pattern::is_in(std::string_view text) const {
+bool Pattern::matches_part(std::string_view text) const {
   return re2::RE2::PartialMatch(piece(text), *compiled_);
 }
 
-bool Pattern::is_all_of(std::string_view text) const {
+bool Pattern::matches(std::string_view text) const {
   return re2::RE2::FullMatch(piece(text), *compiled_);
 }
 

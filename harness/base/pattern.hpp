@@ -23,9 +23,9 @@ class Pattern {
   static Pattern of_option(std::string_view option, std::string_view expression);
 
   /// Whether it matches anywhere in the text.
-  [[nodiscard]] bool is_in(std::string_view text) const;
+  [[nodiscard]] bool matches_part(std::string_view text) const;
   /// Whether it matches the complete text.
-  [[nodiscard]] bool is_all_of(std::string_view text) const;
+  [[nodiscard]] bool matches(std::string_view text) const;
 
  private:
   std::shared_ptr<const re2::RE2> compiled_;

@@ -29,8 +29,8 @@ struct CheckArguments {
 };
 
 /// To standard error if standard output is the output file.
-void print_summary(bool is_output_taken, const std::string& text) {
-  if (is_output_taken) {
+void print_summary(bool stdout_in_use, const std::string& text) {
+  if (stdout_in_use) {
     print_error("{}", text);
   } else {
     fmt::print("{}", text);

@@ -21,7 +21,7 @@ std::optional<Ratio> ratio_of(const Pair& pair, const KeptRuns& kept, const Comp
   std::vector<double> sorted = pair.values;
   std::ranges::sort(sorted);
   const double estimate = interval ? interval->estimate : pseudo_median(sorted);
-  if (std::abs(estimate) > 0.1 * kBeyond) return std::nullopt;
+  if (std::abs(estimate) > 0.1 * kNoRatio) return std::nullopt;
   Ratio out;
   out.has_interval = interval.has_value();
   const double low = std::exp(sign * (interval ? interval->low : estimate));
@@ -82,8 +82,8 @@ void sort_methods(std::vector<MethodVerdict>& methods, metrics::Better better) {
     const double sign = better == metrics::Better::higher ? -1.0 : 1.0;
     const auto behind = static_cast<double>(m.losses) - static_cast<double>(m.wins);
     const double ratio = m.ratio        ? sign * m.ratio->typical.estimate
-                         : behind < 0.0 ? -kBeyond
-                                        : kBeyond;
+                         : behind < 0.0 ? -kNoRatio
+                                        : kNoRatio;
     return std::tuple(m.standing != Standing::leader, ratio, behind);
   };
   std::ranges::stable_sort(methods, {}, key);

@@ -50,18 +50,18 @@ std::optional<double> Levels::level(std::size_t method, std::size_t group) const
   std::vector<double> known;
   for (const std::size_t run : runs_of_[group]) {
     if (!is_known(method, run)) continue;
-    const double worst = sign_ * kBeyond;
+    const double worst = sign_ * kNoRatio;
     known.push_back(has_value(method, run) ? *costs_[method][run] : worst);
   }
   if (known.empty()) return std::nullopt;
   const double middle = metrics::median(known);
-  return std::abs(middle) < 0.1 * kBeyond ? middle : kFailed;
+  return std::abs(middle) < 0.1 * kNoRatio ? middle : kFailed;
 }
 
 double Levels::difference(std::size_t a, std::size_t b, double of_a, double of_b) const {
   const bool a_fails = std::isnan(of_a);
   const bool b_fails = std::isnan(of_b);
-  if (a_fails || b_fails) return a_fails == b_fails ? 0.0 : a_fails ? kBeyond : -kBeyond;
+  if (a_fails || b_fails) return a_fails == b_fails ? 0.0 : a_fails ? kNoRatio : -kNoRatio;
   const double largest = std::max(std::abs(of_a), std::abs(of_b));
   if (std::abs(of_a - of_b) <= tie_ * std::max(largest, target_)) return 0.0;
   const double floor = zero_floor(largest);
@@ -69,7 +69,7 @@ double Levels::difference(std::size_t a, std::size_t b, double of_a, double of_b
   const bool b_zero = std::abs(of_b) <= floor;
   if (a_zero && b_zero) return 0.0;
   if (!is_ratio(a, b)) return sign_ * (of_a - of_b);
-  if (a_zero != b_zero) return sign_ * (a_zero ? -kBeyond : kBeyond);
+  if (a_zero != b_zero) return sign_ * (a_zero ? -kNoRatio : kNoRatio);
   return sign_ * (std::log(of_a) - std::log(of_b));
 }
 

@@ -58,7 +58,7 @@ class Levels {
   bool is_ratio(std::size_t a, std::size_t b) const { return is_positive_[a] && is_positive_[b]; }
 
   /// Difference of a level of `a` to one of `b`: negative if `a` is better, exactly 0 for a tie,
-  /// +-kBeyond if only one of them is zero or failed. Depends on these two methods only.
+  /// +-kNoRatio if only one of them is zero or failed. Depends on these two methods only.
   double difference(std::size_t a, std::size_t b, double of_a, double of_b) const;
 
   /// The same on a run on which both were run.

@@ -19,7 +19,7 @@ constexpr std::size_t kFewestOfSequence = 5;
 /// Log ratio to an error of zero in means, a factor of 1e-12.
 constexpr double kZeroRatio = 27.6;
 
-bool is_finite(double value) { return std::abs(value) < 0.1 * kBeyond; }
+bool is_finite(double value) { return std::abs(value) < 0.1 * kNoRatio; }
 
 std::vector<double> sorted(std::vector<double> values) {
   std::ranges::sort(values);
@@ -59,10 +59,10 @@ std::vector<double> aligned(const Pair& pair) {
   return sorted(out);
 }
 
-/// Median of differences of which some are +-kBeyond.
+/// Median of differences of which some are +-kNoRatio.
 double middle_of(const std::vector<double>& values) {
   const double middle = metrics::median(values);
-  return is_finite(middle) ? middle : std::copysign(kBeyond, middle);
+  return is_finite(middle) ? middle : std::copysign(kNoRatio, middle);
 }
 
 void add(Pair& out, double value, std::size_t sequence) {
@@ -192,7 +192,7 @@ bool Pair::is_first_ahead() const { return lead != 0.0 ? lead > 0.0 : mean && *m
 
 bool Pair::is_contradicted() const {
   if (!mean || *mean == 0.0 || (*mean < 0.0) == is_first_ahead()) return false;
-  const double beyond = is_first_ahead() ? -kBeyond : kBeyond;  // decided without a ratio
+  const double beyond = is_first_ahead() ? -kNoRatio : kNoRatio;  // decided without a ratio
   const auto decided = static_cast<std::size_t>(std::ranges::count(values, beyond));
   return decided <= (is_first_ahead() ? losses : wins);
 }

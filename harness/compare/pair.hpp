@@ -31,7 +31,7 @@ struct SequenceMean {
 };
 
 struct Pair {
-  /// Differences, the first method minus the second; negative: the first is better. +-kBeyond: one
+  /// Differences, the first method minus the second; negative: the first is better. +-kNoRatio: one
   /// method fails, or one error is zero. Paired: one per group with an observation of both, the
   /// median over its runs. Independent: one per pair of runs of a sequence.
   std::vector<double> values;

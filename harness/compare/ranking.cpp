@@ -45,7 +45,7 @@ Standing standing_of(const Pair& from_leader, std::size_t tests, const RankingOp
   const auto typical = from_leader.typical(level_of_one(options.alpha, tests));
   const bool is_near = from_leader.is_ratio && typical &&
                        -typical->estimate < std::log1p(options.relevant) &&
-                       std::ranges::count(from_leader.values, -kBeyond) == 0;
+                       std::ranges::count(from_leader.values, -kNoRatio) == 0;
   return is_near ? Standing::near : Standing::behind;
 }
 

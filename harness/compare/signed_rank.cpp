@@ -111,15 +111,15 @@ std::optional<std::size_t> critical_rank_sum(std::size_t n, double alpha) {
 double least_p(std::size_t n) { return std::min(1.0, std::pow(2.0, 1.0 - static_cast<double>(n))); }
 
 double walsh_average(std::span<const double> sorted, std::size_t k) {
-  const auto first = std::ranges::find_if(sorted, [](double v) { return v > -0.5 * kBeyond; });
+  const auto first = std::ranges::find_if(sorted, [](double v) { return v > -0.5 * kNoRatio; });
   const auto last =
-      std::ranges::find_if(first, sorted.end(), [](double v) { return v >= 0.5 * kBeyond; });
+      std::ranges::find_if(first, sorted.end(), [](double v) { return v >= 0.5 * kNoRatio; });
   const auto below = static_cast<std::size_t>(first - sorted.begin());
   const auto above = static_cast<std::size_t>(sorted.end() - last);
   const std::span<const double> finite(first, last);
   const std::size_t lowest = pairs(below) + below * finite.size() + below * above / 2;
-  if (k <= lowest) return -kBeyond;
-  if (k > lowest + pairs(finite.size())) return kBeyond;
+  if (k <= lowest) return -kNoRatio;
+  if (k > lowest + pairs(finite.size())) return kNoRatio;
   const auto are_enough = [&](double most) { return means_up_to(finite, most) >= k - lowest; };
   double low = finite.front();
   double high = finite.back();
@@ -135,9 +135,9 @@ double pseudo_median(std::span<const double> sorted) {
   const std::size_t count = pairs(sorted.size());
   const double lower = walsh_average(sorted, (count + 1) / 2);
   const double upper = walsh_average(sorted, count / 2 + 1);
-  if (lower == -kBeyond || upper == kBeyond) {  // finite if one of the two is
-    if (std::abs(lower) != kBeyond) return lower;
-    return std::abs(upper) != kBeyond || lower == upper ? upper : 0.0;
+  if (lower == -kNoRatio || upper == kNoRatio) {  // finite if one of the two is
+    if (std::abs(lower) != kNoRatio) return lower;
+    return std::abs(upper) != kNoRatio || lower == upper ? upper : 0.0;
   }
   return 0.5 * (lower + upper);
 }
@@ -147,12 +147,12 @@ namespace {
 /// The smallest shift that the test does not reject, given its critical sum.
 double smallest_shift(std::span<const double> sorted, std::size_t critical, double alpha) {
   const double end = walsh_average(sorted, critical + 1);
-  if (sorted.size() > kMostOrdered || std::abs(end) == kBeyond) return end;
+  if (sorted.size() > kMostOrdered || std::abs(end) == kNoRatio) return end;
   // Up to the next mean the sum is one more, which the number of ranks can reject.
   const double next = walsh_average(sorted, critical + 2);
   std::vector<double> shifted(sorted.begin(), sorted.end());
   for (double& value : shifted) value -= 0.5 * (end + next);
-  const bool has_next = end < next && next < kBeyond;
+  const bool has_next = end < next && next < kNoRatio;
   return has_next && signed_rank(shifted).p <= alpha ? next : end;
 }
 

@@ -37,7 +37,7 @@ std::optional<std::size_t> critical_rank_sum(std::size_t n, double alpha);
 double least_p(std::size_t n);
 
 /// A difference to a failure or to an error of zero, which exceeds all others.
-inline constexpr double kBeyond = 1e300;
+inline constexpr double kNoRatio = 1e300;
 
 struct Interval {
   double estimate = 0.0;
@@ -46,7 +46,7 @@ struct Interval {
 };
 
 /// The k-th smallest, from 1, of the n (n + 1) / 2 means of two of the values or of one with
-/// itself. Values of +-kBeyond stay that, and half of the means of opposite ones belong to either
+/// itself. Values of +-kNoRatio stay that, and half of the means of opposite ones belong to either
 /// end. `sorted` is ascending. O(64 n).
 double walsh_average(std::span<const double> sorted, std::size_t k);
 
@@ -54,7 +54,7 @@ double walsh_average(std::span<const double> sorted, std::size_t k);
 double pseudo_median(std::span<const double> sorted);
 
 /// The pseudo-median and all shifts that the signed-rank test does not reject at level `alpha`;
-/// nullopt if the test rejects none, because there are too few values. Ends can be +-kBeyond.
+/// nullopt if the test rejects none, because there are too few values. Ends can be +-kNoRatio.
 std::optional<Interval> shift_interval(std::span<const double> sorted, double alpha);
 
 /// P(Z <= z) of the standard normal distribution, to a few ulp in both tails.

@@ -108,7 +108,7 @@ void require_match(const YamlNode& entry, const char* key, const std::vector<Cho
   const YamlNode* const node = entry.find(key);
   if (node == nullptr) return;
   const Pattern pattern(node->text);
-  const auto is_matched = [&](const Choice& choice) { return pattern.is_all_of(choice.label); };
+  const auto is_matched = [&](const Choice& choice) { return pattern.matches(choice.label); };
   if (std::ranges::any_of(choices, is_matched)) return;
   throw node->error(
       fmt::format("exclude: the label of no {} matches '{}' (a regular expression for "

@@ -48,7 +48,7 @@ std::vector<Cell> cells(const Sweep& sweep,
     exclusions.emplace_back(Pattern(rule.dataset), Pattern(rule.method));
   const auto excluded = [&](const std::string& dataset, const std::string& method) {
     return std::ranges::any_of(exclusions, [&](const auto& rule) {
-      return rule.first.is_all_of(dataset) && rule.second.is_all_of(method);
+      return rule.first.matches(dataset) && rule.second.matches(method);
     });
   };
 
@@ -62,7 +62,7 @@ std::vector<Cell> cells(const Sweep& sweep,
     for (std::size_t m = 0; m < sweep.methods.size(); ++m) {
       const std::string& method = sweep.methods[m].label;
       if (excluded(dataset, method)) continue;
-      if (wanted.is_in(dataset + " / " + method)) {
+      if (wanted.matches_part(dataset + " / " + method)) {
         chosen.push_back(m);
         offset.push_back(kept);
       }
@@ -81,10 +81,10 @@ std::vector<Cell> cells(const Sweep& sweep,
 
 std::int64_t derived_seed(std::int64_t seed, int repeat) {
   if (repeat == 0) return seed;
-  constexpr std::uint64_t kIncrement = 0x9e3779b97f4a7c15u;  // added by mixed() once
+  constexpr std::uint64_t kIncrement = 0x9e3779b97f4a7c15u;  // added by hash_combine() once
   const std::uint64_t state =
       static_cast<std::uint64_t>(seed) + static_cast<std::uint64_t>(repeat - 1) * kIncrement;
-  return static_cast<std::int64_t>(mixed(state) >> 1);
+  return static_cast<std::int64_t>(hash_combine(state) >> 1);
 }
 
 }  // namespace loopbench::harness

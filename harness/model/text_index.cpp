@@ -52,7 +52,7 @@ std::vector<TextIndex::Part> TextIndex::parts_of(const std::string& field) {
 
 std::size_t TextIndex::KeyHash::operator()(const Key& key) const {
   std::uint64_t out = 0;
-  for (const std::uintptr_t part : key) out = mixed(out, part);
+  for (const std::uintptr_t part : key) out = hash_combine(out, part);
   return static_cast<std::size_t>(out);
 }
 

@@ -71,7 +71,7 @@ bool holds(const Condition& condition, const Record& record) {
   const std::string text = field(record, condition.field);
   if (record.metric.empty() && text.empty()) return true;
   const auto is = [&](const std::string& own) {
-    return condition.pattern ? condition.pattern->is_in(own) : own == condition.text;
+    return condition.pattern ? condition.pattern->matches_part(own) : own == condition.text;
   };
   const bool is_label = condition.field == "metric" && is(metric_label(record));
   return (is(text) || is_label) == condition.is_wanted;

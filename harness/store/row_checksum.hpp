@@ -16,7 +16,7 @@ class RowChecksum {
   void add(std::int64_t value) { add('i', static_cast<std::uint64_t>(value)); }
   // SQLite stores -0.0 as 0.0.
   void add(double value) { add('r', std::bit_cast<std::uint64_t>(value + 0.0)); }
-  void add(std::string_view bytes) { hash_ = mixed(hash_ + 't', bytes); }
+  void add(std::string_view bytes) { hash_ = hash_combine(hash_ + 't', bytes); }
   void add_null() { add('n', 0); }
 
   /// 48 bits, which take 6 bytes of a row.
@@ -24,7 +24,7 @@ class RowChecksum {
 
  private:
   void add(char type, std::uint64_t bits) {
-    hash_ = mixed(hash_ + static_cast<unsigned char>(type), bits);
+    hash_ = hash_combine(hash_ + static_cast<unsigned char>(type), bits);
   }
 
   std::uint64_t hash_ = 0;

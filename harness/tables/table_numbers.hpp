@@ -74,7 +74,7 @@ using TablePosition = std::pair<std::size_t, std::size_t>;  // row, column
 
 struct TablePositionHash {
   std::size_t operator()(const TablePosition& position) const {
-    return mixed(position.first, position.second);
+    return hash_combine(position.first, position.second);
   }
 };
 

@@ -10,7 +10,7 @@ namespace loopbench::methods {
 
 /// Returns why the odometry is not a complete chain, or an empty text. Edge i must join
 /// keyframes i and i + 1. O(n).
-inline std::string chain_fault(const Problem& problem) {
+inline std::string why_no_chain(const Problem& problem) {
   const std::size_t expected = problem.keyframes.empty() ? 0 : problem.keyframes.size() - 1;
   if (problem.odometry.size() != expected) {
     return "odometry has " + std::to_string(problem.odometry.size()) +
@@ -36,7 +36,7 @@ inline std::string loops_fault(const Problem& problem,
     return std::to_string(problem.closures.size()) + " closures exceed " + option + " = " +
            std::to_string(max_closures);
   }
-  return chain_fault(problem);
+  return why_no_chain(problem);
 }
 
 /// Returns Log(measured^-1 (from^-1 to)), the residual of an edge as a twist [rho; phi].

@@ -28,7 +28,7 @@ struct ConsistentClosures {
 };
 
 /// Returns the largest set of pairwise consistent closures (PCM). A closure that is consistent with
-/// no other is dropped, unless it is the only one. Requires complete odometry: see chain_fault().
+/// no other is dropped, unless it is the only one. Requires complete odometry: see why_no_chain().
 /// O(n + K^2) plus a clique search. Source: Mangelson, Dominic, Eustice, Vasudevan, Pairwise
 /// consistent measurement set maximization, ICRA 2018.
 ConsistentClosures consistent_closures(const Problem& problem);

@@ -22,7 +22,7 @@ std::vector<std::size_t> indices_of_consistent(const Problem& problem) {
   if (problem.closures.size() > static_cast<std::size_t>(kMaxComparedClosures)) {
     return {};
   }
-  if (!chain_fault(problem).empty() || has_scale_drift(problem)) return {};
+  if (!why_no_chain(problem).empty() || has_scale_drift(problem)) return {};
   std::vector<std::size_t> found = consistent_closures(problem).kept;
   if (found.size() < 2) found.clear();
   return found;

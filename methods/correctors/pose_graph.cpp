@@ -104,7 +104,7 @@ std::string PoseGraphOptimizer::why_declined(const Problem& problem) const {
   if (options_.rescale) {
     if (has_scale_drift(problem))
       return "rescale requires edges of scale 1, but edges change the scale";
-    if (std::string fault = chain_fault(problem); !fault.empty()) return fault;
+    if (std::string fault = why_no_chain(problem); !fault.empty()) return fault;
   }
   if (const auto unreached = first_unconnected(problem)) {
     return "the graph is not connected: no path from keyframe 0 to keyframe " +

@@ -19,7 +19,7 @@ struct VarianceFactors {
 /// where S and S_L are the stated covariances of odometry and closures, times a weak prior: the
 /// stated standard deviations are correct up to a factor of 10 (log-normal, one deviation).
 /// Relinearises at the solution until the factors no longer change. The factors lie on a lattice
-/// with a spacing of 1/4 octave in 1e-4 .. 1e4. Requires complete odometry (chain_fault()) and at
+/// with a spacing of 1/4 octave in 1e-4 .. 1e4. Requires complete odometry (why_no_chain()) and at
 /// least one closure. Complexity: about 50 Cholesky factorisations of size 6 closures in each of at
 /// most 5 rounds. Source: Koch, Parameter Estimation and Hypothesis Testing in Linear Models, 1999,
 /// section 3.6 (maximum likelihood variance components). No reference is used.

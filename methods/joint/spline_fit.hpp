@@ -32,7 +32,7 @@ class SplineFit final : public Estimator {
   std::string why_declined(const Problem& problem) const override {
     const auto least = static_cast<std::size_t>(options_.order);
     std::string why = too_few_keyframes(problem.keyframes, least);
-    return why.empty() ? chain_fault(problem) : why;
+    return why.empty() ? why_no_chain(problem) : why;
   }
 
   /// Counts: `controls`, `iterations`, `cost_before`, `cost` (chi^2 / 2).

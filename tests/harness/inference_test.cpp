@@ -163,10 +163,10 @@ TEST(TypicalDifference, IsTheMedianOfMeansOfTwo) {
   const Numbers sorted{1.0, 1.5, 2.0, 3.5, 4.0, 6.0};
   for (std::size_t k = 1; k <= 6; ++k) EXPECT_EQ(walsh_average(values, k), sorted[k - 1]);
   // One failure: six of ten means are finite, and those with the failure are last.
-  const Numbers failure{1.0, 2.0, 6.0, kBeyond};
+  const Numbers failure{1.0, 2.0, 6.0, kNoRatio};
   EXPECT_EQ(walsh_average(failure, 6), 6.0);
-  EXPECT_EQ(walsh_average(failure, 7), kBeyond);
-  EXPECT_EQ(pseudo_median(Numbers{-kBeyond, 3.0, kBeyond}), 3.0);
+  EXPECT_EQ(walsh_average(failure, 7), kNoRatio);
+  EXPECT_EQ(pseudo_median(Numbers{-kNoRatio, 3.0, kNoRatio}), 3.0);
 }
 
 TEST(TypicalDifference, HasTheIntervalOfR) {

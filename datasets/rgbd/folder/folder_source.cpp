@@ -18,9 +18,9 @@ constexpr std::uint16_t kNoDepth = 65535;  // invalid depth in 7-Scenes; TUM use
 /// Hash of the content, or of the reason why the file cannot be read, which notes state.
 std::uint64_t hashed(const fs::path& file, std::uint64_t seed) {
   try {
-    return mixed(seed, read_regular_file(file, kLargestImageFile, "image"));
+    return hash_combine(seed, read_regular_file(file, kLargestImageFile, "image"));
   } catch (const InputError& error) {  // read() reports it
-    return mixed(mixed(seed, "cannot be read"), error.what());
+    return hash_combine(hash_combine(seed, "cannot be read"), error.what());
   }
 }
 
@@ -60,24 +60,24 @@ class FolderSource final : public RgbdSource {
   }
 
   std::uint64_t content() const override {
-    std::uint64_t out = mixed(registered_ ? 1 : 2, "rgbd_folder");
+    std::uint64_t out = hash_combine(registered_ ? 1 : 2, "rgbd_folder");
     for (const fs::path& list : recording_.lists) out = hashed(list, out);
     for (const ImagePair& pair : recording_.frames) {
-      out = hashed(pair.depth, hashed(pair.grey, mixed(out, pair.grey.filename().string())));
+      out = hashed(pair.depth, hashed(pair.grey, hash_combine(out, pair.grey.filename().string())));
     }
     const Camera& c = recording_.camera;
-    return mixed(out,
-                 fmt::format("{} {} {} {} {} {} {} {} {} {}",
-                             c.fx,
-                             c.fy,
-                             c.cx,
-                             c.cy,
-                             c.k1,
-                             c.k2,
-                             c.p1,
-                             c.p2,
-                             c.k3,
-                             c.depth_scale));
+    return hash_combine(out,
+                        fmt::format("{} {} {} {} {} {} {} {} {} {}",
+                                    c.fx,
+                                    c.fy,
+                                    c.cx,
+                                    c.cy,
+                                    c.k1,
+                                    c.k2,
+                                    c.p1,
+                                    c.p2,
+                                    c.k3,
+                                    c.depth_scale));
   }
 
   Provenance provenance() const override {

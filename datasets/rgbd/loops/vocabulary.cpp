@@ -67,7 +67,7 @@ Features initial_centres(const Features& all,
                          std::size_t count,
                          std::uint64_t seed) {
   Features out = empty_like(all);
-  append(out, all.descriptor(members[mixed(seed) % members.size()]));
+  append(out, all.descriptor(members[hash_combine(seed) % members.size()]));
   std::vector<double> squares(members.size(), 4.0);
   while (out.size() < count) {
     double sum = 0.0;
@@ -77,7 +77,8 @@ Features initial_centres(const Features& all,
       squares[i] = std::min(squares[i], distance * distance);
       sum += squares[i];
     }
-    double remaining = static_cast<double>(uniform(mixed(seed, std::uint64_t{out.size()}))) * sum;
+    double remaining =
+        static_cast<double>(uniform(hash_combine(seed, std::uint64_t{out.size()}))) * sum;
     std::size_t pick = 0;
     while (pick + 1 < members.size() && remaining >= squares[pick]) remaining -= squares[pick++];
     append(out, all.descriptor(members[pick]));
@@ -107,7 +108,8 @@ void Vocabulary::grow(std::size_t node,
     nodes_[node].word = words_++;
     return;
   }
-  Features centres = initial_centres(all, members, branches_, mixed(seed_, std::uint64_t{node}));
+  Features centres =
+      initial_centres(all, members, branches_, hash_combine(seed_, std::uint64_t{node}));
   std::vector<std::vector<std::size_t>> groups;
   for (int round = 0; round < kKMeansRounds; ++round) {
     groups.assign(branches_, {});

@@ -71,15 +71,16 @@ RgbdFrame apply_sensor_model(const RenderedImage& ideal,
   const int w = camera.width;
   const int h = camera.height;
   RgbdFrame out{GreyImage(w, h), DepthImage(w, h)};
-  const std::uint64_t seed = mixed(static_cast<std::uint64_t>(o.seed), 0x5e4505 + frame);
-  const double gain = 1.0 + kBrightness * std::sin(0.9 * stamp) +
-                      0.1 * kBrightness * static_cast<double>(approximate_normal(mixed(seed, 1u)));
+  const std::uint64_t seed = hash_combine(static_cast<std::uint64_t>(o.seed), 0x5e4505 + frame);
+  const double gain =
+      1.0 + kBrightness * std::sin(0.9 * stamp) +
+      0.1 * kBrightness * static_cast<double>(approximate_normal(hash_combine(seed, 1u)));
   const Pose end_from_begin = begin_from_end.inverse();
   const double diagonal = 0.25 * (w * w + h * h);
   for (int y = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x) {
       const auto pixel = static_cast<std::uint64_t>(y * w + x);
-      const std::uint64_t draw = mixed(seed, 16 + 2 * pixel);
+      const std::uint64_t draw = hash_combine(seed, 16 + 2 * pixel);
       const float z = ideal.depth.at(x, y);
 
       const float light =
@@ -91,7 +92,7 @@ RgbdFrame apply_sensor_model(const RenderedImage& ideal,
           light * gain * corner + kGreyNoise * static_cast<double>(approximate_normal(draw));
       out.grey.at(x, y) = static_cast<std::uint8_t>(std::clamp(grey + 0.5, 0.0, 255.0));
 
-      const std::uint64_t chance = mixed(seed, 17 + 2 * pixel);
+      const std::uint64_t chance = hash_combine(seed, 17 + 2 * pixel);
       const int u = std::clamp(x + static_cast<int>(chance % 3) - 1, 0, w - 1);
       const int v = std::clamp(y + static_cast<int>((chance / 3) % 3) - 1, 0, h - 1);
       const bool with_noise = o.depth_noise > 0.0;
@@ -101,10 +102,11 @@ RgbdFrame apply_sensor_model(const RenderedImage& ideal,
       const bool dropped =
           o.dropouts > 0.0 &&
           (ideal.incidence_cosine.at(x, y) < kGrazing || beside_edge(ideal.depth, x, y) ||
-           uniform(mixed(seed ^ 0xd409, patch)) < hole || uniform(mixed(chance)) < hole);
+           uniform(hash_combine(seed ^ 0xd409, patch)) < hole ||
+           uniform(hash_combine(chance)) < hole);
       if (dropped || exact < kMinDepth || exact > kMaxDepth) continue;
       const float sigma = kNoise * static_cast<float>(o.depth_noise);
-      float measured = exact + sigma * exact * exact * approximate_normal(mixed(chance, 3u));
+      float measured = exact + sigma * exact * exact * approximate_normal(hash_combine(chance, 3u));
       if (with_noise) {
         const float eighths = std::round(8.0f * kKinectFocal * kBaseline / measured);
         measured = 8.0f * kKinectFocal * kBaseline / eighths;
@@ -171,7 +173,7 @@ class RenderedRoom final : public RgbdSource {
   }
 
   std::uint64_t content() const override {
-    return mixed(mixed(kRenderVersion, "rendered_room"), to_text(echo(options_)));
+    return hash_combine(hash_combine(kRenderVersion, "rendered_room"), to_text(echo(options_)));
   }
 
   Provenance provenance() const override {

@@ -23,7 +23,7 @@ std::array<std::size_t, 6> add_textures(Scene& scene,
     const double share = axis == 2 ? kFloorContrast : 1.0;
     skin[face] = scene.textures.size();
     scene.textures.push_back(dead_leaves(
-        size[(axis + 1) % 3], size[(axis + 2) % 3], contrast * share, mixed(seed, face)));
+        size[(axis + 1) % 3], size[(axis + 2) % 3], contrast * share, hash_combine(seed, face)));
   }
   return skin;
 }
@@ -77,7 +77,7 @@ Scene furnished_room(const Vector3& half_size, std::uint64_t seed) {
   // Three pieces per wall, on the floor or hanging, at most 0.5 m deep.
   for (std::uint64_t k = 0; k < 12; ++k) {
     const auto draw = [&](std::uint64_t i) {
-      return static_cast<double>(uniform(mixed(mixed(seed, 100 + k), i)));
+      return static_cast<double>(uniform(hash_combine(hash_combine(seed, 100 + k), i)));
     };
     const int wall = static_cast<int>(k % 4);
     const int across = wall < 2 ? 0 : 1;  // axis of the wall normal
@@ -93,12 +93,12 @@ Scene furnished_room(const Vector3& half_size, std::uint64_t seed) {
     low[along] = std::min(low[along], h[along] - size[along]);
     low.z() =
         k / 4 == 1 ? h.z() - 0.3 - size.z() : -h.z();  // the second row hangs below the ceiling
-    furnish(low, size, mixed(seed, 200 + k));
+    furnish(low, size, hash_combine(seed, 200 + k));
   }
   // Two identical cupboards at opposite walls.
   const Vector3 twin(0.5, 0.3, 1.6);
-  furnish({0.55 * h.x(), -h.y(), -h.z()}, twin, mixed(seed, 300));
-  furnish({-0.85 * h.x(), h.y() - twin.y(), -h.z()}, twin, mixed(seed, 300));
+  furnish({0.55 * h.x(), -h.y(), -h.z()}, twin, hash_combine(seed, 300));
+  furnish({-0.85 * h.x(), h.y() - twin.y(), -h.z()}, twin, hash_combine(seed, 300));
   return scene;
 }
 

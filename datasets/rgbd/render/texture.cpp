@@ -81,7 +81,7 @@ Texture dead_leaves(double width, double height, double contrast, std::uint64_t 
   const auto count = static_cast<std::uint64_t>(kLayers * width * height / mean_area);
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto draw = [&](std::uint64_t k) {
-      return static_cast<double>(uniform(mixed(seed, 8 * i + k)));
+      return static_cast<double>(uniform(hash_combine(seed, 8 * i + k)));
     };
     const double side = scale / std::sqrt(a - draw(0) * (a - b));
     const double angle = draw(1) < 0.5 ? 0.0 : std::numbers::pi * draw(2);
@@ -93,7 +93,7 @@ Texture dead_leaves(double width, double height, double contrast, std::uint64_t 
                std::sin(angle),
                0.5 * side * shape,
                0.5 * side / shape,
-               mixed(seed, 8 * i + 6) % 3 == 0,
+               hash_combine(seed, 8 * i + 6) % 3 == 0,
                static_cast<float>(128.0 + contrast * 110.0 * (2.0 * draw(7) - 1.0))});
   }
   out.levels.push_back(std::move(image));
