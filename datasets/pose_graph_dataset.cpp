@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "datasets/core/disabled_options.hpp"
 #include "datasets/derive/closures.hpp"
 #include "datasets/derive/graph_parts.hpp"
-#include "datasets/disabled_options.hpp"
 #include "datasets/formats/formats.hpp"
 
 namespace loopbench {

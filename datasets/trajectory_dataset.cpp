@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "datasets/bags/bag_trajectory.hpp"
-#include "datasets/disabled_options.hpp"
+#include "datasets/core/disabled_options.hpp"
 
 namespace loopbench {
 namespace {

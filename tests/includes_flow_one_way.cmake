@@ -7,42 +7,33 @@ set(may_include_methods "datasets/core|methods")
 set(may_include_metrics "datasets/core|metrics")
 set(may_include_harness "datasets|methods|metrics|harness")
 
-# Order within the parts: an entry (a folder, or a .hpp and .cpp of that name) may include itself and
-# the entries on lines above, but not the other entries on the same line. A file belongs to the longest
-# entry that contains it.
+# Order within the parts: an entry (a folder, or the interface of a part and its catalogue) may include
+# itself and the entries on lines above, but not the other entries on the same line. A file belongs to the
+# longest entry that contains it.
 set(order
   "datasets/core"
-  "datasets/compressed"
+  "datasets/compressed datasets/noise"
   "datasets/bags"
-  "datasets/hash datasets/revisits datasets/disabled_options datasets/dataset datasets/formats"
-  "datasets/noise_stream"
-  "datasets/random"
-  "datasets/derive datasets/simulated"
-  "datasets/trajectory_dataset datasets/pose_graph_dataset"
-  "datasets/datasets"
-  "datasets/rgbd"
+  "datasets/dataset datasets/formats"
+  "datasets/derive"
+  "datasets/simulated"
+  "datasets/rgbd/images"
   "datasets/rgbd/features"
   "datasets/rgbd/tracking"
   "datasets/rgbd/dense datasets/rgbd/loops datasets/rgbd/folder datasets/rgbd/render"
-  "datasets/rgbd/without_opencv"
-  "datasets/rgbd/frontend.hpp"
-  "datasets/rgbd/stage_cache"
-  "datasets/rgbd/frontend.cpp"
-  "datasets/rgbd/rgbd_datasets"
+  "datasets/rgbd"
+  "datasets"
 
   "methods/report"
   "methods/method"
-  "methods/pipeline methods/function_method methods/find_method"
-  "methods/smoothers/parts methods/smoothers/pose_runs methods/smoothers/penalised"
+  "methods/smoothers/runs methods/smoothers/penalised"
   "methods/smoothers/spline"
-  "methods/smoothers/manifold/jet methods/smoothers/manifold/nodes"
-  "methods/smoothers/manifold/frame"
   "methods/smoothers/manifold/families"
   "methods/smoothers/gp methods/smoothers/manifold"
   "methods/solvers"
   "methods/smoothers methods/correctors"
   "methods/joint"
-  "methods/methods"
+  "methods"
 
   "metrics/numerics"
   "metrics/protocols"
@@ -53,7 +44,7 @@ set(order
   "metrics/metric"
   "metrics/errors metrics/correction metrics/checks"
   "metrics/doctor"
-  "metrics/metrics"
+  "metrics"
 
   "harness/base"
   "harness/model"

@@ -10,7 +10,7 @@
 #include "datasets/formats/columns.hpp"
 #include "datasets/formats/g2o_information.hpp"
 #include "datasets/formats/pose_rules.hpp"
-#include "datasets/random.hpp"
+#include "datasets/noise/random.hpp"
 
 namespace loopbench {
 namespace {

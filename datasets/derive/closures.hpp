@@ -9,8 +9,8 @@
 
 #include "datasets/core/problem.hpp"
 #include "datasets/derive/poses_at.hpp"
-#include "datasets/noise_stream.hpp"
-#include "datasets/revisits.hpp"
+#include "datasets/derive/revisits.hpp"
+#include "datasets/noise/noise_stream.hpp"
 
 namespace loopbench {
 

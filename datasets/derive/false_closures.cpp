@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "datasets/derive/closures.hpp"
-#include "datasets/random.hpp"
+#include "datasets/noise/random.hpp"
 
 namespace loopbench {
 

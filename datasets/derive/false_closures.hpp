@@ -7,7 +7,7 @@
 
 #include "datasets/core/fields.hpp"
 #include "datasets/core/problem.hpp"
-#include "datasets/noise_stream.hpp"
+#include "datasets/noise/noise_stream.hpp"
 
 namespace loopbench {
 

@@ -7,9 +7,9 @@
 #include <map>
 #include <stdexcept>
 
+#include "datasets/derive/revisits.hpp"
 #include "datasets/formats/columns.hpp"
 #include "datasets/formats/g2o.hpp"
-#include "datasets/revisits.hpp"
 
 namespace loopbench {
 namespace {

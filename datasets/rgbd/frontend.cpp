@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "datasets/rgbd/images/ordered_pipeline.hpp"
 #include "datasets/rgbd/loops/normalised_gap.hpp"
 #include "datasets/rgbd/opencv.hpp"
-#include "datasets/rgbd/ordered_pipeline.hpp"
 #include "datasets/rgbd/stage_cache.hpp"
 #include "datasets/rgbd/tracking/focal_check.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "datasets/core/sequence.hpp"
 #include "datasets/rgbd/dense/refine_by_depth.hpp"
+#include "datasets/rgbd/images/rgbd_source.hpp"
 #include "datasets/rgbd/loops/detector.hpp"
-#include "datasets/rgbd/rgbd_source.hpp"
 #include "datasets/rgbd/tracking/tracker.hpp"
 
 namespace loopbench::rgbd {

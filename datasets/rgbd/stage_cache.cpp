@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include "datasets/core/error.hpp"
+#include "datasets/core/hash.hpp"
 #include "datasets/core/pack.hpp"
 #include "datasets/formats/regular_file.hpp"
 #include "datasets/formats/replace_file.hpp"
-#include "datasets/hash.hpp"
 
 namespace loopbench::rgbd {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "datasets/random.hpp"
+#include "datasets/noise/random.hpp"
 #include "datasets/simulated/odometry.hpp"
 
 namespace loopbench {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "datasets/core/problem.hpp"
-#include "datasets/revisits.hpp"
+#include "datasets/derive/revisits.hpp"
 #include "datasets/simulated/options.hpp"
 
 namespace loopbench {

@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 
-#include "datasets/random.hpp"
+#include "datasets/noise/random.hpp"
 
 namespace loopbench {
 namespace {

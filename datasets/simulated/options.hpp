@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "datasets/core/fields.hpp"
-#include "datasets/noise_stream.hpp"
+#include "datasets/noise/noise_stream.hpp"
 
 namespace loopbench {
 

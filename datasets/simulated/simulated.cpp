@@ -8,7 +8,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "datasets/random.hpp"
+#include "datasets/noise/random.hpp"
 #include "datasets/simulated/closures.hpp"
 #include "datasets/simulated/odometry.hpp"
 #include "datasets/simulated/options.hpp"

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "datasets/core/error.hpp"
-#include "datasets/hash.hpp"
+#include "datasets/core/hash.hpp"
 #include "harness/base/pattern.hpp"
 
 namespace loopbench::harness {

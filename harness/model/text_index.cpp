@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "datasets/hash.hpp"
+#include "datasets/core/hash.hpp"
 
 namespace loopbench::harness {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "datasets/hash.hpp"
+#include "datasets/core/hash.hpp"
 
 namespace loopbench::harness {
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "datasets/hash.hpp"
+#include "datasets/core/hash.hpp"
 #include "harness/model/sweep.hpp"
 #include "harness/model/text_index.hpp"
 #include "harness/tables/mark_best.hpp"

@@ -3,7 +3,7 @@
 
 #include "methods/correctors/chain.hpp"
 #include "methods/method.hpp"
-#include "methods/smoothers/parts.hpp"
+#include "methods/smoothers/runs/parts.hpp"
 #include "methods/smoothers/spline/curve.hpp"
 #include "methods/solvers/spline_solver.hpp"
 

@@ -7,10 +7,10 @@
 #include "datasets/core/knot_curve.hpp"
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/gp/posterior.hpp"
-#include "methods/smoothers/parts.hpp"
 #include "methods/smoothers/penalised/reinsch.hpp"
 #include "methods/smoothers/penalised/unrolled.hpp"
-#include "methods/smoothers/pose_runs.hpp"
+#include "methods/smoothers/runs/parts.hpp"
+#include "methods/smoothers/runs/pose_runs.hpp"
 
 namespace loopbench::methods {
 namespace {

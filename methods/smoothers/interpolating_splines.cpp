@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "datasets/core/polyline.hpp"
-#include "methods/smoothers/pose_runs.hpp"
+#include "methods/smoothers/runs/pose_runs.hpp"
 #include "methods/smoothers/spline/curve.hpp"
 
 namespace loopbench::methods {

@@ -6,7 +6,7 @@
 
 #include "datasets/core/interpolate.hpp"
 #include "datasets/core/knot_curve.hpp"
-#include "methods/smoothers/parts.hpp"
+#include "methods/smoothers/runs/parts.hpp"
 
 namespace loopbench::methods {
 namespace {

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "datasets/core/knot_curve.hpp"
-#include "methods/smoothers/parts.hpp"
 #include "methods/smoothers/penalised/unrolled.hpp"
+#include "methods/smoothers/runs/parts.hpp"
 
 namespace loopbench::methods {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "methods/method.hpp"
-#include "methods/smoothers/parts.hpp"
+#include "methods/smoothers/runs/parts.hpp"
 #include "methods/smoothers/spline/curve.hpp"
 #include "methods/solvers/spline_solver.hpp"
 

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "datasets/core/polyline.hpp"
-#include "methods/smoothers/parts.hpp"
 #include "methods/smoothers/penalised/trend.hpp"
 #include "methods/smoothers/penalised/unrolled.hpp"
+#include "methods/smoothers/runs/parts.hpp"
 
 namespace loopbench::methods {
 namespace {

@@ -1,4 +1,4 @@
-#include "datasets/disabled_options.hpp"
+#include "datasets/core/disabled_options.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "datasets/noise_stream.hpp"
+#include "datasets/noise/noise_stream.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "datasets/revisits.hpp"
+#include "datasets/derive/revisits.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 #include <stdexcept>
 
 #include "datasets/core/error.hpp"
-#include "datasets/rgbd/camera.hpp"
 #include "datasets/rgbd/folder/layouts.hpp"
 #include "datasets/rgbd/folder/read_image.hpp"
+#include "datasets/rgbd/images/camera.hpp"
 #include "datasets/rgbd/stage_cache.hpp"
 #include "tests/fuzz/scratch_file.hpp"
 #include "tests/fuzz/targets.hpp"

@@ -6,7 +6,7 @@
 #include "methods/smoothers/gaussian_process.hpp"
 #include "methods/smoothers/interpolating_splines.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
-#include "methods/smoothers/pose_runs.hpp"
+#include "methods/smoothers/runs/pose_runs.hpp"
 #include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 

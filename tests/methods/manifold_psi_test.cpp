@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "manifold_paths.hpp"
-#include "methods/smoothers/manifold/jet.hpp"
+#include "methods/smoothers/manifold/families/jet.hpp"
 #include "methods/smoothers/manifold/psi.hpp"
 
 namespace loopbench::methods::manifold::manifold_psi_test {

@@ -2,7 +2,7 @@
 /// theory, and its loss on data without drift.
 #include <gtest/gtest.h>
 
-#include "datasets/random.hpp"
+#include "datasets/noise/random.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 #include "tests/support/corrected.hpp"

@@ -2,12 +2,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "datasets/random.hpp"
+#include "datasets/noise/random.hpp"
 #include "datasets/rgbd/features/matching.hpp"
+#include "datasets/rgbd/images/ordered_pipeline.hpp"
 #include "datasets/rgbd/loops/normalised_gap.hpp"
 #include "datasets/rgbd/loops/retrieval.hpp"
 #include "datasets/rgbd/loops/vocabulary.hpp"
-#include "datasets/rgbd/ordered_pipeline.hpp"
 #include "datasets/rgbd/tracking/camera_pose.hpp"
 #include "datasets/rgbd/tracking/keyframe_rule.hpp"
 #include "datasets/rgbd/tracking/local_map.hpp"

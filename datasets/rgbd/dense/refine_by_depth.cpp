@@ -4,7 +4,7 @@
 
 #include "datasets/core/interpolate.hpp"
 #include "datasets/rgbd/dense/surface.hpp"
-#include "datasets/rgbd/ordered_pipeline.hpp"
+#include "datasets/rgbd/images/ordered_pipeline.hpp"
 
 namespace loopbench::rgbd {
 namespace {

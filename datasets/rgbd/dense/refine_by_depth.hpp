@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "datasets/rgbd/rgbd_source.hpp"
+#include "datasets/rgbd/images/rgbd_source.hpp"
 #include "datasets/rgbd/tracking/tracker.hpp"
 
 namespace loopbench::rgbd {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "datasets/core/se3.hpp"
-#include "datasets/rgbd/camera.hpp"
-#include "datasets/rgbd/image.hpp"
+#include "datasets/rgbd/images/camera.hpp"
+#include "datasets/rgbd/images/image.hpp"
 
 namespace loopbench::rgbd {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "datasets/core/fields.hpp"
-#include "datasets/rgbd/camera.hpp"
-#include "datasets/rgbd/image.hpp"
+#include "datasets/rgbd/images/camera.hpp"
+#include "datasets/rgbd/images/image.hpp"
 
 namespace loopbench::rgbd {
 

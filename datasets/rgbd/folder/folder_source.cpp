@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "datasets/core/hash.hpp"
 #include "datasets/formats/regular_file.hpp"
-#include "datasets/hash.hpp"
 #include "datasets/rgbd/folder/layouts.hpp"
 #include "datasets/rgbd/folder/read_image.hpp"
 #include "datasets/rgbd/folder/register_depth.hpp"

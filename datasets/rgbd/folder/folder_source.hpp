@@ -6,7 +6,7 @@
 #include <string>
 
 #include "datasets/core/fields.hpp"
-#include "datasets/rgbd/rgbd_source.hpp"
+#include "datasets/rgbd/images/rgbd_source.hpp"
 
 namespace loopbench::rgbd {
 

@@ -7,8 +7,8 @@
 
 #include "datasets/core/trajectory.hpp"
 #include "datasets/formats/text_file.hpp"
-#include "datasets/rgbd/camera.hpp"
 #include "datasets/rgbd/folder/folder_source.hpp"
+#include "datasets/rgbd/images/camera.hpp"
 
 namespace loopbench::rgbd {
 

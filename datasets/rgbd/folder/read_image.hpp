@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "datasets/rgbd/image.hpp"
+#include "datasets/rgbd/images/image.hpp"
 
 namespace loopbench::rgbd {
 

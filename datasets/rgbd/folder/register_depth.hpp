@@ -2,8 +2,8 @@
 #pragma once
 
 #include "datasets/core/pose.hpp"
-#include "datasets/rgbd/camera.hpp"
-#include "datasets/rgbd/image.hpp"
+#include "datasets/rgbd/images/camera.hpp"
+#include "datasets/rgbd/images/image.hpp"
 
 namespace loopbench::rgbd {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "datasets/rgbd/images/ordered_pipeline.hpp"
 #include "datasets/rgbd/loops/retrieval.hpp"
-#include "datasets/rgbd/ordered_pipeline.hpp"
 #include "datasets/rgbd/tracking/camera_pose.hpp"
 
 namespace loopbench::rgbd {

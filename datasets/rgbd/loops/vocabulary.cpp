@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "datasets/hash.hpp"
+#include "datasets/core/hash.hpp"
 
 namespace loopbench::rgbd {
 namespace {

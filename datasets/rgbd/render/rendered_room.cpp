@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdint>
 
+#include "datasets/core/hash.hpp"
 #include "datasets/core/params.hpp"
 #include "datasets/core/pose.hpp"
-#include "datasets/hash.hpp"
-#include "datasets/rgbd/camera.hpp"
-#include "datasets/rgbd/image.hpp"
+#include "datasets/rgbd/images/camera.hpp"
+#include "datasets/rgbd/images/image.hpp"
 #include "datasets/rgbd/render/scene.hpp"
 #include "datasets/simulated/path.hpp"
 

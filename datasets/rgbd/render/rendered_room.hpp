@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "datasets/core/fields.hpp"
-#include "datasets/rgbd/rgbd_source.hpp"
+#include "datasets/rgbd/images/rgbd_source.hpp"
 
 namespace loopbench::rgbd {
 

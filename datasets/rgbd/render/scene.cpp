@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "datasets/hash.hpp"
+#include "datasets/core/hash.hpp"
 
 namespace loopbench::rgbd {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "datasets/core/pose.hpp"
 #include "datasets/core/so3.hpp"
-#include "datasets/rgbd/camera.hpp"
-#include "datasets/rgbd/image.hpp"
+#include "datasets/rgbd/images/camera.hpp"
+#include "datasets/rgbd/images/image.hpp"
 
 namespace loopbench::rgbd {
 

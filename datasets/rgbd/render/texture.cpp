@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "datasets/hash.hpp"
+#include "datasets/core/hash.hpp"
 #include "datasets/rgbd/render/scene.hpp"
 
 namespace loopbench::rgbd {

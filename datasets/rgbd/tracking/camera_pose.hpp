@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "datasets/core/se3.hpp"
-#include "datasets/rgbd/camera.hpp"
 #include "datasets/rgbd/features/matching.hpp"
+#include "datasets/rgbd/images/camera.hpp"
 
 namespace loopbench::rgbd {
 

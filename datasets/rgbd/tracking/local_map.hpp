@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "datasets/rgbd/camera.hpp"
 #include "datasets/rgbd/features/features.hpp"
 #include "datasets/rgbd/features/matching.hpp"
+#include "datasets/rgbd/images/camera.hpp"
 
 namespace loopbench::rgbd {
 

@@ -5,7 +5,7 @@
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/manifold/dm_report.hpp"
 #include "methods/smoothers/manifold/planar.hpp"
-#include "methods/smoothers/pose_runs.hpp"
+#include "methods/smoothers/runs/pose_runs.hpp"
 
 namespace loopbench::methods {
 

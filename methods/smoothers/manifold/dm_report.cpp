@@ -1,7 +1,7 @@
 #include "methods/smoothers/manifold/dm_report.hpp"
 
 #include "methods/smoothers/manifold/curve.hpp"
-#include "methods/smoothers/manifold/jet.hpp"
+#include "methods/smoothers/manifold/families/jet.hpp"
 
 namespace loopbench::methods::manifold {
 namespace {

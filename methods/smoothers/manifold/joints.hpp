@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "methods/smoothers/manifold/jet.hpp"
+#include "methods/smoothers/manifold/families/jet.hpp"
 #include "methods/smoothers/manifold/windows.hpp"
 
 namespace loopbench::methods::manifold {

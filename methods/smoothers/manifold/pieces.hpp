@@ -12,8 +12,8 @@
 #include "methods/smoothers/manifold/families/fitting.hpp"
 #include "methods/smoothers/manifold/families/graph.hpp"
 #include "methods/smoothers/manifold/families/implicit.hpp"
-#include "methods/smoothers/manifold/jet.hpp"
-#include "methods/smoothers/manifold/nodes.hpp"
+#include "methods/smoothers/manifold/families/jet.hpp"
+#include "methods/smoothers/manifold/families/nodes.hpp"
 #include "methods/smoothers/manifold/spline.hpp"
 
 namespace loopbench::methods::manifold {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/smoothers/manifold/jet.hpp"
+#include "methods/smoothers/manifold/families/jet.hpp"
 #include "methods/smoothers/manifold/quasi_keyframes.hpp"
 
 namespace loopbench::methods::manifold {

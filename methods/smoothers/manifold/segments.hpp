@@ -7,7 +7,7 @@
 #include <span>
 
 #include "datasets/core/problem.hpp"
-#include "methods/smoothers/manifold/nodes.hpp"
+#include "methods/smoothers/manifold/families/nodes.hpp"
 #include "methods/smoothers/manifold/spline.hpp"
 
 namespace loopbench::methods::manifold {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "methods/smoothers/manifold/frame.hpp"
-#include "methods/smoothers/manifold/jet.hpp"
+#include "methods/smoothers/manifold/families/frame.hpp"
+#include "methods/smoothers/manifold/families/jet.hpp"
 #include "methods/smoothers/manifold/spline.hpp"
 #include "methods/smoothers/manifold/windows.hpp"
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
-#include "methods/smoothers/manifold/jet.hpp"
-#include "methods/smoothers/manifold/nodes.hpp"
+#include "methods/smoothers/manifold/families/jet.hpp"
+#include "methods/smoothers/manifold/families/nodes.hpp"
 #include "methods/smoothers/spline/basis.hpp"
 
 namespace loopbench::methods::manifold {

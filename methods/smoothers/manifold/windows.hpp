@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "methods/smoothers/manifold/nodes.hpp"
+#include "methods/smoothers/manifold/families/nodes.hpp"
 
 namespace loopbench::methods::manifold {
 

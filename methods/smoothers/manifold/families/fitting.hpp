@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <span>
 
-#include "methods/smoothers/manifold/frame.hpp"
+#include "methods/smoothers/manifold/families/frame.hpp"
 
 namespace loopbench::methods::manifold {
 

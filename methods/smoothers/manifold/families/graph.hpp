@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "methods/smoothers/manifold/frame.hpp"
-#include "methods/smoothers/manifold/jet.hpp"
+#include "methods/smoothers/manifold/families/frame.hpp"
+#include "methods/smoothers/manifold/families/jet.hpp"
 
 namespace loopbench::methods::manifold {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "methods/smoothers/manifold/families/fitting.hpp"
-#include "methods/smoothers/manifold/jet.hpp"
+#include "methods/smoothers/manifold/families/jet.hpp"
 
 namespace loopbench::methods::manifold {
 

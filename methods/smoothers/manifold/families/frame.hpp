@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "methods/smoothers/manifold/nodes.hpp"
+#include "methods/smoothers/manifold/families/nodes.hpp"
 
 namespace loopbench::methods::manifold {
 

@@ -1,4 +1,4 @@
-#include "methods/smoothers/pose_runs.hpp"
+#include "methods/smoothers/runs/pose_runs.hpp"
 
 #include <fmt/format.h>
 

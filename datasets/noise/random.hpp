@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "datasets/core/se3.hpp"
-#include "datasets/noise_stream.hpp"
+#include "datasets/noise/noise_stream.hpp"
 
 namespace loopbench {
 

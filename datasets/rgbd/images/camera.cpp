@@ -1,4 +1,4 @@
-#include "datasets/rgbd/camera.hpp"
+#include "datasets/rgbd/images/camera.hpp"
 
 #include <fmt/format.h>
 

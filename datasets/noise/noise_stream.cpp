@@ -1,6 +1,6 @@
-#include "datasets/noise_stream.hpp"
+#include "datasets/noise/noise_stream.hpp"
 
-#include "datasets/hash.hpp"
+#include "datasets/core/hash.hpp"
 
 namespace loopbench {
 namespace {

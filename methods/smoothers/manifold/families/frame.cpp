@@ -1,4 +1,4 @@
-#include "methods/smoothers/manifold/frame.hpp"
+#include "methods/smoothers/manifold/families/frame.hpp"
 
 #include <numbers>
 
