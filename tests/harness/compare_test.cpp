@@ -257,46 +257,6 @@ TEST(Ratio, IsDeclinedWhereTheBaselineIsPerfect) {
   EXPECT_EQ(dual->losses, 4u);  // an error of zero wins without a ratio
 }
 
-/// Eight runs on which dual is 10 % below raw, and a method that diverges on some of them.
-std::vector<Record> with_divergence(double error) {
-  std::vector<Record> out;
-  for (int i = 0; i < 8; ++i) {
-    out.push_back(score("room", i, "raw", 0.1 + 0.01 * i));
-    out.push_back(score("room", i, "dual", (0.9 - 0.001 * i) * (0.1 + 0.01 * i)));
-    if (error > 0.0) out.push_back(score("room", i, "lost", i < 6 ? error : 0.1));
-  }
-  return out;
-}
-
-TEST(ThirdMethods, ThatDivergeChangeNoRatioOfOthers) {
-  const auto dual = [](const Comparison& c) {
-    return *std::ranges::find(c.methods, "dual", &MethodVerdict::method);
-  };
-  const CompareOptions options{.baseline = "raw"};
-  const MethodVerdict alone = dual(compared(with_divergence(0.0), options));
-  const Comparison c = compared(with_divergence(1e12), options);
-  EXPECT_EQ(dual(c).ratio->typical.estimate, alone.ratio->typical.estimate);
-  EXPECT_EQ(dual(c).wins, 8u);
-  const auto lost = std::ranges::find(c.methods, "lost", &MethodVerdict::method);
-  ASSERT_TRUE(lost->ratio);  // its worst runs count, too
-  EXPECT_GT(lost->ratio->typical.estimate, 1e6);
-}
-
-TEST(ThirdMethods, DoNotDecideWhatAFailureCosts) {
-  std::vector<Record> records;
-  for (int i = 0; i < 20; ++i) {
-    const double raw = 0.1 + 0.01 * i;
-    records.push_back(score("room", i, "raw", raw));
-    records.push_back(i < 2 ? failed("room", i, "dual")
-                            : score("room", i, "dual", (0.6 - 0.01 * i) * raw));
-    records.push_back(score("room", i, "lost", i < 2 ? 1e6 : 1.2 * raw + 0.001 * i));
-  }
-  const Comparison c = compared(records, {.baseline = "raw"});
-  EXPECT_EQ(c.methods[0].method, "dual") << verdict(c);
-  EXPECT_TRUE(c.methods[0].beats_baseline) << verdict(c);
-  EXPECT_TRUE(c.is_best) << verdict(c);
-}
-
 TEST(Compare, KeepsScoresApartAndPassesDescriptionsOver) {
   std::vector<Record> records = sweep();
   for (Record r : sweep()) {
