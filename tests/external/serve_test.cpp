@@ -35,7 +35,7 @@ TEST_P(Serve, AMisbehavingProgramCostsOneCell) {
               "datasets: [{dataset: simulated, path: room, keyframes: 30}]\nmethods:\n"
               "  - {method: command, serve: '" LOOPBENCH_SERVING " " +
                   each.mode + "'}\nmetrics: [ate]\nrepeats: 3\nlimits: {memory: 700MiB, seconds: " +
-                  (each.mode == "hang" ? "20" : "100") + "}\n");
+                  (each.mode == "hang" ? "8" : "100") + "}\n");
   const CommandResult ran = loopbench_command("run c.yaml --out r -j 1", folder);
   const std::vector<CellRecord> cells = read_cells(folder.path() / "r");
   ASSERT_EQ(cells.size(), 3u) << ran.err;

@@ -181,9 +181,10 @@ TEST(Defect10, ASecondLabelOfAMethodCostsNothing) {
 TEST(Defect12, TheLeadersIntervalHoldsAmongTwentyOneEqualMethods) {
   std::mt19937_64 bits(5);
   const synthetic::Truth equal{.effects = std::vector<double>(21, 0.0), .groups = 20};
+  const synthetic::Shape normal = synthetic::shapes()[0];
   int excluded = 0;
   for (int draw = 0; draw < 150; ++draw) {
-    const std::vector<Record> records = synthetic::records(equal, synthetic::shapes()[0], bits);
+    const std::vector<Record> records = synthetic::records(equal, normal, bits);
     const Interval leader = compared(records, {.baseline = "m0"}).methods.front().ratio->typical;
     excluded += leader.low > 1.0 || leader.high < 1.0 ? 1 : 0;
   }
