@@ -29,7 +29,7 @@ while IFS= read -r hit; do
         grep -qE -- "(^|[ ,])$option([ ,:]|\$)" <<<"${help_of[$command]}" ||
           fail "$where" "'$command' has no option $option" ;;
       configs/*NAME*) ;;  # a placeholder
-      configs/*.yaml | results/paper/configs/*.yaml)
+      configs/*.yaml | results/*/configs/*.yaml)
         compgen -G "$word" >/dev/null || fail "$where" "no file matches $word" ;;
     esac
   done

@@ -1,53 +1,95 @@
 #!/usr/bin/python3
-"""Makes the pages and figures of this folder. Needs the compiled Python package, PyYAML, matplotlib
-and the plugin of plugin/; README.md has the commands."""
+"""Makes the pages and figures of this folder, and those of the sweeps in results/methods/configs.
+Needs the compiled Python package, PyYAML, matplotlib and the plugin of plugin/; README.md has the
+commands."""
 
 from __future__ import annotations
 
 import argparse
 import os
+import re
 import sys
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-BUILD = HERE.parents[1] / "build" / "release"
+RESULTS = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(RESULTS / "paper"), str(RESULTS / "methods")]
+
+
+def with_parts(readme, parts):
+    """The page with the text after each `<!-- NAME, written by make.py -->` replaced, up to the next
+    empty line."""
+    for name, text in parts.items():
+        head = f"<!-- {name}, written by make.py -->\n"
+        readme = re.sub(re.escape(head) + r"(?:.+\n)*", lambda _: head + text, readme)
+    return readme
+
+
+def article_pages(configs, out, readme=""):
+    """Pages on the article by path below `out`, where their figures are written, and the front page
+    with its tables."""
+    from article import judge_complete, judge_curves, judge_segments  # noqa: F401  registers judges
+    from article.cells import Results
+    from article.figures import write_figures
+    from article.judge_tables import front_table, paper_tables
+    from article.statements import ARTICLE, counts, items, judged_sections, ledger, ledger_table
+
+    results = Results([cell for config in configs for cell in config.cells])
+    sections = judged_sections(results)
+    figures = "".join(f"\n![figure{number}.svg](figure{number}.svg)\n\n**Figure {number}.** {caption}"
+                      for number, caption in sorted(write_figures(results, out / "paper").items()))
+    pages = {
+        "paper/tables.md": paper_tables(results), "paper/figures.md": figures,
+        "paper/ledger.md": "\n" + ledger(sections),
+        "methods/own_readings.md": "\n" + ledger_table(items(ARTICLE["own_readings"], results)),
+    }
+    front = with_parts(readme, {"counts": counts(sections), "errors": front_table(results)})
+    return {name: ARTICLE["pages"][name] + text for name, text in pages.items()}, front
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("configs", nargs="*", type=Path, default=sorted(HERE.glob("configs/paper_tables_*.yaml")),
-                        help="configs, by default all of configs/")
-    parser.add_argument("--build", type=Path, default=BUILD, help="build folder of loopbench")
+    parser.add_argument("--only", metavar="NAMES", nargs="+", help="configs by name")
+    parser.add_argument("--build", type=Path, default=RESULTS.parent / "build" / "release",
+                        help="build folder of loopbench")
     parser.add_argument("--data", default=os.environ.get("LOOPBENCH_DATA", ""),
                         help="folder with real datasets")
-    parser.add_argument("--out", type=Path, default=HERE, help="folder for pages and figures")
+    parser.add_argument("--out", type=Path, default=RESULTS, help="folder for paper/ and methods/")
     parser.add_argument("-j", "--jobs", type=int, default=2, help="number of workers")
     given = parser.parse_args()
-    sys.path[:0] = [str(HERE), str(given.build / "python")]
-    if given.data:
-        os.environ["LOOPBENCH_DATA"] = str(Path(given.data).resolve())
-
-    from article.pages import article_pages, front_page, run_page
-    from article.program import Program
-    from article.runs import run_config
-
     build = given.build.resolve()
-    program = Program(str(build / "loopbench"), str(build / "paper_readings.so"), given.data,
-                      given.jobs)
-    given.out.mkdir(parents=True, exist_ok=True)
-    configs = []
-    for file in given.configs:
+    sys.path.insert(0, str(build / "python"))
+    if given.data:
+        given.data = os.environ["LOOPBENCH_DATA"] = str(Path(given.data).resolve())
+
+    from article.runs import Program, run_config
+    from sweep_pages import sweep_page
+
+    program = Program(str(build / "loopbench"), str(build / "paper_readings.so"), given.data, given.jobs)
+    files = [file for name in ("paper", "methods") for file in sorted(RESULTS.glob(f"{name}/configs/*"))
+             if not file.stem.startswith("ablation")]  # their page is written by hand
+    pages, article = {}, []
+    for file in files:
+        if given.only and file.stem not in given.only:
+            continue
         try:
-            configs.append(run_config(file.resolve(), program))
+            config = run_config(file, program)
         except RuntimeError as reason:
             print(f"{file.name}: skipped: {reason}", file=sys.stderr, flush=True)
             continue
-        print(f"{file.name}: {len(configs[-1].cells)} cells", file=sys.stderr, flush=True)
-    pages = article_pages(configs, given.out)
-    if len(configs) == len(list(HERE.glob("configs/paper_tables_*.yaml"))):
-        pages["README.md"] = front_page(configs, (HERE / "README.md").read_text(encoding="utf-8"))
-    pages.update(run_page(config, given.out) for config in configs if not config.is_tables)
+        print(f"{file.name}: {len(config.cells)} cells", file=sys.stderr, flush=True)
+        if file.is_relative_to(RESULTS / "paper"):
+            article.append(config)
+        else:
+            name, text = sweep_page(config, given.out / "methods")
+            pages[f"methods/{name}"] = text
+    if article:
+        readme = (RESULTS / "paper" / "README.md").read_text(encoding="utf-8")
+        found, front = article_pages(article, given.out, readme)
+        pages.update(found)
+        if len(article) == sum(file.is_relative_to(RESULTS / "paper") for file in files):
+            pages["paper/README.md"] = front
     for name, text in pages.items():
+        (given.out / name).parent.mkdir(parents=True, exist_ok=True)
         (given.out / name).write_text(text, encoding="utf-8")
         print(given.out / name)
 

@@ -1,5 +1,5 @@
-"""Pages of results/paper: those of a stand-in and, with LOOPBENCH_DATA, those that take seconds are what
-make.py writes. Arguments: loopbench, the plugin paper_readings. Exits with 77 without the compiled
+"""Pages of results/paper: those of a stand-in and, with LOOPBENCH_DATA, those of the article and those that
+take seconds are what make.py writes. Arguments: loopbench, the plugin paper_readings. Exits with 77 without the compiled
 module, PyYAML or matplotlib."""
 
 import contextlib
@@ -8,6 +8,7 @@ import importlib
 import math
 import os
 import re
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -16,14 +17,15 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PAPER = ROOT / "results" / "paper"
-sys.path.insert(0, str(PAPER))
+METHODS = ROOT / "results" / "methods"
+sys.path[:0] = [str(PAPER), str(METHODS)]
 try:
     import numpy as np
 
-    from article.pages import article_pages, front_page, run_page
-    from article.program import Program
-    from article.runs import run_config
+    from article.runs import Program, run_config
     from loopbench import manifold
+    from make import article_pages
+    from sweep_pages import sweep_page
 except ImportError as missing:
     print(missing)
     sys.exit(77)
@@ -37,7 +39,8 @@ needs_runs = unittest.skipUnless(HAS_RUNS, "LOOPBENCH_DATA is not set or has no 
 
 @lru_cache
 def shipped(name):
-    return run_config(PAPER / "configs" / f"paper_tables_{name}.yaml", PROGRAM)
+    file = METHODS / "configs" / f"{name}.yaml"
+    return run_config(file if file.exists() else PAPER / "configs" / f"{name}.yaml", PROGRAM)
 
 
 def cell(config, run, method):
@@ -62,28 +65,46 @@ class Pages(unittest.TestCase):
         stored = ROOT / "tests" / "data" / "paper_stand_in"
         config = run_config(stored / "paper_tables_stand_in.yaml", PROGRAM)
         with folder() as out:
-            self.check(article_pages([config], out), stored)
-            for figure in ("figure1.svg", "text/figure5.svg", "guarded/figure6.svg"):
-                self.assertIn("</svg>", (out / figure).read_text(encoding="utf-8"))
+            self.check(article_pages([config], out)[0], stored)
+            for figure in ("figure1.svg", "figure5.svg", "figure6.svg"):
+                self.assertIn("</svg>", (out / "paper" / figure).read_text(encoding="utf-8"))
 
     @needs_runs
     def test_of_the_article(self):
-        configs = [shipped(name) for name in ("fr1", "fr1_mono", "fr3", "fr3_mono")]
+        configs = [shipped("paper_tables_" + name) for name in ("fr1", "fr1_mono", "fr3", "fr3_mono")]
         readme = (PAPER / "README.md").read_text(encoding="utf-8")
-        self.assertEqual(front_page(configs, readme), readme, "README.md is not what make.py writes")
         with folder() as out:
-            self.check(article_pages(configs, out), PAPER)
+            pages, front = article_pages(configs, out, readme)
+            self.assertEqual(front, readme, "README.md is not what make.py writes")
+            self.check(pages, PAPER.parent)
             drawn = sorted(out.rglob("*.svg"))
-            self.assertEqual(len(drawn), 12)
+            self.assertEqual(len(drawn), 8)
             for file in drawn:
-                name = file.relative_to(out)
-                self.assertEqual(file.read_bytes(), (PAPER / name).read_bytes(), f"{name} is stale")
+                self.assertEqual(file.read_bytes(), (PAPER / file.name).read_bytes(),
+                                 f"{file.name} is stale")
 
     @needs_runs
     def test_of_the_readings(self):
         for name in ("readings_fr1", "readings_fr3"):
             with folder() as out:
-                self.check(dict([run_page(shipped(name), out)]), PAPER)
+                self.check(dict([sweep_page(shipped(name), out)]), METHODS)
+
+    def test_a_part_without_data_is_skipped_and_named(self):
+        with folder() as out:
+            done = subprocess.run(
+                [sys.executable, "-B", PAPER / "make.py", "--build", Path(PROGRAM.file).parent, "--out", out,
+                 "--data", out, "--only", "paper_tables_fr1", "argument_images"],
+                capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for name in ("paper_tables_fr1", "argument_images"):
+                self.assertRegex(done.stderr, f"{name}.yaml: skipped: .*no such file")
+            self.assertEqual(list(out.rglob("*.md")), [])
+
+    def test_every_statement_occurs_once(self):
+        rows = re.findall(r"(?m)^\| (.*? \| .*?) \| .*\| \*.*\* \|$",
+                          (PAPER / "ledger.md").read_text(encoding="utf-8"))
+        self.assertGreater(len(rows), 100)
+        self.assertEqual(len(rows), len(set(rows)))
 
     def test_readme_quotes_only_numbers_of_the_pages(self):
         def decimals(page):
@@ -91,14 +112,14 @@ class Pages(unittest.TestCase):
             return {word.rstrip(".") for word in words if "." in word.rstrip(".")}
 
         readme = PAPER / "README.md"  # its tables are those that make.py writes
-        known = set().union(*(decimals(p) for p in PAPER.glob("*.md") if p != readme))
+        known = set().union(*(decimals(p) for p in [*PAPER.glob("*.md"), *METHODS.glob("*.md")] if p != readme))
         written = re.sub(r"(?m)^<!-- .*(\n.+)*", "", readme.read_text(encoding="utf-8"))
         with folder() as out:
             (out / "text.md").write_text(written, encoding="utf-8")
             self.assertLessEqual(decimals(out / "text.md"), known)
 
     def test_doctests(self):
-        for name in ("verdicts", "coefficient_items", "equation_items", "segment_items"):
+        for name in ("verdicts", "judge_curves", "judge_data", "judge_segments"):
             found = doctest.testmod(importlib.import_module("article." + name))
             self.assertEqual(found.failed, 0, name)
             self.assertGreater(found.attempted, 0, name)
@@ -111,9 +132,9 @@ class IndependentComputation(unittest.TestCase):
 
     def test_equations_in_the_axes_of_the_reference(self):
         for name, run, expected in (
-            ("fr1", "fr1_room closed", {"N3": 0.381, "N4 cubic": 0.249, "N4 parabola": 0.039,
+            ("paper_tables_fr1", "fr1_room closed", {"N3": 0.381, "N4 cubic": 0.249, "N4 parabola": 0.039,
                                         "N5 cubic": 0.087}),
-            ("fr3", "fr3_office closed", {"N3": 0.026, "N4 cubic": 0.054, "N4 parabola": 0.017,
+            ("paper_tables_fr3", "fr3_office closed", {"N3": 0.026, "N4 cubic": 0.054, "N4 parabola": 0.017,
                                           "N5 cubic": 0.024}),
         ):
             for variant, ate in expected.items():
@@ -123,17 +144,17 @@ class IndependentComputation(unittest.TestCase):
                                        delta=0.02 if ate > 0.2 else 6e-4)
         for variant, most, mean, ate in (("N4 parabola", 0.159, 0.024, 0.032),
                                          ("N5 cubic", 0.137, 0.024, 0.032)):
-            found = cell(shipped("fr1"), "fr1_room closed", "equations " + variant)
+            found = cell(shipped("paper_tables_fr1"), "fr1_room closed", "equations " + variant)
             for name, value in (("max", most), ("mean", mean), ("ate", ate)):
                 self.assertAlmostEqual(found.axis("y", "keyframes")[name], value, delta=6e-4)
 
     def test_gravity_from_level_cameras_is_within_five_degrees(self):
-        for name, run in (("fr1", "fr1_room closed"), ("fr3", "fr3_office closed")):
+        for name, run in (("paper_tables_fr1", "fr1_room closed"), ("paper_tables_fr3", "fr3_office closed")):
             up = manifold.level_up(cell(shipped(name), run, "ORB_SLAM2").keyframes)
             self.assertLess(math.degrees(math.acos(abs(up[2]))), 5)
 
     def test_overwriting_the_abscissa_alone_gains_a_third(self):
-        for name, run, gain in (("fr1", "fr1_room closed", -0.31), ("fr3", "fr3_office closed", -0.32)):
+        for name, run, gain in (("paper_tables_fr1", "fr1_room closed", -0.31), ("paper_tables_fr3", "fr3_office closed", -0.32)):
             config = shipped(name)
             ates = [cell(config, run, m).ate() for m in ("overwritten N4", "ORB_SLAM2")]
             self.assertAlmostEqual(ates[0] / ates[1] - 1, gain, delta=0.03)

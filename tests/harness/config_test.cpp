@@ -12,11 +12,13 @@ namespace loopbench::config_test {
 namespace {
 
 const std::filesystem::path kConfigs = LOOPBENCH_CONFIGS;
-const std::filesystem::path kPaperConfigs = kConfigs.parent_path() / "results/paper/configs";
+const std::filesystem::path kResults = kConfigs.parent_path() / "results";
+const std::filesystem::path kPaperConfigs = kResults / "paper/configs";
+const std::filesystem::path kMethodConfigs = kResults / "methods/configs";
 
 std::vector<std::string> shipped() {
   std::vector<std::string> out;
-  for (const auto& folder : {kConfigs, kPaperConfigs}) {
+  for (const auto& folder : {kConfigs, kPaperConfigs, kMethodConfigs}) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       if (entry.path().extension() == ".yaml") out.push_back(entry.path().stem().string());
     }
@@ -25,10 +27,13 @@ std::vector<std::string> shipped() {
   return out;
 }
 
-/// The config of that name; those of the article need its methods.
+/// The config of that name; those of the results need the article's readings.
 std::filesystem::path file_of(const std::string& name) {
-  const std::filesystem::path own = kConfigs / (name + ".yaml");
-  return std::filesystem::exists(own) ? own : kPaperConfigs / (name + ".yaml");
+  for (const auto& folder : {kConfigs, kPaperConfigs}) {
+    const std::filesystem::path file = folder / (name + ".yaml");
+    if (std::filesystem::exists(file)) return file;
+  }
+  return kMethodConfigs / (name + ".yaml");
 }
 std::string plugin_option(const std::string& name) {
   return file_of(name).parent_path() == kConfigs ? "" : " --plugin '" LOOPBENCH_PAPER_PLUGIN "' ";

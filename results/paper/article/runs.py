@@ -3,124 +3,165 @@
 from __future__ import annotations
 
 import contextlib
-import csv
 import sqlite3
+import subprocess
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import yaml
 
 import loopbench
-from article.cells import DRAWN_PATTERN, Cell, Config, moved
-from article.program import Program
-from article.real_stamps import write_config
+from article.cells import DRAW, DRAWN, ORB, REAL_STAMPS, Cell, Config, moved
+
+DRAWS = 3  #: random draws of real keyframes
+#: The number of keyframes of the article, a run whose keyframes ORB-SLAM2 chose, and the closed run,
+#: which has poses at their stamps. The keyframes of the article are not public: its number of them,
+#: resampled, is one stand-in, these are another.
+REAL = {
+    "fr1_room": (180, "tum_rgbd/fr1_room/orbslam2_rgbd_open_keyframes.txt",
+                 "tum_rgbd/fr1_room/orbslam2_rgbd_closed_frames_run0.txt"),
+    "fr3_office": (204, "tum_rgbd/fr3_office/orbslam2_mono_open_keyframes.txt",
+                   "tum_rgbd/fr3_office/orbslam2_rgbd_closed_frames_run0.txt"),
+}
 
 
-def _notes(store):
-    """Notes of every cell, by labels of sequence and method."""
-    database = sqlite3.connect(f"file:{store}?mode=ro", uri=True)
-    out = {}
+@dataclass
+class Program:
+    """The program with the plugin; `program("export", store)` returns its standard output."""
+
+    file: str
+    plugin: str
+    data: str = ""
+    jobs: int = 2
+
+    def __call__(self, *words):
+        done = subprocess.run([self.file, *map(str, words)], capture_output=True, text=True)
+        if done.returncode not in (0, 1):  # 1: cells failed, which their rows say
+            raise RuntimeError(f"{self.file} {words[0]}: {done.stderr.strip()}")
+        return done.stdout
+
+    def run(self, config, out, *options):
+        data = ("--data", self.data) if self.data else ()
+        self("run", config, "--out", out, "-j", self.jobs, "--plugin", self.plugin, *data, *options)
+
+
+def _cells(store):
+    database = sqlite3.connect(f"file:{store / 'results.sqlite'}?mode=ro", uri=True)
     with contextlib.closing(database):
-        for sequence, method, text in database.execute(
-            "SELECT cell.sequence, cell.method, note.text FROM note JOIN cell"
-            " ON note.cell = cell.id ORDER BY note.cell, note.number"
-        ):
-            out.setdefault((sequence, method), []).append(text)
-    return out
-
-
-def _cells(out, rows):
-    notes = _notes(out / "results.sqlite")
+        notes = database.execute("SELECT cell.sequence, cell.method, text FROM note JOIN cell ON"
+                                 " note.cell = cell.id ORDER BY cell, number").fetchall()
     cells = {}
-    for row in csv.DictReader(rows.splitlines()):
-        key = (row["sequence"], row["method"])
-        if key not in cells:
-            cells[key] = Cell(*key, oracle=row["oracle_method"] == "true", notes=notes.get(key, []))
-            cells[key].seconds = float(row["milliseconds"]) / 1e3 if row["milliseconds"] else None
-        if row["status"] != "ok" and not row["metric"]:  # a cell without scores
-            cells[key].status, cells[key].why = row["status"], row["why"]
-        cells[key].scores.append(row)
+    for row in loopbench.rows(store):
+        labels = row["sequence"], row["method"]
+        if labels not in cells:
+            status = "ok" if row["metric"] else row["cell_status"]  # an incomplete cell has scores
+            cells[labels] = Cell(*labels, status, row["cell_why"], row["seconds"])
+        if row["status"] == "ok":
+            key = row["label"], row["axis"], row["times"], row["relation"]
+            cells[labels].scores.setdefault(key, row)
+    for *labels, text in notes:
+        if tuple(labels) in cells:
+            cells[tuple(labels)].notes.append(text)
     return list(cells.values())
 
 
-def _poses(file):
-    """(n, 8) rows of a TUM file."""
-    lines = file.read_text(encoding="utf-8").splitlines()
-    return np.array(" ".join(l for l in lines if l[0] != "#").split(), float).reshape(-1, 8)
-
-
 def _trajectories(folder):
-    """Saved trajectories by labels of sequence and method, and times."""
+    """Rows of saved trajectories by labels of sequence and method, and times."""
     out = {}
-    for file in Path(folder).glob("*.txt"):
-        head = {}
-        with file.open(encoding="utf-8") as lines:
-            for line in lines:
-                if not line.startswith("# "):
-                    break
-                name, value = line[2:].rstrip("\n").split(": ", 1)
-                head[name] = value
-        out[head["sequence"], head["method"], head["times"]] = file
+    for file in folder.glob("*.txt"):
+        lines = file.read_text(encoding="utf-8").splitlines()
+        head = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
+        rows = " ".join(line for line in lines if line[0] != "#").split()
+        out[head["sequence"], head["method"], head["times"]] = np.array(rows, float).reshape(-1, 8)
     return out
 
 
 def _evaluated(problem, reference, estimate):
-    """Poses of the estimate outside tracking gaps, and the reference at their stamps."""
+    """Poses of the reference at the stamps of the estimate outside tracking gaps, and those."""
     tracked = np.sort(np.append(problem.keyframes[:, 0], problem.frames[:, 0]))
     kept = np.ones(len(estimate), bool)
     for begin, end in loopbench.tracking_gaps(reference, tracked):
         kept &= (estimate[:, 0] <= begin) | (estimate[:, 0] >= end)
-    estimate = estimate[kept]
-    return estimate, reference[np.isin(reference[:, 0], estimate[:, 0])]
+    return reference[np.isin(reference[:, 0], estimate[kept, 0])], estimate[kept]
 
 
-def _add_trajectories(config, files):
+def _add_trajectories(config, saved):
     """Sets keyframes of all runs, and dense trajectories of what is drawn."""
-    loaded, keyframes = {}, {}
-    for (dataset, method, times), file in files.items():
-        if (method, times) == (config.baseline, "keyframes"):
-            keyframes[dataset] = _poses(file)
-    how = (config.options.get("protocol") or {}).get("align", "se3")
+    entries = {entry["label"]: entry for entry in config.options["datasets"]}
+    loaded, how = {}, config.options.get("protocol", {}).get("align", "se3")
     for cell in config.cells:
         if cell.status != "ok":
             continue
-        cell.keyframes = keyframes.get(cell.dataset)
-        if not config.is_tables or (cell.dataset, cell.method, "dense") not in files:
+        cell.keyframes = saved.get((cell.dataset, config.baseline, "keyframes"))
+        estimate = saved.get((cell.dataset, cell.method, "dense"))
+        if config.baseline != ORB or estimate is None:
             continue
         if cell.dataset not in loaded:
-            entry = next(d for d in config.options["datasets"] if d["label"] == cell.dataset)
-            loaded[cell.dataset] = loopbench.load(**entry)
-        estimate = _poses(files[cell.dataset, cell.method, "dense"])
-        cell.raw_estimate, cell.reference = _evaluated(*loaded[cell.dataset], estimate)
+            loaded[cell.dataset] = loopbench.load(**entries[cell.dataset])
+        cell.reference, cell.raw_estimate = _evaluated(*loaded[cell.dataset], estimate)
         cell.alignment = loopbench.align(cell.reference, cell.raw_estimate, how)
-        cell.estimate = cell.alignment.poses
         cell.keyframes = moved(cell.alignment, cell.keyframes)
-
-
-def run_config(file, program: Program):
-    """The results of a config; those of the article's own tables also at other keyframes."""
-    config = _run(Path(file), program)
-    if config.is_tables and program.data:
-        with tempfile.TemporaryDirectory() as folder:
-            other = write_config(config.options, program.data, Path(folder))
-            if other:
-                config.cells += _run(other, program).cells
-    return config
 
 
 def _run(file, program):
     """Runs every cell, then those again whose trajectories are needed: the baseline, and for the
     article's own tables what is drawn."""
-    text = file.read_text(encoding="utf-8")
-    options = yaml.safe_load(text)
+    options = yaml.safe_load(file.read_text(encoding="utf-8"))
     with tempfile.TemporaryDirectory() as work:
-        out, again, saved = (Path(work) / name for name in ("all", "again", "saved"))
-        program.run(file, out)
-        config = Config(file, text, options, _cells(out, program("export", out)))
-        wanted = DRAWN_PATTERN if config.is_tables else options["baseline"]
+        store, again, saved = (Path(work) / name for name in ("all", "again", "saved"))
+        program.run(file, store)
+        config = Config(file, options, _cells(store))
+        wanted = DRAWN if config.baseline == ORB else config.baseline
         program.run(file, again, "--save-trajectories", f"--only= / ({wanted})$")
         program("export", again, "--what", "trajectories", "-o", saved)
         with contextlib.chdir(file.parent):
             _add_trajectories(config, _trajectories(saved))
+    return config
+
+
+def _chosen(run, stamps):
+    """The lines of a TUM file nearest to the stamps, within 10 ms."""
+    lines = [line for line in run.read_text().splitlines() if line and line[0] != "#"]
+    own = np.array([float(line.split()[0]) for line in lines])
+    nearest = np.abs(own[:, None] - stamps).argmin(0)
+    kept = np.unique(nearest[np.abs(own[nearest] - stamps) < 0.01])
+    return "".join(lines[i] + "\n" for i in kept)
+
+
+def _at_real_stamps(options, data, folder):
+    """Datasets of the closed runs of a config at stamps where ORB-SLAM2 chose keyframes: all of
+    them, and random draws of as many as the article has."""
+    out = []
+    for sequence, (count, keyframes, run) in REAL.items():
+        closed = next((d for d in options["datasets"] if d["label"] == f"{sequence} closed"), {})
+        if closed.get("estimate") != run:
+            continue
+        random, stamps = np.random.default_rng(1), np.loadtxt(data / keyframes)[:, 0]
+        choices = {REAL_STAMPS: stamps}
+        for k in range(DRAWS):
+            drawn = random.choice(stamps, min(count, len(stamps)), replace=False)
+            choices[f"{DRAW} {k + 1}"] = np.sort(drawn)
+        for name, each in choices.items():
+            file = folder / f"{sequence}_{name}.txt".replace(" ", "_")
+            file.write_text(_chosen(data / run, each), encoding="utf-8")
+            out.append({"dataset": "trajectory", "label": f"{sequence} {name}",
+                        "estimate": str(file), "frames": run, "reference": closed["reference"]})
+    return out
+
+
+def run_config(file, program):
+    """The results of a config; those of the article's own tables also at other keyframes."""
+    config = _run(Path(file), program)
+    if config.baseline != ORB or not program.data:
+        return config
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        if datasets := _at_real_stamps(config.options, Path(program.data), folder):
+            methods = [m for m in config.options["methods"]
+                       if m["label"].startswith((ORB, "equations ", "text "))]
+            other = {**config.options, "datasets": datasets, "methods": methods}
+            (folder / "real.yaml").write_text(yaml.safe_dump(other), encoding="utf-8")
+            config.cells += _run(folder / "real.yaml", program).cells
     return config

@@ -7,7 +7,14 @@ import math
 HOLDS, OTHER_SIZE, TIE = "holds", "same sign, other size", "tie"
 DOES_NOT_HOLD, CONTRADICTS = "does not hold", "contradicts itself"
 MISPRINT, CANNOT_BE_JUDGED, UNDECIDED = "misprint or gap", "cannot be judged", "undecided"
-VERDICTS = (HOLDS, OTHER_SIZE, TIE, UNDECIDED, DOES_NOT_HOLD, CONTRADICTS, MISPRINT, CANNOT_BE_JUDGED)
+VERDICTS = (HOLDS, OTHER_SIZE, TIE, UNDECIDED, DOES_NOT_HOLD, CONTRADICTS, MISPRINT,
+            CANNOT_BE_JUDGED)
+#: What the front page distinguishes.
+GROUPS = {
+    "holds": (HOLDS,), "in part": (OTHER_SIZE,), "undecided": (UNDECIDED, TIE),
+    "does not hold": (DOES_NOT_HOLD,), "flawed in print": (CONTRADICTS, MISPRINT),
+    "cannot be judged": (CANNOT_BE_JUDGED,),
+}
 
 TIED_CHANGE = 0.01  #: relative differences below this are ties
 TIED_FIT = 0.05  #: the same for fits to few or overlapping windows
@@ -43,7 +50,8 @@ def agreed(verdicts):
     >>> agreed(["holds", "holds"]), agreed(["holds", "tie"])
     ('holds', 'undecided')
     """
-    return verdicts[0] if len(set(verdicts)) == 1 else UNDECIDED
+    verdicts = set(verdicts)
+    return verdicts.pop() if len(verdicts) == 1 else UNDECIDED
 
 
 def within_factor(a, b, factor=COMPARABLE):
@@ -61,12 +69,6 @@ def verdict_on_smallest(error, smallest_other):
     if error * (1 + TIED_CHANGE) < smallest_other:
         return HOLDS
     return TIE if error <= smallest_other * (1 + TIED_CHANGE) else DOES_NOT_HOLD
-
-
-def plain(value):
-    """Shortest text of a number: 3, 0.041."""
-    text = repr(float(value))
-    return text[:-2] if text.endswith(".0") else text
 
 
 def signed_tenths(value):

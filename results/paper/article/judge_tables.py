@@ -1,0 +1,181 @@
+"""Judges of statements on tables 1 to 4, and the tables themselves, printed rows above ours."""
+
+from __future__ import annotations
+
+import math
+
+from article.cells import ORB
+from article.statements import CHANGED_ROWS, ROWS, STATISTICS, judge
+from article.verdicts import (
+    CANNOT_BE_JUDGED, DOES_NOT_HOLD, HOLDS, OTHER_SIZE, TIED_CHANGE, agreed, percent_change, table,
+    verdict_on_change, verdict_on_smallest, when, within_factor,
+)
+
+PLANAR = ("N3", "N4 parabola", "N4 cubic", "N5 parabola", "N5 cubic")
+SPATIAL = ("M6", "M7", "M8")
+
+
+def numbers(results, row, raw, reading, times):
+    """Errors of a row in a reading on one run, or None. The reading `text` fits heights above the
+    planar curves of N = 4."""
+    on_curves = reading == "text" and row["axis"] == "z" and row["variant"] != ORB
+    cell = results.find(raw, reading, row["variant"] + " with N4" * on_curves)
+    return cell and cell.axis(row["axis"], times)
+
+
+def relative_change(results, row, raw, reading="text", times="keyframes"):
+    """Change of the ATE along an axis against the raw run; NaN without a result."""
+    before, after = raw.axis(row["axis"], times), numbers(results, row, raw, reading, times)
+    return after["ate"] / before["ate"] - 1 if before and after else math.nan
+
+
+@judge
+def level_of_row(results, it):
+    runs = results.runs(it["sequence"])
+    ates = [found["ate"] for run in runs if (found := run.axis(it["axis"], "keyframes"))]
+    return {"found": ates[0], "factor": it["ate"] / ates[0], "low": min(ates), "high": max(ates),
+            "count": len(runs)} if ates else None
+
+
+@judge
+def change_of_row(results, it):
+    runs, others = results.runs(it["sequence"]), results.resampled(it["sequence"])
+    every = [relative_change(results, it, run) for run in runs]
+    if not runs or not math.isfinite(every[0]):
+        return None
+    resampled = [relative_change(results, it, run) for run in others]
+    out = {"real": "", "verdict": agreed(
+        verdict_on_change(it["change"], each) for each in [every[0], *resampled])}
+    if resampled:
+        stamps, least, most = map(percent_change, (
+            resampled[0], min(resampled[1:]), max(resampled[1:])))
+        out["real"] = f"; at real stamps {stamps}, draws {least} to {most}"
+    for reading in ("text", "equations", "guarded"):
+        for times, suffix in (("keyframes", ""), ("dense", "_dense")):
+            change = relative_change(results, it, runs[0], reading, times)
+            out[reading + suffix] = (percent_change(change) if math.isfinite(change)
+                                     else "without result")
+    every = [change for change in every if math.isfinite(change)]
+    same = sum(abs(c) >= TIED_CHANGE and (c < 0) == (it["change"] < 0) for c in every)
+    out["range"] = (f"{percent_change(min(every))} to {percent_change(max(every))} in {len(every)}"
+                    f" runs; printed sign in {same}")
+    return out
+
+
+@judge
+def smallest_error(results, it):
+    """ "N = 4 fits best": the smallest ATE along one axis, raw keyframes apart."""
+    runs, others = results.runs(it["sequence"]), results.resampled(it["sequence"])
+    if not runs:
+        return None
+
+    def ates(raw, times):
+        cells = {"raw": raw}
+        for variant in PLANAR if it["axis"] == "y" else SPATIAL:
+            cells[variant] = results.find(raw, "equations", variant)
+        found = {name: cell and cell.axis(it["axis"], times) for name, cell in cells.items()}
+        return {name: each["ate"] for name, each in found.items() if each}
+
+    def verdict(raw):
+        found = ates(raw, "dense" if it["when"] == "densely" else "keyframes")
+        found.pop("raw", None)
+        own = [found.pop(name) for name in list(found) if name.startswith(it["best"])]
+        return (verdict_on_smallest(min(own), min(found.values())) if own and found
+                else CANNOT_BE_JUDGED)
+
+    def text(times):
+        return ", ".join(f"{name} {ate:.4f}" for name, ate in ates(runs[0], times).items())
+
+    judged, real = [verdict(run) for run in [runs[0], *others]], ""
+    if others:
+        real = (f"; at real stamps {judged[1]}, holds in {judged[2:].count(HOLDS)} of"
+                f" {len(judged) - 2} draws of them")
+    return {"at_keyframes": text("keyframes"), "densely": text("dense"), "real": real,
+            "held": [verdict(run) for run in runs].count(HOLDS), "count": len(runs),
+            "verdict": agreed(judged)}
+
+
+@judge
+def all_numbers(results, _):
+    """All printed numbers but the minimum, which only shows how many errors were drawn."""
+    within = dict.fromkeys(("max", "mean", "ate", "rpe"), 0)
+    for row in CHANGED_ROWS:
+        runs = results.runs(row["sequence"])
+        found = runs and numbers(results, row, runs[0], "text", "keyframes")
+        for name in within if found else ():
+            within[name] += within_factor(found[name], row[name], 1.3)
+    share = sum(within.values()) / (len(CHANGED_ROWS) * len(within))
+    titles = {"ate": "ATE", "rpe": "RPE"}
+    return {"within": ", ".join(f"{n} ({titles.get(name, name)})" for name, n in within.items()),
+            "verdict": when(share > 0.5)}
+
+
+@judge
+def better_rows(results, _):
+    """ "Better in some areas": in how many printed rows the ATE is below ORB_SLAM2's, and in how
+    many of ours."""
+    changes = [relative_change(results, row, runs[0]) for row in CHANGED_ROWS
+               if (runs := results.runs(row["sequence"]))]
+    changes = [change for change in changes if math.isfinite(change)]
+    printed = sum(row["change"] < -TIED_CHANGE for row in CHANGED_ROWS)
+    ours = sum(change < -TIED_CHANGE for change in changes)
+    verdict = HOLDS if 2 * ours >= printed else OTHER_SIZE if ours else DOES_NOT_HOLD
+    return {"better": ours, "judged": len(changes),
+            "verdict": verdict if changes else CANNOT_BE_JUDGED}
+
+
+@judge
+def text_against_table(_, it):
+    rows = {row["variant"]: row for row in CHANGED_ROWS if row["table"] == it["table"]}
+    best = rows[it["best"]]
+    lower = [f"; {name} has mean {row['mean']}, ATE {row['ate']}" for name, row in rows.items()
+             if row["mean"] < best["mean"] and row["ate"] < best["ate"]]
+    return {**best, "lower": "".join(lower)}
+
+
+def front_table(results):
+    """ATE along one axis [m] of all rows of tables 1 to 4: printed, and ours."""
+    lines = []
+    for row in ROWS:
+        runs = results.runs(row["sequence"])[:1] + results.resampled(row["sequence"])[:1]
+        found = [numbers(results, row, raw, "text", times) for raw in runs
+                 for times in ("keyframes", "dense")]
+        lines.append((f"{row['table']}, {row['sequence']} {row['axis']}", row["variant"],
+                      str(row["ate"]), *(f"{each['ate']:.4f}" if each else "" for each in found)))
+    return table(("table", "row", "printed", "ours, at keyframes", "densely",
+                  "at real stamps: keyframes", "densely"), ("---", "---", *["---:"] * 5), *lines)
+
+
+def _line(variant, source, found, dense="", runs="", note=""):
+    return (variant, source, *(f"{found[name]:.4f}" for name in STATISTICS), dense, runs, note)
+
+
+def _our_line(results, row, cell):
+    keyframes, dense = cell.axis(row["axis"], "keyframes"), cell.axis(row["axis"], "dense")
+    source = cell.reading or "raw keyframes"
+    if not (keyframes and dense):
+        return (cell.variant, source, *[""] * 7, cell.why)
+    ates = [found["ate"] for c in results.cells
+            if (c.sequence, c.method) == (cell.sequence, cell.method)
+            and (found := c.axis(row["axis"], "keyframes"))]
+    runs = f"{min(ates):.4f} to {max(ates):.4f} ({len(ates)})" if len(ates) > 1 else ""
+    return _line(cell.variant, source, keyframes, f"{dense['ate']:.4f}", runs, cell.oracle)
+
+
+def paper_tables(results):
+    """Four tables: errors at keyframes of the closed run in every reading, its dense ATE, and the
+    range of the ATE at keyframes over all runs. Rows that are inconsistent as printed, or that use
+    the reference, have a note."""
+    out = ""
+    for row in ROWS:
+        lines = [_line(row["variant"], "**printed**", row,
+                       note=row["flaw"] and "contradicts itself: " + row["flaw"])]
+        lines += [_our_line(results, row, cell) for cell in results.cells
+                  if (cell.sequence, cell.run) == (row["sequence"], "closed")
+                  and cell.variant.startswith(row["variant"])]
+        if row["variant"] == ORB:
+            out += f"\n### Table {row['table']}: {row['sequence']}, {row['axis']} axis [m]\n\n"
+            out += table(("variant", "source", "max", "min", "mean", "ATE", "RPE", "ATE densely",
+                          "ATE at keyframes, all runs", ""), ("---", "---", *["---:"] * 7, "---"))
+        out += table(*lines)
+    return out
