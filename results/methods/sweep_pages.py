@@ -1,4 +1,4 @@
-"""Pages of sweeps: one table per run, gains over the keyframe interval, and tables of two thresholds."""
+"""Pages of sweeps: tables per run, gains over the keyframe interval, tables of two thresholds."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from article.judge_complete import is_real_time
 from article.verdicts import percent_change, signed_tenths, table
 from loopbench import manifold
 
-#: Title, label, axis, times, relation, factor and digits of a column, which is hidden if no cell has
-#: a number.
+#: Title, label, axis, times, relation, factor and digits of a column, which is hidden if no cell
+#: has a number.
 COLUMNS = [
     ("x, keyframes [mm]", "axis_error", "x", "keyframes", "translation", 1e3, 1),
     ("y", "axis_error", "y", "keyframes", "translation", 1e3, 1),
@@ -30,7 +30,8 @@ COLUMNS = [
 ]
 INTERVAL = " (keyframes.value="
 #: Methods in the plots of the gain; the tables have all.
-PLOTTED = {"cubic_spline": "#2ca02c", "spline, quasi-keyframes": "#9467bd", "smoother N4": "#8c564b"}
+PLOTTED = {"cubic_spline": "#2ca02c", "spline, quasi-keyframes": "#9467bd",
+           "smoother N4": "#8c564b"}
 
 
 class Sweep:
@@ -65,7 +66,8 @@ def _method_table(sweep, dataset):
             continue
         found = [(cell.score(*k[1:5]), k[5], k[6]) for k in shown]
         lines.append((name,
-                      *(f"{factor * s['rmse']:.{digits}f}" if s else "" for s, factor, digits in found),
+                      *(f"{factor * s['rmse']:.{digits}f}" if s else ""
+                        for s, factor, digits in found),
                       percent_change(cell.ate() / sweep.raw(dataset).ate() - 1),
                       {None: "", True: "yes", False: "no"}[is_real_time(cell)]))
     head = ("method", *(k[0] for k in shown), "change of dense 3-D", "faster than recorded")
@@ -107,15 +109,15 @@ def _gain_matrix(sweep):
             continue
         interval, angle = spacing(raw.keyframes)
         floor, headroom = (
-            next((s["rmse"] for axis in ("3d", "") if (s := raw.score(label, axis, "dense", relation))),
-                 math.nan)
+            next((s["rmse"] for axis in ("3d", "")
+                  if (s := raw.score(label, axis, "dense", relation))), math.nan)
             for label, relation in (("interpolation_floor", "polyline"),
                                     ("smoothing_headroom", "gain")))
         lines.append((dataset, f"{interval:.2f}", f"{angle:.1f}", f"{1e3 * raw.ate():.1f}",
                       f"{1e3 * floor:.1f}", f"{headroom:.1f}",
                       *(_gain_text(sweep.gain(dataset, method)) for method in methods)))
-    head = ("run", "interval [s]", "angle [deg]", "ATE [mm]", "exact keyframes [mm]", "headroom [%]",
-            *methods)
+    head = ("run", "interval [s]", "angle [deg]", "ATE [mm]", "exact keyframes [mm]",
+            "headroom [%]", *methods)
     return (_gain_summary(sweep, methods) + "\n## Runs\n\n"
             + table(head, ("---", *["---:"] * (len(head) - 1)), *lines))
 

@@ -16,8 +16,8 @@ sys.path[:0] = [str(RESULTS / "paper"), str(RESULTS / "methods")]
 
 
 def with_parts(readme, parts):
-    """The page with the text after each `<!-- NAME, written by make.py -->` replaced, up to the next
-    empty line."""
+    """The page with the text after each `<!-- NAME, written by make.py -->` replaced, up to the
+    next empty line."""
     for name, text in parts.items():
         head = f"<!-- {name}, written by make.py -->\n"
         readme = re.sub(re.escape(head) + r"(?:.+\n)*", lambda _: head + text, readme)
@@ -35,8 +35,9 @@ def article_pages(configs, out, readme=""):
 
     results = Results([cell for config in configs for cell in config.cells])
     sections = judged_sections(results)
-    figures = "".join(f"\n![figure{number}.svg](figure{number}.svg)\n\n**Figure {number}.** {caption}"
-                      for number, caption in sorted(write_figures(results, out / "paper").items()))
+    captions = write_figures(results, out / "paper")
+    figures = "".join(f"\n![figure{k}.svg](figure{k}.svg)\n\n**Figure {k}.** {captions[k]}"
+                      for k in sorted(captions))
     pages = {
         "paper/tables.md": paper_tables(results), "paper/figures.md": figures,
         "paper/ledger.md": "\n" + ledger(sections),
@@ -64,8 +65,10 @@ def main():
     from article.runs import Program, run_config
     from sweep_pages import sweep_page
 
-    program = Program(str(build / "loopbench"), str(build / "paper_readings.so"), given.data, given.jobs)
-    files = [file for name in ("paper", "methods") for file in sorted(RESULTS.glob(f"{name}/configs/*"))
+    program = Program(str(build / "loopbench"), str(build / "paper_readings.so"), given.data,
+                      given.jobs)
+    files = [file for name in ("paper", "methods")
+             for file in sorted(RESULTS.glob(f"{name}/configs/*"))
              if not file.stem.startswith("ablation")]  # their page is written by hand
     pages, article = {}, []
     for file in files:

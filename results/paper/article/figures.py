@@ -48,9 +48,9 @@ def _arrow(name, color, start, along, width):
 
 
 def sketches(closed, opened):
-    """Panels and numbers of figures 1 to 4. Figure 1 (a) uses the open run, the others the reference
-    at the keyframes of the closed run, around the inner node with the largest angle between steps,
-    up to 45 degrees."""
+    """Panels and numbers of figures 1 to 4. Figure 1 (a) uses the open run, the others the
+    reference at the keyframes of the closed run, around the inner node with the largest angle between
+    steps, up to 45 degrees."""
     nodes = closed.true_keyframes
     points, stamps, path = nodes[:, 1:4], nodes[:, 0], manifold.KeyframePath(nodes)
     steps, turns = manifold.steps(nodes), path.curvatures()

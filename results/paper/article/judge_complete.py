@@ -1,5 +1,5 @@
-"""Judges of statements on the complete trajectory: level, areas, smoothness, cumulative error, time,
-psi, and what the motion error depends on."""
+"""Judges of statements on the complete trajectory: level, areas, smoothness, cumulative error,
+time, psi, and what the motion error depends on."""
 
 from __future__ import annotations
 
@@ -89,7 +89,9 @@ def real_time(results, it):
     times = [is_real_time(cell) for cell in results.cells if cell.status == "ok"
              and (cell.sequence, cell.reading) == (it["sequence"], "text")]
     judged = [each for each in times if each is not None]
-    return judged and {"held": sum(judged), "count": len(judged), "verdict": when(all(judged))} or None
+    if not judged:
+        return None
+    return {"held": sum(judged), "count": len(judged), "verdict": when(all(judged))}
 
 
 def error_growth(run):

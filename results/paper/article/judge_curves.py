@@ -45,8 +45,8 @@ class Windows:
 
 
 def share_as_near(distance, count):
-    """p: share of random curves, the printed one with a random sign times a factor between 1/3 and 3
-    for each coefficient, that are at least as near as the printed one."""
+    """p: share of random curves, the printed one with a random sign times a factor between 1/3 and
+    3 for each coefficient, that are at least as near as the printed one."""
     random = np.random.default_rng(1)
     signs = random.choice([-1.0, 1.0], (DRAWS, count))
     factors = signs * 3.0 ** random.uniform(-1, 1, (DRAWS, count))

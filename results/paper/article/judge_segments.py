@@ -1,9 +1,10 @@
 """Judges of figures 5 to 8: the curve and the N that fit best at a given speed and kappa.
 
 The article compares one family over N. The curves are fitted to the reference at the keyframes, in
-chord axes, so that errors are due to the curve and not to drift, and again to the estimate's keyframes,
-as the article does. All candidates are fitted from the same keyframes: those from which the largest N
-stays in the quoted range of speeds. The error is the rms distance to the reference between them.
+chord axes, so that errors are due to the curve and not to drift, and again to the estimate's
+keyframes, as the article does. All candidates are fitted from the same keyframes: those from which
+the largest N stays in the quoted range of speeds. The error is the rms distance to the
+reference between them.
 """
 
 from __future__ import annotations
@@ -65,8 +66,8 @@ def window_errors(truth, nodes, it):
 
 
 def windows_with_kappa(nodes, it):
-    """Windows whose speeds and kappa are in the quoted ranges, for kappa per keyframe, per metre and
-    per second."""
+    """Windows whose speeds and kappa are in the quoted ranges, for kappa per keyframe, per metre
+    and per second."""
     count, stamps = it["nodes"], nodes[:, 0]
     lengths = np.linalg.norm(manifold.steps(nodes), axis=1)
     kappa = manifold.KeyframePath(nodes).curvatures()[1:-1]
@@ -112,8 +113,8 @@ def best_curve(results, it):
 
 
 def joint_angles(keyframes):
-    """Median angles between neighbouring tangents above and below the median speed [deg], that speed
-    and the number of joints; None for less than four."""
+    """Median angles between neighbouring tangents above and below the median speed [deg], that
+    speed and the number of joints; None for less than four."""
     joints, before, after = manifold.free_joints(keyframes, 3)
     if len(joints) < 4:
         return None

@@ -16,9 +16,9 @@ import loopbench
 from article.cells import DRAW, DRAWN, ORB, REAL_STAMPS, Cell, Config, moved
 
 DRAWS = 3  #: random draws of real keyframes
-#: The number of keyframes of the article, a run whose keyframes ORB-SLAM2 chose, and the closed run,
-#: which has poses at their stamps. The keyframes of the article are not public: its number of them,
-#: resampled, is one stand-in, these are another.
+#: The number of keyframes of the article, a run whose keyframes ORB-SLAM2 chose, and the closed
+#: run, which has poses at their stamps. The keyframes of the article are not public: its number of
+#: them, resampled, is one stand-in, these are another.
 REAL = {
     "fr1_room": (180, "tum_rgbd/fr1_room/orbslam2_rgbd_open_keyframes.txt",
                  "tum_rgbd/fr1_room/orbslam2_rgbd_closed_frames_run0.txt"),

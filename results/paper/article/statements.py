@@ -15,8 +15,8 @@ STATISTICS = ("max", "min", "mean", "ate", "rpe")
 
 
 def _flaw(row):
-    """Why a row is inconsistent if ATE is the RMSE of the same errors: mean <= RMSE, and an RPE along
-    the same axis is at most twice the ATE. Empty if it is consistent."""
+    """Why a row is inconsistent if ATE is the RMSE of the same errors: mean <= RMSE, and an RPE
+    along the same axis is at most twice the ATE. Empty if it is consistent."""
     out = []
     if row["mean"] > row["ate"]:
         out.append(f"mean {row['mean']} exceeds ATE {row['ate']}")
@@ -98,7 +98,7 @@ def ledger_table(rows):
 
 
 def ledger(sections):
-    """The number of statements per section and verdict, the rules of the verdicts, all statements."""
+    """Statements per section and verdict, the rules of the verdicts, then all statements."""
     numbers = [(title, str(len(rows)), *(str(sum(r.verdict == v for r in rows)) for v in VERDICTS))
                for title, _, rows in sections]
     out = table(("statements on", "number", *VERDICTS), ("---", *["---:"] * 9), *numbers)

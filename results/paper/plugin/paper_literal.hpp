@@ -2,6 +2,7 @@
 #pragma once
 
 #include "methods/smoothers/manifold/dm.hpp"
+#include "results/methods/plugin/paper_oracle.hpp"
 
 namespace loopbench::paper {
 
@@ -45,6 +46,16 @@ template <class Visit>
 void fields(PaperLiteral::Options& o, Visit visit) {
   literal_fields(o.dm, visit);
   fields(o.dm, visit);
+}
+
+/// Options of PaperOracle with those of the literal readings.
+struct LiteralOracleOptions : PaperOracle::Options {};
+
+template <class Visit>
+void fields(LiteralOracleOptions& o, Visit visit) {
+  visit("overwrite", o.overwrite, "evaluate no curve: replace x' of the spline by the reference's");
+  literal_fields(o.dm, visit);
+  fields(static_cast<PaperOracle::Options&>(o), visit);
 }
 
 /// The equations y = f(x) and z = q(x, y) alone: in world axes, without guards, pieces not joined,

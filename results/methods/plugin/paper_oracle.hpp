@@ -7,7 +7,6 @@
 #include "methods/method.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
 #include "metrics/protocols/protocol.hpp"
-#include "paper_literal.hpp"
 
 namespace loopbench::paper {
 
@@ -53,36 +52,6 @@ void fields(PaperOracle::Options& o, Visit visit) {
         o.reference_align,
         "alignment of the reference to the keyframes; fit_axes = reference uses its rotation");
   fields(o.dm, visit);
-}
-
-/// PaperOracle with the options of the article's literal readings.
-class PaperLiteralOracle final : public methods::Smoother {
- public:
-  struct Options {
-    PaperOracle::Options oracle = {};
-  };
-  PaperLiteralOracle(const Options& options, Trajectory reference)
-      : oracle_(options.oracle, std::move(reference)) {}
-
-  std::string why_declined(const Problem& problem) const override {
-    return oracle_.why_declined(problem);
-  }
-  std::unique_ptr<const Curve> smooth(const Problem& problem,
-                                      methods::Report& report) const override {
-    return oracle_.smooth(problem, report);
-  }
-
- private:
-  PaperOracle oracle_;
-};
-
-template <class Visit>
-void fields(PaperLiteralOracle::Options& o, Visit visit) {
-  visit("overwrite",
-        o.oracle.overwrite,
-        "evaluate no curve: replace x' of the spline by the reference's");
-  literal_fields(o.oracle.dm, visit);
-  fields(o.oracle, visit);
 }
 
 }  // namespace loopbench::paper
