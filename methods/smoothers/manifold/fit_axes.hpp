@@ -25,7 +25,7 @@ Vector3 up_axis(const Trajectory& nodes, UpDirection choice);
 
 /// estimate: axes of the estimate's world frame (for ORB-SLAM2 those of the first camera).
 /// gravity: z up, x along the largest horizontal variance, see level_axes(). reference: axes of the
-/// reference, which a method has no access to; only an oracle accepts it.
+/// reference, which a method has no access to: rejected, `paper_reference_axes` fits in them.
 enum class FitAxes { estimate, gravity, reference };
 inline auto choices(FitAxes) {
   return std::array{std::pair{"estimate", FitAxes::estimate},

@@ -7,19 +7,14 @@
 namespace loopbench::paper {
 namespace {
 
-metrics::Alignment alignment_to(const Trajectory& reference,
-                                const Trajectory& keyframes,
-                                metrics::Align align) {
-  metrics::Protocol protocol;
-  protocol.align = align;
-  return metrics::evaluate(reference, keyframes, protocol).alignment;
-}
-
 /// Transforms the reference to the keyframes' world frame: p = R^T (p_reference - t) / scale.
 Trajectory aligned_reference(const Trajectory& keyframes,
                              const Trajectory& reference,
                              metrics::Align align) {
-  const metrics::Alignment to_reference = alignment_to(reference, keyframes, align);
+  metrics::Protocol protocol;
+  protocol.align = align;
+  const metrics::Alignment to_reference =
+      metrics::evaluate(reference, keyframes, protocol).alignment;
   const Pose estimate_from_reference = to_reference.reference_from_estimate.inverse();
   Trajectory out = reference;
   for (StampedPose& pose : out) {
@@ -52,18 +47,10 @@ methods::manifold::PieceCost nearest_to(const Polyline& reference) {
   };
 }
 
-/// Options of the smoother in axes that are already set; rejects what Dm rejects.
-methods::DmOptions in_given_axes(methods::DmOptions options) {
-  options.fit_axes = methods::manifold::FitAxes::estimate;
-  const methods::Dm checked(options);
-  options.plane = methods::manifold::Plane::xoy;
-  return options;
-}
-
 }  // namespace
 
 PaperOracle::PaperOracle(const Options& options, Trajectory reference)
-    : options_(options), dm_(in_given_axes(options.dm)), reference_(std::move(reference)) {}
+    : options_(options), dm_(options.dm), reference_(std::move(reference)) {}
 
 std::string PaperOracle::why_declined(const Problem& problem) const {
   if (reference_.empty()) return "an oracle needs a reference";
@@ -72,37 +59,9 @@ std::string PaperOracle::why_declined(const Problem& problem) const {
 
 std::unique_ptr<const Curve> PaperOracle::smooth(const Problem& problem,
                                                  methods::Report& report) const {
-  using methods::manifold::FitAxes;
-  const bool uses_positions =
-      options_.reference_abscissa || options_.reference_families || options_.overwrite;
-  if (uses_positions || options_.dm.fit_axes != FitAxes::reference)
+  if (options_.reference_abscissa || options_.reference_families || options_.overwrite) {
     report.notes.push_back("oracle: uses the reference");
-  if (options_.dm.fit_axes == FitAxes::reference) {
-    report.notes.push_back("oracle: uses the axes of the reference (rotation of the alignment " +
-                           to_text(options_.reference_align) + ")");
   }
-  const bool is_given = options_.dm.fit_axes == FitAxes::estimate;
-  if (is_given && options_.dm.plane == methods::manifold::Plane::xoy) {
-    return smooth_in_axes(problem, report);
-  }
-  const Rotation axes_from_world =
-      methods::manifold::plane_axes(options_.dm.plane) * fit_axes_from_world(problem.keyframes);
-  return methods::manifold::in_world(
-      smooth_in_axes(methods::manifold::in_axes(problem, axes_from_world), report),
-      problem,
-      axes_from_world);
-}
-
-Rotation PaperOracle::fit_axes_from_world(const Trajectory& keyframes) const {
-  using methods::manifold::FitAxes;
-  if (options_.dm.fit_axes == FitAxes::estimate) return Rotation::Identity();
-  if (options_.dm.fit_axes == FitAxes::gravity) return methods::manifold::level_axes(keyframes);
-  return alignment_to(reference_, keyframes, options_.reference_align)
-      .reference_from_estimate.rotation;
-}
-
-std::unique_ptr<const Curve> PaperOracle::smooth_in_axes(const Problem& problem,
-                                                         methods::Report& report) const {
   Polyline reference(aligned_reference(problem.keyframes, reference_, options_.reference_align));
   methods::manifold::PieceCost piece_cost;
   if (options_.reference_families) piece_cost = nearest_to(reference);

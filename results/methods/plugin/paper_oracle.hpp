@@ -1,7 +1,7 @@
-/// The article's smoother with access to the reference, which sets the axes of the fit, the x' at
-/// which curves are evaluated, or the family of each window. The article states neither its axes,
-/// nor which x' it uses, nor how its curves were selected ("most consistent with the real
-/// trajectory"); this quantifies the effect of each.
+/// The article's smoother with access to the reference, which sets the x' at which curves are
+/// evaluated, or the family of each window. The article states neither which x' it uses, nor how
+/// its curves were selected ("most consistent with the real trajectory"); this quantifies the
+/// effect of each.
 #pragma once
 
 #include "methods/method.hpp"
@@ -20,9 +20,7 @@ class PaperOracle final : public methods::Smoother {
     metrics::Align reference_align = metrics::Align::se3;
   };
 
-  /// Throws OptionError as Dm does, except that fit_axes = reference is accepted: the keyframes are
-  /// rotated to the reference's axes by the rotation of `reference_align`, without the reference's
-  /// positions, and the curve is rotated back. An empty reference is declined later.
+  /// Throws OptionError as Dm does. An empty reference is declined later.
   PaperOracle(const Options& options, Trajectory reference);
 
   std::string why_declined(const Problem& problem) const override;
@@ -34,9 +32,6 @@ class PaperOracle final : public methods::Smoother {
                                       methods::Report& report) const override;
 
  private:
-  Rotation fit_axes_from_world(const Trajectory& keyframes) const;
-  std::unique_ptr<const Curve> smooth_in_axes(const Problem& problem,
-                                              methods::Report& report) const;
   Options options_;
   methods::Dm dm_;
   Trajectory reference_;
@@ -48,9 +43,7 @@ void fields(PaperOracle::Options& o, Visit visit) {
   visit("reference_families",
         o.reference_families,
         "select for each window the one of `families` nearest to the reference");
-  visit("reference_align",
-        o.reference_align,
-        "alignment of the reference to the keyframes; fit_axes = reference uses its rotation");
+  visit("reference_align", o.reference_align, "alignment of the reference to the keyframes");
   fields(o.dm, visit);
 }
 

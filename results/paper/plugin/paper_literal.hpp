@@ -2,7 +2,6 @@
 #pragma once
 
 #include "methods/smoothers/manifold/dm.hpp"
-#include "results/methods/plugin/paper_oracle.hpp"
 
 namespace loopbench::paper {
 
@@ -10,10 +9,6 @@ namespace loopbench::paper {
 /// path.
 template <class Visit>
 void literal_fields(methods::DmOptions& o, Visit visit) {
-  visit("fit_axes",
-        o.fit_axes,
-        "axes called world: of the estimate's file, with z along gravity as estimated from level "
-        "cameras, or of the reference (oracles only)");
   visit("plane", o.plane, "plane of the planar curve with frame = world");
   visit("torsion_max",
         o.segment.torsion_max,
@@ -44,18 +39,12 @@ class PaperLiteral final : public methods::Smoother {
 
 template <class Visit>
 void fields(PaperLiteral::Options& o, Visit visit) {
+  visit("fit_axes",
+        o.dm.fit_axes,
+        "axes called world: of the estimate's file, or with z along gravity as estimated from "
+        "level cameras");
   literal_fields(o.dm, visit);
   fields(o.dm, visit);
-}
-
-/// Options of PaperOracle with those of the literal readings.
-struct LiteralOracleOptions : PaperOracle::Options {};
-
-template <class Visit>
-void fields(LiteralOracleOptions& o, Visit visit) {
-  visit("overwrite", o.overwrite, "evaluate no curve: replace x' of the spline by the reference's");
-  literal_fields(o.dm, visit);
-  fields(static_cast<PaperOracle::Options&>(o), visit);
 }
 
 /// The equations y = f(x) and z = q(x, y) alone: in world axes, without guards, pieces not joined,

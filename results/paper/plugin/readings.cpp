@@ -1,17 +1,17 @@
 /// The article's readings as methods: literal ones, and oracles of results/methods/plugin, which
 /// take axes from the reference or quantify the gain from a leak of it.
 #include "harness/catalogue/plugin.hpp"
-#include "paper_literal.hpp"
+#include "reference_axes.hpp"
 
 namespace loopbench::paper {
 namespace {
 
-/// PaperOracle with these defaults; the options given are those of `Options`.
-template <class Options>
-methods::MethodEntry oracle(std::string name, std::string summary, Options defaults) {
+/// Wraps a Smoother constructible from Options and a reference.
+template <class T>
+methods::MethodEntry oracle(std::string name, std::string summary, typename T::Options defaults) {
   const auto make = [defaults](const Params& given, const Trajectory& reference) -> methods::Stage {
     return std::unique_ptr<const methods::Smoother>(
-        std::make_unique<PaperOracle>(with(defaults, given), reference));
+        std::make_unique<T>(with(defaults, given), reference));
   };
   return {std::move(name),
           methods::Kind::smoother,
@@ -19,11 +19,6 @@ methods::MethodEntry oracle(std::string name, std::string summary, Options defau
           describe(defaults),
           [make](const Params& given) { return make(given, {}); },
           make};
-}
-
-methods::DmOptions in_reference_axes(methods::DmOptions options) {
-  options.fit_axes = methods::manifold::FitAxes::reference;
-  return options;
 }
 
 }  // namespace
@@ -40,27 +35,24 @@ LOOPBENCH_PLUGIN(
         "paper_literal_fr3",
         "the article's equations alone, thresholds for fr3_office: world axes, no guards",
         {paper_equations({.speed_band = 0.25, .turn_max = 0.42})}),
-    oracle<PaperOracle::Options>(
-        "paper_oracle",
-        "dm with y' = f(x') evaluated at the reference's x'; quantifies a leak",
-        {}),
-    oracle<PaperOracle::Options>(
-        "paper_oracle_families",
-        "dm with parabola, cubic, sine or rational selected by the reference",
-        {.dm = {.families = "poly2 poly3 sin1 rat02"},
-         .reference_abscissa = false,
-         .reference_families = true}),
-    oracle<LiteralOracleOptions>(
+    oracle<PaperOracle>("paper_oracle",
+                        "dm with y' = f(x') evaluated at the reference's x'; quantifies a leak",
+                        {}),
+    oracle<PaperOracle>("paper_oracle_families",
+                        "dm with parabola, cubic, sine or rational selected by the reference",
+                        {.dm = {.families = "poly2 poly3 sin1 rat02"},
+                         .reference_abscissa = false,
+                         .reference_families = true}),
+    oracle<PaperOracle>(
         "paper_oracle_overwrite",
         "dm without curves, x' of each window overwritten by the reference's; quantifies what "
         "copying alone gives",
-        {{.reference_abscissa = false, .overwrite = true}}),
-    oracle<LiteralOracleOptions>(
+        {.reference_abscissa = false, .overwrite = true}),
+    oracle<ReferenceAxes>(
         "paper_reference_axes",
         "the article's equations alone in the reference's axes: uses the rotation of an "
         "alignment, not the reference's positions",
-        {{.dm = in_reference_axes(paper_equations({})), .reference_abscissa = false}}),
-    oracle<LiteralOracleOptions>(
-        "paper_text",
-        "paper_reference_axes with equal second derivatives at joints and psi",
-        {{.dm = in_reference_axes(paper_text({})), .reference_abscissa = false}}))
+        {{.dm = paper_equations({}), .reference_abscissa = false}}),
+    oracle<ReferenceAxes>("paper_text",
+                          "paper_reference_axes with equal second derivatives at joints and psi",
+                          {{.dm = paper_text({}), .reference_abscissa = false}}))
