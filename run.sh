@@ -34,10 +34,11 @@ esac
 build_program
 
 grep -q '^LOOPBENCH_.*-NOTFOUND$' "$build/CMakeCache.txt" || exec "$build/loopbench" "$@"
-# Exit code 4: a file is compressed or the config reads images, and this build was made without the libraries for it.
+# Exit code 4: a file is compressed or has latitudes, or the config reads images, and this build was made without the
+# libraries for it.
 code=0
 "$build/loopbench" "$@" || code=$?
-for group in compression image; do
+for group in compression geodetic image; do
   ((code == 4)) || exit "$code"
   declare -n more=${group}_packages
   install_missing "${more[@]}"

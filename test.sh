@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/setup.sh
 (($#)) || set -- release
 [[ $* == all ]] && set -- lint tsan debug release
-install_missing "${packages[@]}" "${sandbox_packages[@]}" "${compression_packages[@]}" "${image_packages[@]}" "${plot_packages[@]}" \
+install_missing "${packages[@]}" "${sandbox_packages[@]}" "${compression_packages[@]}" "${geodetic_packages[@]}" "${image_packages[@]}" "${plot_packages[@]}" \
   "${python_packages[@]}" "${test_packages[@]}"
 [[ " $* " == *" gcc "* ]] && install_missing g++
 [[ " $* " == *" debug "* || " $* " == *" tsan "* ]] && install_missing "${sanitizer_packages[@]}"

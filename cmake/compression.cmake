@@ -1,8 +1,10 @@
 # Compression libraries for compressed files and bags, each optional: without one, files that need it are
-# rejected with exit code 4. Used in datasets/compressed only.
+# rejected with exit code 4. Used in datasets/compressed only. GeographicLib is optional in the same way, for
+# latitudes and longitudes: used in datasets/formats/geodetic.cpp only.
 add_library(loopbench_compression INTERFACE)
 set(loopbench_compression_flags "")  # of loopbench.pc
-foreach(codec "ZLIB z zlib.h" "BZIP2 bz2 bzlib.h" "ZSTD zstd zstd.h" "LZ4 lz4 lz4frame.h")
+foreach(codec "ZLIB z zlib.h" "BZIP2 bz2 bzlib.h" "ZSTD zstd zstd.h" "LZ4 lz4 lz4frame.h"
+        "GEOGRAPHICLIB GeographicLib GeographicLib/LocalCartesian.hpp")
   separate_arguments(codec)
   list(POP_FRONT codec name library header)
   find_library(LOOPBENCH_${name} ${library})

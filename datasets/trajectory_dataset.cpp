@@ -77,6 +77,17 @@ void require(bool condition, const std::string& option, const std::string& messa
   if (!condition) throw OptionError(option, option + ": " + message);
 }
 
+/// Rejects options that need the rotations of a reference without any.
+void require_no_rotations(const TrajectoryOptions& o) {
+  const std::string why = o.reference + " has positions without rotation";
+  require(o.closures != ClosureSource::reference,
+          "closures.source",
+          "reference needs rotations, but " + why);
+  require(!has_offset(o.reference_body),
+          "reference_body",
+          "needs rotations, but " + why + "; `eval --ref-body` moves the estimates instead");
+}
+
 std::uint64_t identity(const TrajectoryOptions& o, const Trajectory& keyframes) {
   if (!o.stream.empty()) return noise_identity(o.stream);
   return noise_identity(identity_text("trajectory", o, is_data_option), keyframes);
@@ -195,11 +206,15 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   const auto read = [&](const std::string& path, const std::string& option, Format format) {
     if (path.empty()) return Trajectory();
     options.format = format;
+    options.positions = option == "reference";
     std::filesystem::path file = open(path, option);
     if (names_bag(path)) file = to_text(BagName{file.string(), bag_name(path).topic});
     ReadFindings findings;
     options.findings = &findings;
     Trajectory out = read_trajectory(file, options);
+    if (findings.origin) {
+      sequence.provenance.notes.push_back(path + ": " + to_text(*findings.origin));
+    }
     if (!findings.damage.empty()) {
       sequence.provenance.notes.push_back(path + ": " + findings.damage);
     }
@@ -211,6 +226,7 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
   in.frames = read(o.frames, "frames", o.format);
   in.reference = read(o.reference, "reference", o.reference_format);
   if (!o.reference.empty()) sequence.provenance.reference = sequence.provenance.inputs.back().path;
+  if (lacks_rotations(in.reference)) require_no_rotations(o);
   if (o.closures == ClosureSource::estimate) {
     in.other_run = read(o.closures_file, "closures.file", o.format);
   }
@@ -234,7 +250,7 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
                                  false_closures_text(o.false_closures, false_closures, all);
   sequence.provenance.oracle_closures = o.closures == ClosureSource::reference || run_is_reference;
   check(sequence.problem, sequence.name);
-  check(sequence.reference, sequence.name + ": reference");
+  check(sequence.reference, sequence.name + ": reference", Rotations::optional);
   return sequence;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string_view>
 
 #include "datasets/bags/byte_reader.hpp"
@@ -71,6 +72,8 @@ std::string only_topic(const std::string& file) {
   std::vector<BagTopic> topics = summary.topics;
   const std::string known = known_topics(topics);
   std::erase_if(topics, [](const BagTopic& topic) { return !has_poses(topic); });
+  const auto has_rotations = [](const BagTopic& topic) { return !has_only_positions(topic.type); };
+  if (std::ranges::any_of(topics, has_rotations)) std::erase_if(topics, std::not_fn(has_rotations));
   if (topics.size() == 1) return topics[0].name;
   throw InputError(file + ": has " + std::to_string(topics.size()) +
                    " topics with poses, expected bag:" + file + "#TOPIC (topics: " + known + ")" +
@@ -93,7 +96,7 @@ Decoded read_topic(const std::string& file, const std::string& name) {
   if (!has_poses(*found)) {
     throw InputError(file + ": topic '" + name + "' has type " + found->type_name +
                      ", expected PoseStamped, PoseWithCovarianceStamped, Odometry, "
-                     "TransformStamped or Path" +
+                     "TransformStamped, Path, PointStamped or NavSatFix" +
                      known);
   }
   for (const PoseMessage& pose : out.poses) {
@@ -155,7 +158,11 @@ BagTrajectory read_bag_trajectory(const BagName& name) {
   out.topic = name.topic.empty() ? only_topic(name.file) : name.topic;
   Decoded read = out.topic.starts_with(kTf) ? read_tf(name.file, out.topic.substr(kTf.size()))
                                             : read_topic(name.file, out.topic);
+  const auto topic = std::ranges::find(read.summary.topics, out.topic, &BagTopic::name);
+  const MessageType type = topic == read.summary.topics.end() ? MessageType::tf : topic->type;
+  out.is_geodetic = type == MessageType::nav_sat_fix;
   const auto invalid = std::erase_if(read.poses, [&](PoseMessage& pose) {
+    if (has_only_positions(type)) return !pose.frame_from_child.translation.allFinite();
     return !normalise(pose.frame_from_child, out.off_unit);
   });
   out.poses = std::move(read.poses);

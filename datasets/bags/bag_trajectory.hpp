@@ -27,9 +27,11 @@ std::string file_of(const std::string& name);
 
 struct BagTrajectory {
   std::string topic;
-  std::vector<PoseMessage> poses;  ///< sorted by stamp; valid, with unit quaternions
-  double off_unit = 0.0;           ///< maximum | |q| - 1 | before normalisation
-  std::string damage;              ///< what is missing or was skipped; empty: nothing
+  /// Sorted by stamp; valid, with unit quaternions, or all positions without rotation.
+  std::vector<PoseMessage> poses;
+  bool is_geodetic = false;  ///< positions are latitude, longitude [deg] and height [m]
+  double off_unit = 0.0;     ///< maximum | |q| - 1 | before normalisation
+  std::string damage;        ///< what is missing or was skipped; empty: nothing
 };
 
 /// Reads one trajectory: of a topic (of a Path topic, the last path), or between two frames of the

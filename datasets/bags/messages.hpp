@@ -21,6 +21,8 @@ enum class MessageType {
   pose_with_covariance_stamped,
   odometry,
   transform_stamped,
+  point_stamped,  ///< positions without rotation
+  nav_sat_fix,    ///< latitude, longitude [deg] and height instead of x, y and z
   path,
   tf,
   other
@@ -33,9 +35,14 @@ struct BagTopic {
   Encoding encoding = Encoding::ros1;
 };
 
-/// "nav_msgs/Odometry" and "nav_msgs/msg/Odometry" -> odometry. Position-only and other types are
+/// "nav_msgs/Odometry" and "nav_msgs/msg/Odometry" -> odometry. Types without a position are
 /// `other`.
 MessageType message_type(std::string_view name);
+
+/// Whether messages of this type have a position, but no rotation.
+inline bool has_only_positions(MessageType type) {
+  return type == MessageType::point_stamped || type == MessageType::nav_sat_fix;
+}
 
 /// Called for each message of a wanted topic, in the order of the file.
 using VisitMessage = std::function<void(const BagTopic&, std::string_view message)>;

@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "datasets/bags/byte_reader.hpp"
 #include "datasets/bags/messages.hpp"
 
@@ -84,6 +86,18 @@ class MessageReader {
     return out;
   }
 
+  /// A message without a fix has a position that is not finite.
+  PoseMessage nav_sat_fix() {
+    PoseMessage out = header();
+    const auto status = number<std::int8_t>();
+    number<std::uint16_t>();  // satellite systems
+    out.frame_from_child = {no_rotation(), vector()};
+    if (status < 0) {
+      out.frame_from_child.translation.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+    return out;
+  }
+
   PoseMessage transform_stamped() {
     PoseMessage out = header();
     out.child = frame();
@@ -118,6 +132,13 @@ std::vector<PoseMessage> decode(const BagTopic& topic, std::string_view message)
       break;
     case MessageType::transform_stamped:
       out.push_back(reader.transform_stamped());
+      break;
+    case MessageType::point_stamped:
+      out.push_back(reader.header());
+      out.back().frame_from_child = {no_rotation(), reader.vector()};
+      break;
+    case MessageType::nav_sat_fix:
+      out.push_back(reader.nav_sat_fix());
       break;
     case MessageType::path:
     case MessageType::tf: {

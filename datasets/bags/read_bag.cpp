@@ -69,6 +69,8 @@ MessageType message_type(std::string_view name) {
   }
   if (plain == "nav_msgs/Odometry") return MessageType::odometry;
   if (plain == "geometry_msgs/TransformStamped") return MessageType::transform_stamped;
+  if (plain == "geometry_msgs/PointStamped") return MessageType::point_stamped;
+  if (plain == "sensor_msgs/NavSatFix") return MessageType::nav_sat_fix;
   if (plain == "nav_msgs/Path") return MessageType::path;
   if (plain == "tf2_msgs/TFMessage" || plain == "tf/tfMessage") return MessageType::tf;
   return MessageType::other;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
 
 #include "datasets/core/so3.hpp"
 
@@ -26,6 +28,14 @@ inline Pose operator*(const Pose& a_from_b, const Pose& b_from_c) {
 inline Vector3 operator*(const Pose& a_from_b, const Vector3& point_in_b) {
   return a_from_b.rotation * point_in_b + a_from_b.translation;
 }
+
+/// The rotation of a pose that is only a position (total station, GNSS antenna): not a number, so
+/// that no rotation can be computed from it by mistake.
+inline Rotation no_rotation() {
+  return Rotation(Eigen::Vector4d::Constant(std::numeric_limits<double>::quiet_NaN()));
+}
+
+inline bool has_rotation(const Pose& pose) { return !std::isnan(pose.rotation.w()); }
 
 /// Renormalises the quaternion, which long products move away from unit norm.
 inline Pose normalized(Pose pose) {

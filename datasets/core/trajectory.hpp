@@ -18,19 +18,34 @@ struct StampedPose {
 static_assert(sizeof(StampedPose) == 64,
               "a stamped pose must fill one cache line for any compiler flags");
 
-/// Stamps strictly increase, quaternions are unit, all values are finite: see check().
+/// Stamps strictly increase, quaternions are unit, all values are finite: see check(). A reference
+/// can consist of positions alone, all with no_rotation().
 using Trajectory = std::vector<StampedPose>;
+
+/// Whether the poses are positions without rotations; then no pose has a rotation, see check().
+inline bool lacks_rotations(const Trajectory& trajectory) {
+  return !trajectory.empty() && !has_rotation(trajectory.front().world_from_body);
+}
+
+/// Whether a trajectory may consist of positions without rotations.
+enum class Rotations { needed, optional };
 
 /// Throws InputError with `name`, the pose index and the violated rule if the trajectory is
 /// invalid. O(n).
-inline void check(const Trajectory& trajectory, const std::string& name) {
+inline void check(const Trajectory& trajectory,
+                  const std::string& name,
+                  Rotations rotations = Rotations::needed) {
+  const bool only_positions = rotations == Rotations::optional && lacks_rotations(trajectory);
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
     const auto invalid = [&](const std::string& what) {
       return InputError(name + ": pose " + std::to_string(i) + ": " + what);
     };
     const auto& [stamp, pose] = trajectory[i];
-    if (!std::isfinite(stamp) || !is_finite(pose)) throw invalid("is not finite");
-    if (std::abs(pose.rotation.norm() - 1.0) > 1e-6) throw invalid("quaternion is not unit");
+    if (!std::isfinite(stamp) || !pose.translation.allFinite()) throw invalid("is not finite");
+    if (only_positions && has_rotation(pose)) throw invalid("has a rotation, the first has none");
+    if (!only_positions && !pose.rotation.coeffs().allFinite()) throw invalid("is not finite");
+    if (!only_positions && std::abs(pose.rotation.norm() - 1.0) > 1e-6)
+      throw invalid("quaternion is not unit");
     if (i > 0 && !(stamp > trajectory[i - 1].stamp)) throw invalid("stamp does not increase");
   }
 }

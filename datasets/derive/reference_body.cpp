@@ -27,11 +27,20 @@ bool has_offset(const ReferenceBody& body) {
 
 Trajectory to_estimate_body(Trajectory reference, const ReferenceBody& body) {
   const Pose reference_from_body = pose_of(body).inverse();
-  if (!has_offset(body)) return reference;
+  if (!has_offset(body) || lacks_rotations(reference)) return reference;
   for (auto& [stamp, world_from_body] : reference) {
     world_from_body = normalized(world_from_body * reference_from_body);
   }
   return reference;
+}
+
+Trajectory to_reference_body(Trajectory estimate, const ReferenceBody& body) {
+  const Pose body_from_reference = pose_of(body);
+  if (!has_offset(body)) return estimate;
+  for (auto& [stamp, world_from_body] : estimate) {
+    world_from_body = normalized(world_from_body * body_from_reference);
+  }
+  return estimate;
 }
 
 }  // namespace loopbench

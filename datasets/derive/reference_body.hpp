@@ -52,7 +52,12 @@ bool has_offset(const ReferenceBody& body);
 
 /// Converts the reference to poses of the estimate's body: world_from_reference *
 /// body_from_reference^-1. The reference is returned unchanged if the offset is the identity.
+/// Positions without rotation stay where they are, and to_reference_body() moves the estimate.
 /// Throws OptionError like pose_of(). O(n).
 Trajectory to_estimate_body(Trajectory reference, const ReferenceBody& body);
+
+/// Converts an estimate to poses of the reference's body: world_from_body * body_from_reference.
+/// Throws OptionError like pose_of(). O(n).
+Trajectory to_reference_body(Trajectory estimate, const ReferenceBody& body);
 
 }  // namespace loopbench

@@ -67,6 +67,13 @@ ReadStamp stamp_of_row(const TextFile& file,
   return read_stamp(text, number, exponent);
 }
 
+/// False for a NavSatFix without a position, whose coordinates need not be numbers.
+bool has_fix(const TextFile& file, const Line& line, const CsvColumns& columns, const CsvRow& row) {
+  if (!columns.fix || csv_number(file, line, row[*columns.fix], "status") >= 0.0) return true;
+  ++file.repaired.without_fix;
+  return false;
+}
+
 Trajectory read_csv_part(TextFile& file, const CsvColumns& columns, const ReadOptions& options) {
   Trajectory out;
   StampOrder order(file, options.repeats);
@@ -74,12 +81,17 @@ Trajectory read_csv_part(TextFile& file, const CsvColumns& columns, const ReadOp
   std::array<double, kPoseColumns.size()> v{};
   for (Line line; file.next(line);) {
     split_row(file, line, columns, row);
+    if (!has_fix(file, line, columns, row)) continue;
     const double stamp = stamp_of_row(file, line, columns, row).seconds;
-    for (std::size_t i = 1; i < v.size(); ++i) {
+    for (std::size_t i = 1; i < (columns.has_rotation ? v.size() : 4); ++i) {
       v[i] = csv_number(file, line, row[columns.index[i]], kPoseColumns[i]);
     }
     for (std::size_t i = 0; i < columns.per_metre.size(); ++i) v[1 + i] /= columns.per_metre[i];
-    const Rotation rotation = normalized_rotation(file, line.number, {v[4], v[5], v[6], v[7]});
+    if (columns.is_geodetic) require_degrees(file, line.number, {v[1], v[2], v[3]});
+    const Rotation rotation =
+        columns.has_rotation
+            ? rotation_of_row(file, line, {v[4], v[5], v[6], v[7]}, out, options.positions)
+            : no_rotation();
     order.put(stamp, line.number, {rotation, {v[1], v[2], v[3]}}, out);
   }
   return out;
@@ -111,18 +123,22 @@ ReadStamp csv_stamp(const TextFile& file, const Line& line, const CsvColumns& co
 
 Trajectory read_csv(TextFile& file, const ReadOptions& options) {
   const auto columns = csv_columns(file);
+  if (columns && !columns->has_rotation && !options.positions) {
+    throw file.error(0, csv_header(file.header().empty() ? file.comment() : file.header()).why_not);
+  }
   if (!columns && !file.header().empty()) throw file.error(0, csv_header(file.header()).why_not);
   if (!columns) {
     throw file.error(0,
                      "has no header that names time, x, y, z, qx, qy, qz and qw, expected one in a "
                      "csv file");
   }
-  return joined(read_parallel(
+  Trajectory out = joined(read_parallel(
       file,
       [&](TextFile& part) { return read_csv_part(part, *columns, options); },
       [](const Trajectory& a, const Trajectory& b) {
-        return !a.empty() && !b.empty() && a.back().stamp < b.front().stamp;
+        return !a.empty() && !b.empty() && follows(a, b);
       }));
+  return columns->is_geodetic ? local_positions(std::move(out), options) : out;
 }
 
 }  // namespace loopbench

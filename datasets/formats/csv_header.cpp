@@ -86,17 +86,27 @@ void assume_time(PoseNames& all) {
   all.meanings[0] = time_column({"t", first.unit});
 }
 
-std::string why_not_understood(const PoseNames& all) {
+/// Columns of the header that stand for x, y and z.
+std::size_t position_column(const PoseNames& all, std::size_t axis) {
+  const bool is_cartesian =
+      !all.best(1).empty() || !all.best(2).empty() || !all.best(3).empty() || all.best(8).empty();
+  return (is_cartesian ? 1 : 8) + axis;
+}
+
+std::string why_not_understood(const PoseNames& all, bool with_rotation) {
   constexpr const char* kAccepted =
       "expected time (t, timestamp, time_ns, secs with nsecs), position (x, tx, p_x, position.x) "
       "and quaternion (qw, q_w, orientation.w, or q0 q1 q2 q3 for w x y z)";
+  constexpr std::array kGeodetic{"latitude", "longitude", "height"};
   std::string missing;
-  for (std::size_t i = 0; i < kPoseColumns.size(); ++i) {
-    const std::vector<std::size_t> found = all.best(i);
-    if (found.empty()) missing += (missing.empty() ? "" : ", ") + std::string(kPoseColumns[i]);
+  for (std::size_t i = 0; i < (with_rotation ? kPoseColumns.size() : 4); ++i) {
+    const std::size_t column = 1 <= i && i < 4 ? position_column(all, i - 1) : i;
+    const char* const name = column == i ? kPoseColumns[i] : kGeodetic[i - 1];
+    const std::vector<std::size_t> found = all.best(column);
+    if (found.empty()) missing += (missing.empty() ? "" : ", ") + std::string(name);
     if (found.size() > 1) {
       return fmt::format("has a header with two columns for {}: {} and {}",
-                         kPoseColumns[i],
+                         name,
                          shortened(all.names[found[0]]),
                          shortened(all.names[found[1]]));
     }
@@ -104,7 +114,9 @@ std::string why_not_understood(const PoseNames& all) {
       return fmt::format("has a header with unit {} in '{}', expected {}",
                          shortened(all.meanings[found[0]]->wrong_unit),
                          shortened(all.names[found[0]]),
-                         i == 0 ? "s, ms, us or ns" : "m, cm or mm");
+                         i == 0                       ? "s, ms, us or ns"
+                         : column == 8 || column == 9 ? "deg"
+                                                      : "m, cm or mm");
     }
   }
   if (missing.empty()) return "";
@@ -166,13 +178,25 @@ CsvHeader csv_header(std::string_view header) {
   for (std::size_t i = 1; i < kPoseColumns.size(); ++i) {
     if (!all.best(i).empty()) (i < 4 ? out.names_position : out.names_quaternion) = true;
   }
-  out.why_not = why_not_understood(all);
-  if (!out.why_not.empty()) return out;
+  out.why_not = why_not_understood(all, true);
   CsvColumns columns;
+  columns.has_rotation = out.names_quaternion || out.why_not.empty();
+  if (!out.why_not.empty() && columns.has_rotation) return out;
+  if (!why_not_understood(all, columns.has_rotation).empty()) return out;
+  columns.is_geodetic = position_column(all, 0) != 1;
+  out.names_position |= columns.is_geodetic;
+  if (const auto fix = all.best(11); columns.is_geodetic && !fix.empty()) columns.fix = fix.front();
   columns.width = out.width;
-  columns.nanoseconds = nanoseconds_column(all, out.why_not);
-  if (!out.why_not.empty()) return out;
-  for (std::size_t i = 0; i < columns.index.size(); ++i) columns.index[i] = all.best(i).front();
+  std::string why_not_split;
+  columns.nanoseconds = nanoseconds_column(all, why_not_split);
+  if (!why_not_split.empty()) {
+    out.why_not = why_not_split;
+    return out;
+  }
+  for (std::size_t i = 0; i < (columns.has_rotation ? columns.index.size() : 4); ++i) {
+    const bool is_position = 1 <= i && i < 4;
+    columns.index[i] = all.best(is_position ? position_column(all, i - 1) : i).front();
+  }
   columns.time_exponent = all.meanings[columns.index[0]]->time_exponent;
   for (std::size_t i = 0; i < columns.per_metre.size(); ++i) {
     columns.per_metre[i] = all.meanings[columns.index[1 + i]]->per_metre;

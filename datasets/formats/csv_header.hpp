@@ -13,18 +13,22 @@ namespace loopbench {
 /// Columns of a pose, in this order.
 inline constexpr std::array kPoseColumns{"time", "x", "y", "z", "qw", "qx", "qy", "qz"};
 
-/// Indices of the columns kPoseColumns in a row with `width` columns.
+/// Indices of the columns kPoseColumns in a row with `width` columns. The rotation can be missing;
+/// x, y and z can be latitude, longitude [deg] and height.
 struct CsvColumns {
   std::array<std::size_t, kPoseColumns.size()> index{};
   std::size_t width = 0;
   std::optional<int> time_exponent;                ///< stated unit of time, 10^exponent [s]
   std::optional<std::size_t> nanoseconds;          ///< column to add to whole seconds
   std::array<double, 3> per_metre{1.0, 1.0, 1.0};  ///< unit of x, y and z
+  bool has_rotation = true;
+  bool is_geodetic = false;
+  std::optional<std::size_t> fix;  ///< status of a NavSatFix; negative: no position
 };
 
 struct CsvHeader {
   std::optional<CsvColumns> columns;
-  std::string why_not;  ///< "has a header that ..."; empty if there are columns
+  std::string why_not;  ///< "has a header that ..."; empty if there are columns with a rotation
   std::size_t width = 0;
   bool names_time = false;
   bool names_position = false;    ///< any of x, y, z
@@ -33,8 +37,10 @@ struct CsvHeader {
 
 /// Recognises names such as t, time, timestamp [ns], secs and nsecs; x, tx, p_x [mm],
 /// pose.position.x; qw, q_w, orientation.w, and q0 to q3 in the order w, x, y, z. The usual name is
-/// taken if a rare one (epoch, rx) is present, too. If only the first column is unknown and only
-/// the time is missing, this is the time. Columns with an empty name are ignored.
+/// taken if a rare one (epoch, rx) is present, too. Without any column of a quaternion, the rows
+/// are positions; instead of x, y and z they can have latitude (lat), longitude (lon) and height
+/// (alt). If only the first column is unknown and only the time is missing, this is the time.
+/// Columns with an empty name are ignored.
 CsvHeader csv_header(std::string_view header);
 
 /// Splits a row or a header at commas, or at blanks if it has none. Quotes around a column are

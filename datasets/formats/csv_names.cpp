@@ -82,6 +82,27 @@ std::optional<PoseColumn> position_column(const NamedColumn& name) {
       1 + *axis, NameRank::usual, {}, per_metre.value_or(1.0), per_metre ? "" : name.unit};
 }
 
+/// Latitude, longitude [deg] and ellipsoidal height: also fields of NavSatFix, with the status.
+std::optional<PoseColumn> geodetic_column(const NamedColumn& name) {
+  constexpr std::size_t kFirst = 8;
+  const std::string_view base = name.base;
+  const auto angle = [&](std::size_t column) {
+    const bool is_degrees = is_one_of(name.unit, {"", "deg", "degree", "degrees", "\u00b0"});
+    return PoseColumn{column, NameRank::usual, {}, 1.0, is_degrees ? "" : name.unit};
+  };
+  if (base == "lat" || base.ends_with("latitude")) return angle(kFirst);
+  if (is_one_of(base, {"lon", "lng", "long"}) || base.ends_with("longitude")) {
+    return angle(kFirst + 1);
+  }
+  if (is_one_of(base, {"alt", "h", "height"}) || base.ends_with("altitude")) {
+    const auto per_metre = units_per_metre(name.unit);
+    return PoseColumn{
+        kFirst + 2, NameRank::usual, {}, per_metre.value_or(1.0), per_metre ? "" : name.unit};
+  }
+  if (base.ends_with("statusstatus")) return PoseColumn{kFirst + 3};
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string plain_name(std::string_view name) {
@@ -149,6 +170,7 @@ std::optional<PoseColumn> pose_column(std::string_view name) {
   if (const auto time = time_column(full)) return time;
   if (const auto rotation = quaternion_column(full.base)) return rotation;
   if (const auto position = position_column(full)) return position;
+  if (const auto geodetic = geodetic_column(full)) return geodetic;
   const std::size_t suffix = name.rfind('_');
   if (suffix == name.npos || !full.unit.empty()) return std::nullopt;
   const NamedColumn stem{plain_name(name.substr(0, suffix)), plain_name(name.substr(suffix))};

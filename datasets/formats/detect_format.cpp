@@ -43,10 +43,10 @@ std::optional<Format> guess(const TextFile& file, const Line& line) {
   const std::string_view first = Columns(file, line).word();
   if (is_tag(first)) return Format::g2o;
   const std::size_t count = count_columns(file, line);
-  if (is_nanoseconds(first) && count >= 8) return Format::euroc;
+  if (is_nanoseconds(first) && (count >= 8 || count == 4)) return Format::euroc;
   if (first.find_first_not_of("+-.0123456789eE") != std::string_view::npos) return std::nullopt;
   if (count == 12) return Format::kitti;
-  if (count == 8) return Format::tum;
+  if (count == 8 || count == 4) return Format::tum;
   return std::nullopt;
 }
 
@@ -77,7 +77,6 @@ Format detect_by_numbers(const TextFile& file, const Line& line) {
   const std::size_t count = count_columns(file, line);
   std::string what = "has " + columns_text(count) + " and starts '" +
                      std::string(line.text.substr(0, kShownText)) + "'";
-  if (count == 4) what += " (stamp x y z? positions without rotation are not supported)";
   if (line.text.find(';') != std::string_view::npos) {
     throw file.error(line.number,
                      what + ": found ';', expected columns separated by commas or blanks");
@@ -91,7 +90,9 @@ Format detect_by_numbers(const TextFile& file, const Line& line) {
 /// Whether the reader of `format` reads columns in this order and these units anyway.
 bool is_usual_order(Format format, const CsvColumns& columns) {
   using Order = std::array<std::size_t, 8>;
-  if (columns.nanoseconds || columns.per_metre != std::array{1.0, 1.0, 1.0}) return false;
+  if (!columns.has_rotation || columns.nanoseconds ||
+      columns.per_metre != std::array{1.0, 1.0, 1.0})
+    return false;
   const int unit = columns.time_exponent.value_or(format == Format::euroc ? -9 : 0);
   if (format == Format::euroc) return unit == -9 && columns.index == Order{0, 1, 2, 3, 4, 5, 6, 7};
   return format == Format::tum && unit == 0 && columns.index == Order{0, 1, 2, 3, 7, 4, 5, 6};

@@ -16,10 +16,10 @@ Trajectory read_euroc(TextFile& file, const ReadOptions& options) {
   const std::size_t width = count_columns(file, first);
   out.reserve(file.estimated_lines(first));
   StampOrder order(file, options.repeats);
-  std::array<double, kEurocColumns.size()> v;
+  std::array<double, kEurocColumns.size()> v{};
   for (Line line; file.next(line);) {
     const std::size_t count = count_columns(file, line);
-    if (count < 1 + kEurocColumns.size()) {
+    if (count < 1 + kEurocColumns.size() && !(options.positions && count == 4)) {
       throw wrong_columns(
           file, line, Format::euroc, "8 or more: nanoseconds, px py pz, qw qx qy qz");
     }
@@ -31,8 +31,11 @@ Trajectory read_euroc(TextFile& file, const ReadOptions& options) {
     }
     Columns columns(file, line);
     const double stamp = seconds_of(columns.integer("nanoseconds"));
-    for (std::size_t i = 0; i < v.size(); ++i) v[i] = columns.number(kEurocColumns[i]);
-    const Rotation rotation = normalized_rotation(file, line.number, {v[3], v[4], v[5], v[6]});
+    for (std::size_t i = 0; i < std::min(count - 1, v.size()); ++i) {
+      v[i] = columns.number(kEurocColumns[i]);
+    }
+    const Rotation rotation =
+        rotation_of_row(file, line, {v[3], v[4], v[5], v[6]}, out, options.positions);
     order.put(stamp, line.number, {rotation, {v[0], v[1], v[2]}}, out);
   }
   return out;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "datasets/core/trajectory.hpp"
+#include "datasets/formats/geodetic.hpp"
 
 namespace loopbench {
 
@@ -39,9 +40,11 @@ inline auto choices(Repeats) {
 
 /// Corrections made by the readers of tum, euroc, csv and bags.
 struct ReadFindings {
-  double off_unit = 0.0;     ///< maximum | |q| - 1 | before normalisation
-  std::size_t repeated = 0;  ///< poses dropped because of a repeated stamp
-  std::string damage = {};   ///< what is missing of a damaged bag; empty: intact
+  double off_unit = 0.0;                      ///< maximum | |q| - 1 | before normalisation
+  std::size_t repeated = 0;                   ///< poses dropped because of a repeated stamp
+  std::string damage = {};                    ///< what is missing of a damaged bag; empty: intact
+  std::size_t without_fix = 0;                ///< rows of NavSatFix without a position
+  std::optional<GeodeticOrigin> origin = {};  ///< of positions converted from WGS 84
 };
 
 struct ReadOptions {
@@ -51,6 +54,11 @@ struct ReadOptions {
   std::optional<std::filesystem::path> times;
   double period = 0.1;  ///< between poses of KITTI and consecutive ids of g2o [s]
   Repeats repeats = Repeats::refuse;
+  /// Accepts positions without rotations (lacks_rotations()): rows `stamp x y z`, zero quaternions,
+  /// tables without a quaternion, PointStamped, NavSatFix.
+  bool positions = false;
+  /// Origin of local coordinates for latitude, longitude and height; default: the first position.
+  std::optional<GeodeticOrigin> origin = {};
   ReadFindings* findings = nullptr;  ///< written unless null
 };
 

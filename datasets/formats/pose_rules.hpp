@@ -13,6 +13,18 @@ namespace loopbench {
 /// Error for a quaternion that is zero or whose norm differs from 1 by more than 1e-2.
 InputError wrong_norm(const TextFile& file, std::size_t line, double norm);
 
+/// Throws InputError for latitudes and longitudes [deg] out of range.
+inline void require_degrees(const TextFile& file, std::size_t line, const Vector3& position) {
+  const std::string rule = violated_degrees(position);
+  if (!rule.empty()) throw file.error(line, rule);
+}
+
+/// Converts what was read to local coordinates, with the origin of the options if they state one.
+Trajectory local_positions(Trajectory geodetic, const ReadOptions& options);
+
+/// Error for a row with a zero quaternion below rows with rotations, or the reverse.
+InputError mixed_rows(const TextFile& file, const Line& line, bool is_zero);
+
 /// Normalises a quaternion. Throws InputError if it is zero or its norm differs from 1 by more than
 /// 1e-2: rounding in the file causes smaller deviations, a wrong column order larger ones.
 inline Rotation normalized_rotation(const TextFile& file, std::size_t line, const Rotation& given) {
@@ -26,6 +38,24 @@ inline Rotation normalized_rotation(const TextFile& file, std::size_t line, cons
   if (!(std::abs(norm - 1.0) <= kTolerance)) throw wrong_norm(file, line, norm);
   file.repaired.off_unit = std::max(file.repaired.off_unit, std::abs(norm - 1.0));
   return Rotation(given.coeffs() / norm);
+}
+
+/// The rotation of a row below `above`. Files of positions can have a zero quaternion in every row:
+/// then it is no_rotation(), if `positions` accepts them. Throws InputError for rows of both kinds,
+/// and like normalized_rotation().
+inline Rotation rotation_of_row(const TextFile& file,
+                                const Line& line,
+                                const Rotation& given,
+                                const Trajectory& above,
+                                bool positions) {
+  const bool is_zero = positions && given.coeffs().isZero(0.0);
+  if (!above.empty() && is_zero != lacks_rotations(above)) throw mixed_rows(file, line, is_zero);
+  return is_zero ? no_rotation() : normalized_rotation(file, line.number, given);
+}
+
+/// Whether the rows of `b` can be below those of `a`.
+inline bool follows(const Trajectory& a, const Trajectory& b) {
+  return a.back().stamp < b.front().stamp && lacks_rotations(a) == lacks_rotations(b);
 }
 
 /// Enforces strictly increasing stamps. Errors state both lines.

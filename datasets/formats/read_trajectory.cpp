@@ -34,12 +34,21 @@ bool is_same_pose(const PoseMessage& a, const PoseMessage& b) {
 
 TrajectoryFile from_bag(const std::string& name, const ReadOptions& options) {
   BagTrajectory bag = read_bag_trajectory(bag_name(name));
+  if (!options.positions && !has_rotation(bag.poses.front().frame_from_child)) {
+    throw InputError(name + ": topic '" + bag.topic +
+                     "' has positions without rotation, which are accepted only as a reference, "
+                     "and by eval, doctor and traj");
+  }
   TrajectoryFile out{.poses = {}, .format = Format::bag};
   ReadFindings findings{bag.off_unit, 0, bag.damage};
   bool has_covariances = true;
   const PoseMessage* last = nullptr;
   for (const PoseMessage& pose : bag.poses) {
     const double stamp = seconds_of(pose.nanoseconds);
+    if (bag.is_geodetic) {
+      const std::string rule = violated_degrees(pose.frame_from_child.translation);
+      if (!rule.empty()) throw InputError(name + ": " + rule);
+    }
     const bool repeats = !out.poses.empty() && stamp == out.poses.back().stamp;
     if (repeats && is_same_pose(*last, pose)) continue;
     if (repeats) {
@@ -62,6 +71,7 @@ TrajectoryFile from_bag(const std::string& name, const ReadOptions& options) {
   }
   if (!has_covariances) out.covariances.clear();
   if (options.findings) *options.findings = findings;
+  if (bag.is_geodetic) out.poses = local_positions(std::move(out.poses), options);
   return out;
 }
 
@@ -93,7 +103,11 @@ TrajectoryFile from_text(const std::filesystem::path& path, const ReadOptions& o
   out.poses = format == Format::euroc ? read_euroc(file, options)
               : format == Format::csv ? read_csv(file, options)
                                       : read_tum(file, options);
-  if (options.findings) *options.findings = {file.repaired.off_unit, file.repaired.repeated};
+  if (options.findings) {
+    options.findings->off_unit = file.repaired.off_unit;
+    options.findings->repeated = file.repaired.repeated;
+    options.findings->without_fix = file.repaired.without_fix;
+  }
   return out;
 }
 

@@ -70,6 +70,7 @@ class alignas(64) TextFile {
   struct Repaired {
     double off_unit = 0.0;
     std::size_t repeated = 0;
+    std::size_t without_fix = 0;
   };
   mutable Repaired repaired;
 

@@ -34,7 +34,9 @@ TextWriter tum_text(const TrajectoryFile& file, const std::vector<std::string>& 
     const Pose& pose = file.poses[i].world_from_body;
     write_stamp(out, file, i);
     write_position(out, pose);
-    for (const double value : pose.rotation.coeffs()) out.number(value);  // x y z w
+    if (has_rotation(pose)) {
+      for (const double value : pose.rotation.coeffs()) out.number(value);  // x y z w
+    }
     out.end_line();
   }
   return out;
@@ -79,7 +81,10 @@ TextWriter euroc_text(const TrajectoryFile& file) {
 TextWriter csv_text(const TrajectoryFile& file) {
   constexpr std::array kAxes{"x", "y", "z", "roll", "pitch", "yaw"};
   TextWriter out(',');
-  for (const char* name : {"timestamp", "x", "y", "z", "qx", "qy", "qz", "qw"}) out.word(name);
+  for (const char* name : {"timestamp", "x", "y", "z"}) out.word(name);
+  if (!lacks_rotations(file.poses)) {
+    for (const char* name : {"qx", "qy", "qz", "qw"}) out.word(name);
+  }
   for (std::size_t i = 0; !file.covariances.empty() && i < kAxes.size(); ++i) {
     for (std::size_t j = i; j < kAxes.size(); ++j) {
       out.word(std::string("cov_") + kAxes[i] + "_" + kAxes[j]);
@@ -90,7 +95,9 @@ TextWriter csv_text(const TrajectoryFile& file) {
     const Pose& pose = file.poses[i].world_from_body;
     write_stamp(out, file, i);
     write_position(out, pose);
-    for (const double value : pose.rotation.coeffs()) out.number(value);
+    if (has_rotation(pose)) {
+      for (const double value : pose.rotation.coeffs()) out.number(value);
+    }
     for (int a = 0; !file.covariances.empty() && a < 6; ++a) {
       for (int b = a; b < 6; ++b) out.number(file.covariances[i](a, b));
     }
@@ -121,9 +128,13 @@ void write_trajectory(const std::filesystem::path& file,
       return a.stamp == b.stamp;
     };
     different.erase(std::unique(different.begin(), different.end(), is_repeated), different.end());
-    check(different, file.string());
+    check(different, file.string(), Rotations::optional);
   } else {
-    check(trajectory.poses, file.string());
+    check(trajectory.poses, file.string(), Rotations::optional);
+  }
+  if (lacks_rotations(trajectory.poses) && format != Format::tum && format != Format::csv) {
+    throw InputError(file.string() + ": " + to_text(format) +
+                     " needs rotations, expected tum or csv for positions without rotation");
   }
   switch (format) {
     case Format::tum:

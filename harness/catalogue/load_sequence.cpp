@@ -84,7 +84,7 @@ Sequence load_sequence(const Cell& cell,
   }
   Sequence sequence = loaded(entry, options, root, choice.label);
   check(sequence.problem, choice.label);
-  check(sequence.reference, choice.label + ": reference");
+  check(sequence.reference, choice.label + ": reference", Rotations::optional);
   return sequence;
 }
 

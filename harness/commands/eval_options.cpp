@@ -27,9 +27,12 @@ void declare_files(CLI::App& command, EvalArguments& a) {
   command
       .add_option("--ref-body",
                   a.reference_body,
-                  "Extrinsic offset of REF's body (marker, IMU, camera) in the estimates' body "
-                  "frame [m]")
+                  "Extrinsic offset of REF's body (marker, IMU, camera, prism, antenna) in the "
+                  "estimates' body frame [m]")
       ->type_name("X,Y,Z[,QX,QY,QZ,QW]");
+  command.add_flag("--ref-positions",
+                   a.reference_positions,
+                   "Ignore the rotations of REF (files of positions with filler quaternions)");
   word("--repeats", a.repeats, "Handling of equal stamps: " + choice_list<Repeats>())
       ->capture_default_str();
   command.add_option("--times", a.times, "Times file for KITTI poses, one stamp per line [s]")

@@ -132,6 +132,7 @@ DrawnEvaluation drawn_evaluation(const Trajectory& reference,
 
   add_poses(out.estimate, evaluation.estimate, origin);
   auto& columns = out.estimate.columns;
+  const bool has_angles = metrics::why_no_attitude(evaluation).empty();
   columns["time"].clear();  // stamps of the pairs are those of the reference
   for (std::size_t i = 0; i < evaluation.estimate.size(); ++i) {
     const Pose& expected = evaluation.reference[i].world_from_body;
@@ -139,14 +140,18 @@ DrawnEvaluation drawn_evaluation(const Trajectory& reference,
     columns["time"].push_back(evaluation.reference[i].stamp - origin);
     columns["distance"].push_back(length_at(evaluation.reference[i].stamp, complete, lengths));
     columns["error"].push_back((found.translation - expected.translation).norm());
-    columns["angle"].push_back(metrics::kDegrees *
-                               angle_between(found.rotation, expected.rotation));
+    if (has_angles) {
+      columns["angle"].push_back(metrics::kDegrees *
+                                 angle_between(found.rotation, expected.rotation));
+    }
     out.position_rmse += columns["error"].back() * columns["error"].back();
   }
   const auto count = static_cast<double>(std::max<std::size_t>(1, evaluation.estimate.size()));
   out.position_rmse = std::sqrt(out.position_rmse / count);
   std::vector<double> errors = sorted_values(columns["error"]);
-  thin(out.estimate, kMostRowsOfErrors, {"error", "angle"});
+  thin(out.estimate,
+       kMostRowsOfErrors,
+       has_angles ? std::vector<std::string>{"error", "angle"} : std::vector<std::string>{"error"});
   columns["sorted_errors"] = std::move(errors);
   return out;
 }

@@ -42,7 +42,8 @@ std::vector<std::string> expanded_names(const std::vector<std::string>& names,
     if (!arguments.tf.empty()) out.push_back(to_text(BagName{file, "tf:" + arguments.tf}));
     if (!arguments.all_topics) continue;
     for (const BagTopic& topic : bag_topics(file).topics) {
-      if (topic.type != MessageType::tf) out.push_back(to_text(BagName{file, topic.name}));
+      const bool is_pose = topic.type != MessageType::tf && !has_only_positions(topic.type);
+      if (is_pose) out.push_back(to_text(BagName{file, topic.name}));
     }
   }
   if (!has_bag) throw InputError("--tf, --all-topics: expected a bag without a topic");
@@ -60,6 +61,7 @@ NamedTrajectory read_named(const std::string& name, const ReadArguments& argumen
   }
   if (!arguments.times.empty()) options.times = arguments.times;
   if (arguments.period) options.period = *arguments.period;
+  options.positions = true;
   options.findings = &out.findings;
   out.file = read_trajectory_file(name, options);
   if (out.file.poses.empty()) throw InputError(name + ": has no poses, expected at least one");

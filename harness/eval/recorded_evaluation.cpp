@@ -241,6 +241,9 @@ EvaluatedFile evaluate_poses(const Cell& cell,
   PairEvaluation evaluation{files, reference.read, estimate, out, run.common};
   for (std::size_t p = 0; p < out.protocols.size(); ++p) evaluation.evaluate(p);
   for (const RecordedFile* file : {&reference.read, &estimate}) {
+    const bool is_reference = file == &reference.read;
+    std::ranges::move(reading_notes(file->findings, is_reference ? "reference" : "estimate"),
+                      std::back_inserter(metadata.notes));
     if (!file->findings.damage.empty())
       metadata.notes.push_back("damaged file: " + file->findings.damage);
   }
@@ -256,7 +259,7 @@ EvaluatedFile evaluate_recorded(const Cell& cell,
   const RecordedRun& run = files.runs[cell.dataset];
   try {
     const RecordedFile estimate =
-        recorded_estimate(run.estimate, files.arguments, files.has_digits);
+        recorded_estimate(run.estimate, files.arguments, files.has_digits, &reference.read);
     return evaluate_poses(cell, files, reference, estimate);
   } catch (const InputError& error) {
     EvaluatedFile out = not_evaluated(cell, files);

@@ -5,6 +5,7 @@
 
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/text_formats.hpp"
+#include "metrics/trajectory/position_only.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -28,14 +29,17 @@ const std::string& reference_format(const EvalArguments& a) {
 RecordedFile read_recorded(const std::string& file,
                            Format format,
                            const EvalArguments& a,
-                           bool with_digits) {
+                           bool with_digits,
+                           const std::optional<GeodeticOrigin>& origin = {}) {
   RecordedFile out;
   ReadOptions options;
+  options.origin = origin;
   options.format = format == Format::automatic ? detect_format(file) : format;
   options.repeats = repeats_of(a);
   options.period = a.period.value_or(options.period);
   const bool is_kitti = options.format == Format::kitti;
   if (is_kitti && !a.times.empty()) options.times = a.times;
+  options.positions = true;
   options.findings = &out.findings;
   out.poses = read_trajectory(file, options);
   if (out.poses.empty()) throw input_error(file, 0, "has no poses, expected at least one");
@@ -66,12 +70,42 @@ bool has_poses_of(Format wanted, const EvalArguments& a, const std::vector<Recor
 RecordedFile recorded_reference(const std::string& file, const EvalArguments& a, bool with_digits) {
   RecordedFile out =
       read_recorded(file, format_of("ref-format", reference_format(a)), a, with_digits);
-  out.poses = to_estimate_body(std::move(out.poses), reference_body(a));
+  const ReferenceBody body = reference_body(a);
+  // The lever arm of a placeholder orientation would point into a wrong direction.
+  const bool has_placeholders = has_offset(body) && metrics::is_position_only(out.poses);
+  if (a.reference_positions || has_placeholders) {
+    for (StampedPose& pose : out.poses) pose.world_from_body.rotation = no_rotation();
+  }
+  out.poses = to_estimate_body(std::move(out.poses), body);
   return out;
 }
 
-RecordedFile recorded_estimate(const std::string& file, const EvalArguments& a, bool with_digits) {
-  return read_recorded(file, format_of("format", a.format), a, with_digits);
+RecordedFile recorded_estimate(const std::string& file,
+                               const EvalArguments& a,
+                               bool with_digits,
+                               const RecordedFile* reference) {
+  const std::optional<GeodeticOrigin> none;
+  RecordedFile out = read_recorded(file,
+                                   format_of("format", a.format),
+                                   a,
+                                   with_digits,
+                                   reference ? reference->findings.origin : none);
+  const ReferenceBody body = reference_body(a);
+  if (reference == nullptr || !lacks_rotations(reference->poses) || !has_offset(body)) return out;
+  if (metrics::is_position_only(out.poses)) {
+    throw InputError(file + ": --ref-body needs rotations, and neither file has any");
+  }
+  out.poses = to_reference_body(std::move(out.poses), body);
+  return out;
+}
+
+std::vector<std::string> reading_notes(const ReadFindings& findings, const std::string& whose) {
+  std::vector<std::string> out;
+  if (findings.origin) out.push_back(whose + ": " + to_text(*findings.origin));
+  if (findings.without_fix > 0) {
+    out.push_back(whose + ": " + std::to_string(findings.without_fix) + " rows have no fix");
+  }
+  return out;
 }
 
 Params reading_options(const EvalArguments& a) {

@@ -24,9 +24,15 @@ struct RecordedFile {
 RecordedFile recorded_reference(const std::string& file,
                                 const EvalArguments& arguments,
                                 bool with_digits);
+/// If the positions of `reference` have no rotation, the estimate is converted to its body; local
+/// coordinates of latitudes and longitudes have its origin.
 RecordedFile recorded_estimate(const std::string& file,
                                const EvalArguments& arguments,
-                               bool with_digits);
+                               bool with_digits,
+                               const RecordedFile* reference = nullptr);
+
+/// How latitudes and longitudes were converted, and rows without a fix.
+std::vector<std::string> reading_notes(const ReadFindings& findings, const std::string& whose);
 
 /// The arguments by which all files are read, as options. Throws OptionError for invalid ones.
 Params reading_options(const EvalArguments& arguments);

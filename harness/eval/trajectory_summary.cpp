@@ -33,6 +33,7 @@ void remark_jumps(TrajectorySummary& out, const std::vector<double>& speeds) {
 }
 
 void remark_constants(TrajectorySummary& out, const Trajectory& poses) {
+  if (lacks_rotations(poses)) out.remarks.push_back("positions without rotation");
   const Rotation& first = poses.front().world_from_body.rotation;
   const bool same_rotation = std::ranges::all_of(poses, [&](const StampedPose& p) {
     return p.world_from_body.rotation.coeffs() == first.coeffs();
@@ -53,6 +54,10 @@ TrajectorySummary summarise(const std::string& name,
   out.poses = poses.size();
   out.has_covariances = !file.covariances.empty();
   if (!findings.damage.empty()) out.remarks.push_back(findings.damage);
+  if (findings.origin) out.remarks.push_back(to_text(*findings.origin));
+  if (findings.without_fix > 0) {
+    out.remarks.push_back(fmt::format("{} rows without a fix were dropped", findings.without_fix));
+  }
   if (findings.repeated > 0) {
     out.remarks.push_back(fmt::format("{} repeated stamps were dropped", findings.repeated));
   }
@@ -74,7 +79,8 @@ TrajectorySummary summarise(const std::string& name,
     if (i == 0) continue;
     const Pose& before = poses[i - 1].world_from_body;
     const double interval = poses[i].stamp - poses[i - 1].stamp;
-    const double angle = kDegrees * angle_between(before.rotation, pose.rotation);
+    const double angle =
+        has_rotation(pose) ? kDegrees * angle_between(before.rotation, pose.rotation) : 0.0;
     intervals.push_back(interval);
     speeds.push_back((pose.translation - before.translation).norm() / interval);
     out.rotation += angle;

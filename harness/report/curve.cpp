@@ -37,11 +37,12 @@ void add_poses(DrawnCurve& curve, const Trajectory& poses, double origin) {
   auto& columns = curve.columns;
   for (const StampedPose& pose : poses) {
     const Vector3& position = pose.world_from_body.translation;
-    const metrics::Euler angles = metrics::euler(pose.world_from_body.rotation);
     columns["time"].push_back(pose.stamp - origin);
     columns["x"].push_back(position.x());
     columns["y"].push_back(position.y());
     columns["z"].push_back(position.z());
+    if (!has_rotation(pose.world_from_body)) continue;
+    const metrics::Euler angles = metrics::euler(pose.world_from_body.rotation);
     columns["roll"].push_back(metrics::kDegrees * angles.roll);
     columns["pitch"].push_back(metrics::kDegrees * angles.pitch);
     columns["yaw"].push_back(metrics::kDegrees * angles.yaw);

@@ -55,14 +55,17 @@ std::string stamp_differences(const Trajectory& reference, const metrics::Evalua
   constexpr double kRounding = 1e-6;   // [s]
   const auto found = metrics::association_error(reference, evaluation);
   if (!found) return "";
+  const Trajectory* const estimate = evaluation.context.estimate;
+  const bool is_sparse = estimate != nullptr && reference.size() < estimate->size();
   const double error = metrics::ate(evaluation, {}).front().statistics.rmse;
   if (found->largest_difference < kRounding || found->metres <= kNegligible * error) return "";
   return fmt::format(
       "association: the stamps of paired poses differ by up to {:.3g} s; at the reference's speed "
-      "this is an error of {:.3g} m (rmse), with an ATE of {:.3g} m; use association interpolate",
+      "this is an error of {:.3g} m (rmse), with an ATE of {:.3g} m; use association {}",
       found->largest_difference,
       found->metres,
-      error);
+      error,
+      is_sparse ? "interpolate_estimate" : "interpolate");
 }
 
 std::string bridged(const metrics::Evaluation& evaluation) {

@@ -227,6 +227,11 @@ CellResult run_cell(const Cell& cell,
   const MethodChoice& choice = sweep.methods[cell.method];
   result.oracle_method = uses_reference(choice, catalogue);
   catch_errors(result, [&] {
+    if (result.oracle_method && lacks_rotations(sequence.reference)) {
+      result.status = Status::declined;
+      result.why = "reads the reference, which has positions without rotation";
+      return;
+    }
     const auto method = make_method(choice, catalogue, sequence.reference, command_setting(sweep));
     if (const std::string why = method->why_declined(sequence.problem); !why.empty()) {
       result.status = Status::declined;

@@ -35,8 +35,8 @@ double speed(const Trajectory& reference, std::size_t here, bool is_ahead) {
 std::optional<AssociationError> association_error(const Trajectory& reference,
                                                   const Evaluation& evaluation) {
   const Protocol& protocol = evaluation.protocol;
-  const bool has_differences = protocol.association != Association::interpolate &&
-                               protocol.association != Association::index;
+  const bool has_differences =
+      !interpolates(protocol.association) && protocol.association != Association::index;
   if (!has_differences || reference.size() < 2) return std::nullopt;
   AssociationError out;
   double squares = 0.0;

@@ -67,6 +67,7 @@ void add_lever_arm(std::vector<InputFinding>& conventions,
 std::optional<InputFinding> find_body_rotation(const Trajectory& reference,
                                                const Trajectory& estimate) {
   constexpr double kLarge = 30.0 / kDegrees, kSmall = 15.0 / kDegrees, kLeft = 0.4;
+  if (lacks_rotations(reference) || lacks_rotations(estimate)) return std::nullopt;
   const CommonPoses poses = common_poses(reference, estimate, 0.0, kMostFramePoses);
   if (poses.stamps.size() < kFewestFramePoses) return std::nullopt;
   const auto is_turned = [&](const Pose& pose) {

@@ -117,6 +117,7 @@ std::optional<InputFinding> check_constant_rotation(const Trajectory& reference,
   constexpr double kOtherRotates = 0.3;  // [rad]
   constexpr std::size_t kFewestPoses = 10;
   if (reference.size() < kFewestPoses || estimate.size() < kFewestPoses) return std::nullopt;
+  if (lacks_rotations(reference) || lacks_rotations(estimate)) return std::nullopt;
   const double of_reference = largest_rotation(reference);
   const double of_estimate = largest_rotation(estimate);
   if (std::min(of_reference, of_estimate) > kConstant) return std::nullopt;
@@ -155,11 +156,12 @@ Unchecked unchecked_parts(const Trajectory& reference, const Trajectory& estimat
   if (too_few("quaternion order, inverted poses, axes", kFewestFramePoses)) return out;
   for (const bool is_reference : {true, false}) {
     if (has_rotations(is_reference ? common.reference : common.estimate)) continue;
+    const bool lacks = lacks_rotations(is_reference ? reference : estimate);
     out.reasons.push_back(
-        fmt::format("quaternion order, inverted poses, axes, unit of angles: the {} does not "
-                    "rotate by {:g} rad",
+        fmt::format("quaternion order, inverted poses, axes, unit of angles: the {} {}",
                     is_reference ? "reference" : "estimate",
-                    kLeastRotation));
+                    lacks ? "has positions without rotation"
+                          : fmt::format("does not rotate by {:g} rad", kLeastRotation)));
     break;
   }
   return out;

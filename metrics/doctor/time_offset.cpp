@@ -22,6 +22,11 @@ struct TimedMotion {
   double distance = 0.0;
 };
 
+/// 0 without rotations: then the offset is found by the distances alone.
+double angle_of(const Pose& from, const Pose& to) {
+  return has_rotation(from) ? angle_between(from.rotation, to.rotation) : 0.0;
+}
+
 /// Correlation of speeds for offsets between two trajectories, over at most kMostPairs intervals
 /// that do not overlap.
 class SpeedMatch {
@@ -50,7 +55,7 @@ class SpeedMatch {
       const Pose& to = estimate[j].world_from_body;
       motions_.push_back({estimate[i].stamp,
                           estimate[j].stamp,
-                          angle_between(from.rotation, to.rotation),
+                          angle_of(from, to),
                           (to.translation - from.translation).norm()});
     }
   }
@@ -72,7 +77,7 @@ class SpeedMatch {
       const std::optional<Pose> from = reference_at(motion.begin + offset);
       const std::optional<Pose> to = reference_at(motion.end + offset);
       if (!from || !to) continue;
-      out.reference_angle.push_back(angle_between(from->rotation, to->rotation));
+      out.reference_angle.push_back(angle_of(*from, *to));
       out.estimate_angle.push_back(motion.angle);
       out.reference_distance.push_back((to->translation - from->translation).norm());
       out.estimate_distance.push_back(motion.distance);

@@ -80,6 +80,10 @@ std::optional<InputFinding> check_scale(const PositionFit& fit) {
 }  // namespace
 
 std::optional<InputFinding> check_angle_unit(const CommonPoses& poses) {
+  const auto lacks = [](const std::vector<Pose>& all) {
+    return all.empty() || !has_rotation(all.front());
+  };
+  if (lacks(poses.reference) || lacks(poses.estimate)) return std::nullopt;
   const double of_larger = ratio_of_larger_angles(poses);
   const double ratio = of_larger < 0.1 ? of_larger : angle_ratio(poses);
   constexpr double kFactor = kDegrees, kTolerance = 2.2;

@@ -38,14 +38,23 @@ class InsideGap {
   std::size_t next_ = 0;
 };
 
+/// "reference has no rotations", or how it shows that it holds only positions.
+std::string positions_text(const Trajectory& poses, const std::string& whose) {
+  if (lacks_rotations(poses)) return whose + " has positions without rotation";
+  return whose + " has a constant orientation although its path is curved: it holds only positions";
+}
+
 void require_attitudes(const Paired& paired, Align align) {
   if (align != Align::origin && align != Align::posyaw_origin) return;
   const bool is_reference = is_position_only(paired.reference);
-  if (is_reference == is_position_only(paired.estimate)) return;
-  throw std::runtime_error(
-      "alignment " + to_text(align) + ": the " + (is_reference ? "reference" : "estimate") +
-      " has a constant orientation although its path is curved: it holds only positions, so its "
-      "first pose does not define a rotation; align by se3, sim3 or none");
+  const bool is_estimate = is_position_only(paired.estimate);
+  const bool is_lacking = lacks_rotations(paired.reference) || lacks_rotations(paired.estimate);
+  if (is_reference == is_estimate && !is_lacking) return;
+  throw std::runtime_error("alignment " + to_text(align) + ": the " +
+                           positions_text(is_reference ? paired.reference : paired.estimate,
+                                          is_reference ? "reference" : "estimate") +
+                           ", so its first pose does not define a rotation; align by se3, sim3, "
+                           "posyaw or none");
 }
 
 Evaluation align_pairs(Paired paired,
@@ -75,8 +84,10 @@ Evaluation align_pairs(Paired paired,
 }
 
 std::string limits(const Protocol& protocol) {
-  if (protocol.association == Association::interpolate) {
-    return "reference gaps of at most " + to_text(protocol.max_gap) + " s";
+  if (interpolates(protocol.association)) {
+    const bool is_reference = protocol.association == Association::interpolate;
+    return (is_reference ? "reference" : "estimate") + std::string(" gaps of at most ") +
+           to_text(protocol.max_gap) + " s";
   }
   return "differences of at most " + to_text(protocol.max_diff) + " s";
 }
@@ -96,7 +107,9 @@ Evaluation evaluate(const Trajectory& reference,
         span_text(reference.front().stamp, reference.back().stamp) + "): association " +
         to_text(protocol.association) + " accepts " + limits(protocol));
   }
-  Evaluation out = align_pairs(std::move(paired), estimate.size(), reference, protocol);
+  const bool is_at_reference = protocol.association == Association::interpolate_estimate;
+  const std::size_t possible = is_at_reference ? reference.size() : estimate.size();
+  Evaluation out = align_pairs(std::move(paired), possible, reference, protocol);
   if (uses_complete_files(protocol.pairs)) out.complete = {reference, estimate};
   return out;
 }
@@ -143,14 +156,11 @@ Evaluation evaluate(const Trajectory& reference,
 }
 
 std::string why_no_attitude(const Evaluation& evaluation) {
-  const auto text = [](const std::string& whose) {
-    return "the " + whose +
-           " has a constant orientation although its path is curved: it holds only positions, so "
-           "rotation is not "
-           "evaluated";
+  const auto text = [](const Trajectory& poses, const char* whose) {
+    return "the " + positions_text(poses, whose) + ", so rotation is not evaluated";
   };
-  if (is_position_only(evaluation.reference)) return text("reference");
-  if (is_position_only(evaluation.estimate)) return text("estimate");
+  if (is_position_only(evaluation.reference)) return text(evaluation.reference, "reference");
+  if (is_position_only(evaluation.estimate)) return text(evaluation.estimate, "estimate");
   return "";
 }
 

@@ -53,7 +53,8 @@ const View& needed(const View* view, const std::string& metric, const std::strin
 /// Pair counts that are reported with every score.
 struct Coverage {
   std::size_t pairs = 0;     ///< evaluated pose pairs
-  std::size_t possible = 0;  ///< estimate poses (keyframes) or reference stamps in the span (dense)
+  std::size_t possible = 0;  ///< estimate poses (keyframes; interpolate_estimate: all reference
+                             ///< poses) or reference stamps in the span (dense)
   /// Time from the first to the last evaluated reference stamp, without the tracking gaps in
   /// between (pauses above 2 s and above ten times the median interval while the reference moved),
   /// over the reference's duration, 0..1.

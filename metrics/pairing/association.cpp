@@ -125,6 +125,15 @@ Paired interpolate_reference(const Trajectory& reference,
   return out;
 }
 
+Paired interpolate_estimate(const Trajectory& reference,
+                            const Trajectory& estimate,
+                            double max_gap,
+                            double offset) {
+  Paired out = interpolate_reference(estimate, reference, max_gap, -offset);
+  std::swap(out.reference, out.estimate);
+  return out;
+}
+
 Paired associate(const Trajectory& reference,
                  const Trajectory& estimate,
                  const Protocol& protocol) {
@@ -133,6 +142,8 @@ Paired associate(const Trajectory& reference,
   switch (protocol.association) {
     case Association::interpolate:
       return interpolate_reference(reference, estimate, protocol.max_gap, offset);
+    case Association::interpolate_estimate:
+      return interpolate_estimate(reference, estimate, protocol.max_gap, offset);
     case Association::evo:
       return gather(
           reference, estimate, match_evo(stamps(reference), stamps(estimate), max_diff, offset));

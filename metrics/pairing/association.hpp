@@ -73,6 +73,13 @@ Paired interpolate_reference(const Trajectory& reference,
                              double max_gap,
                              double offset);
 
+/// Association `interpolate_estimate`: the same with exchanged roles. The estimate is interpolated
+/// at reference stamp - offset, in gaps of at most max_gap. O(n + m).
+Paired interpolate_estimate(const Trajectory& reference,
+                            const Trajectory& estimate,
+                            double max_gap,
+                            double offset);
+
 /// Pairs by the protocol's association; empty if nothing matches. Throws std::runtime_error if
 /// association `index` is used with lists of different size.
 Paired associate(const Trajectory& reference, const Trajectory& estimate, const Protocol& protocol);

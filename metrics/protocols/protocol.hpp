@@ -14,7 +14,8 @@ enum class Association {
   tum,          ///< TUM associate.py: one-to-one, greedy by difference, strict |dt| < max_diff
   ov_eval,      ///< one pass in time, each reference pose used once, strict |dt| < max_diff
   interpolate,  ///< reference interpolated at the estimate's stamps, gaps up to max_gap
-  index,        ///< pairs equal indices of equally long lists; ignores stamps
+  interpolate_estimate,  ///< estimate interpolated at the reference's stamps, gaps up to max_gap
+  index,                 ///< pairs equal indices of equally long lists; ignores stamps
 };
 inline auto choices(Association) {
   return std::array{std::pair{"nearest", Association::nearest},
@@ -22,7 +23,13 @@ inline auto choices(Association) {
                     std::pair{"tum", Association::tum},
                     std::pair{"ov_eval", Association::ov_eval},
                     std::pair{"interpolate", Association::interpolate},
+                    std::pair{"interpolate_estimate", Association::interpolate_estimate},
                     std::pair{"index", Association::index}};
+}
+
+/// Whether max_gap limits the pairs, instead of max_diff.
+inline bool interpolates(Association how) {
+  return how == Association::interpolate || how == Association::interpolate_estimate;
 }
 
 /// Alignment of the estimate to the reference before errors are computed.
@@ -186,10 +193,12 @@ void fields(Protocol& o, Visit visit) {
       o.association,
       "pairing in time; nearest: one-to-one, smallest differences first; evo: nearest, a pose can "
       "be paired twice; tum: greedy by difference, as associate.py; ov_eval: one pass in time; "
-      "interpolate: reference interpolated at the estimate's stamps; index: equal indices, stamps "
+      "interpolate: reference interpolated at the estimate's stamps; interpolate_estimate: "
+      "estimate "
+      "interpolated at the reference's stamps (control points, GNSS); index: equal indices, stamps "
       "ignored");
   visit("max_diff", o.max_diff, "maximum time difference between paired poses [s]", Between{0.0});
-  visit("max_gap", o.max_gap, "longest reference gap to interpolate across [s]", GreaterThan{0.0});
+  visit("max_gap", o.max_gap, "longest gap to interpolate across [s]", GreaterThan{0.0});
   visit("max_estimate_gap",
         o.max_estimate_gap,
         "longest tracking gap evaluated densely, 0 for no limit [s]",

@@ -93,7 +93,7 @@ Protocol eth3d() {
 /// Rejects fields that the chosen association ignores.
 void check_used(const Protocol& rules, const Params& changes) {
   const Association how = rules.association;
-  const bool has_gap = how == Association::interpolate;
+  const bool has_gap = interpolates(how);
   const bool has_difference = !has_gap && how != Association::index;
   for (const auto& [field, is_used] :
        {std::pair{"max_diff", has_difference}, std::pair{"max_gap", has_gap}}) {

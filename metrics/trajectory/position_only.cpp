@@ -28,6 +28,7 @@ bool is_on_one_line(const Trajectory& trajectory) {
 }  // namespace
 
 bool is_position_only(const Trajectory& trajectory) {
+  if (lacks_rotations(trajectory)) return true;
   if (trajectory.size() < kEvidence) return false;
   const Rotation& first = trajectory.front().world_from_body.rotation;
   for (const auto& [stamp, pose] : trajectory) {

@@ -116,7 +116,8 @@ TEST(Evaluation, AFirstPoseWithoutAttitudeAlignsNothing) {
         why<std::runtime_error>([&] { evaluate(bend(false), bend(true), {.align = align}); }),
         "alignment " + to_text(align) +
             ": the reference has a constant orientation although its path is curved: it holds only "
-            "positions, so its first pose does not define a rotation; align by se3, sim3 or none");
+            "positions, so its first pose does not define a rotation; align by se3, sim3, posyaw "
+            "or none");
     EXPECT_NO_THROW(evaluate(bend(true), bend(true), {.align = align}));
     EXPECT_NO_THROW(evaluate(bend(false), bend(false), {.align = align}));
   }
