@@ -12,10 +12,13 @@
 #include "metrics/correction/loop_detection.hpp"
 #include "metrics/correction/path_length.hpp"
 #include "metrics/correction/smoothing_headroom.hpp"
+#include "metrics/errors/accuracy.hpp"
 #include "metrics/errors/along_cross.hpp"
 #include "metrics/errors/ape.hpp"
 #include "metrics/errors/ate.hpp"
 #include "metrics/errors/axis_error.hpp"
+#include "metrics/errors/control_points.hpp"
+#include "metrics/errors/discernible.hpp"
 #include "metrics/errors/rpe.hpp"
 #include "metrics/errors/segments.hpp"
 #include "metrics/metric.hpp"
@@ -42,6 +45,15 @@ std::vector<MetricEntry> metrics() {
       metric<AlongCrossOptions>("along_cross",
                                 "position error along, across and above the direction of travel",
                                 along_cross),
+      metric<AccuracyOptions>(
+          "accuracy",
+          "percentiles of the position error, and shares of the reference's time below thresholds",
+          accuracy),
+      metric<ControlPointsOptions>("control_points",
+                                   "score of the Hilti SLAM Challenge for surveyed points",
+                                   control_points),
+      metric<DiscernibleOptions>(
+          "discernible", "robust trajectory and rotation errors DTE and DRE", discernible),
       metric("closure_residual",
              "residuals of the loop closures after the correction",
              closure_residual),

@@ -101,6 +101,8 @@ void add_defaults(std::vector<MetricChoice>& out, const metrics::Protocol& proto
       add_metric(out, "rpe", {{"delta", 1.0}, {"unit", std::string(unit)}});
     }
   }
+  const bool is_at_reference = protocol.association == metrics::Association::interpolate_estimate;
+  if (is_at_reference) add_metric(out, "control_points", {});
   const bool has_lengths = protocol.segments != metrics::SegmentErrorRule{};
   add_metric(out, "segments", has_lengths ? Params{} : Params{{"each", false}});
 }

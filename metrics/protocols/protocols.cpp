@@ -90,6 +90,12 @@ Protocol eth3d() {
   return p;
 }
 
+Protocol hilti() {
+  Protocol p = tool();
+  p.association = Association::interpolate_estimate;
+  return p;
+}
+
 /// Rejects fields that the chosen association ignores.
 void check_used(const Protocol& rules, const Params& changes) {
   const Association how = rules.association;
@@ -145,6 +151,10 @@ std::vector<ProtocolEntry> protocols() {
        "30edfa0",
        "ETH3D SLAM leaderboard: interpolated at the estimate's stamps, SE(3), 0.5..2 m segments",
        eth3d()},
+      {"hilti",
+       "challenge 2023",
+       "control points: estimate interpolated at the points' stamps, SE(3); metric control_points",
+       hilti()},
   };
 }
 

@@ -18,14 +18,15 @@ using test::EvaluatedCell;
 
 // Every metric is in one of these lists: lower is better, no direction, or has a test of its own.
 const std::set<std::string> kErrors{
-    "ate", "axis_error", "ape", "rpe", "segments", "along_cross", "jumps"};
+    "ate", "axis_error", "ape", "rpe", "segments", "along_cross", "jumps", "discernible"};
 const std::set<std::string> kDescriptions{"closure_residual",
                                           "interpolation_floor",
                                           "smoothing_headroom",
                                           "coverage",
                                           "extrinsic_offset",
                                           "diagnostics"};
-const std::set<std::string> kOthers{"path_length", "jerk", "graph_cost", "loop_detection"};
+const std::set<std::string> kOthers{
+    "path_length", "jerk", "graph_cost", "loop_detection", "accuracy", "control_points"};
 
 /// A circle in steps of 5 cm, back to its start; `stray` bends it upwards.
 Trajectory circle(double stray) {

@@ -1,0 +1,96 @@
+#include "metrics/errors/accuracy.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "metrics/trajectory/tracking_gaps.hpp"
+
+namespace loopbench::metrics {
+namespace {
+
+constexpr double kPause = 2.0;  // [s], as for Coverage::span
+
+/// Time that each pair stands for [s].
+std::vector<double> represented_time(const Trajectory& reference, const Trajectory& paired) {
+  const std::vector<TrackingGap> gaps = tracking_gaps(reference, stamps(paired), 0.0, kPause);
+  std::vector<double> out(paired.size(), 0.0);
+  std::size_t gap = 0;
+  for (std::size_t i = 1; i < paired.size(); ++i) {
+    const double begin = paired[i - 1].stamp;
+    while (gap < gaps.size() && gaps[gap].begin < begin) ++gap;
+    if (gap < gaps.size() && gaps[gap].begin == begin) continue;
+    const double half = 0.5 * std::max(0.0, paired[i].stamp - begin);
+    out[i - 1] += half;
+    out[i] += half;
+  }
+  return out;
+}
+
+double percentile(const std::vector<double>& sorted, double share) {
+  const double rank = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(rank);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return std::lerp(sorted[below], sorted[above], rank - static_cast<double>(below));
+}
+
+}  // namespace
+
+std::vector<double> ascending_numbers(const std::string& option, const std::string& text) {
+  std::vector<double> out;
+  std::istringstream in(text);
+  for (double number = 0.0; in >> number;) {
+    if (!(number > (out.empty() ? 0.0 : out.back()))) break;
+    out.push_back(number);
+  }
+  if (!in.eof() || out.empty()) {
+    throw OptionError(option, option + " = '" + text + "': expected positive ascending numbers");
+  }
+  return out;
+}
+
+void check_combination(const AccuracyOptions& options) {
+  ascending_numbers("thresholds", options.thresholds);
+}
+
+std::vector<Score> accuracy(const Evaluation& evaluation, const AccuracyOptions& options) {
+  const std::vector<double> thresholds = ascending_numbers("thresholds", options.thresholds);
+  const Trajectory& reference =
+      needed(evaluation.context.reference, "accuracy", "the complete reference");
+  const double duration = reference.back().stamp - reference.front().stamp;
+  if (!(duration > 0.0)) throw Undefined("accuracy: the reference has no duration");
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < evaluation.reference.size(); ++i) {
+    errors.push_back((evaluation.reference[i].world_from_body.translation -
+                      evaluation.estimate[i].world_from_body.translation)
+                         .norm());
+  }
+  const std::vector<double> seconds = represented_time(reference, evaluation.reference);
+  std::vector<Score> out;
+  std::vector<double> sorted = errors;
+  std::ranges::sort(sorted);
+  for (const int percent : {50, 90, 95, 99}) {
+    out.push_back(single(
+        "percentile", "p" + std::to_string(percent), "m", percentile(sorted, 0.01 * percent)));
+  }
+  double area = 0.0;
+  for (const double threshold : thresholds) {
+    double within = 0.0;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      if (errors[i] < threshold) within += seconds[i];
+    }
+    out.push_back(
+        directed(single("within", fmt::format("{:g}", threshold), "%", 100.0 * within / duration),
+                 Better::higher));
+  }
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    area += seconds[i] * std::max(0.0, 1.0 - errors[i] / thresholds.back());
+  }
+  out.push_back(directed(single("area", "", "%", 100.0 * area / duration), Better::higher));
+  for (Score& score : out) score.statistics.count = errors.size();
+  return out;
+}
+
+}  // namespace loopbench::metrics
