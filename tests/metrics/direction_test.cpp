@@ -24,7 +24,8 @@ const std::set<std::string> kDescriptions{"closure_residual",
                                           "smoothing_headroom",
                                           "coverage",
                                           "extrinsic_offset",
-                                          "diagnostics"};
+                                          "diagnostics",
+                                          "lever_arm"};
 const std::set<std::string> kOthers{
     "path_length", "jerk", "graph_cost", "loop_detection", "accuracy", "control_points"};
 
