@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <set>
@@ -49,6 +50,36 @@ std::string verdict_of(const EvalArguments& a,
   return run_report(all_records(results), style, a.paired);
 }
 
+std::optional<double> ate_of(const EvaluationResult& result) {
+  for (const Record& record : result.records) {
+    const bool is_ate = record.metric == "ate" && record.relation == "translation";
+    if (is_ate && has_numbers(record.status)) return record.statistics.rmse;
+  }
+  return std::nullopt;
+}
+
+/// States which ATEs differ by less than the reference's own error, if that is given.
+std::string below_reference_error(const EvalArguments& a,
+                                  const std::vector<EvaluationResult>& all) {
+  if (a.reference_sigma == 0.0) return "";
+  std::size_t pairs = 0, below = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t k = i + 1; k < all.size(); ++k) {
+      const auto first = ate_of(all[i]), second = ate_of(all[k]);
+      const bool is_pair = all[i].reference == all[k].reference &&
+                           all[i].protocol.label() == all[k].protocol.label();
+      if (!first || !second || !is_pair) continue;
+      ++pairs;
+      if (std::abs(*first - *second) < a.reference_sigma) ++below;
+    }
+  }
+  return fmt::format(
+      "ATE differences: {} of {} are below the reference's own {:g} m (--ref-sigma)\n",
+      below,
+      pairs,
+      a.reference_sigma);
+}
+
 std::string result_text(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
   const std::optional<TerminalStyle> style = terminal_style();
   if (all.size() == 1) return text(all.front(), style);
@@ -58,7 +89,7 @@ std::string result_text(const EvalArguments& a, const std::vector<EvaluationResu
   for (std::size_t i = 0; style && i < tables.size(); ++i) {
     out += (i == 0 ? "" : "\n") + terminal(tables[i], *style);
   }
-  return out + verdict_of(a, all, style);
+  return out + verdict_of(a, all, style) + below_reference_error(a, all);
 }
 
 /// `text`, after the label of the sequence if there are several.

@@ -33,6 +33,15 @@ void declare_files(CLI::App& command, EvalArguments& a) {
   command.add_flag("--ref-positions",
                    a.reference_positions,
                    "Ignore the rotations of REF (files of positions with filler quaternions)");
+  command
+      .add_option(
+          "--ref-sigma",
+          a.reference_sigma,
+          "Standard deviation of REF's positions, per axis [m]: errors and differences below "
+          "it are reported as such")
+      ->type_name("M")
+      ->check(finite_number())
+      ->check(CLI::NonNegativeNumber);
   word("--repeats", a.repeats, "Handling of equal stamps: " + choice_list<Repeats>())
       ->capture_default_str();
   command.add_option("--times", a.times, "Times file for KITTI poses, one stamp per line [s]")

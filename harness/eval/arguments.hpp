@@ -21,6 +21,7 @@ struct EvalArguments {
   std::vector<std::string> estimates;
   std::string format = "auto";
   std::string reference_format;               ///< empty: same as `format`
+  double reference_sigma = 0.0;               ///< of its positions, per axis [m]; 0: not stated
   bool reference_positions = false;           ///< ignore the rotations of the reference
   std::optional<std::string> reference_body;  ///< x,y,z[,qx,qy,qz,qw]; none: no offset
   std::string times;                          ///< empty: none

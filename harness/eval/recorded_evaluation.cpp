@@ -11,6 +11,7 @@
 #include "datasets/core/parallel.hpp"
 #include "harness/eval/eval_figures.hpp"
 #include "harness/eval/recordings.hpp"
+#include "harness/eval/reference_notes.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/run/add_scores.hpp"
 #include "harness/run/catch_errors.hpp"
@@ -86,9 +87,14 @@ void add_checks(EvaluationResult& out,
                 const metrics::Evaluation& evaluation,
                 const RecordedFile& reference,
                 const RecordedFile& estimate,
-                const ReferenceBody& body) {
+                const RecordedSweep& files) {
   out.diagnosis = metrics::diagnostics(evaluation, {});
   out.notes = evaluation_notes(reference.poses, evaluation);
+  for (const std::string& note :
+       {shared_datum(evaluation, reference.findings.origin && estimate.findings.origin),
+        reference_error(evaluation, files.arguments.reference_sigma)}) {
+    if (!note.empty()) out.notes.push_back(note);
+  }
   const double off_unit = std::max(reference.findings.off_unit, estimate.findings.off_unit);
   for (metrics::Score& score : out.diagnosis) {
     // Readers normalise, so the value is that of the files.
@@ -97,7 +103,7 @@ void add_checks(EvaluationResult& out,
   const std::size_t left_out = reference.findings.repeated + estimate.findings.repeated;
   out.diagnosis.push_back(metrics::single("left_out", "", "1", static_cast<double>(left_out)));
   if (const auto offset = metrics::extrinsic_offset(evaluation, {})) {
-    out.other_body = metrics::other_body(*offset, pose_of(body));
+    out.other_body = metrics::other_body(*offset, pose_of(files.body));
   }
 }
 
@@ -165,7 +171,7 @@ struct PairEvaluation {
     const bool is_large = evaluation.estimate.size() >= kMinItemsPerThread;
     std::future<void> checks =
         std::async(is_large ? std::launch::async : std::launch::deferred,
-                   [&] { add_checks(own, evaluation, reference, estimate, files.body); });
+                   [&] { add_checks(own, evaluation, reference, estimate, files); });
     if (!arguments.per_pose.empty()) own.poses = metrics::pose_errors(evaluation);
     if (!arguments.plot.empty() || !arguments.report.empty()) {
       own.drawn = drawn_evaluation(reference.poses, evaluation);
