@@ -74,6 +74,45 @@ bool has_fix(const TextFile& file, const Line& line, const CsvColumns& columns, 
   return false;
 }
 
+/// The middle of an interval; the time itself without one.
+double middle_of_row(const TextFile& file,
+                     const Line& line,
+                     const CsvColumns& columns,
+                     const CsvRow& row) {
+  const double begin = stamp_of_row(file, line, columns, row).seconds;
+  if (!columns.end) return begin;
+  CsvColumns ends = columns;
+  ends.index[0] = *columns.end;
+  ends.nanoseconds.reset();
+  const double end = stamp_of_row(file, line, ends, row).seconds;
+  if (!(end >= begin)) {
+    throw file.error(line.number,
+                     "interval ends at " + to_text(end) + ", before its start " + to_text(begin));
+  }
+  file.repaired.intervals.emplace_back(begin, end);
+  return 0.5 * (begin + end);
+}
+
+/// Latitude, longitude and height of the coordinates of a row.
+Vector3 geodetic_of_row(const TextFile& file,
+                        const Line& line,
+                        const CsvColumns& columns,
+                        const CsvRow& row,
+                        Vector3 position) {
+  try {
+    if (columns.coordinates == Coordinates::ecef) position = geodetic_of_ecef(position);
+    if (columns.coordinates == Coordinates::utm) {
+      position = geodetic_of_utm(position, std::string(row[*columns.zone]));
+    }
+  } catch (const MissingPart&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw file.error(line.number, error.what());
+  }
+  require_degrees(file, line.number, position);
+  return position;
+}
+
 Trajectory read_csv_part(TextFile& file, const CsvColumns& columns, const ReadOptions& options) {
   Trajectory out;
   StampOrder order(file, options.repeats);
@@ -82,17 +121,20 @@ Trajectory read_csv_part(TextFile& file, const CsvColumns& columns, const ReadOp
   for (Line line; file.next(line);) {
     split_row(file, line, columns, row);
     if (!has_fix(file, line, columns, row)) continue;
-    const double stamp = stamp_of_row(file, line, columns, row).seconds;
+    const double stamp = middle_of_row(file, line, columns, row);
     for (std::size_t i = 1; i < (columns.has_rotation ? v.size() : 4); ++i) {
       v[i] = csv_number(file, line, row[columns.index[i]], kPoseColumns[i]);
     }
     for (std::size_t i = 0; i < columns.per_metre.size(); ++i) v[1 + i] /= columns.per_metre[i];
-    if (columns.is_geodetic) require_degrees(file, line.number, {v[1], v[2], v[3]});
+    Vector3 position(v[1], v[2], v[3]);
+    if (columns.coordinates != Coordinates::local) {
+      position = geodetic_of_row(file, line, columns, row, position);
+    }
     const Rotation rotation =
         columns.has_rotation
             ? rotation_of_row(file, line, {v[4], v[5], v[6], v[7]}, out, options.positions)
             : no_rotation();
-    order.put(stamp, line.number, {rotation, {v[1], v[2], v[3]}}, out);
+    order.put(stamp, line.number, {rotation, position}, out);
   }
   return out;
 }
@@ -138,7 +180,8 @@ Trajectory read_csv(TextFile& file, const ReadOptions& options) {
       [](const Trajectory& a, const Trajectory& b) {
         return !a.empty() && !b.empty() && follows(a, b);
       }));
-  return columns->is_geodetic ? local_positions(std::move(out), options) : out;
+  if (columns->coordinates == Coordinates::local) return out;
+  return local_positions(std::move(out), options);
 }
 
 }  // namespace loopbench

@@ -86,22 +86,40 @@ void assume_time(PoseNames& all) {
   all.meanings[0] = time_column({"t", first.unit});
 }
 
+Coordinates coordinates_of(const PoseNames& all) {
+  const auto names = [&](std::size_t column) { return !all.best(column).empty(); };
+  if (names(1) || names(2) || names(3)) return Coordinates::local;
+  if (names(8)) return Coordinates::geodetic;
+  if (names(13)) return Coordinates::ecef;
+  return names(16) ? Coordinates::utm : Coordinates::local;
+}
+
 /// Columns of the header that stand for x, y and z.
 std::size_t position_column(const PoseNames& all, std::size_t axis) {
-  const bool is_cartesian =
-      !all.best(1).empty() || !all.best(2).empty() || !all.best(3).empty() || all.best(8).empty();
-  return (is_cartesian ? 1 : 8) + axis;
+  constexpr std::size_t kFirst[] = {1, 8, 13, 16};
+  const Coordinates kind = coordinates_of(all);
+  if (kind == Coordinates::utm && axis == 2) return 10;
+  return kFirst[static_cast<std::size_t>(kind)] + axis;
 }
 
 std::string why_not_understood(const PoseNames& all, bool with_rotation) {
   constexpr const char* kAccepted =
       "expected time (t, timestamp, time_ns, secs with nsecs), position (x, tx, p_x, position.x) "
       "and quaternion (qw, q_w, orientation.w, or q0 q1 q2 q3 for w x y z)";
-  constexpr std::array kGeodetic{"latitude", "longitude", "height"};
+  constexpr std::array kOthers{"latitude",
+                               "longitude",
+                               "height",
+                               "",
+                               "",
+                               "ecef_x",
+                               "ecef_y",
+                               "ecef_z",
+                               "easting",
+                               "northing"};
   std::string missing;
   for (std::size_t i = 0; i < (with_rotation ? kPoseColumns.size() : 4); ++i) {
     const std::size_t column = 1 <= i && i < 4 ? position_column(all, i - 1) : i;
-    const char* const name = column == i ? kPoseColumns[i] : kGeodetic[i - 1];
+    const char* const name = column < 8 ? kPoseColumns[column] : kOthers[column - 8];
     const std::vector<std::size_t> found = all.best(column);
     if (found.empty()) missing += (missing.empty() ? "" : ", ") + std::string(name);
     if (found.size() > 1) {
@@ -183,9 +201,19 @@ CsvHeader csv_header(std::string_view header) {
   columns.has_rotation = out.names_quaternion || out.why_not.empty();
   if (!out.why_not.empty() && columns.has_rotation) return out;
   if (!why_not_understood(all, columns.has_rotation).empty()) return out;
-  columns.is_geodetic = position_column(all, 0) != 1;
-  out.names_position |= columns.is_geodetic;
-  if (const auto fix = all.best(11); columns.is_geodetic && !fix.empty()) columns.fix = fix.front();
+  columns.coordinates = coordinates_of(all);
+  out.names_position |= columns.coordinates != Coordinates::local;
+  const auto other = [&](std::size_t column) {
+    const std::vector<std::size_t> found = all.best(column);
+    return found.empty() ? std::nullopt : std::optional(found.front());
+  };
+  if (columns.coordinates == Coordinates::geodetic) columns.fix = other(11);
+  columns.zone = other(18);
+  columns.end = other(12);
+  if (columns.coordinates == Coordinates::utm && !columns.zone) {
+    out.why_not = "has a header with easting and northing, but without zone (32N, 56S)";
+    return out;
+  }
   columns.width = out.width;
   std::string why_not_split;
   columns.nanoseconds = nanoseconds_column(all, why_not_split);

@@ -13,8 +13,10 @@ namespace loopbench {
 /// Columns of a pose, in this order.
 inline constexpr std::array kPoseColumns{"time", "x", "y", "z", "qw", "qx", "qy", "qz"};
 
-/// Indices of the columns kPoseColumns in a row with `width` columns. The rotation can be missing;
-/// x, y and z can be latitude, longitude [deg] and height.
+/// What the columns x, y and z are; geodetic: latitude, longitude [deg] and height.
+enum class Coordinates { local, geodetic, ecef, utm };
+
+/// Indices of the columns kPoseColumns in a row with `width` columns. The rotation can be missing.
 struct CsvColumns {
   std::array<std::size_t, kPoseColumns.size()> index{};
   std::size_t width = 0;
@@ -22,8 +24,10 @@ struct CsvColumns {
   std::optional<std::size_t> nanoseconds;          ///< column to add to whole seconds
   std::array<double, 3> per_metre{1.0, 1.0, 1.0};  ///< unit of x, y and z
   bool has_rotation = true;
-  bool is_geodetic = false;
-  std::optional<std::size_t> fix;  ///< status of a NavSatFix; negative: no position
+  Coordinates coordinates = Coordinates::local;
+  std::optional<std::size_t> fix;   ///< status of a NavSatFix; negative: no position
+  std::optional<std::size_t> zone;  ///< of UTM: 32N
+  std::optional<std::size_t> end;   ///< of the interval that begins at the time
 };
 
 struct CsvHeader {
@@ -39,7 +43,8 @@ struct CsvHeader {
 /// pose.position.x; qw, q_w, orientation.w, and q0 to q3 in the order w, x, y, z. The usual name is
 /// taken if a rare one (epoch, rx) is present, too. Without any column of a quaternion, the rows
 /// are positions; instead of x, y and z they can have latitude (lat), longitude (lon) and height
-/// (alt). If only the first column is unknown and only the time is missing, this is the time.
+/// (alt), or ecef_x, ecef_y, ecef_z, or easting, northing, zone and height. start and end are an
+/// interval. If only the first column is unknown and only the time is missing, this is the time.
 /// Columns with an empty name are ignored.
 CsvHeader csv_header(std::string_view header);
 

@@ -3,12 +3,26 @@
 #include <fmt/format.h>
 
 #ifdef LOOPBENCH_HAS_GEOGRAPHICLIB
+#include <GeographicLib/Geocentric.hpp>
 #include <GeographicLib/LocalCartesian.hpp>
+#include <GeographicLib/UTMUPS.hpp>
 #endif
 
 #include "datasets/core/error.hpp"
 
 namespace loopbench {
+
+#ifndef LOOPBENCH_HAS_GEOGRAPHICLIB
+namespace {
+
+[[noreturn]] void lack_geographiclib() {
+  throw MissingPart(
+      "this build cannot convert latitude and longitude: install the package libgeographiclib-dev "
+      "and build again");
+}
+
+}  // namespace
+#endif
 
 std::string to_text(const GeodeticOrigin& origin) {
   return fmt::format(
@@ -47,9 +61,32 @@ Trajectory to_local([[maybe_unused]] Trajectory geodetic,
   }
   return geodetic;
 #else
-  throw MissingPart(
-      "this build cannot convert latitude and longitude: install the package libgeographiclib-dev "
-      "and build again");
+  lack_geographiclib();
+#endif
+}
+
+Vector3 geodetic_of_ecef([[maybe_unused]] const Vector3& position) {
+#ifdef LOOPBENCH_HAS_GEOGRAPHICLIB
+  Vector3 out;
+  GeographicLib::Geocentric::WGS84().Reverse(
+      position.x(), position.y(), position.z(), out.x(), out.y(), out.z());
+  return out;
+#else
+  lack_geographiclib();
+#endif
+}
+
+Vector3 geodetic_of_utm([[maybe_unused]] const Vector3& position,
+                        [[maybe_unused]] const std::string& zone) {
+#ifdef LOOPBENCH_HAS_GEOGRAPHICLIB
+  int number = 0;
+  bool is_north = false;
+  GeographicLib::UTMUPS::DecodeZone(zone, number, is_north);
+  Vector3 out = position;
+  GeographicLib::UTMUPS::Reverse(number, is_north, position.x(), position.y(), out.x(), out.y());
+  return out;
+#else
+  lack_geographiclib();
 #endif
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "datasets/compressed/input_file.hpp"
@@ -71,6 +72,7 @@ class alignas(64) TextFile {
     double off_unit = 0.0;
     std::size_t repeated = 0;
     std::size_t without_fix = 0;
+    std::vector<std::pair<double, double>> intervals;
   };
   mutable Repaired repaired;
 

@@ -154,7 +154,12 @@ struct PairEvaluation {
   void add(EvaluationResult& own, const ScoreResult& row, const metrics::Protocol& rules) {
     const EvalArguments& arguments = files.arguments;
     const Sweep& sweep = files.sweep;
-    metrics::Evaluation evaluation = metrics::evaluate(reference.poses, estimate.poses, rules);
+    const auto& intervals = reference.findings.intervals;
+    metrics::Evaluation evaluation = metrics::evaluate(
+        reference.poses,
+        intervals.empty() ? estimate.poses
+                          : metrics::averaged_in(estimate.poses, intervals, rules.offset),
+        rules);
     if (!common.empty()) evaluation = within_common_times(evaluation, rules);
     const bool are_printed = !reference.matrices.empty() && !estimate.matrices.empty();
     metrics::PrintedPoses printed;

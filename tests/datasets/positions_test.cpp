@@ -122,6 +122,35 @@ TEST(Positions, LatitudeLongitudeAndHeightBecomeLocal) {
   EXPECT_NEAR((a - b).norm(), 2.0 * 1.11694, 1e-5);
 }
 
+TEST(Positions, EarthCentredAndUtmCoordinatesAreTheSamePlaces) {
+  if (!has_geographiclib()) GTEST_SKIP() << "built without GeographicLib";
+  const TemporaryFolder scratch;
+  // (a, 0, 0) is latitude 0, longitude 0; its north is z.
+  const Trajectory earth = read(scratch.file(
+      "a.csv", "t,ecef_x,ecef_y,ecef_z\n1,6378137,0,0\n2,6378137,0,10\n3,6378147,0,0\n"));
+  EXPECT_NEAR(earth[1].world_from_body.translation.y(), 10.0, 1e-6);
+  EXPECT_NEAR(earth[2].world_from_body.translation.z(), 10.0, 1e-6);
+  // The central meridian of zone 31 is 3 degrees, where the scale is 0.9996.
+  const Trajectory utm = read(scratch.file(
+      "b.csv", "t,easting,northing,zone,height\n1,500000,0,31N,0\n2,500099.96,0,31N,0\n"));
+  EXPECT_NEAR(utm[1].world_from_body.translation.x(), 100.0, 1e-4);
+  EXPECT_THAT(reason("t,easting,northing,zone,height\n1,500000,0,99N,0\n"), HasSubstr(":2: "));
+  EXPECT_THAT(reason("t,easting,northing,height\n1,500000,0,0\n"), HasSubstr("without zone (32N"));
+}
+
+TEST(Positions, IntervalsHaveTheirMiddleAsStamp) {
+  const TemporaryFolder scratch;
+  ReadFindings findings;
+  const Trajectory poses =
+      read(scratch.file("a.csv", "start,end,x,y,z\n1,3,1,2,3\n7,7.5,4,5,6\n"), &findings);
+  EXPECT_EQ(poses[0].stamp, 2.0);
+  EXPECT_EQ(poses[1].stamp, 7.25);
+  ASSERT_EQ(findings.intervals.size(), 2u);
+  EXPECT_EQ(findings.intervals[1], (std::pair{7.0, 7.5}));
+  EXPECT_THAT(reason("start,end,x,y,z\n3,1,1,2,3\n"),
+              HasSubstr(":2: interval ends at 1.0, before its start 3.0"));
+}
+
 TEST(Positions, RowsOfANavSatFixWithoutFixAreSkippedAndCounted) {
   if (!has_geographiclib()) GTEST_SKIP() << "built without GeographicLib";
   const TemporaryFolder scratch;
