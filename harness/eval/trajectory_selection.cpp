@@ -56,6 +56,9 @@ std::vector<std::size_t> evenly_spaced(std::size_t poses, std::size_t count) {
 }
 
 std::vector<std::size_t> by_motion(const Trajectory& poses, const MotionStep& step) {
+  if (step.degrees && lacks_rotations(poses)) {
+    throw InputError("downsample: --degrees needs rotations, expected --metres for positions");
+  }
   std::vector<std::size_t> out;
   double metres = 0.0;
   double radians = 0.0;

@@ -109,6 +109,9 @@ Trajectory transformed(Trajectory poses, const Similarity& similarity, Transform
   if (side != TransformSide::left && similarity.scale != 1.0) {
     throw InputError("transform: a scale is possible on the left only");
   }
+  if (side != TransformSide::left && lacks_rotations(poses)) {
+    throw InputError("transform: --right needs rotations, expected --left for positions");
+  }
   if (side == TransformSide::right_propagated) {
     const Trajectory given = poses;
     for (std::size_t i = 1; i < poses.size(); ++i) {

@@ -6,6 +6,8 @@
 
 #include "datasets/core/se3.hpp"
 #include "datasets/formats/trajectory_file.hpp"
+#include "harness/eval/trajectory_selection.hpp"
+#include "harness/eval/transformation.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -61,6 +63,14 @@ TEST(EvalPositions, TheEstimateIsMovedToTheAntenna) {
   EXPECT_GT(ate_of(eval_json({antenna, golden("gt.txt")})), 0.05);
   EXPECT_THAT(refusal<InputError>({antenna, antenna, body}),
               HasSubstr("--ref-body needs rotations, and neither file has any"));
+}
+
+TEST(EvalPositions, TrajRejectsWhatNeedsRotations) {
+  const Trajectory positions{{0, {no_rotation(), {0, 0, 0}}}, {1, {no_rotation(), {1, 0, 0}}}};
+  EXPECT_THROW(by_motion(positions, {.degrees = 5.0}), InputError);
+  EXPECT_EQ(by_motion(positions, {.metres = 0.5}).size(), 2u);
+  EXPECT_THROW(transformed(positions, Similarity{}, TransformSide::right), InputError);
+  EXPECT_TRUE(lacks_rotations(transformed(positions, Similarity{}, TransformSide::left)));
 }
 
 TEST(EvalPositions, ControlPointsAreScoredAtTheirStamps) {
