@@ -70,19 +70,16 @@ Solution solve(const Normal& normal, const Step& gradient, double damping) {
   return out;
 }
 
-/// Parameters that keep their start: the scale, and the lever arm along body axes whose direction
-/// in the world changes by less than 0.1 rad (rms). There, drift of the estimate would be taken for
-/// it.
-std::array<bool, kAll> fixed_parameters(const Trajectory& estimate, bool with_scale) {
+/// Whether the direction of a body axis in the world changes by at least 0.1 rad (rms). Otherwise
+/// drift of the estimate would be taken for a lever arm along it.
+std::array<bool, 3> are_changing_axes(const Trajectory& estimate) {
   constexpr double kLeastChange = 0.1;
-  std::array<bool, kAll> out{};
-  out[kScale] = !with_scale;
+  std::array<bool, 3> out{};
   for (int axis = 0; axis < 3; ++axis) {
     Vector3 mean = Vector3::Zero();
     for (const auto& [stamp, pose] : estimate) mean += pose.rotation * Vector3::Unit(axis);
     mean /= static_cast<double>(estimate.size());
-    out[static_cast<std::size_t>(kLever + axis)] =
-        1.0 - mean.squaredNorm() < kLeastChange * kLeastChange;
+    out[static_cast<std::size_t>(axis)] = 1.0 - mean.squaredNorm() >= kLeastChange * kLeastChange;
   }
   return out;
 }
@@ -162,17 +159,15 @@ PointOffset fit_point_offset(const Trajectory& reference,
   };
   PointOffset out;
   out.rmse_before = std::sqrt(mean_square(residuals));
-  const std::array<bool, kAll> is_fixed = fixed_parameters(start.estimate, with_scale);
   double damping = 1e-4;
   Solution solution;
   for (int round = 0; round < 100; ++round) {
     Normal normal = jacobian.transpose() * jacobian;
     Step gradient = jacobian.transpose() * residuals;
-    for (int k = 0; k < kAll; ++k) {
-      if (!is_fixed[static_cast<std::size_t>(k)]) continue;
-      normal.row(k).setZero();
-      normal.col(k).setZero();
-      gradient[k] = 0.0;
+    if (!with_scale) {
+      normal.row(kScale).setZero();
+      normal.col(kScale).setZero();
+      gradient[kScale] = 0.0;
     }
     solution = solve(normal, gradient, damping);
     PointOffsetProblem next = problem;
@@ -194,8 +189,7 @@ PointOffset fit_point_offset(const Trajectory& reference,
       if (damping > 1e6) break;
     }
   }
-  const auto fixed = static_cast<double>(std::ranges::count(is_fixed, true));
-  const double freedom = static_cast<double>(residuals.size()) - (kAll - fixed);
+  const double freedom = static_cast<double>(residuals.size()) - (with_scale ? 11.0 : 10.0);
   out.points = static_cast<std::size_t>(residuals.size() / 3);
   out.lever_arm = problem.x.segment<3>(kLever);
   out.offset = problem.x[kOffset];
@@ -205,9 +199,11 @@ PointOffset fit_point_offset(const Trajectory& reference,
   out.interval_factor = student_quantile(std::max(1.0, freedom / out.correlated));
   out.covariance = variance * solution.covariance.block<4, 4>(kLever, kLever);
   constexpr double kLeastShare = 1e-6;
+  const std::array<bool, 3> is_changing = are_changing_axes(start.estimate);
   for (std::size_t i = 0; i < PointOffset::kParameters; ++i) {
     const auto k = static_cast<int>(i);
     out.is_observable[i] = freedom > 0.0 && solution.undetermined[kLever + k] < kLeastShare;
+    if (i < 3 && !is_changing[i]) out.is_observable[i] = false;
     if (out.is_observable[i]) continue;
     out.covariance.row(k).setZero();
     out.covariance.col(k).setZero();

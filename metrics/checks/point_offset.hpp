@@ -16,9 +16,9 @@ struct PointOffset {
   Vector3 lever_arm = Vector3::Zero();                   ///< in the estimate's body frame [m]
   double offset = 0.0;                                   ///< added to the estimate's stamps [s]
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< of lever arm and offset
-  /// False for parameters that the motion does not determine: a body axis whose direction changes
-  /// by less than 0.1 rad (a vehicle's vertical axis), no speed. They keep their start, 0, and
-  /// their variance is infinite.
+  /// False for parameters that the motion does not determine: along a body axis whose direction
+  /// changes by less than 0.1 rad (a vehicle's vertical axis), no speed. Their variance is
+  /// infinite.
   std::array<bool, kParameters> is_observable{};
   double interval_factor = 1.96;  ///< half-width of the 95 % interval over the deviation (Student)
   double rmse_before = 0.0;       ///< after an alignment alone [m]

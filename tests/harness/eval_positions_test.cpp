@@ -107,7 +107,7 @@ TEST(EvalPositions, TheLeverArmIsEstimatedAndNotApplied) {
     EXPECT_NEAR(row["mean"].get<double>(), kAntenna.translation[axis], 1e-3);
     ++found;
   }
-  EXPECT_EQ(found, 3);
+  EXPECT_EQ(found, 2);  // the path is nearly flat: z is not observable
 }
 
 TEST(EvalPositions, LatitudesStateTheirDatumAndShareTheOrigin) {
