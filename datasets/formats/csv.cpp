@@ -90,7 +90,7 @@ double middle_of_row(const TextFile& file,
                      "interval ends at " + to_text(end) + ", before its start " + to_text(begin));
   }
   file.repaired.intervals.emplace_back(begin, end);
-  return 0.5 * (begin + end);
+  return 0.5 * begin + 0.5 * end;
 }
 
 /// Latitude, longitude and height of the coordinates of a row.

@@ -42,6 +42,10 @@ std::string violated_degrees(const Vector3& position) {
     return fmt::format(
         "longitude is {:.9g}, expected -180 to 360 degrees{}", position.y(), kMetres);
   }
+  constexpr double kHighest = 1e7;  // [m]
+  if (!(std::abs(position.z()) <= kHighest)) {
+    return fmt::format("height is {:.9g}, expected at most {:g} m", position.z(), kHighest);
+  }
   return "";
 }
 

@@ -142,7 +142,7 @@ Trajectory averaged_in(const Trajectory& estimate,
   auto next = estimate.begin();
   for (const auto& [begin, end] : intervals) {
     while (next != estimate.end() && next->stamp + offset < begin) out.push_back(*next++);
-    const double middle = 0.5 * (begin + end) - offset;
+    const double middle = 0.5 * begin + 0.5 * end - offset;
     StampedPose mean{middle, {}};
     double count = 0.0, nearest = std::numeric_limits<double>::infinity();
     for (; next != estimate.end() && next->stamp + offset <= end; ++next) {

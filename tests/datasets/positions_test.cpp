@@ -86,6 +86,7 @@ TEST(Positions, MetresInPlaceOfDegreesAreRejectedWithTheirLine) {
   EXPECT_EQ(reason("t,lat,lon,alt\n1,47,400,400\n"),
             ":2: longitude is 400, expected -180 to 360 degrees (coordinates in metres have "
             "columns x, y, z)");
+  EXPECT_THAT(reason("t,lat,lon,alt\n1,47,8,1e300\n"), HasSubstr(":2: height is 1e+300, expected"));
   EXPECT_THAT(reason("t,lat [rad],lon,alt\n1,0.5,1,2\n"), HasSubstr("unit rad"));
   EXPECT_THAT(reason("t,lat,alt\n1,47,400\n"), HasSubstr("header without "));
 }

@@ -21,10 +21,10 @@ void expect(bool holds, const char* what) {
 
 /// check() throws InputError, as readers do for an invalid file; on a reader's result it is a
 /// finding.
-template <class T>
-void expect_checked(const T& value) {
+template <class T, class... More>
+void expect_checked(const T& value, More... more) {
   try {
-    check(value, "result");
+    check(value, "result", more...);
   } catch (const InputError& error) {
     throw std::logic_error(std::string("violated postcondition: ") + error.what());
   }
@@ -44,6 +44,9 @@ void fuzz_trajectory(const Path& file, Format format) {
   ReadOptions options;
   options.format = format;
   expect_checked(read_or_refuse([&] { return read_trajectory(file, options); }));
+  options.positions = true;
+  expect_checked(read_or_refuse([&] { return read_trajectory(file, options); }),
+                 Rotations::optional);
 }
 
 /// Checks the edges as part of a problem of two poses.
