@@ -12,6 +12,7 @@
 #include "metrics/doctor/body_checks.hpp"
 #include "metrics/doctor/finding.hpp"
 #include "metrics/doctor/frame_checks.hpp"
+#include "metrics/doctor/position_checks.hpp"
 #include "metrics/doctor/preconditions.hpp"
 #include "metrics/doctor/unit_checks.hpp"
 #include "metrics/trajectory/position_only.hpp"
@@ -96,6 +97,9 @@ Diagnosis diagnosis(const Trajectory& reference,
                     const std::string& reference_name,
                     const std::string& estimate_name,
                     bool has_stamps) {
+  if (lacks_rotations(reference) || lacks_rotations(estimate)) {
+    return diagnosis_of_positions(reference, estimate, reference_name, estimate_name, has_stamps);
+  }
   Diagnosis out;
   add(out.findings, check_swapped(reference, estimate, reference_name, estimate_name));
   if (auto found = has_stamps ? check_stamp_unit(reference, estimate) : std::nullopt) {
