@@ -15,7 +15,8 @@ constexpr double kAccuracyPause = 2.0;  // [s], as for Coverage::span
 
 /// Time that each pair stands for [s].
 std::vector<double> represented_time(const Trajectory& reference, const Trajectory& paired) {
-  const std::vector<TrackingGap> gaps = tracking_gaps(reference, stamps(paired), 0.0, kAccuracyPause);
+  const std::vector<TrackingGap> gaps =
+      tracking_gaps(reference, stamps(paired), 0.0, kAccuracyPause);
   std::vector<double> out(paired.size(), 0.0);
   std::size_t gap = 0;
   for (std::size_t i = 1; i < paired.size(); ++i) {
