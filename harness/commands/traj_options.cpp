@@ -88,7 +88,7 @@ void declare_transform(CLI::App& verb, TrajArguments& a) {
   Conventions& c = a.conventions;
   verb.add_option("--quaternion-order",
                   c.quaternion_order,
-                  "Actual order of quaternions that were read in the other one")
+                  "Order in which the file stores quaternions, if it was read in the other one")
       ->type_name("WORD:wxyz|xyzw");
   verb.add_flag("--conjugate", c.conjugate, "Invert the rotations, but not the positions");
   verb.add_option("--axes", c.axes, "Source axis of x, y and z of the positions: --axes=-y,x,z")
