@@ -171,7 +171,7 @@ def scipy_pose_graph(problem):
         if gained < 1e-12 * cost:
             break
     poses = np.hstack([t, Rotation.from_matrix(R).as_quat()])
-    return poses, {"iterations": iterations, "counts": {"cost_before": before / 2, "cost": cost / 2}}
+    return poses, {"iterations": iterations, "counts": {"chi2_before": before, "chi2": cost}}
 
 
 if __name__ == "__main__":

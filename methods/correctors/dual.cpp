@@ -11,9 +11,9 @@
 #include "methods/correctors/plausibility.hpp"
 #include "methods/correctors/scale_drift.hpp"
 #include "methods/correctors/variance_components.hpp"
-#include "methods/solvers/initial_values.hpp"
 
 namespace loopbench::methods {
+
 std::string Dual::why_declined(const Problem& problem) const {
   return loops_fault(problem, options_.max_closures);
 }
@@ -23,28 +23,6 @@ Trajectory Dual::correct(const Problem& problem, Report& report) const {
   return correct_rigid(options_, remove_scale_drift(problem), report);
 }
 
-namespace {
-
-/// Sets `out` to the chain at its chordal relaxation, or leaves it empty when that is singular.
-void start_chordal(const Problem& problem,
-                   const NoiseModel& noise_model,
-                   std::optional<LoopedChain>& out) {
-  std::vector<ScaledPose> start;
-  try {
-    start = chordal_values(problem, 1.0);
-  } catch (const std::runtime_error&) {
-    return;  // singular to rounding
-  }
-  std::vector<Twist> errors;
-  for (const Edge& edge : problem.odometry) {
-    errors.push_back(edge_error(edge, start[edge.from].pose, start[edge.to].pose));
-  }
-  out.emplace(problem, noise_model).set_errors(std::move(errors));
-  if (!std::isfinite(out->cost())) out.reset();
-}
-
-}  // namespace
-
 Trajectory Dual::correct_rigid(const Options& options, const Problem& stated, Report& report) {
   std::optional<Problem> scaled;
   if (options.rescale) scaled = with_estimated_factors(stated, report);
@@ -52,14 +30,14 @@ Trajectory Dual::correct_rigid(const Options& options, const Problem& stated, Re
   const NoiseModel noise_model = stated_noise_model(problem);
   const std::size_t degrees = freedom(problem);
   LoopedChain first(problem, noise_model);
-  report.count("cost_before", first.cost());
+  report.count("chi2_before", 2.0 * first.cost());
   if (!std::isfinite(first.cost())) throw std::runtime_error("dual: the cost is not finite");
   int iterations = first.minimise(options.max_iterations, options.tolerance);
   const LoopedChain* best = &first;
-  std::optional<LoopedChain> second;
-  if (options.start == Start::automatic && is_too_large(2.0 * first.cost(), degrees)) {
-    start_chordal(problem, noise_model, second);
-  }
+  const bool is_implausible = is_too_large(2.0 * first.cost(), degrees);
+  std::optional<LoopedChain> second = options.start == Start::automatic && is_implausible
+                                          ? chordal_chain(problem, noise_model)
+                                          : std::nullopt;
   if (second) {
     constexpr double kOtherMinimum = 1e-6;  // relative cost difference between two minima
     iterations += second->minimise(options.max_iterations, options.tolerance);
@@ -73,7 +51,7 @@ Trajectory Dual::correct_rigid(const Options& options, const Problem& stated, Re
     }
   }
   report.count("iterations", iterations);
-  report.count("cost", best->cost());
+  report.count("chi2", 2.0 * best->cost());
   report_chi2(2.0 * best->cost(), degrees, report);
   return best->keyframes();
 }

@@ -49,7 +49,7 @@ class Dual final : public Corrector {
 
   std::string why_declined(const Problem& problem) const override;
 
-  /// Counts: `iterations`, `cost_before`, `cost` (half the sum above, chi^2 / 2), `chi2_per_dof`,
+  /// Counts: `iterations`, `chi2_before`, `chi2` (the sum above), `chi2_per_dof`,
   /// and with `rescale` the factors `factor_t`, `factor_r` on standard deviations. Notes:
   /// implausible chi2, two minima. Throws std::runtime_error when the cost is not finite.
   Trajectory correct(const Problem& problem, Report& report) const override;

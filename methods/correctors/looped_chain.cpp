@@ -1,7 +1,11 @@
 #include "methods/correctors/looped_chain.hpp"
 
+#include <cmath>
+#include <stdexcept>
+
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/loop_newton.hpp"
+#include "methods/solvers/initial_values.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -229,6 +233,23 @@ Trajectory LoopedChain::keyframes() const {
     out[i].world_from_body = poses_[i];
     out[i].world_from_body.translation += centre_;
   }
+  return out;
+}
+
+std::optional<LoopedChain> chordal_chain(const Problem& problem, const NoiseModel& noise_model) {
+  std::vector<ScaledPose> start;
+  try {
+    start = chordal_values(problem, 1.0);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+  std::vector<Twist> errors;
+  for (const Edge& edge : problem.odometry) {
+    errors.push_back(edge_error(edge, start[edge.from].pose, start[edge.to].pose));
+  }
+  LoopedChain out(problem, noise_model);
+  out.set_errors(std::move(errors));
+  if (!std::isfinite(out.cost())) return std::nullopt;
   return out;
 }
 

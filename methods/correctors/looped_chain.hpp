@@ -1,6 +1,7 @@
 /// An odometry chain with loops, solved in closed form for the loop multipliers.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "datasets/core/problem.hpp"
@@ -76,5 +77,9 @@ class LoopedChain {
   double cost_ = 0.0;
   bool is_near_minimum_ = false;  ///< the last step did not halve the cost
 };
+
+/// Returns the chain at its chordal relaxation (initial_values.hpp), or nullopt if that is singular
+/// to rounding or its cost is not finite.
+std::optional<LoopedChain> chordal_chain(const Problem& problem, const NoiseModel& noise_model);
 
 }  // namespace loopbench::methods

@@ -35,7 +35,7 @@ namespace loopbench::methods {
 class PoseGraphOptimizer final : public Corrector {
  public:
   enum class Poses { automatic, se2, se3, sim3 };
-  enum class Start { keyframes, odometry, chordal };
+  enum class Start { keyframes, odometry, chordal, loops };
 
   struct Options {
     Poses group = Poses::automatic;
@@ -55,10 +55,11 @@ class PoseGraphOptimizer final : public Corrector {
   /// SE(2).
   std::string why_declined(const Problem& problem) const override;
 
-  /// Counts: `iterations` (linear solves), `cost_before`, `cost` (half the sum of squared
-  /// Mahalanobis errors, or of losses), without a loss `chi2_per_dof`, with `rescale` the factors
-  /// `factor_t` and `factor_r` on standard deviations, and with GNC `gnc_rounds` and
-  /// `closures_kept`. Throws std::runtime_error when the solver finds no usable solution.
+  /// Counts: `iterations` (linear solves), `chi2_before`, `chi2` (sum of squared Mahalanobis
+  /// errors; with a loss `robust_chi2`, sum of losses), without a loss `chi2_per_dof`, with
+  /// `rescale` the factors `factor_t` and `factor_r` on standard deviations, and with GNC
+  /// `gnc_rounds` and `closures_kept`. Throws std::runtime_error when the solver finds no usable
+  /// solution.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
@@ -74,7 +75,8 @@ inline auto choices(PoseGraphOptimizer::Poses) {
 inline auto choices(PoseGraphOptimizer::Start) {
   return std::array{std::pair{"keyframes", PoseGraphOptimizer::Start::keyframes},
                     std::pair{"odometry", PoseGraphOptimizer::Start::odometry},
-                    std::pair{"chordal", PoseGraphOptimizer::Start::chordal}};
+                    std::pair{"chordal", PoseGraphOptimizer::Start::chordal},
+                    std::pair{"loops", PoseGraphOptimizer::Start::loops}};
 }
 
 template <class Visit>
@@ -84,8 +86,8 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
         "Lie group of the poses; auto: se2 if planar, sim3 if edges change the scale, else se3");
   visit("start",
         o.start,
-        "initial values: keyframes, odometry integrated from the first keyframe, or chordal "
-        "relaxation");
+        "initial values: keyframes, odometry integrated from the first keyframe, chordal "
+        "relaxation, or loops: chordal, and the equations of dual on chains of at most 20 loops");
   visit("loss", o.loss, "robust loss on the closures; dcs and switchable are bounded");
   visit("loss_width",
         o.loss_width,

@@ -35,7 +35,7 @@ class SplineFit final : public Estimator {
     return why.empty() ? why_no_chain(problem) : why;
   }
 
-  /// Counts: `controls`, `iterations`, `cost_before`, `cost` (chi^2 / 2).
+  /// Counts: `controls`, `iterations`, `chi2_before`, `chi2`.
   std::unique_ptr<const Curve> estimate(const Problem& problem, Report& report) const override {
     const Trajectory& keyframes = problem.keyframes;
     const SplineBasis basis = basis_with_fewer_knots(
@@ -55,8 +55,8 @@ class SplineFit final : public Estimator {
     for (Pose& control : controls) control = normalized(world_from_start * control);
     report.count("controls", static_cast<double>(controls.size()));
     report.count("iterations", summary.iterations);
-    report.count("cost_before", summary.cost_before);
-    report.count("cost", summary.cost);
+    report.count("chi2_before", 2.0 * summary.cost_before);
+    report.count("chi2", 2.0 * summary.cost);
     if (!summary.converged) report.notes.push_back("stopped at max_iterations before convergence");
     return std::make_unique<CumulativeCurve>(basis, controls);
   }

@@ -26,7 +26,7 @@ class SplineRegression final : public Smoother {
     return too_few_keyframes(problem.keyframes, static_cast<std::size_t>(options_.order));
   }
 
-  /// Counts: `controls`, `iterations`, `cost` (half the sum of both terms [m^2, rad^2]).
+  /// Counts: `controls`, `iterations`, `chi2` (the sum of both terms [m^2, rad^2]).
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override {
     const Trajectory& keyframes = problem.keyframes;
     const SplineBasis basis = basis_with_fewer_knots(
@@ -43,7 +43,7 @@ class SplineRegression final : public Smoother {
     for (Pose& control : controls) control.translation += origin;
     report.count("controls", static_cast<double>(controls.size()));
     report.count("iterations", summary.iterations);
-    report.count("cost", summary.cost);
+    report.count("chi2", 2.0 * summary.cost);
     if (!summary.converged) {
       report.notes.push_back("stopped at the iteration limit before convergence");
     }

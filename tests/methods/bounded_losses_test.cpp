@@ -55,7 +55,7 @@ TEST(BoundedLosses, TakeTheLowerOfBothMinima) {
       const auto cost = [&](bool anneal) {
         Report report;
         PoseGraphOptimizer({.loss = loss, .anneal = anneal}).correct(problem, report);
-        return test::count(report, "cost");
+        return test::count(report, "robust_chi2");
       };
       EXPECT_LE(cost(true), cost(false) * (1.0 + 1e-9)) << to_text(loss);
     }

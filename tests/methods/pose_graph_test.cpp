@@ -148,8 +148,8 @@ TEST(PoseGraph, RobustLossesReduceTheInfluenceOfOutliers) {
 }
 
 TEST(PoseGraph, DistributesAGapEvenly) {
-  // Steps measured as 1 m, the total as 2.3 m: 0.3 m over three equal variances, 0.1 m each, cost
-  // 1/2 * 3 * 0.01. In every group.
+  // Steps measured as 1 m, the total as 2.3 m: 0.3 m over three equal variances, 0.1 m each, chi2
+  // 3 * 0.01. In every group.
   for (const char* group : {"se2", "se3", "sim3"}) {
     Problem problem = along_x({0, 1, 2});
     problem.closures = {{0, 2, at_x(2.3)}};
@@ -159,8 +159,8 @@ TEST(PoseGraph, DistributesAGapEvenly) {
     const Trajectory out = PoseGraphOptimizer(options).correct(problem, report);
     EXPECT_NEAR(out[1].world_from_body.translation.x(), 1.1, 1e-9) << group;
     EXPECT_NEAR(out[2].world_from_body.translation.x(), 2.2, 1e-9) << group;
-    EXPECT_NEAR(count(report, "cost"), 0.015, 1e-12) << group;
-    EXPECT_NEAR(count(report, "cost_before"), 0.045, 1e-12) << group;
+    EXPECT_NEAR(count(report, "chi2"), 0.03, 1e-12) << group;
+    EXPECT_NEAR(count(report, "chi2_before"), 0.09, 1e-12) << group;
   }
 }
 
@@ -181,7 +181,21 @@ TEST(PoseGraph, DistributesAScaleChangeEvenly) {
     x += std::pow(q, static_cast<double>(i));
   }
   const double share = std::log(q) / 0.01;  // scale_sigma
-  EXPECT_NEAR(count(report, "cost"), 0.5 * 5.0 * share * share, 1e-6);
+  EXPECT_NEAR(count(report, "chi2"), 5.0 * share * share, 2e-6);
+}
+
+TEST(PoseGraph, StartsFromLoopEquationsWithoutAnotherMinimum) {
+  for (const bool planar : {false, true}) {
+    Problem problem = along_x({0, 1, 2});
+    problem.closures = {{0, 2, at_x(2.3)}};
+    problem.planar = planar;
+    Report report;
+    const Trajectory out =
+        PoseGraphOptimizer({.start = PoseGraphOptimizer::Start::loops}).correct(problem, report);
+    EXPECT_NEAR(out[1].world_from_body.translation.x(), 1.1, 1e-9) << planar;
+    EXPECT_NEAR(count(report, "chi2"), 0.03, 1e-12) << planar;
+    EXPECT_LE(count(report, "iterations"), 12.0) << planar;
+  }
 }
 
 TEST(PoseGraph, AcceptsConnectedGraphsOnly) {
@@ -214,7 +228,7 @@ TEST(PoseGraph, FindsTheSameMinimumInThePlaneAndInSpace) {
   const Trajectory b =
       PoseGraphOptimizer({.group = PoseGraphOptimizer::Poses::se3}).correct(problem, in_space);
   EXPECT_LT(largest_difference(a, b), 1e-7);
-  EXPECT_NEAR(count(in_plane, "cost"), count(in_space, "cost"), 1e-9 * count(in_space, "cost"));
+  EXPECT_NEAR(count(in_plane, "chi2"), count(in_space, "chi2"), 1e-9 * count(in_space, "chi2"));
   Problem spatial = problem;
   spatial.planar = false;
   EXPECT_EQ(PoseGraphOptimizer({.group = PoseGraphOptimizer::Poses::se2}).why_declined(spatial),

@@ -102,8 +102,8 @@ TEST(SplineFit, WithOneKnotPerKeyframeInterpolatesThePoseGraphOptimum) {
     const auto curve = SplineFit({}).estimate(problem, report);
     const Trajectory optimum = corrected<PoseGraphOptimizer>(problem);
     expect_close(curve->sample(stamps(optimum)), optimum, 1e-5);
-    const double cost = chain_cost(problem, poses_of(optimum));
-    EXPECT_NEAR(count(report, "cost"), cost, 1e-6 * cost);
+    const double chi2 = 2.0 * chain_cost(problem, poses_of(optimum));
+    EXPECT_NEAR(count(report, "chi2"), chi2, 1e-6 * chi2);
   }
 }
 
@@ -112,8 +112,8 @@ TEST(SplineFit, WithFewerKnotsHasAHigherCost) {
   Report every, fewer;
   SplineFit({}).estimate(problem, every);
   const auto curve = SplineFit({.knots_per_keyframe = 0.6}).estimate(problem, fewer);
-  EXPECT_GT(count(fewer, "cost"), count(every, "cost"));
-  EXPECT_LT(count(fewer, "cost"), count(fewer, "cost_before"));
+  EXPECT_GT(count(fewer, "chi2"), count(every, "chi2"));
+  EXPECT_LT(count(fewer, "chi2"), count(fewer, "chi2_before"));
   EXPECT_EQ(count(fewer, "controls"), 36.0);
   // The start is fixed.
   EXPECT_TRUE(

@@ -209,7 +209,7 @@ int main(int argc, char** argv) try {
   std::ofstream(std::string(argv[2]) + ".json")
       << std::setprecision(17) << "{\"seconds\": " << seconds.count()
       << ", \"iterations\": " << summary.iterations.size()
-      << ", \"counts\": {\"cost\": " << summary.final_cost << "}}\n";
+      << ", \"counts\": {\"chi2\": " << 2.0 * summary.final_cost << "}}\n";
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';
   return 1;
