@@ -1,10 +1,12 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "datasets/core/error.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/model/where.hpp"
+#include "harness/store/record_reader.hpp"
 #include "harness/tables/all_records.hpp"
 #include "harness/tables/record_csv.hpp"
 #include "harness/tables/store_tables.hpp"
@@ -18,6 +20,7 @@ struct TableArguments {
   std::vector<std::string> where;
   RankingOptions ranking;
   OutputOptions output;
+  bool has_default_layout = true;  ///< no --rows, --columns, --split, --show, --where
 };
 
 std::string rows_text(const TableArguments& arguments) {
@@ -40,6 +43,22 @@ std::string tables_text(const TableArguments& arguments) {
   return text(tables, arguments.output);
 }
 
+/// Four columns for a paper: translation and rotation of the first score, gain and time.
+void choose_columns(const std::string& store, TableSpec& spec) {
+  RecordReader reader(store);
+  std::string first;
+  reader.for_each_chunk([&](std::vector<Record>& records) {
+    const auto found = std::ranges::find_if(records, [](const Record& r) {
+      return !r.metric.empty() && r.better != metrics::Better::neither;
+    });
+    if (found != records.end()) first = field(*found, "score");
+    return first.empty();
+  });
+  if (first.empty()) return;
+  spec.show = {first, "gain", "time"};
+  spec.split = {"sequence"};
+}
+
 int print_table(TableArguments arguments) {
   std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
   std::vector<std::string> show;
@@ -47,6 +66,9 @@ int print_table(TableArguments arguments) {
     for (std::string& score : split_list(word)) show.push_back(std::move(score));
   }
   arguments.spec.show = std::move(show);
+  if (arguments.has_default_layout && arguments.output.format() == ExportFormat::latex) {
+    choose_columns(arguments.store, arguments.spec);
+  }
   write_output(
       tables_text(arguments), arguments.output, "tables", std::move(provenance), arguments.store);
   return kExitOk;
@@ -82,7 +104,10 @@ void add_table(CLI::App& app, int& exit_code) {
   command->add_flag("--plus-minus",
                     arguments->spec.plus_minus,
                     "Add the standard deviation over the averaged cells to each number");
-  command->add_option("--show", arguments->spec.show, "Scores to show: ate,error x,gain,time");
+  command->add_option(
+      "--show",
+      arguments->spec.show,
+      "Scores to show: ate,error x,gain,time; default: all, in LaTeX the first, gain and time");
   command->add_option("--where",
                       arguments->where,
                       "Filter of rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, comma-separated; "
@@ -101,7 +126,12 @@ void add_table(CLI::App& app, int& exit_code) {
            ExportFormat::csv,
            ExportFormat::json,
            ExportFormat::rows});
-  command->callback([arguments, &exit_code] { exit_code = print_table(*arguments); });
+  command->callback([arguments, command, &exit_code] {
+    for (const char* name : {"--rows", "--columns", "--split", "--show", "--where"}) {
+      if (command->count(name) > 0) arguments->has_default_layout = false;
+    }
+    exit_code = print_table(*arguments);
+  });
 }
 
 }  // namespace loopbench::harness

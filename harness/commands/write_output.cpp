@@ -1,7 +1,6 @@
 #include "harness/commands/write_output.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <map>
@@ -53,6 +52,9 @@ void declare(CLI::App& command, OutputOptions& output, const std::vector<ExportF
                   output.file,
                   "File to write (-: standard output); for CSV also its provenance")
       ->type_name("FILE");
+  command.add_flag("--provenance",
+                   output.provenance,
+                   "Add config, inputs, seeds and machine to Markdown and LaTeX, as a comment");
 }
 
 std::string text(const std::vector<Table>& tables, const OutputOptions& output) {
@@ -75,18 +77,21 @@ void write_output(const std::string& text,
                   std::future<StoreProvenance> begun,
                   const std::filesystem::path& store) {
   const ExportFormat format = output.format();
-  const bool is_read_by_a_person = is_printed(output) && isatty(STDOUT_FILENO) == 1;
   std::string out = text;
   const StoreProvenance provenance = begun.get();
+  const std::string summary = build_summary(provenance.provenance);
+  const auto sweep = provenance.run.find("sweep");
+  const std::string source =
+      "source: " + (sweep == provenance.run.end() ? "" : one_line(sweep->second) + ", ") + summary;
   if (format == ExportFormat::json) {
     out = with_provenance(provenance, key, text);
   } else if (format == ExportFormat::terminal) {
-    const std::string summary = build_summary(provenance.provenance);
     out += "\n" + (is_printed(output) ? fitted(summary) : summary) + "\n";
-  } else if (format == ExportFormat::markdown && !is_read_by_a_person) {
-    out += "\n" + provenance_comment(provenance);
-  } else if (format == ExportFormat::latex && !is_read_by_a_person) {
-    out += provenance_lines(provenance, "% ");
+  } else if (format == ExportFormat::markdown) {
+    out +=
+        "\n" + (output.provenance ? provenance_comment(provenance) : "<!-- " + source + " -->\n");
+  } else if (format == ExportFormat::latex) {
+    out += output.provenance ? provenance_lines(provenance, "% ") : "% " + source + "\n";
   }
   if (is_printed(output)) {
     fmt::print("{}", out);

@@ -19,11 +19,12 @@ enum class ExportFormat { markdown, terminal, latex, csv, json, rows };
 struct OutputOptions {
   std::optional<ExportFormat> given;  ///< none: terminal on a terminal, otherwise Markdown
   std::string file;                   ///< empty or "-": standard output
+  bool provenance = false;            ///< all provenance in Markdown and LaTeX, not one line
 
   ExportFormat format() const;
 };
 
-/// Adds --format with these formats, and -o.
+/// Adds --format with these formats, --provenance, and -o.
 void declare(CLI::App& command, OutputOptions& output, const std::vector<ExportFormat>& formats);
 
 /// The tables one below the other: Markdown, LaTeX, text_csv(), or for the terminal in its width.
@@ -32,11 +33,10 @@ std::string text(const std::vector<Table>& tables, const OutputOptions& output);
 /// Reads the provenance on another thread while the output is computed.
 std::future<StoreProvenance> begin_provenance(const std::filesystem::path& store);
 
-/// Writes or prints `text`. The provenance of the store is
-/// an HTML comment in Markdown, % comments in LaTeX (both omitted on a terminal), and {provenance,
-/// KEY: text} in JSON. CSV has no comments: the provenance of `x.csv` is written to
-/// `x.provenance.json` next to it; for a printed CSV, one line goes to standard error. Throws
-/// InputError.
+/// Writes or prints `text`. A comment in Markdown and LaTeX names the source in one line, or has
+/// the provenance of the store if requested; JSON is {provenance, KEY: text}. CSV has no comments:
+/// the provenance of `x.csv` is written to `x.provenance.json` next to it; for a printed CSV, one
+/// line goes to standard error. Throws InputError.
 void write_output(const std::string& text,
                   const OutputOptions& output,
                   const std::string& key,

@@ -44,7 +44,7 @@ std::string marked_latex(const TableCell& cell) {
 }  // namespace
 
 std::string latex(const Table& all) {
-  const Table table = without_empty_columns(all);
+  const Table table = with_common_unit(without_empty_columns(all));
   const bool has_caption = !table.title.empty();
   std::string out =
       has_caption ? "\\begin{table}\n\\centering\n\\caption{" + escaped_latex(table.title) + "}\n"

@@ -57,7 +57,7 @@ std::string line_of(const std::vector<std::string>& texts, const std::vector<std
 }  // namespace
 
 std::string markdown(const Table& all) {
-  const Table table = without_empty_columns(all);
+  const Table table = with_common_unit(without_empty_columns(all));
   std::vector<std::vector<std::string>> grid(1);
   for (const std::string& heading : table.headings) grid[0].push_back(escaped_markdown(heading));
   for (const auto& line : table.lines) {

@@ -1,6 +1,7 @@
 #include "harness/tables/store_provenance.hpp"
 
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "harness/store/read.hpp"
@@ -41,6 +42,14 @@ std::vector<std::string> provenance_entries(const StoreProvenance& provenance) {
   return out;
 }
 
+/// `line` with absolute paths cut to their last two parts: folders of a machine are of no use to
+/// others.
+std::string without_folders(const std::string& line) {
+  static const std::regex kPath(
+      R"((^|[\s"'=:,([{])/[^\s"',)\]}]*/([^\s"',)\]}/]+/[^\s"',)\]}/]+))");
+  return std::regex_replace(line, kPath, "$1$2");
+}
+
 ProvenanceJson json_of(const StoreProvenance& provenance) {
   ProvenanceJson inputs = ProvenanceJson::object();
   for (const auto& [sequence, files] : provenance.inputs) {
@@ -79,7 +88,7 @@ std::string with_provenance(const StoreProvenance& provenance,
 std::string provenance_lines(const StoreProvenance& provenance, const std::string& mark) {
   std::string out;
   for (const std::string& line : provenance_entries(provenance)) {
-    out += mark + one_line(line) + "\n";
+    out += mark + without_folders(one_line(line)) + "\n";
   }
   return out;
 }

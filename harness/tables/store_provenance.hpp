@@ -29,7 +29,7 @@ std::string with_provenance(const StoreProvenance& provenance,
                             const std::string& value);
 
 /// One line per entry, each prefixed with `mark`: "% commit: ...". Control characters become
-/// spaces.
+/// spaces. Absolute paths are cut to their last two parts.
 std::string provenance_lines(const StoreProvenance& provenance, const std::string& mark);
 
 /// HTML comment, which Markdown hides. `--` becomes `- -`, so that no value can end it.

@@ -19,7 +19,7 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr std::size_t kMostSequences = 6;
+constexpr std::size_t kMostSequences = 12;
 constexpr std::size_t kMostMethods = 30;
 constexpr std::size_t kMostVerdicts = 5;
 constexpr std::size_t kMostReasons = 5;

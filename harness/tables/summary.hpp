@@ -17,7 +17,7 @@ struct SummaryOptions {
 
 /// Methods by sequences for one score, the first that has a direction, dense if the sweep has dense
 /// times, under the first protocol. Further columns: mean rank over runs (1 is best; a failure
-/// ranks below all values), gain and time. Rows are sorted by mean rank; with more than six
+/// ranks below all values), gain and time. Rows are sorted by mean rank; with more than twelve
 /// sequences their columns are left out, with more than thirty methods the last ones. The notes
 /// contain one verdict per score, at most five, or one if the runs are too few to prove anything.
 /// The records are those of `all_records`. Throws InputError for an unknown statistic. Without any

@@ -85,6 +85,20 @@ Table without_empty_columns(Table table) {
   return table;
 }
 
+Table with_common_unit(Table table) {
+  const std::vector<std::string>& headings = table.headings;
+  if (headings.size() < 3) return table;
+  const std::size_t begin = std::min(headings[1].rfind(" ["), headings[1].size());
+  const std::string unit = headings[1].substr(begin);
+  const auto has_unit = [&](const std::string& heading) { return heading.ends_with(unit); };
+  if (unit.empty() || !std::all_of(headings.begin() + 1, headings.end(), has_unit)) return table;
+  for (std::size_t c = 1; c < headings.size(); ++c) {
+    table.headings[c].resize(headings[c].size() - unit.size());
+  }
+  (table.title.empty() ? table.headings[0] : table.title) += unit;
+  return table;
+}
+
 std::string padded(const std::string& text, std::size_t columns, bool left) {
   const std::string gap(columns - std::min(columns, width(text)), ' ');
   return left ? text + gap : gap + text;

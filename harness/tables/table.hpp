@@ -66,6 +66,10 @@ void format_means(Table& table);
 /// The formats for reading leave them out.
 Table without_empty_columns(Table table);
 
+/// With a unit that all of at least two columns share in the title, or in the first heading if
+/// there is no title, instead of in every heading. The formats for papers and pages use it.
+Table with_common_unit(Table table);
+
 /// GitHub Markdown, padded for reading on a terminal. Best in bold, second best in italics.
 /// Markdown and HTML markup is escaped.
 std::string markdown(const Table& table);

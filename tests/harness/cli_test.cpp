@@ -89,7 +89,7 @@ TEST_F(Cli, SeveralProtocolsSplitTheTables) {
       << rows.out;
   const CommandResult one = run("table results/c --where protocol=loopbench");
   EXPECT_EQ(one.exit_code, 0) << one.err;
-  EXPECT_EQ(one.out.substr(0, one.out.find("<!-- provenance")).find("evo"), std::string::npos)
+  EXPECT_EQ(one.out.substr(0, one.out.find("<!-- source")).find("evo"), std::string::npos)
       << one.out;
 }
 

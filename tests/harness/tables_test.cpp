@@ -189,6 +189,17 @@ TEST(Formats, EscapeNamesAndMarkTheBest) {
                 notes + "% each number is the mean of up to 8 cells\n");
 }
 
+TEST(Formats, StateACommonUnitOnce) {
+  Table table{"dense", {"method", "room [m]", "hall [m]"}, {{"raw", "1", "2"}}, {}};
+  EXPECT_NE(latex(table).find("\\caption{dense {[}m]}"), std::string::npos) << latex(table);
+  EXPECT_NE(latex(table).find("\nmethod & room & hall \\\\\n"), std::string::npos) << latex(table);
+  table.title.clear();
+  EXPECT_NE(markdown(table).find("| method [m] | room | hall |\n"), std::string::npos)
+      << markdown(table);
+  table.headings[2] = "hall [deg]";
+  EXPECT_NE(markdown(table).find("| method | room [m] | hall [deg] |\n"), std::string::npos);
+}
+
 TEST(Formats, KeepNamesAndNumbersForMachines) {
   const std::string text = csv(marked());
   EXPECT_NE(text.find("\ndense,\"a|b_&%<\"\"x\"\"\n_c\",ate [m],0.135"), std::string::npos) << text;

@@ -121,7 +121,11 @@ TEST_F(VerdictCli, EveryExportCarriesWhatMadeIt) {
     return text.size() >= end.size() &&
            text.compare(text.size() - end.size(), end.size(), end) == 0;
   };
-  const std::string markdown = run("table r").out;
+  const std::string plain = run("table r").out;
+  EXPECT_EQ(plain.find("\ncommit: "), std::string::npos) << plain;
+  EXPECT_TRUE(has(plain, "\n<!-- source: c, loopbench ")) << plain;
+  EXPECT_TRUE(has(run("compare r --format latex").out, "\n% source: c, loopbench "));
+  const std::string markdown = run("table r --provenance").out;
   const std::string comment = markdown.substr(markdown.find("<!-- provenance\n"));
   for (const char* entry : {"\ncommit: ",
                             "\ncompiler: ",
@@ -134,7 +138,7 @@ TEST_F(VerdictCli, EveryExportCarriesWhatMadeIt) {
   }
   EXPECT_TRUE(ends(comment, "-->\n"));
   EXPECT_EQ(comment.find("--", 4), comment.size() - 4) << "nothing within may end it";
-  const std::string latex = run("compare r --format latex").out;
+  const std::string latex = run("compare r --format latex --provenance").out;
   EXPECT_TRUE(has(latex, "\n% commit: "));
   EXPECT_TRUE(has(latex, "\n%   metrics: [ate]\n"));
   EXPECT_EQ(run("table r --format csv -o t/x.csv").out, "");
