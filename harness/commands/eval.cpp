@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 #include <set>
-#include <sstream>
 
 #include "harness/base/printable.hpp"
 #include "harness/base/wrap.hpp"
@@ -17,10 +15,9 @@
 #include "harness/commands/standard_output.hpp"
 #include "harness/eval/eval_figures.hpp"
 #include "harness/eval/evaluate_files.hpp"
+#include "harness/eval/evaluation_page.hpp"
 #include "harness/eval/recorded_store.hpp"
 #include "harness/eval/run_summary.hpp"
-#include "harness/report/html.hpp"
-#include "harness/report/packed.hpp"
 #include "harness/report/store_figures.hpp"
 #include "harness/store/read.hpp"
 #include "harness/tables/record_csv.hpp"
@@ -97,50 +94,6 @@ std::string with_sequence(const DrawnRuns& runs, const std::string& text) {
   return runs.sequence.empty() ? text : runs.sequence + ": " + text;
 }
 
-/// The lines of a text, escaped one by one: html_text() drops line breaks.
-std::string html_lines(const std::string& text) {
-  std::string out;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) out += html_text(line) + "\n";
-  return out;
-}
-
-/// Writes one file without scripts or links: tables, verdict, and `images`, which are kErrorFigures
-/// of each of `drawn` as SVG. Throws InputError.
-void write_report(const EvalArguments& a,
-                  const std::vector<EvaluationResult>& all,
-                  const std::vector<DrawnRuns>& drawn,
-                  const std::vector<std::string>& images) {
-  std::string page = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
-      "style-src 'unsafe-inline'\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>{0} - loopbench eval</title>\n"
-      "<style>body{{font-family:sans-serif;margin:2rem;max-width:90rem}}"
-      "pre{{overflow-x:auto;background:#f5f5f5;padding:1rem}}img{{max-width:100%}}"
-      "figure{{margin:0 0 1rem}}.scroll{{overflow-x:auto}}table{{border-collapse:collapse}}"
-      "caption{{text-align:left;font-weight:bold;padding:.5rem 0}}"
-      "th,td{{padding:.3rem .6rem;border-bottom:1px solid #ddd;text-align:right}}"
-      "th[scope=row]{{text-align:left}}.notes{{font-size:.9em}}</style>\n"
-      "</head>\n<body>\n<h1>Evaluation against {0}</h1>\n",
-      html_text(all.front().reference));
-  const bool is_alone = all.size() == 1;
-  const std::vector<Table> tables = is_alone ? std::vector<Table>{} : comparison(all);
-  for (const Table& table : tables) page += html_table(table);
-  const std::string below = is_alone ? text(all.front()) : verdict_of(a, all, TerminalStyle{});
-  if (!below.empty()) page += "<pre>" + html_lines(below) + "</pre>\n";
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const DrawnRuns& runs = drawn[i / kErrorFigures.size()];
-    const char* const name = kErrorFigures[i % kErrorFigures.size()];
-    page += fmt::format("<h2>{0}</h2>\n<img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\">\n",
-                        html_text(with_sequence(runs, name)),
-                        base64(images[i]));
-  }
-  write_file(a.report, page + "</body>\n</html>\n");
-  fmt::print(stderr, "{}\n", printable(a.report));
-}
-
 /// Runs with the names of --labels: one for each file, or else one for each method.
 std::vector<RecordedRun> named_runs(const EvalArguments& a) {
   std::vector<RecordedRun> runs = labelled_runs(file_pairs(a), a.sequence);
@@ -157,37 +110,28 @@ std::vector<RecordedRun> named_runs(const EvalArguments& a) {
   return runs;
 }
 
-/// Figures and report of the estimates under the first protocol.
-void write_pictures(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
-  if (a.plot.empty() && a.report.empty()) return;
+/// Figures of the estimates under the first protocol.
+void write_figures(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
+  if (a.plot.empty()) return;
   const std::vector<DrawnRuns> drawn = drawn_sequences(all, named_runs(a));
-  if (drawn.empty()) throw InputError("--plot, --report: no estimate could be evaluated");
+  if (drawn.empty()) throw InputError("--plot: no estimate could be evaluated");
   for (const DrawnRuns& each : drawn) {
     if (each.note.empty()) continue;
     const std::string note = "loopbench: note: figures: " + with_sequence(each, each.note);
     fmt::print(stderr, "{}\n", printable(note));
   }
-  reject_standard_output("--report", a.report);
   std::filesystem::path plot = a.plot;
-  std::vector<std::string> suffixes{".svg", ".pdf", ".png"};
-  if (is_figure_name(plot)) {
-    suffixes = {plot.extension().string()};
-    plot.replace_extension();
-  }
+  const std::vector<std::string> suffixes = take_suffixes(plot);
   std::set<std::string> prefixes;
   std::vector<FigureData> figures;
   for (const DrawnRuns& each : drawn) {
     FigureData& data = figures.emplace_back(figure_data(each));
-    if (!a.report.empty()) data.figures = figures_for_page(a.figures);
-    if (a.plot.empty()) continue;
     std::string prefix = plot.string();
     if (!each.sequence.empty()) prefix += "_" + file_stem(each.sequence);
     while (!prefixes.insert(prefix).second) prefix += "_";  // labels that differ in punctuation
-    std::ranges::move(figures_for_paper(prefix, suffixes, a.figures),
-                      std::back_inserter(data.figures));
+    data.figures = figures_for_paper(prefix, suffixes, a.figures);
   }
-  const std::vector<std::string> images = draw(figures);
-  if (!a.report.empty()) write_report(a, all, drawn, images);
+  draw(figures);
   for (const FigureData& data : figures) {
     for (const DrawnFigure& figure : data.figures) {
       fmt::print(stderr, "{}", printable(file_list(figure)));
@@ -237,9 +181,15 @@ int eval(const EvalArguments& a, const Source& source) {
   }
   return_large_lists();
   if (!a.store.empty()) return eval_to_store(a, source);
-  const std::vector<EvaluationResult> all = evaluate_files(a);
+  reject_standard_output("--report", a.report);
+  const auto write_page = [&](const RecordedSweep& files, const std::vector<EvaluatedFile>& done) {
+    write_evaluation_page(files, done, source);
+    fmt::print(stderr, "{}\n", printable(a.report));
+  };
+  const std::vector<EvaluationResult> all =
+      a.report.empty() ? evaluate_files(a) : evaluate_files(a, write_page);
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all));
-  write_pictures(a, all);
+  write_figures(a, all);
   if (a.json) {
     fmt::print("{}", json(all));
   } else if (a.csv) {

@@ -176,8 +176,9 @@ void declare(CLI::App& command, EvalArguments& a) {
       ->type_name("PREFIX");
   declare_figure_options(command, a.figures, "--plot");
   command
-      .add_option(
-          "--report", a.report, "HTML page with the table and all figures, needs matplotlib")
+      .add_option("--report",
+                  a.report,
+                  "HTML page with tables, verdicts and figures, as `report` writes it")
       ->type_name("FILE");
   command
       .add_option("--store",

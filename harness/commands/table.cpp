@@ -130,6 +130,12 @@ void add_table(CLI::App& app, int& exit_code) {
     for (const char* name : {"--rows", "--columns", "--split", "--show", "--where"}) {
       if (command->count(name) > 0) arguments->has_default_layout = false;
     }
+    if (command->count("--split") == 0) {
+      std::erase_if(arguments->spec.split, [&](const std::string& field) {
+        return std::ranges::count(arguments->spec.rows, field) > 0 ||
+               std::ranges::count(arguments->spec.columns, field) > 0;
+      });
+    }
     exit_code = print_table(*arguments);
   });
 }

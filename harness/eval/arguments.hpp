@@ -49,6 +49,9 @@ struct EvalArguments {
   std::string group;           ///< recording of the reference; empty: by its geometry
   std::optional<bool> common;  ///< evaluate the times that all estimates cover; none: with a store
   bool paired = false;         ///< pair runs of equal names in verdicts
+
+  /// Whether trajectories are kept with the results.
+  bool keeps_traces() const { return !store.empty() || !report.empty(); }
 };
 
 /// Throws InputError for an unknown or repeated protocol or a malformed setting, OptionError for an

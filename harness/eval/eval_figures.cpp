@@ -228,16 +228,4 @@ std::vector<DrawnFigure> figures_for_paper(const std::string& prefix,
   return out;
 }
 
-std::vector<DrawnFigure> figures_for_page(const FigureOptions& options) {
-  std::vector<DrawnFigure> out;
-  for (const std::vector<std::string>& each : panels()) {
-    DrawnFigure& figure = out.emplace_back(DrawnFigure{{}, each, {}});
-    figure.options.plane = options.plane;
-    figure.options.columns = each.size() > 2 ? 3 : 2;
-    figure.options.size = {4.5, 3.6};
-    figure.options.font = 11.0;
-  }
-  return out;
-}
-
 }  // namespace loopbench::harness

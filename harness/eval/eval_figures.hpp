@@ -49,7 +49,4 @@ std::vector<DrawnFigure> figures_for_paper(const std::string& prefix,
                                            const std::vector<std::string>& suffixes,
                                            const FigureOptions& options);
 
-/// kErrorFigures without files, for a page; of the options only the plane.
-std::vector<DrawnFigure> figures_for_page(const FigureOptions& options);
-
 }  // namespace loopbench::harness

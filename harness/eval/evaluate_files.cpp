@@ -139,7 +139,9 @@ void require_evaluated(const std::vector<EvaluatedFile>& all) {
 
 }  // namespace
 
-std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
+std::vector<EvaluationResult> evaluate_files(
+    const EvalArguments& a,
+    const std::function<void(const RecordedSweep&, const std::vector<EvaluatedFile>&)>& visit) {
   const std::vector<FilePair> files = file_pairs(a);
   std::vector<std::filesystem::path> inputs{a.times};
   for (const FilePair& pair : files) inputs.insert(inputs.end(), {pair.reference, pair.estimate});
@@ -165,6 +167,7 @@ std::vector<EvaluationResult> evaluate_files(const EvalArguments& a) {
   }
   require_evaluated(all);
   if (!a.min_coverage) check_coverage(all);
+  if (visit) visit(sweep, all);
   return results_of(std::move(all), sweep.sweep);
 }
 

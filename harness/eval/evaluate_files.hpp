@@ -2,6 +2,7 @@
 /// sweep with one cell for each estimate, computed in this process.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "harness/eval/arguments.hpp"
@@ -13,7 +14,10 @@ namespace loopbench::harness {
 /// estimate that cannot be read or evaluated has a result with `why_failed`; without
 /// --min-coverage, an estimate with less than half of the coverage of another one of its reference
 /// is incomplete. Throws InputError, OptionError.
-std::vector<EvaluationResult> evaluate_files(const EvalArguments& arguments);
+/// `visit` gets the sweep and the evaluations before their conversion.
+std::vector<EvaluationResult> evaluate_files(
+    const EvalArguments& arguments,
+    const std::function<void(const RecordedSweep&, const std::vector<EvaluatedFile>&)>& visit = {});
 
 /// The same for two trajectories in memory; the reference is in the body of the estimate. Throws
 /// InputError if the evaluation fails.

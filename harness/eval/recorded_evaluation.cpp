@@ -56,7 +56,7 @@ SequenceMetadata metadata_of(const RecordedRun& run,
   sequence.reference = reference.read.poses;
   sequence.problem.keyframes = estimate->poses;
   out.content = content_of(sequence);
-  if (reference.file) out.trace = sequence_trace(sequence);
+  if (reference.is_traced) out.trace = sequence_trace(sequence);
   return out;
 }
 
@@ -178,11 +178,11 @@ struct PairEvaluation {
         std::async(is_large ? std::launch::async : std::launch::deferred,
                    [&] { add_checks(own, evaluation, reference, estimate, files); });
     if (!arguments.per_pose.empty()) own.poses = metrics::pose_errors(evaluation);
-    if (!arguments.plot.empty() || !arguments.report.empty()) {
+    if (!arguments.plot.empty()) {
       own.drawn = drawn_evaluation(reference.poses, evaluation);
     }
     add_scores(out.result, row, evaluation, sweep, files.catalogue, is_large);
-    if (!arguments.store.empty() && row.protocol == 0) {
+    if (files.arguments.keeps_traces() && row.protocol == 0) {
       const StampedPose& first = reference.poses.front();
       const Vector3& p = first.world_from_body.translation;
       out.result.trace = cell_trace(evaluation, row.times, {first.stamp, p.x(), p.y(), p.z()});
@@ -222,8 +222,9 @@ void share_notes(std::vector<EvaluationResult>& evaluations, std::vector<std::st
 SharedReference shared_reference(const std::string& file, const RecordedSweep& files) {
   const EvalArguments& a = files.arguments;
   SharedReference out{recorded_reference(file, a, files.has_digits)};
+  out.is_traced = a.keeps_traces();
   if (!a.store.empty()) out.file = hashed_input(file, "reference");
-  if (!a.store.empty() || files.runs.size() > 1) {
+  if (out.is_traced || files.runs.size() > 1) {
     Sequence sequence;
     sequence.reference = out.read.poses;
     out.content = content_of(sequence);

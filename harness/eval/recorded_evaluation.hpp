@@ -19,6 +19,7 @@ struct SharedReference {
                                ///< empty: runs are not compared
   std::string recording = {};  ///< content of its first copy, see Recordings
   std::optional<InputFile> file = {};  ///< for a store
+  bool is_traced = false;              ///< for a store or a page
 };
 
 /// Throws InputError.

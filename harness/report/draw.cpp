@@ -72,7 +72,7 @@ FilterResult run_python(const std::string& input) {
 
 }  // namespace
 
-std::vector<std::string> draw(const std::vector<FigureData>& all) {
+void draw(const std::vector<FigureData>& all) {
   nlohmann::json document = nlohmann::json::array();
   for (const FigureData& data : all) document.push_back(json_of(data));
   using nlohmann::json;
@@ -80,13 +80,19 @@ std::vector<std::string> draw(const std::vector<FigureData>& all) {
       run_python(document.dump(-1, ' ', false, json::error_handler_t::replace));
   if (result.exit_code == 2 && !result.output.empty()) throw InputError(result.output);
   if (result.exit_code != 0) throw InputError("drawing failed; the messages of Python are above");
-  return json::parse(result.output).get<std::vector<std::string>>();
 }
 
 bool is_figure_name(const std::filesystem::path& file) {
   const std::string extension = file.extension().string();
   return std::ranges::any_of(
       kFigureFormats, [&](const char* format) { return "." + std::string(format) == extension; });
+}
+
+std::vector<std::string> take_suffixes(std::filesystem::path& name) {
+  if (!is_figure_name(name)) return {".svg", ".pdf", ".png"};
+  const std::string own = name.extension().string();
+  name.replace_extension();
+  return {own};
 }
 
 std::string file_list(const DrawnFigure& figure) {

@@ -47,11 +47,15 @@ struct FigureData {
   std::vector<DrawnFigure> figures;
 };
 
-/// Draws all of them in one process. Returns the SVG texts of the figures without files. Throws
-/// InputError if Python or matplotlib is missing, or a file cannot be written.
-std::vector<std::string> draw(const std::vector<FigureData>& all);
+/// Draws all of them in one process. Throws InputError if Python or matplotlib is missing, or a
+/// file cannot be written.
+void draw(const std::vector<FigureData>& all);
 
 /// Whether the file name ends in one of kFigureFormats.
 bool is_figure_name(const std::filesystem::path& file);
+
+/// Suffixes of the files that `name` stands for: its own, which is removed from it, if that is one
+/// of kFigureFormats, otherwise .svg, .pdf and .png.
+std::vector<std::string> take_suffixes(std::filesystem::path& name);
 
 }  // namespace loopbench::harness

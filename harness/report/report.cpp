@@ -78,7 +78,8 @@ std::string data_text(const nlohmann::json& data) {
 /// The smallest page, or the first that is smaller than `bytes`.
 std::string thinned_html(const ReportContent& content, std::size_t bytes) {
   const auto sweep = content.run.find("sweep");
-  nlohmann::json data{{"scores", scores_json(content)},
+  nlohmann::json data{{"plane", content.plane},
+                      {"scores", scores_json(content)},
                       {"comparisons", nlohmann::json::parse(json(content.comparisons, -1))}};
   // Content-Security-Policy: the page runs its own scripts only and loads nothing. No text of the
   // sweep can contain the nonce, a hash of all of them.

@@ -54,6 +54,22 @@ std::string key_figure(const Comparison& c) {
   return out + (is_shown ? "" : ", not significant") + "</span></div>";
 }
 
+/// The first score in large type, for a single method.
+std::string only_score(const ReportContent& content) {
+  const auto first = std::ranges::find_if(
+      content.records, [](const Record& r) { return !r.metric.empty() && r.status == Status::ok; });
+  if (first == content.records.end()) return "";
+  return fmt::format(
+      "<div class=\"key\"><span class=\"number\">{:.4g} {}</span><span class=\"what\">{} of "
+      "<b>{}</b>, rmse, {}, {}</span></div>\n",
+      first->statistics.rmse,
+      html_text(first->unit.text()),
+      html_text(field(*first, "score")),
+      html_text(first->method.text()),
+      html_text(first->times.text()),
+      html_text(first->protocol.text()));
+}
+
 }  // namespace
 
 std::string summary_html(const ReportContent& content) {
@@ -82,6 +98,7 @@ std::string summary_html(const ReportContent& content) {
         content.sequences.size());
   }
   const Comparison* headline = content.headline();
+  if (headline == nullptr && content.methods.size() == 1) return out + only_score(content);
   if (headline == nullptr) {
     return out +
            "<p class=\"verdict\">No verdict: the sweep has no baseline, or fewer than two "
@@ -97,12 +114,12 @@ std::string summary_html(const ReportContent& content) {
   for (const CellRecord& cell : content.cells) {
     if (cell.oracle_closures) measured.insert(cell.sequence);
   }
-  for (const std::string& name : measured) {
-    out += "<p class=\"warning\">" + html_text(name) +
-           ": loop closures were measured in the reference or selected by it (oracle), which is "
-           "better than any detector.</p>\n";
-  }
-  return out;
+  if (measured.empty()) return out;
+  const bool are_all = measured.size() == content.sequences.size();
+  return out + "<p class=\"warning\">" +
+         html_text(are_all ? "all sequences" : fmt::format("{}", fmt::join(measured, ", "))) +
+         ": loop closures were measured in the reference or selected by it (oracle), which is "
+         "better than any detector.</p>\n";
 }
 
 std::string verdicts_html(const ReportContent& content) {

@@ -219,6 +219,11 @@ const char* const kProbe = R"(<script>
   change(repeat.querySelector("select"), "0");
   change(document.querySelector("#controls select"), "1");
   if (!document.querySelector("#map figcaption").textContent.endsWith(")b")) said.push("sequence: " + document.querySelector("#map figcaption").textContent);
+  const plane = [...document.querySelectorAll("#controls label")].find((l) => l.textContent.startsWith("Plane"));
+  change(plane.querySelector("select"), "xz");
+  if (!document.querySelector("#map figcaption").textContent.includes("x, z")) said.push("plane");
+  if (!document.querySelector("#space svg").textContent.includes("-y")) said.push("up");
+  change(plane.querySelector("select"), "");
   for (const key of ["ArrowLeft", "ArrowUp", "+", "-", "0"]) {
     for (const id of ["map", "space"]) {
       document.querySelector(`#${id} svg`).dispatchEvent(

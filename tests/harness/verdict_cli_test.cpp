@@ -125,6 +125,7 @@ TEST_F(VerdictCli, EveryExportCarriesWhatMadeIt) {
   EXPECT_EQ(plain.find("\ncommit: "), std::string::npos) << plain;
   EXPECT_TRUE(has(plain, "\n<!-- source: c, loopbench ")) << plain;
   EXPECT_TRUE(has(run("compare r --format latex").out, "\n% source: c, loopbench "));
+  EXPECT_FALSE(has(run("table r --columns sequence --where unit=m,metric=ate").out, "### room"));
   const std::string markdown = run("table r --provenance").out;
   const std::string comment = markdown.substr(markdown.find("<!-- provenance\n"));
   for (const char* entry : {"\ncommit: ",

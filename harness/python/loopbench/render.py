@@ -4,8 +4,7 @@
 
 The document is a list of data as in `draw`, each with figures: [{files, panels, script, and
 arguments of draw.figure}]. A script is written beside the files, with the data of the figure.
-Standard output is a JSON list of SVG texts: the figures without files. Exit code 2: a text on
-standard output describes the failure.
+Exit code 2: a text on standard output describes the failure.
 """
 
 from __future__ import annotations
@@ -73,7 +72,7 @@ def _write_script(data: dict[str, Any], panels: Any, options: dict[str, Any], fi
     draw.replace_file(f"{stem}.py", _SCRIPT.format(**values).encode())
 
 
-def _draw(data: dict[str, Any], wanted: dict[str, Any]) -> str | None:
+def _draw(data: dict[str, Any], wanted: dict[str, Any]) -> None:
     from loopbench import draw
 
     options = {key: value for key, value in wanted.items() if key in _OPTIONS}
@@ -81,25 +80,27 @@ def _draw(data: dict[str, Any], wanted: dict[str, Any]) -> str | None:
         is_file = os.path.isfile
         options["style"] = [os.path.abspath(s) if is_file(s) else s for s in options["style"]]
     fig = draw.figure(data, wanted["panels"], **options)
-    files = wanted.get("files", [])
+    files = wanted["files"]
     for file in files:
         draw.save(fig, file)
     if wanted.get("script"):
         own = {key: value for key, value in data.items() if key != "figures"}
         _write_script(own, wanted["panels"], options, files)
-    return None if files else draw.image(fig, "svg").decode()
 
 
-def _draw_share(jobs: list[Any], first: int, step: int) -> dict[str, Any]:
+def _draw_share(jobs: list[Any], first: int, step: int) -> str:
+    """Returns why it failed, or an empty text."""
     try:
-        return {"drawn": {i: _draw(*jobs[i]) for i in range(first, len(jobs), step)}}
+        for job in jobs[first::step]:
+            _draw(*job)
     except OSError as error:
         if error.filename is None:  # a style sheet that matplotlib does not find
-            return {"failed": str(error)}
-        return {"failed": f"{error.filename}: cannot be written: {error.strerror}"}
+            return str(error)
+        return f"{error.filename}: cannot be written: {error.strerror}"
+    return ""
 
 
-def _draw_all(jobs: list[Any]) -> list[dict[str, Any]]:
+def _draw_all(jobs: list[Any]) -> list[str]:
     """On all cores, in forks of this process, which has loaded matplotlib and the data."""
     workers = min(len(os.sched_getaffinity(0)), len(jobs))
     if workers < 2:
@@ -133,13 +134,9 @@ def main() -> None:
     logging.getLogger("matplotlib.font_manager").addFilter(once)
     with open(sys.argv[1]) if len(sys.argv) > 1 else sys.stdin as document:
         jobs = [(data, wanted) for data in json.load(document) for wanted in data["figures"]]
-    shares = _draw_all(jobs)
-    for share in shares:
-        if "failed" in share:
-            print(share["failed"], end="")
-            sys.exit(2)
-    drawn = {int(i): svg for share in shares for i, svg in share["drawn"].items() if svg}
-    json.dump([drawn[i] for i in sorted(drawn)], sys.stdout)
+    for failure in filter(None, _draw_all(jobs)):
+        print(failure, end="")
+        sys.exit(2)
 
 
 if __name__ == "__main__":

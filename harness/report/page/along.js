@@ -38,6 +38,6 @@
     const last = document.getElementById("along-a");
     R.methodLegend(last, methods, false);
     const loops = reference ? reference.closures.length : 0;
-    if (loops) d3.select(last).append("p").attr("class", "hint below").text("Violet: loop closures.");
+    if (loops) d3.select(last).append("p").attr("class", "hint below").text("Vertical lines: loop closures.");
   });
 })();

@@ -10,8 +10,8 @@
     link.hidden = true;
     return;
   }
-  const kFamilies = ["#0b6fd3", "#e8710a", "#0f9d58", "#7b3ff2", "#c2185b", "#00a3a3", "#8d5524", "#b58900"];
-  const kPlain = ["#0b6fd3", "#e8710a"]; // alternating colours of unnamed neighbours
+  const kFamilies = ["#0068b0", "#cc4c02", "#2aa59a", "#7d1d6f", "#efb400", "#7fb8ec", "#5c3a14", "#f2a0c0"]; // of plot
+  const kPlain = ["#0068b0", "#cc4c02"]; // alternating colours of unnamed neighbours
   const state = { method: has[0].place, kind: "segment" };
   const colourOf = (part, names) => (k) => (part.what[k] ? kFamilies[names.indexOf(part.what[k]) % kFamilies.length] : kPlain[k % 2]);
 
@@ -32,14 +32,15 @@
 
   const map = (host, trace, part, names, title) => {
     host.replaceChildren();
-    R.caption(host, `${part.all} ${part.kind}${part.all === 1 ? "" : "s"}, top view`, title);
+    const [a, b] = R.plane(trace);
+    R.caption(host, `${part.all} ${part.kind}${part.all === 1 ? "" : "s"}, plane ${a}, ${b}`, title);
     const colour = colourOf(part, names);
     R.chart(host, {
       label: `${part.kind}s of ${title}`, height: 440, equal: true, zoom: true,
-      x: { label: "x [m]", domain: R.padded(R.extent([trace.x])) }, y: { label: "y [m]", domain: R.padded(R.extent([trace.y])) },
+      x: { label: `${a} [m]`, domain: R.padded(R.extent([trace[a]])) }, y: { label: `${b} [m]`, domain: R.padded(R.extent([trace[b]])) },
       draw: (group, x, y) => part.begin.forEach((begin, k) => {
         const [i, j] = [R.placeAt(trace.t, begin), R.placeAt(trace.t, part.end[k])];
-        const line = d3.range(i, Math.max(i + 1, j + 1)).map((p) => [x(trace.x[p]), y(trace.y[p])]);
+        const line = d3.range(i, Math.max(i + 1, j + 1)).map((p) => [x(trace[a][p]), y(trace[b][p])]);
         group.append("path").attr("class", "curve").attr("d", d3.line()(line)).style("stroke", colour(k)).style("stroke-width", 2.6)
           .append("title").text(tell(part, k));
         group.append("circle").attr("cx", line[0][0]).attr("cy", line[0][1]).attr("r", 2.4).style("fill", "var(--ink)");

@@ -11,6 +11,7 @@
   }));
   R.baseline = R.methods.find((m) => m.name === raw.scores.baseline) || null;
   R.drawnPoints = raw.traces.points;
+  R.defaultPlane = raw.plane;
 
   R.unpack = (packed) => {
     const bytes = atob(packed.words);

@@ -33,16 +33,16 @@
       label: "Precision over recall", height: 360,
       x: { label: "recall", domain: [0, 1.02] }, y: { label: "precision", domain: [0, 1.05] },
       draw: (group, x, y) => {
-        group.append("path").attr("class", "curve").style("stroke", "#0b6fd3")
+        group.append("path").attr("class", "curve").style("stroke", "#0068b0")
           .attr("d", d3.line().x((p) => x(p.x)).y((p) => y(p.y))(reached));
         group.selectAll(null).data(reached).join("circle").attr("cx", (p) => x(p.x)).attr("cy", (p) => y(p.y)).attr("r", 4)
-          .style("fill", "#0b6fd3").append("title").text((p) => `precision ${R.number(p.y)} at recall ${p.x} or more`);
+          .style("fill", "#0068b0").append("title").text((p) => `precision ${R.number(p.y)} at recall ${p.x} or more`);
         if (!Number.isFinite(accepted.x)) return;
         group.append("circle").attr("cx", x(accepted.x)).attr("cy", y(accepted.y)).attr("r", 7)
-          .style("fill", "none").style("stroke", "#d93025").attr("stroke-width", 2.4)
+          .style("fill", "none").style("stroke", "#cc4c02").attr("stroke-width", 2.4)
           .append("title").text(`accepted closures: precision ${R.number(accepted.y)}, recall ${R.number(accepted.x)}`);
       },
     });
-    R.legend(host, [{ name: "best precision at this or higher recall", color: "#0b6fd3" }, { name: "accepted closures (ring)", color: "#d93025" }]);
+    R.legend(host, [{ name: "best precision at this or higher recall", color: "#0068b0" }, { name: "accepted closures (ring)", color: "#cc4c02" }]);
   });
 })();

@@ -1,8 +1,10 @@
-// The plane of the largest extent: all methods, and two methods side by side, coloured by error.
+// The selected plane: all methods, and two methods side by side, coloured by error.
 (() => {
   "use strict";
   const R = window.R;
-  const ramp = d3.interpolateRgbBasis(["#12926b", "#9fb514", "#f0a202", "#e4570b", "#a5123f"]);
+  // The colours of errors in figures of plot, for every kind of sight; in the dark without the darkest.
+  const ramp = (share) => d3.interpolatePlasma(R.dark.matches ? 0.3 + 0.7 * share : 0.86 * share);
+  R.dark.addEventListener("change", () => R.changed());
   const kLevels = 16;
 
   const extent = (lists) => {
@@ -12,9 +14,10 @@
   };
   R.extent = extent;
 
-  // Two axes: x and y, or x and z in camera axes.
-  const planeOf = (reference) => {
-    const size = (axis) => extent([reference[axis]]).reduce((low, high) => high - low);
+  // Two axes: the selected ones, or those of the largest extent (x and z in camera axes).
+  R.plane = (path) => {
+    if (R.state.plane) return [...R.state.plane];
+    const size = (axis) => extent([path[axis]]).reduce((low, high) => high - low);
     const normal = d3.least(["z", "y", "x"], size);
     return ["x", "y", "z"].filter((axis) => axis !== normal);
   };
@@ -33,8 +36,8 @@
     const s = R.state.sequence;
     const reference = R.reference(s);
     const methods = R.shown().filter((m) => R.trace(s, m.place));
-    const [a, b] = reference ? planeOf(reference) : ["x", "y"];
-    R.caption(host, `Plane of the largest extent (${a}, ${b})`, R.runName(s));
+    const [a, b] = reference ? R.plane(reference) : ["x", "y"];
+    R.caption(host, `Plane (${a}, ${b})`, R.runName(s));
     if (!reference) return R.nothing(host, "No stored trajectories of this sequence (traces: false).");
     const traces = methods.map((m) => R.trace(s, m.place));
     R.chart(host, {
@@ -50,24 +53,24 @@
     R.methodLegend(host, methods);
   });
 
-  const coloured = (host, title, m, most, axes, reference, s) => {
+  const coloured = (host, m, most, axes, reference, s) => {
     host.replaceChildren();
     const trace = R.trace(s, m.place);
     if (!trace) {
-      R.caption(host, `${title}: ${m.label}`);
+      R.caption(host, m.label);
       return R.nothing(host, "This method has no trajectory; see the failures.");
     }
     const rms = Math.sqrt(d3.mean(trace.norm, (e) => e * e));
     const digits = d3.format(".3~g");
-    R.caption(host, `${title}: ${m.label}`, `RMS of the drawn errors ${digits(rms)} m, largest ${digits(d3.max(trace.norm))} m`);
+    R.caption(host, m.label, `RMS of the drawn errors ${digits(rms)} m, largest ${digits(d3.max(trace.norm))} m`);
     const levels = Array.from({ length: kLevels }, () => []);
     for (let i = 1; i < trace.t.length; ++i) {
       const level = Math.min(kLevels - 1, Math.floor((kLevels * trace.norm[i]) / most));
       if (Number.isFinite(level)) levels[level].push(i);
     }
-    const [a, b] = planeOf(reference);
+    const [a, b] = R.plane(reference);
     R.chart(host, {
-      label: `${title}: ${m.label} on ${R.scores.sequences[s]}, coloured by position error`, height: 440, equal: true, zoom: true, ...axes,
+      label: `${m.label} on ${R.scores.sequences[s]}, coloured by position error`, height: 440, equal: true, zoom: true, ...axes,
       draw: (group, x, y) => {
         band(group, reference, x, y, [a, b]);
         levels.forEach((places, level) => group.append("path").attr("class", "curve").style("stroke-width", 3)
@@ -79,7 +82,7 @@
           const loop = group.append("g").attr("class", "loop");
           loop.append("line").attr("x1", x1).attr("y1", y1).attr("x2", x2).attr("y2", y2);
           for (const [cx, cy] of [[x1, y1], [x2, y2]]) loop.append("circle").attr("cx", cx).attr("cy", cy).attr("r", 3);
-          loop.append("title").text("loop closure: revisited place");
+          loop.append("title").text("loop closure");
         }
       },
     });
@@ -95,14 +98,16 @@
     const pair = [R.methods[R.state.before], R.methods[R.state.after]];
     const traces = pair.map((m) => R.trace(s, m.place)).filter(Boolean);
     const most = d3.max(traces, (t) => d3.max(t.norm)) || 1;
-    const axes = around([reference, ...traces], planeOf(reference));
-    coloured(before, "Before", pair[0], most, axes, reference, s);
-    coloured(after, "After", pair[1], most, axes, reference, s);
+    const axes = around([reference, ...traces], R.plane(reference));
+    coloured(before, pair[0], most, axes, reference, s);
+    const isAlone = pair[0] === pair[1];
+    after.replaceChildren();
+    if (!isAlone) coloured(after, pair[1], most, axes, reference, s);
     const svg = d3.select(legend).append("svg").attr("viewBox", "0 0 440 34").style("max-width", "440px").attr("role", "img").attr("aria-label", "Colours of position errors");
     svg.selectAll("rect").data(d3.range(kLevels)).join("rect").attr("x", (l) => 28 + 24 * l).attr("y", 6).attr("width", 24).attr("height", 12)
       .style("fill", (l) => ramp((l + 0.5) / kLevels));
     svg.selectAll(null).data([0, 0.5, 1]).join("text").attr("x", (f) => 28 + 24 * kLevels * f).attr("y", 31).attr("text-anchor", "middle").text((f) => d3.format(".2~g")(most * f));
-    R.nothing(legend, "Position error [m], same colours on both sides" + (reference.closures.length
-      ? `; violet: ${reference.closures.length} of ${reference.allClosures} loop closures.` : "; no loop closures."));
+    R.nothing(legend, "Position error [m]" + (isAlone ? "" : ", same colours on both sides") + (reference.closures.length
+      ? `; joined circles: ${reference.closures.length} of ${reference.allClosures} loop closures.` : "; no loop closures."));
   });
 })();

@@ -1,4 +1,5 @@
-// Orthographic 3-D view, rotated by dragging or with the arrow keys.
+// Orthographic 3-D view above the selected plane, rotated by dragging or with the arrow keys. Its axes
+// are right-handed: above the plane of x and z, as in camera axes, up is -y.
 (() => {
   "use strict";
   const R = window.R;
@@ -41,9 +42,9 @@
       ends.push([p, q, name]);
       svg.append("line").attr("x1", p[0]).attr("y1", p[1]).attr("x2", q[0]).attr("y2", q[1]).style("stroke", "var(--soft)");
     };
-    axis([x2, y1, floor], `x, ${R.number(step)} m per square`);
-    axis([x1, y2, floor], "y");
-    axis([x1, y1, scene.z[1]], `z, ${d3.format(".2~g")(scene.z[1] - scene.z[0])} m` + (view.heightScale === 1 ? "" : ` (× ${view.heightScale})`));
+    axis([x2, y1, floor], `${scene.names[0]}, ${R.number(step)} m per square`);
+    axis([x1, y2, floor], scene.names[1]);
+    axis([x1, y1, scene.z[1]], `${scene.names[2]}, ${d3.format(".2~g")(scene.z[1] - scene.z[0])} m` + (view.heightScale === 1 ? "" : ` (× ${view.heightScale})`));
     svg.append("path").attr("class", "band").attr("d", along(reference));
     methods.forEach((m, i) => svg.append("path").attr("class", "curve").attr("d", along(traces[i]))
       .style("stroke", R.color(m.place)).attr("stroke-dasharray", R.dash(m.place)).append("title").text(m.label));
@@ -63,17 +64,21 @@
     R.caption(host, "3-D view", R.runName(s));
     if (!reference) return R.nothing(host, "No stored trajectories of this sequence (traces: false).");
     const methods = R.shown().filter((m) => R.trace(s, m.place));
-    const traces = methods.map((m) => R.trace(s, m.place));
-    const [x, y, z] = ["x", "y", "z"].map((axis) => R.extent([reference, ...traces].map((t) => t[axis])));
+    const [a, b] = R.plane(reference);
+    const c = [..."xyz"].find((axis) => axis !== a && axis !== b);
+    const above = (path) => ({ x: path[a], y: path[b], z: c === "y" ? path.y.map((v) => -v) : path[c] });
+    const ground = above(reference);
+    const traces = methods.map((m) => above(R.trace(s, m.place)));
+    const [x, y, z] = ["x", "y", "z"].map((axis) => R.extent([ground, ...traces].map((t) => t[axis])));
     const scene = {
-      x, y, z, reference, methods, traces,
+      x, y, z, reference: ground, methods, traces, names: [a, b, c === "y" ? "-y" : c],
       middle: [x, y, z].map((d) => (d[0] + d[1]) / 2),
     };
     // Scales heights of nearly planar trajectories; the z axis shows the factor.
-    if (scaledFor !== s) {
+    if (scaledFor !== s + a + b) {
       const wide = Math.max(x[1] - x[0], y[1] - y[0]);
       view.heightScale = Math.max(1, Math.min(20, Math.round((0.15 * wide) / Math.max(z[1] - z[0], 1e-9))));
-      scaledFor = s;
+      scaledFor = s + a + b;
     }
     const svg = d3.select(host).append("svg").attr("viewBox", `0 0 ${kWidth} ${kHeight}`).attr("role", "img")
       .attr("aria-label", `Trajectories of ${R.scores.sequences[s]} in 3-D; arrow keys rotate`)

@@ -21,7 +21,8 @@
     choice("Sequence", indexed(R.scores.sequences), state.sequence, (v) => (state.sequence = Number(v))),
     choice("Score", indexed(R.scores.kinds.map(kindName)), state.kind, (v) => (state.kind = Number(v))),
     choice("Statistic", indexed(R.scores.statistics), state.statistic, (v) => (state.statistic = Number(v))),
-    choice("Along", [["s", "path"], ["t", "time"]], state.abscissa, (v) => (state.abscissa = v)));
+    choice("Along", [["s", "path"], ["t", "time"]], state.abscissa, (v) => (state.abscissa = v)),
+    choice("Plane", R.planes.map((p) => [p, p ? [...p].join(", ") : "largest extent"]), state.plane, (v) => (state.plane = v)));
   form.append(row);
   // Choice of repeat, if the page has trajectories of several.
   const repeat = element("select");
@@ -79,10 +80,10 @@
       R.changed();
     });
     pair.replaceChildren(
-      choice("Before", names, state.before, (v) => (state.before = Number(v))),
-      choice("After", names, state.after, (v) => (state.after = Number(v))), swap);
+      choice("Left", names, state.before, (v) => (state.before = Number(v))),
+      choice("Right", names, state.after, (v) => (state.after = Number(v))), swap);
   };
-  put();
+  if (names.length > 1) put();
   R.changed();
   // Links between sections keep the selection in the address.
   const show = (name) => {

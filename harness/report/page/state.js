@@ -4,7 +4,8 @@
   const R = window.R;
   // Dashes by number, so that a method has the same style in the figures of `plot`.
   const kDashes = [null, "7 3", "2 2", "9 3 2 3", "9 3 2 3 2 3"];
-  R.color = (m) => R.scores.styles[m].color;
+  R.dark = matchMedia("(prefers-color-scheme: dark)");
+  R.color = (m) => d3.interpolateRgb(R.scores.styles[m].color, "#fff")(R.dark.matches ? 0.35 : 0);
   R.dash = (m) => kDashes[R.scores.styles[m].dash - 1];
 
   const kinds = R.scores.kinds;
@@ -38,7 +39,7 @@
   const shown = R.scores.default_methods;
   const best = shown.find((m) => !R.baseline || m !== R.baseline.place);
   const defaultState = {
-    sequence: 0, repeat: 0, kind, statistic: 0, abscissa: "s", shown: new Set(shown),
+    sequence: 0, repeat: 0, kind, statistic: 0, abscissa: "s", plane: R.defaultPlane, shown: new Set(shown),
     before: R.baseline ? R.baseline.place : 0, after: best === undefined ? 0 : best,
   };
 
@@ -49,6 +50,7 @@
     sequence: R.scores.sequences, kind: kinds.map((_, i) => kindName(i)), statistic: R.scores.statistics,
     before: R.methods.map((m) => m.name), after: R.methods.map((m) => m.name),
   };
+  const planes = ["", "xy", "xz", "yz"];
   const link = new URLSearchParams(location.hash.slice(1));
   const query = new URLSearchParams(location.search).get("sequence");
   if (query !== null && !link.has("sequence")) link.set("sequence", query);
@@ -58,6 +60,7 @@
     if (link.has(key) && place >= 0) R.state[key] = place;
   }
   if (link.get("along") === "t") R.state.abscissa = "t";
+  if (planes.includes(link.get("plane"))) R.state.plane = link.get("plane");
   if (/^[0-9]+$/.test(link.get("repeat"))) R.state.repeat = Number(link.get("repeat"));
   if (link.has("method")) {
     const places = link.getAll("method").map((name) => names.before.indexOf(name)).filter((m) => m >= 0);
@@ -70,6 +73,7 @@
       if (R.state[key] !== defaultState[key]) out.set(key, known[R.state[key]]);
     }
     if (R.state.abscissa !== defaultState.abscissa) out.set("along", R.state.abscissa);
+    if (R.state.plane !== defaultState.plane) out.set("plane", R.state.plane);
     if (R.state.repeat !== 0) out.set("repeat", R.state.repeat);
     const isDefault = R.state.shown.size === shown.length && shown.every((m) => R.state.shown.has(m));
     if (!isDefault) {
@@ -88,6 +92,7 @@
   // "room" or "room (repeat 2)" as in tables, counted from 0.
   R.runName = (s) => R.scores.sequences[s] + (R.state.repeat > 0 ? ` (repeat ${R.state.repeat})` : "");
   R.defaultMethods = shown;
+  R.planes = planes;
   R.shown = () => R.methods.filter((m) => R.state.shown.has(m.place));
   R.kindLabel = (k, times = true) => `${k.label} ${R.scores.statistics[R.state.statistic]}` +
     (k.unit ? ` [${k.unit}]` : "") + (times ? `, ${k.times}` : "");
