@@ -158,7 +158,10 @@ Problem derive_problem(const TrajectoryInputs& in,
   std::vector<std::size_t> kept = choose_keyframes(in.estimate, o.keyframes);
   std::vector<Edge> closures;
   if (o.closures == ClosureSource::file) {
-    closures = as_edges(in.closures, in.estimate, o.reach.max_diff, o.closures_file);
+    closures = in.graph_closures;
+    if (!in.closures.empty()) {
+      closures = as_edges(in.closures, in.estimate, o.reach.max_diff, o.closures_file);
+    }
     for (const Edge& edge : closures) kept.insert(kept.end(), {edge.from, edge.to});
     std::sort(kept.begin(), kept.end());
     kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
@@ -234,7 +237,12 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
                                 same_bits(in.other_run, in.reference);
   in.reference = to_estimate_body(std::move(in.reference), o.reference_body);
   if (o.closures == ClosureSource::file) {
-    in.closures = read_closure_file(open(o.closures_file, "closures.file"), o.closures_noise);
+    const std::filesystem::path file = open(o.closures_file, "closures.file");
+    if (file.extension() == ".g2o") {
+      in.graph_closures = read_graph_closures(file, in.estimate);
+    } else {
+      in.closures = read_closure_file(file, o.closures_noise);
+    }
   }
 
   sequence.name = o.name.empty() ? default_name(o.estimate) : o.name;

@@ -109,7 +109,9 @@ void fields(TrajectoryOptions& o, Visit visit) {
         o.closures,
         "source of loop closures; file: closure file; reference: measured in the reference with "
         "simulated noise; estimate: measured in another run");
-  visit("closures.file", o.closures_file, "closure file, or estimated trajectory of the other run");
+  visit("closures.file",
+        o.closures_file,
+        "closure file, g2o graph of the poses (.g2o), or estimated trajectory of the other run");
   visit("closures.radius",
         o.closures_radius,
         "maximum distance between the two poses of a revisit [m]",
@@ -160,10 +162,11 @@ void check_combination(const TrajectoryOptions& options, const Params& given);
 /// Contents of the input files.
 struct TrajectoryInputs {
   Trajectory estimate;
-  Trajectory frames;                     ///< empty: non-keyframe poses of the estimate are used
-  Trajectory reference;                  ///< may be empty
-  Trajectory other_run;                  ///< for closures.source estimate
-  std::vector<StampedClosure> closures;  ///< for closures.source file
+  Trajectory frames;                      ///< empty: non-keyframe poses of the estimate are used
+  Trajectory reference;                   ///< may be empty
+  Trajectory other_run;                   ///< for closures.source estimate
+  std::vector<StampedClosure> closures;   ///< for closures.source file
+  std::vector<Edge> graph_closures = {};  ///< likewise, if the file is a g2o graph
 };
 
 /// Derives a problem from the input files. Endpoints of closures from a closure file always become

@@ -8,6 +8,7 @@
 
 #include "datasets/derive/odometry.hpp"
 #include "datasets/formats/columns.hpp"
+#include "datasets/formats/g2o.hpp"
 #include "datasets/formats/g2o_information.hpp"
 #include "datasets/formats/pose_rules.hpp"
 #include "datasets/noise/random.hpp"
@@ -196,6 +197,26 @@ std::vector<Edge> as_edges(const std::vector<StampedClosure>& closures,
   }
   sort_closures(edges);
   return edges;
+}
+
+std::vector<Edge> read_graph_closures(const std::filesystem::path& file, const Trajectory& poses) {
+  const PoseGraph graph = read_g2o(file);
+  std::vector<Edge> out;
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    Edge edge = graph.edges[i];
+    for (std::size_t* const end : {&edge.from, &edge.to}) {
+      if (graph.ids.size() != poses.size()) *end = static_cast<std::size_t>(graph.ids[*end]);
+      if (*end < poses.size()) continue;
+      throw input_error(file.string(),
+                        graph.lines[i],
+                        fmt::format("found vertex {}, expected 0 to {}: one for each pose",
+                                    static_cast<std::int64_t>(*end),
+                                    poses.size() - 1));
+    }
+    if (edge.to != edge.from + 1) out.push_back(edge);
+  }
+  sort_closures(out);
+  return out;
 }
 
 }  // namespace loopbench

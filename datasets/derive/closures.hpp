@@ -78,4 +78,9 @@ std::vector<Edge> as_edges(const std::vector<StampedClosure>& closures,
                            double max_diff,
                            const std::filesystem::path& file);
 
+/// Reads the closures of a g2o graph whose vertices are the `poses`: in the order of their ids if
+/// there are as many, otherwise pose k has id k. Edges between neighbouring poses are odometry and
+/// left out. from < to, sorted by (to, from). Throws InputError. O(size of the file).
+std::vector<Edge> read_graph_closures(const std::filesystem::path& file, const Trajectory& poses);
+
 }  // namespace loopbench

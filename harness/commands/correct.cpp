@@ -6,18 +6,59 @@
 #include <sstream>
 
 #include "harness/base/printable.hpp"
+#include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/figure_options.hpp"
 #include "harness/commands/standard_output.hpp"
+#include "harness/commands/traj_options.hpp"
 
 namespace loopbench::harness {
 
+namespace {
+
+struct CorrectCommand {
+  CorrectArguments correct;
+  TrajArguments output;  ///< out and to
+  std::vector<std::filesystem::path> plugins;
+  std::filesystem::path plot;
+  FigureOptions figure;
+  bool json = false;
+};
+
+void draw_correction(const Correction& done, const CorrectCommand& a) {
+  DrawnFigure figure{{}, {"plane"}, a.figure};
+  std::filesystem::path name = a.plot;
+  for (const std::string& suffix : take_suffixes(name)) {
+    figure.files.emplace_back(name.string() + suffix);
+  }
+  FigureData data = before_and_after(done);
+  const std::vector<std::string> labels = labels_of(a.figure, {"before", "after"});
+  for (std::size_t i = 0; i < labels.size(); ++i) data.curves[i].name = labels[i];
+  data.figures.push_back(figure);
+  draw({data});
+  fmt::print(stderr, "{}", printable(file_list(figure)));
+}
+
+int run_correct(CorrectCommand& a) {
+  a.correct.out = a.output.out;
+  a.correct.format = written_format(a.output);
+  const Correction done = correct(a.correct, catalogue(a.plugins));
+  std::FILE* const out = is_dash(a.correct.out) ? stderr : stdout;  // poses are on stdout
+  if (a.json) {
+    fmt::print(out, "{}", json(done));
+  } else {
+    std::istringstream lines(printable(text(done)));
+    for (std::string line; std::getline(lines, line);) fmt::print(out, "{}\n", fitted(line));
+  }
+  if (!a.plot.empty()) draw_correction(done, a);
+  return kExitOk;
+}
+
+}  // namespace
+
 void add_correct(CLI::App& app, int& exit_code) {
-  struct Arguments {
-    CorrectArguments correct;
-    std::vector<std::filesystem::path> plugins;
-    bool json = false;
-  };
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<CorrectCommand>();
+  a->output.out.clear();
   CLI::App* command =
       app.add_subcommand("correct", "Correct one trajectory or pose graph with one method");
   CorrectArguments& c = a->correct;
@@ -30,14 +71,15 @@ void add_correct(CLI::App& app, int& exit_code) {
           c.method,
           "Method, or corrector + smoother; options follow a colon (dual:max_closures=50), "
           "see `list methods`")
-      ->required()
+      ->capture_default_str()
       ->type_name("METHOD");
   const auto file = [&](const char* name, std::string& value, const char* help) {
     command->add_option(name, value, help)->type_name("FILE");
   };
   file("--loops",
        c.loops,
-       "Loop closures: stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r]");
+       "Loop closures: stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r], or a g2o graph "
+       "whose vertices are the poses of ESTIMATE");
   file("--frames", c.frames, "All tracked poses of the run, if ESTIMATE contains only keyframes");
   command
       ->add_option("--set",
@@ -50,21 +92,25 @@ void add_correct(CLI::App& app, int& exit_code) {
   command->add_option("--at", c.at, "Output poses at the stamps of this trajectory file")
       ->type_name("FILE")
       ->excludes(dense);
-  command->add_option("-o,--out", c.out, "Output file; x.g2o: a graph, any other name: TUM")
+  command->add_option("-o,--out", a->output.out, "Output file; - is standard output")
       ->type_name("FILE");
+  command
+      ->add_option("--to",
+                   a->output.to,
+                   "Output format (default: csv, g2o or kitti if -o ends in .csv, .g2o or .kitti, "
+                   "otherwise tum); g2o contains all edges")
+      ->type_name("WORD:tum|kitti|euroc|g2o|csv");
+  command
+      ->add_option("--plot",
+                   a->plot,
+                   "Map of the keyframes before and after, as PREFIX.svg, .pdf and .png, or as one "
+                   "of these or .pgf if PREFIX ends in it")
+      ->type_name("PREFIX");
+  declare_figure_options(*command, a->figure, "--plot");
   command->add_option("--plugin", a->plugins, "Shared object with additional methods")
       ->type_name("FILE");
   command->add_flag("--json", a->json, "Print JSON instead of text");
-  command->callback([a, &exit_code] {
-    const Correction done = correct(a->correct, catalogue(a->plugins));
-    exit_code = kExitOk;
-    if (a->json) {
-      fmt::print("{}", json(done));
-      return;
-    }
-    std::istringstream lines(printable(text(done)));
-    for (std::string line; std::getline(lines, line);) fmt::print("{}\n", fitted(line));
-  });
+  command->callback([a, &exit_code] { exit_code = run_correct(*a); });
 }
 
 }  // namespace loopbench::harness

@@ -63,7 +63,7 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench submit mine.yaml --array 16 --header slurm.sh\n"
      "  loopbench submit mine.yaml --array 4 -- --retry failed --only room\n"},
     {"correct",
-     "  loopbench correct graph.g2o --method pose_graph -o corrected.g2o\n"
+     "  loopbench correct graph.g2o -o corrected.g2o --plot corrected.svg\n"
      "  loopbench correct run.txt --loops loops.txt --method motion_drift -o corrected.txt\n"
      "  loopbench correct graph.g2o --method uniform:weights=distance -o corrected.txt --json\n"},
     {"export",

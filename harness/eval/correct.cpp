@@ -6,7 +6,7 @@
 #include <chrono>
 
 #include "datasets/derive/problem_graph.hpp"
-#include "datasets/formats/formats.hpp"
+#include "datasets/formats/trajectory_file.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/config/choices.hpp"
 #include "harness/run/doctor_notes.hpp"
@@ -70,9 +70,10 @@ std::vector<double> output_stamps(const CorrectArguments& a,
 }
 
 void write(const CorrectArguments& a, const Correction& done) {
-  if (!a.out.ends_with(".g2o")) {
+  if (a.format == Format::tum) {
     return write_tum(a.out, done.output, {"corrected by loopbench: " + done.method});
   }
+  if (a.format != Format::g2o) return write_trajectory(a.out, {done.output}, a.format);
   if (a.dense || !a.at.empty()) {
     throw InputError(a.out + ": a graph contains the keyframes, expected no --dense and no --at");
   }
@@ -154,11 +155,29 @@ Problem load_problem(const CorrectArguments& a, const Catalogue& catalogue) {
   return out;
 }
 
+FigureData before_and_after(const Correction& done) {
+  constexpr std::size_t kMostRows = 2000;  // of a curve; more are not visible
+  FigureData out{std::filesystem::path(done.estimate).filename().string(),
+                 done.method,
+                 {{.name = "before"}, {.name = "after", .style = 1}},
+                 {}};
+  const Trajectory* const poses[] = {&done.problem.keyframes, &done.keyframes};
+  for (std::size_t i = 0; i < out.curves.size(); ++i) {
+    add_poses(out.curves[i], *poses[i], 0.0);
+    thin(out.curves[i], kMostRows);
+  }
+  return out;
+}
+
 Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
-  reject_standard_output("-o", a.out);
-  if (!a.out.empty()) reject_overwriting({a.estimate, a.loops, a.frames, a.at}, a.out);
+  if (!a.out.empty() && !is_dash(a.out))
+    reject_overwriting({a.estimate, a.loops, a.frames, a.at}, a.out);
   const MethodChoice choice = method_without_reference(a.method, catalogue);
   Problem problem = load_problem(a, catalogue);
+  if (problem.closures.empty() && !is_graph(a) && uses_closures(choice, catalogue)) {
+    throw InputError(a.estimate + ": " + choice.label +
+                     " declines: the problem has no loop closures, expected --loops FILE");
+  }
   std::size_t outside = 0;
   const std::vector<double> at = output_stamps(a, problem, outside);
   Correction out = correct(std::move(problem), a.estimate, choice, at, catalogue);

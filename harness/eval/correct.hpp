@@ -7,21 +7,24 @@
 #include <vector>
 
 #include "datasets/core/problem.hpp"
+#include "datasets/formats/formats.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/model/sweep.hpp"
+#include "harness/report/draw.hpp"
 #include "methods/report.hpp"
 
 namespace loopbench::harness {
 
 struct CorrectArguments {
   std::string estimate;               ///< trajectory in any known format, or a g2o graph
-  std::string method;                 ///< NAME[:option=value,...][ + NAME[:...]]
-  std::string loops;                  ///< closure file for a trajectory; empty: none
+  std::string method = "pose_graph";  ///< NAME[:option=value,...][ + NAME[:...]]
+  std::string loops;                  ///< closure file or g2o graph for a trajectory; empty: none
   std::string frames;                 ///< all tracked poses of the run; empty: none
   std::vector<std::string> settings;  ///< OPTION=VALUE of dataset `trajectory` or `pose_graph`
   std::string at;                     ///< trajectory file whose stamps are used; empty: keyframes
   bool dense = false;                 ///< output keyframes and frames
-  std::string out;                    ///< .g2o: a graph; any other name: TUM; empty: no file
+  std::string out;                    ///< empty: no file; "-": standard output
+  Format format = Format::tum;        ///< of the file; g2o: a graph with all edges
 };
 
 /// Disagreement of poses with the edges of their problem.
@@ -73,6 +76,9 @@ Problem load_problem(const CorrectArguments& arguments, const Catalogue& catalog
 
 /// Summary for a terminal: sizes, residuals before and after, counts and notes of the method.
 std::string text(const Correction& correction);
+
+/// Map of the keyframes before and after, without files.
+FigureData before_and_after(const Correction& correction);
 
 /// Object with keys estimate, method, keyframes, odometry, closures, rejected, seconds, before,
 /// after {translation_rms, translation_max, rotation_rms, rotation_max, chi2_odometry,

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "harness/base/write_file.hpp"
 #include "harness/eval/correct.hpp"
 
 namespace loopbench::harness {
@@ -59,10 +60,13 @@ std::string text(const Correction& c) {
     out += "no residuals: an edge changes the scale\n";
   }
   for (const methods::Count& count : c.report.counts) {
+    if (count.name == "chi2_before") continue;  // of the solver's start, not of the input
     out += fmt::format("{:<28}{:>14.6g}\n", count.name, count.value);
   }
   for (const std::string& note : c.report.notes) out += "note: " + note + "\n";
-  if (!c.out.empty()) out += fmt::format("\n{} poses in {}\n", c.output.size(), c.out);
+  if (!c.out.empty() && !is_dash(c.out)) {
+    out += fmt::format("\n{} poses in {}\n", c.output.size(), c.out);
+  }
   if (c.outside > 0) {
     out +=
         fmt::format("{} stamps outside the time span of the keyframes were skipped\n", c.outside);

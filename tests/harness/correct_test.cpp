@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "datasets/derive/odometry.hpp"
 #include "datasets/derive/problem_graph.hpp"
 #include "datasets/formats/formats.hpp"
 #include "datasets/formats/g2o.hpp"
@@ -159,6 +160,45 @@ TEST_F(Correct, AGraphKeepsItsIdsAndEdges) {
   EXPECT_NE(after.vertices.back().translation, before.vertices.back().translation);
 }
 
+TEST_F(Correct, WritesOtherFormatsAndStandardOutput) {
+  const std::string correct = "correct est.txt --loops loops.txt ";
+  ASSERT_EQ(loopbench_command(correct + "-o out.txt", folder_).exit_code, 0);
+  ASSERT_EQ(loopbench_command(correct + "--method pose_graph -o same.txt", folder_).exit_code, 0);
+  const std::string poses = read_all(folder_.path() / "out.txt");
+  EXPECT_EQ(poses, read_all(folder_.path() / "same.txt")) << "the default is pose_graph";
+  const CommandResult printed = loopbench_command(correct + "-o -", folder_);
+  EXPECT_EQ(printed.out, poses);
+  EXPECT_THAT(printed.err, HasSubstr("corrected by pose_graph"));
+  for (const char* format : {"kitti", "euroc"}) {
+    const std::string name = std::string("out.") + format;
+    const CommandResult done =
+        loopbench_command(correct + "-o " + name + " --to " + format, folder_);
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_EQ(read_trajectory(folder_.path() / name).size(), 40u) << format;
+  }
+}
+
+TEST_F(Correct, ReadsTheLoopsOfAGraphOfTheSamePoses) {
+  Problem problem;
+  problem.keyframes = read_trajectory(folder_.path() / "est.txt");
+  problem.odometry = odometry_edges(problem.keyframes, EdgeNoise{});
+  problem.closures = {{1, 39, Pose{{1, 0, 0, 0}, {0.5, 0, 0}}, Matrix6::Identity()}};
+  write_g2o(folder_.path() / "loops.g2o", problem_graph(problem, problem.keyframes, {}));
+  const std::string correct = "correct est.txt --method uniform --json --loops ";
+  const CommandResult done = loopbench_command(correct + "loops.g2o", folder_);
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(Json::parse(done.out)["closures"], 1);
+  folder_.file("only.g2o",
+               "EDGE_SE3:QUAT 1 39 0.5 0 0 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 4 0 0 4 0 4\n");
+  const CommandResult only = loopbench_command(correct + "only.g2o", folder_);
+  ASSERT_EQ(only.exit_code, 0) << only.err;
+  EXPECT_EQ(Json::parse(only.out)["after"], Json::parse(done.out)["after"]);
+  folder_.file("far.g2o",
+               "EDGE_SE3:QUAT 1 40 0.5 0 0 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 4 0 0 4 0 4\n");
+  EXPECT_THAT(loopbench_command(correct + "far.g2o", folder_).err,
+              HasSubstr("far.g2o:1: found vertex 40, expected 0 to 39"));
+}
+
 TEST_F(Correct, BadArgumentsAreNamed) {
   const auto error = [&](const std::string& arguments) {
     const CommandResult done = loopbench_command("correct " + arguments, folder_);
@@ -168,7 +208,8 @@ TEST_F(Correct, BadArgumentsAreNamed) {
   EXPECT_THAT(error("--method unifrom est.txt"), HasSubstr("did you mean 'uniform'?"));
   EXPECT_THAT(error("--method uniform:wights=time est.txt"), HasSubstr("wights: unknown option"));
   EXPECT_THAT(error("--method uniform:weights est.txt"), HasSubstr("expected NAME:option=value"));
-  EXPECT_THAT(error("--method uniform est.txt"), HasSubstr("declines: "));
+  EXPECT_THAT(error("est.txt"),
+              HasSubstr("declines: the problem has no loop closures, expected --loops"));
   EXPECT_THAT(error("--method uniform absent.txt"), HasSubstr("absent.txt"));
   EXPECT_THAT(error("--method dual est.txt --loops loops.txt -o est.txt"), HasSubstr("est.txt"));
   EXPECT_THAT(error("--method dual est.txt --loops loops.txt --set a=1"), HasSubstr("a: unknown"));
