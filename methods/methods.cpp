@@ -73,7 +73,7 @@ std::vector<MethodEntry> methods() {
                           "noise models drawn from their posterior"),
       method<PoseGraphOptimizer>("pose_graph",
                                  "maximum likelihood by sparse least squares (Ceres)",
-                                 {.start = PoseGraphOptimizer::Start::loops}),
+                                 {.start = PoseGraphOptimizer::Start::chordal}),
       method<PoseGraphOptimizer>("pose_graph_huber",
                                  "pose_graph with a Huber loss on closures",
                                  {.loss = RobustLoss::huber}),
@@ -101,7 +101,7 @@ std::vector<MethodEntry> methods() {
       method<PairwiseConsistent<PoseGraphOptimizer>>(
           "pose_graph_pcm",
           "pose_graph on the largest pairwise consistent set of closures",
-          {.base = {.start = PoseGraphOptimizer::Start::loops}}),
+          {.base = {.start = PoseGraphOptimizer::Start::chordal}}),
 
       // Smoothers: keyframes in, a curve out.
       smoother("polyline", "linear interpolation of position, slerp of rotation", polyline),

@@ -79,7 +79,7 @@ Group group_of(const Problem& problem, Poses requested) {
 }
 
 std::vector<ScaledPose> initial(const Problem& problem, Start start, double scale_sigma) {
-  if (start == Start::chordal || start == Start::loops) return chordal_values(problem, scale_sigma);
+  if (start == Start::chordal) return chordal_values(problem, scale_sigma);
   std::vector<ScaledPose> out = tree_values(problem);
   if (start == Start::keyframes) {  // keyframes have no scale: keep the scales of the tree
     for (std::size_t i = 0; i < out.size(); ++i) out[i].pose = problem.keyframes[i].world_from_body;
@@ -175,7 +175,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   };
   double before = 0.0;
   const bool is_rigid_least_squares = group != Group::sim3 && settings.loss == RobustLoss::none;
-  if (options_.start == Start::loops && is_rigid_least_squares && options_.gnc == Gnc::off) {
+  if (options_.start == Start::chordal && is_rigid_least_squares && options_.gnc == Gnc::off) {
     before = report.time("loop equations", [&] { return solve_loops(problem, poses, iterations); });
   }
   if (options_.gnc != Gnc::off) {

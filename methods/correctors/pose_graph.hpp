@@ -35,7 +35,7 @@ namespace loopbench::methods {
 class PoseGraphOptimizer final : public Corrector {
  public:
   enum class Poses { automatic, se2, se3, sim3 };
-  enum class Start { keyframes, odometry, chordal, loops };
+  enum class Start { keyframes, odometry, chordal };
 
   struct Options {
     Poses group = Poses::automatic;
@@ -75,8 +75,7 @@ inline auto choices(PoseGraphOptimizer::Poses) {
 inline auto choices(PoseGraphOptimizer::Start) {
   return std::array{std::pair{"keyframes", PoseGraphOptimizer::Start::keyframes},
                     std::pair{"odometry", PoseGraphOptimizer::Start::odometry},
-                    std::pair{"chordal", PoseGraphOptimizer::Start::chordal},
-                    std::pair{"loops", PoseGraphOptimizer::Start::loops}};
+                    std::pair{"chordal", PoseGraphOptimizer::Start::chordal}};
 }
 
 template <class Visit>
@@ -86,8 +85,8 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
         "Lie group of the poses; auto: se2 if planar, sim3 if edges change the scale, else se3");
   visit("start",
         o.start,
-        "initial values: keyframes, odometry integrated from the first keyframe, chordal "
-        "relaxation, or loops: chordal, and the equations of dual on chains of at most 20 loops");
+        "initial values: keyframes, odometry integrated from the first keyframe, or chordal "
+        "relaxation, continued by the equations of dual on chains of at most 20 loops");
   visit("loss", o.loss, "robust loss on the closures; dcs and switchable are bounded");
   visit("loss_width",
         o.loss_width,
