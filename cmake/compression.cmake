@@ -4,7 +4,7 @@
 add_library(loopbench_compression INTERFACE)
 set(loopbench_compression_flags "")  # of loopbench.pc
 foreach(codec "ZLIB z zlib.h" "BZIP2 bz2 bzlib.h" "ZSTD zstd zstd.h" "LZ4 lz4 lz4frame.h"
-        "GEOGRAPHICLIB GeographicLib GeographicLib/LocalCartesian.hpp")
+        "LZMA lzma lzma.h" "GEOGRAPHICLIB GeographicLib GeographicLib/LocalCartesian.hpp")
   separate_arguments(codec)
   list(POP_FRONT codec name library header)
   find_library(LOOPBENCH_${name} ${library})

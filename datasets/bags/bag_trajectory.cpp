@@ -1,10 +1,12 @@
 #include "datasets/bags/bag_trajectory.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 #include <string_view>
 
 #include "datasets/bags/byte_reader.hpp"
@@ -67,6 +69,18 @@ std::string damage_text(const BagSummary& summary) {
   return summary.damage.empty() ? "" : "; the bag is damaged: " + summary.damage;
 }
 
+/// "; frames: base_link, map", or empty without TF.
+std::string tf_frames(const std::string& file) {
+  std::set<std::string> frames;
+  decode_all(
+      file,
+      [](const BagTopic& topic) { return topic.type == MessageType::tf; },
+      [&](const BagTopic&, const std::vector<PoseMessage>& transforms, const auto&) {
+        for (const PoseMessage& each : transforms) frames.insert({each.frame, each.child});
+      });
+  return frames.empty() ? "" : fmt::format("; frames: {}", fmt::join(frames, ", "));
+}
+
 std::string only_topic(const std::string& file) {
   const BagSummary summary = bag_topics(file);
   std::vector<BagTopic> topics = summary.topics;
@@ -76,8 +90,8 @@ std::string only_topic(const std::string& file) {
   if (std::ranges::any_of(topics, has_rotations)) std::erase_if(topics, std::not_fn(has_rotations));
   if (topics.size() == 1) return topics[0].name;
   throw InputError(file + ": has " + std::to_string(topics.size()) +
-                   " topics with poses, expected bag:" + file + "#TOPIC (topics: " + known + ")" +
-                   damage_text(summary));
+                   " topics with poses, expected bag:" + file + "#TOPIC (topics: " + known +
+                   tf_frames(file) + ")" + damage_text(summary));
 }
 
 Decoded read_topic(const std::string& file, const std::string& name) {

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include "datasets/bags/byte_reader.hpp"
 #include "datasets/bags/messages.hpp"
+#include "datasets/compressed/crc32.hpp"
 #include "datasets/compressed/decompress.hpp"
 
 namespace loopbench {
@@ -24,22 +24,6 @@ enum class McapOp : std::uint8_t {
   chunk = 6,
   statistics = 11
 };
-
-std::uint32_t crc32_of(std::string_view bytes) {
-  static const auto kTable = [] {
-    std::array<std::uint32_t, 256> out{};
-    for (std::uint32_t i = 0; i < out.size(); ++i) {
-      std::uint32_t value = i;
-      for (int bit = 0; bit < 8; ++bit) value = (value >> 1) ^ ((value & 1u) * 0xedb88320u);
-      out[i] = value;
-    }
-    return out;
-  }();
-  std::uint32_t crc = 0xffffffffu;
-  for (const char c : bytes)
-    crc = (crc >> 8) ^ kTable[(crc ^ static_cast<unsigned char>(c)) & 255u];
-  return ~crc;
-}
 
 class McapReader {
  public:

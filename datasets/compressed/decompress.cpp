@@ -17,6 +17,9 @@
 #ifdef LOOPBENCH_HAS_LZ4
 #include <lz4frame.h>
 #endif
+#ifdef LOOPBENCH_HAS_LZMA
+#include <lzma.h>
+#endif
 
 namespace loopbench {
 namespace {
@@ -61,10 +64,11 @@ struct Progress {
 };
 
 #ifdef LOOPBENCH_HAS_ZLIB
-void expand_gzip(std::string_view bytes, std::size_t limit, const Sink& sink) {
-  constexpr int kGzipHeader = 15 + 16;
+constexpr int kGzipHeader = 15 + 16, kNoHeader = -15;  // window bits of zlib
+
+void expand_zlib(std::string_view bytes, std::size_t limit, const Sink& sink, int window) {
   z_stream s{};
-  if (inflateInit2(&s, kGzipHeader) != Z_OK) throw std::bad_alloc();
+  if (inflateInit2(&s, window) != Z_OK) throw std::bad_alloc();
   const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&s, inflateEnd);
   expand(bytes, limit, sink, [&](std::string_view in, char* out, std::size_t room) {
     const std::size_t given = std::min(in.size(), kMostInput);
@@ -82,7 +86,30 @@ void expand_gzip(std::string_view bytes, std::size_t limit, const Sink& sink) {
   });
 }
 #else
-void expand_gzip(std::string_view, std::size_t, const Sink&) { lack("gzip", "zlib1g-dev"); }
+constexpr int kGzipHeader = 0, kNoHeader = 0;
+void expand_zlib(std::string_view, std::size_t, const Sink&, int) { lack("gzip", "zlib1g-dev"); }
+#endif
+
+#ifdef LOOPBENCH_HAS_LZMA
+void expand_xz(std::string_view bytes, std::size_t limit, const Sink& sink) {
+  lzma_stream s = LZMA_STREAM_INIT;
+  constexpr std::uint64_t kMostMemory = std::uint64_t{1} << 30;  // [bytes]
+  if (lzma_stream_decoder(&s, kMostMemory, LZMA_CONCATENATED) != LZMA_OK) throw std::bad_alloc();
+  const std::unique_ptr<lzma_stream, void (*)(lzma_stream*)> end(&s, lzma_end);
+  expand(bytes, limit, sink, [&](std::string_view in, char* out, std::size_t room) {
+    s.next_in = reinterpret_cast<const std::uint8_t*>(in.data());
+    s.avail_in = in.size();
+    s.next_out = reinterpret_cast<std::uint8_t*>(out);
+    s.avail_out = room;
+    const lzma_ret code = lzma_code(&s, LZMA_FINISH);
+    if (code != LZMA_OK && code != LZMA_STREAM_END && code != LZMA_BUF_ERROR) {
+      throw DamagedStream("is damaged");
+    }
+    return Progress{in.size() - s.avail_in, room - s.avail_out, code == LZMA_STREAM_END};
+  });
+}
+#else
+void expand_xz(std::string_view, std::size_t, const Sink&) { lack("xz", "liblzma-dev"); }
 #endif
 
 #ifdef LOOPBENCH_HAS_BZIP2
@@ -158,13 +185,21 @@ std::optional<Codec> codec_of(std::string_view bytes) {
   if (bytes.starts_with("BZh")) return Codec::bzip2;
   if (bytes.starts_with("\x28\xb5\x2f\xfd")) return Codec::zstd;
   if (bytes.starts_with("\x04\x22\x4d\x18")) return Codec::lz4;
+  if (bytes.starts_with(std::string_view("\xfd"
+                                         "7zXZ\0",
+                                         6)))
+    return Codec::xz;
   return std::nullopt;
 }
 
 void decompress(Codec codec, std::string_view bytes, std::size_t limit, const Sink& sink) {
   switch (codec) {
     case Codec::gzip:
-      return expand_gzip(bytes, limit, sink);
+      return expand_zlib(bytes, limit, sink, kGzipHeader);
+    case Codec::deflate:
+      return expand_zlib(bytes, limit, sink, kNoHeader);
+    case Codec::xz:
+      return expand_xz(bytes, limit, sink);
     case Codec::bzip2:
       return expand_bzip2(bytes, limit, sink);
     case Codec::zstd:

@@ -10,7 +10,7 @@
 
 namespace loopbench {
 
-enum class Codec { gzip, bzip2, zstd, lz4 };
+enum class Codec { gzip, bzip2, zstd, lz4, xz, deflate };
 
 /// Damaged or truncated compressed data.
 class DamagedStream : public std::runtime_error {
@@ -24,7 +24,7 @@ class ExpandsTooFar final : public DamagedStream {
   using DamagedStream::DamagedStream;
 };
 
-/// The codec whose magic bytes the data start with; nothing for other data.
+/// The codec whose magic bytes the data start with; nothing for other data. deflate has none.
 std::optional<Codec> codec_of(std::string_view bytes);
 
 /// Passes the content of all concatenated frames of `bytes` to `sink`, at most 256 KiB at a time.

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "datasets/compressed/decompress.hpp"
+#include "datasets/compressed/zip.hpp"
 
 namespace loopbench {
 namespace {
@@ -71,6 +72,18 @@ OpenedFile memory_file(const std::string& name, int& file) {
   return {name, "/proc/self/fd/" + std::to_string(file), 0, std::move(closes)};
 }
 
+/// The only file of a zip archive.
+std::string only_member(const std::string& name, std::string_view archive, std::size_t limit) {
+  std::vector<ZipMember> members = zip_members(archive, limit);
+  if (members.size() == 1) return std::move(members.front().content);
+  std::string names;
+  for (const ZipMember& member : members) names += (names.empty() ? "" : ", ") + member.name;
+  throw input_error(name,
+                    0,
+                    "is a zip archive of " + std::to_string(members.size()) +
+                        " files, expected one (" + names + ")");
+}
+
 /// The content in memory, decompressed if it is compressed.
 OpenedFile expanded(const std::string& name, const std::string& content, std::size_t limit) {
   int file = -1;
@@ -84,14 +97,18 @@ OpenedFile expanded(const std::string& name, const std::string& content, std::si
     }
   };
   const std::optional<Codec> codec = codec_of(content);
-  if (!codec) {
+  if (!codec && !is_zip(content)) {
     append(content);
     return out;
   }
   const std::size_t most =
       std::min({limit, kMostInMemory, std::max(kAnyExpansion, kMostExpansion * content.size())});
   try {
-    decompress(*codec, content, most, append);
+    if (codec) {
+      decompress(*codec, content, most, append);
+    } else {
+      append(only_member(name, content, most));
+    }
   } catch (const ExpandsTooFar& reason) {
     throw input_error(name,
                       0,
@@ -183,7 +200,8 @@ OpenedFile open_input(const std::filesystem::path& file,
   std::array<char, kMagicBytes> magic{};
   const std::size_t count =
       std::fread(magic.data(), 1, magic.size(), opened(out.name, out.path).get());
-  return codec_of({magic.data(), count}) ? from_compressed(out, limit) : out;
+  const std::string_view start(magic.data(), count);
+  return codec_of(start) || is_zip(start) ? from_compressed(out, limit) : out;
 }
 
 }  // namespace loopbench

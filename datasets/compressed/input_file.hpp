@@ -26,7 +26,8 @@ struct OpenedFile {
 bool is_named_pipe(const std::filesystem::path& file);
 
 /// Opens a regular file, a pipe of the shell (`<(COMMAND)`) or standard input (`-`). gzip, bzip2,
-/// zstd and lz4 are detected from the first bytes and decompressed; a pipe is read once, and
+/// zstd, lz4, xz and zip archives of one file are detected from the first bytes and decompressed; a
+/// pipe is read once, and
 /// opening it again returns the same content. Throws InputError for a file that is missing, empty,
 /// of another kind (also a named pipe, where opening would wait for a writer), unreadable, larger
 /// than 8 GiB (`limit` bytes) or damaged, where `expected` states what is accepted ("a text file");

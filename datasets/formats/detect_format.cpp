@@ -64,13 +64,9 @@ Format detect_by_numbers(const TextFile& file, const Line& line) {
   const std::string_view stamp = Columns(file, line).word();
   const bool is_integer = stamp.find_first_not_of("0123456789") == stamp.npos;
   const bool is_small = is_integer && has_small_nanoseconds(file);
-  if ((is_small || is_nanoseconds(stamp)) && count_columns(file, line) == 8 &&
-      line.text.find(',') == std::string_view::npos) {
-    throw file.error(
-        line.number,
-        "has whole nanoseconds and columns separated by blanks, so that quaternions may be "
-        "qx qy qz qw (ORB-SLAM3) or qw qx qy qz (EuRoC); set the format to tum or euroc");
-  }
+  const bool is_orb_slam3 = (is_small || is_nanoseconds(stamp)) && count_columns(file, line) == 8 &&
+                            line.text.find(',') == std::string_view::npos;
+  if (is_orb_slam3) return Format::tum;  // files of EuRoC have commas
   if (is_small && count_columns(file, line) >= 8) return Format::euroc;
   if (const auto format = guess(file, line)) return *format;
   constexpr std::size_t kShownText = 40;

@@ -29,7 +29,7 @@ inline auto choices(Format) {
 }
 
 /// Handling of a pose with the same stamp as the previous one, which occurs in published files. The
-/// readers of TUM and evo keep the last. Decreasing stamps, and repeated stamps in a times file,
+/// reader of TUM keeps the last, evo all. Decreasing stamps, and repeated stamps in a times file,
 /// are always rejected.
 enum class Repeats { refuse, keep_first, keep_last };
 inline auto choices(Repeats) {

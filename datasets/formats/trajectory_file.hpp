@@ -31,11 +31,12 @@ TrajectoryFile read_trajectory_file(const std::filesystem::path& file,
 TrajectoryFile selected(const TrajectoryFile& file, const std::vector<std::size_t>& indices);
 
 /// Writes tum, kitti (and the stamps to `times`, one per line, if given), euroc, g2o (vertices with
-/// ids 0, 1, ...) or csv (with covariances, if stated). Positions and quaternions are printed so
-/// that reading them is bit-identical, and exact stamps with all digits; euroc rounds other stamps
-/// to nanoseconds. `-` is standard output. Throws InputError for an invalid trajectory and if the
-/// file cannot be written. `may_repeat`: consecutive poses may have equal stamps, as paired poses
-/// have if a reference pose has several partners.
+/// ids 0, 1, ...), csv (with covariances, if stated) or bag (MCAP with a topic named after the
+/// file). Positions and quaternions are printed so that reading them is bit-identical, and exact
+/// stamps with all digits; euroc and bag round other stamps to nanoseconds. `-` is standard output.
+/// Throws InputError for an invalid trajectory and if the file cannot be written. `may_repeat`:
+/// consecutive poses may have equal stamps, as paired poses have if a reference pose has several
+/// partners.
 void write_trajectory(const std::filesystem::path& file,
                       const TrajectoryFile& trajectory,
                       Format format,

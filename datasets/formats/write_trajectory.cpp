@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datasets/bags/write_mcap.hpp"
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/g2o.hpp"
+#include "datasets/formats/replace_file.hpp"
 #include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_writer.hpp"
 #include "datasets/formats/trajectory_file.hpp"
@@ -106,6 +108,17 @@ TextWriter csv_text(const TrajectoryFile& file) {
   return out;
 }
 
+/// "out/run 1.mcap" -> "/run_1": names of ROS have letters, digits and underscores.
+std::string topic_of(const std::filesystem::path& file) {
+  std::string out = file == "-" ? "poses" : file.stem().string();
+  for (char& c : out) {
+    const bool is_plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (!is_plain) c = '_';
+  }
+  return (out[0] >= '0' && out[0] <= '9' ? "/poses_" : "/") + out;
+}
+
 PoseGraph graph_of(const Trajectory& poses) {
   PoseGraph out;
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -152,10 +165,19 @@ void write_trajectory(const std::filesystem::path& file,
     case Format::g2o:
       write_g2o(file, graph_of(trajectory.poses));
       break;
+    case Format::bag: {
+      std::vector<std::int64_t> stamps = trajectory.nanoseconds;
+      if (stamps.empty()) {
+        for (const StampedPose& pose : trajectory.poses) {
+          stamps.push_back(rounded_nanoseconds(pose.stamp));
+        }
+      }
+      const std::string bytes = mcap_of(trajectory.poses, stamps, topic_of(file));
+      replace_file(file == "-" ? "/dev/stdout" : file, bytes, Target::named);
+      break;
+    }
     case Format::automatic:
-    case Format::bag:
-      throw InputError("format: found " + to_text(format) +
-                       ", expected tum, kitti, euroc, g2o or csv for writing");
+      throw InputError("format: found auto, expected tum, kitti, euroc, g2o, csv or mcap");
   }
   if (times) times_text(trajectory).save(*times);
 }

@@ -35,11 +35,11 @@ void declare_inputs(CLI::App& verb, TrajArguments& a) {
 void declare_output(CLI::App& verb, TrajArguments& a) {
   verb.add_option("-o,--out", a.out, "Output file, or folder for several; - is standard output")
       ->type_name("PATH");
-  verb.add_option("--to",
-                  a.to,
-                  "Output format (default: csv, g2o or kitti if -o ends in .csv, .g2o or .kitti, "
-                  "otherwise tum)")
-      ->type_name("WORD:tum|kitti|euroc|g2o|csv");
+  verb.add_option(
+          "--to",
+          a.to,
+          "Output format; mcap: PoseStamped of ROS 2 (default: by the ending of -o, or tum)")
+      ->type_name("WORD:tum|kitti|euroc|g2o|csv|mcap");
   verb.add_option("--times-out", a.times_out, "File for the stamps of KITTI poses")
       ->type_name("FILE");
 }
@@ -65,7 +65,7 @@ void declare_steps(CLI::App& verb, TrajArguments& a) {
   };
   step("--seconds", a.step.seconds, "Time between poses [s]");
   step("--metres,--meters", a.step.metres, "Path length between poses [m]");
-  step("--degrees", a.step.degrees, "Accumulated rotation angle between poses [deg]");
+  step("--degrees", a.step.degrees, "Rotation angle between poses [deg]");
 }
 
 void declare_crop(CLI::App& verb, TrajArguments& a) {
@@ -174,19 +174,33 @@ const std::vector<VerbInfo>& verb_infos() {
 }  // namespace
 
 Format written_format(const TrajArguments& arguments) {
+  static const std::map<std::string, Format> kEndings{{"", Format::tum},
+                                                      {".txt", Format::tum},
+                                                      {".tum", Format::tum},
+                                                      {".csv", Format::csv},
+                                                      {".g2o", Format::g2o},
+                                                      {".kitti", Format::kitti},
+                                                      {".mcap", Format::bag}};
   if (arguments.to.empty()) {
-    const std::string extension = std::filesystem::path(arguments.out).extension().string();
-    return extension == ".g2o"     ? Format::g2o
-           : extension == ".csv"   ? Format::csv
-           : extension == ".kitti" ? Format::kitti
-                                   : Format::tum;
+    const bool is_folder = std::filesystem::is_directory(arguments.out);
+    const std::string ending =
+        is_folder ? "" : std::filesystem::path(arguments.out).extension().string();
+    const auto found = kEndings.find(ending);
+    if (found != kEndings.end()) return found->second;
+    throw InputError(arguments.out +
+                     ": expected a file name that ends in .txt, .tum, .csv, .g2o, " +
+                     ".kitti or .mcap, or --to FORMAT" +
+                     (ending == ".bag" || ending == ".db3"
+                          ? "; bags are written as .mcap, which ROS 2, Foxglove and Rerun read"
+                          : ""));
   }
+  if (arguments.to == "mcap") return Format::bag;
   for (const auto& [name, format] : choices(Format{})) {
     const bool is_written = format != Format::automatic && format != Format::bag;
     if (is_written && name == arguments.to) return format;
   }
-  throw OptionError("to",
-                    "to = " + arguments.to + ": expected one of tum | kitti | euroc | g2o | csv");
+  throw OptionError(
+      "to", "to = " + arguments.to + ": expected one of tum | kitti | euroc | g2o | csv | mcap");
 }
 
 void declare_traj(CLI::App& traj, const std::map<std::string, TrajVerb>& verbs, int& exit_code) {

@@ -51,8 +51,8 @@ struct TrajArguments {
 
 using TrajVerb = std::function<int(const TrajArguments&)>;
 
-/// The format of `to`, or of the extension of `out` (.g2o, .csv, .kitti), otherwise tum. Throws
-/// OptionError.
+/// The format of `to`, or of the ending of `out`, or tum for folders and standard output. Throws
+/// OptionError, and InputError for another ending.
 Format written_format(const TrajArguments& arguments);
 
 /// Adds one subcommand for each verb.

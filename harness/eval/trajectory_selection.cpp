@@ -61,19 +61,15 @@ std::vector<std::size_t> by_motion(const Trajectory& poses, const MotionStep& st
   }
   std::vector<std::size_t> out;
   double metres = 0.0;
-  double radians = 0.0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (i > 0) {
-      metres += metres_between(poses[i - 1], poses[i]);
-      radians += radians_between(poses[i - 1], poses[i]);
-    }
+    if (i > 0) metres += metres_between(poses[i - 1], poses[i]);
     const bool is_reached =
         i == 0 || (step.seconds && poses[i].stamp - poses[out.back()].stamp >= *step.seconds) ||
         (step.metres && metres >= *step.metres) ||
-        (step.degrees && radians >= *step.degrees * kDegree);
+        (step.degrees && radians_between(poses[out.back()], poses[i]) >= *step.degrees * kDegree);
     if (!is_reached) continue;
     out.push_back(i);
-    metres = radians = 0.0;
+    metres = 0.0;
   }
   return out;
 }

@@ -20,11 +20,11 @@ std::vector<std::size_t> evenly_spaced(std::size_t poses, std::size_t count);
 struct MotionStep {
   std::optional<double> seconds;
   std::optional<double> metres;   ///< path length
-  std::optional<double> degrees;  ///< accumulated rotation angle
+  std::optional<double> degrees;  ///< rotation angle; accumulated for resampled()
 };
 
 /// The first pose, then each pose at which a threshold is reached since the last selected one, as
-/// evo's --motion_filter. O(n).
+/// evo's --motion_filter: the path length in between, or the angle between the two poses. O(n).
 std::vector<std::size_t> by_motion(const Trajectory& poses, const MotionStep& step);
 
 /// Poses interpolated (linear, SLERP) at multiples of exactly one of the three steps: of time from

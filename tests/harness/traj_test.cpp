@@ -134,6 +134,12 @@ TEST(Traj, MotionFilterKeepsAPoseWhenAThresholdIsReached) {
               ElementsAre(0, 3, 6));
   EXPECT_THAT(by_motion(line(8), {.seconds = {}, .metres = 100.0, .degrees = 22.0}),
               ElementsAre(0, 4));
+  // The angle counts from the last kept pose to this one: rotating to and fro reaches nothing.
+  Trajectory nodding = line(8);
+  for (std::size_t i = 0; i < nodding.size(); ++i) {
+    nodding[i].world_from_body.rotation = exp_so3({0, 0, i % 2 == 0 ? 0.0 : 0.3});
+  }
+  EXPECT_THAT(by_motion(nodding, {.seconds = {}, .metres = {}, .degrees = 20.0}), ElementsAre(0));
 }
 
 TEST(Traj, ResampleInterpolatesInEqualSteps) {

@@ -1,0 +1,135 @@
+// Source: PKWARE's APPNOTE 6.3.
+#include "datasets/compressed/zip.hpp"
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+#include "datasets/compressed/crc32.hpp"
+#include "datasets/compressed/decompress.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr std::string_view kLocalMark = "PK\3\4";
+constexpr std::string_view kEntryMark = "PK\1\2";
+constexpr std::string_view kEndMark = "PK\5\6";
+constexpr std::size_t kLocalSize = 30, kEntrySize = 46, kEndSize = 22;  // fixed parts [bytes]
+
+template <class T>
+T at(std::string_view bytes, std::size_t place) {
+  static_assert(std::endian::native == std::endian::little);
+  T out{};
+  if (bytes.size() < sizeof(T) || place > bytes.size() - sizeof(T)) {
+    throw DamagedStream("ends early");
+  }
+  std::memcpy(&out, bytes.data() + place, sizeof(T));
+  return out;
+}
+
+std::string_view part(std::string_view bytes, std::size_t place, std::size_t size) {
+  if (place > bytes.size() || size > bytes.size() - place) throw DamagedStream("ends early");
+  return bytes.substr(place, size);
+}
+
+std::string content_of_entry(std::string_view bytes, std::string_view entry, std::size_t limit) {
+  constexpr std::uint16_t kEncrypted = 1, kStored = 0, kDeflated = 8;
+  if ((at<std::uint16_t>(entry, 8) & kEncrypted) != 0) throw DamagedStream("is encrypted");
+  const auto method = at<std::uint16_t>(entry, 10);
+  const std::size_t stored_size = at<std::uint32_t>(entry, 20);
+  const std::size_t size = at<std::uint32_t>(entry, 24);
+  const std::size_t local = at<std::uint32_t>(entry, 42);
+  if (part(bytes, local, kLocalSize).substr(0, 4) != kLocalMark) {
+    throw DamagedStream("has no file where its directory states one");
+  }
+  const std::size_t start = local + kLocalSize + at<std::uint16_t>(bytes, local + 26) +
+                            at<std::uint16_t>(bytes, local + 28);
+  const std::string_view stored = part(bytes, start, stored_size);
+  if (size > limit) throw ExpandsTooFar("expands to more than " + std::to_string(limit) + " bytes");
+  std::string out;
+  if (method == kStored) {
+    out = stored;
+  } else if (method == kDeflated) {
+    out = decompress(Codec::deflate, stored, size);
+  } else {
+    throw DamagedStream("has files in compression " + std::to_string(method) +
+                        ", expected stored or deflated ones");
+  }
+  if (out.size() != size || crc32_of(out) != at<std::uint32_t>(entry, 16)) {
+    throw DamagedStream("has a file with a wrong checksum");
+  }
+  return out;
+}
+
+class ZipBytes {
+ public:
+  template <class T>
+  ZipBytes& number(T value) {
+    out_.append(reinterpret_cast<const char*>(&value), sizeof(T));
+    return *this;
+  }
+  ZipBytes& bytes(std::string_view text) {
+    out_ += text;
+    return *this;
+  }
+  const std::string& text() const { return out_; }
+
+ private:
+  std::string out_;
+};
+
+/// What the local header and the entry of the directory have in common.
+ZipBytes description(const ZipMember& member) {
+  constexpr std::uint16_t kVersion = 20, kNoFlags = 0, kStored = 0;
+  constexpr std::uint16_t kMidnight = 0, kFirstDate = 0x21;  // 1980-01-01: equal files are equal
+  const auto size = static_cast<std::uint32_t>(member.content.size());
+  ZipBytes out;
+  out.number(kVersion).number(kNoFlags).number(kStored).number(kMidnight).number(kFirstDate);
+  out.number(crc32_of(member.content)).number(size).number(size);
+  out.number(static_cast<std::uint16_t>(member.name.size())).number(std::uint16_t{0});
+  return out;
+}
+
+}  // namespace
+
+bool is_zip(std::string_view bytes) { return bytes.starts_with(kLocalMark); }
+
+std::vector<ZipMember> zip_members(std::string_view bytes, std::size_t limit) {
+  const std::size_t end = bytes.rfind(kEndMark);
+  if (end == bytes.npos) throw DamagedStream("has no directory at its end");
+  part(bytes, end, kEndSize);
+  const auto count = at<std::uint16_t>(bytes, end + 10);
+  std::size_t place = at<std::uint32_t>(bytes, end + 16);
+  std::vector<ZipMember> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string_view entry = part(bytes, place, kEntrySize);
+    if (!entry.starts_with(kEntryMark)) throw DamagedStream("has a damaged directory");
+    const auto name_size = at<std::uint16_t>(entry, 28);
+    const std::string name(part(bytes, place + kEntrySize, name_size));
+    place += kEntrySize + name_size + at<std::uint16_t>(entry, 30) + at<std::uint16_t>(entry, 32);
+    if (name.ends_with('/') || name.starts_with("__MACOSX/")) continue;
+    out.push_back({name, content_of_entry(bytes, entry, limit)});
+    limit -= out.back().content.size();
+  }
+  return out;
+}
+
+std::string zip_of(const std::vector<ZipMember>& members) {
+  ZipBytes out;
+  ZipBytes directory;
+  for (const ZipMember& member : members) {
+    const std::string shared = description(member).text();
+    constexpr std::uint16_t kMadeBy = 20, kNone = 0;
+    directory.bytes(kEntryMark).number(kMadeBy).bytes(shared);
+    directory.number(kNone).number(kNone).number(kNone).number(std::uint32_t{0});
+    directory.number(static_cast<std::uint32_t>(out.text().size())).bytes(member.name);
+    out.bytes(kLocalMark).bytes(shared).bytes(member.name).bytes(member.content);
+  }
+  const auto start = static_cast<std::uint32_t>(out.text().size());
+  const auto count = static_cast<std::uint16_t>(members.size());
+  out.bytes(directory.text()).bytes(kEndMark).number(std::uint32_t{0});
+  out.number(count).number(count).number(static_cast<std::uint32_t>(directory.text().size()));
+  return out.number(start).number(std::uint16_t{0}).text();
+}
+
+}  // namespace loopbench
