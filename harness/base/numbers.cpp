@@ -16,7 +16,7 @@ std::vector<double> comma_separated_numbers(const std::string& text) {
     if (rest != end && *rest != ',') return {};
     out.push_back(value);
     if (rest == end) return out;
-    at = rest + 1;
+    for (at = rest + 1; at != end && *at == ' ';) ++at;
   }
 }
 

@@ -16,6 +16,7 @@
 #include "harness/eval/eval_figures.hpp"
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/eval/evaluation_page.hpp"
+#include "harness/eval/evo_results.hpp"
 #include "harness/eval/recorded_store.hpp"
 #include "harness/eval/run_summary.hpp"
 #include "harness/report/store_figures.hpp"
@@ -77,10 +78,17 @@ std::string below_reference_error(const EvalArguments& a,
       a.reference_sigma);
 }
 
+Detail detail_of(const EvalArguments& a) {
+  const bool is_chosen =
+      !a.metrics.empty() || !a.relation.empty() || a.delta || !a.delta_unit.empty();
+  return a.full ? Detail::all : is_chosen ? Detail::scores : Detail::summary;
+}
+
 std::string result_text(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
   const std::optional<TerminalStyle> style = terminal_style();
-  if (all.size() == 1) return text(all.front(), style);
-  const std::vector<Table> tables = comparison(all);
+  const Detail detail = detail_of(a);
+  if (all.size() == 1) return text(all.front(), style, detail);
+  const std::vector<Table> tables = comparison(all, detail);
   std::string out;
   if (!style) out = markdown(tables);
   for (std::size_t i = 0; style && i < tables.size(); ++i) {
@@ -175,7 +183,19 @@ void return_large_lists() {
 #endif
 }
 
+/// Prints results of evo.
+int compare_evo_results(const EvalArguments& a) {
+  std::vector<std::string> files{a.reference};
+  files.insert(files.end(), a.estimates.begin(), a.estimates.end());
+  const std::vector<Record> records = read_evo_results(files);
+  fmt::print(
+      "{}",
+      a.csv ? csv(records) : printable(evo_results_text(records, terminal_style(), a.paired)));
+  return kExitOk;
+}
+
 int eval(const EvalArguments& a, const Source& source) {
+  if (is_evo_result(a.reference)) return compare_evo_results(a);
   if (a.estimates.empty() && !std::filesystem::is_directory(a.reference)) {
     throw CLI::RequiredError("EST");
   }
@@ -186,8 +206,13 @@ int eval(const EvalArguments& a, const Source& source) {
     write_evaluation_page(files, done, source);
     fmt::print(stderr, "{}\n", printable(a.report));
   };
-  const std::vector<EvaluationResult> all =
+  std::vector<EvaluationResult> all =
       a.report.empty() ? evaluate_files(a) : evaluate_files(a, write_page);
+  if (!a.unit.empty()) change_unit(all, a.unit);
+  if (!a.save_results.empty()) {
+    if (all.size() != 1) throw InputError("--save_results: expected one EST and one protocol");
+    write_file(a.save_results, evo_result_zip(all.front(), a.relation));
+  }
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all));
   write_figures(a, all);
   if (a.json) {

@@ -50,11 +50,29 @@ void declare_files(CLI::App& command, EvalArguments& a) {
       ->type_name("S")
       ->check(finite_number())
       ->default_str(to_text(ReadOptions{}.period));
+  const auto seconds = [&](const char* name, std::optional<double>& value, const char* help) {
+    command.add_option(name, value, help)->type_name("S")->check(finite_number());
+  };
+  seconds("--start,--t_start", a.start, "First stamp of REF to evaluate [s]");
+  seconds("--end,--t_end", a.end, "Last stamp of REF to evaluate [s]");
+  command.add_option("--downsample", a.downsample, "Evenly spaced poses to keep of each file")
+      ->type_name("N")
+      ->check(positive_number());
+  command
+      .add_option("--motion_filter",
+                  a.motion_filter,
+                  "Keep only poses that are this path length [m] or this angle [deg] from the "
+                  "pose kept before, in each file")
+      ->type_name("M DEG")
+      ->expected(2)
+      ->allow_extra_args(false)
+      ->check(finite_number())
+      ->check(CLI::NonNegativeNumber);
 }
 
 void declare_rules(CLI::App& command, EvalArguments& a) {
   command.add_option("--protocol", a.protocols, "Evaluation protocols, see `list protocols`")
-      ->type_name("NAME")
+      ->type_name("PROTOCOL")
       ->delimiter(',')
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
@@ -153,6 +171,12 @@ void declare(CLI::App& command, EvalArguments& a) {
     command.add_flag_callback(
         option, [&a, setting] { a.fields.emplace_back(setting); }, help);
   };
+  command
+      .add_option("--unit,--change_unit",
+                  a.unit,
+                  "Unit of lengths (mm, cm, m, km) or angles (deg, rad) in the results")
+      ->type_name("WORD:mm|cm|m|km|deg|rad");
+  command.add_flag("--full", a.full, "Print all statistics, single axes and the diagnosis");
   flag("--all_pairs", "pairs=all", "Use all pairs for rpe");
   flag("--pairs_from_reference",
        "pairs_from=reference",
@@ -162,6 +186,13 @@ void declare(CLI::App& command, EvalArguments& a) {
       .add_flag(
           "--csv", a.csv, "Print a CSV line per score in full precision, as `export --what rows`")
       ->excludes("--json");
+  command
+      .add_option(
+          "--save_results",
+          a.save_results,
+          "Zip file for the APE of the only EST, as evo writes it; `eval *.zip` prints such "
+          "files, also those of evo, with a verdict")
+      ->type_name("FILE");
   command
       .add_option(
           "--per-pose", a.per_pose, "CSV file for the error of every pose; - is standard output")
@@ -188,6 +219,8 @@ void declare(CLI::App& command, EvalArguments& a) {
       ->type_name("DIR")
       ->excludes("--json")
       ->excludes("--csv")
+      ->excludes("--unit")
+      ->excludes("--save_results")
       ->excludes("--per-pose");
   command
       .add_option("--sequence", a.sequence, "Label of REF in the store (default: from its name)")

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 
@@ -237,11 +238,14 @@ int align_files(const TrajArguments& a) {
     try {
       const metrics::Alignment fit = metrics::align(of_reference, of_estimate, type, a.align_first);
       each.file.poses = metrics::moved(fit, std::move(each.file.poses));
+      const auto& [rotation, position] = fit.reference_from_estimate;
       fmt::print(stderr,
-                 "{}: aligned with {} pairs, scale {:.9g}\n",
+                 "{}: aligned with {} pairs, scale {:.9g}, x,y,z,qx,qy,qz,qw = {:.9g}, {:.9g}\n",
                  printable(each.name),
                  pairs.size(),
-                 fit.scale);
+                 fit.scale,
+                 fmt::join(position, ", "),
+                 fmt::join(rotation.coeffs(), ", "));
     } catch (const std::runtime_error& error) {
       throw InputError(each.name + ": " + error.what());
     }

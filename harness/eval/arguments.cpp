@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "datasets/bags/bag_trajectory.hpp"
@@ -161,6 +162,13 @@ std::vector<MetricChoice> metric_choices(const EvalArguments& a,
   if (!a.relation.empty() || a.delta || !a.delta_unit.empty()) return metrics_of_evo(a);
   for (const metrics::NamedProtocol& protocol : protocols) add_defaults(out, protocol.rules);
   return out;
+}
+
+EvaluatedRange evaluated_range(const EvalArguments& a) {
+  constexpr double kForever = std::numeric_limits<double>::infinity();
+  const EvaluatedRange out{a.start.value_or(-kForever), a.end.value_or(kForever)};
+  if (out.start <= out.end) return out;
+  throw InputError(fmt::format("--start {} is after --end {}", out.start, out.end));
 }
 
 ReferenceBody reference_body(const EvalArguments& a) {

@@ -26,7 +26,11 @@ struct EvalArguments {
   std::optional<std::string> reference_body;  ///< x,y,z[,qx,qy,qz,qw]; none: no offset
   std::string times;                          ///< empty: none
   std::string repeats = "refuse";
-  std::optional<double> period;  ///< [s]; none: default of ReadOptions
+  std::optional<double> period;           ///< [s]; none: default of ReadOptions
+  std::optional<std::size_t> downsample;  ///< most poses of each file
+  std::vector<double> motion_filter;      ///< thresholds [m, deg] between poses; empty: none
+  std::optional<double> start;            ///< time range of the reference [s]; none: all
+  std::optional<double> end;
   std::vector<std::string> protocols{"loopbench"};
   std::vector<std::string> settings;  ///< FIELD=VALUE of the protocol
   std::vector<std::string> fields;    ///< the same, of fields with an option of their own
@@ -38,10 +42,13 @@ struct EvalArguments {
   std::string delta_unit;
   std::vector<std::string> metrics;  ///< NAME[:option=value,...]; empty: the default metrics
   std::vector<std::filesystem::path> plugins;
+  std::string unit;   ///< of lengths or angles in the results; empty: m and deg
+  bool full = false;  ///< print all scores and the diagnosis
   bool json = false;
   bool csv = false;
-  std::string per_pose;  ///< output file; empty: none
-  std::string plot;      ///< prefix of figure files; empty: none
+  std::string save_results;  ///< zip of evo to write; empty: none
+  std::string per_pose;      ///< output file; empty: none
+  std::string plot;          ///< prefix of figure files; empty: none
   FigureOptions figures;
   std::string report;          ///< HTML file; empty: none
   std::string store;           ///< folder of a store for the results; empty: none
@@ -65,6 +72,13 @@ std::vector<metrics::NamedProtocol> protocols(const EvalArguments& arguments);
 std::vector<MetricChoice> metric_choices(const EvalArguments& arguments,
                                          const Catalogue& catalogue,
                                          const std::vector<metrics::NamedProtocol>& protocols);
+
+/// Stamps of the reference to evaluate [s]; infinite where the arguments give none.
+struct EvaluatedRange {
+  double start = 0.0;
+  double end = 0.0;
+};
+EvaluatedRange evaluated_range(const EvalArguments& arguments);
 
 /// Throws InputError unless the text has three or seven numbers, with a unit quaternion.
 ReferenceBody reference_body(const EvalArguments& arguments);

@@ -113,7 +113,7 @@ struct NameNumbers {
 const std::array<std::vector<std::string>, kErrorFigures.size()>& panels() {
   static const std::array<std::vector<std::string>, kErrorFigures.size()> all{
       {{"plane", "xyz"},
-       {"error by time", "angle by time", "histogram"},
+       {"error by time", "angle by time", "histogram", "boxes"},
        {"x by time", "y by time", "z by time", "roll by time", "pitch by time", "yaw by time"}}};
   return all;
 }

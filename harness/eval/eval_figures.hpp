@@ -36,7 +36,7 @@ std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
 
 /// - trajectories: the plane of the largest extent and space, start and end marked, coloured by
 ///   position error for a single estimate;
-/// - errors: position and rotation error over time, and the histogram of the position error;
+/// - errors: position and rotation error over time, histogram and box plot of the position error;
 /// - axes: x, y, z, roll, pitch and yaw over time, with the complete reference.
 inline constexpr std::array kErrorFigures{"trajectories", "errors", "axes"};
 

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "datasets/core/error.hpp"
 #include "harness/tables/record_csv.hpp"
+#include "metrics/numerics/angle.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -84,10 +87,18 @@ Json to_json(const EvaluationResult& result) {
     out["possible"] = result.coverage.possible;
     out["coverage"] = result.coverage.share();
     out["span"] = result.coverage.span;
+    const auto& [rotation, position] = result.alignment.reference_from_estimate;
     out["alignment"] = {{"type", to_text(result.alignment.type)},
                         {"scale", result.alignment.scale},
                         {"rank", result.alignment.rank},
-                        {"condition", result.alignment.condition}};
+                        {"condition", result.alignment.condition},
+                        {"x", position.x()},
+                        {"y", position.y()},
+                        {"z", position.z()},
+                        {"qx", rotation.x()},
+                        {"qy", rotation.y()},
+                        {"qz", rotation.z()},
+                        {"qw", rotation.w()}};
     out["diagnosis"] = std::move(diagnosis);
     out["notes"] = result.notes;
   }
@@ -118,6 +129,36 @@ std::vector<Record> all_records(const std::vector<EvaluationResult>& results) {
     out.insert(out.end(), result.records.begin(), result.records.end());
   }
   return out;
+}
+
+void change_unit(std::vector<EvaluationResult>& results, const std::string& unit) {
+  struct Change {
+    const char* from;
+    double factor;
+  };
+  static const std::map<std::string, Change> kChanges{{"mm", {"m", 1e3}},
+                                                      {"cm", {"m", 1e2}},
+                                                      {"m", {"m", 1.0}},
+                                                      {"km", {"m", 1e-3}},
+                                                      {"deg", {"deg", 1.0}},
+                                                      {"rad", {"deg", 1.0 / metrics::kDegrees}}};
+  const auto change = kChanges.find(unit);
+  if (change == kChanges.end()) {
+    throw InputError("--unit: found '" + unit + "', expected mm, cm, m, km, deg or rad");
+  }
+  const auto [from, factor] = change->second;
+  bool is_used = false;
+  for (EvaluationResult& result : results) {
+    for (Record& record : result.records) {
+      if (record.unit != from) continue;
+      is_used = true;
+      record.unit = unit;
+      metrics::Statistics& s = record.statistics;
+      for (double* each : {&s.rmse, &s.mean, &s.median, &s.std, &s.min, &s.max}) *each *= factor;
+      s.sse *= factor * factor;
+    }
+  }
+  if (!is_used) throw InputError("--unit " + unit + ": no score is in " + from);
 }
 
 std::string json(const std::vector<EvaluationResult>& results) {

@@ -49,18 +49,27 @@ struct EvaluationResult {
 std::string status(const EvaluationResult& result);
 std::string why_not_ok(const EvaluationResult& result);
 
-/// Properties of the evaluation, and a table of its scores with six decimals. With a style, lines
-/// have at most style.width columns, and numbers four significant digits if they do not fit.
-std::string text(const EvaluationResult& result, const std::optional<TerminalStyle>& style = {});
+/// What a text shows: ATE, RPE over 1 s and coverage; the requested scores; or all scores and the
+/// diagnosis.
+enum class Detail { summary, scores, all };
 
-/// One table for each reference and protocol, one row for each estimate: both coverage shares, and
-/// the protocol's statistic of the combined errors (axis 3d or all), not of single axes or lengths.
-std::vector<Table> comparison(const std::vector<EvaluationResult>& results);
+/// Properties of the evaluation, and a row of comparison() or a table of the scores with six
+/// decimals. With a style, lines have at most style.width columns, and numbers four significant
+/// digits if they do not fit.
+std::string text(const EvaluationResult& result,
+                 const std::optional<TerminalStyle>& style = {},
+                 Detail detail = Detail::all);
+
+/// One table for each reference and protocol, one row for each estimate: the protocol's statistic
+/// of the combined errors (axis 3d or all), not of single axes or lengths, and the coverage.
+std::vector<Table> comparison(const std::vector<EvaluationResult>& results,
+                              Detail detail = Detail::all);
 
 /// Array of objects, also for one evaluation; doubles in full precision. Keys: reference,
 /// reference_body (if given), other_body (if detected), estimate, protocol {name, version,
 /// changes, rules}, status (see above), why, pairs, possible, coverage (pairs / possible), span,
-/// alignment {type, scale, rank, condition}, diagnosis {name: value}, notes [text], metrics
+/// alignment {type, scale, rank, condition, and reference_from_estimate as x, y, z, qx, qy, qz, qw,
+/// so that `traj transform --left FILE` reads it}, diagnosis {name: value}, notes [text], metrics
 /// [{metric, label, relation, axis, unit, rmse, mean, median, std, min, max, count}], undefined and
 /// failed [{metric, label, relation, axis, why}], without relation and axis if all scores of the
 /// metric are. Failed evaluations have empty metrics, undefined and failed.
@@ -68,6 +77,10 @@ std::string json(const std::vector<EvaluationResult>& results);
 
 /// One line per pose; doubles in full precision.
 std::string pose_csv(const std::vector<EvaluationResult>& results);
+
+/// Converts all scores in metres (to mm, cm or km) or in degrees (to rad). Throws InputError for
+/// another unit, or if there is no such score.
+void change_unit(std::vector<EvaluationResult>& results, const std::string& unit);
 
 /// The records of all results, in this order.
 std::vector<Record> all_records(const std::vector<EvaluationResult>& results);

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include "harness/base/wrap.hpp"
@@ -27,6 +29,15 @@ std::string property(const std::string& name, const std::string& text, std::size
     out += (count++ == 0 ? "" : std::string(kMargin, ' ')) + line + "\n";
   }
   return out;
+}
+
+/// "x,y,z,qx,qy,qz,qw = 1,2,3,0,0,0,1" as `traj transform --left` reads it; empty if not aligned.
+std::string transform_text(const metrics::Alignment& alignment) {
+  if (alignment.type == metrics::Align::none) return "";
+  const auto& [rotation, position] = alignment.reference_from_estimate;
+  return fmt::format("x,y,z,qx,qy,qz,qw = {:.6g}, {:.6g}",
+                     fmt::join(position, ", "),
+                     fmt::join(rotation.coeffs(), ", "));
 }
 
 std::string path_text(const std::string& path, const std::string& rest, std::size_t columns) {
@@ -100,29 +111,39 @@ bool fits(const std::string& text, std::size_t columns) {
   return true;
 }
 
-/// A score with one value, for tables.
-Record share(const EvaluationResult& result, const std::string& name, double value) {
+/// The coverage as a score, for tables.
+Record coverage_record(const EvaluationResult& result) {
   Record out;
-  out.metric = name;
+  out.metric = "coverage";
   out.axis = "3d";
   out.relation = "translation";
   out.unit = "%";
   out.protocol = result.protocol.label();
-  out.statistics = metrics::single(name, "", "%", 100.0 * value).statistics;
+  out.statistics = metrics::single("coverage", "", "%", 100.0 * result.coverage.least()).statistics;
   return out;
 }
 
+/// Whether a summary shows the record: failures, ATE, RPE over 1 s or random pairs, and the
+/// segments of protocols that set their lengths.
+bool is_in_summary(const Record& record, const metrics::Protocol& protocol) {
+  if (record.metric.empty()) return true;
+  const SharedText& label = metric_label(record);
+  return record.metric == "ate" || label == "rpe 1 s" || label == "rpe" ||
+         (record.metric == "segments" && protocol.segments != metrics::SegmentErrorRule{});
+}
+
 /// Rows of the comparison: the estimate is the method, and no score is ranked.
-std::vector<Record> compared_records(const EvaluationResult& result, bool has_totals) {
+std::vector<Record> compared_records(const EvaluationResult& result,
+                                     Detail detail,
+                                     bool has_totals) {
   std::vector<Record> out;
-  if (result.why_failed.empty()) {
-    out = {share(result, "poses", result.coverage.share()),
-           share(result, "time", result.coverage.span)};
-  }
   for (const Record& record : result.records) {
     const bool is_shown = record.relation.empty() || !has_totals || is_total(record);
-    if (is_shown) out.push_back(record);
+    const bool is_wanted =
+        detail != Detail::summary || is_in_summary(record, result.protocol.rules);
+    if (is_shown && is_wanted) out.push_back(record);
   }
+  if (result.why_failed.empty()) out.push_back(coverage_record(result));
   for (Record& record : out) {
     record.sequence = result.reference;
     record.method = result.estimate;
@@ -144,11 +165,13 @@ std::string body_text(const EvaluationResult& result) {
 }
 
 /// Results with one reference and one protocol.
-Table comparison_of(const std::vector<const EvaluationResult*>& results, bool has_totals) {
+Table comparison_of(const std::vector<const EvaluationResult*>& results,
+                    Detail detail,
+                    bool has_totals) {
   std::vector<Record> records;
   std::vector<Missing> notes;
   for (const EvaluationResult* result : results) {
-    const std::vector<Record> own = compared_records(*result, has_totals);
+    const std::vector<Record> own = compared_records(*result, detail, has_totals);
     records.insert(records.end(), own.begin(), own.end());
     if (!result->other_body.empty())
       notes.push_back({result->estimate, "", "other body", result->other_body});
@@ -172,7 +195,9 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results, bool ha
 
 }  // namespace
 
-std::string text(const EvaluationResult& result, const std::optional<TerminalStyle>& style) {
+std::string text(const EvaluationResult& result,
+                 const std::optional<TerminalStyle>& style,
+                 Detail detail) {
   const std::size_t columns = style ? std::max<std::size_t>(40, style->width) : 0;
   const auto line = [&](const char* name, const std::string& value) {
     return property(name, value, columns);
@@ -194,15 +219,32 @@ std::string text(const EvaluationResult& result, const std::optional<TerminalSty
       line("incomplete", result.incomplete_reason) +
       line("alignment",
            fmt::format("{}, scale {}", to_text(result.alignment.type), result.alignment.scale)) +
-      diagnosis_text(result.diagnosis, style ? std::min(columns, kWidth) : kWidth) +
+      line("transform", transform_text(result.alignment)) +
+      (detail == Detail::all
+           ? diagnosis_text(result.diagnosis, style ? std::min(columns, kWidth) : kWidth)
+           : "") +
       line("other body", result.other_body.empty() ? "" : result.other_body + "; see --ref-body");
   for (const std::string& note : result.notes) out += line("note", note);
+  if (detail == Detail::summary) {
+    EvaluationResult row = result;
+    row.estimate = std::filesystem::path(result.estimate).filename().string();
+    std::erase_if(row.records, [&](const Record& record) {
+      return !is_total(record) || !is_in_summary(record, result.protocol.rules);
+    });
+    for (Record& record : row.records) {
+      if (has_numbers(record.status)) record.status = Status::ok;
+    }
+    Table summary = comparison({row}, detail).front();
+    summary.title.clear();
+    summary.notes = grouped(missing_scores(row, ""));
+    return out + "\n" + terminal(summary, {style ? columns : 80, style && style->color});
+  }
   const std::string scores = terminal(scores_view(result, 6));
   if (!style || fits(scores, columns)) return out + "\n" + scores;
   return out + "\n" + terminal(scores_view(result, std::nullopt), {columns, style->color});
 }
 
-std::vector<Table> comparison(const std::vector<EvaluationResult>& results) {
+std::vector<Table> comparison(const std::vector<EvaluationResult>& results, Detail detail) {
   const bool has_totals = std::ranges::any_of(results, [](const EvaluationResult& result) {
     return std::ranges::any_of(result.records, is_total);
   });
@@ -220,7 +262,7 @@ std::vector<Table> comparison(const std::vector<EvaluationResult>& results) {
     }
   }
   std::vector<Table> out;
-  for (const Group& group : groups) out.push_back(comparison_of(group, has_totals));
+  for (const Group& group : groups) out.push_back(comparison_of(group, detail, has_totals));
   return out;
 }
 

@@ -151,6 +151,16 @@ struct PairEvaluation {
     return part;
   }
 
+  /// Only poses in the time range are possible pairs. As in evo, only the reference is cut, so that
+  /// poses at the ends keep their partners.
+  void count_in_range(metrics::Coverage& coverage, double offset) const {
+    const EvaluatedRange range = evaluated_range(files.arguments);
+    const auto count = std::ranges::count_if(estimate.poses, [&](const StampedPose& pose) {
+      return pose.stamp + offset >= range.start && pose.stamp + offset <= range.end;
+    });
+    coverage.possible = std::max(coverage.pairs, static_cast<std::size_t>(count));
+  }
+
   void add(EvaluationResult& own, const ScoreResult& row, const metrics::Protocol& rules) {
     const EvalArguments& arguments = files.arguments;
     const Sweep& sweep = files.sweep;
@@ -161,6 +171,7 @@ struct PairEvaluation {
                           : metrics::averaged_in(estimate.poses, intervals, rules.offset),
         rules);
     if (!common.empty()) evaluation = within_common_times(evaluation, rules);
+    if (arguments.start || arguments.end) count_in_range(evaluation.coverage, rules.offset);
     const bool are_printed = !reference.matrices.empty() && !estimate.matrices.empty();
     metrics::PrintedPoses printed;
     if (are_printed) printed = {reference.matrices, estimate.matrices};
@@ -177,7 +188,8 @@ struct PairEvaluation {
     std::future<void> checks =
         std::async(is_large ? std::launch::async : std::launch::deferred,
                    [&] { add_checks(own, evaluation, reference, estimate, files); });
-    if (!arguments.per_pose.empty()) own.poses = metrics::pose_errors(evaluation);
+    if (!arguments.per_pose.empty() || !arguments.save_results.empty())
+      own.poses = metrics::pose_errors(evaluation);
     if (!arguments.plot.empty()) {
       own.drawn = drawn_evaluation(reference.poses, evaluation);
     }

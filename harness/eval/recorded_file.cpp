@@ -1,11 +1,14 @@
 #include "harness/eval/recorded_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/text_formats.hpp"
 #include "metrics/trajectory/position_only.hpp"
+#include "harness/eval/trajectory_selection.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -24,6 +27,18 @@ Repeats repeats_of(const EvalArguments& a) {
 
 const std::string& reference_format(const EvalArguments& a) {
   return a.reference_format.empty() ? a.format : a.reference_format;
+}
+
+/// Keeps the poses with these indices.
+void keep(RecordedFile& file, const std::vector<std::size_t>& indices) {
+  Trajectory poses;
+  std::vector<PoseMatrix> matrices;
+  for (const std::size_t i : indices) {
+    poses.push_back(file.poses[i]);
+    if (!file.matrices.empty()) matrices.push_back(file.matrices[i]);
+  }
+  file.poses = std::move(poses);
+  file.matrices = std::move(matrices);
 }
 
 RecordedFile read_recorded(const std::string& file,
@@ -47,6 +62,10 @@ RecordedFile read_recorded(const std::string& file,
     out.unstamped = file + ": is " + to_text(options.format);
   }
   if (is_kitti && with_digits) out.matrices = read_kitti_matrices(file);
+  if (a.downsample) keep(out, evenly_spaced(out.poses.size(), *a.downsample));
+  if (a.motion_filter.size() == 2) {
+    keep(out, by_motion(out.poses, {{}, a.motion_filter[0], a.motion_filter[1]}));
+  }
   return out;
 }
 
@@ -70,6 +89,9 @@ bool has_poses_of(Format wanted, const EvalArguments& a, const std::vector<Recor
 RecordedFile recorded_reference(const std::string& file, const EvalArguments& a, bool with_digits) {
   RecordedFile out =
       read_recorded(file, format_of("ref-format", reference_format(a)), a, with_digits);
+  const EvaluatedRange range = evaluated_range(a);
+  keep(out, within(out.poses, range.start, range.end));
+  if (out.poses.empty()) throw input_error(file, 0, "has no poses between --start and --end");
   const ReferenceBody body = reference_body(a);
   // The lever arm of a placeholder orientation would point into a wrong direction.
   const bool has_placeholders = has_offset(body) && metrics::is_position_only(out.poses);
@@ -117,12 +139,19 @@ Params reading_options(const EvalArguments& a) {
   if (!(period > 0.0)) {
     throw OptionError("period", "period = " + to_text(period) + ": expected period > 0");
   }
-  return {{"format", to_text(format_of("format", a.format))},
-          {"reference_format", to_text(format_of("ref-format", reference_format(a)))},
-          {"repeats", to_text(repeats_of(a))},
-          {"times", a.times},
-          {"reference_body", a.reference_body.value_or("")},
-          {"period", period}};
+  Params out{{"format", to_text(format_of("format", a.format))},
+             {"reference_format", to_text(format_of("ref-format", reference_format(a)))},
+             {"repeats", to_text(repeats_of(a))},
+             {"times", a.times},
+             {"reference_body", a.reference_body.value_or("")},
+             {"period", period}};
+  if (a.start) out["start"] = *a.start;
+  if (a.end) out["end"] = *a.end;
+  if (a.downsample) out["downsample"] = static_cast<std::int64_t>(*a.downsample);
+  if (a.motion_filter.size() == 2) {
+    out["motion_filter"] = fmt::format("{} {}", a.motion_filter[0], a.motion_filter[1]);
+  }
+  return out;
 }
 
 void check_stamp_options(const EvalArguments& a, const std::vector<RecordedRun>& runs) {

@@ -19,7 +19,8 @@ struct RecordedFile {
   std::string unstamped = {};  ///< file and format if the stamps were generated, otherwise empty
 };
 
-/// Read a file as the arguments state; the reference is in the body of the estimates.
+/// Read a file as the arguments state, without poses that they filter out; the reference is in the
+/// body of the estimates and within the time range.
 /// `with_digits`: also the digits of KITTI files. Throw InputError, OptionError.
 RecordedFile recorded_reference(const std::string& file,
                                 const EvalArguments& arguments,

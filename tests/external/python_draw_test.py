@@ -39,7 +39,7 @@ def data_of(*names, **texts):
     return {**texts, "curves": [curve("reference"), *estimates]}
 
 
-ALL = ["xy", "xz", "yz", "xyz", "error by time", "error_x by distance", "yaw by time", "histogram"]
+ALL = ["xy", "xz", "yz", "xyz", "error by time", "error_x by distance", "yaw by time", "histogram", "boxes"]
 
 
 class Draw(unittest.TestCase):

@@ -57,7 +57,7 @@ TEST_F(EvalCoverage, FivePosesOfAThousandAreIncompleteBesideOthers) {
       "evaluated 5 of 5 poses over 0.4 % of the reference's time, less than half of the 100.0 "
       "% of another estimate");
   const std::string table = eval(both, kExitSomeCellsFailed);
-  EXPECT_THAT(table, HasSubstr("| poses [%] | time [%] |"));
+  EXPECT_THAT(table, HasSubstr("| coverage [%] |"));
   EXPECT_THAT(table, HasSubstr(short_ + ": incomplete: evaluated 5 of 5 poses over 0.4 %"));
 
   std::vector<std::string> accepted = both;

@@ -25,7 +25,8 @@ TEST(EvalFailures, AnUndefinedMetricSaysWhyAndTheOthersStand) {
   EXPECT_EQ(results["undefined"][0]["why"],
             "rpe: found 2 pairs 1.0 frames apart among 3 poses, fewer than min_pairs = 10");
   EXPECT_EQ(results["undefined"][1]["why"], "rpe: none of 3 poses is 1.0 s before another");
-  EXPECT_NE(eval({file, file}).find("\nrpe 1 m undefined: rpe: none of 3"), std::string::npos);
+  EXPECT_NE(eval({file, file, "--full"}).find("\nrpe 1 m undefined: rpe: none of 3"),
+            std::string::npos);
 }
 
 // If pairs 1 m apart are selected on the estimate and there are none, the estimate is at fault and
@@ -41,7 +42,8 @@ TEST(EvalFailures, AFailedMetricIsNotUndefinedAndTheOthersStand) {
   ASSERT_EQ(evaluated["failed"].size(), 1u);
   EXPECT_EQ(evaluated["failed"][0]["metric"], "rpe");
   EXPECT_EQ(evaluated["failed"][0]["why"], why);
-  EXPECT_NE(eval({file, file, from_estimate}).find("\nrpe 1 m failed: " + why), std::string::npos);
+  EXPECT_NE(eval({file, file, from_estimate, "--full"}).find("\nrpe 1 m failed: " + why),
+            std::string::npos);
   EXPECT_NE(eval({file, file, from_estimate, "--csv"}).find(",failed," + why + "\n"),
             std::string::npos);
 

@@ -43,9 +43,14 @@ TEST_F(EvalOnATerminal, OneEstimateFits) {
   const CommandResult narrow = run("eval gt.txt a.txt", 80);
   EXPECT_EQ(narrow.exit_code, 0) << narrow.out;
   EXPECT_LE(widest(narrow.out), 80u) << narrow.out;
-  EXPECT_THAT(narrow.out, HasSubstr("\nscore "));
-  EXPECT_THAT(narrow.out, HasSubstr("\ndiagnosis  matched "));
-  EXPECT_THAT(narrow.out, HasSubstr("\nrpe 1 s x [m] "));
+  EXPECT_THAT(narrow.out, HasSubstr("\na.txt "));
+  EXPECT_THAT(narrow.out, HasSubstr(" coverage [%]\n"));
+  EXPECT_THAT(narrow.out, Not(HasSubstr("diagnosis")));
+  const CommandResult full = run("eval gt.txt a.txt --full", 80);
+  EXPECT_LE(widest(full.out), 80u) << full.out;
+  EXPECT_THAT(full.out, HasSubstr("\nscore "));
+  EXPECT_THAT(full.out, HasSubstr("\ndiagnosis  matched "));
+  EXPECT_THAT(full.out, HasSubstr("\nrpe 1 s x [m] "));
   const CommandResult wide = run("eval gt.txt a.txt", 160);
   EXPECT_EQ(wide.out, loopbench_command("eval gt.txt a.txt", folder_).out);
 }

@@ -79,11 +79,26 @@ def column(curve: Curve, name: str) -> npt.NDArray[np.float64]:
     return np.asarray(curve[name], dtype=float)
 
 
+def draw_boxes(axes: Any, data: Mapping[str, Any], size: Sequence[float]) -> None:
+    """Median and quartiles of the position errors, and the errors within 1.5 quartile distances."""
+    estimates = [each for each in data["curves"] if is_drawn(each, "boxes")]
+    errors = [each["sorted_errors"] for each in reversed(estimates)]  # the first one at the top
+    drawn = axes.boxplot(errors, vert=False, widths=0.6, showfliers=False, patch_artist=True)
+    looks = [style(curve, index) for index, curve in enumerate(estimates)]
+    for box, median, look in zip(drawn["boxes"], drawn["medians"], reversed(looks)):
+        box.set(facecolor=look["color"], alpha=0.6)
+        median.set_color("black")
+    axes.set_xlabel(LABELS["error"])
+    axes.set_xlim(left=0.0)
+    _few_ticks(axes, size, rcParams["font.size"])
+    axes.set_yticks([])
+
+
 def is_drawn(curve: Curve, panel: str) -> bool:
     """Whether a curve has the columns of a panel."""
     if is_map(panel):
         return all(name in curve for name in panel)
-    names = ["sorted_errors"] if panel == "histogram" else panel.split(" by ")
+    names = ["sorted_errors"] if panel in ("histogram", "boxes") else panel.split(" by ")
     return all(name in curve for name in names)
 
 

@@ -1,0 +1,32 @@
+/// Result files of evo (zip), read and written.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/eval/evaluation_result.hpp"
+
+namespace loopbench::harness {
+
+/// Whether the file is a zip archive with evo's info.json and stats.json.
+bool is_evo_result(const std::filesystem::path& file);
+
+/// The statistics of each file as a record: the title is the label, the protocol `evo`, sequence
+/// and method are named after the trajectories, or after the files if trajectories occur twice.
+/// Throws InputError for a file that is none, or without a statistic of evo.
+std::vector<Record> read_evo_results(const std::vector<std::string>& files);
+
+/// For each title a table of statistics, one row for each file, and the verdict. As text of
+/// `style`, or Markdown.
+std::string evo_results_text(const std::vector<Record>& records,
+                             const std::optional<TerminalStyle>& style,
+                             bool paired);
+
+/// APE of one evaluation with its errors by pose, as evo's --save_results writes it. `relation`:
+/// trans_part (or empty), point_distance, angle_deg or angle_rad. Needs result.poses. Throws
+/// InputError.
+std::string evo_result_zip(const EvaluationResult& result, const std::string& relation);
+
+}  // namespace loopbench::harness

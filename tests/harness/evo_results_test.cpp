@@ -1,0 +1,55 @@
+/// Result files of evo.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "datasets/compressed/zip.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/eval_command.hpp"
+
+namespace loopbench::evo_results_test {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+TEST(EvoResults, AreWrittenAndRead) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "a.zip").string();
+  eval({golden("gt.txt"), golden("est_drift.txt"), "--protocol=evo", "-a", "--save_results", file});
+  std::map<std::string, std::string> members;
+  for (const ZipMember& member : zip_members(read_all(file), 1 << 20)) {
+    members[member.name] = member.content;
+  }
+  const Json info = Json::parse(members["info.json"]);
+  EXPECT_EQ(info["title"], "APE w.r.t. translation part (m)\n(with SE(3) Umeyama alignment)");
+  EXPECT_NEAR(Json::parse(members["stats.json"])["rmse"], 0.676208260682124, 1e-12);
+  EXPECT_THAT(members["error_array.npy"], HasSubstr("'shape': (635,)"));
+  EXPECT_EQ((members["error_array.npy"].size() - 635 * sizeof(double)) % 64, 0u);
+  EXPECT_THAT(members["alignment_transformation_sim3.npy"], HasSubstr("'shape': (4, 4)"));
+  const std::string text = eval({file, file});
+  EXPECT_THAT(text, HasSubstr("APE w.r.t. translation part (m) (with SE(3) Umeyama alignment)"));
+  EXPECT_THAT(text, HasSubstr("| 0.6762 |"));
+  EXPECT_THAT(text, HasSubstr(" 635 |"));
+  EXPECT_THROW(
+      eval({golden("gt.txt"), golden("est_drift.txt"), "--save_results", file, "-r", "full"}),
+      InputError);
+}
+
+TEST(EvoResults, OfEvoItself) {
+  const char* const data = std::getenv("LOOPBENCH_DATA");
+  const std::filesystem::path files =
+      std::filesystem::path(data == nullptr ? "" : data) / "systems" / "evo" / "res_files";
+  if (!std::filesystem::exists(files)) GTEST_SKIP() << "needs LOOPBENCH_DATA";
+  const auto file = [&](const char* name) { return (files / name).string(); };
+  const std::string text = eval({file("orb_ape.zip"), file("sptam_ape.zip"), file("orb_rpe.zip")});
+  EXPECT_THAT(text, HasSubstr("KITTI_00_ORB   | 1.303 |"));
+  EXPECT_THAT(text, HasSubstr("KITTI_00_SPTAM | 3.738 |"));
+  EXPECT_THAT(text, HasSubstr(" 4541 |"));
+  EXPECT_THAT(text, HasSubstr("RPE w.r.t. translation part (m) for delta = 10.0 (m)"));
+  EXPECT_THAT(text, HasSubstr("verdict: "));
+  EXPECT_THAT(refusal<InputError>({file("orb_ape.zip"), file("orb_rpe-for-each.zip")}),
+              HasSubstr("stats.json has no number 'rmse'"));
+}
+
+}  // namespace
+}  // namespace loopbench::evo_results_test
