@@ -46,7 +46,7 @@ std::string unknown_name(const std::string& kind,
   }
   std::string all;
   for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
-  return what + " (known: " + all + ")";
+  return all.empty() ? what : what + " (known: " + all + ")";
 }
 
 }  // namespace loopbench::harness

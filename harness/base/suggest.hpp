@@ -11,7 +11,7 @@ namespace loopbench::harness {
 std::string closest(const std::string& given, const std::vector<std::string>& known);
 
 /// "no KIND is named 'x'", followed by the closest name ("did you mean 'y'?") or, without a similar
-/// name, the list of all names.
+/// name, the list of all names, if there are any.
 std::string unknown_name(const std::string& kind,
                          const std::string& given,
                          const std::vector<std::string>& known);

@@ -21,6 +21,22 @@ std::string with_hyphens(std::string text) {
   return text;
 }
 
+/// The most similar of the options: by spelling, or those that begin with or contain the word.
+std::vector<std::string> nearest(const std::string& word, const std::vector<std::string>& known) {
+  if (const std::string best = closest(word, known); !best.empty()) return {best};
+  const std::string core = word.substr(word.find_first_not_of('-'));
+  std::vector<std::string> out;
+  for (const std::string& each : known) {
+    const std::string its_core = each.substr(2);
+    const bool is_part =
+        core.size() > 2 && (with_hyphens(its_core).find(with_hyphens(core)) != std::string::npos ||
+                            (its_core.size() > 3 &&
+                             with_hyphens(core).find(with_hyphens(its_core)) != std::string::npos));
+    if (is_part) out.push_back(each);
+  }
+  return out;
+}
+
 /// The word that names no subcommand or option of `command`, with a suggestion; empty if `error`
 /// has another cause. `name`: of the command, empty for the program.
 std::string unknown_word(const CLI::App& command,
@@ -43,6 +59,7 @@ std::string unknown_word(const CLI::App& command,
     }
   }
   const std::string kind = is_option ? "option" : "subcommand";
+  if (is_option) known = nearest(word, known);  // --help lists all
   return unknown_name(name.empty() ? kind : kind + " of " + name, word, known);
 }
 

@@ -3,17 +3,33 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "harness/catalogue/catalogue.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/help.hpp"
 #include "harness/commands/help_format.hpp"
+#include "metrics/protocols/protocols.hpp"
 
 namespace loopbench::harness {
 namespace {
 
+using Words = std::vector<std::pair<std::string, std::string>>;
+
+/// The names that an option with this placeholder takes; ANY is all of them.
+Words known_names(const std::string& placeholder) {
+  Words out;
+  const auto add = [&](const auto& entries) {
+    for (const auto& each : entries) out.emplace_back(each.name, each.summary);
+  };
+  const bool is_any = placeholder == "ANY";
+  if (is_any || placeholder == "METHOD") add(catalogue({}).methods);
+  if (is_any || placeholder == "METRIC") add(catalogue({}).metrics);
+  if (is_any || placeholder == "PROTOCOL") add(metrics::protocols());
+  return out;
+}
+
 /// The words that can take the place of the last one, each with its meaning; empty where a file or
 /// any other text is expected. `words` start with the program's name.
-std::vector<std::pair<std::string, std::string>> candidates(const CLI::App& app,
-                                                            const std::vector<std::string>& words) {
+Words candidates(const CLI::App& app, const std::vector<std::string>& words) {
   const CLI::App* command = &app;
   for (std::size_t i = 1; i + 1 < words.size(); ++i) {
     const auto children = commands_of(*command);
@@ -21,13 +37,13 @@ std::vector<std::pair<std::string, std::string>> candidates(const CLI::App& app,
     if (next == children.end()) break;
     command = *next;
   }
-  std::vector<std::pair<std::string, std::string>> out;
+  Words out;
   const std::vector<const CLI::Option*> options = command->get_options();
   const std::string before = words.size() < 2 ? "" : words[words.size() - 2];
   for (const CLI::Option* option : options) {
     if (std::ranges::count(names_of(*option), before) == 0 || !has_value(*option)) continue;
     for (const std::string& choice : choices_of(*option)) out.emplace_back(choice, "");
-    return out;
+    return out.empty() ? known_names(option->get_type_name()) : out;
   }
   if (words.back().starts_with('-')) {
     for (const CLI::Option* option : options) {
@@ -38,6 +54,7 @@ std::vector<std::pair<std::string, std::string>> candidates(const CLI::App& app,
     }
     return out;
   }
+  if (command->get_name() == "list") out = known_names("ANY");
   const bool is_help = command->get_name() == "help";
   for (const CLI::App* each : commands_of(is_help ? app : *command)) {
     out.emplace_back(each->get_name(), each->get_description());
@@ -56,8 +73,11 @@ void add_complete(CLI::App& app, int& exit_code) {
     const std::vector<std::string> words = command->remaining();
     exit_code = kExitOk;
     if (words.empty()) return;
+    // The last element of a list, such as evo,tum.
+    const std::string before = words.back().substr(0, words.back().rfind(',') + 1);
     for (const auto& [word, meaning] : candidates(app, words)) {
-      if (word.starts_with(words.back())) fmt::print("{}\t{}\n", word, meaning);
+      if ((before + word).starts_with(words.back()))
+        fmt::print("{}{}\t{}\n", before, word, meaning);
     }
   });
 }

@@ -37,6 +37,11 @@ TEST(Completion, BashCompletesCommandsOptionsAndChoices) {
   EXPECT_EQ(completed("traj cr"), "crop\n");
   EXPECT_EQ(completed("traj crop x --rel"), "--relative\n");
   EXPECT_EQ(completed("traj convert x --to eu"), "euroc\n");
+  EXPECT_EQ(completed("eval gt.txt a.txt --protocol kitti-"), "kitti-double\n");
+  EXPECT_EQ(completed("eval gt.txt a.txt --protocol evo,ov"), "evo,ov_eval\n");
+  EXPECT_EQ(completed("eval gt.txt a.txt --metric path"), "path_length\n");
+  EXPECT_EQ(completed("correct a.g2o --method motion_d"), "motion_drift motion_drift_pcm\n");
+  EXPECT_EQ(completed("list motion_d"), "motion_drift motion_drift_pcm\n");
   EXPECT_EQ(completed("run som"), "\n");  // files, by bash itself
 }
 
