@@ -89,8 +89,10 @@ bool has_poses_of(Format wanted, const EvalArguments& a, const std::vector<Recor
 RecordedFile recorded_reference(const std::string& file, const EvalArguments& a, bool with_digits) {
   RecordedFile out =
       read_recorded(file, format_of("ref-format", reference_format(a)), a, with_digits);
-  const EvaluatedRange range = evaluated_range(a);
-  keep(out, within(out.poses, range.start, range.end));
+  if (a.start || a.end) {
+    const EvaluatedRange range = evaluated_range(a);
+    keep(out, within(out.poses, range.start, range.end));
+  }
   if (out.poses.empty()) throw input_error(file, 0, "has no poses between --start and --end");
   const ReferenceBody body = reference_body(a);
   // The lever arm of a placeholder orientation would point into a wrong direction.
