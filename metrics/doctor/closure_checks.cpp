@@ -12,6 +12,7 @@
 
 #include "metrics/doctor/closure_chain.hpp"
 #include "metrics/doctor/closure_gaps.hpp"
+#include "metrics/doctor/closure_repairs.hpp"
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/finding.hpp"
 #include "metrics/doctor/information_checks.hpp"
@@ -107,37 +108,6 @@ std::vector<InputFinding> check_direction_of_few(const Problem& problem, const C
       problem.closures.size())};
 }
 
-std::vector<InputFinding> check_direction(const Problem& problem,
-                                          const std::vector<Neighbours>& neighbours,
-                                          const Chain& chain) {
-  constexpr double kBetter = 0.5;
-  constexpr std::size_t kFewest = 3;
-  if (neighbours.size() < kFewest) return check_direction_of_few(problem, chain);
-  const auto median_of = [&](bool inverted, bool of_rotation) {
-    std::vector<double> norms;
-    for (const Neighbours& pair : neighbours) {
-      const Twist residual = neighbour_residual(pair, chain, inverted);
-      norms.push_back(of_rotation ? residual.tail<3>().norm() : residual.head<3>().norm());
-    }
-    return median_value(std::move(norms));
-  };
-  const double translation = median_of(false, false);
-  const double translation_inverted = median_of(true, false);
-  const double rotation = median_of(false, true);
-  const double rotation_inverted = median_of(true, true);
-  const bool is_inverted =
-      translation_inverted < kBetter * translation && rotation_inverted < 1.2 * rotation + 1e-9;
-  if (!is_inverted) return {};
-  return {inverted_closures(
-      fmt::format("neighbouring closures differ by {:.3g} m (median of {} pairs), after "
-                  "inversion by {:.3g} m",
-                  translation,
-                  neighbours.size(),
-                  translation_inverted),
-      1.0 - translation_inverted / translation,
-      problem.closures.size())};
-}
-
 }  // namespace
 
 std::vector<InputFinding> check_closures(const Problem& problem) {
@@ -145,17 +115,33 @@ std::vector<InputFinding> check_closures(const Problem& problem) {
   const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
   if (problem.closures.empty() || !is_chain) return out;
   const Chain chain = chain_of(problem);
+  constexpr std::size_t kFewestNeighbours = 3;
   const std::vector<Neighbours> neighbours = neighbours_of(problem.closures, chain);
-  out = check_direction(problem, neighbours, chain);
+  if (auto repair = find_odometry_repair(problem)) return {*repair};
+  if (auto repair = find_closure_repair(problem)) return {*repair};
+  if (neighbours.size() < kFewestNeighbours) out = check_direction_of_few(problem, chain);
   if (!out.empty()) return out;
   std::vector<SquaredError> errors;
   for (const Edge& edge : problem.closures) errors.push_back(closure_error(edge, chain, false));
-  const std::vector<SquaredError> of_pairs = neighbour_errors(neighbours, chain);
-  for (const auto& found : {check_gaps(problem, chain, errors),
-                            check_information(problem.closures, errors, of_pairs, chain),
-                            check_edges(problem.closures, neighbours, of_pairs)}) {
-    out.insert(out.end(), found.begin(), found.end());
+  const GapCheck gaps = check_gaps(problem, chain, errors);
+  if (gaps.finding) out.push_back(*gaps.finding);
+  // False closures show nothing about the information.
+  if (5 * gaps.closures.size() < problem.closures.size()) {
+    std::vector<Edge> plausible;
+    std::vector<SquaredError> of_plausible;
+    for (std::size_t i = 0; i < problem.closures.size(); ++i) {
+      if (std::ranges::find(gaps.closures, i) != gaps.closures.end()) continue;
+      plausible.push_back(problem.closures[i]);
+      of_plausible.push_back(errors[i]);
+    }
+    const std::vector<Neighbours> pairs = neighbours_of(plausible, chain);
+    const std::vector<SquaredError> of_pairs = neighbour_errors(pairs, chain);
+    for (const auto& found : {check_information(plausible, of_plausible, of_pairs, chain),
+                              check_edges(plausible, pairs, of_pairs)}) {
+      out.insert(out.end(), found.begin(), found.end());
+    }
   }
+  std::erase_if(out, [](const InputFinding& f) { return f.confidence < kLeastConfidence; });
   return out;
 }
 

@@ -9,11 +9,11 @@
 namespace loopbench::metrics {
 
 /// Compares closures with the odometry, without a reference:
-/// - direction: neighbouring closures connect the same two sections of the chain, so that the
-///   drift between them cancels; if the inverses are much more consistent, closures are inverted.
-///   Closures without neighbours are compared with the odometry, see inversion_log_ratio();
+/// - conventions of odometry and closures: see find_odometry_repair() and find_closure_repair();
+/// - direction of few closures: see inversion_log_ratio();
 /// - gaps: see check_gaps();
-/// - information: see check_information() and check_edges().
+/// - information: see check_information() and check_edges(), without the closures found before, and
+///   only if these are less than a fifth.
 /// Empty if the odometry is no chain. O((closures + keyframes) log).
 std::vector<InputFinding> check_closures(const Problem& problem);
 

@@ -63,9 +63,11 @@ std::vector<GapOverLimit> gaps_over_odometry(const std::vector<Edge>& closures,
   return out;
 }
 
-std::vector<GapOverLimit> gaps_over_paths(const Problem& problem, const Chain& chain) {
+std::vector<GapOverLimit> gaps_over_paths(const Problem& problem,
+                                          const Chain& chain,
+                                          const std::vector<const Edge*>& without) {
   std::vector<double> drifts;
-  const std::vector<PathGap> all = path_gaps(problem, chain);
+  const std::vector<PathGap> all = path_gaps(problem, chain, without);
   for (const PathGap& gap : all) drifts.push_back(gap.distance / std::max(1.0, gap.length));
   const double drift = most_drift(drifts);
   std::vector<GapOverLimit> out;
@@ -75,52 +77,68 @@ std::vector<GapOverLimit> gaps_over_paths(const Problem& problem, const Chain& c
   return out;
 }
 
-std::vector<InputFinding> implausible(const std::vector<GapOverLimit>& gaps,
-                                      const Edge* first_closure,
-                                      const std::string& contradicted_by) {
-  std::vector<std::size_t> found;
-  double plausible_squares = 0.0, squares = 0.0;  // of the gaps [m^2]
-  const GapOverLimit* worst = nullptr;
+/// The closures over their limit. `others` are those that were found before.
+GapCheck implausible(const std::vector<GapOverLimit>& gaps,
+                     const Edge* first_closure,
+                     const std::string& contradicted_by,
+                     const std::vector<GapOverLimit>& others = {}) {
+  GapCheck out;
+  std::vector<GapOverLimit> found = others;
   for (const GapOverLimit& gap : gaps) {
-    const double square = gap.distance * gap.distance;
-    squares += square;
-    if (!(gap.over > 1.0)) {
-      plausible_squares += square;
-      continue;
-    }
-    found.push_back(static_cast<std::size_t>(gap.closure - first_closure));
-    if (worst == nullptr || gap.over > worst->over) worst = &gap;
+    if (gap.over > 1.0) found.push_back(gap);
   }
-  if (worst == nullptr) return {};
-  const std::size_t plausible = std::max<std::size_t>(1, gaps.size() - found.size());
-  const double rms_before = std::sqrt(squares / static_cast<double>(gaps.size()));
-  const double rms_after = std::sqrt(plausible_squares / static_cast<double>(plausible));
-  return {{Fault::closure_gap,
-           fmt::format("{} of {} closures contradict {}, most of all {} -> {}: the gap is {:.3g} m "
-                       "after {:.3g} m",
-                       found.size(),
-                       gaps.size(),
-                       contradicted_by,
-                       worst->closure->from,
-                       worst->closure->to,
-                       worst->distance,
-                       worst->length),
-           "check them; robust methods are made for false closures",
-           1.0 - rms_after / rms_before,
-           static_cast<double>(found.size())}};
+  if (found.empty()) return out;
+  const GapOverLimit& worst = *std::ranges::max_element(found, {}, &GapOverLimit::over);
+  for (const GapOverLimit& gap : found) {
+    out.closures.push_back(static_cast<std::size_t>(gap.closure - first_closure));
+  }
+  out.finding = InputFinding{
+      Fault::closure_gap,
+      fmt::format("{} of {} closures contradict {}, most of all {} -> {}: the gap is {:.3g} m "
+                  "after {:.3g} m, {:.2g} times the limit of the others",
+                  found.size(),
+                  gaps.size() + others.size(),
+                  contradicted_by,
+                  worst.closure->from,
+                  worst.closure->to,
+                  worst.distance,
+                  worst.length,
+                  worst.over),
+      "check them; robust methods are made for false closures",
+      1.0 - 1.0 / worst.over,
+      static_cast<double>(found.size())};
+  return out;
+}
+
+/// A false closure on the shortest path of others makes these contradict it: the worst one is
+/// removed until nothing contradicts.
+GapCheck implausible_paths(const Problem& problem, const Chain& chain) {
+  constexpr std::size_t kMostRemoved = 12;
+  std::vector<GapOverLimit> removed;
+  std::vector<const Edge*> without;
+  for (std::size_t i = 0; i < kMostRemoved; ++i) {
+    const std::vector<GapOverLimit> gaps = gaps_over_paths(problem, chain, without);
+    if (gaps.empty()) break;
+    const GapOverLimit& worst = *std::ranges::max_element(gaps, {}, &GapOverLimit::over);
+    if (!(worst.over > 1.0)) {
+      return implausible(gaps, problem.closures.data(), "other closures and the odometry", removed);
+    }
+    removed.push_back(worst);
+    without.push_back(worst.closure);
+  }
+  return {};  // no consistent set is near
 }
 
 }  // namespace
 
-std::vector<InputFinding> check_gaps(const Problem& problem,
-                                     const Chain& chain,
-                                     const std::vector<SquaredError>& errors) {
+GapCheck check_gaps(const Problem& problem,
+                    const Chain& chain,
+                    const std::vector<SquaredError>& errors) {
   constexpr std::size_t kFewestForPaths = 10;
-  const Edge* const first = problem.closures.data();
-  auto found =
-      implausible(gaps_over_odometry(problem.closures, chain, errors), first, "the odometry");
-  if (!found.empty() || problem.closures.size() < kFewestForPaths) return found;
-  return implausible(gaps_over_paths(problem, chain), first, "other closures and the odometry");
+  GapCheck found = implausible(
+      gaps_over_odometry(problem.closures, chain, errors), problem.closures.data(), "the odometry");
+  if (found.finding || problem.closures.size() < kFewestForPaths) return found;
+  return implausible_paths(problem, chain);
 }
 
 }  // namespace loopbench::metrics

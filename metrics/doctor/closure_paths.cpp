@@ -17,8 +17,9 @@ double step_length(const Edge& step) { return step.from_from_to.translation.norm
 /// Shortest paths in a graph, one pair of keyframes after the other.
 class PathSearch {
  public:
-  explicit PathSearch(const Problem& problem)
+  PathSearch(const Problem& problem, const std::vector<const Edge*>& without)
       : problem_(problem),
+        without_(without),
         first_(problem.keyframes.size() + 1, 0),
         lengths_(problem.keyframes.size(), kUnknown),
         last_edges_(problem.keyframes.size(), nullptr) {
@@ -52,7 +53,9 @@ class PathSearch {
       if (at > 0) follow(problem_.odometry[at - 1], at, length, true);
       if (at < problem_.odometry.size()) follow(problem_.odometry[at], at, length, true);
       for (std::size_t i = first_[at]; i < first_[at + 1]; ++i) {
-        if (closures_[i] != &closure) follow(*closures_[i], at, length, false);
+        const bool is_used =
+            closures_[i] != &closure && std::ranges::find(without_, closures_[i]) == without_.end();
+        if (is_used) follow(*closures_[i], at, length, false);
       }
     }
     const Pose difference = closure.from_from_to.inverse() * composed(closure);
@@ -88,6 +91,7 @@ class PathSearch {
   }
 
   const Problem& problem_;
+  const std::vector<const Edge*>& without_;
   std::vector<std::size_t> first_;       ///< of each keyframe in `closures_`
   std::vector<const Edge*> closures_;    ///< by keyframe
   std::vector<double> lengths_;          ///< of the path to each keyframe [m]
@@ -117,12 +121,15 @@ std::vector<const Edge*> in_order_of_use(const std::vector<Edge>& closures, cons
 
 }  // namespace
 
-std::vector<PathGap> path_gaps(const Problem& problem, const Chain& chain) {
+std::vector<PathGap> path_gaps(const Problem& problem,
+                               const Chain& chain,
+                               const std::vector<const Edge*>& without) {
   constexpr std::size_t kMostVisited = 50'000;
   std::vector<PathGap> out;
-  PathSearch search(problem);
+  PathSearch search(problem, without);
   for (const Edge* const edge : in_order_of_use(problem.closures, chain)) {
     if (search.visited() > kMostVisited) break;
+    if (std::ranges::find(without, edge) != without.end()) continue;
     out.push_back(search.gap(*edge));
   }
   return out;

@@ -14,10 +14,12 @@ struct PathGap {
   double length = 0.0;    ///< of the path; a closure on it counts as 2 m [m]
 };
 
-/// One gap for each closure: first of an even sample, then of those that contradict the odometry
-/// most. Drift is smaller along these paths than along the odometry. Stops after 5e4 visited
-/// keyframes, so that the list can be incomplete. The odometry has to be a chain.
+/// One gap for each closure that is not in `without`: first of an even sample, then of those that
+/// contradict the odometry most. Drift is smaller along these paths than along the odometry. Stops
+/// after 5e4 visited keyframes, so that the list can be incomplete. The odometry has to be a chain.
 /// O((keyframes + closures) log).
-std::vector<PathGap> path_gaps(const Problem& problem, const Chain& chain);
+std::vector<PathGap> path_gaps(const Problem& problem,
+                               const Chain& chain,
+                               const std::vector<const Edge*>& without = {});
 
 }  // namespace loopbench::metrics

@@ -2,93 +2,168 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
-#include <filesystem>
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "datasets/core/trajectory.hpp"
-#include "metrics/doctor/body_checks.hpp"
-#include "metrics/doctor/finding.hpp"
-#include "metrics/doctor/frame_checks.hpp"
-#include "metrics/doctor/position_checks.hpp"
-#include "metrics/doctor/preconditions.hpp"
-#include "metrics/doctor/unit_checks.hpp"
-#include "metrics/trajectory/position_only.hpp"
+#include "metrics/doctor/agreement.hpp"
+#include "metrics/doctor/file_checks.hpp"
+#include "metrics/doctor/repairs.hpp"
+#include "metrics/doctor/speed_match.hpp"
+#include "metrics/doctor/stamp_checks.hpp"
+#include "metrics/doctor/time_offset.hpp"
 
 namespace loopbench::metrics {
 namespace {
 
-/// Lower-case words of the last two parts of a path, separated by '_', '-', '.' and '/'.
-bool names_truth(const std::string& name) {
-  const std::filesystem::path path(name);
-  const std::string tail = (path.parent_path().filename() / path.filename()).string() + "/";
-  std::string word;
-  for (const char c : tail) {
-    const auto letter = static_cast<unsigned char>(c);
-    if (std::isalpha(letter) != 0) {
-      word += static_cast<char>(std::tolower(letter));
-      continue;
+/// The pair with the repairs of what was found.
+class PairDiagnosis {
+ public:
+  PairDiagnosis(const Trajectory& reference, const Trajectory& estimate)
+      : reference_(reference), estimate_(estimate) {}
+
+  Diagnosis run(const std::string& reference_name,
+                const std::string& estimate_name,
+                bool has_stamps) {
+    add(check_swapped(reference_, estimate_, reference_name, estimate_name));
+    if (has_stamps) {
+      check_stamps();
+    } else {
+      out_.unchecked.emplace_back("time offset: a file has no stamps");
     }
-    for (const char* const known :
-         {"groundtruth", "truth", "gt", "reference", "vicon", "leica", "mocap"}) {
-      if (word == known) return true;
-    }
-    word.clear();
+    check_poses();
+    std::erase_if(out_.findings,
+                  [](const InputFinding& f) { return f.confidence < kLeastConfidence; });
+    return std::move(out_);
   }
-  return false;
-}
 
-double rate(const Trajectory& poses) {
-  const double duration = poses.back().stamp - poses.front().stamp;
-  return duration > 0.0 ? static_cast<double>(poses.size() - 1) / duration : 0.0;
-}
+ private:
+  void add(std::optional<InputFinding> found) {
+    if (found) out_.findings.push_back(std::move(*found));
+  }
 
-/// A finding if the names say so (only the estimate's contains "groundtruth", "truth", "gt" or
-/// "vicon" as a word), or if the estimate has at least twice the rate of the reference and covers
-/// it in time, and the names do not contradict. O(1).
-std::optional<InputFinding> check_swapped(const Trajectory& reference,
-                                          const Trajectory& estimate,
-                                          const std::string& reference_name,
-                                          const std::string& estimate_name) {
-  constexpr double kRates = 2.0;
-  if (reference.size() < 2 || estimate.size() < 2) return std::nullopt;
-  const bool reference_is_named = names_truth(reference_name);
-  const bool estimate_is_named = names_truth(estimate_name);
-  if (reference_is_named) return std::nullopt;
-  const double rates = rate(estimate) / rate(reference);
-  const bool covers = estimate.front().stamp <= reference.front().stamp &&
-                      estimate.back().stamp >= reference.back().stamp;
-  // Control points and fixes of GNSS are sparse.
-  const bool is_denser = rates >= kRates && covers && !is_position_only(reference);
-  if (!estimate_is_named && !is_denser) return std::nullopt;
-  return InputFinding{
-      Fault::swapped,
-      fmt::format("the estimate {}",
-                  estimate_is_named ? "is named like a reference: " + estimate_name
-                                    : fmt::format("has {:.1f} times the rate of the reference and "
-                                                  "covers it in time",
-                                                  rates)),
-      "exchange REF and EST",
-      estimate_is_named && is_denser ? 0.98
-      : estimate_is_named            ? 0.9
-                                     : 0.7,
-      rates};
-}
+  void add(std::optional<StampRepair> found) {
+    if (!found) return;
+    add(std::move(found->finding));
+    out_.has_checked = true;
+    for (StampedPose& pose : found->is_of_reference ? reference_ : estimate_) {
+      pose.stamp = found->factor * pose.stamp + found->offset;
+    }
+  }
 
-Trajectory delayed(Trajectory poses, double offset) {
-  for (StampedPose& pose : poses) pose.stamp += offset;
-  return poses;
-}
+  void check_stamps() {
+    add(check_stamp_unit(reference_, estimate_));
+    add(check_frame_indices(reference_, estimate_));
+    if (auto drift = check_clock_drift(reference_, estimate_)) {
+      for (StampedPose& pose : estimate_) {
+        pose.stamp += drift->offset + drift->rate * (pose.stamp - drift->origin);
+      }
+      add(std::move(drift->finding));
+      out_.has_checked = true;
+    } else {
+      check_offset();
+    }
+  }
 
-void add(std::vector<InputFinding>& to, std::vector<InputFinding> more) {
-  to.insert(to.end(), std::move_iterator(more.begin()), std::move_iterator(more.end()));
-}
+  void check_offset() {
+    if (std::min(reference_.size(), estimate_.size()) < kFewestCommonPoses) {
+      out_.unchecked.emplace_back("time offset: fewer than 20 poses");
+    }
+    speeds_ = estimate_time_offset(reference_, estimate_);
+    auto found = speeds_ ? offset_finding(*speeds_, reference_, estimate_) : std::nullopt;
+    out_.has_checked |= speeds_.has_value();
+    if (!found) {
+      if (auto apart = check_overlap(reference_, estimate_)) {
+        add(std::move(apart));
+      } else {
+        add(check_missing(reference_, estimate_));
+      }
+      return;
+    }
+    for (StampedPose& pose : estimate_) pose.stamp += speeds_->offset;
+    add(std::move(found));
+    out_.offset = speeds_;
+    add(check_missing(reference_, estimate_));
+  }
 
-void add(std::vector<InputFinding>& to, std::optional<InputFinding> more) {
-  if (more) to.push_back(std::move(*more));
-}
+  void check_poses() {
+    constexpr int kMostRepairs = 3;
+    add(check_constant_rotation(reference_, estimate_));
+    CommonPoses poses = common_poses(reference_, estimate_, 0.0, kMostCommonPoses);
+    if (poses.stamps.size() < kFewestCommonPoses) {
+      for (const char* checks : {"units, scale", "quaternion order, inverted poses, axes"}) {
+        out_.unchecked.push_back(
+            fmt::format("{}: {} poses of the estimate are in the reference's time, expected at "
+                        "least {}",
+                        checks,
+                        poses.stamps.size(),
+                        kFewestCommonPoses));
+      }
+      return;
+    }
+    out_.has_checked = true;
+    if (auto found = check_angle_unit(poses)) {
+      add(std::move(found));
+      for (auto* list : {&poses.reference, &poses.estimate}) {
+        for (Pose& pose : *list) pose.rotation = Rotation::Identity();
+      }
+    } else {
+      note_constant_rotations(poses);
+    }
+    add(remove_jumps(poses));
+    for (int i = 0; i < kMostRepairs; ++i) {
+      auto proven = best_repair(poses);
+      if (!proven) break;
+      proven->repair.apply(poses);
+      const Repair& repair = proven->repair;
+      add(InputFinding{repair.fault,
+                       repair.what + ": " + proven->improvement.text,
+                       repair.fix,
+                       1.0 - proven->improvement.ratio,
+                       repair.value});
+    }
+    check_recording(agreement(poses));
+  }
+
+  void note_constant_rotations(const CommonPoses& poses) {
+    for (const bool is_reference : {true, false}) {
+      if (has_rotations(is_reference ? poses.reference : poses.estimate)) continue;
+      out_.unchecked.push_back(
+          fmt::format("quaternion order, inverted poses, axes, unit of angles: the {} does not "
+                      "rotate by {:g} rad",
+                      is_reference ? "reference" : "estimate",
+                      kLeastRotation));
+      return;
+    }
+  }
+
+  /// Nothing agrees, whatever is repaired: replaces all other findings.
+  void check_recording(const Agreement& left) {
+    constexpr double kTurning = 0.7, kPosition = 0.4, kPositionAlone = 0.7, kCorrelation = 0.6;
+    const double position = left.similarity / left.spread;
+    const bool disagrees = left.has_rotations ? left.turning > kTurning && position > kPosition
+                                              : position > kPositionAlone;
+    const SpeedMatch match(reference_, estimate_);
+    const double correlation = std::max(0.0, match.at(0.0));
+    if (!disagrees || correlation > kCorrelation) return;
+    out_.findings = {
+        {Fault::wrong_recording,
+         fmt::format("no repair makes the files agree: after alignment with scale, the position "
+                     "error is {:.3g} m, {:.0f} % of the reference's spread; correlation of speeds "
+                     "{:.2f}",
+                     left.similarity,
+                     100.0 * position,
+                     correlation),
+         "give files of the same recording",
+         std::min(1.0, position) * (1.0 - correlation),
+         position}};
+  }
+
+  Trajectory reference_, estimate_;
+  std::optional<TimeOffset> speeds_;
+  Diagnosis out_;
+};
 
 }  // namespace
 
@@ -97,45 +172,7 @@ Diagnosis diagnosis(const Trajectory& reference,
                     const std::string& reference_name,
                     const std::string& estimate_name,
                     bool has_stamps) {
-  if (lacks_rotations(reference) || lacks_rotations(estimate)) {
-    return diagnosis_of_positions(reference, estimate, reference_name, estimate_name, has_stamps);
-  }
-  Diagnosis out;
-  add(out.findings, check_swapped(reference, estimate, reference_name, estimate_name));
-  if (auto found = has_stamps ? check_stamp_unit(reference, estimate) : std::nullopt) {
-    add(out.findings, std::move(found));
-    out.unchecked.emplace_back("all other checks: the stamps have to be corrected first");
-    out.has_checked = true;
-    return out;
-  }
-  Trajectory shifted;
-  if (!has_stamps) {
-    out.unchecked.emplace_back("time offset: a file has no stamps");
-  } else if (const auto offset = estimate_time_offset(reference, estimate)) {
-    out.has_checked = true;
-    if (auto found = offset_finding(*offset, estimate)) {
-      add(out.findings, std::move(found));
-      out.offset = offset;
-      shifted = delayed(estimate, offset->offset);
-    }
-  } else {
-    out.unchecked.emplace_back(
-        "time offset: fewer than 20 poses, too little motion, or speeds that differ at all "
-        "offsets");
-  }
-  if (has_stamps && shifted.empty()) add(out.findings, check_overlap(reference, estimate));
-  const Trajectory& compared = shifted.empty() ? estimate : shifted;
-  add(out.findings, check_constant_rotation(reference, estimate));
-  std::vector<InputFinding> conventions = check_frames(reference, compared);
-  add(conventions, check_units(reference, compared));
-  add_lever_arm(conventions, reference, compared);
-  const bool is_scaled = conventions.size() == 1 && conventions[0].fault == Fault::scale;
-  if (conventions.empty() || is_scaled) add(conventions, find_body_rotation(reference, compared));
-  add(out.findings, std::move(conventions));
-  const Unchecked parts = unchecked_parts(reference, compared);
-  out.unchecked.insert(out.unchecked.end(), parts.reasons.begin(), parts.reasons.end());
-  out.has_checked = out.has_checked || parts.checks_units;
-  return out;
+  return PairDiagnosis(reference, estimate).run(reference_name, estimate_name, has_stamps);
 }
 
 std::vector<InputFinding> diagnose(const Trajectory& reference,

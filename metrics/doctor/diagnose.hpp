@@ -18,10 +18,11 @@ struct Diagnosis {
   bool has_checked = false;            ///< at least one check of frames, units or time was possible
 };
 
-/// Names are used by check_swapped() only. The time offset is estimated first: conventions, units
-/// and scale are compared at that offset. A lever arm is searched if none of these but scale is
-/// wrong. `has_stamps`: false if the stamps of either are generated, so that there is no time
-/// offset. O(1e6).
+/// Names are used by check_swapped() only. Stamps are corrected first, then conventions, units and
+/// bodies are compared with the corrected stamps, one repair after the other. What is found is
+/// tested on poses or intervals that were not used to estimate it. If no repair makes the files
+/// agree, they are of different recordings. `has_stamps`: false if the stamps of either are
+/// generated, so that there is no time offset. O(1e6).
 Diagnosis diagnosis(const Trajectory& reference,
                     const Trajectory& estimate,
                     const std::string& reference_name,

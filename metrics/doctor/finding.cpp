@@ -2,52 +2,42 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 namespace loopbench::metrics {
 
 std::string fault_name(Fault fault) {
-  switch (fault) {
-    case Fault::time_offset:
-      return "time_offset";
-    case Fault::stamp_unit:
-      return "stamp_unit";
-    case Fault::no_overlap:
-      return "no_overlap";
-    case Fault::constant_rotation:
-      return "constant_rotation";
-    case Fault::quaternion_order:
-      return "quaternion_order";
-    case Fault::conjugated:
-      return "conjugated";
-    case Fault::inverted_poses:
-      return "inverted_poses";
-    case Fault::axes:
-      return "axes";
-    case Fault::angle_unit:
-      return "angle_unit";
-    case Fault::length_unit:
-      return "length_unit";
-    case Fault::scale:
-      return "scale";
-    case Fault::swapped:
-      return "swapped";
-    case Fault::closure_direction:
-      return "closure_direction";
-    case Fault::closure_gap:
-      return "closure_gap";
-    case Fault::information_order:
-      return "information_order";
-    case Fault::information_scale:
-      return "information_scale";
-    case Fault::nothing_moved:
-      return "nothing_moved";
-    case Fault::edge_covariance:
-      return "edge_covariance";
-    case Fault::lever_arm:
-      return "lever_arm";
-    case Fault::body_rotation:
-      return "body_rotation";
-  }
-  return "unknown";
+  static const std::map<Fault, std::string> kNames{
+      {Fault::time_offset, "time_offset"},
+      {Fault::stamp_unit, "stamp_unit"},
+      {Fault::frame_indices, "frame_indices"},
+      {Fault::clock_drift, "clock_drift"},
+      {Fault::no_overlap, "no_overlap"},
+      {Fault::missing_poses, "missing_poses"},
+      {Fault::wrong_recording, "wrong_recording"},
+      {Fault::jumps, "jumps"},
+      {Fault::constant_rotation, "constant_rotation"},
+      {Fault::quaternion_order, "quaternion_order"},
+      {Fault::conjugated, "conjugated"},
+      {Fault::inverted_poses, "inverted_poses"},
+      {Fault::axes, "axes"},
+      {Fault::angle_unit, "angle_unit"},
+      {Fault::length_unit, "length_unit"},
+      {Fault::scale, "scale"},
+      {Fault::swapped, "swapped"},
+      {Fault::closure_direction, "closure_direction"},
+      {Fault::odometry_direction, "odometry_direction"},
+      {Fault::closure_rotation, "closure_rotation"},
+      {Fault::closure_unit, "closure_unit"},
+      {Fault::closure_frame, "closure_frame"},
+      {Fault::closure_gap, "closure_gap"},
+      {Fault::information_order, "information_order"},
+      {Fault::information_scale, "information_scale"},
+      {Fault::edge_covariance, "edge_covariance"},
+      {Fault::nothing_moved, "nothing_moved"},
+      {Fault::lever_arm, "lever_arm"},
+      {Fault::body_rotation, "body_rotation"}};
+  return kNames.at(fault);
 }
 
 std::string text(const InputFinding& finding) {

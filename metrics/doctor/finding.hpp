@@ -8,35 +8,48 @@ namespace loopbench::metrics {
 enum class Fault {
   time_offset,
   stamp_unit,         ///< milliseconds, microseconds or nanoseconds for seconds
+  frame_indices,      ///< frame numbers instead of seconds
+  clock_drift,        ///< clocks of different rates
   no_overlap,         ///< no common time
+  missing_poses,      ///< large gaps in the estimate
+  wrong_recording,    ///< files of different recordings
+  jumps,              ///< positions jump
   constant_rotation,  ///< one file has no rotations
   quaternion_order,
-  conjugated,         ///< rotations are inverted, positions are not
-  inverted_poses,     ///< world and body are exchanged
-  axes,               ///< mirrored or permuted axes
-  angle_unit,         ///< degrees for radians, or radians for degrees
-  length_unit,        ///< millimetres or centimetres for metres
-  scale,              ///< an estimate without metric scale, aligned without scale
-  swapped,            ///< reference and estimate are exchanged
-  closure_direction,  ///< closures from `to` to `from`
-  closure_gap,        ///< closures that the odometry contradicts
-  information_order,  ///< blocks of rotation and translation exchanged
-  information_scale,  ///< stated covariances contradict the residuals
-  edge_covariance,    ///< stated covariances of single closures contradict the residuals
-  nothing_moved,      ///< a correction without effect
-  lever_arm,          ///< the reference is that of another body
-  body_rotation       ///< the axes of the reference's body differ from the estimate's
+  conjugated,          ///< rotations are inverted, positions are not
+  inverted_poses,      ///< world and body are exchanged
+  axes,                ///< mirrored or permuted axes
+  angle_unit,          ///< degrees for radians, or radians for degrees
+  length_unit,         ///< millimetres or centimetres for metres
+  scale,               ///< an estimate without metric scale, aligned without scale
+  swapped,             ///< reference and estimate are exchanged
+  closure_direction,   ///< closures from `to` to `from`
+  odometry_direction,  ///< odometry from `to` to `from`
+  closure_rotation,    ///< quaternion order or unit of angles of closures
+  closure_unit,        ///< length units of closures and odometry differ
+  closure_frame,       ///< closures between other bodies than the odometry
+  closure_gap,         ///< closures that the odometry contradicts
+  information_order,   ///< blocks of rotation and translation exchanged
+  information_scale,   ///< stated covariances contradict the residuals
+  edge_covariance,     ///< stated covariances of single closures contradict the residuals
+  nothing_moved,       ///< a correction without effect
+  lever_arm,           ///< the reference is that of another body
+  body_rotation        ///< the axes of the reference's body differ from the estimate's
 };
+
+/// Findings with a smaller confidence are not reported.
+inline constexpr double kLeastConfidence = 0.25;
 
 /// "time_offset": short name of a fault.
 std::string fault_name(Fault fault);
 
 struct InputFinding {
   Fault fault{};
-  std::string evidence;     ///< numbers that show the mistake
-  std::string fix;          ///< what to do, as an option where there is one
-  double confidence = 0.0;  ///< 0..1: 1 - residual after / residual before the fix
-  double value = 0.0;       ///< offset [s], ratio, or number of edges; see `evidence`
+  std::string evidence;  ///< numbers that show the mistake
+  std::string fix;       ///< what to do, as an option where there is one
+  double confidence =
+      0.0;             ///< 0..1: 1 - error after / error before the fix, where that is measured
+  double value = 0.0;  ///< offset [s], ratio, or number of edges; see `evidence`
 };
 
 /// "time_offset: EVIDENCE; FIX (confidence 0.93)".

@@ -18,18 +18,34 @@ struct TimeOffset {
   bool has_common_time = true;  ///< at offset 0
 };
 
-/// The offset with the largest correlation of linear and angular speed: searched within 10 s, or
+/// The offset with the largest correlation of linear and angular speed: at most `searched` [s], or
 /// over all overlaps if the trajectories have no common time; refined to a fraction of a sample. An
 /// offset below 1 s is preferred to a larger one that fits equally well, as periodic motion has.
 /// The deviation follows from the residuals of the speeds and their slopes. nullopt without enough
 /// motion, or if no offset explains the speeds (correlation below 0.6). O(1e6).
 std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
-                                               const Trajectory& estimate);
+                                               const Trajectory& estimate,
+                                               double searched = 10.0);
 
-/// A finding if the offset is significant (four standard deviations, above 40 ms and 60 % of the
-/// estimate's interval) and gives a clearly higher correlation of the speeds than no offset: by
-/// 0.005, or by 0.0005 and half of what is missing to 1. Files without common time need a
-/// correlation of 0.85: those of different recordings reach 0.75 at some offset.
-std::optional<InputFinding> offset_finding(const TimeOffset& found, const Trajectory& estimate);
+/// A finding if the offset is significant (five standard deviations, above 12 ms and 35 % of the
+/// estimate's interval) and leaves at most 70 % of what the correlation of speeds does not explain
+/// without it, also on intervals kept for this test. Files without common time need a correlation
+/// of 0.85: those of different recordings reach 0.75 at some offset.
+std::optional<InputFinding> offset_finding(const TimeOffset& found,
+                                           const Trajectory& reference,
+                                           const Trajectory& estimate);
+
+/// The clock of the estimate: stamps become stamp + offset + rate * (stamp - origin).
+struct ClockDrift {
+  InputFinding finding;
+  double offset = 0.0;  ///< at the origin [s]
+  double rate = 0.0;    ///< [-]
+  double origin = 0.0;  ///< [s]
+};
+
+/// A finding if the offset grows from the first to the last third of the estimate and the offset of
+/// the middle third, which is not used for that, is between. O(1e6).
+std::optional<ClockDrift> check_clock_drift(const Trajectory& reference,
+                                            const Trajectory& estimate);
 
 }  // namespace loopbench::metrics

@@ -64,6 +64,61 @@ TEST(DoctorOfClosures, InvertedClosures) {
   EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_direction));
 }
 
+/// The vertices of a file state the motion that the odometry should have.
+TEST(DoctorOfClosures, InvertedOdometryIsNotAnsweredByInvertedClosures) {
+  Problem problem = rounds();
+  for (Edge& edge : problem.odometry) edge.from_from_to = edge.from_from_to.inverse();
+  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::odometry_direction));
+}
+
+TEST(DoctorOfClosures, ConventionsOfClosures) {
+  const auto changed = [](auto change) {
+    Problem problem = rounds();
+    for (Edge& edge : problem.closures) {
+      // Revisits in another direction, so that the rotations matter.
+      edge.from_from_to = edge.from_from_to * Pose{exp_so3({0, 0, 0.4}), Vector3::Zero()};
+      edge.from_from_to = change(edge.from_from_to);
+    }
+    for (std::size_t i = 60; i < 120; ++i) {  // the second round is driven with another heading
+      problem.keyframes[i].world_from_body.rotation =
+          problem.keyframes[i].world_from_body.rotation * exp_so3({0, 0, 0.4});
+      Edge& edge = problem.odometry[i - 1];
+      const Rotation heading = exp_so3({0, 0, 0.4});
+      if (i > 60)
+        edge.from_from_to = Pose{heading.conjugate(), Vector3::Zero()} * edge.from_from_to;
+      edge.from_from_to = edge.from_from_to * Pose{heading, Vector3::Zero()};
+    }
+    return closure_faults(problem);
+  };
+  EXPECT_THAT(changed([](const Pose& p) { return p; }), IsEmpty());
+  EXPECT_THAT(changed([](const Pose& p) -> Pose {
+                return {p.rotation, 1000.0 * p.translation};
+              }),
+              ElementsAre(Fault::closure_unit));
+  EXPECT_THAT(changed([](const Pose& p) -> Pose {
+                const Rotation& q = p.rotation;
+                return {Rotation(q.z(), q.w(), q.x(), q.y()), p.translation};
+              }),
+              ElementsAre(Fault::closure_rotation));
+  EXPECT_THAT(changed([](const Pose& p) -> Pose {
+                return {exp_so3(180.0 / M_PI * log_so3(p.rotation)), p.translation};
+              }),
+              ElementsAre(Fault::closure_rotation));
+  EXPECT_THAT(changed([](const Pose& p) {
+                const Pose camera{Rotation(0.5, -0.5, 0.5, -0.5), Vector3::Zero()};
+                return camera.inverse() * p * camera;
+              }),
+              ElementsAre(Fault::closure_frame));
+}
+
+/// Of closures that are mostly false, no covariance can be judged.
+TEST(DoctorOfClosures, ManyFalseClosuresShowNothingAboutTheInformation) {
+  Problem problem = rounds();
+  const Matrix6 information = problem.closures[0].information;
+  for (std::size_t i = 0; i < 50; ++i) problem.closures.push_back({i, i + 30, Pose{}, information});
+  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_gap));
+}
+
 TEST(DoctorOfClosures, AFalseClosure) {
   Problem problem = rounds();
   problem.closures.push_back({10, 40, Pose{}, problem.closures[0].information});

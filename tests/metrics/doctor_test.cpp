@@ -4,62 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/diagnose.hpp"
 #include "metrics/doctor/time_offset.hpp"
+#include "tests/metrics/doctor_pairs.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::doctor_test {
 namespace {
 
 using namespace metrics;
+using namespace test;
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-/// A path through space with varied speed and rotation about all axes.
-Pose at(double t) {
-  const Vector3 phi(0.5 * std::sin(0.9 * t), 0.4 * std::cos(1.3 * t), 0.6 * t);
-  return {exp_so3({0, 0, phi.z()}) * exp_so3({phi.x(), phi.y(), 0}),
-          {4 * std::cos(0.6 * t + 0.2 * std::sin(t)), 3 * std::sin(0.6 * t), std::sin(0.35 * t)}};
-}
-
-Trajectory sampled(double rate, double offset = 0.0) {
-  // Small errors that a tracker makes; in another world and body frame.
-  const Pose world{exp_so3({0.1, -0.2, 1.0}), {5, 6, 7}};
-  const Pose body{exp_so3({0.2, 0.1, -0.3}), Vector3::Zero()};
-  Trajectory out;
-  for (double t = 1.0; t < 40.0; t += 1.0 / rate) {
-    const Pose error{exp_so3(0.004 * Vector3(std::sin(31 * t), std::cos(47 * t), std::sin(23 * t))),
-                     0.004 * Vector3(std::cos(29 * t), std::sin(37 * t), std::sin(41 * t))};
-    out.push_back({t - offset, normalized(world * at(t) * error * body)});
-  }
-  return out;
-}
-
-const Trajectory& truth() {
-  static const Trajectory out = [] {
-    Trajectory poses;
-    for (double t = 0.0; t < 41.0; t += 0.01) poses.push_back({t, at(t)});
-    return poses;
-  }();
-  return out;
-}
-
-template <class Change>
-Trajectory each(Trajectory poses, Change change) {
-  for (auto& [stamp, pose] : poses) pose = change(pose);
-  return poses;
-}
-
-std::vector<Fault> faults(const Trajectory& reference, const Trajectory& estimate) {
-  std::vector<Fault> out;
-  for (const InputFinding& finding : diagnose(reference, estimate, "reference.txt", "run.txt")) {
-    EXPECT_GT(finding.confidence, 0.0) << text(finding);
-    EXPECT_LE(finding.confidence, 1.0) << text(finding);
-    out.push_back(finding.fault);
-  }
-  return out;
-}
 
 TEST(Doctor, FindsNothingInGoodFiles) { EXPECT_THAT(faults(truth(), sampled(20)), IsEmpty()); }
 
@@ -235,37 +191,6 @@ TEST(Doctor, AnOffsetThatDoesNotRaiseTheCorrelationIsNoFinding) {
   }
 }
 
-TEST(Doctor, FilesWithoutCommonTime) {
-  Trajectory in_milliseconds = sampled(20), other = sampled(20);
-  for (StampedPose& pose : in_milliseconds) pose.stamp *= 1000.0;
-  EXPECT_THAT(faults(truth(), in_milliseconds), ElementsAre(Fault::stamp_unit));
-  EXPECT_THAT(faults(in_milliseconds, sampled(20)), ElementsAre(Fault::stamp_unit));
-  for (StampedPose& pose : other) {
-    // Another recording: constant speed, no rotation.
-    pose = {pose.stamp + 5000.0, {Rotation::Identity(), {pose.stamp, 0, 0}}};
-  }
-  EXPECT_THAT(faults(truth(), other), testing::Contains(Fault::no_overlap));
-}
-
-TEST(Doctor, ConstantRotation) {
-  const auto without = [](const Pose& p) -> Pose { return {Rotation::Identity(), p.translation}; };
-  EXPECT_THAT(faults(truth(), each(sampled(20), without)), ElementsAre(Fault::constant_rotation));
-}
-
-TEST(Doctor, NamesWhatCannotBeChecked) {
-  const Diagnosis single = diagnosis(truth(), {sampled(20)[3]}, "gt.txt", "run.txt");
-  EXPECT_THAT(single.findings, IsEmpty());
-  EXPECT_FALSE(single.has_checked);
-  EXPECT_THAT(single.unchecked,
-              ElementsAre(testing::HasSubstr("time offset: "),
-                          testing::HasSubstr("units, scale: 1 poses of the estimate"),
-                          testing::HasSubstr("quaternion order, inverted poses, axes: 1 poses")));
-  const Diagnosis good = diagnosis(truth(), sampled(20), "gt.txt", "run.txt");
-  EXPECT_TRUE(good.has_checked);
-  EXPECT_THAT(good.unchecked, IsEmpty());
-  EXPECT_FALSE(good.offset) << "no offset is printed unless it is a finding";
-}
-
 /// A car on a plane whose heading drifts by `drift` at the end [rad].
 Trajectory driven(double drift) {
   Trajectory out;
@@ -309,27 +234,6 @@ TEST(Doctor, LeverArm) {
   const auto found = diagnose(truth(), estimate, "reference.txt", "run.txt");
   EXPECT_NEAR(found[0].value, other.translation.norm(), 0.05);
   EXPECT_THAT(found[0].fix, testing::StartsWith("--ref-body="));
-}
-
-TEST(Doctor, ExchangedFilesByNameOrRate) {
-  const auto all = diagnose(sampled(20), truth(), "run.txt", "groundtruth.txt");
-  ASSERT_FALSE(all.empty());
-  EXPECT_EQ(all[0].fault, Fault::swapped);
-  EXPECT_THAT(diagnose(truth(), sampled(20), "gt.txt", "gt_odometry.txt"), IsEmpty());
-}
-
-TEST(CommonMotion, FindsThePoseAtOrAfterAStampFromAnyHint) {
-  Trajectory poses;
-  for (const double stamp : {0.0, 1.0, 1.5, 1.6, 4.0, 9.0, 9.5}) poses.push_back({stamp, {}});
-  for (const double stamp : {-1.0, 0.0, 0.5, 1.0, 1.55, 4.0, 8.0, 9.5, 10.0}) {
-    const auto expected = std::ranges::lower_bound(poses, stamp, {}, &StampedPose::stamp);
-    for (std::size_t hint = 0; hint <= poses.size() + 1; ++hint) {
-      EXPECT_EQ(first_from(poses, stamp, hint), static_cast<std::size_t>(expected - poses.begin()))
-          << stamp << " from " << hint;
-    }
-  }
-  EXPECT_EQ(first_from({}, 1.0, 0), 0u);
-  EXPECT_DOUBLE_EQ(usual_interval(poses), 1.0);
 }
 
 }  // namespace

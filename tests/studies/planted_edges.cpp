@@ -160,6 +160,15 @@ std::string unless_alike(const Problem& problem) {
                               ratio);
 }
 
+/// Rotations that are nearly zero are so in any unit.
+std::string unless_parallel(const Problem& problem) {
+  std::vector<double> angles;
+  for (const Edge& edge : problem.closures) {
+    angles.push_back(angle_between(edge.from_from_to.rotation, Rotation::Identity()));
+  }
+  return metrics::median_value(std::move(angles)) < 0.1 ? "the closures hardly rotate" : "";
+}
+
 }  // namespace
 
 std::vector<PlantedEdges> edge_faults() {
@@ -179,7 +188,7 @@ std::vector<PlantedEdges> edge_faults() {
       {"closures in degrees, converted twice",
        "closure_rotation",
        each_closure(angles_times(1.0 / kDegree)),
-       always},
+       unless_parallel},
       {"closures of another body", "closure_frame", each_closure(between_cameras), always},
       {"closures in millimetres", "closure_unit", each_closure(times(1000.0)), always},
       {"odometry in millimetres", "closure_unit", each_step(times(1000.0)), always},

@@ -1,0 +1,65 @@
+/// How well simultaneous poses of two trajectories agree, measured on poses that no fit has used.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "metrics/doctor/common_motion.hpp"
+
+namespace loopbench::metrics {
+
+/// Twenty blocks of poses, alternately for fits and for tests.
+bool is_fitted(std::size_t index, std::size_t size);
+
+/// The poses that fits may use. O(n).
+CommonPoses fitted_part(const CommonPoses& poses);
+
+/// Errors of the test poses [-], [m] or [rad]. Displacements and rotations over short distances are
+/// compared in body frames, up to a constant rotation of the body and a scale: drift hardly changes
+/// them, and no world frame does.
+struct Agreement {
+  double position = 0.0;      ///< rmse after a rigid alignment [m]
+  double similarity = 0.0;    ///< rmse after a similarity [m]
+  double spread = 0.0;        ///< standard deviation of the reference's positions [m]
+  double rotation = 0.0;      ///< median angle after the alignment of positions [rad]
+  double displacement = 0.0;  ///< median error of displacements, over their median length [-]
+  double turning = 0.0;       ///< rms error of relative rotations, over their rms [-]
+  bool has_rotations = true;  ///< false: the rotation of one list is constant
+
+  /// Sum of logarithms of all relative errors; smaller is better.
+  double cost() const;
+};
+
+/// Alignments and constant rotations are fitted to one half. All errors are 0 below 20 poses. O(n).
+Agreement agreement(const CommonPoses& poses);
+
+/// The measure that a change improves most.
+struct Improvement {
+  std::string text;    ///< "rotation error 90.1 -> 2.5 deg"
+  double ratio = 1.0;  ///< after over before
+};
+
+Improvement improvement(const Agreement& before, const Agreement& after);
+
+struct PositionFit {
+  Matrix3 rotation = Matrix3::Identity();  ///< reference_from_estimate
+  Vector3 mean_reference = Vector3::Zero();
+  Vector3 mean_estimate = Vector3::Zero();
+  double scale = 1.0;
+};
+
+/// Least-squares similarity of positions (Umeyama 1991). O(n).
+PositionFit fit_positions(const CommonPoses& poses);
+
+/// The rotation of the body that maps the estimate's rotations, after alignment of the positions,
+/// to the reference's: body_from_reference. O(n).
+Rotation fit_body(const CommonPoses& poses);
+
+inline constexpr std::size_t kFewestCommonPoses = 20;  ///< fewer cannot be checked
+inline constexpr std::size_t kMostCommonPoses = 1500;  ///< that are compared
+inline constexpr double kLeastRotation = 0.05;         ///< smaller ones cannot be checked [rad]
+
+/// Whether some rotation differs from the first one by more than kLeastRotation. O(n).
+bool has_rotations(const std::vector<Pose>& poses);
+
+}  // namespace loopbench::metrics

@@ -1,0 +1,195 @@
+#include "metrics/doctor/stamp_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "metrics/doctor/agreement.hpp"
+#include "metrics/doctor/common_motion.hpp"
+#include "metrics/doctor/time_offset.hpp"
+
+namespace loopbench::metrics {
+namespace {
+
+struct TimeRange {
+  double begin = 0.0;
+  double end = 0.0;
+
+  double length() const { return end - begin; }
+};
+
+TimeRange range_of(const Trajectory& poses, double factor = 1.0) {
+  return {factor * poses.front().stamp, factor * poses.back().stamp};
+}
+
+/// Length of the common range; negative: the distance between the ranges.
+double overlap(const TimeRange& a, const TimeRange& b) {
+  return std::min(a.end, b.end) - std::max(a.begin, b.begin);
+}
+
+const char* fraction_name(double factor) {
+  if (factor == 1e3) return "milliseconds";
+  return factor == 1e6 ? "microseconds" : "nanoseconds";
+}
+
+/// Poses of the estimate in the reference's time [%].
+double paired_share(const Trajectory& reference, const Trajectory& estimate) {
+  const auto count = common_poses(reference, estimate, 0.0, estimate.size()).stamps.size();
+  return 100.0 * static_cast<double>(count) / static_cast<double>(estimate.size());
+}
+
+Trajectory restamped(Trajectory poses, double factor, double offset) {
+  for (StampedPose& pose : poses) pose.stamp = factor * pose.stamp + offset;
+  return poses;
+}
+
+bool has_frame_indices(const Trajectory& poses) {
+  constexpr double kRounding = 1e-6, kMostFirst = 1000.0;
+  constexpr double kMostStep = 20.0;  // keyframes skip frames
+  const double first = poses.front().stamp;
+  if (first < 0.0 || first > kMostFirst || usual_interval(poses) > kMostStep) return false;
+  return std::ranges::all_of(poses, [&](const StampedPose& pose) {
+    return std::abs(pose.stamp - std::round(pose.stamp)) < kRounding;
+  });
+}
+
+}  // namespace
+
+std::optional<StampRepair> check_stamp_unit(const Trajectory& reference,
+                                            const Trajectory& estimate) {
+  constexpr double kHardly = 0.01, kMostly = 0.5, kLeastPart = 0.05;
+  if (reference.size() < 2 || estimate.size() < 2) return std::nullopt;
+  const TimeRange of_reference = range_of(reference), of_estimate = range_of(estimate);
+  const double longer = std::max(of_reference.length(), of_estimate.length());
+  if (overlap(of_reference, of_estimate) > kHardly * longer) return std::nullopt;
+  for (const double factor : {1e3, 1e6, 1e9}) {
+    for (const bool is_reference : {false, true}) {
+      const TimeRange a = range_of(reference, is_reference ? 1.0 / factor : 1.0);
+      const TimeRange b = range_of(estimate, is_reference ? 1.0 : 1.0 / factor);
+      const double shorter = std::min(a.length(), b.length());
+      const bool is_alike = shorter > kLeastPart * std::max(a.length(), b.length());
+      if (!is_alike || overlap(a, b) < kMostly * shorter) continue;
+      const double of_stamps = is_reference ? factor : 1.0 / factor;
+      return StampRepair{
+          {Fault::stamp_unit,
+           fmt::format("the stamps of the {} are {:g} times too large ({}): paired poses "
+                       "{:.0f} -> {:.0f} %",
+                       is_reference ? "reference" : "estimate",
+                       factor,
+                       fraction_name(factor),
+                       paired_share(reference, estimate),
+                       paired_share(reference, restamped(estimate, of_stamps, 0.0))),
+           fmt::format(
+               "traj transform {} --stamp-scale {:g}", is_reference ? "REF" : "EST", 1.0 / factor),
+           1.0,
+           1.0 / of_stamps},
+          1.0 / factor,
+          0.0,
+          is_reference};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<StampRepair> check_frame_indices(const Trajectory& reference,
+                                               const Trajectory& estimate) {
+  constexpr double kAgrees = 0.7;  // correlation of speeds
+  if (reference.size() < kFewestCommonPoses || estimate.size() < kFewestCommonPoses ||
+      !has_frame_indices(estimate) || has_frame_indices(reference)) {
+    return std::nullopt;
+  }
+  const TimeRange of_reference = range_of(reference), of_estimate = range_of(estimate);
+  std::optional<TimeOffset> as_read;
+  if (overlap(of_reference, of_estimate) > 0.0) {
+    as_read = estimate_time_offset(reference, estimate, 0.0);
+  }
+  if (as_read && as_read->before > kAgrees) return std::nullopt;
+  double best = kAgrees, factor = 0.0, offset = 0.0;
+  std::vector<double> intervals{of_reference.length() / of_estimate.length()};
+  for (const double rate : {5, 10, 15, 20, 25, 30, 50, 60, 100, 200}) {
+    const double length = of_estimate.length() / rate;
+    const bool is_possible =
+        length > 0.3 * of_reference.length() && length < 1.5 * of_reference.length();
+    if (is_possible) intervals.push_back(1.0 / rate);
+  }
+  for (const double interval : intervals) {
+    const double begin = of_reference.begin - interval * of_estimate.begin;
+    const auto found = estimate_time_offset(
+        reference, restamped(estimate, interval, begin), 0.5 * of_reference.length());
+    if (!found || !(found->correlation > best)) continue;
+    best = found->correlation;
+    factor = interval;
+    offset = begin + found->offset;
+  }
+  if (factor == 0.0) return std::nullopt;
+  return StampRepair{
+      {Fault::frame_indices,
+       fmt::format("the estimate's stamps are frame indices: with {:.4g} s per frame, paired poses "
+                   "{:.0f} -> {:.0f} %, correlation of speeds {:.2f} -> {:.2f}",
+                   factor,
+                   paired_share(reference, estimate),
+                   paired_share(reference, restamped(estimate, factor, offset)),
+                   as_read ? as_read->before : 0.0,
+                   best),
+       fmt::format("traj transform EST --stamp-scale {:.6g}, then --offset {:.4f}", factor, offset),
+       best,
+       factor},
+      factor,
+      offset};
+}
+
+std::optional<InputFinding> check_overlap(const Trajectory& reference, const Trajectory& estimate) {
+  if (reference.empty() || estimate.empty()) return std::nullopt;
+  const TimeRange a = range_of(reference), b = range_of(estimate);
+  const double distance = -overlap(a, b);
+  if (!(distance > 0.0)) return std::nullopt;
+  return InputFinding{Fault::no_overlap,
+                      fmt::format("the estimate's stamps ({:.3f} to {:.3f} s) and the reference's "
+                                  "({:.3f} to {:.3f} s) have no common time",
+                                  b.begin,
+                                  b.end,
+                                  a.begin,
+                                  a.end),
+                      "give files of the same recording, or the offset of their clocks (--offset)",
+                      1.0,
+                      distance};
+}
+
+std::optional<InputFinding> check_missing(const Trajectory& reference, const Trajectory& estimate) {
+  constexpr double kLeastShare = 0.25, kLeastGap = 2.0, kOfInterval = 10.0;
+  if (reference.size() < kFewestCommonPoses || estimate.size() < kFewestCommonPoses) {
+    return std::nullopt;
+  }
+  const double least = std::max(kLeastGap, kOfInterval * usual_interval(estimate));
+  double all = 0.0, missing = 0.0;  // [m]
+  double longest = 0.0, longest_begin = 0.0;
+  std::size_t next = 0;
+  for (std::size_t i = 1; i < reference.size(); ++i) {
+    const auto& [stamp, pose] = reference[i];
+    const double step = (pose.translation - reference[i - 1].world_from_body.translation).norm();
+    all += step;
+    next = first_from(estimate, stamp, next);
+    const double begin = next == 0 ? reference.front().stamp : estimate[next - 1].stamp;
+    const double end = next == estimate.size() ? reference.back().stamp : estimate[next].stamp;
+    if (end - begin < least) continue;
+    missing += step;
+    if (end - begin <= longest) continue;
+    longest = end - begin;
+    longest_begin = begin;
+  }
+  const double share = all > 0.0 ? missing / all : 0.0;
+  if (share < kLeastShare) return std::nullopt;
+  return InputFinding{
+      Fault::missing_poses,
+      fmt::format("the estimate has no poses for {:.0f} % of the reference's path; the longest "
+                  "gap has {:.1f} s and begins at {:.3f}",
+                  100.0 * share,
+                  longest,
+                  longest_begin),
+      "errors hold for the covered part only: state the coverage, or run the system again",
+      1.0,
+      share};
+}
+
+}  // namespace loopbench::metrics

@@ -1,0 +1,148 @@
+/// Findings of `doctor` about whole files: stamps, gaps, jumps, content.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "metrics/doctor/common_motion.hpp"
+#include "metrics/doctor/diagnose.hpp"
+#include "tests/metrics/doctor_pairs.hpp"
+
+namespace loopbench::doctor_files_test {
+namespace {
+
+using namespace metrics;
+using namespace test;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(Doctor, FilesWithoutCommonTime) {
+  Trajectory in_milliseconds = sampled(20), other = sampled(20);
+  for (StampedPose& pose : in_milliseconds) pose.stamp *= 1000.0;
+  EXPECT_THAT(faults(truth(), in_milliseconds), ElementsAre(Fault::stamp_unit));
+  EXPECT_THAT(faults(in_milliseconds, sampled(20)), ElementsAre(Fault::stamp_unit));
+  for (StampedPose& pose : other) {
+    // Another recording: constant speed, no rotation.
+    pose = {pose.stamp + 5000.0, {Rotation::Identity(), {pose.stamp, 0, 0}}};
+  }
+  EXPECT_THAT(faults(truth(), other), testing::Contains(Fault::no_overlap));
+}
+
+TEST(Doctor, ConstantRotation) {
+  const auto without = [](const Pose& p) -> Pose { return {Rotation::Identity(), p.translation}; };
+  EXPECT_THAT(faults(truth(), each(sampled(20), without)), ElementsAre(Fault::constant_rotation));
+}
+
+TEST(Doctor, NamesWhatCannotBeChecked) {
+  const Diagnosis single = diagnosis(truth(), {sampled(20)[3]}, "gt.txt", "run.txt");
+  EXPECT_THAT(single.findings, IsEmpty());
+  EXPECT_FALSE(single.has_checked);
+  EXPECT_THAT(single.unchecked,
+              ElementsAre(testing::HasSubstr("time offset: "),
+                          testing::HasSubstr("units, scale: 1 poses of the estimate"),
+                          testing::HasSubstr("quaternion order, inverted poses, axes: 1 poses")));
+  const Diagnosis good = diagnosis(truth(), sampled(20), "gt.txt", "run.txt");
+  EXPECT_TRUE(good.has_checked);
+  EXPECT_THAT(good.unchecked, IsEmpty());
+  EXPECT_FALSE(good.offset) << "no offset is printed unless it is a finding";
+}
+
+TEST(Doctor, ExchangedFilesByNameOrRate) {
+  const auto all = diagnose(sampled(20), truth(), "run.txt", "groundtruth.txt");
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all[0].fault, Fault::swapped);
+  EXPECT_THAT(diagnose(truth(), sampled(20), "gt.txt", "gt_odometry.txt"), IsEmpty());
+}
+
+TEST(CommonMotion, FindsThePoseAtOrAfterAStampFromAnyHint) {
+  Trajectory poses;
+  for (const double stamp : {0.0, 1.0, 1.5, 1.6, 4.0, 9.0, 9.5}) poses.push_back({stamp, {}});
+  for (const double stamp : {-1.0, 0.0, 0.5, 1.0, 1.55, 4.0, 8.0, 9.5, 10.0}) {
+    const auto expected = std::ranges::lower_bound(poses, stamp, {}, &StampedPose::stamp);
+    for (std::size_t hint = 0; hint <= poses.size() + 1; ++hint) {
+      EXPECT_EQ(first_from(poses, stamp, hint), static_cast<std::size_t>(expected - poses.begin()))
+          << stamp << " from " << hint;
+    }
+  }
+  EXPECT_EQ(first_from({}, 1.0, 0), 0u);
+  EXPECT_DOUBLE_EQ(usual_interval(poses), 1.0);
+}
+
+TEST(Doctor, ClockDrift) {
+  for (const double rate : {0.001, -0.001, 0.005, -0.005}) {
+    Trajectory estimate = sampled(20);
+    for (StampedPose& pose : estimate) pose.stamp = 1.0 + (1.0 + rate) * (pose.stamp - 1.0);
+    const auto found = diagnose(truth(), estimate, "reference.txt", "run.txt");
+    ASSERT_EQ(found.size(), 1u) << rate;
+    EXPECT_EQ(found[0].fault, Fault::clock_drift);
+    EXPECT_NEAR(found[0].value, -rate, 0.1 * std::abs(rate) + 1e-4);
+  }
+}
+
+TEST(Doctor, HalfAFrameOfOffset) {
+  EXPECT_THAT(faults(truth(), sampled(20, 0.025)), ElementsAre(Fault::time_offset));
+  EXPECT_THAT(faults(truth(), sampled(20, -0.025)), ElementsAre(Fault::time_offset));
+}
+
+TEST(Doctor, FrameIndicesAsStamps) {
+  Trajectory estimate = sampled(20);
+  for (std::size_t i = 0; i < estimate.size(); ++i) estimate[i].stamp = static_cast<double>(i);
+  const auto found = diagnose(truth(), estimate, "reference.txt", "run.txt");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].fault, Fault::frame_indices);
+  EXPECT_NEAR(found[0].value, 0.05, 1e-3);
+}
+
+TEST(Doctor, MissingPoses) {
+  Trajectory estimate = sampled(20);
+  estimate.erase(estimate.begin() + 200, estimate.begin() + 450);
+  EXPECT_THAT(faults(truth(), estimate), ElementsAre(Fault::missing_poses));
+}
+
+TEST(Doctor, Jumps) {
+  Trajectory estimate = sampled(20);
+  for (std::size_t i = 300; i < estimate.size(); ++i) {
+    estimate[i].world_from_body.translation.x() += 2.0;
+  }
+  const auto found = diagnose(truth(), estimate, "reference.txt", "run.txt");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].fault, Fault::jumps);
+  EXPECT_THAT(found[0].evidence, HasSubstr(" 16.000 s"));
+}
+
+/// The path of another day, with other curves at other times.
+TEST(Doctor, AnotherRecording) {
+  Trajectory other;
+  for (double t = 0.0; t < 41.0; t += 0.05) {
+    other.push_back(
+        {t,
+         {exp_so3({0, 0, 0.9 * std::sin(0.37 * t + 1)}) * exp_so3({0.2 * std::cos(2.1 * t), 0, 0}),
+          {3 * std::sin(0.23 * t), 2 * std::cos(0.71 * t), std::sin(1.1 * t)}}});
+  }
+  EXPECT_THAT(faults(truth(), other), ElementsAre(Fault::wrong_recording));
+}
+
+/// Total stations measure positions at a low rate.
+TEST(Doctor, AReferenceWithoutRotationsIsNotExchanged) {
+  Trajectory reference;
+  for (std::size_t i = 0; i < truth().size(); i += 20) {
+    reference.push_back(
+        {truth()[i].stamp, {Rotation::Identity(), truth()[i].world_from_body.translation}});
+  }
+  EXPECT_THAT(faults(reference, truth()), ElementsAre(Fault::constant_rotation));
+}
+
+TEST(Doctor, PrintsWhatARepairChanges) {
+  const auto exchanged = each(sampled(20), [](const Pose& p) -> Pose {
+    return {p.rotation, {p.translation.y(), p.translation.x(), p.translation.z()}};
+  });
+  const auto found = diagnose(truth(), exchanged, "reference.txt", "run.txt");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].evidence, HasSubstr("exchanging x and y of the estimate's positions: "));
+  EXPECT_THAT(found[0].evidence, HasSubstr(" -> "));
+}
+
+}  // namespace
+}  // namespace loopbench::doctor_files_test

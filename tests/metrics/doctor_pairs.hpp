@@ -1,0 +1,63 @@
+/// A simulated pair of trajectories for tests of `doctor`.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "datasets/core/trajectory.hpp"
+#include "metrics/doctor/diagnose.hpp"
+
+namespace loopbench::test {
+
+using metrics::Fault;
+using metrics::InputFinding;
+
+/// A path through space with varied speed and rotation about all axes.
+inline Pose at(double t) {
+  const Vector3 phi(0.5 * std::sin(0.9 * t), 0.4 * std::cos(1.3 * t), 0.6 * t);
+  return {exp_so3({0, 0, phi.z()}) * exp_so3({phi.x(), phi.y(), 0}),
+          {4 * std::cos(0.6 * t + 0.2 * std::sin(t)), 3 * std::sin(0.6 * t), std::sin(0.35 * t)}};
+}
+
+inline Trajectory sampled(double rate, double offset = 0.0) {
+  // Small errors that a tracker makes; in another world and body frame.
+  const Pose world{exp_so3({0.1, -0.2, 1.0}), {5, 6, 7}};
+  const Pose body{exp_so3({0.2, 0.1, -0.3}), Vector3::Zero()};
+  Trajectory out;
+  for (double t = 1.0; t < 40.0; t += 1.0 / rate) {
+    const Pose error{exp_so3(0.004 * Vector3(std::sin(31 * t), std::cos(47 * t), std::sin(23 * t))),
+                     0.004 * Vector3(std::cos(29 * t), std::sin(37 * t), std::sin(41 * t))};
+    out.push_back({t - offset, normalized(world * at(t) * error * body)});
+  }
+  return out;
+}
+
+inline const Trajectory& truth() {
+  static const Trajectory out = [] {
+    Trajectory poses;
+    for (double t = 0.0; t < 41.0; t += 0.01) poses.push_back({t, at(t)});
+    return poses;
+  }();
+  return out;
+}
+
+template <class Change>
+Trajectory each(Trajectory poses, Change change) {
+  for (auto& [stamp, pose] : poses) pose = change(pose);
+  return poses;
+}
+
+inline std::vector<Fault> faults(const Trajectory& reference, const Trajectory& estimate) {
+  std::vector<Fault> out;
+  for (const InputFinding& finding :
+       metrics::diagnose(reference, estimate, "reference.txt", "run.txt")) {
+    EXPECT_GT(finding.confidence, 0.0) << text(finding);
+    EXPECT_LE(finding.confidence, 1.0) << text(finding);
+    out.push_back(finding.fault);
+  }
+  return out;
+}
+
+}  // namespace loopbench::test
