@@ -115,7 +115,7 @@ TEST(DoctorOfClosures, ConventionsOfClosures) {
 TEST(DoctorOfClosures, ManyFalseClosuresShowNothingAboutTheInformation) {
   Problem problem = rounds();
   const Matrix6 information = problem.closures[0].information;
-  for (std::size_t i = 0; i < 50; ++i) problem.closures.push_back({i, i + 30, Pose{}, information});
+  for (std::size_t i = 0; i < 50; ++i) problem.closures.push_back({i, i + 25, Pose{}, information});
   EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_gap));
 }
 

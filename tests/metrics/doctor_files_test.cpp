@@ -70,9 +70,16 @@ TEST(CommonMotion, FindsThePoseAtOrAfterAStampFromAnyHint) {
   EXPECT_DOUBLE_EQ(usual_interval(poses), 1.0);
 }
 
+/// Every fifth pose of the truth, so that errors hide no small offset.
+Trajectory without_errors() {
+  Trajectory out;
+  for (std::size_t i = 100; i + 100 < truth().size(); i += 5) out.push_back(truth()[i]);
+  return out;
+}
+
 TEST(Doctor, ClockDrift) {
   for (const double rate : {0.001, -0.001, 0.005, -0.005}) {
-    Trajectory estimate = sampled(20);
+    Trajectory estimate = without_errors();
     for (StampedPose& pose : estimate) pose.stamp = 1.0 + (1.0 + rate) * (pose.stamp - 1.0);
     const auto found = diagnose(truth(), estimate, "reference.txt", "run.txt");
     ASSERT_EQ(found.size(), 1u) << rate;
@@ -82,8 +89,11 @@ TEST(Doctor, ClockDrift) {
 }
 
 TEST(Doctor, HalfAFrameOfOffset) {
-  EXPECT_THAT(faults(truth(), sampled(20, 0.025)), ElementsAre(Fault::time_offset));
-  EXPECT_THAT(faults(truth(), sampled(20, -0.025)), ElementsAre(Fault::time_offset));
+  for (const double offset : {0.025, -0.025}) {
+    Trajectory estimate = without_errors();
+    for (StampedPose& pose : estimate) pose.stamp += offset;
+    EXPECT_THAT(faults(truth(), estimate), ElementsAre(Fault::time_offset)) << offset;
+  }
 }
 
 TEST(Doctor, FrameIndicesAsStamps) {
