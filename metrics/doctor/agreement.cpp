@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "metrics/alignment/hand_eye.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {
@@ -83,6 +84,22 @@ void compare_motions(const CommonPoses& poses, Agreement& out) {
     error_squares += (each.reference_rotated - body * each.estimate_rotated).squaredNorm();
     squares += each.reference_rotated.squaredNorm();
   }
+  Trajectory reference, estimate;
+  for (std::size_t i = 0; i < poses.stamps.size(); ++i) {
+    if (is_fitted(i, poses.stamps.size())) continue;
+    reference.push_back({poses.stamps[i], poses.reference[i]});
+    estimate.push_back({poses.stamps[i], poses.estimate[i]});
+  }
+  constexpr double kAngle = 6.0 / kDegrees, kLongest = 10.0;  // [s]
+  std::vector<double> swings, swing_lengths;
+  for (const auto& [q, z] : rotating_intervals(reference, estimate, kAngle, kLongest)) {
+    swings.push_back((q.translation - scale * (body * z.translation)).norm());
+    swing_lengths.push_back(q.translation.norm());
+  }
+  if (swings.size() > 5) {
+    out.swing = median_value(std::move(swings));
+    out.swing_length = median_value(std::move(swing_lengths));
+  }
   const double length = median_value(std::move(lengths));
   out.displacement = length > 0.0 ? median_value(std::move(errors)) / length : 0.0;
   out.turning = squares > 0.0 ? std::sqrt(error_squares / squares) : 0.0;
@@ -112,6 +129,7 @@ double Agreement::cost() const {
   if (has_rotations) {
     out += std::log(displacement + kFloor) + std::log(turning + kFloor) +
            std::log(rotation + kFloorOfAngle);
+    if (swing_length > 0.0) out += std::log(swing / swing_length + kFloor);
   }
   return out;
 }
@@ -209,6 +227,12 @@ Improvement improvement(const Agreement& before, const Agreement& after) {
           fmt::format("error of relative rotations {:.1f} -> {:.1f} %",
                       100.0 * before.turning,
                       100.0 * after.turning));
+  compare(
+      before.swing,
+      after.swing,
+      0.02 * before.swing_length,
+      fmt::format(
+          "error of displacements over rotations {:.3g} -> {:.3g} m", before.swing, after.swing));
   return out;
 }
 

@@ -24,6 +24,8 @@ struct Agreement {
   double rotation = 0.0;      ///< median angle after the alignment of positions [rad]
   double displacement = 0.0;  ///< median error of displacements, over their median length [-]
   double turning = 0.0;       ///< rms error of relative rotations, over their rms [-]
+  double swing = 0.0;         ///< median error of displacements over rotations of 6 deg [m]
+  double swing_length = 0.0;  ///< median of these displacements [m]
   bool has_rotations = true;  ///< false: the rotation of one list is constant
 
   /// Sum of logarithms of all relative errors; smaller is better.

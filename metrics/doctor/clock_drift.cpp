@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "metrics/doctor/agreement.hpp"
+#include "metrics/doctor/speed_match.hpp"
 #include "metrics/doctor/time_offset.hpp"
 
 namespace loopbench::metrics {
@@ -45,17 +46,28 @@ std::optional<ClockDrift> check_clock_drift(const Trajectory& reference,
     return std::nullopt;
   }
   const double origin = estimate.front().stamp;
+  Trajectory shifted = estimate, corrected = estimate;
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    shifted[i].stamp += offsets[1].offset;
+    corrected[i].stamp += offsets[0].offset + rate * (estimate[i].stamp - centres[0]);
+  }
+  const double constant = SpeedMatch(reference, shifted).at(0.0);
+  const double drifting = SpeedMatch(reference, corrected).at(0.0);
+  if (drifting < constant) return std::nullopt;
   const double offset = offsets[0].offset + rate * (origin - centres[0]);
   return ClockDrift{
       {Fault::clock_drift,
        fmt::format(
            "the estimate's clock drifts by {:.3f} %: its offset grows from {:.3f} to {:.3f} "
-           "s; in the middle third, which was not used, offset {:.3f} -> {:.3f} s",
+           "s; in the middle third, which was not used, offset {:.3f} -> {:.3f} s, correlation of "
+           "speeds {:.3f} -> {:.3f}",
            100.0 * rate,
            offsets[0].offset,
            offsets[2].offset,
            offsets[1].offset,
-           offsets[1].offset - expected),
+           offsets[1].offset - expected,
+           constant,
+           drifting),
        fmt::format("correct its stamps t: t + {:.4f} + {:.6f} (t - {:.3f})", offset, rate, origin),
        1.0 - error / std::abs(change),
        rate},

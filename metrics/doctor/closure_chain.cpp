@@ -125,13 +125,10 @@ std::vector<Neighbours> neighbours_of(const std::vector<Edge>& closures, const C
   return out;
 }
 
-Twist neighbour_residual(const Neighbours& pair, const Chain& chain, bool inverted) {
-  const auto measured = [&](const Edge& edge) {
-    return inverted ? edge.from_from_to.inverse() : edge.from_from_to;
-  };
-  const Pose around = chain.between(pair.a->from, pair.b->from) * measured(*pair.b) *
+Twist neighbour_residual(const Neighbours& pair, const Chain& chain) {
+  const Pose around = chain.between(pair.a->from, pair.b->from) * pair.b->from_from_to *
                       chain.between(pair.b->to, pair.a->to);
-  return log_se3(measured(*pair.a).inverse() * around);
+  return log_se3(pair.a->from_from_to.inverse() * around);
 }
 
 namespace {
@@ -143,7 +140,7 @@ SquaredError neighbour_error(const Neighbours& pair, const Chain& chain) {
   const Matrix6 covariance =
       a->information.inverse() + moved(to_a_from_b, b->information.inverse()) +
       chain.covariance(b->to, a->to) + moved(end_from_start, chain.covariance(a->from, b->from));
-  return over(neighbour_residual(pair, chain, false), covariance);
+  return over(neighbour_residual(pair, chain), covariance);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ struct Neighbours {
 std::vector<Neighbours> neighbours_of(const std::vector<Edge>& closures, const Chain& chain);
 
 /// Difference of closure `a` and the path over closure `b`; zero without noise.
-Twist neighbour_residual(const Neighbours& pair, const Chain& chain, bool inverted);
+Twist neighbour_residual(const Neighbours& pair, const Chain& chain);
 
 /// The same over the covariance of both closures and of the odometry between them, for each pair.
 std::vector<SquaredError> neighbour_errors(const std::vector<Neighbours>& pairs,

@@ -16,7 +16,6 @@
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/finding.hpp"
 #include "metrics/doctor/information_checks.hpp"
-#include "metrics/doctor/loop_likelihood.hpp"
 
 namespace loopbench::metrics {
 namespace {
@@ -80,34 +79,6 @@ std::vector<InputFinding> check_edges(const std::vector<Edge>& closures,
        static_cast<double>(found.size())}};
 }
 
-InputFinding inverted_closures(std::string evidence, double confidence, std::size_t inverted) {
-  return {Fault::closure_direction,
-          std::move(evidence),
-          "exchange the two vertices of each closure; in a file of loops the first two columns",
-          confidence,
-          static_cast<double>(inverted)};
-}
-
-/// For closures without neighbours: an inversion shows where the drift is small against it.
-std::vector<InputFinding> check_direction_of_few(const Problem& problem, const Chain& chain) {
-  constexpr double kLikelier = 5.0;
-  constexpr std::size_t kMostClosures = 12;  // that are compared
-  const std::size_t step = (problem.closures.size() - 1) / kMostClosures + 1;
-  std::vector<Edge> closures;
-  for (std::size_t i = 0; i < problem.closures.size(); i += step) {
-    closures.push_back(problem.closures[i]);
-  }
-  const double likelier = inversion_log_ratio(closures, chain);
-  if (!(likelier > kLikelier)) return {};
-  return {inverted_closures(
-      fmt::format("{} closures fit the odometry better after inversion (logarithm of the ratio of "
-                  "likelihoods {:.1f})",
-                  closures.size(),
-                  likelier),
-      1.0 - std::exp(-0.25 * likelier),
-      problem.closures.size())};
-}
-
 }  // namespace
 
 std::vector<InputFinding> check_closures(const Problem& problem) {
@@ -115,12 +86,8 @@ std::vector<InputFinding> check_closures(const Problem& problem) {
   const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
   if (problem.closures.empty() || !is_chain) return out;
   const Chain chain = chain_of(problem);
-  constexpr std::size_t kFewestNeighbours = 3;
-  const std::vector<Neighbours> neighbours = neighbours_of(problem.closures, chain);
   if (auto repair = find_odometry_repair(problem)) return {*repair};
-  if (auto repair = find_closure_repair(problem)) return {*repair};
-  if (neighbours.size() < kFewestNeighbours) out = check_direction_of_few(problem, chain);
-  if (!out.empty()) return out;
+  if (auto repair = find_closure_repair(problem, chain)) return {*repair};
   std::vector<SquaredError> errors;
   for (const Edge& edge : problem.closures) errors.push_back(closure_error(edge, chain, false));
   const GapCheck gaps = check_gaps(problem, chain, errors);

@@ -10,7 +10,6 @@ namespace loopbench::metrics {
 
 /// Compares closures with the odometry, without a reference:
 /// - conventions of odometry and closures: see find_odometry_repair() and find_closure_repair();
-/// - direction of few closures: see inversion_log_ratio();
 /// - gaps: see check_gaps();
 /// - information: see check_information() and check_edges(), without the closures found before, and
 ///   only if these are less than a fifth.

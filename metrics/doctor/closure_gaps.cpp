@@ -116,17 +116,16 @@ GapCheck implausible_paths(const Problem& problem, const Chain& chain) {
   constexpr std::size_t kMostRemoved = 12;
   std::vector<GapOverLimit> removed;
   std::vector<const Edge*> without;
-  for (std::size_t i = 0; i < kMostRemoved; ++i) {
+  for (;;) {
     const std::vector<GapOverLimit> gaps = gaps_over_paths(problem, chain, without);
-    if (gaps.empty()) break;
+    if (gaps.empty()) return {};
     const GapOverLimit& worst = *std::ranges::max_element(gaps, {}, &GapOverLimit::over);
-    if (!(worst.over > 1.0)) {
+    if (!(worst.over > 1.0) || removed.size() == kMostRemoved) {
       return implausible(gaps, problem.closures.data(), "other closures and the odometry", removed);
     }
     removed.push_back(worst);
     without.push_back(worst.closure);
   }
-  return {};  // no consistent set is near
 }
 
 }  // namespace

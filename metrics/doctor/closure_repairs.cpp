@@ -2,16 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
-#include "metrics/doctor/closure_chain.hpp"
 #include "metrics/doctor/common_motion.hpp"
+#include "metrics/doctor/loop_likelihood.hpp"
+#include "metrics/doctor/signed_axes.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {
@@ -21,235 +22,233 @@ struct ClosureRepair {
   Fault fault{};
   std::string what;
   std::string fix;
-  /// Changes a closure; the odometry predicts its rotation.
-  std::function<void(Edge&, const Rotation&)> change;
-  bool is_ambiguous = false;  ///< fits the odometry always, so that only neighbours can prove it
+  /// The second argument is the rotation that odometry and the previous closure predict.
+  std::function<Pose(const Pose&, const Rotation&)> change;
+  double penalty = 0.0;              ///< logarithm of the number of alternatives
+  double penalty_of_rotation = 0.0;  ///< the same for each component of each closure's rotation
 };
 
-ClosureRepair of_measurement(Fault fault,
-                             std::string what,
-                             std::string fix,
-                             const std::function<Pose(const Pose&)>& change) {
-  return {fault, std::move(what), std::move(fix), [=](Edge& edge, const Rotation&) {
-            edge.from_from_to = change(edge.from_from_to);
-          }};
-}
-
-/// Angles in degrees that were read as radians are known up to full rotations: the one that is
-/// closest to the odometry is taken.
-void angles_to_radians(Edge& edge, const Rotation& predicted) {
-  const Vector3 read = log_so3(edge.from_from_to.rotation);
+Pose read_in_degrees(const Pose& p, const Rotation& predicted) {
+  const Vector3 read = log_so3(p.rotation);
   const double angle = read.norm();
-  if (angle == 0.0) return;
+  if (angle == 0.0) return p;
   const Vector3 axis = read / angle;
+  // Angles in degrees that were read as radians are known up to full rotations.
   const double expected = kDegrees * log_so3(predicted).dot(axis);
   const double rotations = std::round((expected - angle) / (2.0 * M_PI));
-  edge.from_from_to.rotation = exp_so3((angle + 2.0 * M_PI * rotations) / kDegrees * axis);
-}
-
-/// The rotations that map axes to axes, but for the identity.
-std::vector<Rotation> axis_rotations() {
-  std::vector<Rotation> out;
-  std::array<int, 3> order{0, 1, 2};
-  do {
-    for (int signs = 0; signs < 8; ++signs) {
-      Matrix3 axes = Matrix3::Zero();
-      for (int row = 0; row < 3; ++row) {
-        axes(row, order[static_cast<std::size_t>(row)]) = (signs >> row & 1) != 0 ? -1.0 : 1.0;
-      }
-      if (axes.determinant() > 0.0 && axes != Matrix3::Identity()) out.emplace_back(axes);
-    }
-  } while (std::ranges::next_permutation(order).found);
-  return out;
+  return {exp_so3((angle + 2.0 * M_PI * rotations) / kDegrees * axis), p.translation};
 }
 
 std::vector<ClosureRepair> candidates() {
-  const std::string columns = "in a file of loops the first two columns";
   std::vector<ClosureRepair> out{
-      of_measurement(Fault::closure_direction,
-                     "inverting the closures (or all odometry)",
-                     "exchange the two vertices of each closure; " + columns,
-                     [](const Pose& p) { return p.inverse(); }),
-      of_measurement(Fault::closure_rotation,
-                     "quaternions of the closures in the order w x y z",
-                     "write their quaternions as x y z w",
-                     [](const Pose& p) -> Pose {
-                       const Rotation& q = p.rotation;
-                       return {Rotation(q.x(), q.y(), q.z(), q.w()), p.translation};
-                     }),
-      of_measurement(Fault::closure_rotation,
-                     "multiplying the closures' angles by 57.3",
-                     "write their angles in radians, converted once",
-                     [](const Pose& p) -> Pose {
-                       return {exp_so3(kDegrees * log_so3(p.rotation)), p.translation};
-                     }),
+      {Fault::closure_direction,
+       "inverting the closures (or all odometry)",
+       "exchange the two vertices of each closure; in a file of loops the first two columns",
+       [](const Pose& p, const Rotation&) { return p.inverse(); }},
+      {Fault::closure_rotation,
+       "quaternions of the closures in the order w x y z",
+       "write their quaternions as x y z w",
+       [](const Pose& p, const Rotation&) -> Pose {
+         const Rotation& q = p.rotation;
+         return {Rotation(q.x(), q.y(), q.z(), q.w()), p.translation};
+       }},
+      {Fault::closure_rotation,
+       "multiplying the closures' angles by 57.3",
+       "write their angles in radians, converted once",
+       [](const Pose& p, const Rotation&) -> Pose {
+         return {exp_so3(kDegrees * log_so3(p.rotation)), p.translation};
+       }},
       {Fault::closure_rotation,
        "the closures' angles in degrees",
        "write their angles in radians",
-       angles_to_radians,
-       true}};
+       read_in_degrees,
+       0.0,
+       std::log(kDegrees)}};
   for (const double factor : {0.001, 0.01, 100.0, 1000.0}) {
-    out.push_back(of_measurement(
-        Fault::closure_unit,
-        fmt::format("multiplying the closures' translations by {:g}", factor),
-        fmt::format("write {} in metres", factor < 1.0 ? "the closures" : "the odometry"),
-        [=](const Pose& p) -> Pose {
-          return {p.rotation, factor * p.translation};
-        }));
-  }
-  for (const Rotation& body : axis_rotations()) {
-    const Vector3 q = body.vec();
     out.push_back(
-        of_measurement(Fault::closure_frame,
-                       fmt::format("rotating the closures' body by quaternion {:g} {:g} {:g} {:g}",
-                                   q.x(),
-                                   q.y(),
-                                   q.z(),
-                                   body.w()),
-                       "transform them into the odometry's body: C T C^-1 for each closure T",
-                       [=](const Pose& p) -> Pose {
-                         return {body * p.rotation * body.conjugate(), body * p.translation};
-                       }));
+        {Fault::closure_unit,
+         fmt::format("multiplying the closures' translations by {:g}", factor),
+         fmt::format("write {} in metres", factor < 1.0 ? "the closures" : "the odometry"),
+         [=](const Pose& p, const Rotation&) -> Pose {
+           return {p.rotation, factor * p.translation};
+         }});
+  }
+  for (const Matrix3& axes : signed_axes()) {
+    if (axes.determinant() < 0.0) continue;
+    const Rotation body(axes);
+    out.push_back({Fault::closure_frame,
+                   "taking " + axes_option(axes) + " of the closures' body as x,y,z",
+                   "transform them into the odometry's body: C T C^-1 for each closure T",
+                   [=](const Pose& p, const Rotation&) -> Pose {
+                     return {body * p.rotation * body.conjugate(), body * p.translation};
+                   },
+                   std::log(24.0)});
   }
   return out;
 }
 
-/// Median errors of closures: over whole loops, and against a neighbour.
-struct ClosureErrors {
-  double drift = 0.0;          ///< gap over the length of the loop [-]
-  double loop_rotation = 0.0;  ///< [rad]
-  double near = 0.0;           ///< difference over the length of the path between both [-]
-  double near_metres = 0.0;    ///< [m]
-  double near_rotation = 0.0;  ///< [rad]
-  std::size_t pairs = 0;
-
-  double cost() const {
-    double out = std::log(drift + 0.01) + std::log(loop_rotation + 0.02);
-    if (pairs > 0) out += std::log(near + 0.003) + std::log(near_rotation + 0.003);
-    return out;
+/// Groups of up to five closures that follow each other, evenly chosen.
+std::vector<LoopGroup> groups_of(const Problem& problem, const Chain& chain) {
+  constexpr std::size_t kSize = 5, kMost = 14;
+  std::vector<const Edge*> sorted;
+  for (const Edge& edge : problem.closures) sorted.push_back(&edge);
+  std::ranges::stable_sort(sorted, {}, [](const Edge* e) { return std::max(e->from, e->to); });
+  const std::size_t n = sorted.size();
+  std::vector<LoopGroup> out;
+  const std::size_t count = std::clamp<std::size_t>((n + 1) / kSize, n < kSize + 1 ? 1 : 2, kMost);
+  const OdometryNoise noise = odometry_noise(chain);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t begin = i * n / count;
+    const std::size_t size = std::min({(i + 1) * n / count - begin, count == 1 ? n : kSize});
+    out.emplace_back(
+        std::vector<const Edge*>(sorted.begin() + static_cast<std::ptrdiff_t>(begin),
+                                 sorted.begin() + static_cast<std::ptrdiff_t>(begin + size)),
+        chain,
+        noise);
   }
-};
-
-/// Of every `step`-th closure and pair from `first` on.
-ClosureErrors errors_of(const std::vector<Edge>& closures,
-                        const std::vector<Neighbours>& neighbours,
-                        const Chain& chain,
-                        std::size_t first,
-                        std::size_t step) {
-  std::vector<double> drifts, angles, differences, metres, near_angles;
-  for (std::size_t i = first; i < closures.size(); i += step) {
-    const Edge& edge = closures[i];
-    drifts.push_back(drift_of(edge, chain));
-    angles.push_back(
-        angle_between(edge.from_from_to.rotation, chain.between(edge.from, edge.to).rotation));
-  }
-  for (std::size_t i = first; i < neighbours.size(); i += step) {
-    const auto& [a, b] = neighbours[i];
-    const Twist residual = neighbour_residual(neighbours[i], chain, false);
-    const double length = chain.length(a->from, b->from) + chain.length(a->to, b->to);
-    metres.push_back(residual.head<3>().norm());
-    differences.push_back(metres.back() / std::max(1e-6, length));
-    near_angles.push_back(residual.tail<3>().norm());
-  }
-  return {median_value(std::move(drifts)),
-          median_value(std::move(angles)),
-          median_value(std::move(differences)),
-          median_value(std::move(metres)),
-          median_value(std::move(near_angles)),
-          metres.size()};
-}
-
-/// The error that a repair reduces most, and its ratio.
-std::pair<double, std::string> largest_change(const ClosureErrors& before,
-                                              const ClosureErrors& after) {
-  std::pair<double, std::string> out{1.0, ""};
-  const auto compare = [&](double was, double is, double floor, const std::string& text) {
-    const double ratio = (is + floor) / (was + floor);
-    if (ratio < out.first) out = {ratio, text};
-  };
-  if (before.pairs > 0) {
-    compare(before.near,
-            after.near,
-            0.003,
-            fmt::format("difference of neighbouring closures {:.3g} -> {:.3g} m",
-                        before.near_metres,
-                        after.near_metres));
-    compare(before.near_rotation,
-            after.near_rotation,
-            0.002,
-            fmt::format("difference of neighbouring closures {:.3g} -> {:.3g} deg",
-                        kDegrees * before.near_rotation,
-                        kDegrees * after.near_rotation));
-  }
-  compare(before.drift,
-          after.drift,
-          0.003,
-          fmt::format("gaps of loops {:.3g} -> {:.3g} % of their length",
-                      100.0 * before.drift,
-                      100.0 * after.drift));
-  compare(before.loop_rotation,
-          after.loop_rotation,
-          0.01,
-          fmt::format("rotation of loops against the odometry {:.3g} -> {:.3g} deg",
-                      kDegrees * before.loop_rotation,
-                      kDegrees * after.loop_rotation));
   return out;
 }
 
-/// Errors of closures with even (0) and odd (1) index after a repair; of all, if `has_halves` is
-/// false.
-std::array<ClosureErrors, 2> errors_after(const Problem& problem,
-                                          const Chain& chain,
-                                          const ClosureRepair* repair,
-                                          bool has_halves) {
-  std::vector<Edge> closures = problem.closures;
-  for (Edge& edge : closures) {
-    if (repair != nullptr) repair->change(edge, chain.between(edge.from, edge.to).rotation);
+double log_likelihood(const LoopGroup& group,
+                      const Chain& chain,
+                      const ClosureRepair* repair,
+                      PredictionError* errors = nullptr) {
+  std::vector<Pose> measured;
+  Rotation previous = Rotation::Identity();  // of the gap
+  for (const Edge* edge : group.closures()) {
+    const Rotation odometry = chain.between(edge->from, edge->to).rotation;
+    const Pose& read = edge->from_from_to;
+    measured.push_back(repair == nullptr ? read
+                                         : repair->change(read, odometry * previous.conjugate()));
+    previous = measured.back().rotation.conjugate() * odometry;
   }
-  const std::vector<Neighbours> neighbours = neighbours_of(closures, chain);
-  if (!has_halves) {
-    const ClosureErrors errors = errors_of(closures, neighbours, chain, 0, 1);
-    return {errors, errors};
+  double out = group.log_likelihood(measured, errors);
+  if (repair != nullptr) {
+    out -= static_cast<double>(measured.size()) * group.rotations() * repair->penalty_of_rotation;
   }
-  return {errors_of(closures, neighbours, chain, 0, 2),
-          errors_of(closures, neighbours, chain, 1, 2)};
+  return out;
 }
 
-/// Rotations of neighbouring closures after an ambiguous repair: of wrong ones, they would differ
-/// by more than 1.5 deg, half of the largest distance to a full rotation in degrees.
-bool agrees_with_neighbours(const ClosureErrors& before, const ClosureErrors& after) {
-  constexpr double kMost = 1.0 / kDegrees, kOfBefore = 0.2;
-  return after.pairs >= 2 &&
-         after.near_rotation < std::min(kMost, kOfBefore * before.near_rotation);
+/// Sum over every other group; one group, whose closures may be false, counts up to a limit.
+double gain_of(const std::vector<LoopGroup>& groups,
+               const std::vector<double>& as_read,
+               const Chain& chain,
+               const ClosureRepair& repair,
+               std::size_t first,
+               PredictionError* errors = nullptr) {
+  constexpr double kMostOfGroup = 10.0;
+  double out = 0.0;
+  const std::size_t step = groups.size() > 1 ? 2 : 1;
+  for (std::size_t i = first % step; i < groups.size(); i += step) {
+    out += std::clamp(log_likelihood(groups[i], chain, &repair, errors) - as_read[i],
+                      -kMostOfGroup,
+                      kMostOfGroup);
+  }
+  return out;
+}
+
+/// The error of predictions that a repair reduces most, as a ratio and as a text.
+std::pair<double, std::string> largest_change(const PredictionError& before,
+                                              const PredictionError& after) {
+  const double metres = median_value(before.metres), radians = median_value(before.radians);
+  const double metres_after = median_value(after.metres);
+  const double radians_after = median_value(after.radians);
+  const double of_metres = (metres_after + 1e-6) / (metres + 1e-6);
+  const double of_radians = (radians_after + 1e-6) / (radians + 1e-6);
+  const bool is_rotation = of_radians < of_metres;
+  return {std::min(of_metres, of_radians),
+          fmt::format("error with which odometry and other closures predict a closure {:.3g} -> "
+                      "{:.3g} {}",
+                      is_rotation ? kDegrees * radians : metres,
+                      is_rotation ? kDegrees * radians_after : metres_after,
+                      is_rotation ? "deg" : "m")};
+}
+
+/// Median difference of the odometry and the keyframes, over the keyframes' median step [-].
+double odometry_error(const Problem& problem, const std::function<Pose(const Pose&)>& change) {
+  std::vector<double> errors, steps;
+  for (const Edge& edge : problem.odometry) {
+    const Pose step = problem.keyframes[edge.from].world_from_body.inverse() *
+                      problem.keyframes[edge.to].world_from_body;
+    errors.push_back((change(edge.from_from_to).translation - step.translation).norm());
+    steps.push_back(step.translation.norm());
+  }
+  const double step = median_value(std::move(steps));
+  return step > 0.0 ? median_value(std::move(errors)) / step : 0.0;
 }
 
 }  // namespace
 
-std::optional<InputFinding> find_closure_repair(const Problem& problem) {
-  constexpr double kLeastGain = 0.6, kMostRatio = 0.5;
-  constexpr std::size_t kFewest = 3, kFewestForHalves = 16;
-  if (problem.closures.size() < kFewest) return std::nullopt;
-  static const std::vector<ClosureRepair> all = candidates();
-  const Chain chain = chain_of(problem);
-  const bool has_halves = problem.closures.size() >= kFewestForHalves;
-  const auto before = errors_after(problem, chain, nullptr, has_halves);
-  std::optional<InputFinding> out;
-  double best = kLeastGain;
-  for (const ClosureRepair& repair : all) {
-    const auto after = errors_after(problem, chain, &repair, has_halves);
-    const double gain = before[0].cost() - after[0].cost();
-    if (!(gain > best)) continue;
-    if (repair.is_ambiguous && !agrees_with_neighbours(before[1], after[1])) continue;
-    const auto [ratio, text] = largest_change(before[1], after[1]);
-    if (ratio > kMostRatio || before[1].cost() - after[1].cost() < kLeastGain) continue;
-    best = gain;
-    out = InputFinding{repair.fault,
-                       repair.what + ": " + text,
-                       repair.fix,
-                       1.0 - ratio,
-                       static_cast<double>(problem.closures.size())};
+std::optional<InputFinding> find_odometry_repair(const Problem& problem) {
+  constexpr double kBad = 0.3, kBetter = 0.2;
+  struct OdometryRepair {
+    Fault fault{};
+    std::string what;
+    const char* fix;
+    std::function<Pose(const Pose&)> change;
+  };
+  std::vector<OdometryRepair> all{{Fault::odometry_direction,
+                                   "inverting the odometry",
+                                   "exchange the two vertices of each odometry edge",
+                                   [](const Pose& p) { return p.inverse(); }}};
+  for (const double factor : {0.001, 0.01, 100.0, 1000.0}) {
+    all.push_back({Fault::closure_unit,
+                   fmt::format("multiplying the odometry's translations by {:g}", factor),
+                   "write all edges and vertices in metres",
+                   [=](const Pose& p) -> Pose {
+                     return {p.rotation, factor * p.translation};
+                   }});
   }
-  return out;
+  const double before = odometry_error(problem, [](const Pose& p) { return p; });
+  if (before < kBad) return std::nullopt;
+  for (const OdometryRepair& repair : all) {
+    const double after = odometry_error(problem, repair.change);
+    if (after > kBetter * before) continue;
+    return InputFinding{repair.fault,
+                        fmt::format("{}: difference to the vertices {:.3g} -> {:.3g} % of a step",
+                                    repair.what,
+                                    100.0 * before,
+                                    100.0 * after),
+                        repair.fix,
+                        1.0 - after / before,
+                        static_cast<double>(problem.odometry.size())};
+  }
+  return std::nullopt;
+}
+
+std::optional<InputFinding> find_closure_repair(const Problem& problem, const Chain& chain) {
+  constexpr double kLeastChosen = 5.0, kLeastProven = 3.0;  // in logarithms of the likelihood
+  constexpr double kMostRatio = 0.9;
+  const std::vector<LoopGroup> groups = groups_of(problem, chain);
+  static const std::vector<ClosureRepair> all = candidates();
+  std::vector<double> as_read;
+  PredictionError before;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const bool is_tested = i % 2 == 1 || groups.size() == 1;
+    as_read.push_back(log_likelihood(groups[i], chain, nullptr, is_tested ? &before : nullptr));
+  }
+  const ClosureRepair* best = nullptr;
+  double largest = kLeastChosen;
+  for (const ClosureRepair& repair : all) {
+    const double gain = gain_of(groups, as_read, chain, repair, 0) - repair.penalty;
+    if (std::getenv("DQ")) fmt::print(stderr, "   cand {} {:.1f}\n", repair.what, gain);
+    if (!(gain > largest)) continue;
+    largest = gain;
+    best = &repair;
+  }
+  if (best == nullptr) return std::nullopt;
+  PredictionError after;
+  const double proven = gain_of(groups, as_read, chain, *best, 1, &after);
+  const auto [ratio, text] = largest_change(before, after);
+  if (std::getenv("DQ")) fmt::print(stderr, "   best {} {:.1f} {}\n", best->what, proven, text);
+  if (proven < kLeastProven || ratio > kMostRatio) return std::nullopt;
+  return InputFinding{
+      best->fault,
+      fmt::format(
+          "{}: {} (logarithm of the ratio of likelihoods {:.1f})", best->what, text, proven),
+      best->fix,
+      1.0 - std::exp(-0.25 * proven),
+      static_cast<double>(problem.closures.size())};
 }
 
 }  // namespace loopbench::metrics

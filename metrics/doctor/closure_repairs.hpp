@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "datasets/core/problem.hpp"
+#include "metrics/doctor/closure_chain.hpp"
 #include "metrics/doctor/finding.hpp"
 
 namespace loopbench::metrics {
@@ -13,10 +14,10 @@ namespace loopbench::metrics {
 std::optional<InputFinding> find_odometry_repair(const Problem& problem);
 
 /// The correction of direction, order of quaternions, units or frame of the closures that makes
-/// closures agree best with the odometry and their neighbours. It is chosen by every other pair of
-/// closures and has to halve the errors of the remaining ones; they are measured between
-/// neighbours, which share their drift, and over whole loops. nullopt if there is none. The
-/// odometry has to be a chain. O(keyframes + closures).
-std::optional<InputFinding> find_closure_repair(const Problem& problem);
+/// them likelier: see LoopGroup. Groups of neighbouring closures are compared one by one, so that
+/// false closures spoil few of them. The correction is chosen by every other group, and has to
+/// make the remaining ones likelier too. nullopt if there is none.
+/// O(keyframes + closures log).
+std::optional<InputFinding> find_closure_repair(const Problem& problem, const Chain& chain);
 
 }  // namespace loopbench::metrics

@@ -54,7 +54,12 @@ class PairDiagnosis {
 
   void check_stamps() {
     add(check_stamp_unit(reference_, estimate_));
-    add(check_frame_indices(reference_, estimate_));
+    if (auto indices = check_frame_indices(reference_, estimate_)) {
+      if (indices->factor == 0.0) estimate_.clear();
+      add(std::move(indices));
+      if (!estimate_.empty()) check_offset();
+      return;
+    }
     if (auto drift = check_clock_drift(reference_, estimate_)) {
       for (StampedPose& pose : estimate_) {
         pose.stamp += drift->offset + drift->rate * (pose.stamp - drift->origin);

@@ -94,29 +94,42 @@ double ratio_of_larger_angles(const CommonPoses& poses) {
   return ratios.size() < 8 ? 1.0 : median_value(std::move(ratios));
 }
 
-/// Steps of the estimate far above those of the reference and its own.
-std::vector<std::size_t> jumps_of(const CommonPoses& poses) {
-  constexpr double kOverReference = 5.0, kOverUsual = 10.0, kOfSpread = 0.02;
+/// A step of the estimate far above that of the reference.
+struct Jump {
+  std::size_t at = 0;
+  double metres = 0.0, of_reference = 0.0;
+};
+
+std::vector<Jump> jumps_of(const CommonPoses& poses) {
+  constexpr double kOverUsual = 8.0, kOverReference = 2.0, kOfSpread = 0.01, kNearlyAll = 0.95;
   constexpr std::size_t kMost = 5;
-  const std::size_t n = poses.stamps.size();
-  const auto steps = [&](const std::vector<Pose>& list) {
-    std::vector<double> out;
-    for (std::size_t i = 1; i < n; ++i) {
-      out.push_back((list[i].translation - list[i - 1].translation).norm());
-    }
-    return out;
+  const auto step = [](const std::vector<Pose>& list, std::size_t i) {
+    return (list[i].translation - list[i - 1].translation).norm();
   };
-  const std::vector<double> reference = steps(poses.reference), estimate = steps(poses.estimate);
-  const double usual = median_value(estimate), of_reference = median_value(reference);
-  const double scale = of_reference > 0.0 ? usual / of_reference : 1.0;
-  const double spread = scale * agreement(poses).spread;
-  std::vector<std::size_t> out;
+  const std::size_t n = poses.stamps.size();
+  std::vector<double> of_reference, of_estimate, excess;
   for (std::size_t i = 1; i < n; ++i) {
-    const double least = std::max(
-        {kOverReference * scale * reference[i - 1], kOverUsual * usual, kOfSpread * spread});
-    if (estimate[i - 1] > least) out.push_back(i);
+    of_reference.push_back(step(poses.reference, i));
+    of_estimate.push_back(step(poses.estimate, i));
   }
-  return out.size() > kMost ? std::vector<std::size_t>{} : out;
+  const double usual = median_value(of_reference);
+  const double scale = usual > 0.0 ? median_value(of_estimate) / usual : 1.0;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    excess.push_back(of_estimate[i] - scale * of_reference[i]);
+  }
+  std::vector<double> sorted = excess;
+  for (double& each : sorted) each = std::abs(each);
+  std::ranges::sort(sorted);
+  const double nearly_all =
+      sorted[static_cast<std::size_t>(kNearlyAll * static_cast<double>(n - 2))];
+  const double least =
+      std::max(kOverUsual * nearly_all, kOfSpread * scale * agreement(poses).spread);
+  std::vector<Jump> out;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    if (excess[i] < std::max(least, kOverReference * scale * of_reference[i])) continue;
+    out.push_back({i + 1, of_estimate[i], of_reference[i]});
+  }
+  return out.size() > kMost ? std::vector<Jump>{} : out;
 }
 
 }  // namespace
@@ -154,7 +167,7 @@ std::optional<InputFinding> check_swapped(const Trajectory& reference,
 std::optional<InputFinding> check_constant_rotation(const Trajectory& reference,
                                                     const Trajectory& estimate) {
   constexpr double kMoves = 0.5;         // [m]
-  constexpr double kOtherRotates = 0.3;  // [rad]
+  constexpr double kOtherRotates = 0.1;  // [rad]
   constexpr std::size_t kFewestPoses = 10;
   if (reference.size() < kFewestPoses || estimate.size() < kFewestPoses) return std::nullopt;
   const double of_reference = largest_rotation(reference);
@@ -197,17 +210,22 @@ std::optional<InputFinding> check_angle_unit(const CommonPoses& poses) {
 }
 
 std::optional<InputFinding> remove_jumps(CommonPoses& poses) {
-  constexpr double kBetter = 0.5;
-  const std::vector<std::size_t> jumps = jumps_of(poses);
-  if (poses.stamps.size() < kFewestCommonPoses || jumps.empty()) return std::nullopt;
+  constexpr double kBetter = 0.97;
+  if (poses.stamps.size() < kFewestCommonPoses) return std::nullopt;
+  const std::vector<Jump> jumps = jumps_of(poses);
+  if (jumps.empty()) return std::nullopt;
   CommonPoses without = poses;
-  std::string stamps;
-  for (const std::size_t at : jumps) {
+  std::string list;
+  for (const auto& [at, metres, of_reference] : jumps) {
     const Vector3 jump = without.estimate[at].translation - without.estimate[at - 1].translation;
     for (std::size_t i = at; i < without.estimate.size(); ++i) {
       without.estimate[i].translation -= jump;
     }
-    stamps += fmt::format("{}{:.3f}", stamps.empty() ? "" : ", ", poses.stamps[at]);
+    list += fmt::format("{}{:.3f} s ({:.3g} m, the reference moves by {:.3g} m)",
+                        list.empty() ? "" : ", ",
+                        poses.stamps[at],
+                        metres,
+                        of_reference);
   }
   const Agreement before = agreement(poses), after = agreement(without);
   const double ratio = after.similarity / before.similarity;
@@ -215,13 +233,13 @@ std::optional<InputFinding> remove_jumps(CommonPoses& poses) {
   poses = std::move(without);
   return InputFinding{
       Fault::jumps,
-      fmt::format("the estimate's position jumps at {} s: without, position error after alignment "
+      fmt::format("the estimate's position jumps at {}: without, position error after alignment "
                   "with scale {:.3g} -> {:.3g} m",
-                  stamps,
+                  list,
                   before.similarity,
                   after.similarity),
       "evaluate the parts on their own (traj crop), or repair the source",
-      1.0 - ratio,
+      std::max(0.6, 1.0 - ratio),
       static_cast<double>(jumps.size())};
 }
 

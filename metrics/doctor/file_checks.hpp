@@ -26,8 +26,8 @@ std::optional<InputFinding> check_constant_rotation(const Trajectory& reference,
 /// O(n).
 std::optional<InputFinding> check_angle_unit(const CommonPoses& poses);
 
-/// Removes up to five jumps of the estimate's positions from `poses`; a finding if that halves the
-/// position error. Otherwise, `poses` are unchanged. O(n).
+/// Removes up to five jumps of the estimate's positions from `poses`; a finding if that
+/// reduces the position error. Otherwise, `poses` are unchanged. O(n).
 std::optional<InputFinding> remove_jumps(CommonPoses& poses);
 
 }  // namespace loopbench::metrics

@@ -3,21 +3,32 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace loopbench::metrics {
 namespace {
 
-/// Logarithms of the three factors.
-using Logarithms = std::array<double, 3>;
+constexpr double kZero = 1e-9;            // gaps below are zero [m], [rad]
+constexpr double kLeastVariance = 1e-12;  // of rounded numbers
 
-/// Covariances of the composed odometry that translations and rotations of the steps cause, in the
-/// frame of the first keyframe.
-std::array<std::vector<Matrix6>, 2> covariances_of_parts(const Chain& chain) {
+Eigen::VectorXd all_gaps(const std::vector<const Edge*>& closures,
+                         const Chain& chain,
+                         const std::vector<Pose>& measured) {
+  Eigen::VectorXd out(static_cast<Eigen::Index>(6 * closures.size()));
+  for (std::size_t i = 0; i < closures.size(); ++i) {
+    out.segment<6>(static_cast<Eigen::Index>(6 * i)) =
+        log_se3(measured[i].inverse() * chain.between(closures[i]->from, closures[i]->to));
+  }
+  return out;
+}
+
+}  // namespace
+
+OdometryNoise odometry_noise(const Chain& chain) {
   const std::vector<Matrix6> zeros(chain.poses.size(), Matrix6::Zero());
-  std::array out{zeros, zeros};
+  OdometryNoise out{zeros, zeros};
   for (std::size_t i = 0; i < chain.steps.size(); ++i) {
     const Matrix6 adjoint_of_pose = adjoint(chain.poses[i + 1]);
     for (int part = 0; part < 2; ++part) {
@@ -30,96 +41,94 @@ std::array<std::vector<Matrix6>, 2> covariances_of_parts(const Chain& chain) {
   return out;
 }
 
-/// Gaps of all loops and their covariances for factors of 1.
-struct Gaps {
-  Eigen::VectorXd values;
-  std::array<Eigen::MatrixXd, 3> covariances;  ///< of each part of the noise
-};
-
-/// Without the components that are zero in all gaps, as z, roll and pitch of planar graphs.
-Gaps without_constants(const Gaps& all) {
-  constexpr double kZero = 1e-9;
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index i = 0; i < all.values.size(); ++i) {
-    double largest = 0.0;
-    for (Eigen::Index j = i % 6; j < all.values.size(); j += 6) {
-      largest = std::max(largest, std::abs(all.values[j]));
-    }
-    if (largest > kZero) kept.push_back(i);
-  }
-  Gaps out{all.values(kept), {}};
-  for (std::size_t part = 0; part < 3; ++part) {
-    out.covariances[part] = all.covariances[part](kept, kept);
-  }
-  return out;
-}
-
-std::array<Eigen::MatrixXd, 3> covariances_of_gaps(const std::vector<Edge>& closures,
-                                                   const Chain& chain) {
-  const auto size = static_cast<Eigen::Index>(6 * closures.size());
-  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(size, size);
-  std::array out{zero, zero, zero};
-  const std::array of_chain = covariances_of_parts(chain);
+LoopGroup::LoopGroup(std::vector<const Edge*> closures,
+                     const Chain& chain,
+                     const OdometryNoise& noise)
+    : closures_(std::move(closures)), chain_(chain) {
+  const auto size = static_cast<Eigen::Index>(6 * closures_.size());
+  covariances_.fill(Eigen::MatrixXd::Zero(size, size));
   std::vector<Matrix6> to_end;  // from the frame of the first keyframe to that of the loop's end
-  for (const Edge& edge : closures) to_end.push_back(adjoint(chain.poses[edge.to].inverse()));
-  for (std::size_t i = 0; i < closures.size(); ++i) {
+  std::vector<Pose> as_read;
+  for (const Edge* edge : closures_) {
+    to_end.push_back(adjoint(chain.poses[edge->to].inverse()));
+    as_read.push_back(edge->from_from_to);
+  }
+  for (std::size_t i = 0; i < closures_.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(6 * i);
-    out[2].block<6, 6>(row, row) = closures[i].information.inverse();
-    for (std::size_t j = 0; j < closures.size(); ++j) {
-      const std::size_t begin = std::max(closures[i].from, closures[j].from);
-      const std::size_t end = std::min(closures[i].to, closures[j].to);
+    const Matrix6 stated = closures_[i]->information.inverse();
+    covariances_[2].block<3, 3>(row, row) = stated.topLeftCorner<3, 3>();
+    covariances_[3].block<3, 3>(row + 3, row + 3) = stated.bottomRightCorner<3, 3>();
+    for (std::size_t j = 0; j < closures_.size(); ++j) {
+      // Loops share the odometry between the later begin and the earlier end.
+      const auto [a, b] = std::minmax(closures_[i]->from, closures_[i]->to);
+      const auto [c, d] = std::minmax(closures_[j]->from, closures_[j]->to);
+      const std::size_t begin = std::max(a, c), end = std::min(b, d);
       if (end <= begin) continue;
+      const bool is_against =
+          (closures_[i]->from < closures_[i]->to) != (closures_[j]->from < closures_[j]->to);
       for (std::size_t part = 0; part < 2; ++part) {
-        out[part].block<6, 6>(row, static_cast<Eigen::Index>(6 * j)) =
-            to_end[i] * (of_chain[part][end] - of_chain[part][begin]) * to_end[j].transpose();
+        covariances_[part].block<6, 6>(row, static_cast<Eigen::Index>(6 * j)) =
+            (is_against ? -1.0 : 1.0) * to_end[i] * (noise[part][end] - noise[part][begin]) *
+            to_end[j].transpose();
       }
     }
   }
-  return out;
+  const Eigen::VectorXd values = all_gaps(closures_, chain_, as_read);
+  for (Eigen::Index component = 0; component < 6; ++component) {
+    double largest = 0.0;
+    for (Eigen::Index i = component; i < size; i += 6) {
+      largest = std::max(largest, std::abs(values[i]));
+    }
+    if (largest <= kZero) continue;
+    (component < 3 ? translations_ : rotations_) += 1.0;
+    for (Eigen::Index i = component; i < size; i += 6) kept_.push_back(i);
+  }
+  std::ranges::sort(kept_);
+  for (Eigen::MatrixXd& each : covariances_) each = Eigen::MatrixXd(each(kept_, kept_));
 }
 
-Eigen::VectorXd gaps_of(const std::vector<Edge>& closures, const Chain& chain, bool inverted) {
-  Eigen::VectorXd out(static_cast<Eigen::Index>(6 * closures.size()));
-  for (std::size_t i = 0; i < closures.size(); ++i) {
-    const Edge& edge = closures[i];
-    const Pose measured = inverted ? edge.from_from_to.inverse() : edge.from_from_to;
-    out.segment<6>(static_cast<Eigen::Index>(6 * i)) =
-        log_se3(measured.inverse() * chain.between(edge.from, edge.to));
-  }
+Eigen::VectorXd LoopGroup::gaps(const std::vector<Pose>& measured) const {
+  const Eigen::VectorXd all = all_gaps(closures_, chain_, measured);
+  const Eigen::VectorXd kept = all(kept_);
+  constexpr double kMostOutside = 1e-6;
+  if (all.squaredNorm() - kept.squaredNorm() > kMostOutside) return {};
+  return kept;
+}
+
+Eigen::MatrixXd LoopGroup::covariance(const Logarithms& factors) const {
+  Eigen::MatrixXd out = std::exp(factors[0]) * covariances_[0];
+  for (std::size_t part = 1; part < 4; ++part) out += std::exp(factors[part]) * covariances_[part];
+  out.diagonal().array() += kLeastVariance;
   return out;
 }
 
 /// With a wide prior of the factors: a standard deviation of 6 in the logarithm of the variance.
-double log_likelihood(const Gaps& gaps, const Logarithms& factors) {
+double LoopGroup::log_likelihood_of(const Eigen::VectorXd& values,
+                                    const Logarithms& factors) const {
   constexpr double kPrior = 6.0;
-  Eigen::MatrixXd covariance = std::exp(factors[0]) * gaps.covariances[0];
-  double out = 0.0;
-  for (std::size_t part = 0; part < 3; ++part) {
-    if (part > 0) covariance += std::exp(factors[part]) * gaps.covariances[part];
-    out -= 0.5 * factors[part] * factors[part] / (kPrior * kPrior);
-  }
-  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+  const Eigen::LLT<Eigen::MatrixXd> root(covariance(factors));
   if (root.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
-  out -= root.matrixL().toDenseMatrix().diagonal().array().log().sum();
-  return out - 0.5 * root.matrixL().solve(gaps.values).squaredNorm();
+  double out = -root.matrixLLT().diagonal().array().log().sum();
+  for (const double factor : factors) out -= 0.5 * factor * factor / (kPrior * kPrior);
+  return out - 0.5 * root.matrixL().solve(values).squaredNorm();
 }
 
 /// The largest log likelihood found from one start, along each factor in steps that shrink.
-double pattern_search(const Gaps& gaps, Logarithms at) {
-  double best = log_likelihood(gaps, at);
+double LoopGroup::pattern_search(const Eigen::VectorXd& values, Logarithms& at) const {
+  double best = log_likelihood_of(values, at);
   for (double step = 4.0; step > 0.4; step *= 0.5) {
     for (bool has_moved = true; has_moved;) {
       has_moved = false;
-      for (std::size_t part = 0; part < 3; ++part) {
+      for (double& factor : at) {
         for (const double change : {-step, step}) {
-          Logarithms next = at;
-          next[part] += change;
-          const double value = log_likelihood(gaps, next);
-          if (!(value > best)) continue;
-          best = value;
-          at = next;
-          has_moved = true;
-          break;
+          factor += change;
+          const double value = log_likelihood_of(values, at);
+          if (value > best) {
+            best = value;
+            has_moved = true;
+            break;
+          }
+          factor -= change;
         }
       }
     }
@@ -127,19 +136,30 @@ double pattern_search(const Gaps& gaps, Logarithms at) {
   return best;
 }
 
-double largest_log_likelihood(const Gaps& gaps) {
-  return std::max(pattern_search(gaps, {0.0, 0.0, 0.0}), pattern_search(gaps, {0.0, -4.0, 4.0}));
+/// The part of each gap that the others do not explain.
+void LoopGroup::add_errors(const Eigen::VectorXd& values,
+                           const Logarithms& factors,
+                           PredictionError& errors) const {
+  const Eigen::MatrixXd inverse = covariance(factors).inverse();
+  const Eigen::VectorXd weighted = inverse * values;
+  const auto size = static_cast<Eigen::Index>(kept_.size() / closures_.size());
+  const auto metres = static_cast<Eigen::Index>(translations_);
+  for (Eigen::Index i = 0; i < values.size(); i += size) {
+    const Eigen::VectorXd error =
+        inverse.block(i, i, size, size).ldlt().solve(weighted.segment(i, size));
+    errors.metres.push_back(error.head(metres).norm());
+    errors.radians.push_back(error.tail(size - metres).norm());
+  }
 }
 
-}  // namespace
-
-double inversion_log_ratio(const std::vector<Edge>& closures, const Chain& chain) {
-  const auto covariances = covariances_of_gaps(closures, chain);
-  const auto likelihood = [&](bool inverted) {
-    return largest_log_likelihood(
-        without_constants({gaps_of(closures, chain, inverted), covariances}));
-  };
-  return likelihood(true) - likelihood(false);
+double LoopGroup::log_likelihood(const std::vector<Pose>& measured, PredictionError* errors) const {
+  const Eigen::VectorXd values = gaps(measured);
+  if (kept_.empty()) return 0.0;
+  if (values.size() == 0) return -std::numeric_limits<double>::infinity();
+  Logarithms near{0.0, 0.0, 0.0, 0.0}, far{0.0, -4.0, 4.0, 4.0};
+  const double of_near = pattern_search(values, near), of_far = pattern_search(values, far);
+  if (errors != nullptr) add_errors(values, of_near > of_far ? near : far, *errors);
+  return std::max(of_near, of_far);
 }
 
 }  // namespace loopbench::metrics

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "metrics/checks/extrinsic_offset.hpp"
+#include "metrics/doctor/signed_axes.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {
@@ -57,19 +57,6 @@ void add_convention(std::vector<Proposal>& to,
   }
 }
 
-/// Source axis of each axis: "x,-y,z".
-std::string axes_option(const Matrix3& axes) {
-  std::string out;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      if (axes(row, column) == 0.0) continue;
-      out += std::string(out.empty() ? "" : ",") + (axes(row, column) < 0.0 ? "-" : "") +
-             "xyz"[column];
-    }
-  }
-  return out;
-}
-
 std::string axes_text(const Matrix3& axes) {
   std::string option = axes_option(axes);
   if (option == "y,x,z") return "exchanging x and y";
@@ -82,29 +69,21 @@ std::string axes_text(const Matrix3& axes) {
 /// The signed permutations of the estimate's positions.
 void add_axes(std::vector<Proposal>& to) {
   constexpr double kPenalty = 0.05;  // of each axis that moves
-  std::array<int, 3> order{0, 1, 2};
-  do {
-    for (int signs = 0; signs < 8; ++signs) {
-      Matrix3 axes = Matrix3::Zero();
-      for (int row = 0; row < 3; ++row) {
-        axes(row, order[static_cast<std::size_t>(row)]) = (signs >> row & 1) != 0 ? -1.0 : 1.0;
-      }
-      const double distance = (axes - Matrix3::Identity()).squaredNorm();
-      if (distance == 0.0) continue;
-      const Repair repair{Fault::axes,
-                          axes_text(axes) + " of the estimate's positions",
-                          "traj transform EST --axes=" + axes_option(axes),
-                          distance,
-                          kPenalty * distance,
-                          to_each(false, [axes](const Pose& p) -> Pose {
-                            return {p.rotation, axes * p.translation};
-                          })};
-      to.emplace_back([=](const CommonPoses& poses) -> std::optional<Repair> {
-        if (!has_rotations(poses.reference) || !has_rotations(poses.estimate)) return std::nullopt;
-        return repair;
-      });
-    }
-  } while (std::ranges::next_permutation(order).found);
+  for (const Matrix3& axes : signed_axes()) {
+    const double distance = (axes - Matrix3::Identity()).squaredNorm();
+    const Repair repair{Fault::axes,
+                        axes_text(axes) + " of the estimate's positions",
+                        "traj transform EST --axes=" + axes_option(axes),
+                        distance,
+                        kPenalty * distance,
+                        to_each(false, [axes](const Pose& p) -> Pose {
+                          return {p.rotation, axes * p.translation};
+                        })};
+    to.emplace_back([=](const CommonPoses& poses) -> std::optional<Repair> {
+      if (!has_rotations(poses.reference) || !has_rotations(poses.estimate)) return std::nullopt;
+      return repair;
+    });
+  }
 }
 
 /// Millimetres or centimetres, or an arbitrary scale.
@@ -157,7 +136,7 @@ std::optional<Repair> body_rotation_repair(const CommonPoses& poses) {
 }
 
 std::optional<Repair> lever_arm_repair(const CommonPoses& poses) {
-  constexpr double kExplained = 0.5, kPenalty = 0.3;
+  constexpr double kExplained = 0.5, kPenalty = 0.1;
   if (!has_rotations(poses.reference) || !has_rotations(poses.estimate)) return std::nullopt;
   Trajectory reference, estimate;
   for (std::size_t i = 0; i < poses.stamps.size(); ++i) {
@@ -232,7 +211,8 @@ const std::vector<Proposal>& proposals() {
 
 std::optional<Proven> best_repair(const CommonPoses& poses) {
   constexpr double kLeastGain = 0.7;  // a factor of 2 in the errors
-  constexpr double kMostRatio = 0.6;
+  constexpr double kLeastOfLeverArm = 0.2;
+  constexpr double kMostRatio = 0.75;
   constexpr std::size_t kMostCompared = 300;  // for the choice among all
   if (poses.stamps.size() < kFewestCommonPoses) return std::nullopt;
   const CommonPoses few = thinned(poses, kMostCompared), fitted = fitted_part(poses);
@@ -245,7 +225,8 @@ std::optional<Proven> best_repair(const CommonPoses& poses) {
     CommonPoses changed = few;
     repair->apply(changed);
     const double gain = before_of_few.cost() - agreement(changed).cost() - repair->penalty;
-    if (gain > kLeastGain) gains.emplace_back(-gain, &proposal);
+    if (gain > (repair->fault == Fault::lever_arm ? kLeastOfLeverArm : kLeastGain))
+      gains.emplace_back(-gain, &proposal);
   }
   std::ranges::sort(gains, {}, [](const auto& each) { return each.first; });
   for (const auto& [gain, proposal] : gains) {
@@ -254,7 +235,11 @@ std::optional<Proven> best_repair(const CommonPoses& poses) {
     repair->apply(changed);
     const Agreement after = agreement(changed);
     const Improvement gained = improvement(before, after);
-    if (before.cost() - after.cost() < kLeastGain || gained.ratio > kMostRatio) continue;
+    const bool is_lever_arm = repair->fault == Fault::lever_arm;
+    if (before.cost() - after.cost() < (is_lever_arm ? kLeastOfLeverArm : kLeastGain) ||
+        gained.ratio > kMostRatio) {
+      continue;
+    }
     if (std::optional<Repair> final = (*proposal)(poses)) return Proven{std::move(*final), gained};
   }
   return std::nullopt;

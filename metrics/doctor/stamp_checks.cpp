@@ -122,7 +122,21 @@ std::optional<StampRepair> check_frame_indices(const Trajectory& reference,
     factor = interval;
     offset = begin + found->offset;
   }
-  if (factor == 0.0) return std::nullopt;
+  if (factor == 0.0) {
+    if (overlap(of_reference, of_estimate) > 0.0) return std::nullopt;
+    return StampRepair{
+        {Fault::frame_indices,
+         fmt::format(
+             "the estimate's stamps are whole numbers from {:g} to {:g}, as frame indices, "
+             "the reference's {:.3f} to {:.3f} s; no usual frame rate fits: paired poses 0 %",
+             of_estimate.begin,
+             of_estimate.end,
+             of_reference.begin,
+             of_reference.end),
+         "write the estimate's stamps in seconds",
+         0.7},
+        0.0};
+  }
   return StampRepair{
       {Fault::frame_indices,
        fmt::format("the estimate's stamps are frame indices: with {:.4g} s per frame, paired poses "

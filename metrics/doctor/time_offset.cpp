@@ -151,19 +151,24 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
   constexpr double kSmallest = 0.012;  // [s]
   constexpr double kOfInterval = 0.35;
   constexpr double kDeviations = 5.0;
-  constexpr double kMostUnexplained = 0.7;
+  constexpr double kMostUnexplained = 0.7, kMostOfSmall = 0.9;
+  constexpr double kSurely = 10.0, kHalf = 0.4;
   constexpr double kLeastAlone = 0.85;  // correlation of files without common time
   const double size = std::abs(found.offset);
   const double interval = std::min(0.2, usual_interval(estimate));
   if (size < std::max({kSmallest, kOfInterval * interval, kDeviations * found.deviation})) {
     return std::nullopt;
   }
-  if (!raises_correlation(found) || found.unexplained > kMostUnexplained) return std::nullopt;
+  const bool is_clear = raises_correlation(found) && found.unexplained <= kMostUnexplained;
+  // Smooth motion correlates nearly as well without a small offset, but not by chance.
+  const bool is_small = found.has_common_time && found.correlation > found.before &&
+                        size > kSurely * found.deviation && size > kHalf * interval;
+  if (!is_clear && !is_small) return std::nullopt;
   if (!found.has_common_time && found.correlation < kLeastAlone) return std::nullopt;
   const SpeedMatch match(reference, estimate, Part::tested);
   const double remaining =
       found.has_common_time ? unexplained(match.score(0.0), match.score(found.offset)) : 0.5;
-  if (remaining > kMostUnexplained) return std::nullopt;
+  if (remaining > (is_clear ? kMostUnexplained : kMostOfSmall)) return std::nullopt;
   return InputFinding{Fault::time_offset,
                       fmt::format("the estimate's stamps are {:.3f} +- {:.3f} s {} the "
                                   "reference's: correlation of speeds {:.3f} -> {:.3f}",
@@ -173,7 +178,7 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
                                   found.before,
                                   found.correlation),
                       fmt::format("--offset {:.4f}", found.offset),
-                      std::clamp(1.0 - remaining, 0.0, 1.0),
+                      is_clear ? 1.0 - remaining : std::max(0.3, 1.0 - remaining),
                       found.offset};
 }
 

@@ -110,12 +110,23 @@ void exchange_blocks(Edge& edge) {
 
 std::string always(const Problem&) { return ""; }
 
+/// Closures that are mostly false show nothing about their information.
+std::string unless_false(const Problem& problem) {
+  const bool is_false =
+      std::ranges::any_of(metrics::check_closures(problem), [&](const metrics::InputFinding& f) {
+        return f.fault == metrics::Fault::closure_gap &&
+               5.0 * f.value > static_cast<double>(problem.closures.size());
+      });
+  return is_false ? "more than a fifth of the closures contradict the odometry" : "";
+}
+
 /// The unmodified information is already reported as too small.
 std::string unless_too_small(const Problem& problem) {
   const bool is_reported = std::ranges::any_of(
       metrics::check_closures(problem),
       [](const metrics::InputFinding& f) { return f.fault == metrics::Fault::information_scale; });
-  return is_reported ? "as stated, the information is already 10^6 times too small" : "";
+  return is_reported ? "as stated, the information is already 10^6 times too small"
+                     : unless_false(problem);
 }
 
 std::size_t pairs_of(const Problem& problem) {
@@ -126,7 +137,7 @@ std::size_t pairs_of(const Problem& problem) {
 std::string unless_isolated(const Problem& problem) {
   return pairs_of(problem) == 0
              ? "no two closures connect the same sections, so that none can be compared"
-             : "";
+             : unless_false(problem);
 }
 
 /// A single pair does not show which of its closures is wrong, or whether all are.
@@ -138,7 +149,7 @@ std::string unless_few_pairs(const Problem& problem) {
                    "{} pairs of closures connect the same sections, too few to single out "
                    "a closure",
                    pairs)
-             : "";
+             : unless_false(problem);
 }
 
 /// The exchange of blocks that are alike changes little.
@@ -153,7 +164,7 @@ std::string unless_alike(const Problem& problem) {
     }
   }
   const double ratio = std::exp(0.5 * metrics::median_value(std::move(ratios)));
-  return ratio > kAlike ? ""
+  return ratio > kAlike ? unless_false(problem)
                         : fmt::format(
                               "the stated standard deviations of translation [m] and "
                               "rotation [rad] have a ratio of {:.2f} (median)",
