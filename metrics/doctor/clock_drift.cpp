@@ -42,7 +42,8 @@ std::optional<ClockDrift> check_clock_drift(const Trajectory& reference,
   const double error = std::abs(offsets[1].offset - expected);
   if (std::abs(change) <
           std::max({kLeast, kOfInterval * usual_interval(estimate), kDeviations * deviation}) ||
-      std::abs(rate) < kLeastRate || error > kOfChange * std::abs(change)) {
+      std::abs(rate) < kLeastRate || std::abs(rate) > kMostRate ||
+      error > kOfChange * std::abs(change)) {
     return std::nullopt;
   }
   const double origin = estimate.front().stamp;

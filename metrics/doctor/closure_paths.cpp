@@ -104,7 +104,7 @@ class PathSearch {
 
 /// An even sample of the closures, then all others, those that contradict the odometry most first.
 std::vector<const Edge*> in_order_of_use(const std::vector<Edge>& closures, const Chain& chain) {
-  constexpr std::size_t kSample = 100;
+  constexpr std::size_t kSample = 30;
   std::vector<const Edge*> out, others;
   const std::size_t step = closures.size() / kSample + 1;
   for (std::size_t i = 0; i < closures.size(); ++i) {

@@ -231,7 +231,6 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
   double largest = kLeastChosen;
   for (const ClosureRepair& repair : all) {
     const double gain = gain_of(groups, as_read, chain, repair, 0) - repair.penalty;
-    if (std::getenv("DQ")) fmt::print(stderr, "   cand {} {:.1f}\n", repair.what, gain);
     if (!(gain > largest)) continue;
     largest = gain;
     best = &repair;
@@ -240,7 +239,6 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
   PredictionError after;
   const double proven = gain_of(groups, as_read, chain, *best, 1, &after);
   const auto [ratio, text] = largest_change(before, after);
-  if (std::getenv("DQ")) fmt::print(stderr, "   best {} {:.1f} {}\n", best->what, proven, text);
   if (proven < kLeastProven || ratio > kMostRatio) return std::nullopt;
   return InputFinding{
       best->fault,

@@ -166,7 +166,7 @@ std::optional<InputFinding> check_swapped(const Trajectory& reference,
 
 std::optional<InputFinding> check_constant_rotation(const Trajectory& reference,
                                                     const Trajectory& estimate) {
-  constexpr double kMoves = 0.5;         // [m]
+  constexpr double kMoves = 0.2;         // [m]
   constexpr double kOtherRotates = 0.1;  // [rad]
   constexpr std::size_t kFewestPoses = 10;
   if (reference.size() < kFewestPoses || estimate.size() < kFewestPoses) return std::nullopt;

@@ -17,8 +17,8 @@ std::optional<InputFinding> check_swapped(const Trajectory& reference,
                                           const std::string& reference_name,
                                           const std::string& estimate_name);
 
-/// The rotation of one trajectory is constant while it moves by more than 0.5 m and the other one
-/// rotates by more than 0.3 rad. O(n).
+/// The rotation of one trajectory is constant while it moves by more than 0.2 m and the other one
+/// rotates by more than 0.1 rad. O(n).
 std::optional<InputFinding> check_constant_rotation(const Trajectory& reference,
                                                     const Trajectory& estimate);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/speed_match.hpp"
 #include "metrics/numerics/angle.hpp"
@@ -152,7 +153,7 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
   constexpr double kOfInterval = 0.35;
   constexpr double kDeviations = 5.0;
   constexpr double kMostUnexplained = 0.7, kMostOfSmall = 0.9;
-  constexpr double kSurely = 10.0, kHalf = 0.4;
+  constexpr double kSurely = 10.0, kHalf = 0.4, kLeastGain = 0.03;
   constexpr double kLeastAlone = 0.85;  // correlation of files without common time
   const double size = std::abs(found.offset);
   const double interval = std::min(0.2, usual_interval(estimate));
@@ -169,6 +170,15 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
   const double remaining =
       found.has_common_time ? unexplained(match.score(0.0), match.score(found.offset)) : 0.5;
   if (remaining > (is_clear ? kMostUnexplained : kMostOfSmall)) return std::nullopt;
+  if (!is_clear) {
+    const auto errors = [&](double offset) {
+      return agreement(common_poses(reference, estimate, offset, kMostCommonPoses));
+    };
+    const Agreement before = errors(0.0), after = errors(found.offset);
+    if (after.cost() > before.cost() - kLeastGain || after.similarity > before.similarity) {
+      return std::nullopt;
+    }
+  }
   return InputFinding{Fault::time_offset,
                       fmt::format("the estimate's stamps are {:.3f} +- {:.3f} s {} the "
                                   "reference's: correlation of speeds {:.3f} -> {:.3f}",
