@@ -20,8 +20,9 @@ struct DoctorArguments {
   std::string reference;
   std::vector<std::string> estimates;
   ReadArguments reading;
-  std::string loops;  ///< closures of a trajectory; empty: none
-  std::string apply;  ///< folder for corrected estimates; empty: none
+  std::string reference_format;  ///< empty: same as that of the estimates
+  std::string loops;             ///< closures of a trajectory; empty: none
+  std::string apply;             ///< folder for corrected estimates; empty: none
   bool json = false;
 };
 
@@ -130,7 +131,9 @@ int doctor(const DoctorArguments& a) {
   std::vector<Diagnosed> all;
   std::vector<NamedTrajectory> estimates;
   if (!a.estimates.empty()) {
-    const NamedTrajectory reference = read_named(a.reference, a.reading);
+    ReadArguments of_reference = a.reading;
+    if (!a.reference_format.empty()) of_reference.format = a.reference_format;
+    const NamedTrajectory reference = read_named(a.reference, of_reference);
     estimates = read_all_named(a.estimates, a.reading);
     for (const NamedTrajectory& estimate : estimates) all.push_back(of_pair(reference, estimate));
   }
@@ -163,10 +166,10 @@ void add_doctor(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<DoctorArguments>();
   CLI::App* command = app.add_subcommand(
       "doctor",
-      "Search trajectories or a pose graph for mistakes: time offset, quaternion order, units, "
-      "axes, inverted poses, lever arm, exchanged files, closures, information (exit 1 if there "
-      "are any, or "
-      "if nothing could be checked)");
+      "Search trajectories or a pose graph for mistakes: clocks, quaternion order, units, axes, "
+      "inverted poses, lever arm, exchanged or wrong files, jumps, closures, information (exit 1 "
+      "if "
+      "there are any, or if nothing could be checked)");
   command->add_option("reference", a->reference, "Reference trajectory, or a pose graph")
       ->required()
       ->type_name("REF");
@@ -178,6 +181,10 @@ void add_doctor(CLI::App& app, int& exit_code) {
       ->type_name("FILE");
   command
       ->add_option("--format", a->reading.format, "Format of the files: " + choice_list<Format>())
+      ->type_name("WORD");
+  command
+      ->add_option(
+          "--ref-format", a->reference_format, "File format of REF, if different from --format")
       ->type_name("WORD");
   command
       ->add_option(

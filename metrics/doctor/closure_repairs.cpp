@@ -129,6 +129,12 @@ double log_likelihood(const LoopGroup& group,
   return out;
 }
 
+/// Choices and proofs use alternate groups; all, if there are few, which differ little by chance.
+std::size_t step_of(const std::vector<LoopGroup>& groups) {
+  constexpr std::size_t kFewestForHalves = 6;
+  return groups.size() < kFewestForHalves ? 1 : 2;
+}
+
 /// Sum over every other group; one group, whose closures may be false, counts up to a limit.
 double gain_of(const std::vector<LoopGroup>& groups,
                const std::vector<double>& as_read,
@@ -138,7 +144,7 @@ double gain_of(const std::vector<LoopGroup>& groups,
                PredictionError* errors = nullptr) {
   constexpr double kMostOfGroup = 10.0;
   double out = 0.0;
-  const std::size_t step = groups.size() > 1 ? 2 : 1;
+  const std::size_t step = step_of(groups);
   for (std::size_t i = first % step; i < groups.size(); i += step) {
     out += std::clamp(log_likelihood(groups[i], chain, &repair, errors) - as_read[i],
                       -kMostOfGroup,
@@ -224,7 +230,7 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
   std::vector<double> as_read;
   PredictionError before;
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    const bool is_tested = i % 2 == 1 || groups.size() == 1;
+    const bool is_tested = i % 2 == 1 || step_of(groups) == 1;
     as_read.push_back(log_likelihood(groups[i], chain, nullptr, is_tested ? &before : nullptr));
   }
   const ClosureRepair* best = nullptr;

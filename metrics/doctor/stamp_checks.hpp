@@ -11,7 +11,7 @@ namespace loopbench::metrics {
 /// The stamps of one file are replaced by factor * stamp + offset.
 struct StampRepair {
   InputFinding finding;
-  double factor = 1.0;   ///< 0: unknown
+  double factor = 1.0;  ///< 0: unknown
   double offset = 0.0;  ///< [s]
   bool is_of_reference = false;
 };

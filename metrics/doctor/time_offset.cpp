@@ -153,7 +153,7 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
   constexpr double kOfInterval = 0.35;
   constexpr double kDeviations = 5.0;
   constexpr double kMostUnexplained = 0.7, kMostOfSmall = 0.9;
-  constexpr double kSurely = 10.0, kHalf = 0.4, kLeastGain = 0.03;
+  constexpr double kSurely = 10.0, kHalf = 0.4, kLeastGain = 0.03, kAligned = 0.1;
   constexpr double kLeastAlone = 0.85;  // correlation of files without common time
   const double size = std::abs(found.offset);
   const double interval = std::min(0.2, usual_interval(estimate));
@@ -175,7 +175,8 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
       return agreement(common_poses(reference, estimate, offset, kMostCommonPoses));
     };
     const Agreement before = errors(0.0), after = errors(found.offset);
-    if (after.cost() > before.cost() - kLeastGain || after.similarity > before.similarity) {
+    if (before.similarity > kAligned * before.spread || after.cost() > before.cost() - kLeastGain ||
+        after.similarity > before.similarity) {
       return std::nullopt;
     }
   }
