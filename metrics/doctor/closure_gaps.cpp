@@ -84,9 +84,18 @@ GapCheck implausible(const std::vector<GapOverLimit>& gaps,
                      const std::vector<GapOverLimit>& others = {}) {
   GapCheck out;
   std::vector<GapOverLimit> found = others;
+  double squares = 0.0, squares_of_found = 0.0;  // of gaps [m^2]
+  for (const GapOverLimit& gap : others) squares_of_found += gap.distance * gap.distance;
   for (const GapOverLimit& gap : gaps) {
+    (gap.over > 1.0 ? squares_of_found : squares) += gap.distance * gap.distance;
     if (gap.over > 1.0) found.push_back(gap);
   }
+  const auto rms = [](double sum, std::size_t count) {
+    return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)));
+  };
+  const std::size_t count = gaps.size() + others.size();
+  const double before = rms(squares + squares_of_found, count);
+  const double after = rms(squares, count - found.size());
   if (found.empty()) return out;
   const GapOverLimit& worst = *std::ranges::max_element(found, {}, &GapOverLimit::over);
   for (const GapOverLimit& gap : found) {
@@ -95,17 +104,18 @@ GapCheck implausible(const std::vector<GapOverLimit>& gaps,
   out.finding = InputFinding{
       Fault::closure_gap,
       fmt::format("{} of {} closures contradict {}, most of all {} -> {}: the gap is {:.3g} m "
-                  "after {:.3g} m, {:.2g} times the limit of the others",
+                  "after {:.3g} m; without them, rms of the gaps {:.3g} -> {:.3g} m",
                   found.size(),
-                  gaps.size() + others.size(),
+                  count,
                   contradicted_by,
                   worst.closure->from,
                   worst.closure->to,
                   worst.distance,
                   worst.length,
-                  worst.over),
+                  before,
+                  after),
       "check them; robust methods are made for false closures",
-      1.0 - 1.0 / worst.over,
+      1.0 - after / before,
       static_cast<double>(found.size())};
   return out;
 }

@@ -2,42 +2,43 @@
 
 #include <fmt/format.h>
 
-#include <map>
+#include <array>
 
 namespace loopbench::metrics {
 
 std::string fault_name(Fault fault) {
-  static const std::map<Fault, std::string> kNames{
-      {Fault::time_offset, "time_offset"},
-      {Fault::stamp_unit, "stamp_unit"},
-      {Fault::frame_indices, "frame_indices"},
-      {Fault::clock_drift, "clock_drift"},
-      {Fault::no_overlap, "no_overlap"},
-      {Fault::missing_poses, "missing_poses"},
-      {Fault::wrong_recording, "wrong_recording"},
-      {Fault::jumps, "jumps"},
-      {Fault::constant_rotation, "constant_rotation"},
-      {Fault::quaternion_order, "quaternion_order"},
-      {Fault::conjugated, "conjugated"},
-      {Fault::inverted_poses, "inverted_poses"},
-      {Fault::axes, "axes"},
-      {Fault::angle_unit, "angle_unit"},
-      {Fault::length_unit, "length_unit"},
-      {Fault::scale, "scale"},
-      {Fault::swapped, "swapped"},
-      {Fault::closure_direction, "closure_direction"},
-      {Fault::odometry_direction, "odometry_direction"},
-      {Fault::closure_rotation, "closure_rotation"},
-      {Fault::closure_unit, "closure_unit"},
-      {Fault::closure_frame, "closure_frame"},
-      {Fault::closure_gap, "closure_gap"},
-      {Fault::information_order, "information_order"},
-      {Fault::information_scale, "information_scale"},
-      {Fault::edge_covariance, "edge_covariance"},
-      {Fault::nothing_moved, "nothing_moved"},
-      {Fault::lever_arm, "lever_arm"},
-      {Fault::body_rotation, "body_rotation"}};
-  return kNames.at(fault);
+  // In the order of the enumerators.
+  static constexpr std::array kNames{"time_offset",
+                                     "stamp_unit",
+                                     "frame_indices",
+                                     "clock_drift",
+                                     "no_overlap",
+                                     "missing_poses",
+                                     "wrong_recording",
+                                     "jumps",
+                                     "constant_rotation",
+                                     "quaternion_order",
+                                     "conjugated",
+                                     "inverted_poses",
+                                     "axes",
+                                     "angle_unit",
+                                     "length_unit",
+                                     "scale",
+                                     "swapped",
+                                     "closure_direction",
+                                     "odometry_direction",
+                                     "closure_rotation",
+                                     "closure_unit",
+                                     "closure_frame",
+                                     "closure_gap",
+                                     "information_order",
+                                     "information_scale",
+                                     "edge_covariance",
+                                     "nothing_moved",
+                                     "lever_arm",
+                                     "body_rotation"};
+  static_assert(kNames.size() == std::size_t{1} + static_cast<std::size_t>(Fault::body_rotation));
+  return kNames.at(static_cast<std::size_t>(fault));
 }
 
 std::string text(const InputFinding& finding) {

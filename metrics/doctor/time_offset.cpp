@@ -154,7 +154,8 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
   constexpr double kDeviations = 5.0;
   constexpr double kMostUnexplained = 0.7, kMostOfSmall = 0.9;
   constexpr double kSurely = 10.0, kHalf = 0.4, kLeastGain = 0.03, kAligned = 0.1;
-  constexpr double kLeastAlone = 0.85;  // correlation of files without common time
+  constexpr double kProvenAlone = 0.04;  // [s]; smaller ones need smaller errors, too
+  constexpr double kLeastAlone = 0.85;   // correlation of files without common time
   const double size = std::abs(found.offset);
   const double interval = std::min(0.2, usual_interval(estimate));
   if (size < std::max({kSmallest, kOfInterval * interval, kDeviations * found.deviation})) {
@@ -170,7 +171,7 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
   const double remaining =
       found.has_common_time ? unexplained(match.score(0.0), match.score(found.offset)) : 0.5;
   if (remaining > (is_clear ? kMostUnexplained : kMostOfSmall)) return std::nullopt;
-  if (!is_clear) {
+  if (!is_clear || size < kProvenAlone) {
     const auto errors = [&](double offset) {
       return agreement(common_poses(reference, estimate, offset, kMostCommonPoses));
     };

@@ -200,6 +200,14 @@ TEST_F(DoctorNotes, ApplyCorrectsPoseGraphs) {
   });
 }
 
+TEST_F(DoctorNotes, TheReferenceHasItsOwnFormat) {
+  const auto error = [&](const std::string& options) {
+    return loopbench_command("doctor gt.txt est.txt " + options, folder_).err;
+  };
+  EXPECT_THAT(error("--ref-format kitti"), HasSubstr("gt.txt"));
+  EXPECT_THAT(error("--format kitti --ref-format tum"), HasSubstr("est.txt"));
+}
+
 TEST_F(DoctorNotes, ASinglePoseIsNoCleanFile) {
   folder_.file("one.txt", "101 0 0 0 0 0 0 1\n");
   const CommandResult one = loopbench_command("doctor gt.txt one.txt", folder_);
