@@ -224,7 +224,7 @@ std::optional<InputFinding> find_odometry_repair(const Problem& problem) {
 
 std::optional<InputFinding> find_closure_repair(const Problem& problem, const Chain& chain) {
   constexpr double kLeastChosen = 5.0, kLeastProven = 3.0;  // in logarithms of the likelihood
-  constexpr double kMostRatio = 0.9;
+  constexpr double kMostRatio = 0.9, kMostOfUnit = 0.3;     // shrinking removes noise, too
   const std::vector<LoopGroup> groups = groups_of(problem, chain);
   static const std::vector<ClosureRepair> all = candidates();
   std::vector<double> as_read;
@@ -245,7 +245,8 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
   PredictionError after;
   const double proven = gain_of(groups, as_read, chain, *best, 1, &after);
   const auto [ratio, text] = largest_change(before, after);
-  if (proven < kLeastProven || ratio > kMostRatio) return std::nullopt;
+  const bool is_unit = best->fault == Fault::closure_unit;
+  if (proven < kLeastProven || ratio > (is_unit ? kMostOfUnit : kMostRatio)) return std::nullopt;
   return InputFinding{
       best->fault,
       fmt::format(

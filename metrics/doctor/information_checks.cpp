@@ -13,7 +13,7 @@ constexpr double kInformationTooLarge = 100.0,
                  kInformationTooSmall = 1e-5;  // squared errors over stated variances
 
 /// Smaller ones are those of noise-free measurements, which show nothing about the noise.
-constexpr double kOfExactMeasurements = 1e-12;
+constexpr double kOfExactMeasurements = 1e-10;
 
 SquaredError median_after_exchange(const std::vector<Edge>& closures, const Chain& chain) {
   const Chain other = exchanged(chain);
