@@ -96,7 +96,7 @@ std::vector<LoopGroup> groups_of(const Problem& problem, const Chain& chain) {
   const std::size_t n = sorted.size();
   std::vector<LoopGroup> out;
   const std::size_t count = std::clamp<std::size_t>((n + 1) / kSize, n < kSize + 1 ? 1 : 2, kMost);
-  const OdometryNoise noise = odometry_noise(chain);
+  const StepCovariances noise = step_covariances(chain);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t begin = i * n / count;
     const std::size_t size = std::min({(i + 1) * n / count - begin, count == 1 ? n : kSize});

@@ -26,9 +26,9 @@ Eigen::VectorXd all_gaps(const std::vector<const Edge*>& closures,
 
 }  // namespace
 
-OdometryNoise odometry_noise(const Chain& chain) {
+StepCovariances step_covariances(const Chain& chain) {
   const std::vector<Matrix6> zeros(chain.poses.size(), Matrix6::Zero());
-  OdometryNoise out{zeros, zeros};
+  StepCovariances out{zeros, zeros};
   for (std::size_t i = 0; i < chain.steps.size(); ++i) {
     const Matrix6 adjoint_of_pose = adjoint(chain.poses[i + 1]);
     for (int part = 0; part < 2; ++part) {
@@ -43,7 +43,7 @@ OdometryNoise odometry_noise(const Chain& chain) {
 
 LoopGroup::LoopGroup(std::vector<const Edge*> closures,
                      const Chain& chain,
-                     const OdometryNoise& noise)
+                     const StepCovariances& noise)
     : closures_(std::move(closures)), chain_(chain) {
   const auto size = static_cast<Eigen::Index>(6 * closures_.size());
   covariances_.fill(Eigen::MatrixXd::Zero(size, size));

@@ -11,10 +11,10 @@ namespace loopbench::metrics {
 
 /// Covariances of the composed odometry that translations and rotations of the steps cause, in the
 /// frame of the first keyframe.
-using OdometryNoise = std::array<std::vector<Matrix6>, 2>;
+using StepCovariances = std::array<std::vector<Matrix6>, 2>;
 
 /// O(keyframes).
-OdometryNoise odometry_noise(const Chain& chain);
+StepCovariances step_covariances(const Chain& chain);
 
 /// Median error with which the odometry and the other closures of a group predict a closure.
 struct PredictionError {
@@ -26,7 +26,7 @@ struct PredictionError {
 /// together.
 class LoopGroup {
  public:
-  LoopGroup(std::vector<const Edge*> closures, const Chain& chain, const OdometryNoise& noise);
+  LoopGroup(std::vector<const Edge*> closures, const Chain& chain, const StepCovariances& noise);
 
   const std::vector<const Edge*>& closures() const { return closures_; }
   /// Number of components of rotations that are not zero: 1 of a planar graph.
