@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+
+#include "metrics/doctor/common_motion.hpp"
 
 namespace loopbench::metrics {
 namespace {
@@ -33,31 +36,63 @@ std::string text(const SquaredError& error) {
       "{:.3g} (translation) and {:.3g} (rotation)", error.translation, error.rotation);
 }
 
-enum class Kind { odometry, closures, all };
+/// Edges whose information is wrong, and the gaps that show it.
+struct WrongScale {
+  const char* edges;
+  const char* options;
+  bool is_of_odometry = true, is_of_closures = true;
+  bool is_of_neighbours = false;  ///< shown by neighbouring closures instead of loops
+};
 
-InputFinding wrong_scale(const SquaredError& error,
-                         const std::string& measured_on,
-                         Kind kind,
-                         std::size_t count) {
-  const double factor = 1.0 / std::max(error.whole, 1e-30);
-  const bool is_all = kind == Kind::all;
+/// The factor is estimated from every other gap, and tested on the remaining ones.
+std::vector<InputFinding> wrong_scale(const WrongScale& wrong,
+                                      const std::vector<Edge>& closures,
+                                      const std::vector<SquaredError>& errors,
+                                      const Chain& chain) {
+  constexpr int kMostSteps = 8;
+  constexpr double kNearOne = 1.3;
+  const auto median_after = [&](double factor, std::size_t first) {
+    std::vector<Edge> edges = closures;
+    Chain scaled = chain;
+    for (Edge& edge : edges) edge.information *= wrong.is_of_closures ? factor : 1.0;
+    for (Matrix6& each : scaled.covariances) each /= wrong.is_of_odometry ? factor : 1.0;
+    std::vector<SquaredError> all;
+    if (wrong.is_of_neighbours) {
+      all = neighbour_errors(neighbours_of(edges, scaled), scaled);
+    } else {
+      for (const Edge& edge : edges) all.push_back(closure_error(edge, scaled, false));
+    }
+    constexpr std::size_t kFewestForHalves = 6;
+    const bool has_halves = all.size() >= kFewestForHalves;
+    std::vector<double> part;
+    for (std::size_t i = has_halves ? first : 0; i < all.size(); i += has_halves ? 2 : 1) {
+      part.push_back(all[i].whole);
+    }
+    return std::max(median_value(std::move(part)), 1e-30);
+  };
+  double factor = 1.0;
+  for (int step = 0; step < kMostSteps; ++step) {  // the other edges have a part in each error
+    const double error = median_after(factor, 0);
+    if (std::abs(std::log(error)) < std::log(kNearOne)) break;
+    factor /= error;
+  }
+  const double before = median_after(1.0, 1), after = median_after(factor, 1);
+  if (std::abs(std::log(after)) > std::abs(std::log(before))) return {};
   return {
-      Fault::information_scale,
-      fmt::format("squared gaps of {} are {} times the stated variances (median of {})",
-                  measured_on,
-                  text(error),
-                  count),
-      fmt::format("check the information of {}, which would fit after multiplication by {:.1g}; "
-                  "for a trajectory: options {}",
-                  is_all                   ? "all edges"
-                  : kind == Kind::odometry ? "the odometry"
-                                           : "the closures",
-                  factor,
-                  is_all                   ? "odometry.sigma_*, closures.sigma_*"
-                  : kind == Kind::odometry ? "odometry.sigma_*"
-                                           : "closures.sigma_*"),
-      0.8,
-      error.translation};
+      {Fault::information_scale,
+       fmt::format(
+           "squared gaps of {} over their stated variances (median of {}): {:.3g} -> {:.3g} "
+           "with the information of {} times {:.1g}",
+           wrong.is_of_neighbours ? "neighbouring closures" : "the loops",
+           errors.size(),
+           before,
+           after,
+           wrong.edges,
+           factor),
+       fmt::format(
+           "check the information of {}; for a trajectory: options {}", wrong.edges, wrong.options),
+       0.8,
+       before}};
 }
 
 }  // namespace
@@ -86,19 +121,24 @@ std::vector<InputFinding> check_information(const std::vector<Edge>& closures,
   }
   const bool has_neighbours = !neighbours.empty();
   const SquaredError near = median_error(neighbours);
+  const WrongScale of_all{"all edges", "odometry.sigma_*, closures.sigma_*"};
   if (std::min(loops.translation, loops.rotation) > kInformationTooLarge ||
       loops.whole > kInformationTooLarge) {
     const bool is_of_odometry = has_neighbours && near.whole < kInformationTooLarge;
-    return {wrong_scale(
-        loops, "the loops", is_of_odometry ? Kind::odometry : Kind::all, closures.size())};
+    return wrong_scale(
+        is_of_odometry ? WrongScale{"the odometry", "odometry.sigma_*", true, false} : of_all,
+        closures,
+        errors,
+        chain);
   }
   if (loops.whole > kOfExactMeasurements &&
       std::max(loops.translation, loops.rotation) < kInformationTooSmall) {
-    return {wrong_scale(loops, "the loops", Kind::all, closures.size())};
+    return wrong_scale(of_all, closures, errors, chain);
   }
   if (has_neighbours && near.whole > kOfExactMeasurements &&
       (near.whole < kInformationTooSmall || near.whole > kInformationTooLarge)) {
-    return {wrong_scale(near, "neighbouring closures", Kind::closures, neighbours.size())};
+    return wrong_scale(
+        {"the closures", "closures.sigma_*", false, true, true}, closures, neighbours, chain);
   }
   return {};
 }

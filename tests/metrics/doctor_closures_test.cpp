@@ -5,6 +5,7 @@
 
 #include "metrics/doctor/closure_checks.hpp"
 #include "metrics/doctor/closure_paths.hpp"
+#include "metrics/doctor/loop_likelihood.hpp"
 #include "metrics/doctor/movement.hpp"
 
 namespace loopbench::doctor_closures_test {
@@ -180,6 +181,22 @@ TEST(DoctorOfClosures, FewClosuresShareTheirDrift) {
   EXPECT_THAT(closure_faults(problem), IsEmpty());
   for (Edge& edge : problem.closures) edge.from_from_to = edge.from_from_to.inverse();
   EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_direction));
+}
+
+/// The gaps of both loops are those of one step, so that each predicts the other.
+TEST(DoctorOfClosures, LoopsPredictEachOther) {
+  Problem problem = rounds();
+  problem.odometry[58].from_from_to =
+      problem.odometry[58].from_from_to * Pose{exp_so3({0, 0, 0.05}), {6, -3, 0}};
+  const Chain chain = chain_of(problem);
+  const std::vector<const Edge*> pair{&problem.closures[3], &problem.closures[4]};
+  PredictionError errors;
+  LoopGroup(pair, chain, step_covariances(chain))
+      .log_likelihood({pair[0]->from_from_to, pair[1]->from_from_to}, &errors);
+  ASSERT_EQ(errors.metres.size(), 2u);
+  EXPECT_GT(gap_of(*pair[0], chain), 5.0);
+  EXPECT_LT(errors.metres[0], 0.5);
+  EXPECT_LT(errors.metres[1], 0.5);
 }
 
 TEST(DoctorOfClosures, AFalseClosureWithinTheUsualDriftContradictsItsCovariance) {
