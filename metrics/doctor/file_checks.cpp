@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/numerics/angle.hpp"
@@ -38,22 +39,13 @@ double rate(const Trajectory& poses) {
   return duration > 0.0 ? static_cast<double>(poses.size() - 1) / duration : 0.0;
 }
 
-/// Largest angle to the first rotation [rad].
-double largest_rotation(const Trajectory& poses) {
-  double out = 0.0;
+/// Largest distance [m] and rotation angle [rad] from the first pose.
+std::pair<double, double> largest_motion(const Trajectory& poses) {
+  std::pair<double, double> out;
   for (const StampedPose& pose : poses) {
-    out = std::max(
-        out, angle_between(poses.front().world_from_body.rotation, pose.world_from_body.rotation));
-  }
-  return out;
-}
-
-/// Largest distance to the first position [m].
-double largest_distance(const Trajectory& poses) {
-  double out = 0.0;
-  for (const StampedPose& pose : poses) {
-    out = std::max(
-        out, (pose.world_from_body.translation - poses.front().world_from_body.translation).norm());
+    const Pose moved = poses.front().world_from_body.inverse() * pose.world_from_body;
+    out.first = std::max(out.first, moved.translation.norm());
+    out.second = std::max(out.second, angle_between(moved.rotation, Rotation::Identity()));
   }
   return out;
 }
@@ -147,7 +139,7 @@ std::optional<InputFinding> check_swapped(const Trajectory& reference,
   const bool covers = estimate.front().stamp <= reference.front().stamp &&
                       estimate.back().stamp >= reference.back().stamp;
   const bool rotate =
-      largest_rotation(reference) > kConstant && largest_rotation(estimate) > kConstant;
+      largest_motion(reference).second > kConstant && largest_motion(estimate).second > kConstant;
   const bool is_denser = rates >= kRates && covers && rotate;
   if (!estimate_is_named && !is_denser) return std::nullopt;
   return InputFinding{
@@ -170,11 +162,11 @@ std::optional<InputFinding> check_constant_rotation(const Trajectory& reference,
   constexpr double kOtherRotates = 0.1;  // [rad]
   constexpr std::size_t kFewestPoses = 10;
   if (reference.size() < kFewestPoses || estimate.size() < kFewestPoses) return std::nullopt;
-  const double of_reference = largest_rotation(reference);
-  const double of_estimate = largest_rotation(estimate);
+  const auto [reference_moves, of_reference] = largest_motion(reference);
+  const auto [estimate_moves, of_estimate] = largest_motion(estimate);
   if (std::min(of_reference, of_estimate) > kConstant) return std::nullopt;
   const bool is_reference = of_reference < of_estimate;
-  const double distance = largest_distance(is_reference ? reference : estimate);
+  const double distance = is_reference ? reference_moves : estimate_moves;
   const double rotation = std::max(of_reference, of_estimate);
   if (distance < kMoves || rotation < kOtherRotates) return std::nullopt;
   return InputFinding{

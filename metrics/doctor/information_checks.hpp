@@ -12,7 +12,8 @@ namespace loopbench::metrics {
 /// odometry and closures. Medians of translation and rotation far from 1, but near 1 after exchange
 /// of the blocks: wrong order. Far from 1 otherwise: wrong scale, of the odometry only if pairs of
 /// neighbouring closures (`neighbours`: their errors) agree with their covariance. Only these pairs
-/// far from it: wrong scale of the closures. O(closures).
+/// far from it: wrong scale of the closures. The factor of a wrong scale is fitted to every other
+/// gap, and has to bring the remaining ones closer to 1. O(closures).
 std::vector<InputFinding> check_information(const std::vector<Edge>& closures,
                                             const std::vector<SquaredError>& errors,
                                             const std::vector<SquaredError>& neighbours,
