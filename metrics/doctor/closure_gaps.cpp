@@ -115,7 +115,7 @@ GapCheck implausible(const std::vector<GapOverLimit>& gaps,
                   before,
                   after),
       "check them; robust methods are made for false closures",
-      1.0 - after / before,
+      std::max(1.0 - after / before, 1.0 - 1.0 / worst.over),
       static_cast<double>(found.size())};
   return out;
 }
