@@ -9,6 +9,7 @@
 
 #include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/file_checks.hpp"
+#include "metrics/doctor/position_checks.hpp"
 #include "metrics/doctor/repairs.hpp"
 #include "metrics/doctor/speed_match.hpp"
 #include "metrics/doctor/stamp_checks.hpp"
@@ -177,6 +178,9 @@ Diagnosis diagnosis(const Trajectory& reference,
                     const std::string& reference_name,
                     const std::string& estimate_name,
                     bool has_stamps) {
+  if (lacks_rotations(reference) || lacks_rotations(estimate)) {
+    return diagnosis_of_positions(reference, estimate, reference_name, estimate_name, has_stamps);
+  }
   return PairDiagnosis(reference, estimate).run(reference_name, estimate_name, has_stamps);
 }
 
