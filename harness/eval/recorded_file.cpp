@@ -7,8 +7,8 @@
 
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/text_formats.hpp"
-#include "metrics/trajectory/position_only.hpp"
 #include "harness/eval/trajectory_selection.hpp"
+#include "metrics/trajectory/position_only.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -29,9 +29,8 @@ Trajectory transformed(Trajectory poses, const Similarity& similarity, Transform
 
 /// Corrections of conventions in which a file differs from what its reader expects.
 struct Conventions {
-  std::string
-      quaternion_order;       ///< of the file: wxyz | xyzw, if read in the other; empty: as read
-  bool conjugate = false;     ///< invert rotations, not positions
+  std::string quaternion_order;  ///< of the file: wxyz | xyzw, if read in the other; empty: as read
+  bool conjugate = false;        ///< invert rotations, not positions
   std::string axes;           ///< source axis of x, y, z of the positions, "-y,x,z"; empty: as read
   double scale = 1.0;         ///< factor of the positions
   double stamp_scale = 1.0;   ///< factor of the stamps
