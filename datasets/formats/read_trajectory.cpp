@@ -6,6 +6,7 @@
 #include "datasets/formats/columns.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/g2o.hpp"
+#include "datasets/formats/pose_rules.hpp"
 #include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_formats.hpp"
 #include "datasets/formats/trajectory_file.hpp"

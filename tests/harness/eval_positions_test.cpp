@@ -47,9 +47,9 @@ TEST(EvalPositions, PositionsGiveTheAteOfTheFullReference) {
   EXPECT_NEAR(ate_of(results), full, 1e-12);
   EXPECT_THAT(
       eval({positions, golden("est_drift.txt")}),
-      HasSubstr("the reference has positions without rotation, so rotation is not evaluated"));
+      HasSubstr("undefined: the reference has positions\n  without rotation, so rotation is not"));
   EXPECT_THAT(eval({golden("gt.txt"), golden("est_drift.txt"), "--ref-positions"}),
-              HasSubstr("positions without rotation"));
+              HasSubstr("undefined: the reference has positions\n"));
   EXPECT_THAT(refusal<InputError>({positions, golden("est_drift.txt"), "--align_origin"}),
               HasSubstr("its first pose does not define a rotation"));
 }
