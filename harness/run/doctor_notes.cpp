@@ -12,7 +12,6 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr const char* kDoctorPrefix = "doctor: ";
 constexpr double kSureFinding = 0.5;  // `loopbench doctor` itself prints all findings
 
 bool aligns_scale(const metrics::NamedProtocol& protocol) {

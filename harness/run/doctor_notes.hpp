@@ -11,6 +11,9 @@
 
 namespace loopbench::harness {
 
+/// Notes that start with this are findings of the doctor.
+inline constexpr const char* kDoctorPrefix = "doctor: ";
+
 /// Two trajectories as they were read.
 struct ReadPair {
   const Trajectory& reference;

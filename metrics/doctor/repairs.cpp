@@ -14,7 +14,7 @@ namespace {
 
 using Change = std::function<Pose(const Pose&)>;
 
-std::function<void(CommonPoses&)> to_each(bool of_reference, Change change) {
+std::function<void(CommonPoses&)> to_each(bool of_reference, const Change& change) {
   return [=](CommonPoses& poses) {
     for (Pose& pose : of_reference ? poses.reference : poses.estimate) pose = change(pose);
   };
