@@ -26,12 +26,14 @@ std::string reason(const std::string& text) {
 
 TEST(Positions, AreReadInEveryTextFormat) {
   const TemporaryFolder scratch;
+  const char* const leica =
+      "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m]\n"
+      "500000000,1,2,3\n1000000000,4,5,6\n";
   for (const char* const text : {"0.5 1 2 3\n1 4 5 6\n",                  // TUM
                                  "0.5 1 2 3 0 0 0 0\n1 4 5 6 0 0 0 0\n",  // M2DGR
                                  "500000000,1,2,3\n1000000000,4,5,6\n",   // small clocks
                                  "t,x,y,z\n0.5,1,2,3\n1,4,5,6\n",         // csv
-                                 "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m]\n"
-                                 "500000000,1,2,3\n1000000000,4,5,6\n"}) {  // leica0
+                                 leica}) {
     const Trajectory poses = read(scratch.file("a.txt", text));
     ASSERT_EQ(poses.size(), 2u) << text;
     EXPECT_EQ(poses[0].stamp, 0.5) << text;
