@@ -27,6 +27,10 @@ cp "$example"/{reference,open,loops}.txt .
 for name in gt marker truths/room; do cp reference.txt $name.txt; done
 for name in estimate good camera est systems/ours/room/1 systems/ours/room/2; do cp open.txt $name.txt; done
 cp "$example/other.txt" systems/theirs/room/1.txt
+# An antenna in degrees, and every tenth position with a filler quaternion.
+awk 'BEGIN { print "time,latitude,longitude,height" }
+  !/^#/ { printf "%s,%.12f,%.12f,%s\n", $1, 47 + $3 / 111111, 8 + $2 / 75800, $4 }' reference.txt >gnss.csv
+awk '!/^#/ && n++ % 10 == 0 { print $1, $2, $3, $4, 0, 0, 0, 1 }' reference.txt >points.txt
 echo 'not a trajectory' >broken.txt
 mkdir runs
 cp gt.txt est.txt runs
