@@ -17,7 +17,8 @@ from article.statements import ARTICLE, SEQUENCES
 from loopbench import manifold
 
 MARGIN = 0.3  #: around the reference [m]
-PLANAR, SPATIAL = ("N3", "N4 parabola", "N5 parabola"), ("M6", "M7", "M8")
+PLANAR = ("N3", "N4 parabola", "N5 parabola")
+SPATIAL = ("M6 with N4", "M7 with N4", "M8 with N4")  #: N and M together
 CUBICS = ("N3", "N4 cubic", "N5 cubic")  #: of panels b, d, f, whose quoted curves are cubics
 FIRST = {"fr1_room": 5, "fr3_office": 7}  #: figure of local segments; the next is the complete run
 
