@@ -105,7 +105,8 @@ def best_curve(results, it):
     spread = 100 * (max(estimated.values()) / min(estimated.values()) - 1) if estimated else 0
     with_kappa = windows_with_kappa(runs[0].true_keyframes, it)
     return {"errors": f"{rms} mm ({windows} common windows)" if windows else none,
-            "estimated": f"they differ by {spread:.1f} %" if estimated else none,
+            "estimated": (f"{1e3 * min(estimated.values()):.1f} to {1e3 * max(estimated.values()):.1f}"
+                          f" mm, which differ by {spread:.1f} %") if estimated else none,
             "with_kappa": ", ".join(f"{n} per {unit}" for unit, n in with_kappa.items()),
             "best_in": verdicts.count(HOLDS), "tie_in": verdicts.count(TIE), "count": len(runs),
             "worse_in": verdicts.count(DOES_NOT_HOLD), "none_in": verdicts.count(CANNOT_BE_JUDGED),
