@@ -96,7 +96,7 @@ GapCheck implausible(const std::vector<GapOverLimit>& gaps,
   const std::size_t count = gaps.size() + others.size();
   const double before = rms(squares + squares_of_found, count);
   const double after = rms(squares, count - found.size());
-  if (found.empty()) return out;
+  if (found.empty() || after >= before) return out;
   const GapOverLimit& worst = *std::ranges::max_element(found, {}, &GapOverLimit::over);
   for (const GapOverLimit& gap : found) {
     out.closures.push_back(static_cast<std::size_t>(gap.closure - first_closure));

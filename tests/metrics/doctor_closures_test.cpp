@@ -233,6 +233,26 @@ TEST(DoctorOfClosures, AFalseClosureThatOnlyOtherClosuresContradict) {
   EXPECT_THAT(found[0].evidence, HasSubstr("10 -> 110: the gap is 15.4 m"));
 }
 
+/// Drift makes the gaps of long loops larger than that of the false closure, so that the odometry
+/// proves nothing: the rms would grow without it. Shortest paths do.
+TEST(DoctorOfClosures, AFalseClosureWithASmallerGapThanMost) {
+  Problem problem = rounds();
+  for (Edge& edge : problem.odometry) {
+    edge.from_from_to = edge.from_from_to * Pose{exp_so3({0, 0, 0.01}), Vector3::Zero()};
+  }
+  const Pose true_pose =
+      problem.keyframes[10].world_from_body.inverse() * problem.keyframes[14].world_from_body;
+  problem.closures.push_back({10,
+                              14,
+                              Pose{true_pose.rotation, true_pose.translation + Vector3(0, 0, 6)},
+                              problem.closures[0].information});
+  const auto found = check_closures(problem);
+  ASSERT_FALSE(found.empty());  // the drift is larger than stated, too
+  EXPECT_EQ(found[0].fault, Fault::closure_gap);
+  EXPECT_THAT(found[0].evidence, HasSubstr("contradict other closures and the odometry"));
+  EXPECT_THAT(found[0].evidence, HasSubstr("10 -> 14"));
+}
+
 TEST(DoctorOfClosures, InformationOfOneKindOfEdges) {
   Problem problem = rounds();
   for (Edge& edge : problem.odometry) edge.information *= 1e6;
