@@ -25,6 +25,7 @@
 #include "harness/commands/help.hpp"
 #include "harness/commands/help_format.hpp"
 #include "harness/commands/huge_pages.hpp"
+#include "harness/commands/standard_output.hpp"
 #include "harness/run/build.hpp"
 #include "harness/run/source_commit.hpp"
 
@@ -33,13 +34,18 @@ using namespace loopbench::harness;
 
 namespace {
 
+/// Prints each line in the width of the terminal.
+void print_error_lines(const std::string& text, const std::string& prefix = "") {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    print_error("{}\n", fitted_error(printable(prefix + line)));
+  }
+}
+
 /// Messages can contain names and contents of files. A config can have several errors, one per
 /// line.
 int fail(const std::string& why, int exit_code) {
-  std::istringstream lines(why);
-  for (std::string line; std::getline(lines, line);) {
-    print_error("{}\n", printable("loopbench: " + line));
-  }
+  print_error_lines(why, "loopbench: ");
   return exit_code;
 }
 
@@ -82,7 +88,7 @@ int run(CLI::App& app,
       if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) print_errno = errno;
       return kExitOk;
     }
-    print_error("{}", printable(parse_error_text(app, error)));
+    print_error_lines(parse_error_text(app, error));
     return kExitBadInput;
   } catch (const InputError& error) {
     return fail(error.what(), kExitBadInput);

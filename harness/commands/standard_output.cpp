@@ -20,6 +20,27 @@ std::string_view environment(const char* name) {
   return text == nullptr ? "" : text;
 }
 
+/// Width of the terminal that `stream` is.
+std::size_t width_of(int stream) {
+  std::size_t out = 0;
+  winsize size{};
+  if (ioctl(stream, TIOCGWINSZ, &size) == 0) out = size.ws_col;
+  if (out == 0) {
+    const std::string columns(environment("COLUMNS"));
+    out = std::strtoul(columns.c_str(), nullptr, 10);
+  }
+  return std::max(out == 0 ? kUsualWidth : out, kNarrowest);
+}
+
+/// `line` broken at spaces into `columns`, later lines indented; 0: one line.
+std::string indented(const std::string& line, std::size_t columns) {
+  std::string out;
+  for (const std::string& part : wrapped(line, columns == 0 ? 0 : columns - 2)) {
+    out += (out.empty() ? "" : "\n  ") + part;
+  }
+  return out;
+}
+
 }  // namespace
 
 bool prints_to_terminal() { return isatty(STDOUT_FILENO) == 1; }
@@ -27,25 +48,17 @@ bool prints_to_terminal() { return isatty(STDOUT_FILENO) == 1; }
 TerminalStyle standard_output_style() {
   if (!prints_to_terminal()) return {};
   TerminalStyle out;
-  winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0) out.width = size.ws_col;
-  if (out.width == 0) {
-    const std::string columns(environment("COLUMNS"));
-    out.width = std::strtoul(columns.c_str(), nullptr, 10);
-  }
-  if (out.width == 0) out.width = kUsualWidth;
-  out.width = std::max(out.width, kNarrowest);
+  out.width = width_of(STDOUT_FILENO);
   out.color = environment("NO_COLOR").empty() && environment("TERM") != "dumb";
   return out;
 }
 
 std::string fitted(const std::string& line) {
-  const std::size_t columns = standard_output_style().width;
-  std::string out;
-  for (const std::string& part : wrapped(line, columns == 0 ? 0 : columns - 2)) {
-    out += (out.empty() ? "" : "\n  ") + part;
-  }
-  return out;
+  return indented(line, standard_output_style().width);
+}
+
+std::string fitted_error(const std::string& line) {
+  return indented(line, isatty(STDERR_FILENO) == 1 ? width_of(STDERR_FILENO) : 0);
 }
 
 std::string program_name() {

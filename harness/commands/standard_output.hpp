@@ -18,6 +18,9 @@ TerminalStyle standard_output_style();
 /// indented.
 std::string fitted(const std::string& line);
 
+/// The same in the width of the terminal, if standard error is one.
+std::string fitted_error(const std::string& line);
+
 /// The name under which the program was called, for commands that the user can copy:
 /// $LOOPBENCH_NAME (set by run.sh) or "loopbench".
 std::string program_name();

@@ -96,6 +96,15 @@ const char* const kConfig =
     "path: office, keyframes: 40}]\n"
     "methods: [raw, uniform, uniform + cubic_spline]\nmetrics: [ate, axis_error]\nrepeats: 8\n";
 
+TEST_F(OnATerminal, ErrorsAreBrokenAtWords) {
+  const auto error = terminal_command("eval gt.txt a.txt --alignn se3", TemporaryFolder(), 60);
+  EXPECT_EQ(error.exit_code, 2);
+  EXPECT_EQ(error.out,
+            "loopbench: no option of eval is named '--alignn'; did you\n"
+            "  mean '--align'?\n"
+            "Run with --help for more information.\n");
+}
+
 TEST_F(OnATerminal, RunEndsWithOneTableThatFits) {
   folder_.file("c.yaml", kConfig);
   ASSERT_EQ(piped("run c.yaml").exit_code, 0);
