@@ -6,6 +6,8 @@
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
+#include "harness/eval/evo_results.hpp"
+#include "harness/model/where.hpp"
 #include "harness/tables/all_records.hpp"
 #include "harness/tables/comparison.hpp"
 
@@ -13,6 +15,7 @@ namespace loopbench::harness {
 namespace {
 
 struct CompareArguments {
+  std::vector<std::string> files;  ///< a store, or result files of evo
   std::string store;
   std::string metric;
   std::vector<std::string> where;
@@ -56,7 +59,24 @@ std::string comparisons_text(const std::vector<Comparison>& comparisons,
   return text(tables, output);
 }
 
-int print_comparison(const CompareArguments& arguments) {
+/// Compares with the method of the first file, if no other is named.
+int print_evo_comparison(CompareArguments arguments) {
+  std::vector<Record> records = read_evo_results(arguments.files);
+  if (arguments.options.baseline.empty()) {
+    arguments.options.baseline = records.front().method.text();
+  }
+  keep_where(records, arguments.where);
+  const std::vector<Comparison> comparisons = compare(records, arguments.options);
+  if (arguments.power) throw InputError("--power: expected a store, found a result file of evo");
+  write_plain(comparisons_text(comparisons, arguments.output),
+              arguments.output,
+              {arguments.files.begin(), arguments.files.end()});
+  return kExitOk;
+}
+
+int print_comparison(CompareArguments arguments) {
+  if (is_evo_result(arguments.files.front())) return print_evo_comparison(std::move(arguments));
+  arguments.store = one_store(arguments.files);
   std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
   const std::vector<Comparison> comparisons =
       compare_store(arguments.store, metric_of(arguments), arguments.where, arguments.options);
@@ -75,7 +95,10 @@ void add_compare(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command =
       app.add_subcommand("compare", "Compare and rank methods with significance tests");
-  command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
+  command
+      ->add_option("store",
+                   arguments->files,
+                   "Folder of results, its results.sqlite, or result files of evo (zip)")
       ->required();
   command
       ->add_option(

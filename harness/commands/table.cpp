@@ -5,6 +5,7 @@
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
+#include "harness/eval/evo_results.hpp"
 #include "harness/model/where.hpp"
 #include "harness/store/record_reader.hpp"
 #include "harness/tables/all_records.hpp"
@@ -15,6 +16,7 @@ namespace loopbench::harness {
 namespace {
 
 struct TableArguments {
+  std::vector<std::string> files;  ///< a store, or result files of evo
   std::string store;
   TableSpec spec;
   std::vector<std::string> where;
@@ -59,7 +61,27 @@ void choose_columns(const std::string& store, TableSpec& spec) {
   spec.split = {"sequence"};
 }
 
+int print_evo_results(const TableArguments& arguments) {
+  if (!arguments.has_default_layout) {
+    throw InputError(arguments.files.front() +
+                     ": a result file of evo has one layout, expected no --rows, --columns, "
+                     "--split, --show and --where");
+  }
+  const std::vector<Record> records = read_evo_results(arguments.files);
+  const ExportFormat format = arguments.output.format();
+  const bool has_rows = format == ExportFormat::rows || format == ExportFormat::csv;
+  const std::vector<Table> tables = evo_result_tables(records);
+  write_plain(has_rows                       ? csv(records)
+              : format == ExportFormat::json ? json(tables)
+                                             : text(tables, arguments.output),
+              arguments.output,
+              {arguments.files.begin(), arguments.files.end()});
+  return kExitOk;
+}
+
 int print_table(TableArguments arguments) {
+  if (is_evo_result(arguments.files.front())) return print_evo_results(arguments);
+  arguments.store = one_store(arguments.files);
   std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
   std::vector<std::string> show;
   for (const std::string& word : arguments.spec.show) {
@@ -79,7 +101,10 @@ int print_table(TableArguments arguments) {
 void add_table(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<TableArguments>();
   CLI::App* command = app.add_subcommand("table", "Print tables of a sweep's results");
-  command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
+  command
+      ->add_option("store",
+                   arguments->files,
+                   "Folder of results, its results.sqlite, or result files of evo (zip)")
       ->required();
   const std::string columns =
       "comma-separated fields (sequence, repeat, method, closures, protocol, times, metric, label, "

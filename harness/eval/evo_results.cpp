@@ -124,6 +124,18 @@ std::vector<double> alignment_matrix(const metrics::Alignment& alignment) {
   return out;
 }
 
+/// The records of each title, in the order of the first ones.
+std::vector<std::vector<Record>> by_title(const std::vector<Record>& records) {
+  std::vector<std::vector<Record>> out;
+  for (const Record& record : records) {
+    auto known = std::ranges::find_if(
+        out, [&](const std::vector<Record>& group) { return group.front().label == record.label; });
+    if (known == out.end()) known = out.emplace(out.end());
+    known->push_back(record);
+  }
+  return out;
+}
+
 }  // namespace
 
 bool is_evo_result(const std::filesystem::path& file) {
@@ -160,19 +172,14 @@ std::vector<Record> read_evo_results(const std::vector<std::string>& files) {
   return out;
 }
 
-std::string evo_results_text(const std::vector<Record>& records,
-                             const std::optional<TerminalStyle>& style,
-                             bool paired) {
-  std::vector<std::pair<SharedText, std::vector<Record>>> titles;
-  for (const Record& record : records) {
-    auto known = std::ranges::find(titles, record.label, [](const auto& t) { return t.first; });
-    if (known == titles.end()) known = titles.insert(titles.end(), {record.label, {}});
-    known->second.push_back(record);
-  }
-  std::string out;
-  for (const auto& [title, group] : titles) {
-    Table table{
-        title.text(), {"estimate", "rmse", "mean", "median", "std", "min", "max", "count"}, {}, {}};
+std::vector<Table> evo_result_tables(const std::vector<Record>& records) {
+  std::vector<Table> out;
+  for (const std::vector<Record>& group : by_title(records)) {
+    Table& table =
+        out.emplace_back(Table{group.front().label.text(),
+                               {"estimate", "rmse", "mean", "median", "std", "min", "max", "count"},
+                               {},
+                               {}});
     for (const Record& r : group) {
       std::vector<TableCell>& line = table.lines.emplace_back();
       line.push_back({r.sequence + " / " + r.method});
@@ -182,8 +189,19 @@ std::string evo_results_text(const std::vector<Record>& records,
       }
       line.push_back({std::to_string(s.count)});
     }
-    out += (out.empty() ? "" : "\n") + (style ? terminal(table, *style) : markdown(table)) +
-           run_report(group, style, paired);
+  }
+  return out;
+}
+
+std::string evo_results_text(const std::vector<Record>& records,
+                             const std::optional<TerminalStyle>& style,
+                             bool paired) {
+  const std::vector<std::vector<Record>> groups = by_title(records);
+  const std::vector<Table> tables = evo_result_tables(records);
+  std::string out;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    out += (out.empty() ? "" : "\n") + (style ? terminal(tables[i], *style) : markdown(tables[i])) +
+           run_report(groups[i], style, paired);
   }
   return out;
 }

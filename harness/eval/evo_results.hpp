@@ -18,6 +18,9 @@ bool is_evo_result(const std::filesystem::path& file);
 /// Throws InputError for a file that is none, or without a statistic of evo.
 std::vector<Record> read_evo_results(const std::vector<std::string>& files);
 
+/// For each title a table of statistics, one row for each file.
+std::vector<Table> evo_result_tables(const std::vector<Record>& records);
+
 /// For each title a table of statistics, one row for each file, and the verdict. As text of
 /// `style`, or Markdown.
 std::string evo_results_text(const std::vector<Record>& records,

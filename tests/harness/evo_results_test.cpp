@@ -51,5 +51,34 @@ TEST(EvoResults, OfEvoItself) {
               HasSubstr("stats.json has no number 'rmse'"));
 }
 
+TEST(EvoResults, AreTabulatedAndCompared) {
+  const TemporaryFolder folder;
+  const auto write = [&](const char* estimate, const char* name) {
+    eval({golden("gt.txt"),
+          golden(estimate),
+          "--protocol=evo",
+          "-a",
+          "--save_results",
+          (folder.path() / name).string()});
+  };
+  write("est_drift.txt", "a.zip");
+  write("est_corrected.txt", "b.zip");
+  const CommandResult latex = loopbench_command("table a.zip b.zip --format latex", folder);
+  EXPECT_EQ(latex.exit_code, 0) << latex.err;
+  EXPECT_THAT(latex.out, HasSubstr("& 0.6762 &"));
+  EXPECT_THAT(latex.out, HasSubstr("\\toprule"));
+  const CommandResult compared = loopbench_command("compare a.zip b.zip", folder);
+  EXPECT_EQ(compared.exit_code, 0) << compared.err;
+  EXPECT_THAT(compared.out, HasSubstr("APE w.r.t. translation part (m)"));
+  EXPECT_THAT(compared.out, HasSubstr("| est_corrected"));
+  EXPECT_THAT(compared.out, HasSubstr("| est_drift"));
+  EXPECT_EQ(loopbench_command("table a.zip b.zip --format json", folder).out.front(), '[');
+  EXPECT_EQ(loopbench_command("table a.zip --rows method", folder).exit_code, 2);
+  EXPECT_EQ(loopbench_command("table a.zip b.zip -o a.zip", folder).exit_code, 2);
+  const CommandResult two = loopbench_command("compare one_store another_store", folder);
+  EXPECT_EQ(two.exit_code, 2);
+  EXPECT_THAT(two.err, HasSubstr("expected one store"));
+}
+
 }  // namespace
 }  // namespace loopbench::evo_results_test
