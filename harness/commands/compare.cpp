@@ -1,6 +1,9 @@
+#include "harness/compare/compare.hpp"
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <regex>
+#include <utility>
 
 #include "datasets/core/error.hpp"
 #include "harness/commands/checks.hpp"

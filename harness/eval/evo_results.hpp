@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "harness/eval/evaluation_result.hpp"
+#include "harness/model/record.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 
