@@ -64,13 +64,13 @@ std::string comparisons_text(const std::vector<Comparison>& comparisons,
 
 /// Compares with the method of the first file, if no other is named.
 int print_evo_comparison(CompareArguments arguments) {
+  if (arguments.power) throw InputError("--power: expected a store, found a result file of evo");
   std::vector<Record> records = read_evo_results(arguments.files);
   if (arguments.options.baseline.empty()) {
     arguments.options.baseline = records.front().method.text();
   }
   keep_where(records, arguments.where);
   const std::vector<Comparison> comparisons = compare(records, arguments.options);
-  if (arguments.power) throw InputError("--power: expected a store, found a result file of evo");
   write_plain(comparisons_text(comparisons, arguments.output),
               arguments.output,
               {arguments.files.begin(), arguments.files.end()});

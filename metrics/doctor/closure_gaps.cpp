@@ -77,7 +77,8 @@ std::vector<GapOverLimit> gaps_over_paths(const Problem& problem,
   return out;
 }
 
-/// The closures over their limit. `others` are those that were found before.
+/// The closures over their limit. `others` are those that were found before. Empty if the gaps of
+/// the other closures are not smaller: removing what was found would not help then.
 GapCheck implausible(const std::vector<GapOverLimit>& gaps,
                      const Edge* first_closure,
                      const std::string& contradicted_by,
