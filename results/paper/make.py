@@ -30,7 +30,7 @@ def article_pages(configs, out, readme=""):
     from article import judge_complete, judge_curves, judge_segments  # noqa: F401  registers judges
     from article.cells import Results
     from article.figures import write_figures
-    from article.judge_tables import front_table, paper_tables
+    from article.judge_tables import front_table, other_keyframes, paper_tables
     from article.statements import ARTICLE, counts, items, judged_sections, ledger, ledger_table
 
     results = Results([cell for config in configs for cell in config.cells])
@@ -39,7 +39,7 @@ def article_pages(configs, out, readme=""):
     figures = "".join(f"\n![figure{k}.svg](figure{k}.svg)\n\n**Figure {k}.** {captions[k]}"
                       for k in sorted(captions))
     pages = {
-        "paper/tables.md": paper_tables(results), "paper/figures.md": figures,
+        "paper/tables.md": paper_tables(results) + other_keyframes(results), "paper/figures.md": figures,
         "paper/ledger.md": "\n" + ledger(sections),
         "methods/own_readings.md": "\n" + ledger_table(items(ARTICLE["own_readings"], results)),
     }
@@ -62,34 +62,35 @@ def main():
     if given.data:
         given.data = os.environ["LOOPBENCH_DATA"] = str(Path(given.data).resolve())
 
-    from article.runs import Program, run_config
+    from article.runs import RUNS, Program, run_config
     from sweep_pages import sweep_page
 
     program = Program(str(build / "loopbench"), str(build / "paper_readings.so"), given.data,
                       given.jobs)
-    files = [file for name in ("paper", "methods")
-             for file in sorted(RESULTS.glob(f"{name}/configs/*"))
-             if not file.stem.startswith("ablation")]  # their page is written by hand
+    names = {name: name for name in RUNS["configs"]}
+    for file in sorted(RESULTS.glob("methods/configs/*")):
+        if not file.stem.startswith("ablation"):  # their page is written by hand
+            names[file.stem] = file
     pages, article = {}, []
-    for file in files:
-        if given.only and file.stem not in given.only:
+    for name, source in names.items():
+        if given.only and name not in given.only:
             continue
         try:
-            config = run_config(file, program)
+            config = run_config(source, program)
         except RuntimeError as reason:
-            print(f"{file.name}: skipped: {reason}", file=sys.stderr, flush=True)
+            print(f"{name}: skipped: {reason}", file=sys.stderr, flush=True)
             continue
-        print(f"{file.name}: {len(config.cells)} cells", file=sys.stderr, flush=True)
-        if file.is_relative_to(RESULTS / "paper"):
+        print(f"{name}: {len(config.cells)} cells", file=sys.stderr, flush=True)
+        if name in RUNS["configs"]:
             article.append(config)
         else:
-            name, text = sweep_page(config, given.out / "methods")
-            pages[f"methods/{name}"] = text
+            page, text = sweep_page(config, given.out / "methods")
+            pages[f"methods/{page}"] = text
     if article:
         readme = (RESULTS / "paper" / "README.md").read_text(encoding="utf-8")
         found, front = article_pages(article, given.out, readme)
         pages.update(found)
-        if len(article) == sum(file.is_relative_to(RESULTS / "paper") for file in files):
+        if len(article) == len(RUNS["configs"]):
             pages["paper/README.md"] = front
     for name, text in pages.items():
         (given.out / name).parent.mkdir(parents=True, exist_ok=True)

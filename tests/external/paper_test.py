@@ -22,10 +22,11 @@ sys.path[:0] = [str(PAPER), str(METHODS)]
 try:
     import numpy as np
 
-    from article.runs import Program, run_config
+    from article.cells import Cell, Config
+    from article.runs import RUNS, Program, run_config
     from loopbench import manifold
     from make import article_pages
-    from sweep_pages import sweep_page
+    from sweep_pages import PLOTTED, sweep_page
 except ImportError as missing:
     print(missing)
     sys.exit(77)
@@ -39,8 +40,7 @@ needs_runs = unittest.skipUnless(HAS_RUNS, "LOOPBENCH_DATA is not set or has no 
 
 @lru_cache
 def shipped(name):
-    file = METHODS / "configs" / f"{name}.yaml"
-    return run_config(file if file.exists() else PAPER / "configs" / f"{name}.yaml", PROGRAM)
+    return run_config(name if name in RUNS["configs"] else METHODS / "configs" / f"{name}.yaml", PROGRAM)
 
 
 def cell(config, run, method):
@@ -71,7 +71,7 @@ class Pages(unittest.TestCase):
 
     @needs_runs
     def test_of_the_article(self):
-        configs = [shipped("paper_tables_" + name) for name in ("fr1", "fr1_mono", "fr3", "fr3_mono")]
+        configs = [shipped(name) for name in RUNS["configs"]]
         readme = (PAPER / "README.md").read_text(encoding="utf-8")
         with folder() as out:
             pages, front = article_pages(configs, out, readme)
@@ -97,8 +97,27 @@ class Pages(unittest.TestCase):
                 capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stderr)
             for name in ("paper_tables_fr1", "argument_images"):
-                self.assertRegex(done.stderr, f"{name}.yaml: skipped: .*no such file")
+                self.assertRegex(done.stderr, f"{name}: skipped: .*no such file")
             self.assertEqual(list(out.rglob("*.md")), [])
+
+    def test_only_a_sweep_of_thresholds_is_a_table_of_them(self):
+        labelled = [{"method": "dm", "label": f"row {k}", "speed_band": 0.1 * k, "turn_max": 0.5} for k in range(5)]
+        cells = [Cell("room", method["label"]) for method in labelled]
+        with folder() as out:
+            (out / "labelled.yaml").write_text("description: >\n  Five rows.\n", encoding="utf-8")
+            config = Config(out / "labelled.yaml", {"methods": labelled, "baseline": "row 0"}, cells)
+            text = sweep_page(config, out)[1]
+        self.assertIn("## room\n\n| method |", text)
+        self.assertNotIn("curvature threshold", text)
+
+    def test_figures_show_what_they_are_about(self):
+        for page in ("spacing", "spacing_road"):  # three methods each
+            drawn = (METHODS / f"{page}.svg").read_text(encoding="utf-8")
+            self.assertEqual(len(PLOTTED), 3)
+            for method in PLOTTED:
+                self.assertTrue(f">{method}<" in drawn, f"{method} in {page}")
+        drawn = (PAPER / "figure5.svg").read_text(encoding="utf-8")
+        self.assertTrue(">printed<" in drawn, "the printed curve over the truth")
 
     def test_every_statement_occurs_once(self):
         rows = re.findall(r"(?m)^\| (.*? \| .*?) \| .*\| \*.*\* \|$",

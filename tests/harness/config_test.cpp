@@ -13,12 +13,11 @@ namespace {
 
 const std::filesystem::path kConfigs = LOOPBENCH_CONFIGS;
 const std::filesystem::path kResults = kConfigs.parent_path() / "results";
-const std::filesystem::path kPaperConfigs = kResults / "paper/configs";
 const std::filesystem::path kMethodConfigs = kResults / "methods/configs";
 
 std::vector<std::string> shipped() {
   std::vector<std::string> out;
-  for (const auto& folder : {kConfigs, kPaperConfigs, kMethodConfigs}) {
+  for (const auto& folder : {kConfigs, kMethodConfigs}) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       if (entry.path().extension() == ".yaml") out.push_back(entry.path().stem().string());
     }
@@ -29,11 +28,8 @@ std::vector<std::string> shipped() {
 
 /// The config of that name; those of the results need the article's readings.
 std::filesystem::path file_of(const std::string& name) {
-  for (const auto& folder : {kConfigs, kPaperConfigs}) {
-    const std::filesystem::path file = folder / (name + ".yaml");
-    if (std::filesystem::exists(file)) return file;
-  }
-  return kMethodConfigs / (name + ".yaml");
+  const std::filesystem::path file = kConfigs / (name + ".yaml");
+  return std::filesystem::exists(file) ? file : kMethodConfigs / (name + ".yaml");
 }
 std::string plugin_option(const std::string& name) {
   return file_of(name).parent_path() == kConfigs ? "" : " --plugin '" LOOPBENCH_PAPER_PLUGIN "' ";

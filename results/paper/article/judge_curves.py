@@ -6,6 +6,8 @@ curves come, the printed ones with other signs and factors, says whether that me
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from article.cells import rotation
@@ -13,7 +15,7 @@ from article.statements import ARTICLE, judge
 from article.verdicts import DOES_NOT_HOLD, HOLDS, UNDECIDED
 from loopbench import manifold
 
-DRAWS = 2000  #: random curves per printed one
+DRAWS = 10000  #: random curves per printed one
 FAR = 0.1  #: a curve was not fitted to a path that is nowhere nearer [m]
 #: p of a curve that was fitted there, for all printed ones together
 LEVEL = 0.05 / sum(len(ARTICLE[name]) for name in ("segments", "misread", "quadrics"))
@@ -70,7 +72,9 @@ def _length(metres):
 
 
 def _share(p):
-    return f"{100 * p:.1f} %" if p else f"0 of {DRAWS:,}"
+    """With two standard errors."""
+    digits, error = 1 if p > 0.01 else 2, 200 * math.sqrt(p * (1 - p) / DRAWS)
+    return f"{100 * p:.{digits}f} +- {error:.{digits}f} %" if p else f"0 of {DRAWS:,}"
 
 
 @judge
@@ -91,7 +95,8 @@ def printed_curve(results, it):
     return {"rms": _length(rms), "slow": speeds.min(), "fast": speeds.max(), "share": _share(p),
             "within": "within" if inside else "not within", "least": _length(min(each)),
             "most": _length(max(each)), "verdict": judged(rms, p),
-            "in_file": _length(Windows(in_file, keyframes, it).distances().min())}
+            "in_file": _length(Windows(in_file, keyframes, it).distances().min()),
+            "own": _length(Windows(runs[0].raw_estimate, keyframes, it).distances().min())}
 
 
 @judge

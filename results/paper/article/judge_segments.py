@@ -4,7 +4,7 @@ The article compares one family over N. The curves are fitted to the reference a
 chord axes, so that errors are due to the curve and not to drift, and again to the estimate's
 keyframes, as the article does. All candidates are fitted from the same keyframes: those from which
 the largest N stays in the quoted range of speeds. The error is the rms distance to the
-reference between them.
+reference between the first three, which all candidates contain.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ CANDIDATES = {
     "N4 cubic": ("poly3", 4), "N5 cubic": ("poly3", 5), "N5 sine": ("sin1", 5),
     "N5 rational": ("rat02", 5),
 }
-LARGEST = 5
+SMALLEST, LARGEST = 3, 5
 
 
 def compared(best):
@@ -51,7 +51,7 @@ def window_errors(truth, nodes, it):
     fast_enough, squares = _inside(manifold.speeds(nodes), it["speed"]), []
 
     def distances(first, family, count):
-        inside = _inside(truth[:, 0], (stamps[first], stamps[first + count - 1]))
+        inside = _inside(truth[:, 0], (stamps[first], stamps[first + SMALLEST - 1]))
         fitted = (path.fit_window(first, count, family, truth[inside, 0])
                   if path.admits_window(first, count) else None)
         return None if fitted is None else np.sum((fitted - truth[inside, 1:4]) ** 2, axis=1)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from article.cells import ORB
-from article.statements import CHANGED_ROWS, ROWS, STATISTICS, judge
+from article.statements import CHANGED_ROWS, ROWS, SEQUENCES, STATISTICS, judge
 from article.verdicts import (
     CANNOT_BE_JUDGED, DOES_NOT_HOLD, HOLDS, OTHER_SIZE, TIED_CHANGE, agreed, percent_change, table,
     verdict_on_change, verdict_on_smallest, when, within_factor,
@@ -13,12 +15,13 @@ from article.verdicts import (
 
 PLANAR = ("N3", "N4 parabola", "N4 cubic", "N5 parabola", "N5 cubic")
 SPATIAL = ("M6", "M7", "M8")
+ABOVE = tuple(variant + " with N4" for variant in SPATIAL)
 
 
 def numbers(results, row, raw, reading, times):
-    """Errors of a row in a reading on one run, or None. The reading `text` fits heights above the
-    planar curves of N = 4."""
-    on_curves = reading == "text" and row["axis"] == "z" and row["variant"] != ORB
+    """Errors of a row in a reading on one run, or None. Heights are fitted above the planar curves
+    of N = 4, but in our own reading."""
+    on_curves = reading != "guarded" and row["axis"] == "z" and row["variant"] != ORB
     cell = results.find(raw, reading, row["variant"] + " with N4" * on_curves)
     return cell and cell.axis(row["axis"], times)
 
@@ -60,6 +63,29 @@ def change_of_row(results, it):
     out["range"] = (f"{percent_change(min(every))} to {percent_change(max(every))} in {len(every)}"
                     f" runs; printed sign in {same}")
     return out
+
+
+@judge
+def unstated_curves(results, it):
+    """Dense ATE between real keyframes for each choice that the article leaves open, and how much
+    of the parabola's error is between two keyframes."""
+    if not (others := results.resampled(it["sequence"])):
+        return None
+    nodes, curve = others[0].keyframes, results.find(others[0], "text", "N5 parabola")
+    errors = curve.estimate[:, 2] - curve.reference[:, 2]
+    squares = np.bincount(np.searchsorted(nodes[:, 0], curve.reference[:, 0]), errors**2)
+    worst = np.argmax(squares)
+    x, y = np.abs(nodes[worst, 1:3] - nodes[worst - 1, 1:3])
+
+    def text(reading):
+        ates = [results.find(others[0], reading, variant).axis(axis, "dense")["ate"]
+                for axis, variant in (("y", "N5 parabola"), ("y", "N5 cubic"), ("z", "M7"),
+                                      ("z", "M7 with N4"))]
+        return ("N5 parabola {:.4f}, N5 cubic {:.4f}; M7 alone {:.4f}, M7 above N4 {:.4f}"
+                .format(*ates))
+
+    return {"equations": text("equations"), "text": text("text"), "x": x, "y": y,
+            "share": squares[worst] / np.sum(squares)}
 
 
 @judge
@@ -144,6 +170,37 @@ def front_table(results):
                       str(row["ate"]), *(f"{each['ate']:.4f}" if each else "" for each in found)))
     return table(("table", "row", "printed", "ours, at keyframes", "densely",
                   "at real stamps: keyframes", "densely"), ("---", "---", *["---:"] * 5), *lines)
+
+
+def _keyframe_line(results, raw, others, reading, variant, axis):
+    def ates(runs, times):
+        found = [results.find(run, reading, variant) for run in runs]
+        return [each["ate"] for cell in found if cell and (each := cell.axis(axis, times))]
+
+    def texts(runs):
+        each = [ates(runs, times) for times in ("keyframes", "dense")]
+        return [f"{min(found):.4f}" + f" to {max(found):.4f}" * (len(found) > 1) if found else ""
+                for found in each]
+
+    return (axis, variant, reading, *texts([raw]), *texts(others[:1]), *texts(others[1:]))
+
+
+def other_keyframes(results):
+    """ATE along one axis of the closed runs at other keyframes."""
+    out = ""
+    for sequence in SEQUENCES:
+        runs, others = results.runs(sequence), results.resampled(sequence)
+        if not others:
+            continue
+        lines = [_keyframe_line(results, runs[0], others, reading, variant, axis)
+                 for axis, variants in (("y", PLANAR), ("z", SPATIAL + ABOVE))
+                 for variant in (ORB, *variants)
+                 for reading in (("",) if variant == ORB else ("equations", "text"))]
+        out += f"\n### Other keyframes: {sequence}, ATE along one axis [m]\n\n" + table(
+            ("axis", "variant", "reading", "resampled, at keyframes", "densely",
+             "real stamps, at keyframes", "densely", "three draws of them, at keyframes", "densely"),
+            ("---", "---", "---", *["---:"] * 6), *lines)
+    return out
 
 
 def _line(variant, source, found, dense="", runs="", note=""):

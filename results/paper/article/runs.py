@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import re
 import sqlite3
 import subprocess
 import tempfile
@@ -14,6 +15,9 @@ import yaml
 
 import loopbench
 from article.cells import DRAW, DRAWN, ORB, REAL_STAMPS, Cell, Config, moved
+from article.statements import SEQUENCES
+
+RUNS = yaml.safe_load(Path(__file__).with_name("runs.yaml").read_text(encoding="utf-8"))
 
 DRAWS = 3  #: random draws of real keyframes
 #: The number of keyframes of the article, a run whose keyframes ORB-SLAM2 chose, and the closed
@@ -25,6 +29,32 @@ REAL = {
     "fr3_office": (204, "tum_rgbd/fr3_office/orbslam2_mono_open_keyframes.txt",
                    "tum_rgbd/fr3_office/orbslam2_rgbd_closed_frames_run0.txt"),
 }
+
+
+def config_text(name):
+    """The config of an entry of runs.yaml."""
+    each = RUNS["configs"][name]
+    sequence, align = each["sequence"], each.get("align", "se3")
+    limits, folder = SEQUENCES[sequence], f"tum_rgbd/{sequence}/"
+    thresholds = {"turn_max": limits["turn_max"],
+                  "speed_band": limits["speed_band"] if align == "se3" else "none"}
+    datasets = [{"dataset": "trajectory", "label": f"{sequence} {run}",
+                 "reference": folder + "groundtruth.txt",
+                 **{key: folder + value if isinstance(value, str) else value
+                    for key, value in files.items()}} for run, files in each["runs"].items()]
+    methods = [{"method": "raw", "label": ORB},
+               {"method": "cubic_spline", "label": "natural spline"}]
+    for reading, given in RUNS["readings"].items():
+        options = {key: value for key, value in given.items() if key != "curves"}
+        if "reference_align" in options:
+            options["reference_align"] = align
+        methods += [{**options, "label": f"{reading} {curve}", **windows, **thresholds}
+                    for curve, windows in RUNS["curves"].items()
+                    if re.fullmatch(given["curves"], curve)]
+    rpe = {"metric": "rpe", "label": "rpe", "frame": "world"}  # per axis in world axes
+    return yaml.safe_dump({
+        "datasets": datasets, "methods": methods, "metrics": ["ate", "axis_error", rpe],
+        "protocol": {"align": align}, "baseline": ORB}, sort_keys=False)
 
 
 @dataclass
@@ -151,9 +181,15 @@ def _at_real_stamps(options, data, folder):
     return out
 
 
-def run_config(file, program):
-    """The results of a config; those of the article's own tables also at other keyframes."""
-    config = _run(Path(file), program)
+def run_config(name, program):
+    """The results of a config file or of an entry of runs.yaml; those of the article's own tables
+    also at other keyframes."""
+    if name in RUNS["configs"]:
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / f"{name}.yaml"
+            file.write_text(config_text(name), encoding="utf-8")
+            return run_config(file, program)
+    config = _run(Path(name), program)
     if config.baseline != ORB or not program.data:
         return config
     with tempfile.TemporaryDirectory() as name:
