@@ -148,5 +148,13 @@ TEST(ReportPage, KeepsWhatNothingBeatsInBoth) {
   EXPECT_EQ(front_of_the_page({1, 1 - 1e-5}, {1, 15}), "11");
 }
 
+TEST(ReportPage, NoiseOfTimesChangesNoFront) {
+  if (std::system("command -v node >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs node";
+  // The second and the third take the same time, the fourth takes a fifth more.
+  EXPECT_EQ(front_of_the_page({4, 3, 2, 1}, {1, 2, 2, 2.4}), "1011");
+  EXPECT_EQ(front_of_the_page({4, 3, 2, 1}, {0.97, 1.94, 2.06, 2.33}), "1011");
+  EXPECT_EQ(front_of_the_page({4, 3, 2, 1}, {1.03, 2.06, 1.94, 2.47}), "1011");
+}
+
 }  // namespace
 }  // namespace loopbench::report_parts_test
