@@ -124,8 +124,8 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
       .add_option("--min-coverage",
                   a.min_coverage,
                   "Minimum share of poses and of the reference's time, below which results are "
-                  "incomplete (exit 1); default: half of the largest coverage of the estimates; "
-                  "with --store 0.5")
+                  "incomplete (exit 1); default: a tenth, and half of the largest coverage of the "
+                  "estimates; with --store 0.5")
       ->type_name("SHARE")
       ->check(finite_number())
       ->check(CLI::Range(0.0, 1.0));

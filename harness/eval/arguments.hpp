@@ -36,7 +36,7 @@ struct EvalArguments {
   std::vector<std::string> fields;    ///< the same, of fields with an option of their own
   std::string align;
   bool correct_scale = false;
-  std::optional<double> min_coverage;  ///< none: half of the best coverage of another estimate
+  std::optional<double> min_coverage;  ///< none: a tenth, and half of the best of another estimate
   std::string relation;
   std::optional<double> delta;
   std::string delta_unit;

@@ -27,33 +27,25 @@ std::vector<RecordedRun> runs_of(const std::vector<FilePair>& files, const EvalA
   return out;
 }
 
-/// Reason if less than a tenth of the estimate's and of the reference's poses found a partner: the
-/// stamps meet by chance, or the files belong to different clocks.
-std::string why_few_pairs(const EvaluationResult& own) {
-  constexpr double kFew = 0.1;
-  const auto pairs = static_cast<double>(own.coverage.pairs);
-  const auto references = static_cast<double>(own.reference_poses);
-  if (own.coverage.share() >= kFew || pairs >= kFew * references) return "";
-  return fmt::format(
-      "paired {} of {} poses with {} of the reference, less than a tenth of either (--min-coverage "
-      "0 accepts it)",
-      own.coverage.pairs,
-      own.coverage.possible,
-      own.reference_poses);
-}
-
-/// Reason if the coverage, the smaller of both shares, is less than half of the `best` of an
-/// estimate with the same reference and protocol.
-std::string why_less_coverage(const EvaluationResult& own, double best) {
+/// Reason if the coverage is less than half of the `best` of an estimate with the same reference
+/// and protocol, or less than a tenth: too little is evaluated, or stamps meet by chance. A sparse
+/// reference pairs few poses of an estimate, hence the share of either file's poses counts.
+std::string why_low_coverage(const EvaluationResult& own, double best) {
   constexpr double kMuchLess = 0.5;
-  if (own.coverage.least() >= kMuchLess * best) return "";
+  constexpr double kLeast = 0.1;
+  const metrics::Coverage& found = own.coverage;
+  const double of_reference =
+      static_cast<double>(found.pairs) / static_cast<double>(own.reference_poses);
+  const bool is_little = std::min(std::max(found.share(), of_reference), found.span) < kLeast;
+  const bool is_less = found.least() < kMuchLess * best;
+  if (!is_less && !is_little) return "";
   return fmt::format(
-      "evaluated {} of {} poses over {:.1f} % of the reference's time, less than half of the "
-      "{:.1f} % of another estimate",
-      own.coverage.pairs,
-      own.coverage.possible,
-      100.0 * own.coverage.span,
-      100.0 * best);
+      "evaluated {} of {} poses over {:.1f} % of the reference's time, less than {} "
+      "(--min-coverage 0 accepts it)",
+      found.pairs,
+      found.possible,
+      100.0 * found.span,
+      is_less ? fmt::format("half of the {:.1f} % of another estimate", 100.0 * best) : "a tenth");
 }
 
 /// Marks evaluations as incomplete whose coverage is small; their scores remain.
@@ -69,8 +61,7 @@ void check_coverage(std::vector<EvaluatedFile>& all) {
     for (std::size_t p = 0; p < file.protocols.size(); ++p) {
       EvaluationResult& own = file.protocols[p];
       if (!own.why_failed.empty()) continue;
-      own.incomplete_reason = why_less_coverage(own, most.at({own.reference, p}));
-      if (own.incomplete_reason.empty()) own.incomplete_reason = why_few_pairs(own);
+      own.incomplete_reason = why_low_coverage(own, most.at({own.reference, p}));
       if (own.incomplete_reason.empty()) continue;
       for (ScoreResult& score : file.result.scores) {
         if (score.protocol != p || score.status != Status::ok) continue;

@@ -12,8 +12,8 @@ namespace loopbench::harness {
 
 /// Returns one result for each estimate and protocol, in that order. If there are several, an
 /// estimate that cannot be read or evaluated has a result with `why_failed`; without
-/// --min-coverage, an estimate with less than half of the coverage of another one of its reference
-/// is incomplete. Throws InputError, OptionError.
+/// --min-coverage, an estimate is incomplete that covers less than a tenth of its reference or less
+/// than half of what another one covers. Throws InputError, OptionError.
 /// `visit` gets the sweep and the evaluations before their conversion.
 std::vector<EvaluationResult> evaluate_files(
     const EvalArguments& arguments,

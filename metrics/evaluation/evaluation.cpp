@@ -72,9 +72,8 @@ Evaluation align_pairs(Paired paired,
   out.coverage.pairs = paired.reference.size();
   out.coverage.possible = possible;
   const double duration = reference.back().stamp - reference.front().stamp;
-  const double evaluated =
-      paired.reference.back().stamp - paired.reference.front().stamp -
-      seconds_in(tracking_gaps(reference, stamps(paired.reference), 0.0, kPause));
+  const double evaluated = paired.reference.back().stamp - paired.reference.front().stamp -
+                           uncovered_time(reference, stamps(paired.reference), kPause);
   out.coverage.span = duration > 0.0 ? evaluated / duration : 1.0;
   out.estimate = moved(out.alignment, std::move(paired.estimate));
   out.reference = std::move(paired.reference);

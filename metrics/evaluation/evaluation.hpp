@@ -55,9 +55,9 @@ struct Coverage {
   std::size_t pairs = 0;     ///< evaluated pose pairs
   std::size_t possible = 0;  ///< estimate poses (keyframes; interpolate_estimate: all reference
                              ///< poses) or reference stamps in the span (dense)
-  /// Time from the first to the last evaluated reference stamp, without the tracking gaps in
-  /// between (pauses above 2 s and above ten times the median interval while the reference moved),
-  /// over the reference's duration, 0..1.
+  /// Time that the evaluated reference stamps cover, over the reference's duration, 0..1: from the
+  /// first to the last, without pauses while the reference moved: tracking gaps (above 2 s and ten
+  /// times the median interval) entirely, others but for 5 s.
   double span = 0.0;
   /// Dense: duration of the tracking gaps (tracking_gaps.hpp) that the curve bridges without a
   /// measurement [s]. Evaluated only if the protocol's max_estimate_gap is 0.

@@ -6,6 +6,20 @@
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench::metrics {
+namespace {
+
+constexpr double kStanding = 0.05;  // [m/s], as in DiagnosticsOptions
+
+/// Pauses longer than this are tracking gaps [s].
+double longest_interval(const std::vector<double>& stamps) {
+  constexpr double kMedianIntervals = 10.0;
+  std::vector<double> steps;
+  steps.reserve(stamps.size());
+  for (std::size_t i = 1; i < stamps.size(); ++i) steps.push_back(stamps[i] - stamps[i - 1]);
+  return kMedianIntervals * median(steps);
+}
+
+}  // namespace
 
 std::vector<TrackingGap> gaps_while_moving(const Trajectory& reference,
                                            const std::vector<double>& estimate,
@@ -36,16 +50,27 @@ std::vector<TrackingGap> tracking_gaps(const Trajectory& reference,
                                        const std::vector<double>& estimate,
                                        double offset,
                                        double longest_pause) {
-  constexpr double kStanding = 0.05;  // [m/s], as in DiagnosticsOptions
-  constexpr double kMedianIntervals = 10.0;
   std::vector<TrackingGap> out =
       gaps_while_moving(reference, estimate, offset, longest_pause, kStanding);
   if (out.empty()) return out;
-  std::vector<double> steps;
-  steps.reserve(estimate.size());
-  for (std::size_t i = 1; i < estimate.size(); ++i) steps.push_back(estimate[i] - estimate[i - 1]);
-  const double longest = kMedianIntervals * median(steps);
+  const double longest = longest_interval(estimate);
   std::erase_if(out, [&](const TrackingGap& gap) { return gap.end - gap.begin <= longest; });
+  return out;
+}
+
+double uncovered_time(const Trajectory& reference,
+                      const std::vector<double>& estimate,
+                      double longest_pause) {
+  constexpr double kCovered = 5.0;  // [s]
+  double out = 0.0;
+  const std::vector<TrackingGap> pauses =
+      gaps_while_moving(reference, estimate, 0.0, longest_pause, kStanding);
+  if (pauses.empty()) return out;
+  const double longest = longest_interval(estimate);
+  for (const TrackingGap& pause : pauses) {
+    const double duration = pause.end - pause.begin;
+    out += duration > longest ? duration : std::max(0.0, duration - kCovered);
+  }
   return out;
 }
 

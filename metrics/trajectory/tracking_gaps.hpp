@@ -31,6 +31,13 @@ std::vector<TrackingGap> tracking_gaps(const Trajectory& reference,
                                        double offset,
                                        double longest_pause);
 
+/// Time between the stamps that an estimate does not cover [s]: its tracking gaps, and what other
+/// pauses while the reference moves exceed 5 s by: poses that are farther apart show little of the
+/// path between them. O(n + m).
+double uncovered_time(const Trajectory& reference,
+                      const std::vector<double>& estimate,
+                      double longest_pause);
+
 /// Stamps at which the problem has a pose: its keyframes and the frames between them, ascending.
 std::vector<double> tracked_stamps(const Problem& problem);
 

@@ -55,7 +55,7 @@ TEST_F(EvalCoverage, FivePosesOfAThousandAreIncompleteBesideOthers) {
   EXPECT_EQ(
       results[1]["why"],
       "evaluated 5 of 5 poses over 0.4 % of the reference's time, less than half of the 100.0 "
-      "% of another estimate");
+      "% of another estimate (--min-coverage 0 accepts it)");
   const std::string table = eval(both, kExitSomeCellsFailed);
   EXPECT_THAT(table, HasSubstr("| coverage [%] |"));
   EXPECT_THAT(table, HasSubstr(short_ + ": incomplete: evaluated 5 of 5 poses over 0.4 %"));
@@ -63,7 +63,23 @@ TEST_F(EvalCoverage, FivePosesOfAThousandAreIncompleteBesideOthers) {
   std::vector<std::string> accepted = both;
   accepted.push_back("--min-coverage=0");
   EXPECT_EQ(eval_json(accepted)[1]["status"], "ok");
-  eval({reference_, short_});  // without a second estimate there is no comparison
+}
+
+TEST_F(EvalCoverage, ATenthIsTheLeastForOneEstimate) {
+  EXPECT_EQ(eval_json({reference_, short_}, kExitSomeCellsFailed)["why"],
+            "evaluated 5 of 5 poses over 0.4 % of the reference's time, less than a tenth "
+            "(--min-coverage 0 accepts it)");
+  EXPECT_EQ(eval_json({reference_, short_, "--min-coverage=0"})["status"], "ok");
+  EXPECT_EQ(eval_json({reference_, short_, "--start=40", "--end=41"})["status"], "ok");
+  const std::string tenth = written("tenth.txt", spiral(40.0, 51.0, 0.1, 1.0, 0.3));
+  EXPECT_EQ(eval_json({reference_, tenth})["status"], "ok");
+}
+
+TEST_F(EvalCoverage, FewPosesDoNotCoverTheTimeBetweenThem) {
+  const std::string sparse = written("sparse.txt", spiral(0.0, 100.0, 20.0, 1.0, 0.3));
+  EXPECT_THAT(eval({reference_, sparse}), HasSubstr("6 of 6 (100.0 %), over 25.0 % of the"));
+  // Nor do those of a reference that has no more of them.
+  EXPECT_THAT(eval({sparse, complete_}), HasSubstr("6 of 1001 (0.6 %), over 100.0 % of the"));
 }
 
 TEST_F(EvalCoverage, FewPairsOfOneEstimateAreIncomplete) {
@@ -78,7 +94,7 @@ TEST_F(EvalCoverage, FewPairsOfOneEstimateAreIncomplete) {
   }
   const std::string few = written("few_pairs.txt", text);
   EXPECT_EQ(eval_json({reference_, few}, kExitSomeCellsFailed)["why"],
-            "paired 51 of 1001 poses with 1001 of the reference, less than a tenth of either "
+            "evaluated 51 of 1001 poses over 100.0 % of the reference's time, less than a tenth "
             "(--min-coverage 0 accepts it)");
   EXPECT_EQ(eval_json({reference_, few, "--min-coverage=0"})["status"], "ok");
 }
@@ -113,10 +129,11 @@ TEST_F(EvalCoverage, RpeShowsItsOwnPairs) {
 
 TEST_F(EvalCoverage, FewPairsAfterAFitAreNoted) {
   const std::string few = written("few.txt", spiral(10.0, 10.35, 0.1, 5.0, 0.1));
-  EXPECT_THAT(eval({reference_, few}),
+  EXPECT_THAT(eval({reference_, few, "--min-coverage=0"}),
               HasSubstr("note       few pairs: 4 pairs have 12 coordinates, and alignment se3 fits "
                         "6 parameters to them, so the errors are about 29 % too small"));
-  EXPECT_THAT(eval({reference_, few, "--align=none"}), Not(HasSubstr("few pairs")));
+  EXPECT_THAT(eval({reference_, few, "--align=none", "--min-coverage=0"}),
+              Not(HasSubstr("few pairs")));
   EXPECT_THAT(eval({reference_, complete_}), Not(HasSubstr("few pairs")));
 }
 

@@ -53,9 +53,11 @@ TEST(Evaluation, TimeLostIsNotEvaluated) {
   };
   const Trajectory complete = at(every(0.5, 0.0, 40.0));
   EXPECT_EQ(span(complete, complete), 1.0);
-  EXPECT_EQ(span(complete, at(ends(0.5))), 7.0 / 40.0);       // no poses from 3.5 to 36.5 s
-  EXPECT_EQ(span(at(ends(0.5)), complete), 1.0);              // gap of the reference itself
-  EXPECT_EQ(span(complete, at(every(4.0, 0.0, 40.0))), 1.0);  // keyframes 4 s apart everywhere
+  EXPECT_EQ(span(complete, at(ends(0.5))), 7.0 / 40.0);        // no poses from 3.5 to 36.5 s
+  EXPECT_EQ(span(at(ends(0.5)), complete), 1.0);               // gap of the reference itself
+  EXPECT_EQ(span(complete, at(every(4.0, 0.0, 40.0))), 1.0);   // keyframes 4 s apart everywhere
+  EXPECT_EQ(span(complete, at(every(10.0, 0.0, 40.0))), 0.5);  // 10 s apart: 5 s of each interval
+  EXPECT_EQ(span(at(every(10.0, 0.0, 40.0)), complete), 1.0);  // so is the reference itself
   Trajectory standing = complete;
   for (auto& [stamp, pose] : standing) pose.translation.x() = stamp < 20.0 ? 0.0 : 1.0;
   EXPECT_EQ(span(standing, at(ends(0.5))), 1.0);  // 1 m in 33 s: at rest, no keyframes expected
