@@ -1,6 +1,7 @@
 /// Measures error rates of verdicts and coverage of intervals on synthetic records.
 /// Prints Markdown; exits with 1 if a rate is outside its limits. Usage: verdict_error_rates
-/// [repeats].
+/// [repeats], or verdict_error_rates repeats methods runs for one cell of the table of equal
+/// methods.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -81,7 +82,14 @@ double worst(const ErrorRates& r) {
   return std::max({r.false_best, r.false_better, r.marked_wrong});
 }
 
-/// False claims among equal methods: a row per number of methods, a column per number of runs.
+/// Share of false claims among equal methods.
+double equal_rate(std::size_t methods, std::size_t groups, int repeats) {
+  double found = 0.0;
+  const Truth truth{.effects = std::vector<double>(methods, 0.0), .groups = groups};
+  return worst(largest_rates(truth, repeats, found));
+}
+
+/// A row per number of methods, a column per number of runs.
 bool print_equal(int repeats) {
   bool is_good = true;
   const std::vector<std::size_t> runs{3, 6, 8, 15, 40, 100};
@@ -90,9 +98,7 @@ bool print_equal(int repeats) {
   for (const std::size_t methods : {2u, 4u, 7u, 21u}) {
     fmt::print("| {} |", methods);
     for (const std::size_t groups : runs) {
-      double found = 0.0;
-      const Truth truth{.effects = std::vector<double>(methods, 0.0), .groups = groups};
-      const double rate = worst(largest_rates(truth, repeats, found));
+      const double rate = equal_rate(methods, groups, repeats);
       is_good = is_good && rate <= limit(repeats);
       fmt::print(" {:.1f} |", 100.0 * rate);
       std::fflush(stdout);
@@ -212,9 +218,15 @@ int main(int count, char** arguments) try {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   const int repeats = count > 1 ? std::atoi(arguments[1]) : 2000;
-  if (repeats < 1) {
-    fmt::print(stderr, "usage: verdict_error_rates [REPEATS >= 1]\n");
+  if (repeats < 1 || (count > 2 && count != 4)) {
+    fmt::print(stderr, "usage: verdict_error_rates [REPEATS >= 1 [METHODS RUNS]]\n");
     return 2;
+  }
+  if (count == 4) {
+    const auto number = [&](int i) { return static_cast<std::size_t>(std::atoi(arguments[i])); };
+    const double rate = equal_rate(number(2), number(3), repeats);
+    fmt::print("{:.2f} %, {:.0f} s\n", 100.0 * rate, seconds());
+    return rate <= limit(repeats) ? 0 : 1;
   }
   const std::vector<Scene> all = scenes();
   bool is_good = print_equal(repeats);
