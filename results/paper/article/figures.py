@@ -12,7 +12,7 @@ import numpy as np
 
 from article.cells import moved
 from article.drawing import BLACK, BLUE, FAINT, GREEN, MARKERS, RED, Panel, write_figure
-from article.judge_curves import FAMILIES
+from article.judge_curves import FAMILIES, FAR, nearest_window
 from article.statements import ARTICLE, SEQUENCES
 from loopbench import manifold
 
@@ -122,12 +122,18 @@ def _overlap(a, b):
     return (min(a[1], b[1]) - max(a[0], b[0])) / (max(a[1], b[1]) - min(a[0], b[0]))
 
 
-def _segment_like(keyframes, quoted):
-    """The segment of at least five nodes whose speed range overlaps the quoted one best."""
+def _segment_like(raw, quoted):
+    """Five keyframes from where the printed curve is nearest to the reference, if it is near and the
+    speeds there are in the quoted range; or the segment of at least five nodes whose speed range
+    overlaps the quoted one best."""
+    keyframes = raw.keyframes
     path, speeds = manifold.KeyframePath(keyframes), manifold.speeds(keyframes)
-    kappa, found = path.curvatures(), []
-    limits = SEQUENCES[quoted["sequence"]]
-    for first, last in path.segments(limits["speed_band"], limits["turn_max"]):
+    kappa, found, limits = path.curvatures(), [], SEQUENCES[quoted["sequence"]]
+    windows, nodes, inside = nearest_window(raw, quoted)
+    first = min(np.searchsorted(keyframes[:, 0], nodes[0, 0]), len(keyframes) - 5)
+    ranges = ([(first, first + 4)] if inside and windows.distances().min() < FAR else
+              path.segments(limits["speed_band"], limits["turn_max"]))
+    for first, last in ranges:
         if last - first >= 4:
             own, inner = speeds[first:last], kappa[first + 1 : last]
             found.append({"span": keyframes[[first, last], 0], "first": first,
@@ -141,7 +147,7 @@ def _local_panels(results, raw):
     quoted = [s for s in ARTICLE["segments"] if s["place"].startswith(place)]
     for row, variants in enumerate(zip(PLANAR, CUBICS)):
         for variant, it in zip(variants, quoted):
-            ours, segment = results.find(raw, "text", variant), _segment_like(raw.keyframes, it)
+            ours, segment = results.find(raw, "text", variant), _segment_like(raw, it)
             if ours is None or ours.alignment is None or segment is None:
                 continue
             panel = _run_panel(f"{raw.sequence} text {variant}", ours, raw, segment)

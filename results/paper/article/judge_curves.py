@@ -77,17 +77,28 @@ def _share(p):
     return f"{100 * p:.{digits}f} +- {error:.{digits}f} %" if p else f"0 of {DRAWS:,}"
 
 
+def nearest_window(run, it):
+    """Distances of a printed curve to all windows of the reference, the keyframes of the nearest, and
+    whether their speeds are in the quoted range."""
+    windows = Windows(run.reference, run.true_keyframes, it)
+    first = windows.first[np.argmin(windows.distances())]
+    nodes = run.true_keyframes[first : first + it["nodes"]]
+    speeds = manifold.speeds(nodes)
+    inside = it["speed"][0] <= speeds.min() and speeds.max() <= it["speed"][1]
+    return windows, nodes, inside
+
+
 @judge
 def printed_curve(results, it):
     if not (runs := results.runs(it["sequence"])):
         return None
     keyframes = runs[0].true_keyframes
-    windows = Windows(runs[0].reference, keyframes, it)
-    found = windows.distances()
-    first, rms = windows.first[np.argmin(found)], found.min()
+    windows, nodes, inside = nearest_window(runs[0], it)
+    rms, speeds = windows.distances().min(), manifold.speeds(nodes)
+    ours = runs[0].keyframes[np.isin(runs[0].keyframes[:, 0], nodes[:, 0])]
+    degree = {"parabola": 2, "cubic": 3}.get(it["best"].split()[1])
+    fitted = np.polyfit(ours[:, 1], ours[:, 2], degree) if degree else []
     p = share_as_near(lambda factors: windows.distances(factors).min(), len(it["curve"]))
-    speeds = manifold.speeds(keyframes[first : first + it["nodes"]])
-    inside = it["speed"][0] <= speeds.min() and speeds.max() <= it["speed"][1]
     in_file = runs[0].reference.copy()
     in_file[:, 1:4] -= runs[0].alignment.transform[:3]
     in_file[:, 1:4] = in_file[:, 1:4] @ rotation(runs[0].alignment)
@@ -96,6 +107,7 @@ def printed_curve(results, it):
             "within": "within" if inside else "not within", "least": _length(min(each)),
             "most": _length(max(each)), "verdict": judged(rms, p),
             "in_file": _length(Windows(in_file, keyframes, it).distances().min()),
+            "fitted": ", ".join(f"{each:.4g}" for each in fitted) or "no polynomial",
             "own": _length(Windows(runs[0].raw_estimate, keyframes, it).distances().min())}
 
 
