@@ -12,6 +12,7 @@ namespace loopbench::harness {
 inline constexpr int kExitOk = 0;
 inline constexpr int kExitSomeCellsFailed = 1;
 inline constexpr int kExitRegression = 1;
+inline constexpr int kExitUnexpected = 1;
 inline constexpr int kExitBadInput = 2;
 inline constexpr int kExitInternal = 3;
 inline constexpr int kExitMissingPart = 4;
@@ -22,7 +23,8 @@ inline constexpr int kExitInterrupted = 130;
 void add_run(CLI::App& app, int& exit_code, const Source& source);
 void add_list(CLI::App& app, int& exit_code);
 void add_table(CLI::App& app, int& exit_code);
-void add_compare(CLI::App& app, int& exit_code);
+void add_claim(CLI::App& app, int& exit_code, const Source& source);
+void add_compare(CLI::App& app, int& exit_code, const Source& source = {});
 void add_correct(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_complete(CLI::App& app, int& exit_code);

@@ -6,16 +6,25 @@
 #include <utility>
 
 #include "datasets/core/error.hpp"
+#include "datasets/formats/regular_file.hpp"
+#include "harness/base/write_file.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/looks.hpp"
 #include "harness/commands/write_output.hpp"
+#include "harness/config/read_claim.hpp"
 #include "harness/eval/evo_results.hpp"
 #include "harness/model/where.hpp"
+#include "harness/store/open.hpp"
+#include "harness/store/read.hpp"
 #include "harness/tables/all_records.hpp"
+#include "harness/tables/claim_store.hpp"
 #include "harness/tables/comparison.hpp"
 
 namespace loopbench::harness {
 namespace {
+
+constexpr std::size_t kLongestConfig = 16'000'000;  // [bytes]
 
 struct CompareArguments {
   std::vector<std::string> files;  ///< a store, or result files of evo
@@ -24,6 +33,8 @@ struct CompareArguments {
   std::vector<std::string> where;
   CompareOptions options;
   std::optional<double> power;  ///< gain
+  std::string as_claim;         ///< file to write
+  std::string config;           ///< of the store, for the claim
   OutputOptions output;
 };
 
@@ -77,12 +88,64 @@ int print_evo_comparison(CompareArguments arguments) {
   return kExitOk;
 }
 
-int print_comparison(CompareArguments arguments) {
+/// The config that the sweep of a store was made with, relative to the folder of `file`. Throws
+/// InputError unless its text is that of the store.
+std::string config_of(const CompareArguments& arguments) {
+  const auto run = read_run(arguments.store);
+  const std::string path =
+      arguments.config.empty() ? "configs/" + run.at("sweep") + ".yaml" : arguments.config;
+  std::error_code missing;
+  const bool exists = std::filesystem::is_regular_file(path, missing);
+  if (!exists || read_named_file(path, kLongestConfig, "config") != run.at("config")) {
+    throw InputError(path +
+                     (exists ? ": is not the config of " : ": not found; expected the config of ") +
+                     arguments.store + "; set --config FILE");
+  }
+  const std::filesystem::path folder = std::filesystem::absolute(arguments.as_claim).parent_path();
+  return std::filesystem::absolute(path).lexically_relative(folder).string();
+}
+
+/// Writes the claim that the first method is better than the baseline or, if the baseline is first,
+/// than the second; this look is its first.
+int write_claim(const CompareArguments& arguments,
+                const std::vector<Comparison>& comparisons,
+                const Source& source) {
+  if (comparisons.size() != 1) {
+    throw InputError(fmt::format("--as-claim: expected one score, found {}; select it by --where",
+                                 comparisons.size()));
+  }
+  const Comparison& comparison = comparisons.front();
+  if (comparison.methods.size() < 2) throw InputError("--as-claim: " + verdict(comparison));
+  const bool leads = comparison.methods.front().method == comparison.options.baseline;
+  Claim claim;
+  claim.file = arguments.as_claim;
+  claim.config = config_of(arguments);
+  claim.method = comparison.methods.front().method;
+  claim.baseline = leads ? comparison.methods[1].method : comparison.options.baseline;
+  claim.metric = metric_of(arguments);
+  claim.where = arguments.where;
+  claim.value = arguments.options.value;
+  claim.over = arguments.options.over == Over::groups ? "groups" : "sequences";
+  claim.alpha = arguments.options.alpha;
+  claim.statement = claim.method + " has a smaller error than " + claim.baseline;
+  claim.sequences = sequences_of(claim, arguments.store);
+  Look look = look_at_store(claim, arguments.store);
+  look.date = today();
+  look.commit = commit_of(source);
+  claim.expected = look.answer;
+  claim.looks.push_back(look);
+  reject_overwriting({store_file(arguments.store)}, arguments.as_claim);
+  write_file(arguments.as_claim, yaml(claim));
+  return kExitOk;
+}
+
+int print_comparison(CompareArguments arguments, const Source& source) {
   if (is_evo_result(arguments.files.front())) return print_evo_comparison(std::move(arguments));
   arguments.store = one_store(arguments.files);
   std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
   const std::vector<Comparison> comparisons =
       compare_store(arguments.store, metric_of(arguments), arguments.where, arguments.options);
+  if (!arguments.as_claim.empty()) return write_claim(arguments, comparisons, source);
   if (arguments.power) return print_power(arguments, comparisons);
   write_output(comparisons_text(comparisons, arguments.output),
                arguments.output,
@@ -94,7 +157,7 @@ int print_comparison(CompareArguments arguments) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, int& exit_code) {
+void add_compare(CLI::App& app, int& exit_code, const Source& source) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command =
       app.add_subcommand("compare", "Compare and rank methods with significance tests");
@@ -111,6 +174,17 @@ void add_compare(CLI::App& app, int& exit_code) {
       "--metric",
       arguments->metric,
       "Label or name of a metric, or a score: ate, error x; ate unless --where selects one");
+  command
+      ->add_option("--as-claim",
+                   arguments->as_claim,
+                   "Write a claim file: the first method against the baseline, this look included; "
+                   "see `claim`")
+      ->type_name("FILE");
+  command
+      ->add_option("--config",
+                   arguments->config,
+                   "With --as-claim: the config of the store (default: configs/SWEEP.yaml)")
+      ->type_name("FILE");
   command
       ->add_option("--power",
                    arguments->power,
@@ -146,7 +220,8 @@ void add_compare(CLI::App& app, int& exit_code) {
            ExportFormat::latex,
            ExportFormat::csv,
            ExportFormat::json});
-  command->callback([arguments, &exit_code] { exit_code = print_comparison(*arguments); });
+  command->callback(
+      [arguments, source, &exit_code] { exit_code = print_comparison(*arguments, source); });
 }
 
 }  // namespace loopbench::harness

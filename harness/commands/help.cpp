@@ -38,6 +38,10 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench compare results/quickstart\n"
      "  loopbench compare results/quickstart --power 0.05   # groups needed to find 5 %\n"
      "  loopbench compare results/quickstart --over sequences --format csv -o compared.csv\n"},
+    {"claim",
+     "  loopbench compare results/quickstart --as-claim claim.yaml\n"
+     "  loopbench claim claim.yaml\n"
+     "  loopbench claim results/claims/*.yaml\n"},
     {"check",
      "  loopbench check results/quickstart --baseline results/reference/quickstart.json\n"
      "  loopbench check results/mine --baseline mine.json --update\n"
@@ -147,6 +151,9 @@ const std::map<std::string, std::string> kExitCodes{
     {"eval",
      "0 success, 1 an estimate failed or covers too little, 2 invalid input or output, 3 internal "
      "error."},
+    {"claim",
+     "0 every answer is the expected one, 1 another answer, 2 invalid input or output, 3 internal "
+     "error, 4 the build lacks a required part, 130 interrupted."},
     {"check", "0 passed, 1 regressions, 2 invalid input or output, 3 internal error."},
     {"doctor",
      "0 nothing found, 1 mistakes found or nothing could be checked, 2 invalid input or output, 3 "

@@ -1,3 +1,5 @@
+#include "harness/commands/run.hpp"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -27,22 +29,6 @@
 
 namespace loopbench::harness {
 namespace {
-
-struct RunArguments {
-  std::string config;
-  std::string only;
-  std::string data;
-  std::string out;
-  std::vector<std::filesystem::path> plugins;
-  int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  std::string shard;  ///< "3/8"; empty: all cells
-  bool dry_run = false;
-  std::string retry = "none";
-  bool fresh = false;
-  bool no_sandbox = false;
-  bool save_trajectories = false;
-  bool pin_instructions = false;
-};
 
 /// Larger sweeps get no tables and no summary after each run, because they take longer than
 /// matching the store with its config and all records do not fit into memory; `table` and `export`
@@ -77,7 +63,9 @@ std::string protocol_names(const Sweep& sweep) {
   return out;
 }
 
-int run(const RunArguments& arguments, const Source& source) {
+}  // namespace
+
+int run_config(const RunArguments& arguments, const Source& source) {
   if (arguments.pin_instructions) pin_instructions();
   const Catalogue known =
       catalogue(with_config_plugins(arguments.plugins, config_path(arguments.config)));
@@ -181,6 +169,12 @@ int run(const RunArguments& arguments, const Source& source) {
     return exit_code;
   }
 
+  if (arguments.quiet) {
+    store->close();
+    report_interruption();
+    return exit_code;
+  }
+
   const bool has_tables = all.size() <= kMostCellsInTables;
   const std::vector<Record> records = has_tables ? all_records(file) : std::vector<Record>{};
   if (has_tables) fmt::print("{}", summary_text(records, sweep));  // even if a table of it fails
@@ -210,8 +204,6 @@ int run(const RunArguments& arguments, const Source& source) {
   report_interruption();
   return exit_code;
 }
-
-}  // namespace
 
 void add_run(CLI::App& app, int& exit_code, const Source& source) {
   auto arguments = std::make_shared<RunArguments>();
@@ -258,7 +250,8 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
       ->capture_default_str();
   command->add_flag(
       "--fresh", arguments->fresh, "Recompute all cells; keep the old store as previous-N.sqlite");
-  command->callback([arguments, source, &exit_code] { exit_code = run(*arguments, source); });
+  command->callback(
+      [arguments, source, &exit_code] { exit_code = run_config(*arguments, source); });
 }
 
 }  // namespace loopbench::harness

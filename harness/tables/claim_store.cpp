@@ -1,0 +1,73 @@
+#include "harness/tables/claim_store.hpp"
+
+#include <algorithm>
+
+#include "datasets/core/error.hpp"
+#include "harness/base/hash.hpp"
+#include "harness/base/pattern.hpp"
+#include "harness/compare/observations.hpp"
+#include "harness/compare/snapshot.hpp"
+#include "harness/model/where.hpp"
+#include "harness/tables/all_records.hpp"
+#include "harness/tables/comparison.hpp"
+
+namespace loopbench::harness {
+
+Look look_at_store(const Claim& claim, const std::filesystem::path& store) {
+  CompareOptions options;
+  options.baseline = claim.baseline;
+  options.value = claim.value;
+  options.over = claim.over == "sequences" ? Over::sequences : Over::groups;
+  options.alpha = level_of_look(claim.alpha, claim.looks.size() + 1);
+  std::vector<std::string> rules = claim.where;
+  rules.push_back("method~\"" + pattern_of_any({claim.method, claim.baseline}) + "\"");
+  const std::vector<Comparison> all = compare_store(store, claim.metric, rules, options);
+  if (all.size() == 1) return look_at(claim, all.front(), options.alpha);
+  std::string titles;
+  for (const Comparison& one : all) titles += (titles.empty() ? "" : "; ") + title(one);
+  throw InputError(claim.file.string() + ": where: expected filters that leave one score, found " +
+                   std::to_string(all.size()) + ": " + titles);
+}
+
+std::map<std::string, std::string> sequences_of(const Claim& claim,
+                                                const std::filesystem::path& store) {
+  const Snapshot now = snapshot(store, {Tolerance{}});
+  const auto passes = where(claim.where);
+  std::map<std::string, std::map<std::string, std::string>> runs;  // definitions by sequence
+  for (const GateCell& cell : now.cells) {
+    if (cell.method != claim.method && cell.method != claim.baseline) continue;
+    const bool is_kept =
+        cell.scores.empty() ? passes(cell) : std::ranges::any_of(cell.scores, passes);
+    const auto definition = now.sequences.find(run_name(cell));
+    if (is_kept && definition != now.sequences.end()) runs[cell.sequence].insert(*definition);
+  }
+  std::map<std::string, std::string> out;
+  for (const auto& [sequence, definitions] : runs) {
+    Fields fields;
+    for (const auto& [run, definition] : definitions) fields.add(run).add(definition);
+    out[sequence] = fields.hashed();
+  }
+  return out;
+}
+
+void require_same_sequences(const Claim& claim, const std::map<std::string, std::string>& now) {
+  for (const auto& [sequence, hash] : claim.sequences) {
+    const auto found = now.find(sequence);
+    if (found == now.end()) {
+      throw InputError(claim.file.string() + ": sequences: '" + sequence +
+                       "' is not among the results; the config or its data changed");
+    }
+    if (found->second != hash) {
+      throw InputError(claim.file.string() + ": sequences: '" + sequence +
+                       "' has other runs, options or files: hash " + hash + " in the claim, " +
+                       found->second + " of the results");
+    }
+  }
+  for (const auto& [sequence, hash] : now) {
+    if (claim.sequences.contains(sequence)) continue;
+    throw InputError(claim.file.string() + ": sequences: the results have '" + sequence +
+                     "' (hash " + hash + "), which the claim does not name");
+  }
+}
+
+}  // namespace loopbench::harness
