@@ -60,6 +60,7 @@ for preset in "$@"; do
     loopbench=build/release/loopbench checked=build/release/check
     $loopbench run configs/quickstart.yaml --out $checked >/dev/null
     $loopbench check $checked --baseline results/reference/quickstart.json --junit $checked/junit.xml
+    $loopbench claim results/claims/[ds]*.yaml --out $checked  # those about quickstart
     tests/documented_outputs.sh $loopbench . $checked
     tests/documented_runs.sh $loopbench . $checked
   fi
