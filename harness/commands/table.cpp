@@ -23,6 +23,7 @@ struct TableArguments {
   RankingOptions ranking;
   OutputOptions output;
   bool has_default_layout = true;  ///< no --rows, --columns, --split, --show, --where
+  bool is_for_paper = false;       ///< --format latex or markdown
 };
 
 std::string rows_text(const TableArguments& arguments) {
@@ -88,7 +89,7 @@ int print_table(TableArguments arguments) {
     for (std::string& score : split_list(word)) show.push_back(std::move(score));
   }
   arguments.spec.show = std::move(show);
-  if (arguments.has_default_layout && arguments.output.format() == ExportFormat::latex) {
+  if (arguments.has_default_layout && arguments.is_for_paper) {
     choose_columns(arguments.store, arguments.spec);
   }
   write_output(
@@ -132,7 +133,8 @@ void add_table(CLI::App& app, int& exit_code) {
   command->add_option(
       "--show",
       arguments->spec.show,
-      "Scores to show: ate,error x,gain,time; default: all, in LaTeX the first, gain and time");
+      "Scores to show: ate,error x,gain,time; default: all, with --format latex or markdown the "
+      "first, gain and time");
   command->add_option("--where",
                       arguments->where,
                       "Filter of rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, comma-separated; "
@@ -155,6 +157,9 @@ void add_table(CLI::App& app, int& exit_code) {
     for (const char* name : {"--rows", "--columns", "--split", "--show", "--where"}) {
       if (command->count(name) > 0) arguments->has_default_layout = false;
     }
+    const ExportFormat format = arguments->output.format();
+    arguments->is_for_paper = command->count("--format") > 0 &&
+                              (format == ExportFormat::latex || format == ExportFormat::markdown);
     if (command->count("--split") == 0) {
       std::erase_if(arguments->spec.split, [&](const std::string& field) {
         return std::ranges::count(arguments->spec.rows, field) > 0 ||
