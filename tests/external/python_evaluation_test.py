@@ -274,9 +274,9 @@ class Methods(unittest.TestCase):
                 ("oracle", lambda: loopbench.correct(problem, "oracle_abscissa")),
                 ("declines", lambda: loopbench.correct(loopbench.problem_of(keyframes), "dual")),
                 ("expected 0", lambda: loopbench.correct(problem, "cubic_spline", at=[-1.0])),
-                ("does not exist", lambda: loopbench.correct(
+                ("found keyframes 0 and 99", lambda: loopbench.correct(
                     loopbench.problem_of(keyframes, [(0, 99, [0, 0, 0, 0, 0, 0, 1])]), "dual")),
-                ("index of a keyframe", lambda: loopbench.correct(
+                ("found keyframes -1 and 9", lambda: loopbench.correct(
                     loopbench.problem_of(keyframes, [(-1, 9, [0, 0, 0, 0, 0, 0, 1])]), "dual")),
                 ("simulate", lambda: loopbench.load("simulate")),
                 ("2 sequences", lambda: loopbench.load("simulated", sweep={"seed": [1, 2]})),

@@ -21,7 +21,7 @@ EXAMPLES = Path(__file__).parents[2] / "configs" / "external"
 
 class Doctests(unittest.TestCase):
     def test_all_modules(self):
-        for name in ("problem", "serving"):
+        for name in ("interruptible", "problem", "serving"):
             found = doctest.testmod(importlib.import_module("loopbench." + name))
             self.assertEqual(found.failed, 0, name)
             self.assertGreater(found.attempted, 0, name)

@@ -27,6 +27,9 @@ from typing import TYPE_CHECKING, Any
 from .problem import Declined, Edges, Problem, read_problem
 from .serving import corrector, serve, solve
 
+#: The version of loopbench, of the program and this package.
+__version__ = "0.3.0"
+
 if TYPE_CHECKING:
     from .correction import correct, load, methods, problem_of
     from .evaluation import Alignment, align, associate, evaluate, score, tracking_gaps
@@ -43,6 +46,7 @@ _MODULES = {
 _LATER = {name: module for module, names in _MODULES.items() for name in names}
 
 __all__ = [
+    "__version__",
     "Alignment",
     "ComparedMethod",
     "Comparison",

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from .interruptible import interruptible
 from .problem import Array, Edges, Problem
 from .serving import Method, call
 
@@ -63,17 +64,22 @@ def problem_of(
     (4, 1)
     >>> correct(problem, "uniform")[0][4, 1].round(3)
     3.0
+    >>> problem_of(keyframes, [(0, 5, [3, 0, 0, 0, 0, 0, 1])])
+    Traceback (most recent call last):
+    ValueError: closures: row 0: found keyframes 0 and 5, expected two different ones of 0 to 4
     """
     information = np.diag([sigma_t**-2.0] * 3 + [sigma_r**-2.0] * 3).ravel()
     rows = [np.r_[begin, end, np.asarray(pose), 1.0, information] for begin, end, pose in closures]
     rows.sort(key=lambda row: (row[1], row[0]))
     poses = np.ascontiguousarray(keyframes, dtype=float)
-    return Problem(
+    problem = Problem(
         poses,
         np.reshape(np.asarray(frames, dtype=float), (-1, 8)),
         Edges.from_rows(_core.odometry(poses)),
         Edges.from_rows(np.reshape(rows, (-1, 46))),
     )
+    problem.check()
+    return problem
 
 
 def correct(
@@ -106,7 +112,8 @@ def correct(
     for stamp in stamps:
         if not first <= stamp <= last:
             raise ValueError(f"at: found stamp {stamp}, expected {first} to {last}, the keyframes")
+    problem.check()
     odometry, closures = problem.odometry.to_rows(), problem.closures.to_rows()
     core = _core.Problem(problem.keyframes, problem.frames, odometry, closures, problem.planar)
-    poses, text = _core.correct(core, method, stamps.tolist())
+    poses, text = interruptible(_core.correct, core, method, stamps.tolist())
     return poses, json.loads(text)

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from .interruptible import interruptible
 from .problem import Array
 
 #: A path, or (n, 8) rows: stamp x y z qx qy qz qw.
@@ -96,11 +97,14 @@ def evaluate(
     arguments.times = os.fspath(times)
     arguments.period = period
     if isinstance(reference, (str, os.PathLike)) and isinstance(estimate, (str, os.PathLike)):
-        text = _core.evaluate_files(arguments, os.fspath(reference), os.fspath(estimate))
+        text = interruptible(
+            _core.evaluate_files, arguments, os.fspath(reference), os.fspath(estimate)
+        )
     elif isinstance(reference, (str, os.PathLike)) or isinstance(estimate, (str, os.PathLike)):
         raise TypeError("found a path and an array, expected two paths or two arrays")
     else:
-        text = _core.evaluate_arrays(arguments, _rows(reference), _rows(estimate))
+        rows = _rows(reference), _rows(estimate)
+        text = interruptible(_core.evaluate_arrays, arguments, *rows)
     result: dict[str, Any] = json.loads(text)[0]
     return result
 

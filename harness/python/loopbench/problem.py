@@ -16,7 +16,12 @@ class Declined(Exception):
     """Raised by a method that is not applicable to a problem; the text is the reason."""
 
 
-@dataclass(frozen=True)
+def _check_finite(rows: Array, name: str) -> None:
+    for row in np.flatnonzero(~np.isfinite(rows).all(axis=1)):
+        raise ValueError(f"{name}: row {row}: is not finite")
+
+
+@dataclass(frozen=True, repr=False)
 class Edges:
     """Relative poses between keyframes: odometry or loop closures."""
 
@@ -28,6 +33,20 @@ class Edges:
 
     def __len__(self) -> int:
         return len(self.begin)
+
+    def __repr__(self) -> str:
+        return f"Edges({len(self)})"
+
+    def check(self, keyframes: int, name: str) -> None:
+        """Raises ValueError for a number that is not finite, and an index of no keyframe."""
+        ends = np.column_stack([self.begin, self.end])
+        wrong = np.any((ends < 0) | (ends >= keyframes), axis=1) | (self.begin == self.end)
+        for row in np.flatnonzero(wrong):
+            raise ValueError(
+                f"{name}: row {row}: found keyframes {self.begin[row]} and {self.end[row]}, "
+                f"expected two different ones of 0 to {keyframes - 1}"
+            )
+        _check_finite(self.to_rows(), name)
 
     @staticmethod
     def from_rows(rows: Array) -> "Edges":
@@ -46,7 +65,7 @@ class Edges:
         return np.column_stack([self.begin, self.end, self.poses, self.scale, information])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Problem:
     """Keyframes, frames between them, odometry and loop closures.
 
@@ -55,8 +74,8 @@ class Problem:
     >>> problem = Problem(poses, poses[:0], none, none)
     >>> problem.stamps
     array([0., 1.])
-    >>> len(problem.closures)
-    0
+    >>> problem
+    Problem(2 keyframes, 0 frames, 0 odometry edges, 0 closures)
     """
 
     keyframes: Array  #: (n, 8) stamp x y z qx qy qz qw, world_from_body [s, m]
@@ -66,6 +85,19 @@ class Problem:
     planar: bool = False  #: measured in SE(2): z, roll and pitch are zero
     similarity: bool = False  #: some edges change the scale
     output: str = "keyframes"  #: expected poses: keyframes, or dense (any stamps that cover them)
+
+    def __repr__(self) -> str:
+        return (
+            f"Problem({len(self.keyframes)} keyframes, {len(self.frames)} frames, "
+            f"{len(self.odometry)} odometry edges, {len(self.closures)} closures)"
+        )
+
+    def check(self) -> None:
+        """Raises ValueError for numbers that are not finite and indices out of range."""
+        _check_finite(self.keyframes, "keyframes")
+        _check_finite(self.frames, "frames")
+        self.odometry.check(len(self.keyframes), "odometry")
+        self.closures.check(len(self.keyframes), "closures")
 
     @property
     def stamps(self) -> Array:

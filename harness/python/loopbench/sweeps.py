@@ -12,6 +12,8 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Mapping
 
+from .in_process import served
+
 if TYPE_CHECKING:
     import pandas  # type: ignore[import]
 
@@ -33,25 +35,30 @@ def _call(*words: str, accepted: tuple[int, ...] = (0,)) -> str:
 
 
 def run(
-    config: str | Path | Mapping[str, Any], out: str | Path | None = None, jobs: int = 1
+    config: str | Path | Mapping[str, Any],
+    out: str | Path | None = None,
+    jobs: int = 1,
+    shard: str = "",
 ) -> list[Row]:
     """Runs a sweep from a file or from the dictionary that a file would contain; returns `rows`.
 
-    Paths in a dictionary are relative to the current folder. The store is written to `out`, by
+    The methods of a dictionary may be functions as for `correct`, or dictionaries with such a
+    `method` and a `label`. `shard`: only this part, such as "3/8", into OUT/shards/3-of-8. Paths in a dictionary are relative to the current folder. The store is written to `out`, by
     default results/NAME for a file; that of a dictionary is removed. Failed cells are rows, not
     errors. Raises RuntimeError with the program's message if the config is invalid.
     """
     if not isinstance(config, Mapping):
         out = Path(out or Path("results") / Path(config).stem)
-        _call("run", str(config), "--out", str(out), "-j", str(jobs), accepted=(0, 1))
-        return rows(out)
-    with tempfile.NamedTemporaryFile("w", suffix=".yaml", dir=".", prefix=".sweep-") as file:
-        json.dump(config, file)
+        words = ["run", str(config), "--out", str(out), "-j", str(jobs)]
+        _call(*words, *(["--shard", shard] if shard else []), accepted=(0, 1))
+        return rows(out / "shards" / shard.replace("/", "-of-") if shard else out)
+    with served(config) as programs, tempfile.NamedTemporaryFile("w", suffix=".yaml", dir=".", prefix=".sweep-") as file:
+        json.dump(programs, file)
         file.flush()
         if out is not None:
-            return run(file.name, out, jobs)
+            return run(file.name, out, jobs, shard)
         with tempfile.TemporaryDirectory() as folder:
-            return run(file.name, folder, jobs)
+            return run(file.name, folder, jobs, shard)
 
 
 def _select(store: str | Path) -> tuple[list[str], list[Any]]:
@@ -113,7 +120,7 @@ class ComparedMethod:
     leader_interval: tuple[float, float] | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Comparison:
     """All methods in one score, over the runs of a store."""
 
@@ -137,6 +144,10 @@ class Comparison:
     methods: list[ComparedMethod]  #: the leader first
     gaps: list[dict[str, Any]]  #: methods without a value in some run, and why
 
+    def __repr__(self) -> str:
+        score = " ".join(filter(None, (self.label or self.metric, self.relation, self.axis)))
+        return f"Comparison({score} [{self.unit}], {len(self.methods)} methods, {self.groups} groups)"
+
     def __getitem__(self, method: str) -> ComparedMethod:
         for each in self.methods:
             if each.method == method:
@@ -155,11 +166,15 @@ def _compared(entry: dict[str, Any]) -> ComparedMethod:
     return found
 
 
-def compare(store: str | Path, *where: str, baseline: str = "") -> list[Comparison]:
+def compare(
+    store: str | Path, *where: str, metric: str = "", baseline: str = ""
+) -> list[Comparison]:
     """Comparisons with significance tests, as `loopbench compare` makes them: one per score.
 
-    Conditions select rows, such as "metric=ate", "times=keyframes".
+    Conditions select rows, such as "times=keyframes", and `metric` those of a name or label.
     """
+    if metric:
+        where = (*where, f'metric="{metric}"')
     words = ["compare", str(store), "--format", "json"]
     for condition in where:
         words += ["--where", condition]
