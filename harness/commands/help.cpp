@@ -30,6 +30,10 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench list\n"
      "  loopbench list motion_drift\n"
      "  loopbench list methods 'dm*'\n"},
+    {"schema",
+     "  loopbench schema\n"
+     "  loopbench schema >schema.json\n"
+     "  loopbench schema --plugin mine.so >schema.json\n"},
     {"table",
      "  loopbench table results/quickstart\n"
      "  loopbench table results/quickstart --rows sequence --show gain\n"

@@ -10,6 +10,7 @@
 #include "harness/base/pattern.hpp"
 #include "harness/base/suggest.hpp"
 #include "harness/config/choices.hpp"
+#include "harness/config/keys.hpp"
 #include "harness/config/sweep_settings.hpp"
 #include "harness/config/values.hpp"
 
@@ -17,22 +18,6 @@ namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kLongestConfig = 16'000'000;  // [bytes]
-
-const std::vector<std::string> kKeys{"description",
-                                     "plugins",
-                                     "datasets",
-                                     "methods",
-                                     "metrics",
-                                     "times",
-                                     "protocol",
-                                     "baseline",
-                                     "min_coverage",
-                                     "repeats",
-                                     "timing",
-                                     "traces",
-                                     "limits",
-                                     "exclude",
-                                     "table"};
 
 /// Most datasets, methods and metrics: far above real sweeps, so that a few lines cannot request
 /// hours.
@@ -139,7 +124,7 @@ Sweep read_root(const YamlNode& root, const Catalogue& catalogue, const Folders&
   }
   Sweep sweep;
   Errors errors(*root.file);
-  for (const InputError& error : unknown_keys(root, kKeys)) errors.add(error.what());
+  for (const InputError& error : unknown_keys(root, config_key_names(""))) errors.add(error.what());
   errors.attempt([&] {
     sweep.datasets = list<DatasetChoice>(root, "datasets", errors, [&](const YamlNode& entry) {
       return read_datasets(entry, catalogue, folders);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/config/keys.hpp"
 #include "harness/config/values.hpp"
 #include "harness/model/where.hpp"
 
@@ -36,7 +37,7 @@ std::vector<metrics::Times> as_times(const YamlNode& node, const std::string& ke
 void read_timing(const YamlNode& node, Sweep& sweep) {
   constexpr int kRunsWhenAlone = 5;  // for a median that one disturbance does not change
   if (node.type == YamlNode::Type::map) {
-    require_keys(node, "timing", {"runs", "serial"});
+    require_keys(node, "timing", config_key_names("timing"));
     read_key(node, "timing.runs", sweep.timing, as_count);
     read_key(node, "timing.serial", sweep.serial, as_flag);
   } else if (std::holds_alternative<bool>(node.scalar)) {
@@ -48,7 +49,7 @@ void read_timing(const YamlNode& node, Sweep& sweep) {
 }
 
 Limits as_limits(const YamlNode& node, const std::string& name) {
-  require_keys(node, name, {"seconds", "memory", "cells"});
+  require_keys(node, name, config_key_names("limits"));
   Limits out;
   read_key(
       node, "limits.seconds", out.seconds, [](const YamlNode& seconds, const std::string& key) {
@@ -67,7 +68,7 @@ std::vector<Exclusion> as_exclusions(const YamlNode& node, const std::string& na
   }
   std::vector<Exclusion> out;
   for (const YamlNode& entry : node.list) {
-    require_keys(entry, name, {"dataset", "method"});
+    require_keys(entry, name, config_key_names("exclude"));
     Exclusion& exclusion = out.emplace_back();
     read_key(entry, "dataset", exclusion.dataset, as_pattern);
     read_key(entry, "method", exclusion.method, as_pattern);
@@ -76,7 +77,7 @@ std::vector<Exclusion> as_exclusions(const YamlNode& node, const std::string& na
 }
 
 TableSpec as_table(const YamlNode& node, const std::string& name) {
-  require_keys(node, name, {"rows", "columns", "split", "value", "show", "where", "plus_minus"});
+  require_keys(node, name, config_key_names("table"));
   const auto fields = [](const YamlNode& list, const std::string& key) {
     return checked_texts(list, key, [](const auto& names) {
       for (const std::string& each : names) field(Record{}, each);

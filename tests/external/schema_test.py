@@ -1,0 +1,137 @@
+"""Every shipped config satisfies the schema; a mistake is found by the schema and by `run`.
+
+Usage: schema_test.py LOOPBENCH ROOT
+"""
+
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+try:
+    import jsonschema
+    import yaml
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+LOOPBENCH, ROOT = Path(sys.argv[1]), Path(sys.argv[2])
+SHIPPED = ROOT / "configs/schema.json"
+
+
+class Yaml12(yaml.SafeLoader):
+    """Plain scalars as in YAML 1.2: 1e-3 is a number, `off` and 2024-01-01 are texts."""
+
+    yaml_implicit_resolvers = {}
+
+
+for tag, pattern, first in (
+    ("bool", r"^(?:true|false)$", "tf"),
+    ("int", r"^[-+]?[0-9]+$", "-+0123456789"),
+    ("float", r"^[-+]?(?:[0-9]*\.[0-9]+|[0-9]+\.?)(?:[eE][-+]?[0-9]+)?$", "-+.0123456789"),
+    ("merge", r"^<<$", "<"),
+):
+    resolver = re.compile(pattern)
+    Yaml12.add_implicit_resolver(f"tag:yaml.org,2002:{tag}", resolver, list(first))
+
+
+def output(*words):
+    return subprocess.run([LOOPBENCH, *words], capture_output=True, text=True, check=True).stdout
+
+
+SCHEMA = json.loads(output("schema"))
+VALIDATOR = jsonschema.Draft7Validator(SCHEMA)
+
+
+def complaints(text):
+    """All messages of the schema about a config, with those of the alternatives that it tried."""
+    waiting = list(VALIDATOR.iter_errors(yaml.load(text, Yaml12)))
+    out = ""
+    while waiting:
+        error = waiting.pop()
+        out += f"{'.'.join(map(str, error.absolute_path))}: {error.message}\n"
+        waiting += error.context
+    return out
+
+
+def config(**changes):
+    """A valid config with some keys replaced, as text."""
+    return json.dumps(
+        {"datasets": [{"dataset": "simulated"}], "methods": ["raw"], "metrics": ["ate"], **changes}
+    )
+
+
+class Schema(unittest.TestCase):
+    def test_the_shipped_file_is_what_the_program_prints(self):
+        self.assertEqual(
+            SHIPPED.read_text(),
+            output("schema"),
+            "update it: loopbench schema >configs/schema.json",
+        )
+        VALIDATOR.check_schema(SCHEMA)
+
+    def test_shipped_configs_name_it_and_satisfy_it(self):
+        files = sorted((ROOT / "configs").rglob("*.yaml"))
+        self.assertGreater(len(files), 20)
+        for file in files:
+            text = file.read_text()
+            first = text.split("\n", 1)[0]
+            self.assertTrue(first.startswith("# yaml-language-server: $schema="), file)
+            self.assertEqual((file.parent / first.split("=")[1]).resolve(), SHIPPED.resolve(), file)
+            self.assertEqual(complaints(text), "", file)
+
+    def test_defaults_of_all_options_satisfy_it(self):
+        listed = json.loads(output("list", "--json"))
+        for kind in ("datasets", "methods", "metrics"):
+            entries = [
+                {kind[:-1]: entry["name"], "label": entry["name"]}
+                | {option["name"]: option["default"] for option in entry["options"]}
+                for entry in listed[kind]
+            ]
+            self.assertEqual(complaints(config(**{kind: entries})), "", kind)
+
+    def test_what_run_accepts_satisfies_it(self):
+        for text in (
+            config(plugins="mine.so", methods=["of_a_plugin"]),
+            config(_anchors={"any": 1}, times=["dense"], timing={"runs": 3, "serial": True}),
+            config(methods=[{"method": "dual + dm", "sweep": {"turn_max": [0.1, 0.2]}}]),
+            config(methods=[{"method": "dual + dm", "dm.turn_max": 0.1, "dm": {"chord_above": "none"}}]),
+            config(datasets=[{"dataset": "simulated", "noise": {"gain": 0}, "white_noise.sigma_t": 0.1}]),
+            config(protocol=["evo", {"base": "tum", "segments": {"step": 5}}]),
+            config(metrics=[{"metric": "rpe", "zip": {"delta": {"from": 1, "to": 5, "steps": 5}}}]),
+        ):
+            self.assertEqual(complaints(text), "", text)
+
+    def test_mistakes_are_found_by_the_schema_and_by_run(self):
+        for word, text in {
+            "methds": config(methds=["raw"]),
+            "unifrom": config(methods=["unifrom"]),
+            "cubic": config(methods=["dual + cubic"]),
+            "turn_mux": config(methods=[{"method": "dm", "turn_mux": 1}]),
+            "turn_mix": config(methods=[{"method": "dual + dm", "turn_mix": 1}]),
+            "turn_max": config(methods=[{"method": "dm", "turn_max": "wide"}]),
+            "gian": config(datasets=[{"dataset": "simulated", "noise": {"gian": 0}}]),
+            "keyframes": config(datasets=[{"dataset": "simulated", "sweep": {"keyframes": [1.5]}}]),
+            "path": config(datasets=[{"dataset": "simulated", "path": "rom"}]),
+            "delta": config(metrics=[{"metric": "rpe", "delta": -1}]),
+            "alignn": config(protocol={"alignn": "se3"}),
+            "memori": config(limits={"memori": "1GiB"}),
+            "colums": config(table={"colums": "score"}),
+            "repeats": config(repeats=0),
+        }.items():
+            with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
+                file.write(text)
+                file.flush()
+                done = subprocess.run(
+                    [LOOPBENCH, "run", file.name, "--dry-run"], capture_output=True, text=True
+                )
+            self.assertEqual(done.returncode, 2, text)
+            self.assertIn(word, done.stderr)
+            self.assertIn(word, complaints(text))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
