@@ -1,15 +1,6 @@
 /// Messages between this program and a serving program, over its standard streams.
 ///
-/// A message is 32 bytes, little endian: the magic "LBEXCH01", its number, the size of its text and
-/// the size of its data [bytes]; then the text, a JSON object; then the data, rows of float64 one
-/// array after another. An answer has the number of its request.
-///
-/// Request: {exchange: 1, planar, similarity, output: keyframes | dense,
-///   arrays: [[name, rows, columns], ...]} with the arrays
-///   keyframes, frames    8 columns: stamp x y z qx qy qz qw
-///   odometry, closures  46 columns: from to x y z qx qy qz qw scale, then the 36 elements of the
-///                       information matrix of the twist [rho; phi]
-/// Answer: the keys of result.json (exchange.hpp) and poses: number of rows, 8 columns each.
+/// methods/exchange.md describes them.
 #pragma once
 
 #include <cstdint>

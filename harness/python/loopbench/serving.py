@@ -1,4 +1,4 @@
-"""Methods in Python: a decorated function answers the problems of a sweep."""
+"""Methods and datasets in Python: decorated functions answer the requests of a sweep."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import sys
 import time
 import traceback
 from pathlib import Path
-from typing import Any, BinaryIO, Callable
+from typing import Any, BinaryIO, Callable, Mapping
 
 import numpy as np
 
@@ -23,10 +23,22 @@ _HEADER = struct.Struct("<8sQQQ")
 _MAGIC = b"LBEXCH01"
 _registered: list[Method] = []
 
+#: A dataset gets the path of its input and a seed, and returns {"trajectory", and optionally "frames",
+#: "closed"}, arrays of rows (n, 8).
+Dataset = Callable[[str, int], Mapping[str, Any]]
+
+_datasets: list[Dataset] = []
+
 
 def corrector(function: Method) -> Method:
     """Registers a method for `serve`; the function itself is unchanged."""
     _registered.append(function)
+    return function
+
+
+def dataset(function: Dataset) -> Dataset:
+    """Registers a dataset for `serve`, as of `{dataset: command, run: ...}`."""
+    _datasets.append(function)
     return function
 
 
@@ -117,20 +129,34 @@ def answer_all(function: Method, questions: BinaryIO, answers: BinaryIO) -> None
         answers.flush()
 
 
+def _write(file: str, poses: Any) -> None:
+    lines = (" ".join(repr(float(x)) for x in row) for row in poses)
+    Path(file).write_text("\n".join(lines) + "\n")
+
+
 def _run_once(function: Method, folder: str, result: str) -> None:
     report, poses = solve(function, read_problem(folder))
     Path(result + ".json").write_text(json.dumps(report, default=_plain))
-    lines = (" ".join(repr(float(x)) for x in row) for row in poses)
-    Path(result).write_text("\n".join(lines) + "\n")
+    _write(result, poses)
+
+
+def _load(sequence: str, trajectory: str, seed: str) -> None:
+    if not _datasets:
+        raise ValueError("no dataset: decorate a function with @loopbench.dataset")
+    for name, poses in _datasets[-1](sequence, int(seed)).items():
+        _write(trajectory if name == "trajectory" else f"{trajectory}.{name}", poses)
 
 
 def serve(function: Method | None = None) -> None:
     """Answers a sweep's problems with a function, by default the last registered one.
 
     With two arguments on the command line, solves the folder {problem} and writes {result}, so one
-    file can be used with `run:` and with `serve:`. Otherwise answers over standard input and output
+    file can be used with `run:` and with `serve:`. With three, {sequence}, {trajectory} and {seed},
+    calls the last registered dataset. Otherwise answers over standard input and output
     until they are closed; prints of the method go to standard error.
     """
+    if len(sys.argv) == 4:
+        return _load(*sys.argv[1:])
     if function is None:
         if not _registered:
             raise ValueError("no method: decorate a function with @loopbench.corrector")
