@@ -11,6 +11,7 @@
 #include "metrics/correction/jerk.hpp"
 #include "metrics/correction/jumps.hpp"
 #include "metrics/correction/loop_detection.hpp"
+#include "metrics/correction/optimality.hpp"
 #include "metrics/correction/path_length.hpp"
 #include "metrics/correction/smoothing_headroom.hpp"
 #include "metrics/errors/accuracy.hpp"
@@ -60,6 +61,10 @@ std::vector<MetricEntry> metrics() {
              closure_residual),
       metric_without_reference<GraphCostOptions>(
           "graph_cost", "sum of squared Mahalanobis errors over all edges", graph_cost),
+      metric_without_reference<NoOptions>(
+          "optimality",
+          "proved bound on the distance of a pose graph from its optimum",
+          optimality),
       metric<JumpsOptions>(
           "jumps", "discontinuities of the curve and its derivatives at keyframes", jumps),
       metric(

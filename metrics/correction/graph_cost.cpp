@@ -1,8 +1,9 @@
 #include "metrics/correction/graph_cost.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
+
+#include "metrics/correction/chordal_weights.hpp"
 
 namespace loopbench::metrics {
 namespace {
@@ -18,17 +19,9 @@ Twist quaternion_error(const Pose& delta, bool planar) {
   return twist(delta.translation, rotation_vector);
 }
 
-double chordal_cost(const Pose& delta, const Matrix6& information, bool planar) {
+double chordal_cost(const Pose& delta, const ChordalWeights& weights) {
   const Matrix3 off = delta.rotation.toRotationMatrix() - Matrix3::Identity();
-  const double rotation_squared = off.squaredNorm();
-  const double moved = delta.translation.squaredNorm();
-  if (planar) {
-    const Eigen::Matrix2d S = Eigen::Matrix2d(information.topLeftCorner<2, 2>()).inverse();
-    return information(5, 5) * rotation_squared + 2.0 / S.trace() * moved;
-  }
-  const Matrix3 S_t = Matrix3(information.topLeftCorner<3, 3>()).inverse();
-  const Matrix3 S_phi = Matrix3(information.bottomRightCorner<3, 3>()).inverse();
-  return 1.5 / S_phi.trace() * rotation_squared + 3.0 / S_t.trace() * moved;
+  return weights.kappa * off.squaredNorm() + weights.tau * delta.translation.squaredNorm();
 }
 
 double cost_of(const Edge& edge, const Trajectory& poses, bool planar, GraphError error) {
@@ -41,7 +34,7 @@ double cost_of(const Edge& edge, const Trajectory& poses, bool planar, GraphErro
     case GraphError::quaternion:
       return squared(quaternion_error(delta, planar), edge.information);
     case GraphError::chordal:
-      return chordal_cost(delta, edge.information, planar);
+      return chordal_cost(delta, chordal_weights(edge, planar));
   }
   return 0.0;
 }

@@ -28,8 +28,7 @@ void fields(GraphCostOptions& o, Visit visit) {
 }
 
 /// Sums over edges, without the factor 1/2 of GTSAM and Ceres: chi2 of all edges, of odometry, of
-/// closures [1]. For chordal, information as SE-Sync reads g2o files: tau = d / tr(S_t), kappa = 3
-/// / (2 tr(S_phi)) in 3-D (d = 3) and the yaw information in the plane (d = 2). Needs no reference.
+/// closures [1]. For chordal, weights as in chordal_weights.hpp. Needs no reference.
 /// Throws std::runtime_error if an edge changes the scale: rigid keyframes do not define its
 /// residual. O(keyframes + edges).
 std::vector<Score> graph_cost(const Evaluation& evaluation, const GraphCostOptions& options);

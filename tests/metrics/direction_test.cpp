@@ -27,7 +27,7 @@ const std::set<std::string> kDescriptions{"closure_residual",
                                           "diagnostics",
                                           "lever_arm"};
 const std::set<std::string> kOthers{
-    "path_length", "jerk", "graph_cost", "loop_detection", "accuracy", "control_points"};
+    "path_length", "jerk", "graph_cost", "optimality", "loop_detection", "accuracy", "control_points"};
 
 /// A circle in steps of 5 cm, back to its start; `stray` bends it upwards.
 Trajectory circle(double stray) {

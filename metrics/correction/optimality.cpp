@@ -1,0 +1,143 @@
+#include "metrics/correction/optimality.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "metrics/correction/chordal_minimum.hpp"
+#include "metrics/numerics/angle.hpp"
+
+namespace loopbench::metrics {
+namespace {
+
+/// S + eta I on rotations, for several eta.
+template <int D>
+class ShiftedMatrix {
+ public:
+  ShiftedMatrix(const ChordalMatrix<D>& M,
+                const std::vector<typename ChordalMatrix<D>::Rotation>& multipliers)
+      : S_(M.template assemble<ChordalMatrix<D>::kSize>(
+            [&](Eigen::Index i) {
+              auto block = M.diagonal(i);
+              block.template bottomRightCorner<D, D>() -= multipliers[static_cast<std::size_t>(i)];
+              // Fixes t_0 = 0: the cost does not depend on it.
+              if (i == 0) block(0, 0) *= 2.0;
+              return block;
+            },
+            [](const auto& link) { return link.block; })),
+        diagonal_(S_.diagonal()) {
+    factor_.analyzePattern(S_);
+  }
+
+  bool is_positive(double eta) {
+    for (Eigen::Index r = 0; r < S_.rows(); ++r) {
+      if (r % (D + 1) != 0) S_.coeffRef(r, r) = diagonal_[r] + eta;
+    }
+    factor_.factorize(S_);
+    return factor_.info() == Eigen::Success && factor_.vectorD().minCoeff() > 0.0;
+  }
+
+ private:
+  typename ChordalMatrix<D>::Sparse S_;
+  Eigen::VectorXd diagonal_;
+  typename ChordalMatrix<D>::Factor factor_;
+};
+
+/// Smallest share of the cost, up to a factor of 1.6, whose shift makes the matrix positive; 1 if
+/// it is above a tenth.
+template <class IsPositive>
+double least_share(IsPositive is_positive) {
+  constexpr double kLeast = 1e-7;
+  constexpr double kLargest = 0.1;
+  if (is_positive(kLeast)) return kLeast;
+  if (!is_positive(kLargest)) return 1.0;
+  double below = kLeast;
+  double above = kLargest;
+  while (above > 1.6 * below) {
+    const double middle = std::sqrt(below * above);
+    (is_positive(middle) ? above : below) = middle;
+  }
+  return above;
+}
+
+/// Largest rotation between two lists of poses [rad].
+template <int D>
+double largest_rotation(const typename ChordalMatrix<D>::Poses& X,
+                        const typename ChordalMatrix<D>::Poses& Y) {
+  double out = 0.0;
+  for (Eigen::Index at = 1; at < X.cols(); at += D + 1) {
+    const double chord =
+        (X.template middleCols<D>(at) - Y.template middleCols<D>(at)).norm() / std::sqrt(8.0);
+    out = std::max(out, 2.0 * std::asin(std::min(1.0, chord)));
+  }
+  return out;
+}
+
+template <int D>
+Certificate certificate_in(const Problem& problem, const Trajectory& keyframes) {
+  const ChordalMatrix<D> M(problem);
+  const auto start = ChordalMatrix<D>::columns(keyframes);
+  Certificate out;
+  out.cost = start.cwiseProduct(M.times(start)).sum();
+  if (!std::isfinite(out.cost)) {
+    throw std::runtime_error("optimality: the cost of the estimate is not finite");
+  }
+  const auto X = chordal_minimum<D>(M, start);
+  const auto XM = M.times(X);
+  out.minimum = X.cwiseProduct(XM).sum();
+  out.rotation = largest_rotation<D>(start, X);
+
+  const auto multipliers = M.multipliers(X, XM);
+  double traces = 0.0;
+  for (const auto& L : multipliers) traces += L.trace();
+  double rounding = 0.0;
+  for (Eigen::Index i = 0; i < M.size(); ++i) {
+    for (int r = 0; r <= D; ++r) {
+      rounding += M.diagonal(i)(r, r) * X.col((D + 1) * i + r).squaredNorm();
+    }
+  }
+  rounding *= 10.0 * std::numeric_limits<double>::epsilon();
+  if (out.minimum <= rounding) {
+    out.minimum = 0.0;
+    if (out.cost <= rounding) out.cost = 0.0;
+    return out;
+  }
+  ShiftedMatrix<D> S(M, multipliers);
+  const double columns = static_cast<double>(D * M.size());
+  const double share =
+      least_share([&](double tried) { return S.is_positive(tried * out.minimum / columns); });
+  out.lower_bound = std::max(0.0, traces - share * out.minimum - rounding);
+  return out;
+}
+
+}  // namespace
+
+Certificate certificate(const Problem& problem, const Trajectory& keyframes) {
+  if (keyframes.empty() || keyframes.size() != problem.keyframes.size()) {
+    throw std::runtime_error("optimality: expected one pose per keyframe");
+  }
+  return problem.planar ? certificate_in<2>(problem, keyframes)
+                        : certificate_in<3>(problem, keyframes);
+}
+
+std::vector<Score> optimality(const Evaluation& evaluation, const NoOptions&) {
+  const Problem& problem = needed(evaluation.context.problem, "optimality", "edges");
+  const Trajectory& poses = needed(evaluation.context.estimate, "optimality", "keyframes");
+  for (const std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
+    for (const Edge& edge : *edges) {
+      if (edge.scale == 1.0) continue;
+      throw Undefined("optimality: an edge changes the scale (factor " + to_text(edge.scale) +
+                      "), the certificate is for rigid poses");
+    }
+  }
+  const Certificate proof = certificate(problem, poses);
+  const auto gap = [&](double cost) {
+    return cost > proof.lower_bound ? 100.0 * (cost - proof.lower_bound) / cost : 0.0;
+  };
+  const bool is_own_minimum = proof.rotation < 0.5 * M_PI;
+  return {single("gap", "minimum", "%", gap(is_own_minimum ? proof.minimum : proof.cost)),
+          directed(single("gap", "estimate", "%", gap(proof.cost)), Better::neither),
+          directed(single("rotation", "", "deg", kDegrees * proof.rotation), Better::neither)};
+}
+
+}  // namespace loopbench::metrics
