@@ -82,6 +82,12 @@ std::string closure_provenance(const PoseGraphOptions& o,
     if (o.skip_placeholders) text += ", without placeholders";
   }
   text += false_closures_text(o.false_closures, false_closures, count);
+  if (graph.altered > 0) {
+    const char* how = o.rules.indefinite == IndefiniteInformation::repair    ? "repaired"
+                      : o.rules.indefinite == IndefiniteInformation::project ? "projected"
+                                                                             : "made isotropic";
+    text += fmt::format("; indefinite information of {} edges {}", graph.altered, how);
+  }
   if (graph.similarity) text += "; Sim(3) chain: keyframes are its rigid part";
   return text;
 }
@@ -154,7 +160,7 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
     return inputs.emplace_back(InputPath{root.find(path), option}).path;
   };
   const std::filesystem::path file = open(o.path, "path");
-  const PoseGraph graph = read_g2o(file, o.rotation_information);
+  const PoseGraph graph = read_g2o(file, o.rules);
   std::size_t false_closures = 0;
   sequence.problem = derive_problem(
       graph, o, file, open(lists ? o.true_list : "", "closures.true_list"), &false_closures);

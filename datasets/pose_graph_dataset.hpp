@@ -28,13 +28,20 @@ inline auto choices(RotationInformation) {
                     std::pair{"angles", RotationInformation::angles}};
 }
 
+inline auto choices(IndefiniteInformation) {
+  return std::array{std::pair{"reject", IndefiniteInformation::reject},
+                    std::pair{"repair", IndefiniteInformation::repair},
+                    std::pair{"project", IndefiniteInformation::project},
+                    std::pair{"isotropic", IndefiniteInformation::isotropic}};
+}
+
 struct PoseGraphOptions {
   std::string name;
   std::string path;
   std::string truth;
   TruthAxes truth_axes = TruthAxes::same;
   ReferenceBody reference_body;
-  RotationInformation rotation_information = RotationInformation::half_angles;
+  InformationRules rules;
   double period = 0.1;
   std::int64_t keyframes_every = 1;
   GraphClosures closures = GraphClosures::edges;
@@ -57,9 +64,13 @@ void fields(PoseGraphOptions& o, Visit visit) {
   visit("truth_axes", o.truth_axes, "body axes of the ground truth");
   reference_body_fields(o.reference_body, visit);
   visit("information",
-        o.rotation_information,
+        o.rules.rotation,
         "convention of the rotation information of :QUAT edges: half_angles (quaternion vector, "
         "g2o) or angles (GTSAM, SE-Sync)");
+  visit("indefinite",
+        o.rules.indefinite,
+        "edges whose information is not positive definite: reject, repair (planar terms stored at "
+        "z, roll and z, pitch), project (eigenvalues), isotropic (mean variances)");
   visit("period",
         o.period,
         "time between consecutive vertex ids: stamp = id * period [s]",

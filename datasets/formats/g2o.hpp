@@ -20,6 +20,7 @@ struct PoseGraph {
   std::vector<std::size_t> lines;  ///< line number of each edge, for error messages
   bool planar = false;             ///< SE2 lines, lifted to z = roll = pitch = 0
   bool similarity = false;         ///< RST3 lines, with edge.scale
+  std::size_t altered = 0;         ///< edges whose information was not positive definite
 };
 
 /// Convention of the rotation block of the information of :QUAT edges. g2o minimises the vector
@@ -27,10 +28,24 @@ struct PoseGraph {
 /// same numbers as information of angles, which is four times larger.
 enum class RotationInformation { half_angles, angles };
 
+/// Treatment of edges whose information is not positive definite (definite_information.hpp).
+enum class IndefiniteInformation {
+  reject,    ///< the file is an error
+  repair,    ///< terms x, yaw and y, yaw stored at z, roll and z, pitch are moved (cubicle.g2o)
+  project,   ///< eigenvalues are raised to at least 1e-6 of the largest
+  isotropic  ///< inverse mean variances of translation and rotation
+};
+
+struct InformationRules {
+  RotationInformation rotation = RotationInformation::half_angles;
+  IndefiniteInformation indefinite = IndefiniteInformation::reject;
+};
+
 /// Reads a g2o file. Conventions (g2o wiki and sources; TORO; COP-SLAM):
 /// - Information of :QUAT edges refers to the vector part of the quaternion (half angles) and is
 ///   converted to twists: Omega_phi = Omega_q / 4, Omega_t,phi = Omega_tq / 2 (except for
 ///   RotationInformation::angles).
+/// - Information that is not positive definite is treated as `rules` state, before the conversion.
 /// - SE2 is lifted to SE(3): x, y, yaw are from the file; z, roll, pitch get positive diagonal
 ///   information, which does not affect the solution of a planar problem.
 /// - VERTEX3 and EDGE3 contain x y z roll pitch yaw with R = Rz(yaw) Ry(pitch) Rx(roll) and
@@ -43,8 +58,7 @@ enum class RotationInformation { half_angles, angles };
 ///   discarded.
 /// - FIX lines and comments are skipped; other tags are rejected.
 /// Throws InputError `file:line: what`. O(n log n) in the number of lines.
-PoseGraph read_g2o(const std::filesystem::path& file,
-                   RotationInformation rotation_information = RotationInformation::half_angles);
+PoseGraph read_g2o(const std::filesystem::path& file, const InformationRules& rules = {});
 
 /// Writes vertices and edges as SE2 lines if `planar`, as RST3 if `similarity`, else as SE3:QUAT.
 /// read_g2o returns yaw angles and scales up to rounding, all other values bit-identical. Throws

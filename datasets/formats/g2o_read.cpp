@@ -68,10 +68,11 @@ void invert_edge(const TextFile& file, std::size_t line, Edge& edge) {
 
 }  // namespace
 
-PoseGraph read_g2o(const std::filesystem::path& path, RotationInformation rotation_information) {
+PoseGraph read_g2o(const std::filesystem::path& path, const InformationRules& rules) {
   TextFile file(path);
-  Records records = read_records(file, rotation_information);
+  Records records = read_records(file, rules);
   PoseGraph out;
+  out.altered = records.altered;
   out.planar = records.kind == GraphKind::planar;
   out.similarity = records.kind == GraphKind::similarity;
   if (records.vertices.empty()) {

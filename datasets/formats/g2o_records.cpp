@@ -5,6 +5,7 @@
 
 #include "datasets/core/params.hpp"
 #include "datasets/formats/columns.hpp"
+#include "datasets/formats/definite_information.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/g2o_information.hpp"
 #include "datasets/formats/parts.hpp"
@@ -64,15 +65,8 @@ const Tag& find_tag(const TextFile& file, const Line& line, std::string_view wor
 /// Parser for one line. Throws InputError with the columns required by the tag if one is missing.
 class Record {
  public:
-  Record(const TextFile& file,
-         const Line& line,
-         const Tag& tag,
-         RotationInformation rotation_information)
-      : file_(file),
-        line_(line),
-        tag_(tag),
-        rotation_information_(rotation_information),
-        columns_(file, line) {
+  Record(const TextFile& file, const Line& line, const Tag& tag, const InformationRules& rules)
+      : file_(file), line_(line), tag_(tag), rules_(rules), columns_(file, line) {
     columns_.word();
   }
 
@@ -144,17 +138,20 @@ class Record {
     return of_quaternion(has_scale ? Matrix6(upper<7>().topLeftCorner<6, 6>()) : upper<6>());
   }
 
+  /// Whether the parsed information was not positive definite.
+  bool is_altered() const { return is_altered_; }
+
  private:
   Matrix6 of_quaternion(const Matrix6& written) const {
-    return rotation_information_ == RotationInformation::half_angles ? from_half_angles(written)
-                                                                     : written;
+    return rules_.rotation == RotationInformation::half_angles ? from_half_angles(written)
+                                                               : written;
   }
 
   void need_column() const {
     if (done()) throw wrong_columns(file_, line_, Format::g2o, tag_.columns);
   }
 
-  /// Parses an upper triangle row by row. Throws InputError unless it is positive definite.
+  /// Parses an upper triangle row by row. Throws InputError if it cannot be made positive definite.
   template <int N>
   Eigen::Matrix<double, N, N> upper() {
     Eigen::Matrix<double, N, N> out;
@@ -162,16 +159,23 @@ class Record {
       for (int j = i; j < N; ++j) out(i, j) = out(j, i) = number("information");
     }
     end();
-    if (Eigen::LLT<Eigen::Matrix<double, N, N>>(out).info() != Eigen::Success) {
-      throw file_.error(line_.number, "information is not positive definite");
+    if (is_positive_definite(out)) return out;
+    if constexpr (N < 7) {
+      is_altered_ = true;
+      if (const auto made = made_definite<N>(out, rules_.indefinite)) return *made;
     }
-    return out;
+    const bool is_rejected = rules_.indefinite == IndefiniteInformation::reject;
+    throw file_.error(line_.number,
+                      is_rejected ? "information is not positive definite"
+                                  : "information is not positive definite and cannot be altered "
+                                    "as the option `indefinite` states");
   }
 
   const TextFile& file_;
   const Line& line_;
   const Tag& tag_;
-  RotationInformation rotation_information_;
+  InformationRules rules_;
+  bool is_altered_ = false;
   Columns columns_;
 };
 
@@ -195,6 +199,7 @@ void read_edge(const TextFile& file, Record record, const Line& line, Records& o
   edge.from_from_to = record.pose(inverse_scale);
   edge.scale = 1.0 / inverse_scale;
   edge.information = record.information();
+  out.altered += record.is_altered() ? 1 : 0;
   if (ends.from == ends.to) {
     throw file.error(line.number,
                      "edge connects vertex " + std::to_string(ends.from) + " to itself");
@@ -202,7 +207,7 @@ void read_edge(const TextFile& file, Record record, const Line& line, Records& o
   out.ends.push_back(ends);
 }
 
-Records read_g2o_part(TextFile& file, RotationInformation rotation_information) {
+Records read_g2o_part(TextFile& file, const InformationRules& rules) {
   first_line(file);
   Records out;
   const Tag* first = nullptr;
@@ -222,7 +227,7 @@ Records read_g2o_part(TextFile& file, RotationInformation rotation_information) 
                            std::string(first->word) + " on line " +
                            std::to_string(first_line_number) + ", expected one kind of pose");
     }
-    const Record record(file, line, tag, rotation_information);
+    const Record record(file, line, tag, rules);
     if (tag.is_edge()) {
       if (out.edges.empty()) {
         out.edges.reserve(file.estimated_lines(line));
@@ -241,10 +246,10 @@ Records read_g2o_part(TextFile& file, RotationInformation rotation_information) 
 
 }  // namespace
 
-Records read_records(TextFile& file, RotationInformation rotation_information) {
+Records read_records(TextFile& file, const InformationRules& rules) {
   std::vector<Records> parts = read_parallel(
       file,
-      [rotation_information](TextFile& part) { return read_g2o_part(part, rotation_information); },
+      [&rules](TextFile& part) { return read_g2o_part(part, rules); },
       [](const Records& a, const Records& b) { return a.kind == b.kind; });
   Records out = std::move(parts.front());
   for (std::size_t i = 1; i < parts.size(); ++i) {
@@ -255,6 +260,7 @@ Records read_records(TextFile& file, RotationInformation rotation_information) {
     append(out.ends, std::move(more.ends));
     append(out.edges, std::move(more.edges));
     out.lines += more.lines;
+    out.altered += more.altered;
   }
   return out;
 }

@@ -32,11 +32,13 @@ struct Records {
   std::vector<EdgeEnds> ends;
   std::vector<Edge> edges;  ///< one per `ends`; indices not set, information of a twist
   std::size_t lines = 0;    ///< of the part of the file
+  std::size_t altered = 0;  ///< edges whose information was not positive definite
 };
 
 /// Reads every VERTEX and EDGE line; FIX lines are skipped. Throws InputError for unknown tags, a
 /// wrong number of columns, mixed kinds, quaternions that are not unit, scales that are not
-/// positive, information that is not positive definite, and edges from a vertex to itself.
-Records read_records(TextFile& file, RotationInformation rotation_information);
+/// positive, information that `rules` cannot make positive definite, and edges from a vertex to
+/// itself.
+Records read_records(TextFile& file, const InformationRules& rules);
 
 }  // namespace loopbench

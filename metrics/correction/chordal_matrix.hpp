@@ -21,9 +21,14 @@ class ChordalMatrix {
   using Sparse = Eigen::SparseMatrix<double>;
   using Factor = Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
+  using Weights = Eigen::Matrix<double, 1, kSize>;
+
+  /// Residual X_to - X_from step, weighted by columns: tau, then kappa.
   struct Link {
     Eigen::Index from, to;
-    Block block;  ///< rows of `from`, columns of `to`
+    Block step;
+    Weights weights;
+    Block block() const { return -step * weights.asDiagonal(); }  ///< of M, `from` by `to`
   };
 
   /// O(edges), and one minimum-degree ordering of the keyframes.
@@ -54,18 +59,25 @@ class ChordalMatrix {
     return X;
   }
 
-  /// X M. O(edges).
-  Poses times(const Poses& X) const {
-    Poses Y(D, X.cols());
-    const auto at = [](auto& of, Eigen::Index i) {
-      return of.template middleCols<kSize>(kSize * i);
-    };
-    for (Eigen::Index i = 0; i < size_; ++i) at(Y, i) = at(X, i) * diagonal(i);
+  /// X M and the cost, summed over the residuals of the edges: the product would cancel digits.
+  struct Product {
+    Poses XM;
+    double cost = 0.0;
+  };
+
+  /// O(edges).
+  Product times(const Poses& X) const {
+    Product out{Poses::Zero(D, X.cols()), 0.0};
     for (const Link& link : links_) {
-      at(Y, link.from) += at(X, link.to) * link.block.transpose();
-      at(Y, link.to) += at(X, link.from) * link.block;
+      const auto from = X.template middleCols<kSize>(kSize * link.from);
+      const auto to = X.template middleCols<kSize>(kSize * link.to);
+      Eigen::Matrix<double, D, kSize> residual = to - from * link.step;
+      out.cost += link.weights.dot(residual.colwise().squaredNorm());
+      residual *= link.weights.asDiagonal();
+      out.XM.template middleCols<kSize>(kSize * link.to) += residual;
+      out.XM.template middleCols<kSize>(kSize * link.from) -= residual * link.step.transpose();
     }
-    return Y;
+    return out;
   }
 
   /// Multipliers of R_i' R_i = I at X: the symmetric parts of R_i' (X M)_i.
@@ -123,19 +135,17 @@ class ChordalMatrix {
 
   void add(const Edge& edge) {
     const auto [kappa, tau] = chordal_weights(edge, D == 2);
-    Eigen::Matrix<double, kSize, 1> step;  // t_from + R_from Z_t = X_from step
-    step << 1.0, edge.from_from_to.translation.template head<D>();
-    Block& from = diagonal_.at(edge.from);
-    Block& to = diagonal_.at(edge.to);
-    from += tau * step * step.transpose();
-    to(0, 0) += tau;
-    from.diagonal().template tail<D>().array() += kappa;
-    to.diagonal().template tail<D>().array() += kappa;
-    Block block = Block::Zero();
-    block.col(0) = -tau * step;
-    block.template bottomRightCorner<D, D>() = -kappa * matrix(edge.from_from_to.rotation);
-    links_.push_back(
-        {static_cast<Eigen::Index>(edge.from), static_cast<Eigen::Index>(edge.to), block});
+    Link link{static_cast<Eigen::Index>(edge.from),
+              static_cast<Eigen::Index>(edge.to),
+              Block::Zero(),
+              Weights::Constant(kappa)};
+    link.weights[0] = tau;
+    link.step(0, 0) = 1.0;
+    link.step.col(0).template tail<D>() = edge.from_from_to.translation.template head<D>();
+    link.step.template bottomRightCorner<D, D>() = matrix(edge.from_from_to.rotation);
+    diagonal_.at(edge.from) += link.step * link.weights.asDiagonal() * link.step.transpose();
+    diagonal_.at(edge.to).diagonal() += link.weights.transpose();
+    links_.push_back(link);
   }
 
   void order() {

@@ -106,7 +106,7 @@ struct ChordalSteps {
     };
     return M.template assemble<kDof>(diagonal, [&](const auto& link) -> Square {
       if (link.from == 0 || link.to == 0) return Square::Zero();
-      return form(of(link.from), of(link.to), link.block);
+      return form(of(link.from), of(link.to), link.block());
     });
   }
 };
@@ -127,8 +127,7 @@ typename ChordalMatrix<D>::Poses chordal_minimum(const ChordalMatrix<D>& M,
     factor.factorize(H);
     return factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0.0;
   };
-  auto XM = M.times(X);
-  double cost = X.cwiseProduct(XM).sum();
+  auto [XM, cost] = M.times(X);
   double last_predicted = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     if (!factorise(Steps::hessian(M, X, M.multipliers(X, XM)), iteration == 0) &&
@@ -145,11 +144,10 @@ typename ChordalMatrix<D>::Poses chordal_minimum(const ChordalMatrix<D>& M,
     bool is_moved = false;
     for (double share = 1.0; share > 1e-3 && !is_moved; share *= 0.5) {
       auto next = Steps::moved(M, X, step, share);
-      auto next_M = M.times(next);
-      const double next_cost = next.cwiseProduct(next_M).sum();
-      is_moved = next_cost <= cost || is_rounding;
+      auto product = M.times(next);
+      is_moved = product.cost <= cost || is_rounding;
       if (!is_moved) continue;
-      X = std::move(next), XM = std::move(next_M), cost = next_cost;
+      X = std::move(next), XM = std::move(product.XM), cost = product.cost;
     }
     if (!is_moved) return X;
   }

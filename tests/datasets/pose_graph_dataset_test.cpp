@@ -170,8 +170,8 @@ TEST(PoseGraphDataset, ReadsInformationOfAnglesAsWritten) {
                                 "EDGE_SE3:QUAT 0 1 1 0 0 0 0 0 1 "
                                 "4 0 0 0 0 0 4 0 0 0 0 4 0 0 0 8 0 0 8 0 8\n");
   EXPECT_EQ(read_g2o(file).edges[0].information(5, 5), 2.0);
-  EXPECT_EQ(read_g2o(file, RotationInformation::angles).edges[0].information(5, 5), 8.0);
-  EXPECT_EQ(read_g2o(file, RotationInformation::angles).edges[0].information(0, 0), 4.0);
+  EXPECT_EQ(read_g2o(file, {RotationInformation::angles}).edges[0].information(5, 5), 8.0);
+  EXPECT_EQ(read_g2o(file, {RotationInformation::angles}).edges[0].information(0, 0), 4.0);
 }
 
 TEST(PoseGraphDataset, RefusesGapsAndBlindEdges) {
