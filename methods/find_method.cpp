@@ -37,7 +37,8 @@ Trajectory correct(const Problem& problem, const std::string& name, const Params
       Report report;
       return result_of(*method, problem, report);
     } else {
-      throw InputError(name + ": is a smoother, expected a corrector or a joint method");
+      throw InputError(name +
+                       ": is a smoother or a replay, expected a corrector or a joint method");
     }
   };
   return std::visit(corrected, find_method(name).make(options));

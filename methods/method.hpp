@@ -2,8 +2,8 @@
 ///
 /// A Corrector adjusts keyframe poses using loop closures. A Smoother fits a curve to the keyframes
 /// and cannot remove drift. An Estimator does both: a joint method, or the composition of a
-/// corrector and a smoother (pipeline.hpp). All functions are const and pure: the same problem
-/// gives bit-identical results on any thread.
+/// corrector and a smoother (pipeline.hpp). A Replayer runs one of these in the order of time. All
+/// functions are const and pure: the same problem gives bit-identical results on any thread.
 #pragma once
 
 #include <functional>
@@ -15,6 +15,7 @@
 #include "datasets/core/curve.hpp"
 #include "datasets/core/fields.hpp"
 #include "datasets/core/problem.hpp"
+#include "methods/incremental.hpp"
 #include "methods/report.hpp"
 
 namespace loopbench::methods {
@@ -30,6 +31,13 @@ class Corrector {
   /// Returns one pose per keyframe, in the same order and with the same stamps. Throws
   /// std::runtime_error on failure.
   virtual Trajectory correct(const Problem& problem, Report& report) const = 0;
+
+  /// Returns the method as one that extends its solution while data arrive; null if it has no such
+  /// form: a replay then solves the problem again at every update. `planar` as in Problem.
+  virtual std::unique_ptr<Incremental> incremental(bool planar) const {
+    static_cast<void>(planar);
+    return nullptr;
+  }
 };
 
 /// Stage 2: fits a curve through or near the keyframes.
@@ -51,17 +59,35 @@ class Estimator {
   virtual std::string why_declined(const Problem&) const { return ""; }
 
   virtual std::unique_ptr<const Curve> estimate(const Problem& problem, Report& report) const = 0;
+
+  /// As Corrector::incremental().
+  virtual std::unique_ptr<Incremental> incremental(bool planar) const {
+    static_cast<void>(planar);
+    return nullptr;
+  }
+};
+
+/// A stage in front of a method: passes a problem to it in the order of time.
+class Replayer {
+ public:
+  virtual ~Replayer() = default;
+
+  /// Returns the method with a curve that contains the record of its replay (Curve::replay()).
+  virtual std::unique_ptr<const Estimator> replayed(
+      std::unique_ptr<const Estimator> method) const = 0;
 };
 
 using Stage = std::variant<std::unique_ptr<const Corrector>,
                            std::unique_ptr<const Smoother>,
-                           std::unique_ptr<const Estimator>>;
+                           std::unique_ptr<const Estimator>,
+                           std::unique_ptr<const Replayer>>;
 
-enum class Kind { corrector, smoother, joint };
+enum class Kind { corrector, smoother, joint, replay };
 inline auto choices(Kind) {
   return std::array{std::pair{"corrector", Kind::corrector},
                     std::pair{"smoother", Kind::smoother},
-                    std::pair{"joint", Kind::joint}};
+                    std::pair{"joint", Kind::joint},
+                    std::pair{"replay", Kind::replay}};
 }
 
 struct MethodEntry {
@@ -81,11 +107,14 @@ template <class T>
 MethodEntry method(std::string name, std::string summary, typename T::Options defaults) {
   constexpr bool is_corrector = std::derived_from<T, Corrector>;
   constexpr bool is_smoother = std::derived_from<T, Smoother>;
+  constexpr bool is_replayer = std::derived_from<T, Replayer>;
+  using Method = std::conditional_t<is_replayer, Replayer, Estimator>;
   using Base = std::
-      conditional_t<is_corrector, Corrector, std::conditional_t<is_smoother, Smoother, Estimator>>;
+      conditional_t<is_corrector, Corrector, std::conditional_t<is_smoother, Smoother, Method>>;
   return {std::move(name),
           is_corrector  ? Kind::corrector
           : is_smoother ? Kind::smoother
+          : is_replayer ? Kind::replay
                         : Kind::joint,
           std::move(summary),
           describe(defaults),

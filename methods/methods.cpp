@@ -4,11 +4,13 @@
 #include "methods/correctors/elch.hpp"
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 #include "methods/correctors/pose_graph.hpp"
+#include "methods/correctors/pose_graph_incremental.hpp"
 #include "methods/correctors/two_pass.hpp"
 #include "methods/correctors/uniform.hpp"
 #include "methods/function_method.hpp"
 #include "methods/joint/spline_fit.hpp"
 #include "methods/method.hpp"
+#include "methods/online/online.hpp"
 #include "methods/smoothers/gaussian_process.hpp"
 #include "methods/smoothers/interpolating_splines.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
@@ -74,6 +76,13 @@ std::vector<MethodEntry> methods() {
       method<PoseGraphOptimizer>("pose_graph",
                                  "maximum likelihood by sparse least squares (Ceres)",
                                  {.start = PoseGraphOptimizer::Start::chordal}),
+      method<IncrementalPoseGraph>(
+          "pose_graph_incremental",
+          "pose_graph by a Cholesky factor that is updated, after iSAM2; for replays"),
+      method<IncrementalPoseGraph>(
+          "pose_graph_incremental_gate",
+          "pose_graph_incremental without closures that raise chi2 too much, after IPC",
+          {.gate = true}),
       method<PoseGraphOptimizer>("pose_graph_huber",
                                  "pose_graph with a Huber loss on closures",
                                  {.loss = RobustLoss::huber}),
@@ -135,6 +144,9 @@ std::vector<MethodEntry> methods() {
       // Joint methods.
       method<SplineFit>("spline_fit",
                         "cumulative B-spline fitted to odometry and closures (Ceres)"),
+
+      // In front of a method.
+      method<Online>("online", "replay: the method gets its data in the order of time"),
   };
 }
 

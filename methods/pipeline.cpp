@@ -49,6 +49,10 @@ class Pipeline final : public Estimator {
     return smoothed(with_keyframes(problem, std::move(keyframes)), report);
   }
 
+  std::unique_ptr<Incremental> incremental(bool planar) const override {
+    return corrector_ && !smoother_ ? corrector_->incremental(planar) : nullptr;
+  }
+
  private:
   std::unique_ptr<const Curve> smoothed(const Problem& problem, Report& report) const {
     if (!smoother_) return std::make_unique<Polyline>(problem.keyframes);

@@ -25,6 +25,7 @@ set(order
   "datasets"
 
   "methods/report"
+  "methods/incremental"
   "methods/method"
   "methods/smoothers/runs methods/smoothers/penalised"
   "methods/smoothers/spline"
@@ -32,7 +33,7 @@ set(order
   "methods/smoothers/gp methods/smoothers/manifold"
   "methods/solvers"
   "methods/smoothers methods/correctors"
-  "methods/joint"
+  "methods/joint methods/online"
   "methods"
 
   "metrics/numerics"
@@ -43,6 +44,7 @@ set(order
   "metrics/better"
   "metrics/metric"
   "metrics/errors metrics/correction metrics/checks"
+  "metrics/online"
   "metrics/doctor"
   "metrics"
 

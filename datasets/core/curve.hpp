@@ -9,6 +9,8 @@
 
 namespace loopbench {
 
+struct Replay;
+
 /// All estimates are evaluated as curves, because smoothers differ between keyframes.
 class Curve {
  public:
@@ -21,6 +23,9 @@ class Curve {
   /// be in any order. Throws std::out_of_range for a time outside start()..end(). O(n + m) for
   /// sorted times.
   virtual void sample(std::span<const double> times, std::span<Pose> poses) const = 0;
+
+  /// The record of the replay that ended with this curve (replay.hpp); null for other curves.
+  virtual const Replay* replay() const { return nullptr; }
 
   Pose at(double time) const {
     Pose pose;

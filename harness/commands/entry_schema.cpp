@@ -109,16 +109,20 @@ std::string escaped(const std::string& name) {
   return out;
 }
 
-/// Matches texts "corrector + smoother".
+/// Matches texts "corrector + smoother", and "replay + " any method or these.
 std::string composed_pattern(const std::vector<methods::MethodEntry>& entries) {
-  std::vector<std::string> correctors;
-  std::vector<std::string> smoothers;
+  std::map<methods::Kind, std::vector<std::string>> names;
   for (const methods::MethodEntry& entry : entries) {
-    if (entry.kind == methods::Kind::corrector) correctors.push_back(escaped(entry.name));
-    if (entry.kind == methods::Kind::smoother) smoothers.push_back(escaped(entry.name));
+    names[entry.kind].push_back(escaped(entry.name));
   }
-  return fmt::format(
-      R"(^\s*({})\s*\+\s*({})\s*$)", fmt::join(correctors, "|"), fmt::join(smoothers, "|"));
+  const auto any = [&](methods::Kind kind) {
+    return fmt::format("({})", fmt::join(names[kind], "|"));
+  };
+  const std::string corrector = any(methods::Kind::corrector);
+  const std::string smoother = any(methods::Kind::smoother);
+  const std::string two = fmt::format(R"({}\s*\+\s*{})", corrector, smoother);
+  const std::string one = fmt::format("({}|{}|{})", corrector, smoother, any(methods::Kind::joint));
+  return fmt::format(R"(^\s*({0}|{1}\s*\+\s*({0}|{2}))\s*$)", two, any(methods::Kind::replay), one);
 }
 
 /// What an option accepts, for comparison.
@@ -128,7 +132,7 @@ Json accepted(Json schema) {
   return schema;
 }
 
-/// Corrector + smoother: an option belongs to one of the stages, whose name can precede it. Options
+/// Composed methods: an option belongs to one of the stages, whose name can precede it. Options
 /// of the same name can differ between methods: the schema is that of any of them.
 Json composed_schema(const std::vector<methods::MethodEntry>& entries, const Json& definitions) {
   std::map<std::string, std::vector<std::string>> having;
@@ -136,7 +140,6 @@ Json composed_schema(const std::vector<methods::MethodEntry>& entries, const Jso
   Json options = Json::object();
   Json swept = Json::object();
   for (const methods::MethodEntry& entry : entries) {
-    if (entry.kind == methods::Kind::joint) continue;
     const std::string id = "method." + entry.name;
     for (const OptionInfo& option : entry.options) {
       const std::string& name = option.name;

@@ -60,19 +60,25 @@ const auto& found(Find find,
 
 using Stages = std::vector<const methods::MethodEntry*>;
 
+std::size_t replays_in_front(const Stages& stages) {
+  return stages.front()->kind == methods::Kind::replay ? 1 : 0;
+}
+
 /// Reason why these stages cannot be combined; empty for corrector, smoother, corrector + smoother,
-/// method.
+/// method, and each of these after a replay, which can also be alone.
 std::string why_not_composable(const Stages& stages) {
-  if (stages.size() == 1) return "";
-  if (stages.size() == 2 && stages[0]->kind == methods::Kind::corrector &&
-      stages[1]->kind == methods::Kind::smoother) {
-    return "";
-  }
+  const std::size_t first = replays_in_front(stages);
+  const auto is = [&](std::size_t i, methods::Kind kind) {
+    return stages[first + i]->kind == kind;
+  };
+  const std::size_t rest = stages.size() - first;
+  if (rest == 0 || (rest == 1 && !is(0, methods::Kind::replay))) return "";
+  if (rest == 2 && is(0, methods::Kind::corrector) && is(1, methods::Kind::smoother)) return "";
   std::string kinds;
   for (const methods::MethodEntry* stage : stages) {
     kinds += (kinds.empty() ? "" : " + ") + to_text(stage->kind);
   }
-  return "is " + kinds + "; stages compose as corrector + smoother";
+  return "is " + kinds + "; stages compose as corrector + smoother, after a replay if there is one";
 }
 
 /// The stage of a setting and its name in that stage: `uniform.rotation`, or `rotation` if only one
@@ -91,8 +97,8 @@ std::pair<std::size_t, std::string> stage_of(const Setting& setting, const Stage
   if (having.size() == 1) return {having.front(), setting.name};
   if (having.size() > 1) {
     throw setting.place.error(setting.name + ": both stages have this option; use " +
-                              stages[0]->name + "." + setting.name + " or " + stages[1]->name +
-                              "." + setting.name);
+                              stages[having[0]]->name + "." + setting.name + " or " +
+                              stages[having[1]]->name + "." + setting.name);
   }
   if (stages.size() == 1) return {0, setting.name};  // the stage rejects it and lists its options
   throw setting.place.error(unknown_name("option of either stage", setting.name, known));
@@ -174,7 +180,7 @@ std::vector<MethodChoice> method_choices(const ConfigEntry& entry, const Catalog
       const Params options = to_params(by_stage[i]);
       choice.stages.push_back({stage.name, options});
       located(entry, stage.name, by_stage[i], stage.options, [&] {
-        if (is_joint(catalogue, stage, options) && stages.size() > 1)
+        if (is_joint(catalogue, stage, options) && stages.size() > 1 + replays_in_front(stages))
           throw OptionError("output",
                             "with these options it is a joint method and has no smoother");
       });

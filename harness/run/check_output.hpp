@@ -31,6 +31,7 @@ class CheckedCurve final : public Curve {
   using Curve::sample;
   double start() const override { return curve_.start(); }
   double end() const override { return curve_.end(); }
+  const Replay* replay() const override { return curve_.replay(); }
 
   /// Throws std::runtime_error for the first pose that violates a rule of violated_rule() or is not
   /// written. Adds O(n).

@@ -114,7 +114,8 @@ bool uses_closures(const MethodChoice& choice, const Catalogue& catalogue) {
   return std::ranges::any_of(choice.stages, [&](const Choice& stage) {
     if (stage.name == "raw" || is_oracle(catalogue, stage.name)) return false;
     if (is_program(stage)) return true;
-    return find_method(catalogue, stage.name).kind != methods::Kind::smoother;
+    const methods::Kind kind = find_method(catalogue, stage.name).kind;
+    return kind == methods::Kind::corrector || kind == methods::Kind::joint;
   });
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "metrics/numerics/percentile.hpp"
 #include "metrics/trajectory/tracking_gaps.hpp"
 
 namespace loopbench::metrics {
@@ -28,13 +29,6 @@ std::vector<double> represented_time(const Trajectory& reference, const Trajecto
     out[i] += half;
   }
   return out;
-}
-
-double percentile(const std::vector<double>& sorted, double share) {
-  const double rank = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(rank);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return std::lerp(sorted[below], sorted[above], rank - static_cast<double>(below));
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST(ReadSweep, RefusesWithPlaceAndSuggestion) {
             "c.yaml:4: no option of either stage is named 'fial'; did you mean 'fail'?");
   EXPECT_EQ(why(config("- line", "- straight + shift")),
             "c.yaml:4: straight + shift: is smoother + corrector; stages compose as corrector + "
-            "smoother");
+            "smoother, after a replay if there is one");
   EXPECT_EQ(why(config("- line", "- shift\n  - shift")),
             "c.yaml:5: two entries of methods have the label 'shift'; set label in one");
   EXPECT_EQ(why(config("- line", "- shift", "- {metric: ate, power: 7}")),

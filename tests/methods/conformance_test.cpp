@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "datasets/core/polyline.hpp"
+#include "methods/online/online.hpp"
 #include "methods/pipeline.hpp"
 #include "tests/support/problems.hpp"
 
@@ -21,8 +22,8 @@ namespace {
 
 using namespace test;
 
-/// Composes a corrector with a polyline, or a smoother without a corrector; returns a joint method
-/// unchanged.
+/// Composes a corrector with a polyline, or a smoother without a corrector; replays keyframes
+/// without correction; returns a joint method unchanged.
 std::unique_ptr<const Estimator> build(const MethodEntry& entry, const Params& params = {}) {
   Stage stage = entry.make(params);
   if (auto* corrector = std::get_if<std::unique_ptr<const Corrector>>(&stage)) {
@@ -30,6 +31,9 @@ std::unique_ptr<const Estimator> build(const MethodEntry& entry, const Params& p
   }
   if (auto* smoother = std::get_if<std::unique_ptr<const Smoother>>(&stage)) {
     return compose(nullptr, std::move(*smoother));
+  }
+  if (auto* replayer = std::get_if<std::unique_ptr<const Replayer>>(&stage)) {
+    return (*replayer)->replayed(compose(nullptr, nullptr));
   }
   return std::get<std::unique_ptr<const Estimator>>(std::move(stage));
 }
@@ -197,6 +201,21 @@ TEST_P(Conformance, DeclinesOrSolvesAwkwardProblems) {
     SCOPED_TRACE(name);
     ASSERT_NO_THROW(check(problem, name));
     if (method_->why_declined(problem).empty()) expect_valid_curve(problem);
+  }
+}
+
+TEST_P(Conformance, EndsAReplayWithTheResultOfTheCompleteProblem) {
+  if (GetParam().kind == Kind::replay) return;
+  const auto replayed = Online({}).replayed(build(GetParam()));
+  for (const auto& [name, problem] : ordinary_problems()) {
+    SCOPED_TRACE(name);
+    if (!method_->why_declined(problem).empty()) continue;
+    const Trajectory last = sampled(*replayed, problem);
+    if (method_->incremental(problem.planar) == nullptr) {
+      EXPECT_TRUE(same_bits(last, sampled(problem)));
+    } else {  // the solver's tolerance
+      expect_close(last, sampled(problem), 1e-6, 1e-6);
+    }
   }
 }
 

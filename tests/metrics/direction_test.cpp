@@ -5,6 +5,7 @@
 
 #include "evaluated_cell.hpp"
 #include "metrics/metric.hpp"
+#include "replayed_polyline.hpp"
 #include "support.hpp"
 #include "tests/support/problems.hpp"
 
@@ -17,8 +18,20 @@ namespace {
 using test::EvaluatedCell;
 
 // Every metric is in one of these lists: lower is better, no direction, or has a test of its own.
-const std::set<std::string> kErrors{
-    "ate", "axis_error", "ape", "rpe", "segments", "along_cross", "jumps", "discernible"};
+const std::set<std::string> kErrors{"ate",
+                                    "axis_error",
+                                    "ape",
+                                    "rpe",
+                                    "segments",
+                                    "along_cross",
+                                    "jumps",
+                                    "discernible",
+                                    "causal_ate",
+                                    "causal_rpe",
+                                    "closure_errors",
+                                    "closure_jumps",
+                                    "settling",
+                                    "update_time"};
 const std::set<std::string> kDescriptions{"closure_residual",
                                           "interpolation_floor",
                                           "smoothing_headroom",
@@ -54,10 +67,14 @@ Trajectory thinned(const Trajectory& poses) {
 std::map<std::string, std::pair<Better, double>> directions(const std::string& metric) {
   const Problem problem = test::drifting(
       thinned(circle(0.0)), twist({0.01, 0.0, 0.02}, {0.0, 0.001, 0.01}), {{0, 20}, {5, 25}});
+  const Replay replay{thinned(circle(0.3)),
+                      {test::closure_at(10, 0.0, 0.1),
+                       test::closure_at(20, 0.0, 0.1),
+                       test::closure_at(30, 0.0, 0.1)}};
   const std::vector<LoopCandidate> candidates{{0, 20, 1.0, true}, {5, 25, 0.5, true}};
   EvaluatedCell cell(circle(0.0),
                      problem,
-                     std::make_unique<Polyline>(thinned(circle(0.3))),
+                     std::make_unique<test::ReplayedPolyline>(thinned(circle(0.3)), replay),
                      Times::dense,
                      {.align = Align::none});
   cell.evaluation.context.loop_candidates = &candidates;

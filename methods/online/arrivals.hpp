@@ -1,0 +1,59 @@
+/// When and in which order the closures of a replay arrive.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "datasets/core/problem.hpp"
+
+namespace loopbench::methods {
+
+struct ArrivalOptions {
+  double delay = 0.0;
+  double jitter = 0.0;
+  double repeated = 0.0;
+  std::int64_t false_closures = 0;
+  std::optional<double> withdrawn_after = 10.0;
+  std::int64_t seed = 1;
+};
+
+template <class Visit>
+void fields(ArrivalOptions& o, Visit visit) {
+  visit("delay",
+        o.delay,
+        "time from the later keyframe of a closure to the arrival of the closure [s]",
+        Between{0.0});
+  visit("jitter",
+        o.jitter,
+        "largest random addition to the delay [s]; closures then arrive out of order",
+        Between{0.0});
+  visit("repeated",
+        o.repeated,
+        "share of closures that arrive twice and count twice [-]",
+        Between{0.0, 1.0});
+  visit("false_closures",
+        o.false_closures,
+        "number of false closures, each between keyframes drawn at random",
+        Between{0, 1e6});
+  visit("withdrawn_after",
+        o.withdrawn_after,
+        "time from the arrival of a false closure to its withdrawal [s]; none: it stays",
+        Between{0.0});
+  visit("seed", o.seed, "seed of delays, repetitions and false closures", Between{0});
+}
+
+/// Arrival or withdrawal of a closure.
+struct Arrival {
+  double time = 0.0;  ///< on the axis of the stamps [s]
+  Edge closure;
+  bool is_withdrawn = false;
+};
+
+/// Returns the arrivals of all closures, sorted by time; at equal times in the order of the
+/// problem. A false closure measures what a true one of the problem measures, with its information,
+/// between a keyframe and one of the first half before it. A problem without closures or with fewer
+/// than three keyframes has none. O(closures log closures).
+std::vector<Arrival> closure_arrivals(const Problem& problem, const ArrivalOptions& options);
+
+}  // namespace loopbench::methods

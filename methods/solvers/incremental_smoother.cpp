@@ -1,0 +1,201 @@
+#include "methods/solvers/incremental_smoother.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "methods/solvers/edge_residual.hpp"
+#include "methods/solvers/elimination_tree.hpp"
+#include "methods/solvers/groups/se2.hpp"
+#include "methods/solvers/groups/se3.hpp"
+
+namespace loopbench::methods {
+namespace {
+
+template <class G>
+class IncrementalSmoother final : public Incremental {
+ public:
+  explicit IncrementalSmoother(const IncrementalSettings& settings)
+      : settings_(settings), tree_(G::kDof) {}
+
+  Trajectory update(const Increment& added, Report& report) override {
+    for (const StampedPose& keyframe : added.keyframes) add_keyframe(keyframe);
+    for (const Edge& edge : added.odometry) add_edge(edge, true);
+    const std::size_t before = tree_.eliminations();
+    iterations_ = 0;
+    for (const Edge& edge : added.closures) add_closure(edge);
+    for (const Edge& edge : added.withdrawn) remove_edge(edge);
+    optimise();
+    report.count("iterations", iterations_);
+    if (settings_.gate) report.count("closures_kept", static_cast<double>(kept_));
+    report.count("eliminations", static_cast<double>(tree_.eliminations() - before));
+    if (!touched_.empty()) report.notes.push_back("stopped at max_iterations before the tolerance");
+    return poses_;
+  }
+
+ private:
+  using Element = typename G::Element;
+  struct Constraint {
+    Edge edge;
+    Element to_from_measured_from;
+    EdgeEquations equations;
+    double chi2 = 0.0;  ///< its part of chi2_
+  };
+
+  void add_closure(const Edge& edge) {
+    if (!settings_.gate) return add_edge(edge, false);
+    constexpr double kQuantile = G::kDof == 3 ? 11.345 : 16.812;  // 99 %
+    optimise();
+    const double before = chi2_;
+    const std::vector<Element> at = at_;
+    const std::vector<Element> now = now_;
+    moved_.clear();
+    add_edge(edge, false);
+    optimise();
+    if (chi2_ - before <= kQuantile) return;
+    // Back to the former solution: a false closure can lead to another minimum.
+    remove_edge(edge);
+    for (const std::size_t pose : moved_) {
+      at_[pose] = at[pose];
+      set_estimate(pose, now[pose]);
+    }
+    relinearise_edges(moved_);
+    for (const std::size_t pose : moved_) {
+      for (const std::size_t each : edges_[pose]) update_chi2(each);
+    }
+  }
+
+  /// Updates the factorisation until no correction exceeds the tolerance.
+  void optimise() {
+    for (int i = 0; i < settings_.max_iterations && !touched_.empty(); ++i) {
+      ++iterations_;
+      const std::vector<std::size_t> touched = std::exchange(touched_, {});
+      const std::vector<std::size_t> solved = tree_.update(touched, graph_);
+      relinearise(solved);
+      if (!settings_.gate) continue;
+      moved_.insert(moved_.end(), solved.begin(), solved.end());
+      for (const std::vector<std::size_t>* moved : {&touched, &solved}) {
+        for (const std::size_t pose : *moved) {
+          for (const std::size_t edge : edges_[pose]) update_chi2(edge);
+        }
+      }
+    }
+  }
+
+  void update_chi2(std::size_t index) {
+    Constraint& of = constraints_[index];
+    const typename G::Tangent e = group_edge_error<G>(
+        of.to_from_measured_from, G::compose(G::inverse(now_[of.edge.from]), now_[of.edge.to]));
+    const double chi2 = e.dot(G::information(of.edge, 1.0) * e);
+    chi2_ += chi2 - std::exchange(of.chi2, chi2);
+  }
+
+  void add_keyframe(const StampedPose& keyframe) {
+    if (poses_.empty()) world_from_first_ = keyframe.world_from_body;
+    poses_.push_back(keyframe);
+    at_.push_back(Element{});
+    now_.push_back(Element{});
+    edges_.emplace_back();
+    tree_.add_pose();
+  }
+
+  void add_edge(const Edge& edge, bool is_odometry) {
+    const Element measured = G::from(ScaledPose{edge.from_from_to, 1.0});
+    if (is_odometry) {
+      set_estimate(edge.to, G::compose(now_[edge.from], measured));
+      at_[edge.to] = now_[edge.to];
+    }
+    if (!is_odometry) ++kept_;
+    const std::size_t index = constraints_.size();
+    constraints_.push_back({edge, G::inverse(measured), {edge.from, edge.to, {}}});
+    linearise(index);
+    for (const std::size_t end : {edge.from, edge.to}) {
+      edges_[end].push_back(index);
+      touched_.push_back(end);
+    }
+  }
+
+  void remove_edge(const Edge& edge) {
+    const auto is_it = [&](std::size_t index) {
+      return is_same_measurement(constraints_[index].edge, edge);
+    };
+    const auto found = std::ranges::find_if(edges_[edge.to], is_it);
+    if (found == edges_[edge.to].end()) return;
+    const std::size_t index = *found;
+    chi2_ -= constraints_[index].chi2;
+    --kept_;
+    for (const std::size_t end : {edge.from, edge.to}) {
+      std::erase(edges_[end], index);
+      touched_.push_back(end);
+    }
+  }
+
+  void set_estimate(std::size_t i, const Element& now) {
+    now_[i] = now;
+    poses_[i].world_from_body = normalized(world_from_first_ * G::to_scaled_pose(now).pose);
+  }
+
+  void linearise(std::size_t index) {
+    Constraint& of = constraints_[index];
+    const EdgeResidual<G> residual =
+        edge_residual<G>(of.to_from_measured_from, at_[of.edge.from], at_[of.edge.to]);
+    Eigen::Matrix<double, G::kDof, 2 * G::kDof + 1> jacobian;
+    jacobian << residual.by_from, residual.by_to, -residual.error;
+    of.equations.matrix = jacobian.template leftCols<2 * G::kDof>().transpose() *
+                          (G::information(of.edge, 1.0) * jacobian);
+  }
+
+  /// Writes the poses of `solved`, and moves the points of linearisation whose corrections exceed
+  /// the tolerance.
+  void relinearise(const std::vector<std::size_t>& solved) {
+    std::vector<std::size_t> moved;
+    for (const std::size_t i : solved) {
+      const typename G::Tangent correction = tree_.correction(i);
+      set_estimate(i, G::compose(at_[i], G::exp(correction)));
+      if (correction.cwiseAbs().maxCoeff() <= settings_.tolerance) continue;
+      at_[i] = now_[i];
+      moved.push_back(i);
+    }
+    relinearise_edges(moved);
+  }
+
+  /// Linearises the edges at these poses and touches their ends.
+  void relinearise_edges(const std::vector<std::size_t>& poses) {
+    std::vector<std::size_t> edges;
+    for (const std::size_t i : poses) edges.insert(edges.end(), edges_[i].begin(), edges_[i].end());
+    std::ranges::sort(edges);
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    for (const std::size_t edge : edges) {
+      linearise(edge);
+      touched_.push_back(constraints_[edge].edge.from);
+      touched_.push_back(constraints_[edge].edge.to);
+    }
+  }
+
+  IncrementalSettings settings_;
+  Pose world_from_first_;
+  Trajectory poses_;
+  std::vector<Element> at_;           ///< points of linearisation, first_from_body
+  std::vector<Element> now_;          ///< estimate: at_ and its correction
+  std::vector<std::size_t> touched_;  ///< poses to eliminate again in the next iteration
+  std::vector<Constraint> constraints_;
+  std::vector<std::vector<std::size_t>> edges_;  ///< constraints at each keyframe
+  EliminationTree tree_;
+  int iterations_ = 0;              ///< of the current update
+  double chi2_ = 0.0;               ///< at the estimate, kept up to date with `gate`
+  std::vector<std::size_t> moved_;  ///< by the closure that is tested
+  std::size_t kept_ = 0;            ///< closures
+  const EliminationTree::Graph graph_{
+      [this](std::size_t pose) -> const std::vector<std::size_t>& { return edges_[pose]; },
+      [this](std::size_t edge) -> const EdgeEquations& { return constraints_[edge].equations; }};
+};
+
+}  // namespace
+
+std::unique_ptr<Incremental> incremental_smoother(bool planar,
+                                                  const IncrementalSettings& settings) {
+  if (planar) return std::make_unique<IncrementalSmoother<Se2>>(settings);
+  return std::make_unique<IncrementalSmoother<Se3>>(settings);
+}
+
+}  // namespace loopbench::methods
