@@ -81,7 +81,8 @@ struct PoseMessage {
   std::string frame;             ///< without leading '/'
   std::string child;             ///< "" for poses without child frame
   Pose frame_from_child;
-  std::optional<Matrix6> covariance = {};  ///< order x y z, rotations about x y z
+  /// In the axes of `frame`, rotation after position; zeros for the rotation of a position.
+  std::optional<Matrix6> covariance = {};
 };
 
 /// The poses of one message: several for Path and TF. Throws DamagedRecord. O(bytes).

@@ -60,10 +60,11 @@ class MessageReader {
     return out;
   }
 
-  Matrix6 covariance() {
-    Matrix6 out;
-    for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j < 6; ++j) out(i, j) = number<double>();
+  /// Of position and rotation, or of the position alone (`size` 3).
+  Matrix6 covariance(int size = 6) {
+    Matrix6 out = Matrix6::Zero();
+    for (int i = 0; i < size; ++i) {
+      for (int j = 0; j < size; ++j) out(i, j) = number<double>();
     }
     return out;
   }
@@ -95,6 +96,8 @@ class MessageReader {
     if (status < 0) {
       out.frame_from_child.translation.setConstant(std::numeric_limits<double>::quiet_NaN());
     }
+    const Matrix6 stated = covariance(3);  // east, north, up
+    if (number<std::uint8_t>() != 0) out.covariance = stated;
     return out;
   }
 

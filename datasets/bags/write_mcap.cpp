@@ -15,9 +15,18 @@ constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 constexpr std::uint16_t kId = 1;  // of the only schema and the only channel
 
 /// Definitions of ROS 2, as `ros2 interface show` prints them, each type after its users.
-constexpr const char* kPoseStampedSchema = R"(std_msgs/Header header
+constexpr const char* kPoseFields = R"(std_msgs/Header header
 geometry_msgs/Pose pose
+)";
+constexpr const char* kPoseWithCovarianceFields = R"(std_msgs/Header header
+geometry_msgs/PoseWithCovariance pose
 ================================================================================
+MSG: geometry_msgs/PoseWithCovariance
+geometry_msgs/Pose pose
+float64[36] covariance
+)";
+constexpr const char* kTypes =
+    R"(================================================================================
 MSG: std_msgs/Header
 builtin_interfaces/Time stamp
 string frame_id
@@ -69,7 +78,7 @@ class ByteWriter {
   std::string out_;
 };
 
-std::string pose_message(const Pose& pose, std::int64_t nanoseconds) {
+std::string pose_message(const Pose& pose, std::int64_t nanoseconds, const Matrix6* covariance) {
   using namespace std::string_view_literals;
   ByteWriter out;
   out.bytes("\0\1\0\0"sv)  // CDR, little-endian
@@ -78,6 +87,9 @@ std::string pose_message(const Pose& pose, std::int64_t nanoseconds) {
       .counted("map\0"sv);  // ends at a multiple of 8 after the encapsulation
   for (const double value : pose.translation) out.number(value);
   for (const double value : pose.rotation.coeffs()) out.number(value);  // x y z w
+  if (covariance != nullptr) {
+    for (const double value : covariance->reshaped()) out.number(value);  // symmetric
+  }
   return out.text();
 }
 
@@ -94,7 +106,8 @@ void check_stamps(const std::vector<std::int64_t>& nanoseconds) {
 
 std::string mcap_of(const Trajectory& poses,
                     const std::vector<std::int64_t>& nanoseconds,
-                    const std::string& topic) {
+                    const std::string& topic,
+                    const std::vector<Matrix6>& covariances) {
   enum : std::uint8_t {
     kHeader = 1,
     kFooter,
@@ -110,13 +123,16 @@ std::string mcap_of(const Trajectory& poses,
   check_stamps(nanoseconds);
   const auto first = static_cast<std::uint64_t>(nanoseconds.front());
   const auto last = static_cast<std::uint64_t>(nanoseconds.back());
+  const bool is_uncertain = !covariances.empty();
   ByteWriter definitions;
-  definitions.record(kSchema,
-                     ByteWriter()
-                         .number(kId)
-                         .counted("geometry_msgs/msg/PoseStamped")
-                         .counted("ros2msg")
-                         .counted(kPoseStampedSchema));
+  definitions.record(
+      kSchema,
+      ByteWriter()
+          .number(kId)
+          .counted(is_uncertain ? "geometry_msgs/msg/PoseWithCovarianceStamped"
+                                : "geometry_msgs/msg/PoseStamped")
+          .counted("ros2msg")
+          .counted((is_uncertain ? kPoseWithCovarianceFields : kPoseFields) + std::string(kTypes)));
   definitions.record(
       kChannel, ByteWriter().number(kId).number(kId).counted(topic).counted("cdr").counted(""));
   ByteWriter records = definitions;
@@ -130,7 +146,9 @@ std::string mcap_of(const Trajectory& poses,
                        .number(static_cast<std::uint32_t>(i))
                        .number(stamp)  // of the record, and of the publication
                        .number(stamp)
-                       .bytes(pose_message(poses[i].world_from_body, nanoseconds[i])));
+                       .bytes(pose_message(poses[i].world_from_body,
+                                           nanoseconds[i],
+                                           is_uncertain ? &covariances[i] : nullptr)));
   }
   const std::uint64_t size = records.size();
   constexpr std::uint32_t kNoChecksum = 0;

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "datasets/formats/columns.hpp"
+#include "datasets/formats/covariance_columns.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
@@ -113,6 +113,23 @@ Vector3 geodetic_of_row(const TextFile& file,
   return position;
 }
 
+Matrix6 covariance_of_row(const TextFile& file,
+                          const Line& line,
+                          const CsvColumns& columns,
+                          const CsvRow& row) {
+  const Eigen::Index axes = columns.has_rotation ? 6 : 3;
+  Matrix6 out = Matrix6::Zero();
+  std::size_t k = 0;
+  for (Eigen::Index i = 0; i < axes; ++i) {
+    for (Eigen::Index j = i; j < axes; ++j) {
+      const std::string_view text = row[columns.covariance[k++]];
+      out(i, j) = out(j, i) = csv_number(file, line, text, "covariance");
+    }
+  }
+  if (is_covariance(out, columns.has_rotation)) return out;
+  throw file.error(line.number, "covariance is not positive definite");
+}
+
 Trajectory read_csv_part(TextFile& file, const CsvColumns& columns, const ReadOptions& options) {
   Trajectory out;
   StampOrder order(file, options.repeats);
@@ -135,6 +152,8 @@ Trajectory read_csv_part(TextFile& file, const CsvColumns& columns, const ReadOp
             ? rotation_of_row(file, line, {v[4], v[5], v[6], v[7]}, out, options.positions)
             : no_rotation();
     order.put(stamp, line.number, {rotation, position}, out);
+    if (columns.covariance.empty()) continue;
+    put_covariance(file, covariance_of_row(file, line, columns, row), out.size(), options.repeats);
   }
   return out;
 }

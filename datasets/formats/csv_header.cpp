@@ -86,6 +86,29 @@ void assume_time(PoseNames& all) {
   all.meanings[0] = time_column({"t", first.unit});
 }
 
+/// Columns of the upper triangle of the covariance by rows, as write_trajectory() names them; sets
+/// `why_not` if some are missing.
+std::vector<std::size_t> covariance_indices(const PoseNames& all,
+                                            bool has_rotation,
+                                            std::string& why_not) {
+  constexpr std::array kAxes{"x", "y", "z", "roll", "pitch", "yaw"};
+  const std::size_t axes = has_rotation ? kAxes.size() : 3;
+  std::vector<std::size_t> out;
+  std::string missing;
+  for (std::size_t i = 0; i < axes; ++i) {
+    for (std::size_t j = i; j < axes; ++j) {
+      const std::string name = fmt::format("cov_{}_{}", kAxes[i], kAxes[j]);
+      const auto found = std::ranges::find(all.names, name);
+      if (found == all.names.end() && missing.empty()) missing = name;
+      if (found != all.names.end()) {
+        out.push_back(static_cast<std::size_t>(found - all.names.begin()));
+      }
+    }
+  }
+  if (!missing.empty() && !out.empty()) why_not = "has a header of a covariance without " + missing;
+  return out;
+}
+
 Coordinates coordinates_of(const PoseNames& all) {
   const auto names = [&](std::size_t column) { return !all.best(column).empty(); };
   if (names(1) || names(2) || names(3)) return Coordinates::local;
@@ -224,6 +247,11 @@ CsvHeader csv_header(std::string_view header) {
   for (std::size_t i = 0; i < (columns.has_rotation ? columns.index.size() : 4); ++i) {
     const bool is_position = 1 <= i && i < 4;
     columns.index[i] = all.best(is_position ? position_column(all, i - 1) : i).front();
+  }
+  columns.covariance = covariance_indices(all, columns.has_rotation, why_not_split);
+  if (!why_not_split.empty()) {
+    out.why_not = why_not_split;
+    return out;
   }
   columns.time_exponent = all.meanings[columns.index[0]]->time_exponent;
   for (std::size_t i = 0; i < columns.per_metre.size(); ++i) {

@@ -46,7 +46,7 @@ std::optional<Format> guess(const TextFile& file, const Line& line) {
   if (is_nanoseconds(first) && (count >= 8 || count == 4)) return Format::euroc;
   if (first.find_first_not_of("+-.0123456789eE") != std::string_view::npos) return std::nullopt;
   if (count == 12) return Format::kitti;
-  if (count == 8 || count == 4) return Format::tum;
+  if (count == 8 || count == 4 || count == 29 || count == 44) return Format::tum;
   return std::nullopt;
 }
 
@@ -79,7 +79,8 @@ Format detect_by_numbers(const TextFile& file, const Line& line) {
   }
   throw file.error(line.number,
                    what +
-                       ", expected tum (8 columns), kitti (12 columns), euroc (whole nanoseconds "
+                       ", expected tum (8 columns, 29 or 44 with a covariance), kitti (12 "
+                       "columns), euroc (whole nanoseconds "
                        "and 7 or more columns) or g2o (VERTEX and EDGE lines)");
 }
 

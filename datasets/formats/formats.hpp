@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "datasets/core/se3.hpp"
 #include "datasets/core/trajectory.hpp"
 #include "datasets/formats/geodetic.hpp"
 
@@ -47,6 +48,10 @@ struct ReadFindings {
   std::optional<GeodeticOrigin> origin = {};  ///< of positions converted from WGS 84
   /// Begin and end [s] of the rows, if their stamps are intervals; poses have the middle.
   std::vector<std::pair<double, double>> intervals = {};
+  /// Stated covariances, one per pose (datasets/core/covariance.hpp); empty: none. Those of
+  /// positions without rotation have zeros for the rotation.
+  std::vector<Matrix6> covariances = {};
+  bool assumed_axes = false;  ///< the file does not state their convention
 };
 
 struct ReadOptions {

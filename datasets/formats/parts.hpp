@@ -34,6 +34,9 @@ auto read_parallel(TextFile& file, const Parse& parse, const Fits& fits) {
           const auto& intervals = text.repaired.intervals;
           file.repaired.intervals.insert(
               file.repaired.intervals.end(), intervals.begin(), intervals.end());
+          const auto& covariances = text.repaired.covariances;
+          file.repaired.covariances.insert(
+              file.repaired.covariances.end(), covariances.begin(), covariances.end());
         }
         return parts;
       }

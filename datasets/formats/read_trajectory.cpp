@@ -104,11 +104,13 @@ TrajectoryFile from_text(const std::filesystem::path& path, const ReadOptions& o
   out.poses = format == Format::euroc ? read_euroc(file, options)
               : format == Format::csv ? read_csv(file, options)
                                       : read_tum(file, options);
+  out.covariances = std::move(file.repaired.covariances);
   if (options.findings) {
     options.findings->off_unit = file.repaired.off_unit;
     options.findings->repeated = file.repaired.repeated;
     options.findings->without_fix = file.repaired.without_fix;
     options.findings->intervals = file.repaired.intervals;
+    options.findings->assumed_axes = file.repaired.assumed_axes;
   }
   return out;
 }
@@ -150,8 +152,10 @@ void check_period(const ReadOptions& options) {
 
 Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions& options) {
   check_period(options);
-  if (is_bag(path, options.format)) return from_bag(path.string(), options).poses;
-  return from_text(path, options).poses;
+  const bool is_recorded = is_bag(path, options.format);
+  TrajectoryFile out = is_recorded ? from_bag(path.string(), options) : from_text(path, options);
+  if (options.findings) options.findings->covariances = std::move(out.covariances);
+  return std::move(out.poses);
 }
 
 TrajectoryFile read_trajectory_file(const std::filesystem::path& path, const ReadOptions& options) {

@@ -76,6 +76,7 @@ TextFile TextFile::part(std::size_t begin, std::size_t end) const {
   TextFile out(file_, begin, end);
   out.header_ = header_;
   out.comment_ = comment_;
+  out.settings_ = settings_;
   out.is_first_ = is_first_ && begin == begin_;
   return out;
 }
@@ -86,6 +87,7 @@ void TextFile::skip_header() {
   Line line;
   if (!probe.next(line)) return;
   comment_ = probe.comment_;
+  settings_ = std::move(probe.settings_);
   if (!names_columns(line.text)) return;
   std::string header(line.text);
   const std::size_t end = probe.offset();
@@ -147,6 +149,9 @@ bool TextFile::next(Line& line) {
     if (first == end) continue;
     if (*first == '#') {
       if (keeps_comment_) comment_.assign(first + 1, end);
+      if (keeps_comment_ && comment_.starts_with('%')) {
+        settings_.emplace_back(line_, comment_.substr(1));
+      }
       continue;
     }
     line.text = {first, static_cast<std::size_t>(end - first)};

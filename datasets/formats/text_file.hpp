@@ -12,6 +12,7 @@
 
 #include "datasets/compressed/input_file.hpp"
 #include "datasets/core/error.hpp"
+#include "datasets/core/se3.hpp"
 
 namespace loopbench {
 
@@ -49,6 +50,10 @@ class alignas(64) TextFile {
   /// The last comment above the first line of data, without '#', found by skip_header().
   const std::string& comment() const { return comment_; }
 
+  /// The comments `#%KEY value` above the first line of data, with their lines and without `#%`,
+  /// found by skip_header().
+  const std::vector<std::pair<std::size_t, std::string>>& settings() const { return settings_; }
+
   /// The same file from its start, or after the header if that was skipped.
   TextFile reopened() const { return part(begin_, end_); }
 
@@ -73,6 +78,8 @@ class alignas(64) TextFile {
     std::size_t repeated = 0;
     std::size_t without_fix = 0;
     std::vector<std::pair<double, double>> intervals;
+    std::vector<Matrix6> covariances;
+    bool assumed_axes = false;
   };
   mutable Repaired repaired;
 
@@ -102,6 +109,7 @@ class alignas(64) TextFile {
   OpenedFile file_;
   std::string header_;
   std::string comment_;
+  std::vector<std::pair<std::size_t, std::string>> settings_;
   bool keeps_comment_ = false;
   bool is_first_ = true;      ///< the part with the first line of data
   std::size_t begin_ = 0;     ///< file offset of the first line of this part after the header

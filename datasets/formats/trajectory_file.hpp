@@ -16,8 +16,7 @@ struct TrajectoryFile {
   /// Exact stamps, one per pose: a double has a resolution of 240 ns in 2026. Empty if the file has
   /// no stamps, or more than nine decimals.
   std::vector<std::int64_t> nanoseconds = {};
-  /// Stated covariances, one per pose, in the order x y z [m] and rotations about x y z [rad].
-  /// Empty if the file has none.
+  /// Stated covariances, one per pose (datasets/core/covariance.hpp). Empty if the file has none.
   std::vector<Matrix6> covariances = {};
   Format format = Format::tum;
   bool has_stamps = true;  ///< false: stamps are multiples of the period
@@ -27,16 +26,20 @@ struct TrajectoryFile {
 TrajectoryFile read_trajectory_file(const std::filesystem::path& file,
                                     const ReadOptions& options = {});
 
+/// Whether files of this format contain the covariances of `file`: csv; tum and bag of poses with
+/// rotation. False if there are none.
+bool has_covariances(const TrajectoryFile& file, Format format);
+
 /// Keeps the poses with these indices, in their order. O(indices).
 TrajectoryFile selected(const TrajectoryFile& file, const std::vector<std::size_t>& indices);
 
 /// Writes tum, kitti (and the stamps to `times`, one per line, if given), euroc, g2o (vertices with
-/// ids 0, 1, ...), csv (with covariances, if stated) or bag (MCAP with a topic named after the
-/// file). Positions and quaternions are printed so that reading them is bit-identical, and exact
-/// stamps with all digits; euroc and bag round other stamps to nanoseconds. `-` is standard output.
-/// Throws InputError for an invalid trajectory and if the file cannot be written. `may_repeat`:
-/// consecutive poses may have equal stamps, as paired poses have if a reference pose has several
-/// partners.
+/// ids 0, 1, ...), csv or bag (MCAP with a topic named after the file). tum, csv and bag contain
+/// covariances, if stated: see has_covariances(). Positions and quaternions are printed so that
+/// reading them is bit-identical, and exact stamps with all digits; euroc and bag round other
+/// stamps to nanoseconds. `-` is standard output. Throws InputError for an invalid trajectory and
+/// if the file cannot be written. `may_repeat`: consecutive poses may have equal stamps, as paired
+/// poses have if a reference pose has several partners.
 void write_trajectory(const std::filesystem::path& file,
                       const TrajectoryFile& trajectory,
                       Format format,

@@ -1,4 +1,4 @@
-#include "datasets/formats/columns.hpp"
+#include "datasets/formats/covariance_columns.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
@@ -10,9 +10,34 @@ namespace {
 
 constexpr std::array kTumColumns{"stamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw"};
 
-InputError wrong_row(const TextFile& file, const Line& line, bool positions, std::size_t width) {
-  if (positions && width == 4) {
+struct TumColumns {
+  std::size_t pose = kTumColumns.size();
+  std::optional<CovarianceColumns> covariance;
+  bool small_nanoseconds = false;
+};
+
+TumColumns tum_columns(TextFile& file, bool positions) {
+  const Line first = first_line(file);
+  TumColumns out;
+  if (positions && count_columns(file, first) == 4) out.pose = 4;
+  out.covariance = covariance_columns(file, first, kTumColumns.size());
+  out.small_nanoseconds = has_small_nanoseconds(file);
+  return out;
+}
+
+InputError wrong_row(const TextFile& file,
+                     const Line& line,
+                     bool positions,
+                     const TumColumns& layout) {
+  if (positions && layout.pose == 4) {
     return wrong_columns(file, line, Format::tum, "4 as in the first row: stamp x y z");
+  }
+  if (layout.covariance) {
+    const std::size_t width = layout.pose + layout.covariance->count();
+    return wrong_columns(file,
+                         line,
+                         Format::tum,
+                         std::to_string(width) + " as in the first row: a pose and its covariance");
   }
   if (count_columns(file, line) == 4 && !line.unterminated) {
     return file.error(line.number,
@@ -25,26 +50,36 @@ InputError wrong_row(const TextFile& file, const Line& line, bool positions, std
   return wrong_columns(file, line, Format::tum, "8: stamp tx ty tz qx qy qz qw");
 }
 
-Trajectory read_tum_part(TextFile& file, const ReadOptions& options, bool small_nanoseconds) {
+Trajectory read_tum_part(TextFile& file, const ReadOptions& options, const TumColumns& layout) {
   Trajectory out;
-  const Line first = first_line(file);
   const bool positions = options.positions;
-  const std::size_t width = positions && count_columns(file, first) == 4 ? 4 : kTumColumns.size();
-  out.reserve(file.estimated_lines(first));
+  out.reserve(file.estimated_lines(first_line(file)));
   StampOrder order(file, options.repeats);
   std::array<double, kTumColumns.size()> v{};
   for (Line line; file.next(line);) {
     Columns columns(file, line);
-    for (std::size_t i = 0; i < width; ++i) {
-      if (columns.done()) throw wrong_row(file, line, positions, width);
+    for (std::size_t i = 0; i < layout.pose; ++i) {
+      if (columns.done()) throw wrong_row(file, line, positions, layout);
       v[i] = columns.number(kTumColumns[i]);
     }
-    if (!columns.done()) throw wrong_row(file, line, positions, width);
-    if (is_in_nanoseconds(v[0], small_nanoseconds)) {
+    if (layout.covariance) {
+      if (count_columns(file, line) != layout.pose + layout.covariance->count()) {
+        throw wrong_row(file, line, positions, layout);
+      }
+    } else if (!columns.done()) {
+      throw wrong_row(file, line, positions, layout);
+    }
+    if (is_in_nanoseconds(v[0], layout.small_nanoseconds)) {
       v[0] = read_stamp(Columns(file, line).peek(), v[0], -9).seconds;
     }
     const Rotation rotation = rotation_of_row(file, line, {v[7], v[4], v[5], v[6]}, out, positions);
-    order.put(v[0], line.number, {rotation, {v[1], v[2], v[3]}}, out);
+    const Pose pose{rotation, {v[1], v[2], v[3]}};
+    order.put(v[0], line.number, pose, out);
+    if (!layout.covariance) continue;
+    put_covariance(file,
+                   read_covariance(file, line, columns, *layout.covariance, pose),
+                   out.size(),
+                   options.repeats);
   }
   return out;
 }
@@ -52,11 +87,10 @@ Trajectory read_tum_part(TextFile& file, const ReadOptions& options, bool small_
 }  // namespace
 
 Trajectory read_tum(TextFile& file, const ReadOptions& options) {
-  const bool small_nanoseconds = has_small_nanoseconds(file);
+  const TumColumns layout = tum_columns(file, options.positions);
+  file.repaired.assumed_axes = layout.covariance && !layout.covariance->is_stated;
   return joined(read_parallel(
-      file,
-      [&](TextFile& part) { return read_tum_part(part, options, small_nanoseconds); },
-      follows));
+      file, [&](TextFile& part) { return read_tum_part(part, options, layout); }, follows));
 }
 
 }  // namespace loopbench

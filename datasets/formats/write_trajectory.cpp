@@ -32,12 +32,17 @@ void write_position(TextWriter& out, const Pose& pose) {
 TextWriter tum_text(const TrajectoryFile& file, const std::vector<std::string>& comments) {
   TextWriter out;
   for (const std::string& comment : comments) out.comment(comment);
+  const bool is_uncertain = has_covariances(file, Format::tum);
+  if (is_uncertain) out.word("#%TANGENT_CONVENTION fixed_axes").end_line();
   for (std::size_t i = 0; i < file.poses.size(); ++i) {
     const Pose& pose = file.poses[i].world_from_body;
     write_stamp(out, file, i);
     write_position(out, pose);
     if (has_rotation(pose)) {
       for (const double value : pose.rotation.coeffs()) out.number(value);  // x y z w
+    }
+    if (is_uncertain) {
+      for (const double value : file.covariances[i].reshaped()) out.number(value);  // symmetric
     }
     out.end_line();
   }
@@ -87,8 +92,9 @@ TextWriter csv_text(const TrajectoryFile& file) {
   if (!lacks_rotations(file.poses)) {
     for (const char* name : {"qx", "qy", "qz", "qw"}) out.word(name);
   }
-  for (std::size_t i = 0; !file.covariances.empty() && i < kAxes.size(); ++i) {
-    for (std::size_t j = i; j < kAxes.size(); ++j) {
+  const std::size_t axes = file.covariances.empty() ? 0 : lacks_rotations(file.poses) ? 3 : 6;
+  for (std::size_t i = 0; i < axes; ++i) {
+    for (std::size_t j = i; j < axes; ++j) {
       out.word(std::string("cov_") + kAxes[i] + "_" + kAxes[j]);
     }
   }
@@ -100,8 +106,9 @@ TextWriter csv_text(const TrajectoryFile& file) {
     if (has_rotation(pose)) {
       for (const double value : pose.rotation.coeffs()) out.number(value);
     }
-    for (int a = 0; !file.covariances.empty() && a < 6; ++a) {
-      for (int b = a; b < 6; ++b) out.number(file.covariances[i](a, b));
+    const auto end = static_cast<Eigen::Index>(axes);
+    for (Eigen::Index a = 0; a < end; ++a) {
+      for (Eigen::Index b = a; b < end; ++b) out.number(file.covariances[i](a, b));
     }
     out.end_line();
   }
@@ -129,6 +136,12 @@ PoseGraph graph_of(const Trajectory& poses) {
 }
 
 }  // namespace
+
+bool has_covariances(const TrajectoryFile& file, Format format) {
+  if (file.covariances.empty()) return false;
+  const bool is_posed = format == Format::tum || format == Format::bag;
+  return format == Format::csv || (is_posed && !lacks_rotations(file.poses));
+}
 
 void write_trajectory(const std::filesystem::path& file,
                       const TrajectoryFile& trajectory,
@@ -172,7 +185,8 @@ void write_trajectory(const std::filesystem::path& file,
           stamps.push_back(rounded_nanoseconds(pose.stamp));
         }
       }
-      const std::string bytes = mcap_of(trajectory.poses, stamps, topic_of(file));
+      const std::string bytes =
+          mcap_of(trajectory.poses, stamps, topic_of(file), trajectory.covariances);
       replace_file(file == "-" ? "/dev/stdout" : file, bytes, Target::named);
       break;
     }

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "datasets/core/covariance.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
@@ -55,6 +56,12 @@ int write_all(const TrajArguments& a, const NamedTrajectories& all) {
                  to_text(format),
                  format == Format::kitti ? "; --times-out FILE writes them" : "");
     }
+    if (!all[i].file.covariances.empty() && !has_covariances(all[i].file, format)) {
+      fmt::print(stderr,
+                 "loopbench: {} has covariances, which are not written: expected --to csv{}\n",
+                 printable(all[i].name),
+                 lacks_rotations(all[i].file.poses) ? "" : ", tum or mcap");
+    }
     std::optional<std::filesystem::path> times;
     if (!a.times_out.empty()) times = a.times_out;
     if (times && all.size() > 1) throw InputError("--times-out: expected one trajectory");
@@ -70,7 +77,13 @@ int write_all(const TrajArguments& a, const NamedTrajectories& all) {
 template <class Change>
 int write_changed(const TrajArguments& a, Change change) {
   NamedTrajectories all = read_all_named(a.files, a.reading);
-  for (NamedTrajectory& each : all) change(each);
+  for (NamedTrajectory& each : all) {
+    const bool is_uncertain = !each.file.covariances.empty();
+    change(each);
+    if (is_uncertain && each.file.covariances.empty()) {
+      fmt::print(stderr, "loopbench: {}: covariances are removed\n", printable(each.name));
+    }
+  }
   return write_all(a, all);
 }
 
@@ -194,8 +207,12 @@ int transform(const TrajArguments& a) {
   return write_changed(a, [&](NamedTrajectory& each) {
     each.file = corrected(std::move(each.file), a.conventions);
     if (!similarity) return;
-    each.file.poses = transformed(std::move(each.file.poses), *similarity, side);
-    each.file.covariances.clear();
+    const Trajectory before = each.file.poses;
+    each.file.poses = transformed(before, *similarity, side);
+    std::vector<Matrix6>& covariances = each.file.covariances;
+    if (side == TransformSide::right_propagated) covariances.clear();
+    if (side == TransformSide::right) displace(covariances, before, each.file.poses);
+    if (side == TransformSide::left) rotate(covariances, similarity->pose, similarity->scale);
   });
 }
 
@@ -238,6 +255,7 @@ int align_files(const TrajArguments& a) {
     try {
       const metrics::Alignment fit = metrics::align(of_reference, of_estimate, type, a.align_first);
       each.file.poses = metrics::moved(fit, std::move(each.file.poses));
+      rotate(each.file.covariances, fit.reference_from_estimate, fit.scale);
       const auto& [rotation, position] = fit.reference_from_estimate;
       fmt::print(stderr,
                  "{}: aligned with {} pairs, scale {:.9g}, x,y,z,qx,qy,qz,qw = {:.9g}, {:.9g}\n",
@@ -249,7 +267,6 @@ int align_files(const TrajArguments& a) {
     } catch (const std::runtime_error& error) {
       throw InputError(each.name + ": " + error.what());
     }
-    each.file.covariances.clear();
     shift_stamps(each.file, a.offset);
   });
 }

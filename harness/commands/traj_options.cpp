@@ -35,10 +35,10 @@ void declare_inputs(CLI::App& verb, TrajArguments& a) {
 void declare_output(CLI::App& verb, TrajArguments& a) {
   verb.add_option("-o,--out", a.out, "Output file, or folder for several; - is standard output")
       ->type_name("PATH");
-  verb.add_option(
-          "--to",
-          a.to,
-          "Output format; mcap: PoseStamped of ROS 2 (default: by the ending of -o, or tum)")
+  verb.add_option("--to",
+                  a.to,
+                  "Output format; mcap: PoseStamped of ROS 2, with covariances "
+                  "PoseWithCovarianceStamped (default: by the ending of -o, or tum)")
       ->type_name("WORD:tum|kitti|euroc|g2o|csv|mcap");
   verb.add_option("--times-out", a.times_out, "File for the stamps of KITTI poses")
       ->type_name("FILE");
