@@ -21,6 +21,7 @@
 #include "metrics/errors/axis_error.hpp"
 #include "metrics/errors/control_points.hpp"
 #include "metrics/errors/discernible.hpp"
+#include "metrics/errors/nees.hpp"
 #include "metrics/errors/rpe.hpp"
 #include "metrics/errors/segments.hpp"
 #include "metrics/metric.hpp"
@@ -60,6 +61,8 @@ std::vector<MetricEntry> metrics() {
                                    control_points),
       metric<DiscernibleOptions>(
           "discernible", "robust trajectory and rotation errors DTE and DRE", discernible),
+      metric<NeesOptions>(
+          "nees", "errors over their stated covariances: NEES, and coverage of regions", nees),
       metric("closure_residual",
              "residuals of the loop closures after the correction",
              closure_residual),

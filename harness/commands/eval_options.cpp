@@ -38,10 +38,17 @@ void declare_files(CLI::App& command, EvalArguments& a) {
           "--ref-sigma",
           a.reference_sigma,
           "Standard deviation of REF's positions, per axis [m]: errors and differences below "
-          "it are reported as such")
+          "it are reported as such, and nees adds it to stated covariances")
       ->type_name("M")
       ->check(finite_number())
       ->check(CLI::NonNegativeNumber);
+  const auto file = [&](const char* name, std::string& value, const char* whose) {
+    const std::string help = std::string("Covariances of ") + whose +
+                             ": rows of a stamp and 6, 9, 21 or 36 numbers, one for each pose";
+    command.add_option(name, value, help)->type_name("FILE");
+  };
+  file("--cov", a.covariances, "EST");
+  file("--ref-cov", a.reference_covariances, "REF");
   word("--repeats", a.repeats, "Handling of equal stamps: " + choice_list<Repeats>())
       ->capture_default_str();
   command.add_option("--times", a.times, "Times file for KITTI poses, one stamp per line [s]")

@@ -198,6 +198,9 @@ std::vector<FilePair> file_pairs(const EvalArguments& a) {
   if (a.estimates.empty()) return rpg_layout(a.reference);
   const bool is_folder = std::filesystem::is_directory(a.reference);
   if (is_folder && a.estimates.size() == 1) return ov_eval_layout(a.reference, a.estimates[0]);
+  if (!a.covariances.empty() && (a.estimates.size() != 1 || is_folder)) {
+    throw InputError("--cov " + a.covariances + ": expected one EST");
+  }
   std::vector<FilePair> out;
   for (const std::string& estimate : a.estimates) {
     reject_folder(estimate, a);

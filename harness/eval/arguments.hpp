@@ -24,6 +24,8 @@ struct EvalArguments {
   double reference_sigma = 0.0;               ///< of its positions, per axis [m]; 0: not stated
   bool reference_positions = false;           ///< ignore the rotations of the reference
   std::optional<std::string> reference_body;  ///< x,y,z[,qx,qy,qz,qw]; none: no offset
+  std::string covariances;                    ///< file of the only estimate's; empty: none
+  std::string reference_covariances;          ///< file of the reference's; empty: none
   std::string times;                          ///< empty: none
   std::string repeats = "refuse";
   std::optional<double> period;           ///< [s]; none: default of ReadOptions

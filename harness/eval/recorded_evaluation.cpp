@@ -116,6 +116,18 @@ std::string common_times_note(const Trajectory& estimate, const std::string& com
       estimate.size());
 }
 
+const std::vector<Matrix6>* unless_empty(const std::vector<Matrix6>& covariances) {
+  return covariances.empty() ? nullptr : &covariances;
+}
+
+/// Of positions with the stated standard deviation per axis [m]; 0: none.
+std::vector<Matrix6> stated_covariances(std::size_t poses, double sigma) {
+  if (!(sigma > 0.0)) return {};
+  Matrix6 each = Matrix6::Zero();
+  each.topLeftCorner<3, 3>().diagonal().setConstant(sigma * sigma);
+  return std::vector<Matrix6>(poses, each);
+}
+
 /// Evaluation of two files under the protocols of a sweep, one after the other.
 struct PairEvaluation {
   const RecordedSweep& files;
@@ -173,12 +185,17 @@ struct PairEvaluation {
     if (!common.empty()) evaluation = within_common_times(evaluation, rules);
     if (arguments.start || arguments.end) count_in_range(evaluation.coverage, rules.offset);
     const bool are_printed = !reference.matrices.empty() && !estimate.matrices.empty();
+    const std::vector<Matrix6>& read = reference.findings.covariances;
+    const std::vector<Matrix6> of_reference =
+        read.empty() ? stated_covariances(reference.poses.size(), arguments.reference_sigma) : read;
     metrics::PrintedPoses printed;
     if (are_printed) printed = {reference.matrices, estimate.matrices};
     evaluation.context = {.reference = &reference.poses,
                           .estimate = &estimate.poses,
                           .protocol = rules,
-                          .printed = are_printed ? &printed : nullptr};
+                          .printed = are_printed ? &printed : nullptr,
+                          .reference_covariances = unless_empty(of_reference),
+                          .estimate_covariances = unless_empty(estimate.findings.covariances)};
     own.reference_poses = reference.poses.size();
     own.estimate_poses = estimate.poses.size();
     own.coverage = evaluation.coverage;

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "datasets/core/covariance.hpp"
 #include "datasets/core/fields.hpp"
+#include "datasets/formats/covariance_columns.hpp"
 #include "datasets/formats/text_formats.hpp"
 #include "harness/eval/trajectory_selection.hpp"
 #include "metrics/trajectory/position_only.hpp"
@@ -31,18 +33,29 @@ const std::string& reference_format(const EvalArguments& a) {
 
 /// Keeps the poses with these indices.
 void keep(RecordedFile& file, const std::vector<std::size_t>& indices) {
-  Trajectory poses;
-  std::vector<PoseMatrix> matrices;
-  for (const std::size_t i : indices) {
-    poses.push_back(file.poses[i]);
-    if (!file.matrices.empty()) matrices.push_back(file.matrices[i]);
-  }
-  file.poses = std::move(poses);
-  file.matrices = std::move(matrices);
+  const auto keep_in = [&](auto& all) {
+    if (all.empty()) return;
+    std::remove_reference_t<decltype(all)> kept;
+    for (const std::size_t i : indices) kept.push_back(all[i]);
+    all = std::move(kept);
+  };
+  keep_in(file.poses);
+  keep_in(file.matrices);
+  keep_in(file.findings.covariances);
+}
+
+/// Converts poses and covariances to another body.
+void change_body(RecordedFile& file,
+                 Trajectory (*convert)(Trajectory, const ReferenceBody&),
+                 const ReferenceBody& body) {
+  const Trajectory before = file.findings.covariances.empty() ? Trajectory() : file.poses;
+  file.poses = convert(std::move(file.poses), body);
+  displace(file.findings.covariances, before, file.poses);
 }
 
 RecordedFile read_recorded(const std::string& file,
                            Format format,
+                           const std::string& covariances,
                            const EvalArguments& a,
                            bool with_digits,
                            const std::optional<GeodeticOrigin>& origin = {}) {
@@ -62,6 +75,13 @@ RecordedFile read_recorded(const std::string& file,
     out.unstamped = file + ": is " + to_text(options.format);
   }
   if (is_kitti && with_digits) out.matrices = read_kitti_matrices(file);
+  if (!covariances.empty()) {
+    out.findings.covariances =
+        read_covariance_file(covariances, out.poses, out.findings.assumed_axes);
+  }
+  // Bags contain zeros if nothing is known.
+  const auto is_zero = [](const Matrix6& covariance) { return covariance.isZero(0.0); };
+  if (std::ranges::all_of(out.findings.covariances, is_zero)) out.findings.covariances.clear();
   if (a.downsample) keep(out, evenly_spaced(out.poses.size(), *a.downsample));
   if (a.motion_filter.size() == 2) {
     keep(out, by_motion(out.poses, {{}, a.motion_filter[0], a.motion_filter[1]}));
@@ -87,8 +107,8 @@ bool has_poses_of(Format wanted, const EvalArguments& a, const std::vector<Recor
 }  // namespace
 
 RecordedFile recorded_reference(const std::string& file, const EvalArguments& a, bool with_digits) {
-  RecordedFile out =
-      read_recorded(file, format_of("ref-format", reference_format(a)), a, with_digits);
+  RecordedFile out = read_recorded(
+      file, format_of("ref-format", reference_format(a)), a.reference_covariances, a, with_digits);
   if (a.start || a.end) {
     const EvaluatedRange range = evaluated_range(a);
     keep(out, within(out.poses, range.start, range.end));
@@ -100,7 +120,7 @@ RecordedFile recorded_reference(const std::string& file, const EvalArguments& a,
   if (a.reference_positions || has_placeholders) {
     for (StampedPose& pose : out.poses) pose.world_from_body.rotation = no_rotation();
   }
-  out.poses = to_estimate_body(std::move(out.poses), body);
+  change_body(out, to_estimate_body, body);
   return out;
 }
 
@@ -111,6 +131,7 @@ RecordedFile recorded_estimate(const std::string& file,
   const std::optional<GeodeticOrigin> none;
   RecordedFile out = read_recorded(file,
                                    format_of("format", a.format),
+                                   a.covariances,
                                    a,
                                    with_digits,
                                    reference ? reference->findings.origin : none);
@@ -119,7 +140,7 @@ RecordedFile recorded_estimate(const std::string& file,
   if (metrics::is_position_only(out.poses)) {
     throw InputError(file + ": --ref-body needs rotations, and neither file has any");
   }
-  out.poses = to_reference_body(std::move(out.poses), body);
+  change_body(out, to_reference_body, body);
   return out;
 }
 
@@ -129,6 +150,11 @@ std::vector<std::string> reading_notes(const ReadFindings& findings, const std::
   if (!findings.intervals.empty() && whose == "reference") {
     out.push_back("reference: " + std::to_string(findings.intervals.size()) +
                   " stamps are intervals, over which the estimate is averaged");
+  }
+  if (findings.assumed_axes) {
+    out.push_back(whose +
+                  ": the convention of the covariances is assumed, and '#%TANGENT_CONVENTION "
+                  "right_perturbation', left_perturbation or fixed_axes above the poses states it");
   }
   if (findings.without_fix > 0) {
     out.push_back(whose + ": " + std::to_string(findings.without_fix) + " rows have no fix");
@@ -147,6 +173,8 @@ Params reading_options(const EvalArguments& a) {
              {"times", a.times},
              {"reference_body", a.reference_body.value_or("")},
              {"period", period}};
+  if (!a.covariances.empty()) out["covariances"] = a.covariances;
+  if (!a.reference_covariances.empty()) out["reference_covariances"] = a.reference_covariances;
   if (a.start) out["start"] = *a.start;
   if (a.end) out["end"] = *a.end;
   if (a.downsample) out["downsample"] = static_cast<std::int64_t>(*a.downsample);

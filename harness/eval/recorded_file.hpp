@@ -15,7 +15,7 @@ namespace loopbench::harness {
 struct RecordedFile {
   Trajectory poses;
   std::vector<PoseMatrix> matrices = {};  ///< as printed; only of KITTI files, and if needed
-  ReadFindings findings = {};
+  ReadFindings findings = {};             ///< its covariances are of `poses`
   std::string unstamped = {};  ///< file and format if the stamps were generated, otherwise empty
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -28,6 +29,11 @@ class EvaluationCopy {
     if (context.problem != nullptr) context.problem = &problem_.emplace(*context.problem);
     if (context.reference != nullptr) context.reference = &reference_.emplace(*context.reference);
     if (context.estimate != nullptr) context.estimate = &estimate_.emplace(*context.estimate);
+    for (const auto& [pointer, copy] :
+         {std::pair{&context.reference_covariances, &covariances_[0]},
+          std::pair{&context.estimate_covariances, &covariances_[1]}}) {
+      if (*pointer != nullptr) *pointer = &(*copy = **pointer);
+    }
   }
   EvaluationCopy(const EvaluationCopy&) = delete;
   EvaluationCopy& operator=(const EvaluationCopy&) = delete;
@@ -39,6 +45,7 @@ class EvaluationCopy {
   std::optional<Problem> problem_;
   std::optional<Trajectory> reference_;
   std::optional<Trajectory> estimate_;
+  std::array<std::vector<Matrix6>, 2> covariances_;
 };
 
 std::vector<metrics::Score> scores_of_metric(const metrics::MetricEntry& metric,

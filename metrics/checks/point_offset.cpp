@@ -9,6 +9,7 @@
 
 #include "datasets/core/interpolate.hpp"
 #include "metrics/alignment/alignment.hpp"
+#include "metrics/numerics/autocorrelation.hpp"
 #include "metrics/pairing/association.hpp"
 
 namespace loopbench::metrics {
@@ -24,20 +25,6 @@ double student_quantile(double freedom) {
   const double z3 = z * z * z, z5 = z3 * z * z;
   return z + (z3 + z) / (4.0 * freedom) +
          (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * freedom * freedom);
-}
-
-/// 1 + 2 (sum of the autocorrelations up to the first one below zero), of vectors in rows of three.
-double integrated_autocorrelation(const Eigen::VectorXd& r) {
-  const Eigen::Index n = r.size();
-  const double variance = r.squaredNorm();
-  double out = 1.0;
-  for (Eigen::Index lag = 3; lag < n / 2 && variance > 0.0; lag += 3) {
-    const double rho = r.head(n - lag).dot(r.tail(n - lag)) / variance;
-    // Beyond chance: two deviations of the autocorrelation of independent residuals.
-    if (rho < 2.0 / std::sqrt(static_cast<double>(n - lag))) break;
-    out += 2.0 * rho;
-  }
-  return out;
 }
 
 /// Solves the normal equations in the directions that they determine. `undetermined`: share of each
@@ -194,7 +181,7 @@ PointOffset fit_point_offset(const Trajectory& reference,
   out.lever_arm = problem.x.segment<3>(kLever);
   out.offset = problem.x[kOffset];
   out.rmse = std::sqrt(mean_square(residuals));
-  out.correlated = integrated_autocorrelation(residuals);
+  out.correlated = integrated_autocorrelation(residuals, 3);
   const double variance = freedom > 0.0 ? out.correlated * residuals.squaredNorm() / freedom : 0.0;
   out.interval_factor = student_quantile(std::max(1.0, freedom / out.correlated));
   out.covariance = variance * solution.covariance.block<4, 4>(kLever, kLever);

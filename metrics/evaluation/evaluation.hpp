@@ -41,6 +41,9 @@ struct Context {
       nullptr;  ///< the printed matrices behind `reference` and `estimate`
   /// Candidates of the place recognition, accepted or not; empty without place recognition.
   const std::vector<LoopCandidate>* loop_candidates = nullptr;
+  /// Of each pose of `reference` and `estimate` (datasets/core/covariance.hpp).
+  const std::vector<Matrix6>* reference_covariances = nullptr;
+  const std::vector<Matrix6>* estimate_covariances = nullptr;
 };
 
 /// Dereferences the view. Throws Undefined "METRIC: needs WHAT, which files do not have" if null.

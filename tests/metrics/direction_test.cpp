@@ -39,8 +39,14 @@ const std::set<std::string> kDescriptions{"closure_residual",
                                           "extrinsic_offset",
                                           "diagnostics",
                                           "lever_arm"};
-const std::set<std::string> kOthers{
-    "path_length", "jerk", "graph_cost", "optimality", "loop_detection", "accuracy", "control_points"};
+const std::set<std::string> kOthers{"path_length",
+                                    "jerk",
+                                    "graph_cost",
+                                    "optimality",
+                                    "loop_detection",
+                                    "accuracy",
+                                    "control_points",
+                                    "nees"};
 
 /// A circle in steps of 5 cm, back to its start; `stray` bends it upwards.
 Trajectory circle(double stray) {
@@ -78,6 +84,8 @@ std::map<std::string, std::pair<Better, double>> directions(const std::string& m
                      Times::dense,
                      {.align = Align::none});
   cell.evaluation.context.loop_candidates = &candidates;
+  const std::vector<Matrix6> covariances(cell.at_keyframes.size(), Matrix6::Identity());
+  cell.evaluation.context.estimate_covariances = &covariances;
   std::map<std::string, std::pair<Better, double>> out;
   for (const MetricEntry& entry : metrics::metrics()) {
     if (entry.name != metric) continue;
@@ -129,6 +137,17 @@ TEST(Direction, OfPrecisionAndRecallIsHigherAndOfCountsNone) {
   EXPECT_EQ(found.size(), 17u);
   for (const auto& [score, direction] : found) {
     EXPECT_EQ(direction.first, counts.contains(score) ? Better::neither : Better::higher) << score;
+  }
+}
+
+TEST(Direction, OfACoverageIsItsProbabilityAndOfNeesItsDegreesOfFreedom) {
+  for (const auto& [score, direction] : directions("nees")) {
+    const bool is_bound = score.find("_low") != score.npos || score.find("_high") != score.npos;
+    const bool has_target = !is_bound && !score.starts_with("nees ") && score != "independent ";
+    EXPECT_EQ(direction.first, has_target ? Better::target : Better::neither) << score;
+    if (!has_target) continue;
+    const bool is_ratio = score.starts_with("nees_ratio");
+    EXPECT_EQ(direction.second, is_ratio ? 1.0 : std::stod(score.substr(9, 2))) << score;
   }
 }
 
