@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <sstream>
 
 #include "harness/base/system_file.hpp"
 
@@ -35,6 +36,30 @@ void append_children_of_process(pid_t process, std::vector<pid_t>& out) {
     if (entry->d_name[0] != '.') append_children(threads + "/" + entry->d_name, out);
   }
   closedir(folder);
+}
+
+/// Calls visit(number as text) for a process and its descendants.
+template <class Visit>
+void for_each_in_tree(pid_t process, Visit visit) {
+  std::vector<pid_t> waiting{process};
+  while (!waiting.empty()) {
+    const pid_t next = waiting.back();
+    waiting.pop_back();
+    visit(std::to_string(next));
+    append_children_of_process(next, waiting);
+  }
+}
+
+/// The fields utime, stime, cutime and cstime, 12 to 15 after the name in parentheses, of the text
+/// of /proc/PROCESS/stat [s].
+double cpu_seconds_in(const std::string& stat) {
+  std::istringstream fields(stat.substr(std::min(stat.rfind(')') + 1, stat.size())));
+  std::string skipped;
+  for (int i = 0; i < 11; ++i) fields >> skipped;
+  double ticks = 0.0;
+  double field = 0.0;
+  for (int i = 0; i < 4 && fields >> field; ++i) ticks += field;
+  return ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 }  // namespace
@@ -68,13 +93,17 @@ TreeUsage descendants_usage(std::int64_t at_fork,
 
 std::int64_t tree_memory(pid_t process) {
   std::int64_t out = 0;
-  std::vector<pid_t> waiting{process};
-  while (!waiting.empty()) {
-    const pid_t next = waiting.back();
-    waiting.pop_back();
-    out += process_memory(std::to_string(next));
-    append_children_of_process(next, waiting);
-  }
+  for_each_in_tree(process, [&](const std::string& each) { out += process_memory(each); });
+  return out;
+}
+
+TreeCost tree_cost(pid_t process) {
+  TreeCost out;
+  for_each_in_tree(process, [&](const std::string& each) {
+    out.cpu_seconds += cpu_seconds_in(read_system_file("/proc/" + each + "/stat"));
+    const std::string status = read_system_file("/proc/" + each + "/status");
+    out.peak_memory = std::max(out.peak_memory, memory_in(status, "VmHWM:").value_or(0));
+  });
   return out;
 }
 

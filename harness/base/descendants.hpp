@@ -27,6 +27,14 @@ TreeUsage descendants_usage(std::int64_t at_fork,
 /// Memory of a process and all its descendants [bytes].
 std::int64_t tree_memory(pid_t process);
 
+struct TreeCost {
+  double cpu_seconds = 0.0;      ///< of running processes and of those that they waited for [s]
+  std::int64_t peak_memory = 0;  ///< largest resident size of one of the running ones [bytes]
+};
+
+/// What a process and its running descendants have used since their starts.
+TreeCost tree_cost(pid_t process);
+
 /// Private and shared memory of a process, or "self" [bytes]; without mapped files. 0 if unknown.
 std::int64_t process_memory(const std::string& process);
 

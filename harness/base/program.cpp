@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -16,6 +17,8 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#include "harness/base/descendants.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -141,13 +144,21 @@ bool RunningProgram::has_ended() const { return !process_ || process_->has_ended
 
 ProgramEnd RunningProgram::wait(std::string& output) {
   ProgramEnd end;
+  TreeCost cost;
   end.start_error = start_error_;
   bool is_open = process_.has_value();
   while (!has_ended()) {
     std::array<pollfd, 3> files{{{process_->descriptor(), POLLIN, 0},
                                  {is_open ? output_ : -1, POLLIN, 0},
                                  {errors_, POLLIN, 0}}};
-    if (poll(files.data(), files.size(), -1) < 0) continue;
+    // Bubblewrap does not wait for the processes in it, so that their usage is not in its own.
+    if (is_sandboxed_) {
+      const TreeCost now = tree_cost(process_->id());
+      cost.cpu_seconds = std::max(cost.cpu_seconds, now.cpu_seconds);
+      cost.peak_memory = std::max(cost.peak_memory, now.peak_memory);
+    }
+    constexpr int kBetweenSamples = 10;  // [ms]
+    if (poll(files.data(), files.size(), is_sandboxed_ ? kBetweenSamples : -1) < 0) continue;
     if (files[1].revents != 0) is_open = read_available(output_, output);
     if (files[2].revents != 0) read_available(errors_, output);
   }
@@ -156,8 +167,8 @@ ProgramEnd RunningProgram::wait(std::string& output) {
   if (!process_) return end;
   rusage usage{};
   const int status = process_->end(&usage);
-  end.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
-  end.peak_memory = std::int64_t{1024} * usage.ru_maxrss;
+  end.cpu_seconds = std::max(cost.cpu_seconds, seconds(usage.ru_utime) + seconds(usage.ru_stime));
+  end.peak_memory = std::max(cost.peak_memory, std::int64_t{1024} * usage.ru_maxrss);
   if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
   // Bubblewrap exits with 128 + the signal that ended the program.

@@ -7,6 +7,7 @@
 #include "harness/base/own_process.hpp"
 #include "harness/base/suggest.hpp"
 #include "harness/catalogue/command_dataset.hpp"
+#include "harness/catalogue/command_metric.hpp"
 #include "harness/catalogue/external_methods.hpp"
 #include "harness/catalogue/loading.hpp"
 #include "harness/catalogue/plugins.hpp"
@@ -67,6 +68,7 @@ Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
   }
   out.datasets.push_back(command_dataset(loading_hooks().cache));
   out.methods.push_back(command_entry());
+  out.metrics.push_back(command_metric());
   for (const std::filesystem::path& plugin : plugins) add_plugin(out, plugin);
   return out;
 }

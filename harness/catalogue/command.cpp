@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -12,7 +13,6 @@
 #include "datasets/core/polyline.hpp"
 #include "harness/base/hash.hpp"
 #include "harness/base/printable.hpp"
-#include "harness/base/program.hpp"
 #include "harness/catalogue/arguments.hpp"
 #include "harness/catalogue/scratch.hpp"
 #include "harness/catalogue/server.hpp"
@@ -26,11 +26,6 @@ double seconds_since(ExchangeClock::time_point begin) {
   return std::chrono::duration<double>(ExchangeClock::now() - begin).count();
 }
 
-std::string content(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// Runs the program on one problem; `own` becomes the method's time [s].
 Trajectory run_once(const CommandOptions& options,
                     const CommandSetting& setting,
@@ -42,42 +37,22 @@ Trajectory run_once(const CommandOptions& options,
   const std::filesystem::path result = folder.path() / "result";
   std::filesystem::create_directory(input);
   write_problem(input, problem);
-  ProgramStart start;
-  start.arguments =
-      with_values(command_words("run", options.run, options.shell),
-                  {{"problem", options.shell ? "${LOOPBENCH_PROBLEM}" : input.string()},
-                   {"result", options.shell ? "${LOOPBENCH_RESULT}" : result.string()}});
-  start.folder = setting.folder;
-  start.environment = {{"LOOPBENCH_PROBLEM", input.string()},
-                       {"LOOPBENCH_RESULT", result.string()},
-                       {"TMPDIR", folder.path().string()}};
-  start.sandbox = &program_sandbox();
-  start.writable = folder.path();
-
-  const auto started = ExchangeClock::now();
-  RunningProgram tree(start);
-  std::string output;
-  const ProgramEnd end = tree.wait(output);
-  const double ran = seconds_since(started);
-  const std::string hidden = hidden_note(program_sandbox());
-  if (end.exit_code != 0) {
-    throw std::runtime_error(with_output("the program " + text(end) + hidden, output));
-  }
-  ResultMetadata metadata;
-  if (std::filesystem::is_regular_file(result.string() + ".json")) {
-    metadata = parse_metadata(content(result.string() + ".json"));
-  }
+  const ProgramRun ran = run_in_folder(options, setting, "problem", folder.path());
+  const std::string stated = result_text(result.string() + ".json");
+  const ResultMetadata metadata = stated.empty() ? ResultMetadata{} : parse_metadata(stated);
   require_ok(metadata);
   Trajectory out;
   try {
     out = read_result(result, problem, options.output);
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(with_output(error.what() + hidden, output));
+    throw std::runtime_error(
+        with_output(error.what() + hidden_note(program_sandbox()), ran.output));
   }
-  own = add_statements(report, metadata, ran, "from start to end of the program");
-  report.count(kProgramTime, end.cpu_seconds);
-  report.count(kProgramMemory, static_cast<double>(end.peak_memory));
-  add_output(report, output);
+  add_statements(report, metadata);
+  own = time_of_run(report, metadata, ran.seconds);
+  report.count(kProgramTime, ran.end.cpu_seconds);
+  report.count(kProgramMemory, static_cast<double>(ran.end.peak_memory));
+  add_output(report, ran.output);
   return out;
 }
 
@@ -126,7 +101,7 @@ class DenseCommand final : public methods::Estimator {
 
 }  // namespace
 
-void check_combination(const CommandOptions& o) {
+void check_combination(const CommandOptions& o, const std::string& input) {
   if (o.run.empty() == o.serve.empty()) {
     throw OptionError("run", "run: expected either run or serve, and not both");
   }
@@ -134,11 +109,53 @@ void check_combination(const CommandOptions& o) {
   command_words(serves ? "serve" : "run", serves ? o.serve : o.run, o.shell);
   split_arguments("version", o.version.empty() ? "-" : o.version);
   split_arguments("depends", o.depends.empty() ? "-" : o.depends);
-  for (const char* name : {"{problem}", "{result}"}) {
+  for (const std::string& name : {"{" + input + "}", std::string("{result}")}) {
     if (!serves && o.run.find(name) == std::string::npos) {
-      throw OptionError("run", std::string("run: does not contain ") + name + ": " + o.run);
+      throw OptionError("run", "run: does not contain " + name + ": " + o.run);
     }
   }
+}
+
+ProgramRun run_in_folder(const CommandOptions& options,
+                         const CommandSetting& setting,
+                         const std::string& name,
+                         const std::filesystem::path& folder) {
+  const std::string input = (folder / name).string();
+  const std::string result = (folder / "result").string();
+  std::string variable = "LOOPBENCH_" + name;
+  std::ranges::transform(
+      variable, variable.begin(), [](unsigned char c) { return std::toupper(c); });
+  ProgramStart start;
+  start.arguments = with_values(command_words("run", options.run, options.shell),
+                                {{name, options.shell ? "${" + variable + "}" : input},
+                                 {"result", options.shell ? "${LOOPBENCH_RESULT}" : result}});
+  start.folder = setting.folder;
+  start.environment = {
+      {variable, input}, {"LOOPBENCH_RESULT", result}, {"TMPDIR", folder.string()}};
+  start.sandbox = &program_sandbox();
+  start.writable = folder;
+  ProgramRun out;
+  const auto started = ExchangeClock::now();
+  RunningProgram tree(start);
+  out.end = tree.wait(out.output);
+  out.seconds = seconds_since(started);
+  if (out.end.exit_code != 0) {
+    throw std::runtime_error(
+        with_output("the program " + text(out.end) + hidden_note(program_sandbox()), out.output));
+  }
+  return out;
+}
+
+std::string result_text(const std::filesystem::path& file) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(file, none))) return "";
+  constexpr std::uintmax_t kMost = std::uintmax_t{256} << 20;  // [bytes]
+  if (const std::uintmax_t bytes = std::filesystem::file_size(file, none); bytes > kMost) {
+    throw std::runtime_error(fmt::format(
+        "{}: has {} bytes, expected at most {}", file.filename().string(), bytes, kMost));
+  }
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::vector<std::string> command_words(const std::string& option,

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "harness/base/program.hpp"
 #include "harness/catalogue/exchange.hpp"
 #include "methods/method.hpp"
 
@@ -36,8 +37,26 @@ struct CommandSetting {
 };
 
 /// Throws OptionError unless exactly one of run and serve is set and can be split, and run names
-/// {problem} and {result}.
-void check_combination(const CommandOptions& options);
+/// {input} and {result}.
+void check_combination(const CommandOptions& options, const std::string& input = "problem");
+
+/// A program that was started for one input and has ended.
+struct ProgramRun {
+  double seconds = 0.0;  ///< from start to end
+  ProgramEnd end;
+  std::string output;  ///< the end of what it printed
+};
+
+/// Runs the program of `run` in the setting's folder; {NAME} is FOLDER/NAME and {result} is
+/// FOLDER/result, also as variables LOOPBENCH_NAME and LOOPBENCH_RESULT. It can write in `folder`.
+/// Throws std::runtime_error if it fails.
+ProgramRun run_in_folder(const CommandOptions& options,
+                         const CommandSetting& setting,
+                         const std::string& name,
+                         const std::filesystem::path& folder);
+
+/// Content of a regular file of at most 256 MiB; "" if there is none. Throws std::runtime_error.
+std::string result_text(const std::filesystem::path& file);
 
 /// A corrector, or a joint method for output: dense. Throws OptionError.
 methods::Stage make_command(const CommandOptions& options, const CommandSetting& setting);

@@ -80,6 +80,11 @@ double exchange_seconds(const methods::Report& report) {
   return out;
 }
 
+std::optional<double> wall_beside_stated(const methods::Report& report) {
+  const auto wall = std::ranges::find(report.phases, kWallPhase, &methods::Phase::name);
+  return wall == report.phases.end() ? std::nullopt : std::optional(wall->seconds);
+}
+
 void write_problem(const std::filesystem::path& folder, const Problem& problem) {
   const PoseGraph graph = problem_graph(problem, problem.keyframes);
   write_g2o(folder / "graph.g2o", graph);
@@ -205,24 +210,26 @@ void require_ok(const ResultMetadata& metadata) {
                            "', expected ok, declined or failed");
 }
 
-double add_statements(methods::Report& report,
-                      const ResultMetadata& metadata,
-                      double measured,
-                      const char* measured_from) {
+void add_statements(methods::Report& report, const ResultMetadata& metadata) {
   const auto append = [](auto& to, const auto& from) {
     to.insert(to.end(), from.begin(), from.end());
   };
   append(report.counts, metadata.report.counts);
   append(report.phases, metadata.report.phases);
   append(report.notes, metadata.report.notes);
-  const bool is_stated = metadata.seconds >= 0.0 && metadata.seconds <= measured;
-  if (metadata.seconds > measured) {
+}
+
+double time_of_run(methods::Report& report, const ResultMetadata& metadata, double wall) {
+  if (metadata.seconds > wall) {
     report.notes.push_back(fmt::format(
-        "result.json states {} s, but the program ran for {:.3g} s", metadata.seconds, measured));
+        "result.json states {} s, but the program ran for {:.3g} s", metadata.seconds, wall));
   }
+  const bool is_stated = metadata.seconds >= 0.0 && metadata.seconds <= wall;
   report.notes.push_back(std::string("time: ") +
-                         (is_stated ? "as stated by the program" : measured_from));
-  return is_stated ? metadata.seconds : measured;
+                         (is_stated ? "as stated by the program" : kWallPhase));
+  if (!is_stated) return wall;
+  report.phases.push_back({kWallPhase, wall});
+  return metadata.seconds;
 }
 
 }  // namespace loopbench::harness

@@ -15,6 +15,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "datasets/core/problem.hpp"
@@ -24,15 +25,20 @@ namespace loopbench::harness {
 
 inline constexpr int kExchangeVersion = 1;
 
-/// Phase of a report: time that starting a program and exchanging files took. It is not part of the
-/// method's time.
+/// A method's time is the wall time from handing over the problem to receiving the result. Apart
+/// from it, as phases of the report: the start of a program that serves and writing, reading and
+/// checking files; and, if the time is the program's own statement, the wall time of its run.
 inline constexpr const char* kExchangePhase = "start and exchange";
+inline constexpr const char* kWallPhase = "from start to end of the program";
 
 /// Whether a program computed the result.
 bool uses_exchange(const methods::Report& report);
 
-/// Sum of these phases [s].
+/// Seconds of the phases "start and exchange".
 double exchange_seconds(const methods::Report& report);
+
+/// The program's wall time [s] if the method's time is its own statement.
+std::optional<double> wall_beside_stated(const methods::Report& report);
 
 /// Counts of a report that are measured, so that they differ between runs.
 inline constexpr const char* kProgramTime = "program_cpu_seconds";
@@ -75,12 +81,11 @@ ResultMetadata parse_metadata(const std::string& json);
 /// Throws Undefined with the program's reason if it declined, std::runtime_error if it failed.
 void require_ok(const ResultMetadata& metadata);
 
-/// Adds its counts, phases and notes to `report`. Returns the method's time: as stated by the
-/// program if that is at most the `measured` time, otherwise that one, with a note of what it is
-/// ("from request to answer") [s].
-double add_statements(methods::Report& report,
-                      const ResultMetadata& metadata,
-                      double measured,
-                      const char* measured_from);
+/// Adds its counts, phases and notes to `report`.
+void add_statements(methods::Report& report, const ResultMetadata& metadata);
+
+/// The time of a program that was started for one problem [s]: as it states it, without its start,
+/// if that is at most the `wall` time, which then becomes a phase; otherwise the wall time.
+double time_of_run(methods::Report& report, const ResultMetadata& metadata, double wall);
 
 }  // namespace loopbench::harness

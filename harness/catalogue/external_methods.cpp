@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "harness/catalogue/command_dataset.hpp"
+#include "harness/catalogue/command_metric.hpp"
 #include "harness/catalogue/server.hpp"
 
 namespace loopbench::harness {
@@ -46,24 +47,37 @@ bool uses_programs(const Sweep& sweep) {
   const auto is_program_dataset = [](const DatasetChoice& choice) {
     return choice.dataset.name == kCommandDataset;
   };
+  const auto is_program_metric = [](const MetricChoice& choice) {
+    return choice.metric.name == kCommandMetric;
+  };
   return std::ranges::any_of(sweep.datasets, is_program_dataset) ||
-         std::ranges::any_of(sweep.methods, has_program);
+         std::ranges::any_of(sweep.methods, has_program) ||
+         std::ranges::any_of(sweep.metrics, is_program_metric);
 }
 
 std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep) {
   return uses_programs(sweep) ? std::make_unique<const ScratchFolder>() : nullptr;
 }
 
-void prepare_programs(const MethodChoice& choice, const CommandSetting& setting) {
-  for (const Choice& stage : choice.stages) {
-    if (!is_program(stage)) continue;
-    const CommandOptions options = command_options(stage.options);
-    if (options.serve.empty()) continue;
+void prepare_programs(const MethodChoice& choice, const Sweep& sweep) {
+  const auto prepare = [&](const CommandOptions& options) {
+    if (options.serve.empty()) return;
     try {
-      prepare_server(options, setting);
+      prepare_server(options, command_setting(sweep));
     } catch (const std::exception&) {  // asking fails for the same reason and reports it
     }
+  };
+  for (const Choice& stage : choice.stages) {
+    if (is_program(stage)) prepare(command_options(stage.options));
   }
+  for (const MetricChoice& metric : sweep.metrics) {
+    if (metric.metric.name == kCommandMetric) prepare(program_of_metric(metric.metric.options));
+  }
+}
+
+std::string metric_program_version(const Choice& metric, const CommandSetting& setting) {
+  if (metric.name != kCommandMetric) return "";
+  return command_version(program_of_metric(metric.options), setting);
 }
 
 }  // namespace loopbench::harness

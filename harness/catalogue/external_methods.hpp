@@ -24,14 +24,17 @@ std::string program_version(const Choice& stage, const CommandSetting& setting);
 /// Programs of a sweep run in the folder of its config.
 CommandSetting command_setting(const Sweep& sweep);
 
-/// Whether any of its methods or datasets runs programs.
+/// Whether any of its methods, metrics or datasets runs programs.
 bool uses_programs(const Sweep& sweep);
 
 /// Temporary files of the programs of a sweep and its workers; null unless it uses programs.
 std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep);
 
-/// Starts the serving programs of a method in this process, see server.hpp. Does not throw: asking
-/// reports what fails.
-void prepare_programs(const MethodChoice& choice, const CommandSetting& setting);
+/// Starts the serving programs of a method and of all metrics in this process, see server.hpp. Does
+/// not throw: asking reports what fails.
+void prepare_programs(const MethodChoice& choice, const Sweep& sweep);
+
+/// Changes with the program of a metric; empty if it has none. Throws InputError.
+std::string metric_program_version(const Choice& metric, const CommandSetting& setting);
 
 }  // namespace loopbench::harness

@@ -46,7 +46,31 @@ void add_edges(Values& out, const std::vector<Edge>& edges) {
   }
 }
 
+std::string message(const std::string& text, const Values& values, std::uint64_t number) {
+  MessageHeader header;
+  header.number = number;
+  header.text = text.size();
+  header.data = values.size() * sizeof(double);
+  std::string out;
+  out.reserve(sizeof header + header.text + header.data);
+  out.append(reinterpret_cast<const char*>(&header), sizeof header);
+  out += text;
+  out.append(reinterpret_cast<const char*>(values.data()), header.data);
+  return out;
+}
+
 }  // namespace
+
+std::string request(nlohmann::json text,
+                    const std::vector<std::pair<std::string, const Trajectory*>>& arrays,
+                    std::uint64_t number) {
+  Values values;
+  for (const auto& [name, poses] : arrays) {
+    text["arrays"].push_back({name, poses->size(), kPoseColumns});
+    add_poses(values, *poses);
+  }
+  return message(text.dump(), values, number);
+}
 
 std::string request(const Problem& problem, ResultPoses output, std::uint64_t number) {
   const auto changes_scale = [](const Edge& edge) { return edge.scale != 1.0; };
@@ -74,16 +98,7 @@ std::string request(const Problem& problem, ResultPoses output, std::uint64_t nu
   add_poses(values, problem.frames);
   add_edges(values, problem.odometry);
   add_edges(values, problem.closures);
-  MessageHeader header;
-  header.number = number;
-  header.text = text.size();
-  header.data = values.size() * sizeof(double);
-  std::string out;
-  out.reserve(sizeof header + header.text + header.data);
-  out.append(reinterpret_cast<const char*>(&header), sizeof header);
-  out += text;
-  out.append(reinterpret_cast<const char*>(values.data()), header.data);
-  return out;
+  return message(text, values, number);
 }
 
 void check_header(const MessageHeader& header, std::uint64_t number, std::size_t keyframes) {

@@ -4,7 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "harness/catalogue/exchange.hpp"
 
@@ -17,6 +20,11 @@ struct MessageHeader {
   std::uint64_t data = 0;  ///< [bytes]
 };
 static_assert(sizeof(MessageHeader) == 32);
+
+/// A request with arrays of poses, whose shapes are added to `text`. O(n).
+std::string request(nlohmann::json text,
+                    const std::vector<std::pair<std::string, const Trajectory*>>& arrays,
+                    std::uint64_t number);
 
 /// The complete bytes of a request. O(keyframes + frames + edges).
 std::string request(const Problem& problem, ResultPoses output, std::uint64_t number);

@@ -1,7 +1,9 @@
 #include "harness/catalogue/server.hpp"
 
 #include <fmt/format.h>
+#include <linux/sockios.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -20,6 +22,8 @@
 
 namespace loopbench::harness {
 namespace {
+
+using ServerClock = std::chrono::steady_clock;
 
 /// In memory shared with forked processes.
 struct SharedTurn {
@@ -62,27 +66,31 @@ class Server {
     }
   }
 
-  Trajectory ask(const Problem& problem,
-                 ResultPoses output,
-                 ResultMetadata& metadata,
-                 std::string& errors) {
+  ServedAnswer ask(const Request& request, std::size_t poses, std::string& errors) {
     const std::uint64_t number = ++turn_->requested;
-    unsent_ = request(problem, output, number);
+    unsent_ = request(number);
     received_.clear();
     errors_ = &errors;
+    if (number == 1) wait_for_start();
+    const TreeCost before = tree_cost(tree_.process());
+    const auto begin = ServerClock::now();
     MessageHeader header;
     receive(sizeof header);
     std::memcpy(&header, received_.data(), sizeof header);
-    check_header(header, number, problem.keyframes.size());
+    check_header(header, number, poses);
     receive(sizeof header + header.text + header.data);
+    const std::chrono::duration<double> took = ServerClock::now() - begin;
     if (received_.size() > sizeof header + header.text + header.data || has_output()) {
       throw std::runtime_error("the program wrote more than one answer");
     }
     turn_->answered = number;  // from here on the streams are in step, whatever the answer says
     read_available(tree_.errors(), errors);
-    return answer_poses(received_.substr(sizeof header, header.text),
-                        received_.substr(sizeof header + header.text),
-                        metadata);
+    TreeCost cost = tree_cost(tree_.process());
+    cost.cpu_seconds -= before.cpu_seconds;
+    return {received_.substr(sizeof header, header.text),
+            received_.substr(sizeof header + header.text),
+            took.count(),
+            cost};
   }
 
  private:
@@ -90,6 +98,19 @@ class Server {
   bool has_output() const {
     pollfd file{tree_.output(), POLLIN, 0};
     return poll(&file, 1, 0) > 0 && (file.revents & POLLIN) != 0;
+  }
+
+  /// Hands over the header of the first request, and waits until the program reads it: until then
+  /// it was starting.
+  void wait_for_start() {
+    constexpr useconds_t kBetweenChecks = 200;  // [us]
+    const ssize_t sent = send(tree_.input(), unsent_.data(), sizeof(MessageHeader), MSG_NOSIGNAL);
+    if (sent > 0) unsent_.erase(0, static_cast<std::size_t>(sent));
+    int unread = 0;
+    while (ioctl(tree_.input(), SIOCOUTQ, &unread) == 0 && unread > 0 && !tree_.has_ended()) {
+      read_available(tree_.errors(), *errors_);
+      usleep(kBetweenChecks);
+    }
   }
 
   /// Sends and receives until at least `size` bytes are here.
@@ -175,33 +196,45 @@ void prepare_server(const CommandOptions& options, const CommandSetting& setting
   running_server(options, setting);
 }
 
+ServedAnswer ask_served(const CommandOptions& options,
+                        const CommandSetting& setting,
+                        const Request& request,
+                        std::size_t poses,
+                        std::string& errors) {
+  return running_server(options, setting).ask(request, poses, errors);
+}
+
 Trajectory ask_server(const CommandOptions& options,
                       const CommandSetting& setting,
                       const Problem& problem,
                       methods::Report& report) {
-  using Clock = std::chrono::steady_clock;
-  const auto begin = Clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-  Server& server = running_server(options, setting);
-  const double started = elapsed();
-  ResultMetadata metadata;
+  const auto begin = ServerClock::now();
   std::string errors;
+  ResultMetadata metadata;
+  ServedAnswer answer;
   Trajectory out;
   try {
-    out = checked_result(server.ask(problem, options.output, metadata, errors),
-                         problem,
-                         options.output,
-                         "the answer");
+    answer = ask_served(
+        options,
+        setting,
+        [&](std::uint64_t number) { return request(problem, options.output, number); },
+        problem.keyframes.size(),
+        errors);
+    out = checked_result(
+        answer_poses(answer.text, answer.data, metadata), problem, options.output, "the answer");
   } catch (const metrics::Undefined&) {
     throw;
   } catch (const std::runtime_error& error) {
     const std::string hidden = hidden_note(program_sandbox());
     throw std::runtime_error(with_output(error.what() + hidden, errors));
   }
-  const double all = elapsed();
-  const double own = add_statements(report, metadata, all - started, "from request to answer");
+  add_statements(report, metadata);
+  report.notes.emplace_back("time: from request to answer");
   add_output(report, errors);
-  report.phases.push_back({kExchangePhase, all - own});
+  report.count(kProgramTime, answer.cost.cpu_seconds);
+  report.count(kProgramMemory, static_cast<double>(answer.cost.peak_memory));
+  const std::chrono::duration<double> all = ServerClock::now() - begin;
+  report.phases.push_back({kExchangePhase, all.count() - answer.seconds});
   return out;
 }
 

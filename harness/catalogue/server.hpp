@@ -9,8 +9,12 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
+#include <functional>
+#include <string>
 #include <vector>
 
+#include "harness/base/descendants.hpp"
 #include "harness/catalogue/command.hpp"
 
 namespace loopbench::harness {
@@ -30,6 +34,26 @@ RunningServers running_servers();
 /// Ends the servers of this thread; `only_stuck`: those that have ended or have not answered,
 /// because the requesting process was killed.
 void end_servers(bool only_stuck = false);
+
+/// The bytes of a request with a number.
+using Request = std::function<std::string(std::uint64_t number)>;
+
+struct ServedAnswer {
+  std::string text;      ///< JSON
+  std::string data;      ///< rows of float64
+  double seconds = 0.0;  ///< from handing over the request to the last byte of the answer
+  TreeCost cost;         ///< CPU time between these, and the largest memory so far
+};
+
+/// Asks the program of `options.serve`, which is started if it is not running. The first request is
+/// handed over when the program begins to read it: its start is not part of `seconds`. `poses`
+/// limits the size of the answer. `errors` receives what it prints. Throws std::runtime_error if
+/// the program fails.
+ServedAnswer ask_served(const CommandOptions& options,
+                        const CommandSetting& setting,
+                        const Request& request,
+                        std::size_t poses,
+                        std::string& errors);
 
 /// Sends the problem and returns the checked answer. Throws std::runtime_error if the program
 /// fails, and Undefined if it declines.

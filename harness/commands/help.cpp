@@ -69,7 +69,7 @@ const std::map<std::string, std::string> kExamples{
     {"submit",
      "  loopbench submit mine.yaml --array 16 --print\n"
      "  loopbench submit mine.yaml --array 16 --header slurm.sh\n"
-     "  loopbench submit mine.yaml --array 4 -- --retry failed --only room\n"},
+     "  loopbench submit mine.yaml --array 4 --retry failed -- --only room\n"},
     {"correct",
      "  loopbench correct graph.g2o -o corrected.g2o --plot corrected.svg\n"
      "  loopbench correct run.txt --loops loops.txt --method motion_drift -o corrected.txt\n"

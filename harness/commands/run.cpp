@@ -148,8 +148,9 @@ int run_config(const RunArguments& arguments, const Source& source) {
   }
   if (done + resumed.there == 0) return kExitInterrupted;
 
+  const bool is_failure = failed > 0 && !arguments.failed_cells_ok;
   const int exit_code = interrupted > 0 ? kExitInterrupted
-                        : failed > 0    ? kExitSomeCellsFailed
+                        : is_failure    ? kExitSomeCellsFailed
                                         : kExitOk;
   const auto report_interruption = [&] {
     if (interrupted == 0) return;
@@ -232,6 +233,9 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
                     arguments->pin_instructions,
                     "Use the code paths of old processors in the C library and OpenCV, so that "
                     "results are bit-identical on all nodes");
+  command->add_flag("--failed-cells-ok",
+                    arguments->failed_cells_ok,
+                    "Exit with 0 if cells failed: they are results, too, and have their reasons");
   command->add_flag("--no-sandbox", arguments->no_sandbox, "Let external programs read all files");
   command->add_option("--data", arguments->data, "Folder with real datasets")
       ->envname("LOOPBENCH_DATA")

@@ -22,6 +22,7 @@ struct RunArguments {
   bool dry_run = false;
   std::string retry = "none";
   bool fresh = false;
+  bool failed_cells_ok = false;
   bool no_sandbox = false;
   bool save_trajectories = false;
   bool pin_instructions = false;

@@ -9,6 +9,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/base/program.hpp"
 #include "harness/base/shell.hpp"
+#include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/config_path.hpp"
 #include "harness/commands/slurm_scripts.hpp"
@@ -26,6 +27,7 @@ struct SubmitArguments {
   std::string header;
   int array = 8;
   bool print = false;
+  std::string retry;
   std::vector<std::string> options;  ///< of `run`
 };
 
@@ -96,6 +98,9 @@ int submit(const SubmitArguments& arguments) {
                   .lexically_normal();
   sweep.shards = arguments.array;
   sweep.options = arguments.options;
+  if (!arguments.retry.empty()) {
+    sweep.options.insert(sweep.options.end(), {"--retry", arguments.retry});
+  }
   sweep.header = header_text(arguments.header);
   check_options(sweep);
   const std::string shards = slurm_shard_script(sweep);
@@ -145,10 +150,12 @@ void add_submit(CLI::App& app, int& exit_code) {
                    "then commands before the run (default: ~/.config/loopbench/slurm.sh)")
       ->type_name("FILE");
   command->add_flag("--print", arguments->print, "Print the scripts without submitting them");
+  command->add_option("--retry", arguments->retry, "Stored cells to recompute, as of `run`")
+      ->check(CLI::IsMember({"none", "failed", "damaged", "all"}));
   command->add_option("--out", arguments->out, "Output folder (default: results/CONFIG)")
       ->type_name("DIR");
   command->add_option(
-      "options", arguments->options, "After --: options of `run`, for example --only or --retry");
+      "options", arguments->options, "After --: options of `run`, for example --only");
   command->callback([arguments, &exit_code] { exit_code = submit(*arguments); });
 }
 

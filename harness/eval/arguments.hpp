@@ -20,9 +20,10 @@ struct EvalArguments {
   std::string reference;
   std::vector<std::string> estimates;
   std::string format = "auto";
-  std::string reference_format;               ///< empty: same as `format`
-  double reference_sigma = 0.0;               ///< of its positions, per axis [m]; 0: not stated
-  bool reference_positions = false;           ///< ignore the rotations of the reference
+  std::string reference_format;      ///< empty: same as `format`
+  bool diagnose = true;              ///< likely mistakes in the files, notes and the diagnosis
+  double reference_sigma = 0.0;      ///< of its positions, per axis [m]; 0: not stated
+  bool reference_positions = false;  ///< ignore the rotations of the reference
   std::optional<std::string> reference_body;  ///< x,y,z[,qx,qy,qz,qw]; none: no offset
   std::string covariances;                    ///< file of the only estimate's; empty: none
   std::string reference_covariances;          ///< file of the reference's; empty: none

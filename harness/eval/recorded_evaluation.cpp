@@ -203,8 +203,10 @@ struct PairEvaluation {
     own.incomplete_reason = incomplete_reason(evaluation.coverage, sweep.min_coverage);
     const bool is_large = evaluation.estimate.size() >= kMinItemsPerThread;
     std::future<void> checks =
-        std::async(is_large ? std::launch::async : std::launch::deferred,
-                   [&] { add_checks(own, evaluation, reference, estimate, files); });
+        std::async(is_large ? std::launch::async : std::launch::deferred, [&] {
+          if (!arguments.diagnose) return;
+          add_checks(own, evaluation, reference, estimate, files);
+        });
     if (!arguments.per_pose.empty() || !arguments.save_results.empty())
       own.poses = metrics::pose_errors(evaluation);
     if (!arguments.plot.empty()) {
@@ -271,6 +273,7 @@ EvaluatedFile evaluate_poses(const Cell& cell,
   const bool is_large = estimate.poses.size() >= kMinItemsPerThread;
   std::future<std::vector<std::string>> doctor =
       std::async(is_large ? std::launch::async : std::launch::deferred, [&] {
+        if (!files.arguments.diagnose) return std::vector<std::string>{};
         const bool has_stamps = reference.read.unstamped.empty() && estimate.unstamped.empty();
         return doctor_notes(
             {reference.read.poses, estimate.poses, run.reference, run.estimate, has_stamps},

@@ -17,6 +17,7 @@ Record record_of_cell(const CellResult& result, const Sweep& sweep) {
   out.oracle = result.oracle_method;
   out.milliseconds = result.seconds.empty() ? std::numeric_limits<double>::quiet_NaN()
                                             : 1e3 * metrics::median(result.seconds);
+  out.is_stated = result.worker.stated;
   out.status = result.status;
   out.why = result.why;
   if (result.metadata) {

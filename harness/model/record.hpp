@@ -14,6 +14,9 @@
 
 namespace loopbench::harness {
 
+/// In `CellRecord::worker`: the times are statements of a program.
+inline constexpr const char* kStatedTimes = ", times as stated";
+
 /// A declined or failed cell has one record with empty metric and the reason.
 struct Record {
   std::int64_t cell = 0;  ///< position in the sweep
@@ -23,7 +26,8 @@ struct Record {
   SharedText closures;
   bool oracle_closures = false;
   bool oracle = false;        ///< the method has access to the reference
-  double milliseconds = 0.0;  ///< median wall time of the method; NaN: not recorded
+  double milliseconds = 0.0;  ///< median time of the method; NaN: not recorded
+  bool is_stated = false;     ///< that time is the statement of a program
   SharedText protocol;        ///< label; empty if not applicable, as are the next two
   SharedText protocol_version;
   SharedText times;   ///< keyframes | dense
@@ -59,9 +63,10 @@ struct CellRecord {
   bool oracle = false;
   std::int64_t keyframes = 0;      ///< of the sequence; 0: it could not be loaded
   std::int64_t closure_count = 0;  ///< of the sequence
-  SharedText worker;  ///< "isolated" or "in process", with ", serial" and ", pinned" if so
+  SharedText worker;  ///< "isolated" or "in process", with ", serial" and ", pinned" if so, and
+                      ///< kStatedTimes
   std::int64_t runs = 0;
-  double seconds = 0.0;  ///< wall time of the method: median, then minimum and maximum
+  double seconds = 0.0;  ///< time of the method: median, then minimum and maximum
   double seconds_min = 0.0;
   double seconds_max = 0.0;
   std::optional<double> cpu_seconds;         ///< median

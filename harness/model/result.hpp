@@ -33,6 +33,7 @@ struct Worker {
   bool isolated = false;  ///< in a separate worker process, whose crash does not end the sweep
   bool serial = false;    ///< no other cell of the sweep ran at the same time
   bool pinned = false;    ///< pinned to one core
+  bool stated = false;    ///< the times are statements of a program
 };
 
 struct CellResult {

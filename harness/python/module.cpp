@@ -174,6 +174,7 @@ PYBIND11_MODULE(_core, module) {
       .def_readwrite("protocols", &Arguments::protocols)
       .def_readwrite("settings", &Arguments::settings)
       .def_readwrite("align", &Arguments::align)
+      .def_readwrite("diagnose", &Arguments::diagnose)
       .def_readwrite("correct_scale", &Arguments::correct_scale)
       .def_readwrite("metrics", &Arguments::metrics)
       .def_readwrite("relation", &Arguments::relation)

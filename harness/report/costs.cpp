@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/catalogue/exchange.hpp"
 #include "harness/model/name_order.hpp"
 #include "harness/report/html.hpp"
 #include "harness/report/sections.hpp"
@@ -42,6 +43,17 @@ std::vector<double> values_of(const std::vector<const CellRecord*>& cells, Get g
 
 std::string milliseconds(const std::vector<double>& seconds) {
   return seconds.empty() ? "-" : fmt::format("{:.4g}", 1e3 * metrics::median(seconds));
+}
+
+/// With the wall time beside a time that programs state.
+std::string time_text(const std::vector<const CellRecord*>& cells) {
+  const std::string time =
+      milliseconds(values_of(cells, [](const auto& c) { return std::optional(c.seconds); }));
+  const std::vector<double> wall = values_of(cells, [](const CellRecord& cell) {
+    const auto found = std::ranges::find(cell.phases, kWallPhase, &methods::Phase::name);
+    return found == cell.phases.end() ? std::nullopt : std::optional(found->seconds);
+  });
+  return wall.empty() ? time : time + " (s), wall " + milliseconds(wall);
 }
 
 std::string median_count(const std::vector<double>& counts) {
@@ -98,15 +110,16 @@ Table costs(const std::vector<CellRecord>& cells) {
             {"method",
              "cells",
              "failed",
-             "wall [ms]",
+             "time [ms]",
              "CPU [ms]",
              "peak memory [MB]",
              "added [MB]",
              "iterations"},
             {},
-            {"medians over cells; memory: the largest resident size of the process while the "
+            {"medians over cells; time: wall time from the problem to the result, or (s) as the "
+             "program states it; memory: the largest resident size of the process while the "
              "method ran, and its increase (memory that an earlier cell returned to the allocator "
-             "is reused without being counted)"}};
+             "is reused without being counted). CPU and memory of a program are its own"}};
   const bool has_times = std::ranges::any_of(cells, [](const auto& cell) { return cell.runs > 0; });
   const bool has_results =
       std::ranges::any_of(cells, [](const auto& cell) { return has_numbers(cell.status); });
@@ -116,15 +129,14 @@ Table costs(const std::vector<CellRecord>& cells) {
       return !has_numbers(cell->status) && cell->status != Status::declined;
     });
     const auto values = [&](const auto& get) { return values_of(method.timed, get); };
-    out.lines.push_back(
-        {method.name,
-         std::to_string(method.all.size()),
-         std::to_string(failed),
-         milliseconds(values([](const auto& c) { return std::optional(c.seconds); })),
-         milliseconds(values([](const auto& c) { return c.cpu_seconds; })),
-         megabytes(values([](const auto& c) { return c.peak_memory; })),
-         megabytes(values([](const auto& c) { return c.added_memory; })),
-         median_count(values(iterations))});
+    out.lines.push_back({method.name,
+                         std::to_string(method.all.size()),
+                         std::to_string(failed),
+                         time_text(method.timed),
+                         milliseconds(values([](const auto& c) { return c.cpu_seconds; })),
+                         megabytes(values([](const auto& c) { return c.peak_memory; })),
+                         megabytes(values([](const auto& c) { return c.added_memory; })),
+                         median_count(values(iterations))});
   }
   const auto alone = std::ranges::count_if(cells, [](const auto& cell) {
     return cell.worker.text().find("serial") != std::string::npos;

@@ -8,6 +8,8 @@
 #include <optional>
 
 #include "datasets/core/parallel.hpp"
+#include "harness/catalogue/command_metric.hpp"
+#include "harness/catalogue/external_methods.hpp"
 #include "harness/catalogue/floating_point_guard.hpp"
 #include "harness/run/catch_errors.hpp"
 
@@ -51,7 +53,11 @@ class EvaluationCopy {
 std::vector<metrics::Score> scores_of_metric(const metrics::MetricEntry& metric,
                                              const Params& options,
                                              const metrics::Evaluation& evaluation,
+                                             const Sweep& sweep,
                                              const Catalogue& catalogue) {
+  if (metric.name == kCommandMetric) {
+    return command_scores(evaluation, options, command_setting(sweep));
+  }
   if (plugin_version(catalogue, "metric", metric.name).empty()) {
     return metric.score(evaluation, options);
   }
@@ -63,6 +69,7 @@ std::vector<metrics::Score> scores_of_metric(const metrics::MetricEntry& metric,
 std::vector<ScoreResult> rows_of(const MetricChoice& choice,
                                  ScoreResult row,
                                  const metrics::Evaluation& evaluation,
+                                 const Sweep& sweep,
                                  const Catalogue& catalogue) {
   std::vector<ScoreResult> out;
   row.metric = choice.metric.name;
@@ -71,7 +78,7 @@ std::vector<ScoreResult> rows_of(const MetricChoice& choice,
   const metrics::MetricEntry& metric = find_metric(catalogue, choice.metric.name);
   catch_errors(row, [&] {
     std::vector<metrics::Score> scores =
-        scores_of_metric(metric, choice.metric.options, evaluation, catalogue);
+        scores_of_metric(metric, choice.metric.options, evaluation, sweep, catalogue);
     check_scores(scores);
     for (metrics::Score& score : scores) {
       ScoreResult& added = out.emplace_back(row);
@@ -97,8 +104,10 @@ void add_scores_of(CellResult& result,
                    const MetricChoice& choice,
                    const ScoreResult& row,
                    const metrics::Evaluation& evaluation,
+                   const Sweep& sweep,
                    const Catalogue& catalogue) {
-  std::ranges::move(rows_of(choice, row, evaluation, catalogue), std::back_inserter(result.scores));
+  std::ranges::move(rows_of(choice, row, evaluation, sweep, catalogue),
+                    std::back_inserter(result.scores));
 }
 
 void add_scores(CellResult& result,
@@ -115,7 +124,7 @@ void add_scores(CellResult& result,
   }
   std::vector<std::vector<ScoreResult>> scores(sweep.metrics.size());
   const auto evaluate = [&](std::size_t i) {
-    scores[i] = rows_of(sweep.metrics[i], row, evaluation, catalogue);
+    scores[i] = rows_of(sweep.metrics[i], row, evaluation, sweep, catalogue);
   };
   if (parallel) {
     // The last first: in the default list, segments take the longest.

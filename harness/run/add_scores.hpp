@@ -17,6 +17,7 @@ void add_scores_of(CellResult& result,
                    const MetricChoice& choice,
                    const ScoreResult& row,
                    const metrics::Evaluation& evaluation,
+                   const Sweep& sweep,
                    const Catalogue& catalogue);
 
 /// Adds the scores of all metrics of the sweep to `result`. If the coverage is below the limit of

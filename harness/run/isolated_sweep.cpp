@@ -200,7 +200,7 @@ class IsolatedSweep {
   /// What a cell without an answer has in common with the others.
   void set_conditions(CellResult& result, std::size_t cell) const {
     const Sweep& sweep = context_.sweep;
-    result.worker = {true, sweep.serial, sweep.serial};
+    result.worker = {true, context_.is_alone, sweep.serial};
     result.oracle_method =
         uses_reference(sweep.methods[context_.cells[cell].method], context_.catalogue);
   }
@@ -289,7 +289,7 @@ void run_isolated(const Sweep& sweep,
   if (scratch && sandbox.enabled && !has_bubblewrap()) {
     print_error("loopbench: bubblewrap (bwrap) does not work here: programs can read all files\n");
   }
-  const WorkerContext context{sweep, cells, catalogue, root, sandbox};
+  const WorkerContext context{sweep, cells, catalogue, root, sandbox, sweep.serial || jobs == 1};
   IsolatedSweep(context, jobs, stop, finished).run();
 }
 

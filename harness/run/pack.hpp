@@ -55,7 +55,7 @@ void walk(Archive& a, T& metadata) {
 
 template <class Archive, Either<harness::Worker> T>
 void walk(Archive& a, T& worker) {
-  a(worker.isolated)(worker.serial)(worker.pinned);
+  a(worker.isolated)(worker.serial)(worker.pinned)(worker.stated);
 }
 
 /// All members except the metadata of its sequence, which are sent once for all its cells.

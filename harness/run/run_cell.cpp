@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <optional>
 #include <set>
 
 #include "harness/catalogue/external_methods.hpp"
 #include "harness/catalogue/floating_point_guard.hpp"
+#include "harness/catalogue/server.hpp"
 #include "harness/run/add_scores.hpp"
 #include "harness/run/catch_errors.hpp"
 #include "harness/run/check_output.hpp"
@@ -67,6 +69,19 @@ std::int64_t peak_memory() {
   return std::int64_t{1024} * usage.ru_maxrss;
 }
 
+/// What the harness has used while a program ran is not the program's.
+void use_costs_of_program(CellResult& result, const methods::Report& report) {
+  const auto count = [&](const char* name) {
+    const auto found = std::ranges::find(report.counts, name, &methods::Count::name);
+    return found == report.counts.end() ? std::nullopt : std::optional(found->value);
+  };
+  if (const auto seconds = count(kProgramTime)) result.cpu_seconds.back() = *seconds;
+  if (const auto memory = count(kProgramMemory)) {
+    result.peak_memory = static_cast<std::int64_t>(*memory);
+    result.added_memory.reset();
+  }
+}
+
 /// A run that is shorter [s] mostly pays for the first access of a new process to its memory.
 constexpr double kShortRun = 2e-3;
 
@@ -100,6 +115,7 @@ std::string hash_of_curve(const Curve* curve, const Problem& problem) try {
 }
 
 /// Runs and measures the method; memory is that of the first run, measured outside the timed part.
+/// Every run asks a new process of a program that serves, so that no answer is from its memory.
 /// The times of a short first run are replaced by those of another run, because this process is
 /// new; its result is kept. Results of several runs that are not bit-identical are noted.
 std::unique_ptr<const Curve> timed(CellResult& result,
@@ -111,6 +127,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
   TimedRun last;
   std::set<std::string> results;
   for (int run = 0; run < runs; ++run) {
+    if (run > 0) end_servers();
     last = {};  // so that the destruction of its curve is not timed with the next run
     last = timed_run(method, problem);
     check_report(last.report);
@@ -127,8 +144,10 @@ std::unique_ptr<const Curve> timed(CellResult& result,
       result.peak_memory = peak_memory();
       result.added_memory = *result.peak_memory - before;
     }
+    use_costs_of_program(result, last.report);
     if (runs > 1) results.insert(hash_of_curve(last.curve.get(), problem));
   }
+  result.worker.stated = wall_beside_stated(last.report).has_value();
   result.report = std::move(last.report);
   if (results.size() > 1) {
     result.report.notes.push_back(
@@ -189,7 +208,7 @@ void add_scores_without_reference(CellResult& result,
     const ScoreResult row{p, metrics::Times::keyframes, "", "", {}, {}, Status::ok, ""};
     for (const MetricChoice& choice : sweep.metrics) {
       if (find_metric(catalogue, choice.metric.name).needs_reference) continue;
-      add_scores_of(result, choice, row, evaluation, catalogue);
+      add_scores_of(result, choice, row, evaluation, sweep, catalogue);
     }
   }
 }

@@ -123,11 +123,11 @@ class JobRunner {
   ProcessEnd run(const Cell& cell, const LoadedSequences::Entry& entry) {
     const Sweep& sweep = context_.sweep;
     if (uses_programs(sweep)) hide_inputs(entry.metadata.inputs);
-    prepare_programs(sweep.methods[cell.method], command_setting(sweep));
+    prepare_programs(sweep.methods[cell.method], sweep);
     const auto run_here = [&] {
       const bool is_pinned = pin_to(core_);
       CellResult result = run_cell(cell, sweep, entry.sequence, context_.catalogue);
-      result.worker = {true, sweep.serial, is_pinned};
+      result.worker = {true, context_.is_alone, is_pinned, result.worker.stated};
       apply_memory_limit(sweep.limits, result);
       return packed(result);
     };

@@ -22,7 +22,8 @@ std::string option_text(const std::vector<Choice>& stages) {
 
 std::string text_of(const Worker& worker) {
   return std::string(worker.isolated ? "isolated" : "in process") +
-         (worker.serial ? ", serial" : "") + (worker.pinned ? ", pinned" : "");
+         (worker.serial ? ", serial" : "") + (worker.pinned ? ", pinned" : "") +
+         (worker.stated ? kStatedTimes : "");
 }
 
 /// "?FROM,?FROM+1,...,?TO".

@@ -63,6 +63,7 @@ class Merge {
     {
       Transaction transaction(database_);
       check_recorded_options();
+      check_shard();
       check_builds();
       check_inputs();
       list_cells();
@@ -105,6 +106,15 @@ class Merge {
     const std::string added = run_value("config", "source.run");
     const std::string why = why_other_options(run_value("config"), added);
     if (!why.empty()) throw InputError(store_ + ": " + why);
+  }
+
+  /// Shards are parts of one sweep; other stores can have different configs.
+  void check_shard() {
+    if (run_value("shard").empty() || run_value("shard", "source.run").empty()) return;
+    if (run_value("config") == run_value("config", "source.run")) return;
+    throw InputError(store_ +
+                     ": is a shard of a different config than the earlier stores; run all shards "
+                     "with the same file");
   }
 
   void check_builds() {

@@ -30,6 +30,7 @@ void set_cell(Record& r, const StoredCell& cell) {
   r.oracle = cell.oracle;
   const bool is_unknown = cell.runs == 0 && has_numbers(cell.status);
   r.milliseconds = is_unknown ? std::nan("") : cell.seconds * 1000;
+  r.is_stated = cell.worker.text().ends_with(kStatedTimes);
   r.status = cell.status;
   r.why = cell.why;
   r.content = cell.content;

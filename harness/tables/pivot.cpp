@@ -71,6 +71,10 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
     if (is_loss(record)) entry.lost.insert(run);
     return;
   }
+  if (record.metric == "time" && record.is_stated) {
+    entry.is_stated = true;
+    table.note(kStatedNote);
+  }
   add_error_count(table, column, record);
   entry.numbers.add(record, run, table.group_of_run[run], spec.value);
 }
@@ -138,6 +142,7 @@ TableMean mean_at(const TableNumbers& table, const TablePosition& position, bool
   if (entry->numbers.size() == 0) return out;
   out.value = entry->numbers.average();
   if (plus_minus) out.deviation = entry->numbers.deviation();
+  out.is_stated = entry->is_stated;
   out.records = entry->numbers.size();
   out.averaged = entry->numbers.averaged();
   if (!out.value) out.status = out.averaged == 0 ? kNoCommonRun : "undefined";

@@ -242,6 +242,8 @@ Table summary(const std::vector<Record>& records, const SummaryOptions& options)
   }
   add_column(out, "time [ms]", derived_texts(records, "time", *lead, "rmse"));
 
+  if (std::ranges::any_of(own, &Record::is_stated)) out.notes.emplace_back(kStatedNote);
+
   const auto rank_of = [&](const auto& line) {
     const auto found = ranks.find(line[0].text);
     return found == ranks.end() ? std::numeric_limits<double>::infinity() : found->second;

@@ -16,7 +16,8 @@ std::string mean_text(const TableMean& mean, int digits) {
   const std::string over =
       mean.possible == 0 ? "" : fmt::format(" ({} of {})", mean.records, mean.possible);
   const std::string deviation = mean.deviation ? " \u00b1 " + fixed(*mean.deviation, digits) : "";
-  if (mean.value) return fixed(*mean.value, digits) + deviation + over;
+  const std::string stated = mean.is_stated ? " (s)" : "";
+  if (mean.value) return fixed(*mean.value, digits) + deviation + stated + over;
   if (mean.status == kNoCommonRun) return "-" + over;
   return mean.status.empty() ? "-" : mean.status;
 }

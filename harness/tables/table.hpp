@@ -18,6 +18,7 @@ struct TableMean {
   std::size_t records = 0;               ///< records with a number (repeats, for example)
   std::size_t averaged = 0;  ///< of these, those on runs that all compared cells finished
   std::size_t possible = 0;  ///< records including failed and missing ones; 0: none is missing
+  bool is_stated = false;    ///< times that programs state, marked (s)
   std::string status = {};   ///< "declined", "failed", "no common run", ... if there is no value
 
   friend bool operator==(const TableMean&, const TableMean&) = default;
@@ -51,6 +52,10 @@ struct TerminalStyle {
 
 /// Status of a cell without a run that all cells compared with it have finished.
 inline constexpr const char* kNoCommonRun = "no common run";
+
+/// Explains the mark of stated times.
+inline constexpr const char* kStatedNote =
+    "(s): as the program states it, without its start; `report` has the wall time, too";
 
 /// Number of decimals of a column: four significant digits for its largest value.
 int decimals(double largest);

@@ -85,13 +85,44 @@ TEST_F(Command, ResultJsonStatesTimeCountsAndRefusals) {
   const auto done = cells(entry("states", "'sh state.sh {problem} {result}'") +
                           entry("declines", "'sh decline.sh {problem} {result}'"));
   ASSERT_EQ(done.size(), 3u);
-  EXPECT_EQ(done[1].phases.front().name, kExchangePhase);
-  EXPECT_LT(done[1].seconds, done[1].phases.front().seconds) << "which is not the method's time";
+  EXPECT_LT(done[1].seconds, done[1].phases.front().seconds) << "of the run";
+  EXPECT_THAT(done[1].worker.text(), testing::EndsWith(kStatedTimes));
   EXPECT_EQ(done[1].counts.front().value, 7.0);
   EXPECT_THAT(notes(done[1]), HasSubstr("hello\n"));
   EXPECT_THAT(notes(done[1]), HasSubstr("time: as stated by the program"));
   EXPECT_EQ(done[2].status, Status::declined);
   EXPECT_EQ(done[2].why, "too flat");
+}
+
+TEST_F(Command, AStatedTimeIsMarkedWithTheWallTimeBesideIt) {
+  folder_.file("sleep.sh",
+               "sleep 0.3; cp $1/keyframes.txt $2\n"
+               "[ -z $3 ] || echo '{\"seconds\": 0.0}' >$2.json\n");
+  const auto done = cells(entry("states", "'sh sleep.sh {problem} {result} x'") +
+                          entry("silent", "'sh sleep.sh {problem} {result}'"));
+  ASSERT_EQ(done.size(), 3u) << ran_.err;
+  EXPECT_EQ(done[1].phases.front().name, kWallPhase);
+  EXPECT_GE(done[1].phases.front().seconds, 0.3);
+  EXPECT_GE(done[2].seconds, 0.3);
+  EXPECT_THAT(ran_.out, testing::ContainsRegex("states .* 0\\.0 \\(s\\) \\|\n"));
+  EXPECT_THAT(ran_.out, testing::ContainsRegex("silent .* [0-9.]+ \\|\n"));
+  EXPECT_THAT(ran_.out, HasSubstr("(s): as the program states it"));
+  const std::string table = loopbench_command("table r --columns metric --format csv", folder_).out;
+  EXPECT_THAT(table, HasSubstr(",states,time [ms],0.0")) << "numbers have no mark";
+  EXPECT_THAT(table, testing::Not(HasSubstr("(s)")));
+}
+
+TEST_F(Command, CpuTimeAndMemoryAreThoseOfTheProgram) {
+  folder_.file("burn.py",
+               "import sys, time\n"
+               "block = bytearray(60 << 20)\n"
+               "while time.process_time() < 0.2: pass\n"
+               "open(sys.argv[2], 'w').write(open(sys.argv[1] + '/keyframes.txt').read())\n");
+  const auto done = cells(entry("burns", "'python3 burn.py {problem} {result}'"));
+  ASSERT_EQ(done.size(), 2u) << ran_.err;
+  EXPECT_GE(done[1].cpu_seconds.value_or(0.0), 0.15) << done[1].why;  // sampled in a sandbox
+  EXPECT_GE(done[1].peak_memory.value_or(0), 60 << 20);
+  EXPECT_FALSE(done[1].added_memory) << "there is no earlier size of a new process";
 }
 
 TEST_F(Command, AnEstimateThatEqualsTheReferenceIsMarked) {

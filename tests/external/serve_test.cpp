@@ -5,6 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "harness/catalogue/server.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/command.hpp"
@@ -64,6 +66,47 @@ INSTANTIATE_TEST_SUITE_P(
                     Misbehaviour{"json", "failed", "result.json: "},
                     Misbehaviour{"half", "failed", "exited with code 0 before its answer"}),
     [](const auto& chosen) { return chosen.param.mode; });
+
+/// Cells of one sequence and two repeats, answered by the serving program.
+std::vector<CellRecord> served(const std::string& mode, const std::string& settings = "") {
+  const TemporaryFolder folder;
+  folder.file("c.yaml",
+              "datasets: [{dataset: simulated, path: room, keyframes: 30}]\nmethods:\n"
+              "  - {method: command, serve: '" LOOPBENCH_SERVING " " +
+                  mode + "'}\nmetrics: [ate]\nrepeats: 2\n" + settings);
+  const CommandResult ran = loopbench_command("run c.yaml --out r -j 1", folder);
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  return read_cells(folder.path() / "r");
+}
+
+double value_of(const CellRecord& cell, const std::string& count) {
+  const auto found = std::ranges::find(cell.counts, count, &Count::name);
+  return found == cell.counts.end() ? -1.0 : found->value;
+}
+
+TEST(ServedTime, StartIsNotPartOfTheFirstCell) {
+  const std::vector<CellRecord> cells = served("late");
+  ASSERT_EQ(cells.size(), 2u);
+  ASSERT_EQ(cells[0].phases.front().name, kExchangePhase);
+  EXPECT_GE(cells[0].phases.front().seconds, 0.3) << "of 0.4 s; it started a little earlier";
+  EXPECT_THAT(cells[0].worker.text(), HasSubstr("serial")) << "-j 1: no other cell ran";
+}
+
+TEST(ServedTime, EveryTimedRunAsksANewProcess) {
+  const std::vector<CellRecord> cells = served("turns", "timing: 3\n");
+  ASSERT_EQ(cells.size(), 2u);
+  EXPECT_EQ(value_of(cells[0], "turn"), 1.0) << "a second answer could be from its memory";
+  EXPECT_GT(value_of(cells[1], kProgramMemory), 1e5) << "a process has more than 100 kB";
+  EXPECT_EQ(cells[1].peak_memory, static_cast<std::int64_t>(value_of(cells[1], kProgramMemory)));
+  EXPECT_GE(value_of(cells[1], kProgramTime), 0.0);
+}
+
+TEST(ServedTime, IsTheWallTimeWhateverTheProgramStates) {
+  const std::vector<CellRecord> cells = served("ok");  // states 0 s
+  ASSERT_EQ(cells.size(), 2u);
+  EXPECT_GT(cells[1].seconds, 0.0);
+  EXPECT_EQ(cells[1].worker, "isolated, serial");
+}
 
 /// Asks from a forked process, as the cells of a worker do; returns whether the answer is right.
 bool asks_in_a_child(const CommandOptions& options, const Problem& problem, bool dies = false) {

@@ -32,6 +32,7 @@ void put(const void* bytes, std::size_t size) { std::fwrite(bytes, 1, size, stdo
 int main(int argc, char** argv) {
   const std::string mode = argc > 1 ? argv[1] : "ok";
   Header header;
+  if (mode == "late") usleep(400'000);
   for (int turn = 1; std::fread(&header, sizeof header, 1, stdin) == 1; ++turn) {
     std::string text(header.text, ' ');
     std::string data(header.data, ' ');
@@ -68,6 +69,10 @@ int main(int argc, char** argv) {
       std::memcpy(data.data() + sizeof nan, &nan, sizeof nan);
     }
     std::string answer = "{\"seconds\": 0.0, \"poses\": " + std::to_string(rows) + "}";
+    if (mode == "turns") {
+      answer = "{\"counts\": {\"turn\": " + std::to_string(turn) +
+               "}, \"poses\": " + std::to_string(rows) + "}";
+    }
     if (misbehaves && mode == "declined") answer = R"({"status": "declined", "why": "no mood"})";
     if (misbehaves && mode == "json") answer = "{]";
     if (answer.find("poses") == std::string::npos) rows = 0;

@@ -46,6 +46,32 @@ TEST_F(ShardCli, ShardsMergeToTheUndisturbedSweep) {
   EXPECT_EQ(store_text(at("o")), store_text(at("whole"))) << "cells that are there already";
 }
 
+TEST_F(ShardCli, ShardsOfDifferentConfigsAreRejected) {
+  ASSERT_EQ(run("run c.yaml --out o --shard 1/2").exit_code, 0);
+  std::ofstream(at("d.yaml"))
+      << "datasets: [{dataset: simulated, path: room, keyframes: 30, label: a},\n"
+         "           {dataset: simulated, path: office, keyframes: 30, label: b}]\n"
+         "methods: [raw, uniform]\nmetrics: [ate]\nrepeats: 3\ntimes: keyframes\n";
+  ASSERT_EQ(run("run d.yaml --out o --shard 2/2").exit_code, 0);
+  const CommandResult merged = run("merge o/shards/1-of-2 o/shards/2-of-2 -o all");
+  EXPECT_EQ(merged.exit_code, 2) << merged.out;
+  EXPECT_NE(merged.err.find("2-of-2/results.sqlite: is a shard of a different config"),
+            std::string::npos)
+      << merged.err;
+  EXPECT_FALSE(std::filesystem::exists(at("all/results.sqlite")));
+}
+
+TEST_F(ShardCli, FailedCellsCanBeResults) {
+  std::ofstream(at("f.yaml"))
+      << "datasets: [{dataset: simulated, path: room, keyframes: 20}]\n"
+         "methods: [raw, {method: command, label: fails, run: 'false {problem} {result}'}]\n"
+         "metrics: [ate]\n";
+  EXPECT_EQ(run("run f.yaml --out f").exit_code, 1);
+  EXPECT_EQ(run("run f.yaml --out f --failed-cells-ok").exit_code, 0) << "of an earlier run";
+  EXPECT_EQ(run("run f.yaml --out g --shard 1/1 --failed-cells-ok").exit_code, 0);
+  EXPECT_EQ(run("run f.yaml --out g --shard 1/1 --failed-cells-ok --only none").exit_code, 2);
+}
+
 TEST_F(ShardCli, BadArgumentsAreRejected) {
   for (const char* arguments : {"run c.yaml --shard 3/2",
                                 "run c.yaml --shard x",

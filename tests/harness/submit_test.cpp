@@ -109,12 +109,12 @@ TEST_F(Submit, StartsTheArrayAndThenTheMerge) {
   ASSERT_EQ(submit("--array 2 --print"), 0) << read("out.txt");
   EXPECT_NE(read("out.txt").find("#SBATCH --array=1-2\n"), std::string::npos);
   EXPECT_EQ(read("calls"), "");
-  ASSERT_EQ(submit("--array 2 --out o -- --only uniform"), 0) << read("out.txt");
+  ASSERT_EQ(submit("--array 2 --out o --retry failed -- --only uniform"), 0) << read("out.txt");
   const std::string out = std::filesystem::canonical(folder_.path() / "o").string();
   EXPECT_EQ(read("calls"),
             "--parsable --chdir=" + out + " " + out + "/shards.sh \n--parsable --chdir=" + out +
                 " --dependency=afterany:41 " + out + "/merge.sh \n");
-  EXPECT_NE(read("o/shards.sh").find(" --only uniform --shard "), std::string::npos);
+  EXPECT_NE(read("o/shards.sh").find(" --only uniform --retry failed --shard "), std::string::npos);
   EXPECT_NE(read("out.txt").find("2 shards: job 41, then merged by job 42"), std::string::npos);
   EXPECT_EQ(submit("-- --only nothing"), 2) << "rejected before any job starts";
   EXPECT_NE(read("out.txt").find("no cells to run"), std::string::npos) << read("out.txt");

@@ -25,7 +25,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from .problem import Declined, Edges, Problem, read_problem
-from .serving import corrector, dataset, serve, solve
+from .serving import corrector, dataset, metric, serve, solve
 
 #: The version of loopbench, of the program and this package.
 __version__ = "0.3.0"
@@ -62,6 +62,7 @@ __all__ = [
     "evaluate",
     "load",
     "methods",
+    "metric",
     "plot_errors",
     "plot_scores",
     "plot_trajectories",

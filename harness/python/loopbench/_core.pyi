@@ -13,6 +13,7 @@ class EvalArguments:
     protocols: list[str]
     settings: list[str]
     align: str
+    diagnose: bool
     correct_scale: bool
     metrics: list[str]
     relation: str

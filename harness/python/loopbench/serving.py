@@ -1,4 +1,4 @@
-"""Methods and datasets in Python: decorated functions answer the requests of a sweep."""
+"""Methods, metrics and datasets in Python: decorated functions answer the requests of a sweep."""
 
 from __future__ import annotations
 
@@ -21,25 +21,40 @@ Method = Callable[[Problem], Any]
 
 _HEADER = struct.Struct("<8sQQQ")
 _MAGIC = b"LBEXCH01"
-_registered: list[Method] = []
+#: A metric gets paired, aligned rows (n, 8) of reference and estimate, and returns one score or a list
+#: of them: {"name", "unit", "value" or "values", and optionally "axis", "better", "target"}.
+Metric = Callable[[Array, Array], Any]
 
 #: A dataset gets the path of its input and a seed, and returns {"trajectory", and optionally "frames",
 #: "closed"}, arrays of rows (n, 8).
 Dataset = Callable[[str, int], Mapping[str, Any]]
 
-_datasets: list[Dataset] = []
+_registered: dict[str, Callable[..., Any]] = {}  # the last one of each kind
 
 
 def corrector(function: Method) -> Method:
     """Registers a method for `serve`; the function itself is unchanged."""
-    _registered.append(function)
+    _registered["method"] = function
+    return function
+
+
+def metric(function: Metric) -> Metric:
+    """Registers a metric for `serve`, as of `{metric: command, serve: ...}`."""
+    _registered["metric"] = function
     return function
 
 
 def dataset(function: Dataset) -> Dataset:
     """Registers a dataset for `serve`, as of `{dataset: command, run: ...}`."""
-    _datasets.append(function)
+    _registered["dataset"] = function
     return function
+
+
+def _function(kind: str) -> Callable[..., Any]:
+    if kind not in _registered:
+        name = "corrector" if kind == "method" else kind
+        raise ValueError(f"no {kind}: decorate a function with @loopbench.{name}")
+    return _registered[kind]
 
 
 def _read(stream: BinaryIO, size: int) -> bytes:
@@ -49,8 +64,7 @@ def _read(stream: BinaryIO, size: int) -> bytes:
     return out
 
 
-def _parse(text: bytes, data: bytes) -> Problem:
-    header = json.loads(text)
+def _arrays(header: Mapping[str, Any], data: bytes) -> dict[str, Array]:
     if header["exchange"] != 1:
         raise ValueError(f"found exchange version {header['exchange']}, expected 1")
     arrays: dict[str, Array] = {}
@@ -59,6 +73,10 @@ def _parse(text: bytes, data: bytes) -> Problem:
     for name, rows, columns in header["arrays"]:
         arrays[name] = values[begin : begin + rows * columns].reshape(rows, columns)
         begin += rows * columns
+    return arrays
+
+
+def _problem(header: Mapping[str, Any], arrays: dict[str, Array]) -> Problem:
     return Problem(
         arrays["keyframes"],
         arrays["frames"],
@@ -105,15 +123,33 @@ def solve(function: Method, problem: Problem) -> tuple[dict[str, Any], Array]:
         return {"status": "failed", "why": f"{type(error).__name__}: {error}"}, nothing
 
 
+def measure(function: Metric, reference: Array, estimate: Array) -> dict[str, Any]:
+    """Runs a metric as `serve` does: never raises.
+
+    >>> rows = np.zeros((2, 8))
+    >>> measure(lambda reference, estimate: {"name": "n", "unit": "1", "value": 2}, rows, rows)
+    {'scores': [{'name': 'n', 'unit': '1', 'value': 2}]}
+    """
+    try:
+        scores = function(reference, estimate)
+        return {"scores": [scores] if isinstance(scores, dict) else list(scores)}
+    except Declined as why:
+        return {"status": "declined", "why": str(why)}
+    except Exception as error:  # noqa: BLE001: reported as the reason of the failed score
+        traceback.print_exc()
+        return {"status": "failed", "why": f"{type(error).__name__}: {error}"}
+
+
 def _plain(value: Any) -> Any:
-    """numpy numbers for json."""
-    if isinstance(value, np.generic):
-        return value.item()
+    """numpy numbers and arrays for json."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
     raise TypeError(f"{type(value).__name__} cannot be written as JSON")
 
 
-def answer_all(function: Method, questions: BinaryIO, answers: BinaryIO) -> None:
-    """Answers problems until the end of `questions`."""
+def answer_all(function: Method | None, questions: BinaryIO, answers: BinaryIO) -> None:
+    """Answers requests until the end of `questions`: problems by `function` or the registered method,
+    paired poses by the registered metric."""
     while True:
         header = questions.read(_HEADER.size)
         if not header:
@@ -121,8 +157,14 @@ def answer_all(function: Method, questions: BinaryIO, answers: BinaryIO) -> None
         magic, number, text, data = _HEADER.unpack(header)
         if magic != _MAGIC:
             raise ValueError(f"found magic {magic!r}, expected {_MAGIC!r}")
-        problem = _parse(_read(questions, text), _read(questions, data))
-        report, poses = solve(function, problem)
+        request = json.loads(_read(questions, text))
+        arrays = _arrays(request, _read(questions, data))
+        poses = np.empty((0, 8))
+        if request.get("kind") == "metric":
+            report = measure(_function("metric"), arrays["reference"], arrays["estimate"])
+        else:
+            problem = _problem(request, arrays)
+            report, poses = solve(function or _function("method"), problem)
         body = json.dumps({**report, "poses": len(poses)}, default=_plain).encode()
         answers.write(_HEADER.pack(_MAGIC, number, len(body), poses.nbytes) + body)
         answers.write(poses.tobytes())
@@ -134,35 +176,37 @@ def _write(file: str, poses: Any) -> None:
     Path(file).write_text("\n".join(lines) + "\n")
 
 
-def _run_once(function: Method, folder: str, result: str) -> None:
-    report, poses = solve(function, read_problem(folder))
+def _run_once(function: Method | None, folder: str, result: str) -> None:
+    if (Path(folder) / "evaluation.json").exists():
+        paired = (np.loadtxt(Path(folder) / f"{name}.txt", ndmin=2) for name in ("reference", "estimate"))
+        Path(result).write_text(json.dumps(measure(_function("metric"), *paired), default=_plain))
+        return
+    report, poses = solve(function or _function("method"), read_problem(folder))
     Path(result + ".json").write_text(json.dumps(report, default=_plain))
     _write(result, poses)
 
 
 def _load(sequence: str, trajectory: str, seed: str) -> None:
-    if not _datasets:
-        raise ValueError("no dataset: decorate a function with @loopbench.dataset")
-    for name, poses in _datasets[-1](sequence, int(seed)).items():
+    loaded = _function("dataset")(sequence, int(seed))
+    for name, poses in loaded.items():
         _write(trajectory if name == "trajectory" else f"{trajectory}.{name}", poses)
 
 
 def serve(function: Method | None = None) -> None:
-    """Answers a sweep's problems with a function, by default the last registered one.
+    """Answers a sweep's problems with a function, by default the last registered method, and its
+    evaluations with the last registered metric.
 
-    With two arguments on the command line, solves the folder {problem} and writes {result}, so one
-    file can be used with `run:` and with `serve:`. With three, {sequence}, {trajectory} and {seed},
-    calls the last registered dataset. Otherwise answers over standard input and output
-    until they are closed; prints of the method go to standard error.
+    With two arguments on the command line, reads the folder {problem} or {evaluation} and writes
+    {result}, so one file can be used with `run:` and with `serve:`; with three, {sequence},
+    {trajectory} and {seed}, calls the registered dataset. Otherwise answers over standard input and
+    output until they are closed; prints go to standard error.
     """
-    if len(sys.argv) == 4:
-        return _load(*sys.argv[1:])
-    if function is None:
-        if not _registered:
-            raise ValueError("no method: decorate a function with @loopbench.corrector")
-        function = _registered[-1]
+    if function is None and not _registered:
+        raise ValueError("no method: decorate a function with @loopbench.corrector")
     if len(sys.argv) == 3:
         return _run_once(function, sys.argv[1], sys.argv[2])
+    if len(sys.argv) == 4:
+        return _load(*sys.argv[1:])
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     sys.stdout = sys.stderr
