@@ -27,9 +27,9 @@ struct ProgramStart {
 };
 
 struct ProgramEnd {
-  int exit_code = -1;            ///< -1 unless it exited
-  int signal = 0;                ///< signal that ended it, or 0
-  int start_error = 0;           ///< errno if it could not be started
+  int exit_code = -1;   ///< -1 unless it exited
+  int signal = 0;       ///< signal that ended it, or 0
+  int start_error = 0;  ///< errno if it could not be started
   /// Of the processes that it waited for, too; in a sandbox, cost as sampled every 10 ms.
   double cpu_seconds = 0.0;
   std::int64_t peak_memory = 0;  ///< largest resident size of one of its processes [bytes]
