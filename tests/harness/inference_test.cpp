@@ -11,6 +11,7 @@
 
 namespace loopbench::inference_test {
 
+using namespace metrics;
 using namespace harness;
 
 namespace {
