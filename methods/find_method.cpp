@@ -30,6 +30,7 @@ MethodEntry find_method(const std::string& name) {
 }
 
 Trajectory correct(const Problem& problem, const std::string& name, const Params& options) {
+  const MethodEntry entry = find_method(name);
   const auto corrected = [&](const auto& method) -> Trajectory {
     if constexpr (requires(Report report) { result_of(*method, problem, report); }) {
       const std::string why = method->why_declined(problem);
@@ -37,11 +38,11 @@ Trajectory correct(const Problem& problem, const std::string& name, const Params
       Report report;
       return result_of(*method, problem, report);
     } else {
-      throw InputError(name +
-                       ": is a smoother or a replay, expected a corrector or a joint method");
+      throw InputError(name + ": is a " + to_text(entry.kind) +
+                       ", expected a corrector or a joint method");
     }
   };
-  return std::visit(corrected, find_method(name).make(options));
+  return std::visit(corrected, entry.make(options));
 }
 
 }  // namespace loopbench::methods
