@@ -26,7 +26,7 @@ Trajectory poses_along_x(const std::vector<double>& positions) {
 
 /// Reference at 0, 1, 2, 3, 4 m, estimate equal to it at the end. The robot was at 0, 1.5, 2, 3.5,
 /// 4 m when it was there; closures moved it at keyframes 2 (from 2.5 to 2 m) and 4 (from 5 to 4 m).
-EvaluatedCell drive(Protocol protocol = {.align = Align::none}) {
+EvaluatedCell drive(const Protocol& protocol = {.align = Align::none}) {
   const Replay replay{poses_along_x({0.0, 1.5, 2.0, 3.5, 4.0}),
                       {test::closure_at(2, 2.5, 2.0), test::closure_at(4, 5.0, 4.0)}};
   return {poses_along_x({0, 1, 2, 3, 4}),
