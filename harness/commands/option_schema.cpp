@@ -72,7 +72,7 @@ Json option_schema(const OptionInfo& option, const std::function<bool(const Para
   return out;
 }
 
-Json with_help(const std::string& help, Json schema) {
+Json with_help(const std::string& help, const Json& schema) {
   Json out{{"description", help}};
   out.update(schema);
   return out;

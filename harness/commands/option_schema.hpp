@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 /// `none`.
 Json option_schema(const OptionInfo& option, const std::function<bool(const Params&)>& accepts);
 
-Json with_help(const std::string& help, Json schema);
+Json with_help(const std::string& help, const Json& schema);
 
 /// A map with these properties and no others.
 Json map_of(Json properties, Json required = {});
