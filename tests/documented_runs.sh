@@ -31,6 +31,7 @@ cp "$example/other.txt" systems/theirs/room/1.txt
 awk 'BEGIN { print "time,latitude,longitude,height" }
   !/^#/ { printf "%s,%.12f,%.12f,%s\n", $1, 47 + $3 / 111111, 8 + $2 / 75800, $4 }' reference.txt >gnss.csv
 awk '!/^#/ && n++ % 10 == 0 { print $1, $2, $3, $4, 0, 0, 0, 1 }' reference.txt >points.txt
+awk '!/^#/ { printf "%s", $0; for (i = 0; i < 36; ++i) printf " %s", i % 7 ? 0 : 0.01; print "" }' estimate.txt >wide.txt
 echo 'not a trajectory' >broken.txt
 mkdir runs
 cp gt.txt est.txt runs
