@@ -59,7 +59,10 @@ int answer(const fs::path& file, const ClaimArguments& arguments, const Source& 
       claim.looks, [&](const Look& earlier) { return has_same_results(earlier, look); });
   const bool is_new = seen == claim.looks.end();
   const std::size_t number = static_cast<std::size_t>(seen - claim.looks.begin()) + 1;
-  if (!is_new) look = *seen;
+  if (!is_new) {
+    look = *seen;
+    look.answer = answer_of(claim, look);
+  }
   fmt::print(
       "{}: {}\n  {}\n  {}\n",
       to_text(look.answer),

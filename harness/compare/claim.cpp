@@ -26,6 +26,8 @@ std::string claimed_text(const Claim& claim) {
              : fmt::format("at most {:g} % above {}", -100.0 * claim.margin, claim.baseline);
 }
 
+}  // namespace
+
 ClaimAnswer answer_of(const Claim& claim, const Look& look) {
   const double limit = 1.0 - claim.margin;
   const bool has_mean = std::isfinite(look.mean);
@@ -33,8 +35,6 @@ ClaimAnswer answer_of(const Claim& claim, const Look& look) {
   if (look.low > limit && !(has_mean && look.mean <= limit)) return ClaimAnswer::does_not_hold;
   return ClaimAnswer::cannot_tell;
 }
-
-}  // namespace
 
 double level_of_look(double alpha, std::size_t k) {
   const auto n = static_cast<double>(k);

@@ -13,6 +13,10 @@ namespace loopbench::harness {
 /// the first look, ten at the second.
 double level_of_look(double alpha, std::size_t k);
 
+/// What the interval and the geometric mean ratio of a look say about the claim, whose margin may
+/// have been edited since.
+ClaimAnswer answer_of(const Claim& claim, const Look& look);
+
 /// The answer of one look at `level`. The interval of the typical ratio decides: *holds* if it lies
 /// below 1 - margin, *does not hold* if it lies above, otherwise *cannot tell*, as with too few
 /// groups or a geometric mean ratio on the other side. `comparison` was made at that level with the

@@ -192,6 +192,13 @@ TEST(ClaimCommand, WritesRunsAndRecordsALookOnce) {
   EXPECT_EQ(other.exit_code, 1) << other.err << other.out;
   EXPECT_NE(other.out.find("\n  expected: holds\n"), std::string::npos) << other.out;
   EXPECT_EQ(parse_claim(read_all(folder.path() / "claims/strict.yaml"), "").looks.size(), 1u);
+  // The margin was edited after the look: its interval gives another answer, and no look is spent.
+  std::string edited = read_all(folder.path() / "claims/strict.yaml");
+  edited.replace(edited.find("margin: 0.98"), 12, "margin: 0.00");
+  folder.file("claims/strict.yaml", edited);
+  const CommandResult looser = run("claim claims/strict.yaml --out again");
+  EXPECT_TRUE(looser.out.starts_with("holds: ")) << looser.out;
+  EXPECT_NE(looser.out.find("no look is spent"), std::string::npos) << looser.out;
   // Other data are another claim.
   std::string changed = kConfig;
   changed.replace(changed.find("60"), 2, "61");
