@@ -224,6 +224,8 @@ class Evaluation(unittest.TestCase):
     def test_association_and_alignment_give_the_ate(self):
         rows, estimate = rows_of(GT), rows_of(GOLDEN / "est_drift.txt")
         reference, paired = loopbench.associate(rows, estimate, "evo")
+        alignment = loopbench.align(reference, paired, "sim3")
+        np.testing.assert_allclose(alignment.apply(paired), alignment.poses, atol=1e-12)
         aligned = loopbench.align(reference, paired, "se3").poses
         error = np.sqrt(np.mean(np.sum((aligned - reference)[:, 1:4] ** 2, axis=1)))
         result = loopbench.evaluate(rows, estimate, "evo", align="se3")

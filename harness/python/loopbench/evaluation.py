@@ -26,6 +26,22 @@ class Alignment(NamedTuple):
     condition: float  #: large if the rotation about a line is poorly determined
     transform: Array  #: (7,) x y z qx qy qz qw of reference_from_estimate, applied after the scale
 
+    @property
+    def rotation(self) -> Array:
+        """(3, 3) reference_from_estimate."""
+        x, y, z, w = self.transform[3:]
+        across = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+        return np.eye(3) + 2 * w * across + 2 * across @ across
+
+    def apply(self, poses: npt.ArrayLike) -> Array:
+        """(n, 8) other poses of the estimate's world, such as its keyframes, aligned likewise."""
+        out = np.array(poses, float)
+        q, v, s = self.transform[3:], out[:, 4:7].copy(), out[:, 7:].copy()
+        out[:, 1:4] = self.scale * out[:, 1:4] @ self.rotation.T + self.transform[:3]
+        out[:, 4:7] = q[3] * v + s * q[:3] + np.cross(q[:3], v)
+        out[:, 7:] = q[3] * s - (v @ q[:3])[:, None]
+        return out
+
 
 def _text(value: Any) -> str:
     return str(value).lower() if isinstance(value, (bool, np.bool_)) else str(value)

@@ -43,9 +43,10 @@ def run(
     """Runs a sweep from a file or from the dictionary that a file would contain; returns `rows`.
 
     The methods of a dictionary may be functions as for `correct`, or dictionaries with such a
-    `method` and a `label`. `shard`: only this part, such as "3/8", into OUT/shards/3-of-8. Paths in a dictionary are relative to the current folder. The store is written to `out`, by
-    default results/NAME for a file; that of a dictionary is removed. Failed cells are rows, not
-    errors. Raises RuntimeError with the program's message if the config is invalid.
+    `method` and a `label`. `shard`: only this part, such as "3/8", into OUT/shards/3-of-8. Paths in
+    a dictionary are relative to the current folder. The store is written to `out`, by default
+    results/NAME for a file; that of a dictionary is removed. Failed cells are rows, not errors.
+    Raises RuntimeError with the program's message if the config is invalid.
     """
     if not isinstance(config, Mapping):
         out = Path(out or Path("results") / Path(config).stem)

@@ -97,23 +97,6 @@ class Config:
         return self.options["baseline"]
 
 
-def rotation(alignment):
-    """(3, 3) reference_from_estimate."""
-    x, y, z, w = alignment.transform[3:]
-    across = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.eye(3) + 2 * w * across + 2 * across @ across
-
-
-def moved(alignment, rows):
-    """Rows in the frame of the reference."""
-    q, v, s = alignment.transform[3:], rows[:, 4:7], rows[:, 7:]
-    out = np.array(rows)
-    out[:, 1:4] = alignment.scale * rows[:, 1:4] @ rotation(alignment).T + alignment.transform[:3]
-    out[:, 4:7] = q[3] * v + s * q[:3] + np.cross(q[:3], v)
-    out[:, 7] = q[3] * rows[:, 7] - v @ q[:3]
-    return out
-
-
 class Results:
     """All cells of the article's own tables."""
 

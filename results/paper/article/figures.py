@@ -10,7 +10,6 @@ import math
 
 import numpy as np
 
-from article.cells import moved
 from article.drawing import BLACK, BLUE, FAINT, GREEN, MARKERS, RED, Panel, write_figure
 from article.judge_curves import FAMILIES, FAR, nearest_window
 from article.statements import ARTICLE, SEQUENCES
@@ -99,7 +98,7 @@ def _run_panel(title, ours, raw, segment=None):
     span = segment["span"] if segment else ()
     truth = _thinned(_between(raw.reference, *span))
     # In the alignment of the raw run, so that a curve through the keyframes is drawn through them.
-    curve = moved(raw.alignment, ours.raw_estimate)
+    curve = raw.alignment.apply(ours.raw_estimate)
     lines = [("truth", RED, truth, 3.5),
              ("ORB_SLAM2", GREEN, _near(_thinned(_between(raw.estimate, *span)), truth), 2.0),
              ("ours", BLUE, _near(_thinned(_between(curve, *span)), truth), 1.0)]

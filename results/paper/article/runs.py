@@ -14,7 +14,7 @@ import numpy as np
 import yaml
 
 import loopbench
-from article.cells import DRAW, DRAWN, ORB, REAL_STAMPS, Cell, Config, moved
+from article.cells import DRAW, DRAWN, ORB, REAL_STAMPS, Cell, Config
 from article.statements import SEQUENCES
 
 RUNS = yaml.safe_load(Path(__file__).with_name("runs.yaml").read_text(encoding="utf-8"))
@@ -132,7 +132,7 @@ def _add_trajectories(config, saved):
             loaded[cell.dataset] = loopbench.load(**entries[cell.dataset])
         cell.reference, cell.raw_estimate = _evaluated(*loaded[cell.dataset], estimate)
         cell.alignment = loopbench.align(cell.reference, cell.raw_estimate, how)
-        cell.keyframes = moved(cell.alignment, cell.keyframes)
+        cell.keyframes = cell.alignment.apply(cell.keyframes)
 
 
 def _run(file, program):
