@@ -7,14 +7,19 @@
 namespace loopbench::paper {
 namespace {
 
+metrics::Alignment alignment_of(const Trajectory& keyframes,
+                                const Trajectory& reference,
+                                metrics::Align align) {
+  metrics::Protocol protocol;
+  protocol.align = align;
+  return metrics::evaluate(reference, keyframes, protocol).alignment;
+}
+
 /// Transforms the reference to the keyframes' world frame: p = R^T (p_reference - t) / scale.
 Trajectory aligned_reference(const Trajectory& keyframes,
                              const Trajectory& reference,
                              metrics::Align align) {
-  metrics::Protocol protocol;
-  protocol.align = align;
-  const metrics::Alignment to_reference =
-      metrics::evaluate(reference, keyframes, protocol).alignment;
+  const metrics::Alignment to_reference = alignment_of(keyframes, reference, align);
   const Pose estimate_from_reference = to_reference.reference_from_estimate.inverse();
   Trajectory out = reference;
   for (StampedPose& pose : out) {
@@ -47,10 +52,20 @@ methods::manifold::PieceCost nearest_to(const Polyline& reference) {
   };
 }
 
+/// Planes of the reference's axes are set before Dm fits. Rejects what Dm rejects.
+methods::DmOptions dm_options(const PaperOracle::Options& options) {
+  methods::DmOptions out = options.dm;
+  if (options.reference_axes) {
+    const methods::Dm checked(options.dm);
+    out.plane = methods::manifold::Plane::xoy;
+  }
+  return out;
+}
+
 }  // namespace
 
 PaperOracle::PaperOracle(const Options& options, Trajectory reference)
-    : options_(options), dm_(options.dm), reference_(std::move(reference)) {}
+    : options_(options), dm_(dm_options(options)), reference_(std::move(reference)) {}
 
 std::string PaperOracle::why_declined(const Problem& problem) const {
   if (reference_.empty()) return "an oracle needs a reference";
@@ -59,6 +74,19 @@ std::string PaperOracle::why_declined(const Problem& problem) const {
 
 std::unique_ptr<const Curve> PaperOracle::smooth(const Problem& problem,
                                                  methods::Report& report) const {
+  if (!options_.reference_axes) return smooth_in_axes(problem, report);
+  const Rotation axes_from_world =
+      methods::manifold::plane_axes(options_.dm.plane) *
+      alignment_of(problem.keyframes, reference_, options_.reference_align)
+          .reference_from_estimate.rotation;
+  auto curve = smooth_in_axes(methods::manifold::in_axes(problem, axes_from_world), report);
+  report.notes.push_back("oracle: uses the axes of the reference (rotation of the alignment " +
+                         to_text(options_.reference_align) + ")");
+  return methods::manifold::in_world(std::move(curve), problem, axes_from_world);
+}
+
+std::unique_ptr<const Curve> PaperOracle::smooth_in_axes(const Problem& problem,
+                                                         methods::Report& report) const {
   if (options_.reference_abscissa || options_.reference_families || options_.overwrite) {
     report.notes.push_back("oracle: uses the reference");
   }

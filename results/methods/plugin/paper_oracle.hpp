@@ -10,10 +10,11 @@
 
 namespace loopbench::paper {
 
-class PaperOracle final : public methods::Smoother {
+class PaperOracle : public methods::Smoother {
  public:
   struct Options {
     methods::DmOptions dm = {};
+    bool reference_axes = false;  ///< fit in axes of the reference, which `dm.plane` exchanges
     bool reference_abscissa = true;
     bool reference_families = false;
     bool overwrite = false;
@@ -26,12 +27,16 @@ class PaperOracle final : public methods::Smoother {
   std::string why_declined(const Problem& problem) const override;
 
   /// The name of what is used is added to the notes. Aligns the keyframes to the reference as a
-  /// protocol does, and transforms the reference to their world frame by the inverse. Throws
+  /// protocol does, and transforms the reference to their world frame by the inverse. For axes of
+  /// the reference, the keyframes are rotated by the alignment, and the curve back. Throws
   /// std::runtime_error without a unique alignment.
   std::unique_ptr<const Curve> smooth(const Problem& problem,
                                       methods::Report& report) const override;
 
  private:
+  std::unique_ptr<const Curve> smooth_in_axes(const Problem& problem,
+                                              methods::Report& report) const;
+
   Options options_;
   methods::Dm dm_;
   Trajectory reference_;

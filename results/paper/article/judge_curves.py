@@ -10,7 +10,6 @@ import math
 
 import numpy as np
 
-from article.cells import rotation
 from article.statements import ARTICLE, judge
 from article.verdicts import DOES_NOT_HOLD, HOLDS, UNDECIDED
 from loopbench import manifold
@@ -57,11 +56,7 @@ def share_as_near(distance, count):
 
 
 def judged(rms, p):
-    """Whether a curve belongs to the path: far from it, near by chance or not.
-
-    >>> judged(0.01, 0.0005), judged(0.01, 0.05), judged(0.2, 0.0005)
-    ('holds', 'undecided', 'does not hold')
-    """
+    """Whether a curve belongs to the path: far from it, near by chance or not."""
     if rms > FAR:
         return DOES_NOT_HOLD
     return HOLDS if p <= LEVEL else UNDECIDED
@@ -101,7 +96,7 @@ def printed_curve(results, it):
     p = share_as_near(lambda factors: windows.distances(factors).min(), len(it["curve"]))
     in_file = runs[0].reference.copy()
     in_file[:, 1:4] -= runs[0].alignment.transform[:3]
-    in_file[:, 1:4] = in_file[:, 1:4] @ rotation(runs[0].alignment)
+    in_file[:, 1:4] = in_file[:, 1:4] @ runs[0].alignment.rotation
     each = [Windows(run.reference, run.true_keyframes, it).distances().min() for run in runs]
     return {"rms": _length(rms), "slow": speeds.min(), "fast": speeds.max(), "share": _share(p),
             "within": "within" if inside else "not within", "least": _length(min(each)),

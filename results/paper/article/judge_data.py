@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 
-from article.cells import rotation
 from article.statements import SEQUENCES, judge
 from article.verdicts import when
 from loopbench import manifold
@@ -14,13 +13,7 @@ from loopbench import manifold
 
 def rank_correlation(x, y):
     """Spearman's rank correlation; equal values are ranked in the order given. NaN for fewer than
-    three pairs.
-
-    >>> round(rank_correlation([1, 2, 3, 4], [1, 8, 27, 64]), 9)
-    1.0
-    >>> round(rank_correlation([1, 2, 3, 4], [2, 1, 4, 3]), 9)
-    0.6
-    """
+    three pairs."""
     if len(x) < 3:
         return math.nan
     ranks = [np.argsort(np.argsort(values, kind="stable"), kind="stable") for values in (x, y)]
@@ -90,11 +83,7 @@ def _basis(t, k, u, as_printed):
 
 
 def partition_error(as_printed):
-    """Largest deviation of the cubic basis functions' sum from 1.
-
-    >>> round(partition_error(True), 1), partition_error(False) < 1e-12
-    (157.8, True)
-    """
+    """Largest deviation of the cubic basis functions' sum from 1."""
     return max(abs(sum(_basis(t, 4, u, as_printed) for t in range(8)) - 1)
                for u in np.arange(4.0, 8.0, 0.125))
 
@@ -126,7 +115,7 @@ def track(results, it):
 def _tilts(run):
     """Angles of three candidates for "up" to the vertical of the reference [deg]: z of the file,
     gravity, the axis of least variance."""
-    candidates = (rotation(run.alignment)[2, 2], manifold.level_up(run.keyframes)[2],
+    candidates = (run.alignment.rotation[2, 2], manifold.level_up(run.keyframes)[2],
                   manifold.least_variance_axis(run.keyframes)[2])
     return np.degrees(np.arccos(np.minimum(1.0, np.abs(candidates))))
 

@@ -30,11 +30,7 @@ SMALLEST, LARGEST = 3, 5
 
 def compared(best):
     """Candidates that the article compares with the quoted one: its family over N, with the only
-    parabola of panel (b) for three keyframes; all polynomials for sine and rational.
-
-    >>> compared("N4 cubic")
-    ['N3 parabola', 'N4 cubic', 'N5 cubic']
-    """
+    parabola of panel (b) for three keyframes; all polynomials for sine and rational."""
     name = best.split()[1]
     kept = {"parabola": ("poly2",), "cubic": ("poly3",)}.get(name, ("poly2", "poly3"))
     return [each for each, (family, count) in CANDIDATES.items()
@@ -82,11 +78,7 @@ def windows_with_kappa(nodes, it):
     return out
 
 
-def _verdict(errors, best):
-    """
-    >>> [_verdict({"N3": 1.0, "N4": other}, "N3") for other in (1.1, 1.04, 0.9)]
-    ['holds', 'tie', 'does not hold']
-    """
+def verdict_on_fit(errors, best):
     if not errors:
         return CANNOT_BE_JUDGED
     ratio = errors[best] / min(error for name, error in errors.items() if name != best)
@@ -98,7 +90,7 @@ def best_curve(results, it):
     if not (runs := results.runs(it["sequence"])):
         return None
     exact = [window_errors(run.reference, run.true_keyframes, it) for run in runs]
-    verdicts = [_verdict(errors, it["best"]) for errors, _ in exact]
+    verdicts = [verdict_on_fit(errors, it["best"]) for errors, _ in exact]
     estimated, _ = window_errors(runs[0].reference, runs[0].keyframes, it)
     (errors, windows), none = exact[0], "no common window"
     rms = ", ".join(f"{name} {1e3 * error:.2f}" for name, error in errors.items())

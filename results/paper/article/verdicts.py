@@ -28,13 +28,7 @@ def when(holds):
 def verdict_on_change(printed, ours):
     """Verdict on a printed relative change. `holds` requires the same sign and a size within a
     factor of COMPARABLE; a change of ours below TIED_CHANGE is a tie, unless the printed one is as
-    small.
-
-    >>> verdict_on_change(-0.3, -0.2), verdict_on_change(-0.3, -0.1), verdict_on_change(0.3, -0.2)
-    ('holds', 'same sign, other size', 'does not hold')
-    >>> verdict_on_change(-0.3, 0.009), verdict_on_change(0.009, -0.009)
-    ('tie', 'holds')
-    """
+    small."""
     if not math.isfinite(ours):
         return CANNOT_BE_JUDGED
     if abs(ours) < TIED_CHANGE:
@@ -45,11 +39,7 @@ def verdict_on_change(printed, ours):
 
 
 def agreed(verdicts):
-    """The verdict of all keyframes tried; undecided if they differ.
-
-    >>> agreed(["holds", "holds"]), agreed(["holds", "tie"])
-    ('holds', 'undecided')
-    """
+    """The verdict of all keyframes tried; undecided if they differ."""
     verdicts = set(verdicts)
     return verdicts.pop() if len(verdicts) == 1 else UNDECIDED
 
@@ -61,31 +51,19 @@ def within_factor(a, b, factor=COMPARABLE):
 
 def verdict_on_smallest(error, smallest_other):
     """Verdict on "this one has the smallest error": `holds` if every other is larger by more than
-    TIED_CHANGE, `tie` if the smallest is within it.
-
-    >>> [verdict_on_smallest(1.0, other) for other in (1.02, 1.005, 0.995, 0.98)]
-    ['holds', 'tie', 'tie', 'does not hold']
-    """
+    TIED_CHANGE, `tie` if the smallest is within it."""
     if error * (1 + TIED_CHANGE) < smallest_other:
         return HOLDS
     return TIE if error <= smallest_other * (1 + TIED_CHANGE) else DOES_NOT_HOLD
 
 
 def signed_tenths(value):
-    """One decimal; a value that rounds to zero has no minus sign.
-
-    >>> signed_tenths(3.44), signed_tenths(-0.04)
-    ('+3.4', '+0.0')
-    """
+    """One decimal; a value that rounds to zero has no minus sign."""
     return f"{0.0 if abs(value) < 0.05 else value:+.1f}"
 
 
 def percent_change(change):
-    """One decimal below 10 %.
-
-    >>> percent_change(0.034), percent_change(-0.34)
-    ('+3.4 %', '-34 %')
-    """
+    """One decimal below 10 %."""
     return (signed_tenths(100 * change) if abs(change) < 0.1 else f"{100 * change:+.0f}") + " %"
 
 

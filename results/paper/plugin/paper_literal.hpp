@@ -1,7 +1,7 @@
 /// The article's text, literally: `dm` with further options, and their values.
 #pragma once
 
-#include "methods/smoothers/manifold/dm.hpp"
+#include "results/methods/plugin/paper_oracle.hpp"
 
 namespace loopbench::paper {
 
@@ -25,9 +25,6 @@ class PaperLiteral final : public methods::Smoother {
   /// Throws OptionError as Dm does.
   explicit PaperLiteral(const Options& options) : dm_(options.dm) {}
 
-  std::string why_declined(const Problem& problem) const override {
-    return dm_.why_declined(problem);
-  }
   std::unique_ptr<const Curve> smooth(const Problem& problem,
                                       methods::Report& report) const override {
     return dm_.smooth(problem, report);
@@ -45,6 +42,20 @@ void fields(PaperLiteral::Options& o, Visit visit) {
         "level cameras");
   literal_fields(o.dm, visit);
   fields(o.dm, visit);
+}
+
+/// PaperOracle in the axes of the reference. The article does not state its axes; those of its
+/// printed curves are the reference's.
+class ReferenceAxes final : public PaperOracle {
+ public:
+  struct Options : PaperOracle::Options {};
+  using PaperOracle::PaperOracle;
+};
+
+template <class Visit>
+void fields(ReferenceAxes::Options& o, Visit visit) {
+  literal_fields(o.dm, visit);
+  fields(static_cast<PaperOracle::Options&>(o), visit);
 }
 
 /// The equations y = f(x) and z = q(x, y) alone: in world axes, without guards, pieces not joined,

@@ -1,7 +1,7 @@
 /// The article's readings as methods: literal ones, and oracles of results/methods/plugin, which
 /// take axes from the reference or quantify the gain from a leak of it.
 #include "harness/catalogue/plugin.hpp"
-#include "reference_axes.hpp"
+#include "paper_literal.hpp"
 
 namespace loopbench::paper {
 namespace {
@@ -27,14 +27,9 @@ methods::MethodEntry oracle(std::string name, std::string summary, typename T::O
 using namespace loopbench::paper;
 
 LOOPBENCH_PLUGIN(
-    method<PaperLiteral>(
-        "paper_literal_fr1",
-        "the article's equations alone, thresholds for fr1_room: world axes, no guards",
-        {paper_equations({.speed_band = 0.33, .turn_max = 0.75})}),
-    method<PaperLiteral>(
-        "paper_literal_fr3",
-        "the article's equations alone, thresholds for fr3_office: world axes, no guards",
-        {paper_equations({.speed_band = 0.25, .turn_max = 0.42})}),
+    method<PaperLiteral>("paper_literal",
+                         "the article's equations alone: world axes, no guards",
+                         {paper_equations({})}),
     oracle<PaperOracle>("paper_oracle",
                         "dm with y' = f(x') evaluated at the reference's x'; quantifies a leak",
                         {}),
@@ -52,7 +47,8 @@ LOOPBENCH_PLUGIN(
         "paper_reference_axes",
         "the article's equations alone in the reference's axes: uses the rotation of an "
         "alignment, not the reference's positions",
-        {{.dm = paper_equations({}), .reference_abscissa = false}}),
-    oracle<ReferenceAxes>("paper_text",
-                          "paper_reference_axes with equal second derivatives at joints and psi",
-                          {{.dm = paper_text({}), .reference_abscissa = false}}))
+        {{.dm = paper_equations({}), .reference_axes = true, .reference_abscissa = false}}),
+    oracle<ReferenceAxes>(
+        "paper_text",
+        "paper_reference_axes with equal second derivatives at joints and psi",
+        {{.dm = paper_text({}), .reference_axes = true, .reference_abscissa = false}}))
