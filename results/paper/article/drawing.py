@@ -23,7 +23,8 @@ class Panel(NamedTuple):
     lines: list  #: name, colour, points (n, 2) or (n, 3) [m], and width, or style
     spatial: bool = False
     same_scale: bool = True
-    labels: tuple = ("x [m]", "y [m]", "z [m]")
+    numbers: tuple = ()  #: of the first of some points, and these, to be numbered
+    view: tuple = ()  #: direction from which a spatial panel is seen
 
 
 def _draw(axes, panel):
@@ -33,13 +34,18 @@ def _draw(axes, panel):
             columns = np.asarray(points, float)[:, : 3 if panel.spatial else 2].T
             axes.plot(*columns, color=color, label=name, **style)
     axes.set_title(panel.title, fontsize=9)
-    axes.set_xlabel(panel.labels[0])
-    axes.set_ylabel(panel.labels[1])
+    axes.set_xlabel("x [m]")
+    axes.set_ylabel("y [m]")
     if panel.spatial:
-        axes.set_zlabel(panel.labels[2])
+        axes.set_zlabel("z [m]")
+    for k, point in enumerate(panel.numbers[1] if panel.numbers else ()):
+        axes.text(*point, f"  {panel.numbers[0] + k}")
+    if len(panel.view):
+        x, y, z = panel.view
+        axes.view_init(np.degrees(np.arctan2(z, np.hypot(x, y))), np.degrees(np.arctan2(y, x)))
     if panel.same_scale:
         axes.set_aspect("equal", *(() if panel.spatial else ("datalim",)))
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=7, **({"loc": "lower left"} if len(panel.view) else {}))
 
 
 def write_figure(file, panels, columns):

@@ -75,18 +75,20 @@ def sketches(closed, opened):
                 real, ("straight lines", BLUE, corners, 1.2), ("nodes", BLACK, corners, MARKERS),
                 _arrow("T", GREEN, point, 0.5 * size * tangent, 3.0),
                 _arrow("N", "#9467bd", point, 0.5 * size * _unit(np.cross(here, tangent)), 3.0),
-                _arrow("B", "#ff7f0e", point, 0.5 * size * here, 3.0)], spatial=True)],
+                _arrow("B", "#ff7f0e", point, 0.5 * size * here, 3.0)], spatial=True,
+                numbers=(1, corners), view=tangent + here + _unit(np.cross(here, tangent)))],
         3: [Panel("candidates and the optimal tangent psi at p", [
                 ("S", *real[1:]),
                 *(_arrow(f"psi_{k + 1}", FAINT, point, size * each, 1.2)
                   for k, each in enumerate(candidates)),
-                _arrow("psi", BLUE, point, 1.2 * size * psi, 3.0)], spatial=True)],
+                _arrow("psi", BLUE, point, 1.2 * size * psi, 3.0)], spatial=True,
+                numbers=(1, corners))],
         4: [Panel("binormals at P(t) and P(t + dt)", [
                 ("S", *real[1:]), ("nodes", BLACK, points[node : node + 2], MARKERS),
                 _arrow("B(t)", BLUE, point, 0.6 * size * here, 3.0),
                 _arrow("B(t + dt)", GREEN, points[node + 1], 0.6 * size * there, 3.0),
                 _arrow("B(t) moved", FAINT, points[node + 1], 0.6 * size * here, 1.2)],
-                spatial=True)],
+                spatial=True, numbers=(1, corners))],
     }
     widest = np.degrees(np.max(manifold.angles(candidates, np.tile(psi, (len(candidates), 1)))))
     torsion = np.degrees(manifold.angles(here, there)[0])

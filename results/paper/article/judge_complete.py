@@ -9,7 +9,9 @@ import numpy as np
 
 from article.judge_data import rank_correlation
 from article.statements import judge
-from article.verdicts import DOES_NOT_HOLD, HOLDS, TIE, TIED_CHANGE, percent_change, when
+from article.verdicts import (
+    DOES_NOT_HOLD, HOLDS, TIE, TIED_CHANGE, agreed, percent_change, when,
+)
 from loopbench import manifold
 
 
@@ -47,8 +49,17 @@ def complete_run(results, it):
         return None
     each, claim = [found for found in each if found], CLAIMS[it["claim"]]
     changes = [found["relative"] for found in each]
-    return {**each[0], "change": percent_change(changes[0]), "verdict": claim(each[0]),
+    others = [measured(cells.get(run.dataset), run) for run in results.resampled(it["sequence"])]
+    others = [found for found in others if found]
+    verdicts, elsewhere, change_elsewhere = [claim(found) for found in [each[0], *others]], "", ""
+    if others:
+        relative = [found["relative"] for found in others]
+        elsewhere = (f"; at real stamps and draws of them in {verdicts[1:].count(HOLDS)} of"
+                     f" {len(others)}")
+        change_elsewhere = f", {percent_change(min(relative))} to {percent_change(max(relative))}"
+    return {**each[0], "change": percent_change(changes[0]), "verdict": agreed(verdicts),
             "held": [claim(found) for found in each].count(HOLDS), "count": len(each),
+            "elsewhere": elsewhere, "change_elsewhere": elsewhere and elsewhere + change_elsewhere,
             "lowest": percent_change(min(changes)), "highest": percent_change(max(changes))}
 
 
