@@ -39,18 +39,19 @@ Trajectory BatchUpdates::update(const Increment& added, Report& report) {
   curve_.reset();
   Trajectory tracked;
   if (is_warm_) tracked = std::exchange(known_.keyframes, chain_.poses());
-  solve(report);
+  if (!solve(report) && !added.withdrawn.empty()) chain_.restart();
   if (is_warm_) known_.keyframes = std::move(tracked);
   return chain_.poses();
 }
 
-void BatchUpdates::solve(Report& report) {
+bool BatchUpdates::solve(Report& report) {
   if (!method_.why_declined(known_).empty()) {
     ++declined_;
-    return;
+    return false;
   }
   curve_ = method_.estimate(known_, report);
   chain_.replace(curve_->sample(stamps(known_.keyframes)));
+  return true;
 }
 
 }  // namespace loopbench::methods

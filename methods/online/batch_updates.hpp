@@ -18,7 +18,8 @@ class BatchUpdates final : public Incremental {
   BatchUpdates& operator=(const BatchUpdates&) = delete;
 
   /// Returns the poses of the method's curve at the keyframes. Where the method declines the data
-  /// so far, these are the last solution extended by odometry.
+  /// so far, these are the last solution extended by odometry, or odometry alone if that solution
+  /// has a closure that is withdrawn now.
   Trajectory update(const Increment& added, Report& report) override;
 
   /// Number of updates that the method declined.
@@ -28,7 +29,7 @@ class BatchUpdates final : public Incremental {
   std::unique_ptr<const Curve> take_curve() { return std::move(curve_); }
 
  private:
-  void solve(Report& report);
+  bool solve(Report& report);  ///< false if the method declines
 
   const Estimator& method_;
   bool is_warm_;

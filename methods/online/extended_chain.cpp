@@ -27,6 +27,13 @@ void ExtendedChain::extend(std::size_t count) {
   }
 }
 
+void ExtendedChain::restart() {
+  const std::size_t count = poses_.size();
+  poses_.clear();
+  scale_ = 1.0;
+  extend(count);
+}
+
 void ExtendedChain::replace(Trajectory solved) {
   poses_ = std::move(solved);
   scale_ = 1.0;

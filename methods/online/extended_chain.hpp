@@ -19,6 +19,9 @@ class ExtendedChain {
   /// Replaces all poses by a solution, one pose per keyframe known so far.
   void replace(Trajectory solved);
 
+  /// Replaces all poses by odometry alone.
+  void restart();
+
   const Trajectory& poses() const { return poses_; }
 
  private:

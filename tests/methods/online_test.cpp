@@ -8,6 +8,7 @@
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/correctors/uniform.hpp"
+#include "methods/online/batch_updates.hpp"
 #include "methods/online/replay_run.hpp"
 #include "methods/pipeline.hpp"
 #include "tests/support/corrected.hpp"
@@ -188,6 +189,19 @@ TEST(Online, FalseClosuresAreWithdrawnAndDamageOnlyUntilThen) {
       problem, {.arrivals = {.false_closures = 1, .withdrawn_after = std::nullopt, .seed = 2}});
   EXPECT_NE(positions(stays.curve->sample(stamps(problem.keyframes))),
             positions(test::corrected<Uniform>(problem)));
+}
+
+TEST(Online, TheOnlyClosureIsWithdrawnWithWhatItMoved) {
+  const Problem problem = shortened();
+  const auto method = compose(std::make_unique<Dual>(Dual::Options{}), nullptr);
+  for (const bool is_warm : {false, true}) {
+    BatchUpdates updates(*method, problem.planar, is_warm);
+    Report report;
+    Increment all{.keyframes = problem.keyframes, .odometry = problem.odometry};
+    all.closures = problem.closures;
+    EXPECT_LT(positions(updates.update(all, report)).back(), 3.5);
+    expect_positions(updates.update({.withdrawn = problem.closures}, report), {0, 1, 2, 3, 4});
+  }
 }
 
 TEST(Online, ExtendsSim3ChainsInTheScaleOfTheSolution) {
