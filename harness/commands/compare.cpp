@@ -56,11 +56,7 @@ int print_power(const CompareArguments& arguments, const std::vector<Comparison>
   if (format == ExportFormat::json) {
     throw InputError("--power: cannot be written as json; expected markdown, terminal, latex, csv");
   }
-  write_output(text(tables, arguments.output),
-               arguments.output,
-               "power",
-               begin_provenance(arguments.store),
-               arguments.store);
+  write_output(text(tables, arguments.output), arguments.output, "power", arguments.store);
   return kExitOk;
 }
 
@@ -90,7 +86,7 @@ int print_evo_comparison(CompareArguments arguments) {
 
 /// The config that the sweep of a store was made with, relative to the folder of `file`. Throws
 /// InputError unless its text is that of the store.
-std::string config_of(const CompareArguments& arguments) {
+std::string config_beside_claim(const CompareArguments& arguments) {
   const auto run = read_run(arguments.store);
   const std::string path =
       arguments.config.empty() ? "configs/" + run.at("sweep") + ".yaml" : arguments.config;
@@ -119,7 +115,7 @@ int write_claim(const CompareArguments& arguments,
   const bool leads = comparison.methods.front().method == comparison.options.baseline;
   Claim claim;
   claim.file = arguments.as_claim;
-  claim.config = config_of(arguments);
+  claim.config = config_beside_claim(arguments);
   claim.method = comparison.methods.front().method;
   claim.baseline = leads ? comparison.methods[1].method : comparison.options.baseline;
   claim.metric = metric_of(arguments);
@@ -142,7 +138,6 @@ int write_claim(const CompareArguments& arguments,
 int print_comparison(CompareArguments arguments, const Source& source) {
   if (is_evo_result(arguments.files.front())) return print_evo_comparison(std::move(arguments));
   arguments.store = one_store(arguments.files);
-  std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
   const std::vector<Comparison> comparisons =
       compare_store(arguments.store, metric_of(arguments), arguments.where, arguments.options);
   if (!arguments.as_claim.empty()) return write_claim(arguments, comparisons, source);
@@ -150,7 +145,6 @@ int print_comparison(CompareArguments arguments, const Source& source) {
   write_output(comparisons_text(comparisons, arguments.output),
                arguments.output,
                "comparisons",
-               std::move(provenance),
                arguments.store);
   return kExitOk;
 }

@@ -6,7 +6,6 @@
 #include "datasets/derive/graph_parts.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "harness/base/printable.hpp"
-#include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/eval/correct.hpp"
 #include "harness/eval/named_trajectory.hpp"
@@ -22,12 +21,8 @@ struct DoctorArguments {
   ReadArguments reading;
   std::string reference_format;  ///< empty: same as that of the estimates
   std::string loops;             ///< closures of a trajectory; empty: none
-  std::string apply;             ///< folder for corrected estimates; empty: none
   bool json = false;
 };
-
-/// Where to print what was written: JSON has standard output for itself.
-std::FILE* notes_of(const DoctorArguments& a) { return a.json ? stderr : stdout; }
 
 struct Diagnosed {
   std::string name;
@@ -63,27 +58,6 @@ Diagnosed of_pair(const NamedTrajectory& reference, const NamedTrajectory& estim
   const bool has_stamps = reference.file.has_stamps && estimate.file.has_stamps;
   return {estimate.name,
           metrics::diagnosis(truth, poses, reference.name, estimate.name, has_stamps)};
-}
-
-/// Adds the offset to the stamps of every estimate and writes it to the folder.
-void apply_offsets(const DoctorArguments& a,
-                   std::vector<NamedTrajectory> estimates,
-                   const std::vector<Diagnosed>& all) {
-  std::vector<std::string> names;
-  for (const NamedTrajectory& each : estimates) names.push_back(each.name);
-  const std::string folder = a.apply.ends_with('/') ? a.apply : a.apply + "/";
-  const std::vector<std::string> files = output_files(names, folder, Format::tum);
-  for (std::size_t i = 0; i < estimates.size(); ++i) {
-    reject_overwriting({a.reference, estimates[i].name}, files[i]);
-    double offset = 0.0;
-    for (const metrics::InputFinding& finding : all[i].result.findings) {
-      if (finding.fault == metrics::Fault::time_offset) offset = finding.value;
-    }
-    TrajectoryFile& file = estimates[i].file;
-    shift_stamps(file, offset);
-    write_trajectory(files[i], file, Format::tum);
-    fmt::print(notes_of(a), "{}: offset {:.4f} s applied\n", printable(files[i]), offset);
-  }
 }
 
 std::string report_text(const std::vector<Diagnosed>& all) {
@@ -125,17 +99,14 @@ std::string report_json(const std::vector<Diagnosed>& all) {
 }
 
 int doctor(const DoctorArguments& a) {
-  if (!a.apply.empty() && a.estimates.empty()) {
-    throw InputError("--apply: expected REF and EST; graphs and files of --loops stay as they are");
-  }
   std::vector<Diagnosed> all;
-  std::vector<NamedTrajectory> estimates;
   if (!a.estimates.empty()) {
     ReadArguments of_reference = a.reading;
     if (!a.reference_format.empty()) of_reference.format = a.reference_format;
     const NamedTrajectory reference = read_named(a.reference, of_reference);
-    estimates = read_all_named(a.estimates, a.reading);
-    for (const NamedTrajectory& estimate : estimates) all.push_back(of_pair(reference, estimate));
+    for (const NamedTrajectory& estimate : read_all_named(a.estimates, a.reading)) {
+      all.push_back(of_pair(reference, estimate));
+    }
   }
   if (!a.loops.empty()) {
     if (a.estimates.size() > 1) throw InputError("--loops: expected one trajectory");
@@ -153,7 +124,6 @@ int doctor(const DoctorArguments& a) {
     all.push_back(of_closures(a.reference, problem_of(read_g2o(a.reference), a.reference)));
   }
   fmt::print("{}", a.json ? report_json(all) : printable(report_text(all)));
-  if (!a.apply.empty()) apply_offsets(a, std::move(estimates), all);
   const bool is_clean = std::ranges::all_of(all, [](const Diagnosed& each) {
     return each.result.findings.empty() && each.result.has_checked;
   });
@@ -192,8 +162,6 @@ void add_doctor(CLI::App& app, int& exit_code) {
       ->type_name("WORD");
   command->add_option("--tf", a->reading.tf, "Frames in the TF tree of bags without a topic")
       ->type_name("PARENT.CHILD");
-  command->add_option("--apply", a->apply, "Folder for the estimates with corrected stamps")
-      ->type_name("DIR");
   command->add_flag("--json", a->json, "Print JSON");
   command->callback([a, &exit_code] { exit_code = doctor(*a); });
 }

@@ -20,10 +20,6 @@ struct PublicFile {
 /// The catalogue that the program contains.
 std::vector<PublicFile> public_files();
 
-/// A catalogue in YAML: a list of {name, url, licence, sha256, file, summary}. Throws InputError
-/// `file:line:`.
-std::vector<PublicFile> read_public_files(const std::filesystem::path& catalogue);
-
 /// 64 hexadecimal digits, by the program sha256sum. Throws InputError.
 std::string sha256_of_file(const std::filesystem::path& file);
 

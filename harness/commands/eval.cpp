@@ -183,19 +183,7 @@ void return_large_lists() {
 #endif
 }
 
-/// Prints results of evo.
-int compare_evo_results(const EvalArguments& a) {
-  std::vector<std::string> files{a.reference};
-  files.insert(files.end(), a.estimates.begin(), a.estimates.end());
-  const std::vector<Record> records = read_evo_results(files);
-  fmt::print(
-      "{}",
-      a.csv ? csv(records) : printable(evo_results_text(records, terminal_style(), a.paired)));
-  return kExitOk;
-}
-
 int eval(const EvalArguments& a, const Source& source) {
-  if (is_evo_result(a.reference)) return compare_evo_results(a);
   if (a.estimates.empty() && !std::filesystem::is_directory(a.reference)) {
     throw CLI::RequiredError("EST");
   }

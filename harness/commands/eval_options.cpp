@@ -197,8 +197,7 @@ void declare(CLI::App& command, EvalArguments& a) {
       .add_option(
           "--save_results",
           a.save_results,
-          "Zip file for the APE of the only EST, as evo writes it; `eval *.zip` prints such "
-          "files, also those of evo, with a verdict")
+          "Zip file for the APE of the only EST, as evo writes it, for `table` and `compare`")
       ->type_name("FILE");
   command
       .add_option(

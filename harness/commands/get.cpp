@@ -16,7 +16,6 @@ namespace {
 struct GetArguments {
   std::vector<std::string> names;
   std::string data = ".";
-  std::string catalogue;
 };
 
 void print_catalogue(const std::vector<PublicFile>& known) {
@@ -28,8 +27,7 @@ void print_catalogue(const std::vector<PublicFile>& known) {
 }
 
 int get(const GetArguments& arguments) {
-  const std::vector<PublicFile> known =
-      arguments.catalogue.empty() ? public_files() : read_public_files(arguments.catalogue);
+  const std::vector<PublicFile> known = public_files();
   if (arguments.names.empty()) {
     print_catalogue(known);
     return kExitOk;
@@ -63,8 +61,6 @@ void add_get(CLI::App& app, int& exit_code) {
       ->envname("LOOPBENCH_DATA")
       ->type_name("DIR")
       ->capture_default_str();
-  command->add_option("--catalogue", arguments->catalogue, "YAML file with another catalogue")
-      ->type_name("FILE");
   command->footer("Interrupted downloads continue, and content with another hash is rejected.");
   command->callback([arguments, &exit_code] { exit_code = get(*arguments); });
 }

@@ -8,7 +8,6 @@
 #include "harness/eval/evo_results.hpp"
 #include "harness/model/where.hpp"
 #include "harness/store/record_reader.hpp"
-#include "harness/tables/all_records.hpp"
 #include "harness/tables/record_csv.hpp"
 #include "harness/tables/store_tables.hpp"
 
@@ -26,19 +25,8 @@ struct TableArguments {
   bool is_for_paper = false;       ///< --format latex or markdown
 };
 
-std::string rows_text(const TableArguments& arguments) {
-  std::vector<Record> records = all_records(arguments.store);
-  keep_where(records, arguments.where);
-  if (records.empty()) {
-    throw InputError(arguments.store +
-                     (arguments.where.empty() ? ": has no rows" : ": no row matches --where"));
-  }
-  return csv(records);
-}
-
 std::string tables_text(const TableArguments& arguments) {
   const ExportFormat format = arguments.output.format();
-  if (format == ExportFormat::rows) return rows_text(arguments);
   const std::vector<Table> tables =
       store_tables(arguments.store, arguments.where, arguments.spec, arguments.ranking);
   if (format == ExportFormat::csv) return csv(tables);
@@ -70,9 +58,8 @@ int print_evo_results(const TableArguments& arguments) {
   }
   const std::vector<Record> records = read_evo_results(arguments.files);
   const ExportFormat format = arguments.output.format();
-  const bool has_rows = format == ExportFormat::rows || format == ExportFormat::csv;
   const std::vector<Table> tables = evo_result_tables(records);
-  write_plain(has_rows                       ? csv(records)
+  write_plain(format == ExportFormat::csv    ? csv(records)
               : format == ExportFormat::json ? json(tables)
                                              : text(tables, arguments.output),
               arguments.output,
@@ -83,7 +70,6 @@ int print_evo_results(const TableArguments& arguments) {
 int print_table(TableArguments arguments) {
   if (is_evo_result(arguments.files.front())) return print_evo_results(arguments);
   arguments.store = one_store(arguments.files);
-  std::future<StoreProvenance> provenance = begin_provenance(arguments.store);
   std::vector<std::string> show;
   for (const std::string& word : arguments.spec.show) {
     for (std::string& score : split_list(word)) show.push_back(std::move(score));
@@ -92,8 +78,7 @@ int print_table(TableArguments arguments) {
   if (arguments.has_default_layout && arguments.is_for_paper) {
     choose_columns(arguments.store, arguments.spec);
   }
-  write_output(
-      tables_text(arguments), arguments.output, "tables", std::move(provenance), arguments.store);
+  write_output(tables_text(arguments), arguments.output, "tables", arguments.store);
   return kExitOk;
 }
 
@@ -151,8 +136,7 @@ void add_table(CLI::App& app, int& exit_code) {
            ExportFormat::terminal,
            ExportFormat::latex,
            ExportFormat::csv,
-           ExportFormat::json,
-           ExportFormat::rows});
+           ExportFormat::json});
   command->callback([arguments, command, &exit_code] {
     for (const char* name : {"--rows", "--columns", "--split", "--show", "--where"}) {
       if (command->count(name) > 0) arguments->has_default_layout = false;

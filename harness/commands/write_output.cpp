@@ -21,10 +21,6 @@ bool is_printed(const OutputOptions& output) { return output.file.empty() || is_
 
 }  // namespace
 
-std::future<StoreProvenance> begin_provenance(const std::filesystem::path& store) {
-  return std::async(std::launch::async, read_store_provenance, store);
-}
-
 ExportFormat OutputOptions::format() const {
   const bool has_terminal = is_printed(*this) && prints_to_terminal();
   return given.value_or(has_terminal ? ExportFormat::terminal : ExportFormat::markdown);
@@ -35,17 +31,14 @@ void declare(CLI::App& command, OutputOptions& output, const std::vector<ExportF
                                                   {"terminal", ExportFormat::terminal},
                                                   {"latex", ExportFormat::latex},
                                                   {"csv", ExportFormat::csv},
-                                                  {"json", ExportFormat::json},
-                                                  {"rows", ExportFormat::rows}};
+                                                  {"json", ExportFormat::json}};
   std::map<std::string, ExportFormat> accepted = known;
   std::erase_if(accepted,
                 [&](const auto& one) { return std::ranges::count(formats, one.second) == 0; });
-  const bool has_rows = accepted.contains("rows");
   command
       .add_option("--format",
                   output.given,
-                  std::string("Output format") + (has_rows ? "; rows is the long table" : "") +
-                      "; default: terminal on a terminal, otherwise markdown")
+                  "Output format; default: terminal on a terminal, otherwise markdown")
       ->transform(one_of("format", accepted));
   command
       .add_option("-o,--out",
@@ -74,11 +67,10 @@ std::string text(const std::vector<Table>& tables, const OutputOptions& output) 
 void write_output(const std::string& text,
                   const OutputOptions& output,
                   const std::string& key,
-                  std::future<StoreProvenance> begun,
                   const std::filesystem::path& store) {
   const ExportFormat format = output.format();
   std::string out = text;
-  const StoreProvenance provenance = begun.get();
+  const StoreProvenance provenance = read_store_provenance(store);
   const std::string summary = build_summary(provenance.provenance);
   const auto sweep = provenance.run.find("sweep");
   const std::string source =
@@ -94,9 +86,7 @@ void write_output(const std::string& text,
     out += output.provenance ? provenance_lines(provenance, "% ") : "% " + source + "\n";
   }
   write_plain(out, output, {store_file(store)});
-  if (format == ExportFormat::csv || format == ExportFormat::rows) {
-    write_provenance_of_csv(provenance, output.file);
-  }
+  if (format == ExportFormat::csv) write_provenance_of_csv(provenance, output.file);
 }
 
 void write_plain(const std::string& text,

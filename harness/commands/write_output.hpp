@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +12,7 @@
 
 namespace loopbench::harness {
 
-enum class ExportFormat { markdown, terminal, latex, csv, json, rows };
+enum class ExportFormat { markdown, terminal, latex, csv, json };
 
 /// Options of commands that print tables.
 struct OutputOptions {
@@ -30,9 +29,6 @@ void declare(CLI::App& command, OutputOptions& output, const std::vector<ExportF
 /// The tables one below the other: Markdown, LaTeX, text_csv(), or for the terminal in its width.
 std::string text(const std::vector<Table>& tables, const OutputOptions& output);
 
-/// Reads the provenance on another thread while the output is computed.
-std::future<StoreProvenance> begin_provenance(const std::filesystem::path& store);
-
 /// Writes or prints `text`. A comment in Markdown and LaTeX names the source in one line, or has
 /// the provenance of the store if requested; JSON is {provenance, KEY: text}. CSV has no comments:
 /// the provenance of `x.csv` is written to `x.provenance.json` next to it; for a printed CSV, one
@@ -40,7 +36,6 @@ std::future<StoreProvenance> begin_provenance(const std::filesystem::path& store
 void write_output(const std::string& text,
                   const OutputOptions& output,
                   const std::string& key,
-                  std::future<StoreProvenance> provenance,
                   const std::filesystem::path& store);
 
 /// The same without provenance, for results of other programs. `inputs` are not overwritten.

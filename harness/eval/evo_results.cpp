@@ -13,7 +13,6 @@
 #include "datasets/core/error.hpp"
 #include "datasets/formats/regular_file.hpp"
 #include "harness/eval/recorded_runs.hpp"
-#include "harness/eval/run_summary.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::harness {
@@ -189,19 +188,6 @@ std::vector<Table> evo_result_tables(const std::vector<Record>& records) {
       }
       line.push_back({std::to_string(s.count)});
     }
-  }
-  return out;
-}
-
-std::string evo_results_text(const std::vector<Record>& records,
-                             const std::optional<TerminalStyle>& style,
-                             bool paired) {
-  const std::vector<std::vector<Record>> groups = by_title(records);
-  const std::vector<Table> tables = evo_result_tables(records);
-  std::string out;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    out += (out.empty() ? "" : "\n") + (style ? terminal(tables[i], *style) : markdown(tables[i])) +
-           run_report(groups[i], style, paired);
   }
   return out;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,12 +21,6 @@ std::vector<Record> read_evo_results(const std::vector<std::string>& files);
 
 /// For each title a table of statistics, one row for each file.
 std::vector<Table> evo_result_tables(const std::vector<Record>& records);
-
-/// For each title a table of statistics, one row for each file, and the verdict. As text of
-/// `style`, or Markdown.
-std::string evo_results_text(const std::vector<Record>& records,
-                             const std::optional<TerminalStyle>& style,
-                             bool paired);
 
 /// APE of one evaluation with its errors by pose, as evo's --save_results writes it. `relation`:
 /// trans_part (or empty), point_distance, angle_deg or angle_rad. Needs result.poses. Throws

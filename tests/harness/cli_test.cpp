@@ -84,7 +84,7 @@ TEST_F(Cli, SeveralProtocolsSplitTheTables) {
   EXPECT_NE(tables.find("### b, dense, evo (align=se3)\n"), std::string::npos);
   EXPECT_NE(result.out.find("protocol: loopbench [3], evo (align=se3) [26d0953]"),
             std::string::npos);
-  const CommandResult rows = run("table results/c --format rows --where metric=ate");
+  const CommandResult rows = run("export results/c");
   EXPECT_NE(rows.out.find(",evo (align=se3),26d0953,keyframes,ate,"), std::string::npos)
       << rows.out;
   const CommandResult one = run("table results/c --where protocol=loopbench");
