@@ -30,7 +30,7 @@ struct ClaimArguments {
 constexpr std::size_t kLongestClaim = 1'000'000;  // [bytes]
 
 /// The config beside the claim, or an installed one.
-std::string config_of(const Claim& claim) {
+std::string config_to_run(const Claim& claim) {
   const fs::path beside = claim.file.parent_path() / claim.config;
   std::error_code error;
   return fs::is_regular_file(beside, error) ? beside.string() : config_path(claim.config);
@@ -42,7 +42,7 @@ int answer(const fs::path& file, const ClaimArguments& arguments, const Source& 
   const std::string text = read_named_file(file, kLongestClaim, "claim");
   const Claim claim = parse_claim(text, file);
   RunArguments run;
-  run.config = config_of(claim);
+  run.config = config_to_run(claim);
   run.only = " / (?:" + pattern_of_any({claim.method, claim.baseline}).substr(4);
   run.data = arguments.data;
   run.out =

@@ -1,5 +1,6 @@
 #include "harness/commands/config_path.hpp"
 
+#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 
@@ -14,6 +15,16 @@ std::string config_path(const std::string& given) {
   const fs::path prefix = program.parent_path().parent_path();
   const fs::path installed = prefix / "share/loopbench/configs" / (given + ".yaml");
   return fs::is_regular_file(installed, error) ? installed.string() : given;
+}
+
+std::filesystem::path settings_file(const std::string& name) {
+  const char* settings = std::getenv("XDG_CONFIG_HOME");
+  const bool has_settings = settings != nullptr && *settings == '/';
+  const char* home = std::getenv("HOME");
+  if (!has_settings && home == nullptr) return {};
+  const std::filesystem::path folder =
+      has_settings ? std::filesystem::path(settings) : std::filesystem::path(home) / ".config";
+  return folder / "loopbench" / name;
 }
 
 }  // namespace loopbench::harness

@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <set>
 
@@ -13,6 +12,7 @@
 #include "harness/base/print_error.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/suggest.hpp"
+#include "harness/commands/config_path.hpp"
 #include "harness/commands/help_format.hpp"
 #include "harness/config/values.hpp"
 
@@ -45,13 +45,8 @@ fs::path defaults_file(const std::vector<std::string>& words) {
     if (fs::is_regular_file(beside, ignored)) return beside;
     break;
   }
-  const char* config = std::getenv("XDG_CONFIG_HOME");
-  const char* home = std::getenv("HOME");
-  const fs::path folder = config != nullptr ? fs::path(config)
-                          : home != nullptr ? fs::path(home) / ".config"
-                                            : fs::path();
-  const fs::path out = folder / "loopbench" / kDefaultsName;
-  return !folder.empty() && fs::is_regular_file(out, ignored) ? out : fs::path();
+  const fs::path out = settings_file(kDefaultsName);
+  return fs::is_regular_file(out, ignored) ? out : fs::path();
 }
 
 bool is_given(const CLI::Option& option, const std::vector<std::string>& words) {

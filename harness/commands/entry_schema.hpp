@@ -1,4 +1,4 @@
-/// JSON Schema of the lists of datasets, methods and metrics, see config_schema.hpp.
+/// JSON Schema of the lists of datasets, methods and metrics, see schema.cpp.
 #pragma once
 
 #include "harness/catalogue/catalogue.hpp"

@@ -7,20 +7,24 @@
 #include <filesystem>
 #include <set>
 
+#include "datasets/bags/bag_trajectory.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/wrap.hpp"
 #include "harness/base/write_file.hpp"
+#include "harness/catalogue/scratch.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/eval_options.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/eval/eval_figures.hpp"
 #include "harness/eval/evaluate_files.hpp"
-#include "harness/eval/evaluation_page.hpp"
 #include "harness/eval/evo_results.hpp"
 #include "harness/eval/recorded_store.hpp"
 #include "harness/eval/run_summary.hpp"
+#include "harness/report/report.hpp"
 #include "harness/report/store_figures.hpp"
+#include "harness/run/build.hpp"
 #include "harness/store/read.hpp"
+#include "harness/store/store.hpp"
 #include "harness/tables/record_csv.hpp"
 
 namespace loopbench::harness {
@@ -145,6 +149,33 @@ void write_figures(const EvalArguments& a, const std::vector<EvaluationResult>& 
       fmt::print(stderr, "{}", printable(file_list(figure)));
     }
   }
+}
+
+/// Writes the page of --report, that of `report`, by way of a store in a temporary folder. Names of
+/// --labels replace those of the systems if there are as many.
+void write_evaluation_page(RecordedSweep files,
+                           const std::vector<EvaluatedFile>& evaluations,
+                           const Source& source) {
+  const EvalArguments& a = files.arguments;
+  Sweep& sweep = files.sweep;
+  sweep.name = "Evaluation against " +
+               std::filesystem::path(file_of(files.runs.front().reference)).filename().string();
+  if (a.figures.labels.size() == sweep.methods.size()) {
+    for (std::size_t i = 0; i < sweep.methods.size(); ++i) {
+      sweep.methods[i].label = a.figures.labels[i];
+    }
+    sweep.baseline = sweep.methods.front().label;
+  }
+  const ExchangeFolder folder;
+  const std::filesystem::path file = folder.path() / "results.sqlite";
+  CellKeys keys(sweep, files.catalogue, DataRoot{}, build_id(source.code));
+  Store store(file, keys, provenance(source, sweep, files.catalogue));
+  store.resume(files.cells, files.cells, Retry::failed);
+  for (const EvaluatedFile& each : evaluations) store.write(each.result);
+  store.close();
+  ReportContent content = read_report_content(file, kReportBytes);
+  content.plane = a.figures.plane;
+  write_file(a.report, report_html(std::move(content), kReportBytes));
 }
 
 /// Rejects options that have no effect on a store, before anything is evaluated.

@@ -1,4 +1,4 @@
-/// JSON Schema of the options of an entry, see config_schema.hpp.
+/// JSON Schema of the options of an entry, see schema.cpp.
 #pragma once
 
 #include <functional>

@@ -1,7 +1,6 @@
 #include "harness/commands/run_output.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -78,12 +77,6 @@ std::vector<std::string> bad_inputs(const Sweep& sweep,
   return out;
 }
 
-std::size_t terminal_width() {
-  winsize size{};
-  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return known ? size.ws_col : 80;
-}
-
 /// "[####......] 12/30  8.1 cells/s  2 s left  label".
 std::string progress_line(std::size_t done,
                           std::size_t total,
@@ -112,7 +105,7 @@ void Progress::step(const std::string& label) {
   const double seconds = std::chrono::duration<double>(now - begin_).count();
   // One column short, because writing the last column wraps on some terminals.
   const std::string line = progress_line(done_, total_, seconds, label);
-  print_error("\r\033[K{}", line.substr(0, terminal_width() - 1));
+  print_error("\r\033[K{}", line.substr(0, terminal_width(STDERR_FILENO) - 1));
   std::fflush(stderr);
 }
 

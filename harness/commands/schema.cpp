@@ -1,29 +1,138 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
 
 #include "harness/commands/commands.hpp"
-#include "harness/commands/config_schema.hpp"
+#include "harness/commands/entry_schema.hpp"
+#include "harness/config/keys.hpp"
+#include "metrics/protocols/protocols.hpp"
 
 namespace loopbench::harness {
 namespace {
 
+const Json kFlag{{"type", "boolean"}};
+const Json kCount{{"type", "integer"}, {"minimum", 1}, {"maximum", 1'000'000}};
+const Json kTexts{{"type", {"string", "number", "boolean", "array"}}, {"items", kText}};
+
+/// The keys of a map of the config with their schemas.
+Json keys_of(const std::string& map, const std::map<std::string, Json>& schemas) {
+  Json out = Json::object();
+  for (const ConfigKey& key : config_keys(map)) {
+    out[key.name] = with_help(key.help, schemas.at(key.name));
+  }
+  return out;
+}
+
+/// A name, or a map with changes.
+Json protocol_schema() {
+  Json known = Json::array();
+  const std::vector<metrics::ProtocolEntry> all = metrics::protocols();
+  for (const metrics::ProtocolEntry& entry : all) known.push_back(entry.name);
+  Json properties{{"base", one_of(known)}};
+  for (const OptionInfo& option : describe(all.front().protocol)) {
+    properties[option.name] = option_schema(option, [](const Params& given) {
+      try {
+        metrics::named_protocol(metrics::NamedProtocol{}.name, given);
+        return true;
+      } catch (const OptionError&) {
+        return false;
+      }
+    });
+  }
+  add_nested(properties);
+  return {{"type", {"string", "object"}},
+          {"if", {{"type", "string"}}},
+          {"then", one_of(known)},
+          {"else", map_of(properties)}};
+}
+
+Json times_schema() {
+  Json known = Json::array();
+  for (const auto& [name, value] : choices(metrics::Times{})) known.push_back(name);
+  return {
+      {"anyOf", {one_of(known), {{"type", "array"}, {"minItems", 1}, {"items", one_of(known)}}}}};
+}
+
+Json limits_schema() {
+  return map_of(keys_of("limits",
+                        {{"seconds", {{"type", "number"}, {"minimum", 0}}},
+                         {"memory", {{"type", {"string", "integer"}}}},
+                         {"cells", {{"type", "integer"}, {"minimum", 1}}}}));
+}
+
+Json timing_schema() {
+  return {
+      {"anyOf", {kCount, kFlag, map_of(keys_of("timing", {{"runs", kCount}, {"serial", kFlag}}))}}};
+}
+
+Json table_schema() {
+  return map_of(keys_of("table",
+                        {{"rows", kTexts},
+                         {"columns", kTexts},
+                         {"split", kTexts},
+                         {"value", kText},
+                         {"show", kTexts},
+                         {"where", kTexts},
+                         {"plus_minus", kFlag}}));
+}
+
+Json exclude_schema() {
+  return {{"type", "array"},
+          {"items", map_of(keys_of("exclude", {{"dataset", kText}, {"method", kText}}))}};
+}
+
+/// JSON Schema (draft 7) of configs, generated from the catalogue: what `list --json` prints, and
+/// the keys that `run` accepts. Names of entries are checked unless a config lists plugins, whose
+/// names it cannot contain.
+Json config_schema(const Catalogue& catalogue) {
+  Json definitions{{"values", values_schema()}, {"protocol", protocol_schema()}};
+  const Json list{{"type", "array"}, {"minItems", 1}};
+  const Json protocol = reference("protocol");
+  Json properties = keys_of("",
+                            {{"description", kText},
+                             {"plugins", kTexts},
+                             {"datasets", list},
+                             {"methods", list},
+                             {"metrics", list},
+                             {"times", times_schema()},
+                             {"protocol",
+                              {{"if", {{"type", "array"}}},
+                               {"then", {{"minItems", 1}, {"items", protocol}}},
+                               {"else", protocol}}},
+                             {"baseline", kText},
+                             {"min_coverage", {{"type", "number"}, {"minimum", 0}, {"maximum", 1}}},
+                             {"repeats", kCount},
+                             {"timing", timing_schema()},
+                             {"traces", kFlag},
+                             {"limits", limits_schema()},
+                             {"exclude", exclude_schema()},
+                             {"table", table_schema()}});
+  Json out{{"$schema", "http://json-schema.org/draft-07/schema#"},
+           {"title", "config of loopbench"}};
+  out.update(map_of(std::move(properties), {"datasets", "methods", "metrics"}));
+  out["patternProperties"] = {{"^_", true}};  // for anchors
+  out["if"] = {{"required", {"plugins"}}};    // their names are not known here
+  out["else"]["properties"] = list_schemas(catalogue, definitions);
+  out["definitions"] = std::move(definitions);
+  return out;
+}
+
 /// One line for each definition, so that changes can be read in the history of a file.
-std::string text(const nlohmann::ordered_json& schema) {
+std::string text(const Json& schema) {
   const auto dump = [](const auto& json) {
-    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
   };
   std::string out;
   for (const auto& [key, value] : schema.items()) {
-    out += (out.empty() ? "{\n" : ",\n") + dump(nlohmann::ordered_json(key)) + ": ";
+    out += (out.empty() ? "{\n" : ",\n") + dump(Json(key)) + ": ";
     if (key != "definitions") {
       out += dump(value);
       continue;
     }
     std::string lines;
     for (const auto& [name, definition] : value.items()) {
-      lines += (lines.empty() ? "{\n" : ",\n") + dump(nlohmann::ordered_json(name)) + ": " +
-               dump(definition);
+      lines += (lines.empty() ? "{\n" : ",\n") + dump(Json(name)) + ": " + dump(definition);
     }
     out += lines + "\n}";
   }

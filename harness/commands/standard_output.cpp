@@ -20,18 +20,6 @@ std::string_view environment(const char* name) {
   return text == nullptr ? "" : text;
 }
 
-/// Width of the terminal that `stream` is.
-std::size_t width_of(int stream) {
-  std::size_t out = 0;
-  winsize size{};
-  if (ioctl(stream, TIOCGWINSZ, &size) == 0) out = size.ws_col;
-  if (out == 0) {
-    const std::string columns(environment("COLUMNS"));
-    out = std::strtoul(columns.c_str(), nullptr, 10);
-  }
-  return std::max(out == 0 ? kUsualWidth : out, kNarrowest);
-}
-
 /// `line` broken at spaces into `columns`, later lines indented; 0: one line.
 std::string indented(const std::string& line, std::size_t columns) {
   std::string out;
@@ -43,12 +31,23 @@ std::string indented(const std::string& line, std::size_t columns) {
 
 }  // namespace
 
+std::size_t terminal_width(int stream) {
+  std::size_t out = 0;
+  winsize size{};
+  if (ioctl(stream, TIOCGWINSZ, &size) == 0) out = size.ws_col;
+  if (out == 0) {
+    const std::string columns(environment("COLUMNS"));
+    out = std::strtoul(columns.c_str(), nullptr, 10);
+  }
+  return std::max(out == 0 ? kUsualWidth : out, kNarrowest);
+}
+
 bool prints_to_terminal() { return isatty(STDOUT_FILENO) == 1; }
 
 TerminalStyle standard_output_style() {
   if (!prints_to_terminal()) return {};
   TerminalStyle out;
-  out.width = width_of(STDOUT_FILENO);
+  out.width = terminal_width(STDOUT_FILENO);
   out.color = environment("NO_COLOR").empty() && environment("TERM") != "dumb";
   return out;
 }
@@ -58,7 +57,7 @@ std::string fitted(const std::string& line) {
 }
 
 std::string fitted_error(const std::string& line) {
-  return indented(line, isatty(STDERR_FILENO) == 1 ? width_of(STDERR_FILENO) : 0);
+  return indented(line, isatty(STDERR_FILENO) == 1 ? terminal_width(STDERR_FILENO) : 0);
 }
 
 std::string program_name() {

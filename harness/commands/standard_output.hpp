@@ -7,10 +7,13 @@
 
 namespace loopbench::harness {
 
+/// Width of the terminal that `stream` is: from the terminal, else $COLUMNS, else 80; at least 40.
+std::size_t terminal_width(int stream);
+
 /// Whether standard output is a terminal.
 bool prints_to_terminal();
 
-/// Width of the terminal (from the terminal, else $COLUMNS, else 80) and whether it shows colours:
+/// terminal_width() of standard output and whether it shows colours:
 /// not if NO_COLOR is set to any text or TERM is dumb. Without a terminal: unlimited, no colour.
 TerminalStyle standard_output_style();
 

@@ -31,17 +31,8 @@ struct SubmitArguments {
   std::vector<std::string> options;  ///< of `run`
 };
 
-/// $XDG_CONFIG_HOME/loopbench/slurm.sh, or in ~/.config.
-fs::path users_header() {
-  if (const char* folder = std::getenv("XDG_CONFIG_HOME"); folder != nullptr && *folder == '/') {
-    return fs::path(folder) / "loopbench/slurm.sh";
-  }
-  const char* home = std::getenv("HOME");
-  return home == nullptr ? fs::path() : fs::path(home) / ".config/loopbench/slurm.sh";
-}
-
 std::string header_text(const std::string& given) {
-  const fs::path file = given.empty() ? users_header() : fs::path(given);
+  const fs::path file = given.empty() ? settings_file("slurm.sh") : fs::path(given);
   if (given.empty() && !fs::exists(file)) return "";
   std::ifstream in(file);
   if (!in) throw InputError(file.string() + ": cannot be read");

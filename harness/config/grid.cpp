@@ -129,7 +129,7 @@ std::vector<GridPoint> product(const std::vector<GridPoint>& points, const Axis&
   return out;
 }
 
-void refuse_repeats(const GridPoint& point) {
+void reject_repeats(const GridPoint& point) {
   std::set<std::string> seen;
   for (const Setting& setting : point.settings) {
     if (seen.insert(setting.name).second) continue;
@@ -160,7 +160,7 @@ std::vector<GridPoint> expand(const YamlNode& entry, const std::vector<std::stri
     expect_few_points(points.size() * axis.size(), entry);
     points = product(points, axis);
   }
-  for (const GridPoint& point : points) refuse_repeats(point);
+  for (const GridPoint& point : points) reject_repeats(point);
   return points;
 }
 

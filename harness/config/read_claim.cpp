@@ -5,13 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "datasets/formats/regular_file.hpp"
 #include "harness/config/values.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-constexpr std::size_t kLongest = 1'000'000;  // [bytes]
 
 ClaimAnswer as_answer(const YamlNode& node, const std::string& key) {
   const auto value = from_text<ClaimAnswer>(as_text(node, key));
@@ -138,10 +135,6 @@ Claim parse_claim(const std::string& text, const std::filesystem::path& file) {
     throw root.find("over")->error("over: expected groups|sequences");
   }
   return out;
-}
-
-Claim read_claim(const std::filesystem::path& file) {
-  return parse_claim(read_named_file(file, kLongest, "claim"), file);
 }
 
 std::string yaml(const Claim& claim) {

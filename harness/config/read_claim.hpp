@@ -9,7 +9,6 @@
 namespace loopbench::harness {
 
 /// Throws InputError `file:line: key: what is accepted`.
-Claim read_claim(const std::filesystem::path& file);
 Claim parse_claim(const std::string& text, const std::filesystem::path& file);
 
 /// A new claim file with all keys, `looks` last.

@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <limits>
 #include <map>
 
 #include "datasets/core/parallel.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/eval/recordings.hpp"
-#include "harness/model/cell_records.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/model/same_recording.hpp"
+#include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -85,6 +86,55 @@ void join_contents(std::vector<EvaluationResult>& results) {
     const std::string content = recorded_content(contents.at({first.sequence, first.repeat}));
     for (Record& record : result.records) record.content = content;
   }
+}
+
+/// The fields that all records of a cell have in common.
+Record record_of_cell(const CellResult& result, const Sweep& sweep) {
+  Record out;
+  out.cell = static_cast<std::int64_t>(result.cell.index);
+  out.sequence = sweep.datasets[result.cell.dataset].label;
+  out.repeat = result.cell.repeat;
+  out.method = sweep.methods[result.cell.method].label;
+  out.oracle = result.oracle_method;
+  out.milliseconds = result.seconds.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                            : 1e3 * metrics::median(result.seconds);
+  out.is_stated = result.worker.stated;
+  out.status = result.status;
+  out.why = result.why;
+  if (result.metadata) {
+    out.closures = result.metadata->closures;
+    out.oracle_closures = result.metadata->oracle_closures;
+    out.group = result.metadata->group;
+    out.content = result.metadata->content;
+  }
+  return out;
+}
+
+/// One record for each score of a cell of the sweep, or one without a metric if it has none.
+std::vector<Record> records_of(const CellResult& result, const Sweep& sweep) {
+  const Record cell = record_of_cell(result, sweep);
+  if (result.scores.empty()) return {cell};
+  std::vector<Record> out;
+  for (const ScoreResult& score : result.scores) {
+    Record& r = out.emplace_back(cell);
+    r.protocol = sweep.protocols[score.protocol].label();
+    r.protocol_version = sweep.protocols[score.protocol].version;
+    r.times = to_text(score.times);
+    r.metric = score.metric;
+    r.label = score.label;
+    r.relation = score.score.relation;
+    r.axis = score.score.axis;
+    r.unit = score.score.unit;
+    r.better = score.score.better;
+    r.target = score.score.target;
+    r.statistics = score.score.statistics;
+    r.pairs = static_cast<std::int64_t>(score.coverage.pairs);
+    r.possible = static_cast<std::int64_t>(score.coverage.possible);
+    r.span = score.coverage.span;
+    r.status = score.status;
+    r.why = score.why;
+  }
+  return out;
 }
 
 /// The only record of an evaluation that failed.

@@ -10,17 +10,14 @@
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/parallel.hpp"
 #include "harness/eval/eval_figures.hpp"
+#include "harness/eval/evaluation_checks.hpp"
 #include "harness/eval/recordings.hpp"
-#include "harness/eval/reference_notes.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/run/add_scores.hpp"
 #include "harness/run/catch_errors.hpp"
 #include "harness/run/doctor_notes.hpp"
-#include "harness/run/evaluation_notes.hpp"
 #include "harness/run/sequence_identity.hpp"
 #include "harness/run/summarise_sequence.hpp"
-#include "metrics/checks/diagnostics.hpp"
-#include "metrics/checks/extrinsic_offset.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -80,31 +77,6 @@ std::string why_two_clocks(const EvalArguments& a,
   return one + other +
          ", poses without stamps, and the other file has stamps: expected --times FILE (KITTI), "
          "--period S or --association index";
-}
-
-/// Sets diagnosis, notes and other_body.
-void add_checks(EvaluationResult& out,
-                const metrics::Evaluation& evaluation,
-                const RecordedFile& reference,
-                const RecordedFile& estimate,
-                const RecordedSweep& files) {
-  out.diagnosis = metrics::diagnostics(evaluation, {});
-  out.notes = evaluation_notes(reference.poses, evaluation);
-  for (const std::string& note :
-       {shared_datum(evaluation, reference.findings.origin && estimate.findings.origin),
-        reference_error(evaluation, files.arguments.reference_sigma)}) {
-    if (!note.empty()) out.notes.push_back(note);
-  }
-  const double off_unit = std::max(reference.findings.off_unit, estimate.findings.off_unit);
-  for (metrics::Score& score : out.diagnosis) {
-    // Readers normalise, so the value is that of the files.
-    if (score.relation == "off_unit") score = metrics::single("off_unit", "", "1", off_unit);
-  }
-  const std::size_t left_out = reference.findings.repeated + estimate.findings.repeated;
-  out.diagnosis.push_back(metrics::single("left_out", "", "1", static_cast<double>(left_out)));
-  if (const auto offset = metrics::extrinsic_offset(evaluation, {})) {
-    out.other_body = metrics::other_body(*offset, pose_of(files.body));
-  }
 }
 
 std::string common_times_note(const Trajectory& estimate, const std::string& common) {

@@ -1,14 +1,22 @@
-#include "harness/eval/reference_notes.hpp"
+#include "harness/eval/evaluation_checks.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "datasets/core/fields.hpp"
+#include "harness/run/evaluation_notes.hpp"
+#include "metrics/checks/diagnostics.hpp"
+#include "metrics/checks/extrinsic_offset.hpp"
 #include "metrics/errors/ate.hpp"
 
 namespace loopbench::harness {
+namespace {
 
+/// The error without alignment, if the files are in one datum: as stated (converted from WGS 84
+/// about one origin), or frames that differ by less than a tenth of the reference's size, of which
+/// the alignment hides at least half; otherwise empty. O(n).
 std::string shared_datum(const metrics::Evaluation& evaluation, bool is_one_datum) {
   constexpr double kNear = 0.1, kHidden = 0.5;
   const metrics::Alignment& fit = evaluation.alignment;
@@ -41,6 +49,7 @@ std::string shared_datum(const metrics::Evaluation& evaluation, bool is_one_datu
       to_text(fit.type));
 }
 
+/// Whether the ATE exceeds the reference's own error of `sigma` [m] per axis; empty for 0. O(n).
 std::string reference_error(const metrics::Evaluation& evaluation, double sigma) {
   if (sigma == 0.0) return "";
   const double own = std::sqrt(3.0) * sigma;
@@ -53,6 +62,32 @@ std::string reference_error(const metrics::Evaluation& evaluation, double sigma)
   return text + fmt::format("; without it, an ATE of {:.4g} m would be about {:.4g} m",
                             error,
                             std::sqrt(error * error - own * own));
+}
+
+}  // namespace
+
+void add_checks(EvaluationResult& out,
+                const metrics::Evaluation& evaluation,
+                const RecordedFile& reference,
+                const RecordedFile& estimate,
+                const RecordedSweep& files) {
+  out.diagnosis = metrics::diagnostics(evaluation, {});
+  out.notes = evaluation_notes(reference.poses, evaluation);
+  for (const std::string& note :
+       {shared_datum(evaluation, reference.findings.origin && estimate.findings.origin),
+        reference_error(evaluation, files.arguments.reference_sigma)}) {
+    if (!note.empty()) out.notes.push_back(note);
+  }
+  const double off_unit = std::max(reference.findings.off_unit, estimate.findings.off_unit);
+  for (metrics::Score& score : out.diagnosis) {
+    // Readers normalise, so the value is that of the files.
+    if (score.relation == "off_unit") score = metrics::single("off_unit", "", "1", off_unit);
+  }
+  const std::size_t left_out = reference.findings.repeated + estimate.findings.repeated;
+  out.diagnosis.push_back(metrics::single("left_out", "", "1", static_cast<double>(left_out)));
+  if (const auto offset = metrics::extrinsic_offset(evaluation, {})) {
+    out.other_body = metrics::other_body(*offset, pose_of(files.body));
+  }
 }
 
 }  // namespace loopbench::harness
