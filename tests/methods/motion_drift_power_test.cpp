@@ -13,6 +13,8 @@ using namespace methods;
 
 namespace {
 
+constexpr MotionDrift::Values kNone{0.0, 0.0, 0.0, 0.0, 0.0};
+
 /// A straight walk along x with the given steps and errors of the steps, and one closure from start
 /// to end.
 Problem walk_along_x(const std::vector<double>& steps, const std::vector<double>& errors) {
@@ -84,7 +86,8 @@ TEST(MotionDriftPower, NoiseByDistanceReachesTheTheoreticalGain) {
     best += s * (total - s) / total / 18.0;
     even += (s * (total - s) + (s - u * total) * (s - u * total)) / total / 18.0;
   }
-  MotionDrift::Options options{.model = MotionDrift::Model::distance, .fit = false};
+  MotionDrift::Options options{.fit = false};
+  options.drift[1] = kNone;
   options.noise[0] = {0.0, 0.0, 0.01, 0.0, 0.0};
   options.noise[1] = {0.0, 1e-6, 0.0, 0.0, 0.0};
   options.closures = {1.0, 1.0};
@@ -119,7 +122,8 @@ TEST(MotionDriftPower, SteadyDriftReachesTheTheoreticalGain) {
   evenly.col(17) -= Eigen::VectorXd::LinSpaced(18, 1.0, 18.0) / 18.0;
   const double even = (evenly * P * evenly.transpose()).trace() / 18.0;
 
-  MotionDrift::Options options{.model = MotionDrift::Model::time, .fit = false};
+  MotionDrift::Options options{.fit = false};
+  options.drift[1] = kNone;
   options.noise[0] = {0.0, 1e-4, 0.0, 0.0, 0.0};
   options.noise[1] = {0.0, 1e-6, 0.0, 0.0, 0.0};
   options.drift[0][2] = 0.01;
@@ -191,7 +195,8 @@ double against_dual(const MotionDrift::Options& options, double drift, int seeds
 
 TEST(MotionDriftPower, EstimatedVariancesGainNearlyAsMuchAsTrueOnes) {
   const double drift = 6e-4;
-  MotionDrift::Options true_values{.model = MotionDrift::Model::time, .fit = false};
+  MotionDrift::Options true_values{.fit = false};
+  true_values.drift[1] = kNone;
   true_values.noise[0] = {0.0, 4e-4, 0.0, 0.0, 0.0};
   true_values.noise[1] = {0.0, 4e-6, 0.0, 0.0, 0.0};
   true_values.drift[1][2] = drift;

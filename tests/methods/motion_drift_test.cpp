@@ -31,12 +31,9 @@ Problem with_variances(Problem problem, double translation, double rotation) {
 TEST(MotionDrift, EqualsDualForConstantVariancesWithoutDrift) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const Problem problem = with_variances(walk(seed, 14, 0.05), 0.04, 0.01);
-    MotionDrift::Options options{.model = MotionDrift::Model::constant,
-                                 .fit = false,
-                                 .max_iterations = 100,
-                                 .tolerance = 0.0};
-    options.noise[0][0] = 0.04;
-    options.noise[1][0] = 0.01;
+    MotionDrift::Options options{.fit = false, .max_iterations = 100, .tolerance = 0.0};
+    options.noise = {{{0.04, 0.0, 0.0, 0.0, 0.0}, {0.01, 0.0, 0.0, 0.0, 0.0}}};
+    options.drift[1] = {0.0, 0.0, 0.0, 0.0, 0.0};
     options.closures = {1.0, 1.0};
     expect_close(corrected<MotionDrift>(problem, options),
                  corrected<Dual>(problem, {.max_iterations = 100, .tolerance = 0.0}),
@@ -50,12 +47,11 @@ TEST(MotionDrift, CorrectsSteadyDriftThatNoiseCannotExplain) {
   // (motion_drift.hpp).
   const Trajectory truth = hand_held_truth();
   const Problem problem = hand_held();
-  const double constant =
-      rmse(corrected<MotionDrift>(problem, {.model = MotionDrift::Model::constant}), truth);
+  const double dual = rmse(corrected<Dual>(problem), truth);
   MotionDrift::Options with_drift;
   with_drift.drift[0][2] = 0.01;  // [m/m]
   const double drift = rmse(corrected<MotionDrift>(problem, with_drift), truth);
-  EXPECT_LT(drift, 0.75 * constant);
+  EXPECT_LT(drift, 0.75 * dual);
 }
 
 TEST(MotionDrift, DistributesOneScalarLoopByDistance) {
@@ -63,9 +59,9 @@ TEST(MotionDrift, DistributesOneScalarLoopByDistance) {
   // and the closure is as precise as one metre, so each metre gets 0.1 m of the gap of 0.7 m.
   Problem problem = along_x({0, 1, 3, 6}, {0, 1, 3, 6});
   problem.closures.push_back({0, 3, at_x(6.7)});
-  MotionDrift::Options options{.model = MotionDrift::Model::distance, .fit = false};
-  options.noise[0] = {0.0, 0.0, 1.0, 0.0, 0.0};
-  options.noise[1] = {0.0, 1e-6, 0.0, 0.0, 0.0};
+  MotionDrift::Options options{.fit = false};
+  options.noise = {{{0.0, 0.0, 1.0, 0.0, 0.0}, {0.0, 1e-6, 0.0, 0.0, 0.0}}};
+  options.drift[1] = {0.0, 0.0, 0.0, 0.0, 0.0};
   options.closures = {1.0, 1.0};
   const Trajectory out = corrected<MotionDrift>(problem, options);
   EXPECT_NEAR(out[1].world_from_body.translation.x(), 1.1, 1e-9);
@@ -109,7 +105,7 @@ TEST(MotionDrift, ReportsTheEstimatedModel) {
 
 TEST(MotionDrift, HasOneRotationDriftAxisInThePlane) {
   Report report;
-  MotionDrift({}).correct(planar(), report);
+  MotionDrift({.abstain_closures = 0}).correct(planar(), report);
   EXPECT_FALSE(has_count(report, "drift.r.per_second.x"));
   EXPECT_GE(count(report, "drift.r.per_second.z"), 0.0);
 }
@@ -125,6 +121,23 @@ TEST(MotionDrift, EqualsDualWhenCovariancesAreAsStated) {
                corrected<Dual>(problem, {.tolerance = 0.0}),
                1e-6);
   EXPECT_EQ(count(report, "probability.as_stated"), 1.0);
+}
+
+TEST(MotionDrift, EqualsDualWithFewClosuresThatShowNoDrift) {
+  const Problem problem = walk(1, 14, 0.05);
+  ASSERT_LT(problem.closures.size(), 8u);
+  Report report;
+  const Trajectory out = corrected<MotionDrift>(problem, {}, &report);
+  EXPECT_EQ(count(report, "abstained"), 1.0);
+  EXPECT_LT(count(report, "probability.drift"), 0.95);
+  expect_close(out, corrected<Dual>(problem), 0.0);
+
+  Report averaged;
+  corrected<MotionDrift>(problem, {.abstain_closures = 0}, &averaged);
+  EXPECT_FALSE(has_count(averaged, "abstained"));
+  Report certain;
+  corrected<MotionDrift>(problem, {.abstain_factor = 0.0}, &certain);
+  EXPECT_FALSE(has_count(certain, "abstained"));
 }
 
 TEST(MotionDrift, ResultHardlyDependsOnTheSeed) {

@@ -17,6 +17,8 @@ using namespace methods;
 
 namespace {
 
+const MotionDrift::Options kAverage{.abstain_closures = 0};
+
 using namespace test;
 
 Matrix6 information_of(double sigma) { return Matrix6::Identity() / (sigma * sigma); }
@@ -78,10 +80,10 @@ TEST(MotionDriftWeakClosures, EqualVariancesGiveEqualWeights) {
 
 TEST(MotionDriftWeakClosures, AWeakClosureDoesNotChangeTheTrajectory) {
   const Problem problem = drive();
-  const Trajectory without = corrected<MotionDrift>(problem);
+  const Trajectory without = corrected<MotionDrift>(problem, kAverage);
   const double moved = largest_distance(without, problem.keyframes);
   for (const double sigma : {1e3, 1e5}) {
-    const Trajectory with = corrected<MotionDrift>(with_weak_closure(problem, sigma));
+    const Trajectory with = corrected<MotionDrift>(with_weak_closure(problem, sigma), kAverage);
     EXPECT_LT(largest_distance(with, without), 0.2 * moved) << sigma;
   }
 }
@@ -92,9 +94,9 @@ TEST(MotionDriftWeakClosures, DeviationsInAnotherUnitDoNotChangeTheTrajectory) {
   for (std::vector<Edge>* edges : {&scaled.odometry, &scaled.closures}) {
     for (Edge& edge : *edges) edge.information *= 1e-6;
   }
-  const Trajectory out = corrected<MotionDrift>(problem);
+  const Trajectory out = corrected<MotionDrift>(problem, kAverage);
   const double moved = largest_distance(out, problem.keyframes);
-  EXPECT_LT(largest_distance(corrected<MotionDrift>(scaled), out), 0.2 * moved);
+  EXPECT_LT(largest_distance(corrected<MotionDrift>(scaled, kAverage), out), 0.2 * moved);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Errors of motion_drift on the development chains under several settings, and cross-validation of
-// the settings with one sequence, or one odometer, left out:
-//   motion_drift_study DATA > table.md
+// Errors of motion_drift relative to those of dual:
+//   motion_drift_study DATA > chains.md    development chains, complete and in sections
+//   motion_drift_study > controls.md       simulated controls with known drift, 50 seeds each
 #include <fmt/format.h>
 
 #include <atomic>
@@ -10,7 +10,7 @@
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 #include "tests/studies/development_chains.hpp"
-#include "tests/studies/left_out.hpp"
+#include "tests/studies/drift_controls.hpp"
 
 namespace loopbench {
 
@@ -18,123 +18,95 @@ using namespace methods;
 
 namespace {
 
-struct Setting {
-  std::string name;
-  Params options;
-};
+/// Logarithms of ATE / ATE of dual, one list per column.
+using LogRatios = std::vector<std::vector<double>>;
 
-Params chances(double as_stated, double scaled, double steady) {
-  return {{"prior.as_stated_probability", as_stated},
-          {"prior.scaled_probability", scaled},
-          {"prior.drift_probability", steady}};
-}
-
-/// Settings in the table, each an earlier version of the method.
-std::vector<Setting> forms() {
-  return {{"free, drift", chances(0.0, 0.0, 1.0)},
-          {"free, drift or none", chances(0.0, 0.0, 0.3)},
-          {"0.3 for drift", chances(0.5, 0.25, 0.3)},
-          {"current", {}}};
-}
-
-/// Candidates of the cross-validation.
-std::vector<Setting> candidates() {
-  std::vector<Setting> out = forms();
-  out.resize(2);
-  for (const double steady : {0.3, 0.5, 0.7, 0.85}) {
-    for (const double as_stated : {0.3, 0.5, 0.7}) {
-      out.push_back({fmt::format("drift {}, as stated {}", steady, as_stated),
-                     chances(as_stated, 0.25, steady)});
-    }
-  }
-  return out;
-}
-
-/// log(ATE / ATE of dual): one row per chain, one column per setting.
-std::vector<std::vector<double>> log_ratios(const std::vector<DevelopmentChain>& chains,
-                                            const std::vector<Setting>& settings) {
-  std::vector<std::vector<double>> out(chains.size());
-  std::atomic<std::size_t> next{0};
-  parallel_invoke(hardware_threads(), [&](std::size_t) {
-    for (std::size_t i = next++; i < chains.size(); i = next++) {
-      Report report;
-      const double stated = rmse_of(Dual({}).correct(chains[i].problem, report), chains[i]);
-      for (const Setting& setting : settings) {
-        const MotionDrift method(with(MotionDrift::Options{}, setting.options));
-        const double ours = rmse_of(method.correct(chains[i].problem, report), chains[i]);
-        out[i].push_back(std::log(ours / stated));
-      }
-    }
-  });
-  return out;
-}
-
-enum class Part { sequence, odometer };
-
-std::vector<GroupRatios> grouped(const std::vector<DevelopmentChain>& chains,
-                                 const std::vector<std::vector<double>>& logs,
-                                 Part part) {
-  std::vector<GroupRatios> out;
-  for (std::size_t i = 0; i < chains.size(); ++i) {
-    const DevelopmentChain& chain = chains[i];
-    if (out.empty() || out.back().group != chain.odometer) {
-      out.push_back({chain.odometer, part == Part::sequence ? chain.sequence : chain.odometer, {}});
-    }
-    out.back().logs.push_back(logs[i]);
-  }
-  return out;
+/// Columns: dual with rescaled covariances, motion_drift that never abstains, motion_drift.
+std::vector<double> log_ratios(const DevelopmentChain& chain) {
+  Report report;
+  const auto error = [&](const Corrector& method) {
+    return std::log(rmse_of(method.correct(chain.problem, report), chain));
+  };
+  const double dual = error(Dual({}));
+  return {error(Dual({.rescale = true})) - dual,
+          error(MotionDrift({.abstain_closures = 0})) - dual,
+          error(MotionDrift({})) - dual};
 }
 
 /// "0.83 (1.43; 15)": geometric mean, worst, number above 1.05.
-std::string cell(const std::vector<GroupRatios>& groups, std::size_t setting) {
+std::string cell(const std::vector<double>& logs) {
   double mean = 0.0, worst = 0.0;
   int above = 0;
-  for (const GroupRatios& group : groups) {
-    mean += mean_log(group, setting) / static_cast<double>(groups.size());
-    for (const auto& chain : group.logs) {
-      worst = std::max(worst, std::exp(chain[setting]));
-      above += std::exp(chain[setting]) > 1.05;
-    }
+  for (const double log : logs) {
+    mean += log / static_cast<double>(logs.size());
+    worst = std::max(worst, std::exp(log));
+    above += std::exp(log) > 1.05;
   }
   return fmt::format("{:.2f} ({:.2f}; {})", std::exp(mean), worst, above);
 }
 
-void print_forms(const std::vector<DevelopmentChain>& chains) {
-  const std::vector<Setting> settings = forms();
-  const auto groups = grouped(chains, log_ratios(chains, settings), Part::odometer);
-  fmt::print("| odometer | chains |");
-  for (const Setting& setting : settings) fmt::print(" {} |", setting.name);
-  fmt::print("\n| --- | ---: |");
-  for (std::size_t s = 0; s < settings.size(); ++s) fmt::print(" ---: |");
-  const auto row = [&](const std::string& name, const std::vector<GroupRatios>& of) {
-    std::size_t count = 0;
-    for (const GroupRatios& group : of) count += group.logs.size();
-    fmt::print("\n| {} | {} |", name, count);
-    for (std::size_t s = 0; s < settings.size(); ++s) fmt::print(" {} |", cell(of, s));
-  };
-  for (const GroupRatios& group : groups) row(group.group, {group});
-  row("all", groups);
-  fmt::print("\n\n");
+void print_row(const std::string& name, const LogRatios& columns) {
+  fmt::print("| {} | {} |", name, columns.front().size());
+  for (const std::vector<double>& logs : columns) fmt::print(" {} |", cell(logs));
+  fmt::print("\n");
 }
 
-void print_left_out(const std::vector<DevelopmentChain>& chains) {
-  const std::vector<Setting> settings = candidates();
-  const auto logs = log_ratios(chains, settings);
-  for (const Part part : {Part::sequence, Part::odometer}) {
-    const auto groups = grouped(chains, logs, part);
-    const LeftOutEstimate found = left_out(groups);
-    fmt::print("One {} left out: {:.3f} [{:.3f}, {:.3f}], worst {:.2f}, {} of {} above 1.05\n",
-               part == Part::sequence ? "sequence" : "odometer",
-               found.ratio,
-               found.low,
-               found.high,
-               found.worst,
-               found.above,
-               chains.size());
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      fmt::print("- {}: {}\n", groups[g].group, settings[found.chosen[g]].name);
+/// One row per group, in order of appearance.
+void print_table(const std::string& group,
+                 const std::vector<std::string>& columns,
+                 const std::vector<std::pair<std::string, std::vector<double>>>& chains) {
+  fmt::print("| {} | chains |", group);
+  for (const std::string& column : columns) fmt::print(" {} |", column);
+  fmt::print("\n| --- | ---: |");
+  for (std::size_t i = 0; i < columns.size(); ++i) fmt::print(" ---: |");
+  fmt::print("\n");
+  LogRatios one(columns.size()), all(columns.size());
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      one[c].push_back(chains[i].second[c]);
+      all[c].push_back(chains[i].second[c]);
     }
+    if (i + 1 < chains.size() && chains[i + 1].first == chains[i].first) continue;
+    print_row(chains[i].first, one);
+    one.assign(columns.size(), {});
   }
+  print_row("all", all);
+}
+
+template <class Compute>
+auto computed(std::size_t size, Compute compute) {
+  std::vector<std::pair<std::string, std::vector<double>>> out(size);
+  std::atomic<std::size_t> next{0};
+  parallel_invoke(hardware_threads(), [&](std::size_t) {
+    for (std::size_t i = next++; i < size; i = next++) out[i] = compute(i);
+  });
+  return out;
+}
+
+void print_chains(const DataRoot& root) {
+  const std::vector<DevelopmentChain> chains = development_chains(root);
+  print_table("odometer",
+              {"dual rescaled", "never abstains", "motion_drift"},
+              computed(chains.size(), [&](std::size_t i) {
+                return std::pair{chains[i].odometer, log_ratios(chains[i])};
+              }));
+}
+
+void print_controls(double gain) {
+  const std::vector<DriftControl> controls = drift_controls(gain);
+  fmt::print("\nNoise gain {}:\n\n", gain);
+  print_table("control",
+              {"drift known", "dual rescaled", "never abstains", "motion_drift"},
+              computed(controls.size(), [&](std::size_t i) {
+                const DriftControl& control = controls[i];
+                std::vector<double> logs = log_ratios(control.chain);
+                Report report;
+                const auto dual = [&](const DevelopmentChain& chain) {
+                  return std::log(rmse_of(Dual({}).correct(chain.problem, report), chain));
+                };
+                logs.insert(logs.begin(), dual(control.without_drift) - dual(control.chain));
+                return std::pair{control.chain.name, logs};
+              }));
 }
 
 }  // namespace
@@ -142,15 +114,17 @@ void print_left_out(const std::vector<DevelopmentChain>& chains) {
 
 int main(int argc, char** argv) {
   using namespace loopbench;
-  if (argc != 2 || argv[1][0] == '-') {
+  if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
     const bool is_asked = argc == 2 && std::string(argv[1]) == "--help";
-    fmt::print(is_asked ? stdout : stderr, "usage: motion_drift_study DATA\n");
+    fmt::print(is_asked ? stdout : stderr, "usage: motion_drift_study [DATA]\n");
     return is_asked ? 0 : 2;
   }
   try {
-    const auto chains = development_chains({{argv[1]}});
-    print_forms(chains);
-    print_left_out(chains);
+    if (argc == 2) {
+      print_chains({{argv[1]}});
+    } else {
+      for (const double gain : {1.0, 0.25}) print_controls(gain);
+    }
   } catch (const std::exception& error) {
     fmt::print(stderr, "motion_drift_study: {}\n", error.what());
     return 2;

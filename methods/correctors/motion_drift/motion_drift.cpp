@@ -5,33 +5,17 @@
 #include <limits>
 
 #include "methods/correctors/chain.hpp"
+#include "methods/correctors/dual.hpp"
 #include "methods/correctors/motion_drift/evidence.hpp"
 #include "methods/correctors/scale_drift.hpp"
 
 namespace loopbench::methods {
 namespace {
 
-using Model = MotionDrift::Model;
-
-bool has_noise(Model model, Regressor regressor) {
-  switch (regressor) {
-    case Regressor::edge:
-      return model == Model::constant;
-    case Regressor::time:
-      return model >= Model::time;
-    case Regressor::distance:
-      return model >= Model::distance;
-    case Regressor::rotation:
-      return model >= Model::rotation;
-    case Regressor::speed:
-      return model == Model::speed;
-  }
-  return false;
-}
-
-bool has_drift(Model model, Component component, Regressor regressor) {
-  return model == Model::drift && component == Component::rotation &&
-         regressor != Regressor::edge && regressor != Regressor::speed;
+/// Regressors of noise and drift without given values. Speed is not one of them: for evenly spaced
+/// keyframes it is proportional to distance.
+bool is_default(Regressor regressor) {
+  return regressor != Regressor::edge && regressor != Regressor::speed;
 }
 
 void add_noise(MotionModel& out, const MotionDrift::Options& o) {
@@ -39,7 +23,7 @@ void add_noise(MotionModel& out, const MotionDrift::Options& o) {
     for (const Regressor regressor : kRegressors) {
       const auto& given =
           o.noise[static_cast<std::size_t>(component)][static_cast<std::size_t>(regressor)];
-      if (given ? *given == 0.0 : !has_noise(o.model, regressor)) continue;
+      if (given ? *given == 0.0 : !is_default(regressor)) continue;
       out.push_back(
           {TermKind::noise, component, regressor, given.value_or(0.0), given.has_value()});
     }
@@ -51,7 +35,8 @@ void add_drift(MotionModel& out, const MotionDrift::Options& o, bool planar) {
     for (const Regressor regressor : kRegressors) {
       const auto& given =
           o.drift[static_cast<std::size_t>(component)][static_cast<std::size_t>(regressor)];
-      if (given ? *given == 0.0 : !has_drift(o.model, component, regressor)) continue;
+      const bool has_drift = component == Component::rotation && is_default(regressor);
+      if (given ? *given == 0.0 : !has_drift) continue;
       Term term{TermKind::drift, component, regressor, given.value_or(0.0), given.has_value()};
       term.value *= term.value;
       if (component == Component::translation) {
@@ -69,7 +54,7 @@ MotionModel model_of(const MotionDrift::Options& o, bool planar) {
   MotionModel out;
   add_noise(out, o);
   const bool calibrated = std::ranges::any_of(out, &Term::given);
-  if (o.model == Model::drift && !calibrated) {
+  if (!calibrated) {
     out.push_back({TermKind::stated, Component::rotation, Regressor::edge});
   }
   add_drift(out, o, planar);
@@ -89,21 +74,28 @@ std::vector<std::size_t> evenly_spaced(std::size_t size, std::size_t most) {
   return out;
 }
 
+/// Posterior probability of drift.
+double drift_probability(const MotionPrior& prior, const MotionPosterior& posterior) {
+  double out = 0.0;
+  for (std::size_t h = 0; h < prior.hypotheses.size(); ++h) {
+    if (prior.hypotheses[h].has_drift) out += posterior.probabilities[h];
+  }
+  return out;
+}
+
 void count_probabilities(const MotionPrior& prior,
                          const MotionPosterior& posterior,
                          Report& report) {
+  if (prior.hypotheses.size() < 2) return;
   double probabilities[] = {0.0, 0.0, 0.0};
-  double with_drift = 0.0;
   for (std::size_t h = 0; h < prior.hypotheses.size(); ++h) {
     probabilities[static_cast<std::size_t>(prior.hypotheses[h].covariance)] +=
         posterior.probabilities[h];
-    if (prior.hypotheses[h].has_drift) with_drift += posterior.probabilities[h];
   }
-  if (prior.hypotheses.size() < 2) return;
   report.count("probability.as_stated", probabilities[0]);
   report.count("probability.scaled", probabilities[1]);
   report.count("probability.free", probabilities[2]);
-  report.count("probability.drift", with_drift);
+  report.count("probability.drift", drift_probability(prior, posterior));
 }
 
 /// Subsamples the models: each iteration of the average factorises one dense matrix per model, and
@@ -182,6 +174,16 @@ Trajectory MotionDrift::correct(const Problem& problem, Report& report) const {
   return correct_rigid(remove_scale_drift(problem), report);
 }
 
+bool MotionDrift::abstains(const MotionPrior& prior,
+                           const MotionPosterior& posterior,
+                           std::size_t closures) const {
+  if (closures >= static_cast<std::size_t>(options_.abstain_closures)) return false;
+  if (std::ranges::any_of(prior.hypotheses.front().medians, &Term::given)) return false;
+  const double before = options_.prior.drift_probability;
+  const double after = drift_probability(prior, posterior);
+  return after * (1.0 - before) < options_.abstain_factor * (1.0 - after) * before || after == 0.0;
+}
+
 Trajectory MotionDrift::correct_rigid(const Problem& problem, Report& report) const {
   std::vector<EdgeMotion> edge_motions = motions(problem);
   limit_drift(edge_motions, problem, options_.prior.drift_reach);
@@ -199,10 +201,14 @@ Trajectory MotionDrift::correct_rigid(const Problem& problem, Report& report) co
     posterior = posterior_of(prior,
                              evidence_of(posterior.centre, chain, problem, edge_motions, fitted),
                              options_.sampling);
-    chain.set_noise_model(noise_model_of(posterior.centre, problem, edge_motions));
-    iterations += chain.minimise(options_.max_iterations, options_.tolerance);
     report.count("log_evidence", posterior.log_evidence);
     count_probabilities(prior, posterior, report);
+    if (abstains(prior, posterior, problem.closures.size())) {
+      report.count("abstained", 1.0);
+      return Dual({.scale = false}).correct(problem, report);
+    }
+    chain.set_noise_model(noise_model_of(posterior.centre, problem, edge_motions));
+    iterations += chain.minimise(options_.max_iterations, options_.tolerance);
   }
   const bool is_averaged =
       problem.closures.size() <= static_cast<std::size_t>(options_.average_closures);
