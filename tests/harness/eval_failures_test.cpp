@@ -23,10 +23,9 @@ TEST(EvalFailures, AnUndefinedMetricSaysWhyAndTheOthersStand) {
   EXPECT_EQ(find(results, "ate", "translation")["count"], 3);
   ASSERT_EQ(results["undefined"].size(), 3u);  // rpe over 1 frame, 1 s and 1 m
   EXPECT_EQ(results["undefined"][0]["why"],
-            "rpe: found 2 pairs 1.0 frames apart among 3 poses, fewer than min_pairs = 10");
-  EXPECT_EQ(results["undefined"][1]["why"], "rpe: none of 3 poses is 1.0 s before another");
-  EXPECT_NE(eval({file, file, "--full"}).find("\nrpe 1 m undefined: rpe: none of 3"),
-            std::string::npos);
+            "found 2 pairs 1.0 frames apart among 3 poses, fewer than min_pairs = 10");
+  EXPECT_EQ(results["undefined"][1]["why"], "none of 3 poses is 1.0 s before another");
+  EXPECT_NE(eval({file, file, "--full"}).find("\nrpe 1 m undefined: none of 3"), std::string::npos);
 }
 
 // If pairs 1 m apart are selected on the estimate and there are none, the estimate is at fault and
@@ -34,7 +33,7 @@ TEST(EvalFailures, AnUndefinedMetricSaysWhyAndTheOthersStand) {
 TEST(EvalFailures, AFailedMetricIsNotUndefinedAndTheOthersStand) {
   const TemporaryFolder folder;
   const std::string file = folder.file("short.txt", kShort).string();
-  const std::string why = "rpe: none of 3 poses is 1.0 m before another";
+  const std::string why = "none of 3 poses is 1.0 m before another";
   const std::string from_estimate = "--set=pairs_from=estimate";
   const Json evaluated = eval_json({file, file, from_estimate});
   EXPECT_EQ(evaluated["status"], "ok");
@@ -104,11 +103,10 @@ TEST(EvalFailures, NothingThatWasAskedForIsNoSuccess) {
   EXPECT_EQ(results["status"], "undefined");
   EXPECT_EQ(results["why"], "none of the requested metrics is defined");
   EXPECT_TRUE(results["metrics"].empty());
-  EXPECT_EQ(results["undefined"][0]["why"],
-            "rpe: none of 635 poses is 1e+09 frames before another");
+  EXPECT_EQ(results["undefined"][0]["why"], "none of 635 poses is 1e+09 frames before another");
   const std::string text =
       eval({golden("gt.txt"), golden("est_drift.txt"), "-d", "1e9"}, kExitSomeCellsFailed);
-  EXPECT_NE(text.find(" undefined: rpe: none of 635 poses"), std::string::npos) << text;
+  EXPECT_NE(text.find(" undefined: none of 635 poses"), std::string::npos) << text;
 }
 
 }  // namespace
