@@ -9,8 +9,8 @@
 #include "harness/commands/commands.hpp"
 #include "harness/eval/correct.hpp"
 #include "harness/eval/named_trajectory.hpp"
-#include "metrics/doctor/closure_checks.hpp"
 #include "metrics/doctor/diagnose.hpp"
+#include "metrics/doctor/graph_checks.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -5,9 +5,8 @@
 #include <algorithm>
 
 #include "harness/catalogue/external_methods.hpp"
-#include "metrics/doctor/closure_checks.hpp"
 #include "metrics/doctor/diagnose.hpp"
-#include "metrics/doctor/movement.hpp"
+#include "metrics/doctor/graph_checks.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -29,11 +28,12 @@ std::vector<metrics::InputFinding> sure_findings(
     for (StampedPose& pose : shifted) pose.stamp += offset;
   }
   std::vector<metrics::InputFinding> out =
-      metrics::diagnose(pair.reference,
-                        offset != 0.0 ? shifted : pair.estimate,
-                        pair.reference_name,
-                        pair.estimate_name,
-                        pair.has_stamps);
+      metrics::diagnosis(pair.reference,
+                         offset != 0.0 ? shifted : pair.estimate,
+                         pair.reference_name,
+                         pair.estimate_name,
+                         pair.has_stamps)
+          .findings;
   const bool is_aligned = std::ranges::all_of(protocols, aligns_scale);
   std::erase_if(out, [&](metrics::InputFinding& finding) {
     if (finding.fault == metrics::Fault::time_offset && offset != 0.0) {

@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "metrics/doctor/agreement.hpp"
+#include "metrics/doctor/pair_checks.hpp"
 #include "metrics/doctor/speed_match.hpp"
 #include "metrics/doctor/time_offset.hpp"
 
 namespace loopbench::metrics {
 
-std::optional<ClockDrift> check_clock_drift(const Trajectory& reference,
-                                            const Trajectory& estimate) {
+std::optional<StampRepair> check_clock_drift(const Trajectory& reference,
+                                             const Trajectory& estimate) {
   constexpr double kLeast = 0.008, kOfInterval = 0.15;  // change of the offset [s]
   constexpr double kLeastRate = 3e-4;  // clocks of computers differ by 1e-4 at most
   constexpr double kMostRate = 0.01;
@@ -47,16 +48,12 @@ std::optional<ClockDrift> check_clock_drift(const Trajectory& reference,
     return std::nullopt;
   }
   const double origin = estimate.front().stamp;
-  Trajectory shifted = estimate, corrected = estimate;
-  for (std::size_t i = 0; i < estimate.size(); ++i) {
-    shifted[i].stamp += offsets[1].offset;
-    corrected[i].stamp += offsets[0].offset + rate * (estimate[i].stamp - centres[0]);
-  }
-  const double constant = SpeedMatch(reference, shifted).at(0.0);
-  const double drifting = SpeedMatch(reference, corrected).at(0.0);
+  const double at_zero = offsets[0].offset - rate * centres[0];  // for the stamp 0
+  const double constant = SpeedMatch(reference, estimate).at(offsets[1].offset);
+  const double drifting = SpeedMatch(reference, restamped(estimate, 1.0 + rate, at_zero)).at(0.0);
   if (drifting < constant) return std::nullopt;
   const double offset = offsets[0].offset + rate * (origin - centres[0]);
-  return ClockDrift{
+  return StampRepair{
       {Fault::clock_drift,
        fmt::format(
            "the estimate's clock drifts by {:.3f} %: its offset grows from {:.3f} to {:.3f} "
@@ -72,9 +69,8 @@ std::optional<ClockDrift> check_clock_drift(const Trajectory& reference,
        fmt::format("correct its stamps t: t + {:.4f} + {:.6f} (t - {:.3f})", offset, rate, origin),
        1.0 - error / std::abs(change),
        rate},
-      offset,
-      rate,
-      origin};
+      1.0 + rate,
+      at_zero};
 }
 
 }  // namespace loopbench::metrics

@@ -1,5 +1,3 @@
-#include "metrics/doctor/closure_gaps.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "metrics/doctor/closure_paths.hpp"
 #include "metrics/doctor/common_motion.hpp"
+#include "metrics/doctor/graph_checks.hpp"
 
 namespace loopbench::metrics {
 namespace {
@@ -43,37 +41,55 @@ struct GapOverLimit {
 };
 
 std::vector<GapOverLimit> gaps_over_odometry(const std::vector<Edge>& closures,
-                                             const Chain& chain,
-                                             const std::vector<SquaredError>& squares) {
+                                             const Chain& chain) {
   std::vector<double> drifts, errors;
-  for (std::size_t i = 0; i < closures.size(); ++i) {
-    drifts.push_back(drift_of(closures[i], chain));
-    errors.push_back(squares[i].whole);
+  for (const Edge& edge : closures) {
+    drifts.push_back(drift_of(edge, chain));
+    errors.push_back(closure_error(edge, chain, false).whole);
   }
-  const double drift = most_drift(drifts);
-  const double error = most_error(errors);
+  const double drift = most_drift(drifts), error = most_error(errors);
   std::vector<GapOverLimit> out;
   for (std::size_t i = 0; i < closures.size(); ++i) {
-    const Edge& edge = closures[i];
-    const double distance = gap_of(edge, chain);
-    const double length = chain.length(edge.from, edge.to);
+    const double distance = gap_of(closures[i], chain);
+    const double length = chain.length(closures[i].from, closures[i].to);
     const double over = std::max(distance / (kLeastFalseGap + drift * length), errors[i] / error);
-    out.push_back({&edge, distance, length, distance > kLeastFalseGap ? over : 0.0});
+    out.push_back({&closures[i], distance, length, distance > kLeastFalseGap ? over : 0.0});
   }
   return out;
 }
 
-std::vector<GapOverLimit> gaps_over_paths(const Problem& problem,
-                                          const Chain& chain,
-                                          const std::vector<const Edge*>& without) {
-  std::vector<double> drifts;
-  const std::vector<PathGap> all = path_gaps(problem, chain, without);
-  for (const PathGap& gap : all) drifts.push_back(gap.distance / std::max(1.0, gap.length));
-  const double drift = most_drift(drifts);
-  std::vector<GapOverLimit> out;
-  for (const auto& [closure, distance, length] : all) {
-    out.push_back({closure, distance, length, distance / (kLeastFalseGap + drift * length)});
+/// Along the odometry, or over that other closure from which the sections of odometry are shortest:
+/// drift is smaller along these. `closures` are sorted by their ends; of these, the nearest are
+/// compared.
+GapOverLimit gap_over_shortest_path(const std::vector<const Edge*>& closures,
+                                    std::size_t index,
+                                    const Chain& chain) {
+  constexpr double kClosureLength = 2.0;  // [m]
+  constexpr std::size_t kCompared = 20;   // before and after
+  const Edge& edge = *closures[index];
+  GapOverLimit out{&edge, gap_of(edge, chain), chain.length(edge.from, edge.to)};
+  const std::size_t end = std::min(closures.size(), index + kCompared + 1);
+  for (std::size_t j = index - std::min(index, kCompared); j < end; ++j) {
+    const Neighbours pair{&edge, closures[j]};
+    const double length =
+        kClosureLength + chain.length(edge.from, pair.b->from) + chain.length(edge.to, pair.b->to);
+    if (j == index || length >= out.length) continue;
+    out.length = length;
+    out.distance = neighbour_residual(pair, chain).head<3>().norm();
   }
+  return out;
+}
+
+std::vector<GapOverLimit> gaps_over_paths(const std::vector<const Edge*>& closures,
+                                          const Chain& chain) {
+  std::vector<double> drifts;
+  std::vector<GapOverLimit> out;
+  for (std::size_t i = 0; i < closures.size(); ++i) {
+    out.push_back(gap_over_shortest_path(closures, i, chain));
+    drifts.push_back(out.back().distance / std::max(1.0, out.back().length));
+  }
+  const double drift = most_drift(drifts);
+  for (GapOverLimit& gap : out) gap.over = gap.distance / (kLeastFalseGap + drift * gap.length);
   return out;
 }
 
@@ -123,32 +139,32 @@ GapCheck implausible(const std::vector<GapOverLimit>& gaps,
 
 /// A false closure on the shortest path of others makes these contradict it: the worst one is
 /// removed until nothing contradicts.
-GapCheck implausible_paths(const Problem& problem, const Chain& chain) {
+GapCheck implausible_paths(const std::vector<Edge>& closures, const Chain& chain) {
   constexpr std::size_t kMostRemoved = 12;
   std::vector<GapOverLimit> removed;
-  std::vector<const Edge*> without;
+  std::vector<const Edge*> left;
+  for (const Edge& edge : closures) left.push_back(&edge);
+  std::ranges::stable_sort(left, {}, [](const Edge* e) { return std::max(e->from, e->to); });
   for (;;) {
-    const std::vector<GapOverLimit> gaps = gaps_over_paths(problem, chain, without);
+    const std::vector<GapOverLimit> gaps = gaps_over_paths(left, chain);
     if (gaps.empty()) return {};
     const GapOverLimit& worst = *std::ranges::max_element(gaps, {}, &GapOverLimit::over);
     if (!(worst.over > 1.0) || removed.size() == kMostRemoved) {
-      return implausible(gaps, problem.closures.data(), "other closures and the odometry", removed);
+      return implausible(gaps, closures.data(), "other closures and the odometry", removed);
     }
     removed.push_back(worst);
-    without.push_back(worst.closure);
+    std::erase(left, worst.closure);
   }
 }
 
 }  // namespace
 
-GapCheck check_gaps(const Problem& problem,
-                    const Chain& chain,
-                    const std::vector<SquaredError>& errors) {
+GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain) {
   constexpr std::size_t kFewestForPaths = 10;
-  GapCheck found = implausible(
-      gaps_over_odometry(problem.closures, chain, errors), problem.closures.data(), "the odometry");
-  if (found.finding || problem.closures.size() < kFewestForPaths) return found;
-  return implausible_paths(problem, chain);
+  GapCheck found =
+      implausible(gaps_over_odometry(closures, chain), closures.data(), "the odometry");
+  if (found.finding || closures.size() < kFewestForPaths) return found;
+  return implausible_paths(closures, chain);
 }
 
 }  // namespace loopbench::metrics

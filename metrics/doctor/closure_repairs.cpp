@@ -1,5 +1,3 @@
-#include "metrics/doctor/closure_repairs.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "metrics/doctor/common_motion.hpp"
+#include "metrics/doctor/graph_checks.hpp"
 #include "metrics/doctor/loop_likelihood.hpp"
 #include "metrics/doctor/signed_axes.hpp"
 #include "metrics/numerics/angle.hpp"
@@ -18,14 +17,16 @@
 namespace loopbench::metrics {
 namespace {
 
-struct ClosureRepair {
+/// The second argument is the rotation that odometry and the previous closure predict.
+using EdgeChange = std::function<Pose(const Pose&, const Rotation&)>;
+
+struct EdgeRepair {
   Fault fault{};
   std::string what;
   std::string fix;
-  /// The second argument is the rotation that odometry and the previous closure predict.
-  std::function<Pose(const Pose&, const Rotation&)> change;
-  double penalty = 0.0;              ///< logarithm of the number of alternatives
-  double penalty_of_rotation = 0.0;  ///< the same for each component of each closure's rotation
+  EdgeChange change;
+  double penalty = 0.0;             ///< logarithm of the number of alternatives
+  double penalty_of_closure = 0.0;  ///< the same for each closure
 };
 
 Pose read_in_degrees(const Pose& p, const Rotation& predicted) {
@@ -39,40 +40,53 @@ Pose read_in_degrees(const Pose& p, const Rotation& predicted) {
   return {exp_so3((angle + 2.0 * M_PI * rotations) / kDegrees * axis), p.translation};
 }
 
-std::vector<ClosureRepair> candidates() {
-  std::vector<ClosureRepair> out{
-      {Fault::closure_direction,
-       "inverting the closures (or all odometry)",
-       "exchange the two vertices of each closure; in a file of loops the first two columns",
-       [](const Pose& p, const Rotation&) { return p.inverse(); }},
-      {Fault::closure_rotation,
-       "quaternions of the closures in the order w x y z",
-       "write their quaternions as x y z w",
-       [](const Pose& p, const Rotation&) -> Pose {
-         const Rotation& q = p.rotation;
-         return {Rotation(q.x(), q.y(), q.z(), q.w()), p.translation};
-       }},
-      {Fault::closure_rotation,
-       "multiplying the closures' angles by 57.3",
-       "write their angles in radians, converted once",
-       [](const Pose& p, const Rotation&) -> Pose {
-         return {exp_so3(kDegrees * log_so3(p.rotation)), p.translation};
-       }},
-      {Fault::closure_rotation,
-       "the closures' angles in degrees",
-       "write their angles in radians",
-       read_in_degrees,
-       0.0,
-       std::log(kDegrees)}};
+Pose unchanged_edge(const Pose& p, const Rotation&) { return p; }
+Pose inverted_edge(const Pose& p, const Rotation&) { return p.inverse(); }
+
+/// Translations of `edges` in millimetres or centimetres, or those of the other edges: what has to
+/// be written in metres in these cases.
+std::vector<EdgeRepair> unit_repairs(const std::string& edges,
+                                     const std::string& if_larger,
+                                     const std::string& if_smaller) {
+  std::vector<EdgeRepair> out;
   for (const double factor : {0.001, 0.01, 100.0, 1000.0}) {
-    out.push_back(
-        {Fault::closure_unit,
-         fmt::format("multiplying the closures' translations by {:g}", factor),
-         fmt::format("write {} in metres", factor < 1.0 ? "the closures" : "the odometry"),
-         [=](const Pose& p, const Rotation&) -> Pose {
-           return {p.rotation, factor * p.translation};
-         }});
+    out.push_back({Fault::closure_unit,
+                   fmt::format("multiplying the translations of {} by {:g}", edges, factor),
+                   fmt::format("write {} in metres", factor < 1.0 ? if_larger : if_smaller),
+                   [=](const Pose& p, const Rotation&) -> Pose {
+                     return {p.rotation, factor * p.translation};
+                   }});
   }
+  return out;
+}
+
+std::vector<EdgeRepair> candidates() {
+  std::vector<EdgeRepair> out = unit_repairs("the closures", "the closures", "the odometry");
+  out.insert(
+      out.end(),
+      {{Fault::closure_direction,
+        "inverting the closures (or all odometry)",
+        "exchange the two vertices of each closure; in a file of loops the first two columns",
+        inverted_edge},
+       {Fault::closure_rotation,
+        "quaternions of the closures in the order w x y z",
+        "write their quaternions as x y z w",
+        [](const Pose& p, const Rotation&) -> Pose {
+          const Rotation& q = p.rotation;
+          return {Rotation(q.x(), q.y(), q.z(), q.w()), p.translation};
+        }},
+       {Fault::closure_rotation,
+        "multiplying the closures' angles by 57.3",
+        "write their angles in radians, converted once",
+        [](const Pose& p, const Rotation&) -> Pose {
+          return {exp_so3(kDegrees * log_so3(p.rotation)), p.translation};
+        }},
+       {Fault::closure_rotation,
+        "the closures' angles in degrees",
+        "write their angles in radians",
+        read_in_degrees,
+        0.0,
+        std::log(kDegrees)}});
   for (const Matrix3& axes : signed_axes()) {
     if (axes.determinant() < 0.0) continue;
     const Rotation body(axes);
@@ -96,22 +110,20 @@ std::vector<LoopGroup> groups_of(const Problem& problem, const Chain& chain) {
   const std::size_t n = sorted.size();
   std::vector<LoopGroup> out;
   const std::size_t count = std::clamp<std::size_t>((n + 1) / kSize, n < kSize + 1 ? 1 : 2, kMost);
-  const StepCovariances noise = step_covariances(chain);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t begin = i * n / count;
     const std::size_t size = std::min({(i + 1) * n / count - begin, count == 1 ? n : kSize});
     out.emplace_back(
         std::vector<const Edge*>(sorted.begin() + static_cast<std::ptrdiff_t>(begin),
                                  sorted.begin() + static_cast<std::ptrdiff_t>(begin + size)),
-        chain,
-        noise);
+        chain);
   }
   return out;
 }
 
 double log_likelihood(const LoopGroup& group,
                       const Chain& chain,
-                      const ClosureRepair* repair,
+                      const EdgeRepair* repair,
                       PredictionError* errors = nullptr) {
   std::vector<Pose> measured;
   Rotation previous = Rotation::Identity();  // of the gap
@@ -124,7 +136,7 @@ double log_likelihood(const LoopGroup& group,
   }
   double out = group.log_likelihood(measured, errors);
   if (repair != nullptr) {
-    out -= static_cast<double>(measured.size()) * group.rotations() * repair->penalty_of_rotation;
+    out -= static_cast<double>(measured.size()) * repair->penalty_of_closure;
   }
   return out;
 }
@@ -139,10 +151,10 @@ std::size_t step_of(const std::vector<LoopGroup>& groups) {
 double gain_of(const std::vector<LoopGroup>& groups,
                const std::vector<double>& as_read,
                const Chain& chain,
-               const ClosureRepair& repair,
+               const EdgeRepair& repair,
                std::size_t first,
                PredictionError* errors = nullptr) {
-  constexpr double kMostOfGroup = 10.0;
+  constexpr double kMostOfGroup = 20.0;
   double out = 0.0;
   const std::size_t step = step_of(groups);
   for (std::size_t i = first % step; i < groups.size(); i += step) {
@@ -171,12 +183,13 @@ std::pair<double, std::string> largest_change(const PredictionError& before,
 }
 
 /// Median difference of the odometry and the keyframes, over the keyframes' median step [-].
-double odometry_error(const Problem& problem, const std::function<Pose(const Pose&)>& change) {
+double odometry_error(const Problem& problem, const EdgeChange& change) {
   std::vector<double> errors, steps;
   for (const Edge& edge : problem.odometry) {
     const Pose step = problem.keyframes[edge.from].world_from_body.inverse() *
                       problem.keyframes[edge.to].world_from_body;
-    errors.push_back((change(edge.from_from_to).translation - step.translation).norm());
+    errors.push_back(
+        (change(edge.from_from_to, step.rotation).translation - step.translation).norm());
     steps.push_back(step.translation.norm());
   }
   const double step = median_value(std::move(steps));
@@ -187,27 +200,15 @@ double odometry_error(const Problem& problem, const std::function<Pose(const Pos
 
 std::optional<InputFinding> find_odometry_repair(const Problem& problem) {
   constexpr double kBad = 0.3, kBetter = 0.2;
-  struct OdometryRepair {
-    Fault fault{};
-    std::string what;
-    const char* fix;
-    std::function<Pose(const Pose&)> change;
-  };
-  std::vector<OdometryRepair> all{{Fault::odometry_direction,
-                                   "inverting the odometry",
-                                   "exchange the two vertices of each odometry edge",
-                                   [](const Pose& p) { return p.inverse(); }}};
-  for (const double factor : {0.001, 0.01, 100.0, 1000.0}) {
-    all.push_back({Fault::closure_unit,
-                   fmt::format("multiplying the odometry's translations by {:g}", factor),
-                   "write all edges and vertices in metres",
-                   [=](const Pose& p) -> Pose {
-                     return {p.rotation, factor * p.translation};
-                   }});
-  }
-  const double before = odometry_error(problem, [](const Pose& p) { return p; });
+  std::vector<EdgeRepair> all =
+      unit_repairs("the odometry", "all edges and vertices", "all edges and vertices");
+  all.push_back({Fault::odometry_direction,
+                 "inverting the odometry",
+                 "exchange the two vertices of each odometry edge",
+                 inverted_edge});
+  const double before = odometry_error(problem, unchanged_edge);
   if (before < kBad) return std::nullopt;
-  for (const OdometryRepair& repair : all) {
+  for (const EdgeRepair& repair : all) {
     const double after = odometry_error(problem, repair.change);
     if (after > kBetter * before) continue;
     return InputFinding{repair.fault,
@@ -226,16 +227,16 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
   constexpr double kLeastChosen = 5.0, kLeastProven = 3.0;  // in logarithms of the likelihood
   constexpr double kMostRatio = 0.9, kMostOfUnit = 0.3;     // shrinking removes noise, too
   const std::vector<LoopGroup> groups = groups_of(problem, chain);
-  static const std::vector<ClosureRepair> all = candidates();
+  static const std::vector<EdgeRepair> all = candidates();
   std::vector<double> as_read;
   PredictionError before;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const bool is_tested = i % 2 == 1 || step_of(groups) == 1;
     as_read.push_back(log_likelihood(groups[i], chain, nullptr, is_tested ? &before : nullptr));
   }
-  const ClosureRepair* best = nullptr;
+  const EdgeRepair* best = nullptr;
   double largest = kLeastChosen;
-  for (const ClosureRepair& repair : all) {
+  for (const EdgeRepair& repair : all) {
     const double gain = gain_of(groups, as_read, chain, repair, 0) - repair.penalty;
     if (!(gain > largest)) continue;
     largest = gain;

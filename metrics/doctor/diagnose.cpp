@@ -8,21 +8,26 @@
 #include <utility>
 
 #include "metrics/doctor/agreement.hpp"
-#include "metrics/doctor/file_checks.hpp"
-#include "metrics/doctor/position_checks.hpp"
+#include "metrics/doctor/pair_checks.hpp"
 #include "metrics/doctor/repairs.hpp"
 #include "metrics/doctor/speed_match.hpp"
-#include "metrics/doctor/stamp_checks.hpp"
 #include "metrics/doctor/time_offset.hpp"
 
 namespace loopbench::metrics {
 namespace {
 
+/// Positions without rotations with constant ones.
+Trajectory with_rotations(Trajectory poses) {
+  if (!lacks_rotations(poses)) return poses;
+  for (StampedPose& pose : poses) pose.world_from_body.rotation = Rotation::Identity();
+  return poses;
+}
+
 /// The pair with the repairs of what was found.
 class PairDiagnosis {
  public:
-  PairDiagnosis(const Trajectory& reference, const Trajectory& estimate)
-      : reference_(reference), estimate_(estimate) {}
+  PairDiagnosis(Trajectory reference, Trajectory estimate)
+      : reference_(std::move(reference)), estimate_(std::move(estimate)) {}
 
   Diagnosis run(const std::string& reference_name,
                 const std::string& estimate_name,
@@ -48,28 +53,17 @@ class PairDiagnosis {
     if (!found) return;
     add(std::move(found->finding));
     out_.has_checked = true;
-    for (StampedPose& pose : found->is_of_reference ? reference_ : estimate_) {
-      pose.stamp = found->factor * pose.stamp + found->offset;
-    }
+    Trajectory& poses = found->is_of_reference ? reference_ : estimate_;
+    poses = restamped(std::move(poses), found->factor, found->offset);
   }
 
   void check_stamps() {
     add(check_stamp_unit(reference_, estimate_));
-    if (auto indices = check_frame_indices(reference_, estimate_)) {
-      if (indices->factor == 0.0) estimate_.clear();
-      add(std::move(indices));
-      if (!estimate_.empty()) check_offset();
-      return;
-    }
-    if (auto drift = check_clock_drift(reference_, estimate_)) {
-      for (StampedPose& pose : estimate_) {
-        pose.stamp += drift->offset + drift->rate * (pose.stamp - drift->origin);
-      }
-      add(std::move(drift->finding));
-      out_.has_checked = true;
-    } else {
-      check_offset();
-    }
+    auto clock = check_frame_indices(reference_, estimate_);
+    if (!clock) clock = check_clock_drift(reference_, estimate_);
+    const bool has_offset = !clock || clock->finding.fault == Fault::frame_indices;
+    add(std::move(clock));
+    if (has_offset && !estimate_.empty()) check_offset();
   }
 
   void check_offset() {
@@ -178,18 +172,15 @@ Diagnosis diagnosis(const Trajectory& reference,
                     const std::string& reference_name,
                     const std::string& estimate_name,
                     bool has_stamps) {
-  if (lacks_rotations(reference) || lacks_rotations(estimate)) {
-    return diagnosis_of_positions(reference, estimate, reference_name, estimate_name, has_stamps);
+  if (!lacks_rotations(reference) && !lacks_rotations(estimate)) {
+    return PairDiagnosis(reference, estimate).run(reference_name, estimate_name, has_stamps);
   }
-  return PairDiagnosis(reference, estimate).run(reference_name, estimate_name, has_stamps);
-}
-
-std::vector<InputFinding> diagnose(const Trajectory& reference,
-                                   const Trajectory& estimate,
-                                   const std::string& reference_name,
-                                   const std::string& estimate_name,
-                                   bool has_stamps) {
-  return diagnosis(reference, estimate, reference_name, estimate_name, has_stamps).findings;
+  Diagnosis out = PairDiagnosis(with_rotations(reference), with_rotations(estimate))
+                      .run(reference_name, estimate_name, has_stamps);
+  std::erase_if(out.findings, [](const InputFinding& finding) {
+    return finding.fault == Fault::constant_rotation || finding.fault == Fault::swapped;
+  });
+  return out;
 }
 
 }  // namespace loopbench::metrics

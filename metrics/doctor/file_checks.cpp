@@ -1,5 +1,3 @@
-#include "metrics/doctor/file_checks.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "metrics/doctor/common_motion.hpp"
+#include "metrics/doctor/pair_checks.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {

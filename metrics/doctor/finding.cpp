@@ -33,7 +33,6 @@ std::string fault_name(Fault fault) {
                                      "closure_gap",
                                      "information_order",
                                      "information_scale",
-                                     "edge_covariance",
                                      "nothing_moved",
                                      "lever_arm",
                                      "body_rotation"};

@@ -31,7 +31,6 @@ enum class Fault {
   closure_gap,         ///< closures that the odometry contradicts
   information_order,   ///< blocks of rotation and translation exchanged
   information_scale,   ///< stated covariances contradict the residuals
-  edge_covariance,     ///< stated covariances of single closures contradict the residuals
   nothing_moved,       ///< a correction without effect
   lever_arm,           ///< the reference is that of another body
   body_rotation        ///< the axes of the reference's body differ from the estimate's

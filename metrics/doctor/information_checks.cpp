@@ -1,5 +1,3 @@
-#include "metrics/doctor/information_checks.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <utility>
 
 #include "metrics/doctor/common_motion.hpp"
+#include "metrics/doctor/graph_checks.hpp"
 
 namespace loopbench::metrics {
 namespace {
@@ -18,11 +17,14 @@ constexpr double kInformationTooLarge = 100.0,
 /// Smaller ones are those of noise-free measurements, which show nothing about the noise.
 constexpr double kOfExactMeasurements = 1e-10;
 
-SquaredError median_after_exchange(const std::vector<Edge>& closures, const Chain& chain) {
-  const Chain other = exchanged(chain);
-  std::vector<SquaredError> all;
-  for (const Edge& closure : closures) all.push_back(closure_error(closure, other, true));
-  return median_error(all);
+std::vector<SquaredError> loop_errors(const std::vector<Edge>& closures,
+                                      const Chain& chain,
+                                      bool is_exchanged = false) {
+  std::vector<SquaredError> out;
+  for (const Edge& closure : closures) {
+    out.push_back(closure_error(closure, chain, is_exchanged));
+  }
+  return out;
 }
 
 /// How far translation and rotation are from what is stated, in logarithms.
@@ -45,23 +47,21 @@ struct WrongScale {
 };
 
 /// The factor is estimated from every other gap, and tested on the remaining ones.
-std::vector<InputFinding> wrong_scale(const WrongScale& wrong,
-                                      const std::vector<Edge>& closures,
-                                      const std::vector<SquaredError>& errors,
-                                      const Chain& chain) {
+std::optional<InputFinding> wrong_scale(const WrongScale& wrong,
+                                        const std::vector<Edge>& closures,
+                                        const Chain& chain) {
   constexpr int kMostSteps = 8;
   constexpr double kNearOne = 1.3;
+  std::size_t count = 0;
   const auto median_after = [&](double factor, std::size_t first) {
     std::vector<Edge> edges = closures;
     Chain scaled = chain;
     for (Edge& edge : edges) edge.information *= wrong.is_of_closures ? factor : 1.0;
     for (Matrix6& each : scaled.covariances) each /= wrong.is_of_odometry ? factor : 1.0;
-    std::vector<SquaredError> all;
-    if (wrong.is_of_neighbours) {
-      all = neighbour_errors(neighbours_of(edges, scaled), scaled);
-    } else {
-      for (const Edge& edge : edges) all.push_back(closure_error(edge, scaled, false));
-    }
+    const std::vector<SquaredError> all =
+        wrong.is_of_neighbours ? neighbour_errors(neighbours_of(edges, scaled), scaled)
+                               : loop_errors(edges, scaled);
+    count = all.size();
     constexpr std::size_t kFewestForHalves = 6;
     const bool has_halves = all.size() >= kFewestForHalves;
     std::vector<double> part;
@@ -77,48 +77,48 @@ std::vector<InputFinding> wrong_scale(const WrongScale& wrong,
     factor /= error;
   }
   const double before = median_after(1.0, 1), after = median_after(factor, 1);
-  if (std::abs(std::log(after)) > std::abs(std::log(before))) return {};
-  return {
-      {Fault::information_scale,
-       fmt::format(
-           "squared gaps of {} over their stated variances (median of {}): {:.3g} -> {:.3g} "
-           "with the information of {} times {:.1g}",
-           wrong.is_of_neighbours ? "neighbouring closures" : "the loops",
-           errors.size(),
-           before,
-           after,
-           wrong.edges,
-           factor),
-       fmt::format(
-           "check the information of {}; for a trajectory: options {}", wrong.edges, wrong.options),
-       0.8,
-       before}};
+  if (std::abs(std::log(after)) > std::abs(std::log(before))) return std::nullopt;
+  return InputFinding{
+      Fault::information_scale,
+      fmt::format("squared gaps of {} over their stated variances (median of {}): {:.3g} -> {:.3g} "
+                  "with the information of {} times {:.1g}",
+                  wrong.is_of_neighbours ? "neighbouring closures" : "the loops",
+                  count,
+                  before,
+                  after,
+                  wrong.edges,
+                  factor),
+      fmt::format(
+          "check the information of {}; for a trajectory: options {}", wrong.edges, wrong.options),
+      0.8,
+      before};
 }
 
 }  // namespace
 
-std::vector<InputFinding> check_information(const std::vector<Edge>& closures,
-                                            const std::vector<SquaredError>& errors,
-                                            const std::vector<SquaredError>& neighbours,
-                                            const Chain& chain) {
+std::optional<InputFinding> check_information(const std::vector<Edge>& closures,
+                                              const Chain& chain) {
   constexpr std::size_t kFewest = 2;
   constexpr double kFar = 1000.0, kNear = 100.0;  // in variance
-  if (closures.size() < kFewest) return {};
-  const SquaredError loops = median_error(errors);
+  if (closures.size() < kFewest) return std::nullopt;
+  const SquaredError loops = median_error(loop_errors(closures, chain));
   const double before = distance(loops);
   const SquaredError other =
-      before > std::log(kFar) ? median_after_exchange(closures, chain) : loops;
+      before > std::log(kFar) ? median_error(loop_errors(closures, exchanged(chain), true)) : loops;
   const double after = distance(other);
   if (before > std::log(kFar) && after < std::min(0.5 * before, std::log(kNear))) {
-    return {{Fault::information_order,
-             fmt::format("squared gaps of the loops are {} times the stated variances; {} after "
-                         "exchange of the blocks",
-                         text(loops),
-                         text(other)),
-             "check the order of the blocks: g2o has those of x y z first",
-             1.0 - after / before,
-             before}};
+    return InputFinding{
+        Fault::information_order,
+        fmt::format("squared gaps of the loops are {} times the stated variances; {} after "
+                    "exchange of the blocks",
+                    text(loops),
+                    text(other)),
+        "check the order of the blocks: g2o has those of x y z first",
+        1.0 - after / before,
+        before};
   }
+  const std::vector<SquaredError> neighbours =
+      neighbour_errors(neighbours_of(closures, chain), chain);
   const bool has_neighbours = !neighbours.empty();
   const SquaredError near = median_error(neighbours);
   const WrongScale of_all{"all edges", "odometry.sigma_*, closures.sigma_*"};
@@ -128,19 +128,17 @@ std::vector<InputFinding> check_information(const std::vector<Edge>& closures,
     return wrong_scale(
         is_of_odometry ? WrongScale{"the odometry", "odometry.sigma_*", true, false} : of_all,
         closures,
-        errors,
         chain);
   }
   if (loops.whole > kOfExactMeasurements &&
       std::max(loops.translation, loops.rotation) < kInformationTooSmall) {
-    return wrong_scale(of_all, closures, errors, chain);
+    return wrong_scale(of_all, closures, chain);
   }
   if (has_neighbours && near.whole > kOfExactMeasurements &&
       (near.whole < kInformationTooSmall || near.whole > kInformationTooLarge)) {
-    return wrong_scale(
-        {"the closures", "closures.sigma_*", false, true, true}, closures, neighbours, chain);
+    return wrong_scale({"the closures", "closures.sigma_*", false, true, true}, closures, chain);
   }
-  return {};
+  return std::nullopt;
 }
 
 }  // namespace loopbench::metrics

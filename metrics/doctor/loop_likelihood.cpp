@@ -10,54 +10,19 @@
 namespace loopbench::metrics {
 namespace {
 
-constexpr double kZero = 1e-9;            // gaps below are zero [m], [rad]
 constexpr double kLeastVariance = 1e-12;  // of rounded numbers
-
-Eigen::VectorXd all_gaps(const std::vector<const Edge*>& closures,
-                         const Chain& chain,
-                         const std::vector<Pose>& measured) {
-  Eigen::VectorXd out(static_cast<Eigen::Index>(6 * closures.size()));
-  for (std::size_t i = 0; i < closures.size(); ++i) {
-    out.segment<6>(static_cast<Eigen::Index>(6 * i)) =
-        log_se3(measured[i].inverse() * chain.between(closures[i]->from, closures[i]->to));
-  }
-  return out;
-}
 
 }  // namespace
 
-StepCovariances step_covariances(const Chain& chain) {
-  const std::vector<Matrix6> zeros(chain.poses.size(), Matrix6::Zero());
-  StepCovariances out{zeros, zeros};
-  for (std::size_t i = 0; i < chain.steps.size(); ++i) {
-    const Matrix6 adjoint_of_pose = adjoint(chain.poses[i + 1]);
-    for (int part = 0; part < 2; ++part) {
-      const Eigen::Matrix<double, 6, 3> columns = adjoint_of_pose.middleCols<3>(3 * part);
-      std::vector<Matrix6>& sums = out[static_cast<std::size_t>(part)];
-      sums[i + 1] =
-          sums[i] + columns * chain.steps[i].block<3, 3>(3 * part, 3 * part) * columns.transpose();
-    }
-  }
-  return out;
-}
-
-LoopGroup::LoopGroup(std::vector<const Edge*> closures,
-                     const Chain& chain,
-                     const StepCovariances& noise)
+LoopGroup::LoopGroup(std::vector<const Edge*> closures, const Chain& chain)
     : closures_(std::move(closures)), chain_(chain) {
   const auto size = static_cast<Eigen::Index>(6 * closures_.size());
-  covariances_.fill(Eigen::MatrixXd::Zero(size, size));
+  of_odometry_ = of_closures_ = Eigen::MatrixXd::Zero(size, size);
   std::vector<Matrix6> to_end;  // from the frame of the first keyframe to that of the loop's end
-  std::vector<Pose> as_read;
-  for (const Edge* edge : closures_) {
-    to_end.push_back(adjoint(chain.poses[edge->to].inverse()));
-    as_read.push_back(edge->from_from_to);
-  }
+  for (const Edge* edge : closures_) to_end.push_back(adjoint(chain.poses[edge->to].inverse()));
   for (std::size_t i = 0; i < closures_.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(6 * i);
-    const Matrix6 stated = closures_[i]->information.inverse();
-    covariances_[2].block<3, 3>(row, row) = stated.topLeftCorner<3, 3>();
-    covariances_[3].block<3, 3>(row + 3, row + 3) = stated.bottomRightCorner<3, 3>();
+    of_closures_.block<6, 6>(row, row) = closures_[i]->information.inverse();
     for (std::size_t j = 0; j < closures_.size(); ++j) {
       // Loops share the odometry between the later begin and the earlier end.
       const auto [a, b] = std::minmax(closures_[i]->from, closures_[i]->to);
@@ -66,38 +31,24 @@ LoopGroup::LoopGroup(std::vector<const Edge*> closures,
       if (end <= begin) continue;
       const bool is_against =
           (closures_[i]->from < closures_[i]->to) != (closures_[j]->from < closures_[j]->to);
-      for (std::size_t part = 0; part < 2; ++part) {
-        covariances_[part].block<6, 6>(row, static_cast<Eigen::Index>(6 * j)) =
-            (is_against ? -1.0 : 1.0) * to_end[i] * (noise[part][end] - noise[part][begin]) *
-            to_end[j].transpose();
-      }
+      of_odometry_.block<6, 6>(row, static_cast<Eigen::Index>(6 * j)) =
+          (is_against ? -1.0 : 1.0) * to_end[i] *
+          (chain.covariances[end] - chain.covariances[begin]) * to_end[j].transpose();
     }
   }
-  const Eigen::VectorXd values = all_gaps(closures_, chain_, as_read);
-  for (Eigen::Index component = 0; component < 6; ++component) {
-    double largest = 0.0;
-    for (Eigen::Index i = component; i < size; i += 6) {
-      largest = std::max(largest, std::abs(values[i]));
-    }
-    if (largest <= kZero) continue;
-    (component < 3 ? translations_ : rotations_) += 1.0;
-    for (Eigen::Index i = component; i < size; i += 6) kept_.push_back(i);
-  }
-  std::ranges::sort(kept_);
-  for (Eigen::MatrixXd& each : covariances_) each = Eigen::MatrixXd(each(kept_, kept_));
 }
 
 Eigen::VectorXd LoopGroup::gaps(const std::vector<Pose>& measured) const {
-  const Eigen::VectorXd all = all_gaps(closures_, chain_, measured);
-  const Eigen::VectorXd kept = all(kept_);
-  constexpr double kMostOutside = 1e-6;
-  if (all.squaredNorm() - kept.squaredNorm() > kMostOutside) return {};
-  return kept;
+  Eigen::VectorXd out(static_cast<Eigen::Index>(6 * closures_.size()));
+  for (std::size_t i = 0; i < closures_.size(); ++i) {
+    out.segment<6>(static_cast<Eigen::Index>(6 * i)) =
+        log_se3(measured[i].inverse() * chain_.between(closures_[i]->from, closures_[i]->to));
+  }
+  return out;
 }
 
 Eigen::MatrixXd LoopGroup::covariance(const Logarithms& factors) const {
-  Eigen::MatrixXd out = std::exp(factors[0]) * covariances_[0];
-  for (std::size_t part = 1; part < 4; ++part) out += std::exp(factors[part]) * covariances_[part];
+  Eigen::MatrixXd out = std::exp(factors[0]) * of_odometry_ + std::exp(factors[1]) * of_closures_;
   out.diagonal().array() += kLeastVariance;
   return out;
 }
@@ -142,21 +93,16 @@ void LoopGroup::add_errors(const Eigen::VectorXd& values,
                            PredictionError& errors) const {
   const Eigen::MatrixXd inverse = covariance(factors).inverse();
   const Eigen::VectorXd weighted = inverse * values;
-  const auto size = static_cast<Eigen::Index>(kept_.size() / closures_.size());
-  const auto metres = static_cast<Eigen::Index>(translations_);
-  for (Eigen::Index i = 0; i < values.size(); i += size) {
-    const Eigen::VectorXd error =
-        inverse.block(i, i, size, size).ldlt().solve(weighted.segment(i, size));
-    errors.metres.push_back(error.head(metres).norm());
-    errors.radians.push_back(error.tail(size - metres).norm());
+  for (Eigen::Index i = 0; i < values.size(); i += 6) {
+    const Twist error = inverse.block<6, 6>(i, i).ldlt().solve(weighted.segment<6>(i));
+    errors.metres.push_back(error.head<3>().norm());
+    errors.radians.push_back(error.tail<3>().norm());
   }
 }
 
 double LoopGroup::log_likelihood(const std::vector<Pose>& measured, PredictionError* errors) const {
   const Eigen::VectorXd values = gaps(measured);
-  if (kept_.empty()) return 0.0;
-  if (values.size() == 0) return -std::numeric_limits<double>::infinity();
-  Logarithms near{0.0, 0.0, 0.0, 0.0}, far{0.0, -4.0, 4.0, 4.0};
+  Logarithms near{0.0, 0.0}, far{0.0, 4.0};
   const double of_near = pattern_search(values, near), of_far = pattern_search(values, far);
   if (errors != nullptr) add_errors(values, of_near > of_far ? near : far, *errors);
   return std::max(of_near, of_far);

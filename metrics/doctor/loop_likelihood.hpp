@@ -9,14 +9,7 @@
 
 namespace loopbench::metrics {
 
-/// Covariances of the composed odometry that translations and rotations of the steps cause, in the
-/// frame of the first keyframe.
-using StepCovariances = std::array<std::vector<Matrix6>, 2>;
-
-/// O(keyframes).
-StepCovariances step_covariances(const Chain& chain);
-
-/// Median error with which the odometry and the other closures of a group predict a closure.
+/// Errors with which the odometry and the other closures of a group predict each closure.
 struct PredictionError {
   std::vector<double> metres;
   std::vector<double> radians;
@@ -26,20 +19,17 @@ struct PredictionError {
 /// together.
 class LoopGroup {
  public:
-  LoopGroup(std::vector<const Edge*> closures, const Chain& chain, const StepCovariances& noise);
+  LoopGroup(std::vector<const Edge*> closures, const Chain& chain);
 
   const std::vector<const Edge*>& closures() const { return closures_; }
-  /// Number of components of rotations that are not zero: 1 of a planar graph.
-  double rotations() const { return rotations_; }
 
-  /// Gaussian log likelihood of the gaps if the closures were `measured`. The variances of
-  /// translations and rotations of odometry and closures are multiplied by the factors that fit
-  /// best. -infinity if a gap leaves the plane of the closures as they are. Appends the errors of
+  /// Gaussian log likelihood of the gaps if the closures were `measured`. The stated variances of
+  /// odometry and closures are multiplied by the factors that fit best. Appends the errors of
   /// predictions with these factors to `errors`. O(closures^3).
   double log_likelihood(const std::vector<Pose>& measured, PredictionError* errors = nullptr) const;
 
  private:
-  using Logarithms = std::array<double, 4>;  // of the factors
+  using Logarithms = std::array<double, 2>;  // of the factors
 
   Eigen::VectorXd gaps(const std::vector<Pose>& measured) const;
   Eigen::MatrixXd covariance(const Logarithms& factors) const;
@@ -51,9 +41,7 @@ class LoopGroup {
 
   std::vector<const Edge*> closures_;
   const Chain& chain_;
-  std::vector<Eigen::Index> kept_;  ///< components of the gaps
-  double translations_ = 0.0, rotations_ = 0.0;
-  std::array<Eigen::MatrixXd, 4> covariances_;  ///< for factors of 1
+  Eigen::MatrixXd of_odometry_, of_closures_;  ///< covariances as stated
 };
 
 }  // namespace loopbench::metrics

@@ -1,11 +1,10 @@
-#include "metrics/doctor/movement.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "metrics/doctor/common_motion.hpp"
+#include "metrics/doctor/graph_checks.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {

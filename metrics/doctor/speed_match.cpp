@@ -46,14 +46,9 @@ SpeedMatch::SpeedMatch(const Trajectory& reference, const Trajectory& estimate, 
   motions_ = std::move(kept);
 }
 
-MotionSignals SpeedMatch::signals(double offset, double centre, double margin) const {
+MotionSignals SpeedMatch::signals(double offset) const {
   MotionSignals out;
   for (const TimedMotion& motion : motions_) {
-    const bool is_known = margin == 0.0 || (reference_at(motion.begin + centre - margin) &&
-                                            reference_at(motion.begin + centre + margin) &&
-                                            reference_at(motion.end + centre - margin) &&
-                                            reference_at(motion.end + centre + margin));
-    if (!is_known) continue;
     const std::optional<Pose> from = reference_at(motion.begin + offset);
     const std::optional<Pose> to = reference_at(motion.end + offset);
     if (!from || !to) continue;

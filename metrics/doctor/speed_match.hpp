@@ -18,12 +18,7 @@ class SpeedMatch {
   SpeedMatch(const Trajectory& reference, const Trajectory& estimate, Part part = Part::all);
 
   double interval() const { return interval_; }
-
-  MotionSignals signals(double offset) const { return signals(offset, offset, 0.0); }
-
-  /// Only intervals that are known at all offsets within `margin` of `centre`, so that the lists
-  /// for these offsets have the same intervals.
-  MotionSignals signals(double offset, double centre, double margin) const;
+  std::size_t intervals() const { return motions_.size(); }
 
   struct Score {
     double angle = 0.0;
@@ -51,6 +46,7 @@ class SpeedMatch {
     double distance = 0.0;
   };
 
+  MotionSignals signals(double offset) const;
   Score score(const MotionSignals& signals) const;
   std::optional<Pose> reference_at(double stamp) const;
 

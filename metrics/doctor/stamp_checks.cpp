@@ -1,5 +1,3 @@
-#include "metrics/doctor/stamp_checks.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 
 #include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/common_motion.hpp"
+#include "metrics/doctor/pair_checks.hpp"
 #include "metrics/doctor/time_offset.hpp"
 
 namespace loopbench::metrics {
@@ -33,15 +32,10 @@ const char* fraction_name(double factor) {
   return factor == 1e6 ? "microseconds" : "nanoseconds";
 }
 
-/// Poses of the estimate in the reference's time [%].
+/// Share of the estimate's poses in the reference's time [%].
 double paired_share(const Trajectory& reference, const Trajectory& estimate) {
   const auto count = common_poses(reference, estimate, 0.0, estimate.size()).stamps.size();
   return 100.0 * static_cast<double>(count) / static_cast<double>(estimate.size());
-}
-
-Trajectory restamped(Trajectory poses, double factor, double offset) {
-  for (StampedPose& pose : poses) pose.stamp = factor * pose.stamp + offset;
-  return poses;
 }
 
 bool has_frame_indices(const Trajectory& poses) {
@@ -55,6 +49,12 @@ bool has_frame_indices(const Trajectory& poses) {
 }
 
 }  // namespace
+
+Trajectory restamped(Trajectory poses, double factor, double offset) {
+  if (factor == 0.0) poses.clear();
+  for (StampedPose& pose : poses) pose.stamp = factor * pose.stamp + offset;
+  return poses;
+}
 
 std::optional<StampRepair> check_stamp_unit(const Trajectory& reference,
                                             const Trajectory& estimate) {

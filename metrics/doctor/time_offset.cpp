@@ -48,39 +48,20 @@ double vertex(const SpeedMatch& match, double offset, double step) {
   return offset + std::clamp(0.5 * step * (left - right) / curvature, -step, step);
 }
 
-/// Standard deviation of the offset in least squares of the angles and of the distances.
+/// Standard deviation of the offset in least squares of the angles and of the distances: from the
+/// part of both that is not explained, and the curvature of their correlations.
 double deviation_of(const SpeedMatch& match, double offset, double step) {
-  const MotionSignals here = match.signals(offset, offset, step);
-  const MotionSignals after = match.signals(offset + step, offset, step);
-  const MotionSignals before = match.signals(offset - step, offset, step);
+  const SpeedMatch::Score left = match.score(offset - step), middle = match.score(offset),
+                          right = match.score(offset + step);
   double information = 0.0;
-  const auto add = [&](const std::vector<double>& reference,
-                       const std::vector<double>& estimate,
-                       const std::vector<double>& later,
-                       const std::vector<double>& earlier) {
-    if (later.size() != reference.size() || earlier.size() != reference.size()) return;
-    double rr = 0.0, re = 0.0, slopes = 0.0, residuals = 0.0;
-    for (std::size_t i = 0; i < reference.size(); ++i) {
-      rr += reference[i] * reference[i];
-      re += reference[i] * estimate[i];
-    }
-    const double ratio = rr > 0.0 ? re / rr : 0.0;
-    for (std::size_t i = 0; i < reference.size(); ++i) {
-      const double slope = ratio * (later[i] - earlier[i]) / (2.0 * step);
-      const double residual = estimate[i] - ratio * reference[i];
-      slopes += slope * slope;
-      residuals += residual * residual;
-    }
-    if (residuals > 0.0) {
-      information += slopes * static_cast<double>(reference.size()) / residuals;
-    }
-  };
-  add(here.reference_angle, here.estimate_angle, after.reference_angle, before.reference_angle);
-  add(here.reference_distance,
-      here.estimate_distance,
-      after.reference_distance,
-      before.reference_distance);
-  return information > 0.0 ? 1.0 / std::sqrt(information) : INFINITY;
+  for (double SpeedMatch::Score::*part :
+       {&SpeedMatch::Score::angle, &SpeedMatch::Score::distance}) {
+    const double curvature = (2.0 * middle.*part - left.*part - right.*part) / (step * step);
+    const double residual = 1.0 - middle.*part * middle.*part;
+    if (residual > 0.0 && curvature > 0.0) information += curvature / residual;
+  }
+  return information > 0.0 ? 1.0 / std::sqrt(information * static_cast<double>(match.intervals()))
+                           : INFINITY;
 }
 
 /// Whether the correlation of the speeds is clearly higher with the offset. At constant speed, it

@@ -36,17 +36,4 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
                                            const Trajectory& reference,
                                            const Trajectory& estimate);
 
-/// The clock of the estimate: stamps become stamp + offset + rate * (stamp - origin).
-struct ClockDrift {
-  InputFinding finding;
-  double offset = 0.0;  ///< at the origin [s]
-  double rate = 0.0;    ///< [-]
-  double origin = 0.0;  ///< [s]
-};
-
-/// A finding if the offset grows from the first to the last third of the estimate and the offset of
-/// the middle third, which is not used for that, is between. O(1e6).
-std::optional<ClockDrift> check_clock_drift(const Trajectory& reference,
-                                            const Trajectory& estimate);
-
 }  // namespace loopbench::metrics

@@ -50,10 +50,10 @@ TEST(Doctor, NamesWhatCannotBeChecked) {
 }
 
 TEST(Doctor, ExchangedFilesByNameOrRate) {
-  const auto all = diagnose(sampled(20), truth(), "run.txt", "groundtruth.txt");
+  const auto all = diagnosis(sampled(20), truth(), "run.txt", "groundtruth.txt").findings;
   ASSERT_FALSE(all.empty());
   EXPECT_EQ(all[0].fault, Fault::swapped);
-  EXPECT_THAT(diagnose(truth(), sampled(20), "gt.txt", "gt_odometry.txt"), IsEmpty());
+  EXPECT_THAT(diagnosis(truth(), sampled(20), "gt.txt", "gt_odometry.txt").findings, IsEmpty());
 }
 
 TEST(CommonMotion, FindsThePoseAtOrAfterAStampFromAnyHint) {
@@ -81,7 +81,7 @@ TEST(Doctor, ClockDrift) {
   for (const double rate : {0.001, -0.001, 0.005, -0.005}) {
     Trajectory estimate = without_errors();
     for (StampedPose& pose : estimate) pose.stamp = 1.0 + (1.0 + rate) * (pose.stamp - 1.0);
-    const auto found = diagnose(truth(), estimate, "reference.txt", "run.txt");
+    const auto found = diagnosis(truth(), estimate, "reference.txt", "run.txt").findings;
     ASSERT_EQ(found.size(), 1u) << rate;
     EXPECT_EQ(found[0].fault, Fault::clock_drift);
     EXPECT_NEAR(found[0].value, -rate, 0.1 * std::abs(rate) + 1e-4);
@@ -99,7 +99,7 @@ TEST(Doctor, HalfAFrameOfOffset) {
 TEST(Doctor, FrameIndicesAsStamps) {
   Trajectory estimate = sampled(20);
   for (std::size_t i = 0; i < estimate.size(); ++i) estimate[i].stamp = static_cast<double>(i);
-  const auto found = diagnose(truth(), estimate, "reference.txt", "run.txt");
+  const auto found = diagnosis(truth(), estimate, "reference.txt", "run.txt").findings;
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].fault, Fault::frame_indices);
   EXPECT_NEAR(found[0].value, 0.05, 1e-3);
@@ -116,7 +116,7 @@ TEST(Doctor, Jumps) {
   for (std::size_t i = 300; i < estimate.size(); ++i) {
     estimate[i].world_from_body.translation.x() += 2.0;
   }
-  const auto found = diagnose(truth(), estimate, "reference.txt", "run.txt");
+  const auto found = diagnosis(truth(), estimate, "reference.txt", "run.txt").findings;
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].fault, Fault::jumps);
   EXPECT_THAT(found[0].evidence, HasSubstr(" 16.000 s"));
@@ -148,7 +148,7 @@ TEST(Doctor, PrintsWhatARepairChanges) {
   const auto exchanged = each(sampled(20), [](const Pose& p) -> Pose {
     return {p.rotation, {p.translation.y(), p.translation.x(), p.translation.z()}};
   });
-  const auto found = diagnose(truth(), exchanged, "reference.txt", "run.txt");
+  const auto found = diagnosis(truth(), exchanged, "reference.txt", "run.txt").findings;
   ASSERT_EQ(found.size(), 1u);
   EXPECT_THAT(found[0].evidence, HasSubstr("exchanging x and y of the estimate's positions: "));
   EXPECT_THAT(found[0].evidence, HasSubstr(" -> "));

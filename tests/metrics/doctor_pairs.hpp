@@ -52,7 +52,7 @@ Trajectory each(Trajectory poses, Change change) {
 inline std::vector<Fault> faults(const Trajectory& reference, const Trajectory& estimate) {
   std::vector<Fault> out;
   for (const InputFinding& finding :
-       metrics::diagnose(reference, estimate, "reference.txt", "run.txt")) {
+       metrics::diagnosis(reference, estimate, "reference.txt", "run.txt").findings) {
     EXPECT_GT(finding.confidence, 0.0) << text(finding);
     EXPECT_LE(finding.confidence, 1.0) << text(finding);
     out.push_back(finding.fault);

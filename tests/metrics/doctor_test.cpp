@@ -75,7 +75,7 @@ TEST(Doctor, AxesOfAnotherBody) {
   EXPECT_THAT(faults(each(truth(), turned), sampled(20)), ElementsAre(Fault::body_rotation));
   EXPECT_THAT(faults(drive(0.01, 0.3), each(drive(0.0, 0.3), turned)),
               ElementsAre(Fault::body_rotation));
-  const auto found = diagnose(each(truth(), turned), truth(), "reference.txt", "run.txt");
+  const auto found = diagnosis(each(truth(), turned), truth(), "reference.txt", "run.txt").findings;
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].value, 2.0 * M_PI / 3.0, 1e-6);
   EXPECT_THAT(found[0].fix, testing::StartsWith("--ref-body=0.0,0.0,0.0,"));
@@ -231,7 +231,7 @@ TEST(Doctor, LeverArm) {
   const Pose other{Rotation::Identity(), {0.5, -0.3, 0.2}};
   const Trajectory estimate = each(sampled(20), [&](const Pose& p) { return p * other; });
   EXPECT_THAT(faults(truth(), estimate), ElementsAre(Fault::lever_arm));
-  const auto found = diagnose(truth(), estimate, "reference.txt", "run.txt");
+  const auto found = diagnosis(truth(), estimate, "reference.txt", "run.txt").findings;
   EXPECT_NEAR(found[0].value, other.translation.norm(), 0.05);
   EXPECT_THAT(found[0].fix, testing::StartsWith("--ref-body="));
 }

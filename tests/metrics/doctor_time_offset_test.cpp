@@ -24,7 +24,8 @@ TEST(TimeOffset, IsNotFoundAtAConstantRateOfRotation) {
       estimate.push_back(
           {t, {rotation.normalized(), p + Vector3(noise(random), noise(random), noise(random))}});
     }
-    for (const InputFinding& found : diagnose(reference, estimate, "reference.txt", "run.txt")) {
+    for (const InputFinding& found :
+         diagnosis(reference, estimate, "reference.txt", "run.txt").findings) {
       EXPECT_NE(found.fault, Fault::time_offset) << seed << ": " << text(found);
     }
   }

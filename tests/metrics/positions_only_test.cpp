@@ -76,7 +76,8 @@ TEST(PositionsOnly, DoctorFindsNoFault) {
   Trajectory reference;
   for (std::size_t i = 0; i < estimate.size(); i += 10) reference.push_back(estimate[i]);
   reference = without_rotations(reference);
-  for (const InputFinding& finding : diagnose(reference, estimate, "fix.txt", "a.txt", true)) {
+  for (const InputFinding& finding :
+       diagnosis(reference, estimate, "fix.txt", "a.txt", true).findings) {
     ADD_FAILURE() << text(finding);
   }
 }

@@ -11,8 +11,8 @@
 #include <set>
 #include <string_view>
 
-#include "metrics/doctor/closure_checks.hpp"
 #include "metrics/doctor/diagnose.hpp"
+#include "metrics/doctor/graph_checks.hpp"
 #include "tests/studies/planted_edges.hpp"
 #include "tests/studies/pose_faults.hpp"
 
@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 namespace {
 
 std::vector<InputFinding> findings(const Recording& r) {
-  return diagnose(r.reference, r.estimate, r.reference_name, r.estimate_name, r.has_stamps);
+  return diagnosis(r.reference, r.estimate, r.reference_name, r.estimate_name, r.has_stamps)
+      .findings;
 }
 
 struct Tally {

@@ -1,0 +1,61 @@
+/// Checks of the edges of a pose graph: conventions, false closures, information, effect.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "datasets/core/problem.hpp"
+#include "metrics/doctor/closure_chain.hpp"
+#include "metrics/doctor/finding.hpp"
+
+namespace loopbench::metrics {
+
+/// Compares closures with the odometry, without a reference:
+/// - conventions of odometry and closures, see find_odometry_repair() and find_closure_repair();
+/// - gaps, see check_gaps();
+/// - information, see check_information(), without the closures found before, and only if these
+///   are less than a fifth.
+/// Empty if the odometry is no chain. O((closures + keyframes) log).
+std::vector<InputFinding> check_closures(const Problem& problem);
+
+/// The correction of direction or unit of the odometry that makes it agree with the keyframes,
+/// whose poses a file can state on their own. nullopt if there is none. O(keyframes).
+std::optional<InputFinding> find_odometry_repair(const Problem& problem);
+
+/// The correction of direction, order of quaternions, units or frame of the closures that makes
+/// them likelier: see LoopGroup. Groups of neighbouring closures are compared one by one, so that
+/// false closures spoil few of them. The correction is chosen by every other group, and has to
+/// make the remaining ones likelier too (all, if there are less than six). nullopt if there is
+/// none. O(keyframes + closures log).
+std::optional<InputFinding> find_closure_repair(const Problem& problem, const Chain& chain);
+
+struct GapCheck {
+  std::optional<InputFinding> finding;
+  std::vector<std::size_t> closures;  ///< indices of the false ones
+};
+
+/// - The odometry along a loop ends further from the closure than 2 m, and than eight times the
+///   drift per distance of the median loop (at most 35 % of the loop's length) or 50 times the
+///   squared error over its variance of nine in ten loops.
+/// - If there is none, and for at least ten closures: the same limit for the path over odometry and
+///   the nearest other closure, which drifts less. The worst closure is removed before the others
+///   are compared again.
+/// O(closures log).
+GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain);
+
+/// Compares the gaps of all loops with the covariance of odometry and closures. Medians of
+/// translation and rotation far from 1, but near 1 after exchange of the blocks: wrong order. Far
+/// from 1 otherwise: wrong scale, of the odometry only if pairs of neighbouring closures agree with
+/// their covariance. Only these pairs far from it: wrong scale of the closures. The factor of a
+/// wrong scale is fitted to every other gap, and has to bring the remaining ones closer to 1.
+/// O(closures).
+std::optional<InputFinding> check_information(const std::vector<Edge>& closures,
+                                              const Chain& chain);
+
+/// A finding if the closures differ from the odometry, but no keyframe has moved by a hundredth of
+/// their median difference. `corrected`: the keyframes after the correction, as many as before.
+/// nullopt without closures or if their median difference is below 1 mm and 0.01 deg.
+/// O(keyframes + closures).
+std::optional<InputFinding> check_movement(const Problem& problem, const Trajectory& corrected);
+
+}  // namespace loopbench::metrics

@@ -1,0 +1,65 @@
+/// Checks of the stamps and of the content of two files.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "datasets/core/trajectory.hpp"
+#include "metrics/doctor/agreement.hpp"
+#include "metrics/doctor/finding.hpp"
+
+namespace loopbench::metrics {
+
+/// The stamps of one file are replaced by factor * stamp + offset.
+struct StampRepair {
+  InputFinding finding;
+  double factor = 1.0;  ///< 0: unknown
+  double offset = 0.0;  ///< [s]
+  bool is_of_reference = false;
+};
+
+/// Poses with stamps factor * stamp + offset; none if the factor is 0. O(n).
+Trajectory restamped(Trajectory poses, double factor, double offset);
+
+/// The stamps of one file fit those of the other only after division by 10^3, 10^6 or 10^9. O(1).
+std::optional<StampRepair> check_stamp_unit(const Trajectory& reference,
+                                            const Trajectory& estimate);
+
+/// The estimate's stamps are the integers from 0 or 1 on, at which few poses pair or speeds do not
+/// agree. Tries usual frame rates and the rate at which both files last equally long. O(1e7).
+std::optional<StampRepair> check_frame_indices(const Trajectory& reference,
+                                               const Trajectory& estimate);
+
+/// The offset of the estimate grows from its first to its last third, and that of the middle third,
+/// which is not used for that, is between. O(1e6).
+std::optional<StampRepair> check_clock_drift(const Trajectory& reference,
+                                             const Trajectory& estimate);
+
+/// The time ranges do not overlap. O(1).
+std::optional<InputFinding> check_overlap(const Trajectory& reference, const Trajectory& estimate);
+
+/// The estimate has no poses in at least a quarter of the reference's path, in gaps above 2 s and
+/// ten of its usual intervals. O(n).
+std::optional<InputFinding> check_missing(const Trajectory& reference, const Trajectory& estimate);
+
+/// Only the estimate's name contains a word like "groundtruth", or the estimate has at least twice
+/// the rate of the reference and covers it, both rotate, and the names do not contradict. O(1).
+std::optional<InputFinding> check_swapped(const Trajectory& reference,
+                                          const Trajectory& estimate,
+                                          const std::string& reference_name,
+                                          const std::string& estimate_name);
+
+/// The rotation of one trajectory is constant while it moves by more than 0.2 m and the other one
+/// rotates by more than 0.1 rad. O(n).
+std::optional<InputFinding> check_constant_rotation(const Trajectory& reference,
+                                                    const Trajectory& estimate);
+
+/// The estimate's rotations over short distances are 57.3 times those of the reference, or a 57th.
+/// O(n).
+std::optional<InputFinding> check_angle_unit(const CommonPoses& poses);
+
+/// Removes up to five jumps of the estimate's positions from `poses`; a finding if that
+/// reduces the position error. Otherwise, `poses` are unchanged. O(n).
+std::optional<InputFinding> remove_jumps(CommonPoses& poses);
+
+}  // namespace loopbench::metrics
