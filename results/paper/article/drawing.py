@@ -23,6 +23,7 @@ class Panel(NamedTuple):
     lines: list  #: name, colour, points (n, 2) or (n, 3) [m], and width, or style
     spatial: bool = False
     same_scale: bool = True
+    labels: tuple = ("x [m]", "y [m]", "z [m]")
     numbers: tuple = ()  #: of the first of some points, and these, to be numbered
     view: tuple = ()  #: direction from which a spatial panel is seen
 
@@ -34,10 +35,10 @@ def _draw(axes, panel):
             columns = np.asarray(points, float)[:, : 3 if panel.spatial else 2].T
             axes.plot(*columns, color=color, label=name, **style)
     axes.set_title(panel.title, fontsize=9)
-    axes.set_xlabel("x [m]")
-    axes.set_ylabel("y [m]")
+    axes.set_xlabel(panel.labels[0])
+    axes.set_ylabel(panel.labels[1])
     if panel.spatial:
-        axes.set_zlabel("z [m]")
+        axes.set_zlabel(panel.labels[2])
     for k, point in enumerate(panel.numbers[1] if panel.numbers else ()):
         axes.text(*point, f"  {panel.numbers[0] + k}")
     if len(panel.view):
