@@ -165,16 +165,18 @@ double gain_of(const std::vector<LoopGroup>& groups,
   return out;
 }
 
-/// The error of predictions that a repair reduces most, as a ratio and as a text.
+/// The error of predictions that a repair reduces most, as a ratio and as a text; that of positions
+/// for units of translations.
 std::pair<double, std::string> largest_change(const PredictionError& before,
-                                              const PredictionError& after) {
+                                              const PredictionError& after,
+                                              bool is_unit) {
   const double metres = median_value(before.metres), radians = median_value(before.radians);
   const double metres_after = median_value(after.metres);
   const double radians_after = median_value(after.radians);
   const double of_metres = (metres_after + 1e-6) / (metres + 1e-6);
   const double of_radians = (radians_after + 1e-6) / (radians + 1e-6);
-  const bool is_rotation = of_radians < of_metres;
-  return {std::min(of_metres, of_radians),
+  const bool is_rotation = !is_unit && of_radians < of_metres;
+  return {is_rotation ? of_radians : of_metres,
           fmt::format("error with which odometry and other closures predict a closure {:.3g} -> "
                       "{:.3g} {}",
                       is_rotation ? kDegrees * radians : metres,
@@ -245,8 +247,8 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
   if (best == nullptr) return std::nullopt;
   PredictionError after;
   const double proven = gain_of(groups, as_read, chain, *best, 1, &after);
-  const auto [ratio, text] = largest_change(before, after);
   const bool is_unit = best->fault == Fault::closure_unit;
+  const auto [ratio, text] = largest_change(before, after, is_unit);
   if (proven < kLeastProven || ratio > (is_unit ? kMostOfUnit : kMostRatio)) return std::nullopt;
   return InputFinding{
       best->fault,

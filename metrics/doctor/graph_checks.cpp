@@ -13,11 +13,15 @@ std::vector<InputFinding> check_closures(const Problem& problem) {
   if (problem.closures.empty() || !is_chain) return out;
   const Chain chain = chain_of(problem);
   if (auto repair = find_odometry_repair(problem)) return {*repair};
-  if (auto repair = find_closure_repair(problem, chain)) return {*repair};
   const GapCheck gaps = check_gaps(problem.closures, chain);
+  const bool are_few_false = 5 * gaps.closures.size() < problem.closures.size();
+  if (auto repair = find_closure_repair(problem, chain)) {
+    // Smaller translations of all closures also shrink the gaps of a few false ones.
+    const bool is_size = repair->fault == Fault::closure_unit;
+    if (!(is_size && gaps.finding && are_few_false)) return {*repair};
+  }
   if (gaps.finding) out.push_back(*gaps.finding);
-  // False closures show nothing about the information.
-  if (5 * gaps.closures.size() < problem.closures.size()) {
+  if (are_few_false) {  // false closures show nothing about the information
     std::vector<Edge> plausible;
     for (std::size_t i = 0; i < problem.closures.size(); ++i) {
       if (std::ranges::count(gaps.closures, i) == 0) plausible.push_back(problem.closures[i]);
