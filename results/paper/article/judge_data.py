@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from article.judge_segments import kappas
 from article.statements import SEQUENCES, judge
 from article.verdicts import when
 from loopbench import manifold
@@ -156,5 +157,8 @@ def numbers_of_segments(results, it):
     def count(rows):
         return len(manifold.KeyframePath(rows).segments(it["speed_band"], it["turn_max"]))
 
+    shares = {name: np.mean(kappa <= it["turn_max"])
+              for name, kappa in kappas(runs[0].true_keyframes).items()}
     return {"segments": count(runs[0].keyframes), "true_segments": count(runs[0].true_keyframes),
+            "within": ", ".join(f"{100 * share:.0f} % per {n}" for n, share in shares.items()),
             "counts": ", ".join(f"{run.run} {count(run.keyframes)}" for run in runs)}

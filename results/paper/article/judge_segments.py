@@ -61,21 +61,22 @@ def window_errors(truth, nodes, it):
     return dict(zip(compared(it["best"]), rms)), len(squares)
 
 
+def kappas(nodes):
+    """kappa at the inner nodes under each definition that was tried."""
+    flat, lengths = nodes * [1, 1, 1, 0, 1, 1, 1, 1], np.linalg.norm(manifold.steps(nodes), axis=1)
+    angles = manifold.KeyframePath(nodes).curvatures()[1:-1]
+    return {"keyframe": angles,
+            "metre": angles / np.maximum(0.5 * (lengths[1:] + lengths[:-1]), 1e-12),
+            "second": angles / (0.5 * (nodes[2:, 0] - nodes[:-2, 0])),
+            "keyframe in the plane": manifold.KeyframePath(flat).curvatures()[1:-1]}
+
+
 def windows_with_kappa(nodes, it):
-    """Windows whose speeds and kappa are in the quoted ranges, for kappa per keyframe, per metre
-    and per second."""
-    count, stamps = it["nodes"], nodes[:, 0]
-    lengths = np.linalg.norm(manifold.steps(nodes), axis=1)
-    kappa = manifold.KeyframePath(nodes).curvatures()[1:-1]
-    fast = _inside(manifold.speeds(nodes), it["speed"])
-    units = {"keyframe": 1.0, "metre": np.maximum(0.5 * (lengths[1:] + lengths[:-1]), 1e-12),
-             "second": 0.5 * (stamps[2:] - stamps[:-2])}
-    out = {}
-    for name, unit in units.items():
-        turning = _inside(kappa / unit, it["kappa"])
-        out[name] = sum(fast[i : i + count - 1].all() and turning[i : i + count - 2].all()
-                        for i in range(len(stamps) - count + 1))
-    return out
+    """Windows whose speeds and kappa are in the quoted ranges, by definition of kappa."""
+    count, fast = it["nodes"], _inside(manifold.speeds(nodes), it["speed"])
+    turning = {name: _inside(kappa, it["kappa"]) for name, kappa in kappas(nodes).items()}
+    return {name: sum(fast[i : i + count - 1].all() and each[i : i + count - 2].all()
+                      for i in range(len(nodes) - count + 1)) for name, each in turning.items()}
 
 
 def verdict_on_fit(errors, best):
