@@ -17,8 +17,8 @@ std::vector<InputFinding> check_closures(const Problem& problem) {
   const bool are_few_false = 5 * gaps.closures.size() < problem.closures.size();
   if (auto repair = find_closure_repair(problem, chain)) {
     // Smaller translations of all closures also shrink the gaps of a few false ones.
-    const bool is_size = repair->fault == Fault::closure_unit;
-    if (!(is_size && gaps.finding && are_few_false)) return {*repair};
+    const bool is_unit = repair->fault == Fault::closure_unit;
+    if (!(is_unit && gaps.finding && are_few_false)) return {*repair};
   }
   if (gaps.finding) out.push_back(*gaps.finding);
   if (are_few_false) {  // false closures show nothing about the information
