@@ -75,6 +75,9 @@ class CommandCorrector final : public methods::Corrector {
   Trajectory correct(const Problem& problem, methods::Report& report) const override {
     return corrected(options_, setting_, problem, report);
   }
+  std::unique_ptr<methods::Incremental> incremental(bool planar) const override {
+    return options_.updates ? served_updates(options_, setting_, planar) : nullptr;
+  }
 
  private:
   CommandOptions options_;
@@ -106,6 +109,9 @@ void check_combination(const CommandOptions& o, const std::string& input) {
     throw OptionError("run", "run: expected either run or serve, and not both");
   }
   const bool serves = o.run.empty();
+  if (o.updates && (!serves || o.output == ResultPoses::dense)) {
+    throw OptionError("updates", "updates: needs serve and output: keyframes");
+  }
   command_words(serves ? "serve" : "run", serves ? o.serve : o.run, o.shell);
   split_arguments("version", o.version.empty() ? "-" : o.version);
   split_arguments("depends", o.depends.empty() ? "-" : o.depends);

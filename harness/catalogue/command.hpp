@@ -12,6 +12,7 @@ namespace loopbench::harness {
 struct CommandOptions {
   std::string run;
   std::string serve;
+  bool updates = false;
   bool shell = false;
   ResultPoses output = ResultPoses::keyframes;
   std::string depends;
@@ -25,6 +26,9 @@ void fields(CommandOptions& o, Visit visit) {
         o.serve,
         "program that stays running and exchanges problems over its standard streams, instead of "
         "run");
+  visit("updates",
+        o.updates,
+        "serve: in a replay, a request contains what has arrived since the last one");
   visit("shell", o.shell, "whether sh interprets the text of run or serve");
   visit("output", o.output, "poses of the result");
   visit("depends", o.depends, "files whose change recomputes the cells, separated by blanks");
@@ -36,8 +40,8 @@ struct CommandSetting {
   std::filesystem::path folder = ".";  ///< working directory: the folder of the config
 };
 
-/// Throws OptionError unless exactly one of run and serve is set and can be split, and run names
-/// {input} and {result}.
+/// Throws OptionError unless exactly one of run and serve is set and can be split, run names
+/// {input} and {result}, and `updates` has a program that serves keyframes.
 void check_combination(const CommandOptions& options, const std::string& input = "problem");
 
 /// A program that was started for one input and has ended.

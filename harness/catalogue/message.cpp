@@ -59,6 +59,42 @@ std::string message(const std::string& text, const Values& values, std::uint64_t
   return out;
 }
 
+/// What a request about a problem contains.
+struct Arrays {
+  const Trajectory* keyframes;
+  const Trajectory* frames;
+  std::vector<std::pair<const char*, const std::vector<Edge>*>> edges;
+};
+
+/// `keys`: members of the JSON object in addition to those that follow from the arrays.
+std::string message_of(const Arrays& arrays, const std::string& keys, std::uint64_t number) {
+  const auto changes_scale = [](const Edge& edge) { return edge.scale != 1.0; };
+  bool similarity = false;
+  std::string shapes = fmt::format(R"(["keyframes",{},{}],["frames",{},{}])",
+                                   arrays.keyframes->size(),
+                                   kPoseColumns,
+                                   arrays.frames->size(),
+                                   kPoseColumns);
+  std::size_t size = kPoseColumns * (arrays.keyframes->size() + arrays.frames->size());
+  for (const auto& [name, edges] : arrays.edges) {
+    similarity = similarity || std::ranges::any_of(*edges, changes_scale);
+    shapes += fmt::format(R"(,["{}",{},{}])", name, edges->size(), kEdgeColumns);
+    size += kEdgeColumns * edges->size();
+  }
+  Values values;
+  values.reserve(size);
+  add_poses(values, *arrays.keyframes);
+  add_poses(values, *arrays.frames);
+  for (const auto& [name, edges] : arrays.edges) add_edges(values, *edges);
+  return message(fmt::format(R"({{"exchange":{},"similarity":{},{},"arrays":[{}]}})",
+                             kExchangeVersion,
+                             similarity,
+                             keys,
+                             shapes),
+                 values,
+                 number);
+}
+
 }  // namespace
 
 std::string request(nlohmann::json text,
@@ -73,32 +109,26 @@ std::string request(nlohmann::json text,
 }
 
 std::string request(const Problem& problem, ResultPoses output, std::uint64_t number) {
-  const auto changes_scale = [](const Edge& edge) { return edge.scale != 1.0; };
-  const bool similarity = std::ranges::any_of(problem.odometry, changes_scale) ||
-                          std::ranges::any_of(problem.closures, changes_scale);
-  const std::string text = fmt::format(
-      R"({{"exchange":{},"planar":{},"similarity":{},"output":"{}","arrays":[["keyframes",{},{}],)"
-      R"(["frames",{},{}],["odometry",{},{}],["closures",{},{}]]}})",
-      kExchangeVersion,
-      problem.planar,
-      similarity,
-      to_text(output),
-      problem.keyframes.size(),
-      kPoseColumns,
-      problem.frames.size(),
-      kPoseColumns,
-      problem.odometry.size(),
-      kEdgeColumns,
-      problem.closures.size(),
-      kEdgeColumns);
-  Values values;
-  values.reserve(kPoseColumns * (problem.keyframes.size() + problem.frames.size()) +
-                 kEdgeColumns * (problem.odometry.size() + problem.closures.size()));
-  add_poses(values, problem.keyframes);
-  add_poses(values, problem.frames);
-  add_edges(values, problem.odometry);
-  add_edges(values, problem.closures);
-  return message(text, values, number);
+  return message_of(Arrays{&problem.keyframes,
+                           &problem.frames,
+                           {{"odometry", &problem.odometry}, {"closures", &problem.closures}}},
+                    fmt::format(R"("planar":{},"output":"{}")", problem.planar, to_text(output)),
+                    number);
+}
+
+std::string request(const methods::Increment& added,
+                    std::size_t update,
+                    bool planar,
+                    std::uint64_t number) {
+  return message_of(
+      Arrays{&added.keyframes,
+             &added.frames,
+             {{"odometry", &added.odometry},
+              {"closures", &added.closures},
+              {"withdrawn", &added.withdrawn}}},
+      fmt::format(
+          R"("kind":"update","update":{},"planar":{},"output":"keyframes")", update, planar),
+      number);
 }
 
 void check_header(const MessageHeader& header, std::uint64_t number, std::size_t keyframes) {

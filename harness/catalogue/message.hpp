@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "harness/catalogue/exchange.hpp"
+#include "methods/incremental.hpp"
 
 namespace loopbench::harness {
 
@@ -28,6 +29,13 @@ std::string request(nlohmann::json text,
 
 /// The complete bytes of a request. O(keyframes + frames + edges).
 std::string request(const Problem& problem, ResultPoses output, std::uint64_t number);
+
+/// The bytes of a request with what has arrived in a replay since update `update` - 1; 0 begins
+/// one. O(new data).
+std::string request(const methods::Increment& added,
+                    std::size_t update,
+                    bool planar,
+                    std::uint64_t number);
 
 /// Throws std::runtime_error if the header of an answer is not one, has another number, or states
 /// sizes beyond the limits.

@@ -204,38 +204,4 @@ ServedAnswer ask_served(const CommandOptions& options,
   return running_server(options, setting).ask(request, poses, errors);
 }
 
-Trajectory ask_server(const CommandOptions& options,
-                      const CommandSetting& setting,
-                      const Problem& problem,
-                      methods::Report& report) {
-  const auto begin = ServerClock::now();
-  std::string errors;
-  ResultMetadata metadata;
-  ServedAnswer answer;
-  Trajectory out;
-  try {
-    answer = ask_served(
-        options,
-        setting,
-        [&](std::uint64_t number) { return request(problem, options.output, number); },
-        problem.keyframes.size(),
-        errors);
-    out = checked_result(
-        answer_poses(answer.text, answer.data, metadata), problem, options.output, "the answer");
-  } catch (const metrics::Undefined&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    const std::string hidden = hidden_note(program_sandbox());
-    throw std::runtime_error(with_output(error.what() + hidden, errors));
-  }
-  add_statements(report, metadata);
-  report.notes.emplace_back("time: from request to answer");
-  add_output(report, errors);
-  report.count(kProgramTime, answer.cost.cpu_seconds);
-  report.count(kProgramMemory, static_cast<double>(answer.cost.peak_memory));
-  const std::chrono::duration<double> all = ServerClock::now() - begin;
-  report.phases.push_back({kExchangePhase, all.count() - answer.seconds});
-  return out;
-}
-
 }  // namespace loopbench::harness

@@ -11,11 +11,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "harness/base/descendants.hpp"
 #include "harness/catalogue/command.hpp"
+#include "methods/incremental.hpp"
 
 namespace loopbench::harness {
 
@@ -61,5 +63,12 @@ Trajectory ask_server(const CommandOptions& options,
                       const CommandSetting& setting,
                       const Problem& problem,
                       methods::Report& report);
+
+/// The program as a method that extends its solution: each update sends what has arrived since the
+/// last one, so the program keeps the rest. Throws as ask_server(); an update that fails or
+/// declines ends the replay.
+std::unique_ptr<methods::Incremental> served_updates(const CommandOptions& options,
+                                                     const CommandSetting& setting,
+                                                     bool planar);
 
 }  // namespace loopbench::harness

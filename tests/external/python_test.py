@@ -2,14 +2,17 @@
 
 import doctest
 import importlib
+import json
 import os
 import shutil
+import sqlite3
+import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-from python_support import SIMULATED, has, sweep
+from python_support import PROGRAM, SIMULATED, has, sweep
 
 import numpy as np
 
@@ -111,6 +114,50 @@ class Sweeps(unittest.TestCase):
         if has("loopbench._core"):
             lines = loopbench.plot_errors(rows, {"one": rows + [0, 0, 0, 1, 0, 0, 0, 0]}).lines
             self.assertLess(max(lines[0].get_ydata()), 1e-9)
+
+
+class Replays(unittest.TestCase):
+    SERVED = """
+import numpy as np
+import loopbench
+
+@loopbench.incremental
+class Mine:
+    def __init__(self):
+        self.poses, self.closures, self.updates = np.empty((0, 7)), 0, 0
+
+    def update(self, added):
+        self.updates += 1
+        self.poses = np.concatenate([self.poses, added.poses])
+        self.closures += len(added.closures) - len(added.withdrawn)
+        out = self.poses.copy()
+        out[:, 2] += self.closures
+        return out, {"counts": {"own_updates": self.updates, "closures": self.closures}}
+
+loopbench.serve()
+"""
+
+    def counts(self, method, **options):
+        """Counts of the only cell."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "mine.py"
+            file.write_text(self.SERVED)
+            config = {"datasets": [{**SIMULATED, "laps": 2}], "metrics": ["ate"], "times": "keyframes",
+                      "methods": [{"method": method, **options, "serve": f"{sys.executable} {file}"}]}
+            (Path(folder) / "c.yaml").write_text(json.dumps(config))
+            ran = subprocess.run([PROGRAM, "run", "c.yaml", "--out", "r"], cwd=folder, text=True,
+                                 capture_output=True, check=False)
+            self.assertEqual(ran.returncode, 0, ran.stdout + ran.stderr)
+            database = sqlite3.connect(folder + "/r/results.sqlite")
+            return dict(database.execute("SELECT name, value FROM count"))
+
+    def test_an_update_contains_what_has_arrived(self):
+        served = self.counts("online + command", updates=True)
+        self.assertEqual(served["own_updates"], served["updates"])
+        self.assertGreater(served["own_updates"], 1)
+        again = self.counts("online + command")  # a new object for every complete problem
+        self.assertEqual(again["own_updates"], 1)
+        self.assertEqual(again["closures"], served["closures"])
 
 
 class Slam(unittest.TestCase):

@@ -8,8 +8,10 @@
 #include "datasets/core/error.hpp"
 #include "harness/catalogue/plugins.hpp"
 #include "harness/store/read.hpp"
+#include "methods/online/online.hpp"
 #include "methods/pipeline.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench {
@@ -47,7 +49,7 @@ std::vector<MethodEntry> methods_of(const std::filesystem::path& object) {
 
 TEST(LoadPlugin, BringsItsMethodsInOrder) {
   const std::vector<MethodEntry> entries = methods_of(kOutside / "half_way.so");
-  ASSERT_EQ(entries.size(), 4u);
+  ASSERT_EQ(entries.size(), 5u);
   EXPECT_EQ(entries[0].name, "half_way");
   EXPECT_EQ(entries[0].kind, Kind::corrector);
   EXPECT_EQ(entries[1].kind, Kind::smoother);
@@ -107,6 +109,21 @@ TEST(LoadPlugin, ItsCorrectorAndSmootherRunInOurPipeline) {
   EXPECT_EQ(method->why_declined(open), "no closure to go half way to");
 }
 
+TEST(LoadPlugin, ItsIncrementalMethodIsReplayed) {
+  const std::vector<MethodEntry> entries = methods_of(kOutside / "half_way.so");
+  Stage steps = entries[3].make({});
+  const auto method = Online({}).replayed(
+      compose(std::get<std::unique_ptr<const Corrector>>(std::move(steps)), nullptr));
+  const Problem problem = test::circle();
+  Report report;
+  const auto curve = method->estimate(problem, report);
+  EXPECT_EQ(test::count(report, "own_updates"), test::count(report, "updates"));
+  EXPECT_NEAR(curve->at(curve->end()).translation.z(),
+              problem.keyframes.back().world_from_body.translation.z() +
+                  static_cast<double>(problem.closures.size()),
+              1e-12);
+}
+
 TEST(LoadPlugin, ExceptionsCrossTheFence) {
   const std::vector<MethodEntry> entries = methods_of(kOutside / "half_way.so");
   EXPECT_THROW(entries[0].make({{"shere", 1.0}}), OptionError);
@@ -128,7 +145,7 @@ TEST(LoadPlugin, MayBeLoadedTwice) {
 TEST(LoadPlugin, AcceptsAnotherCompiler) {
   if (!std::filesystem::exists(kOutsideGcc / "half_way.so")) GTEST_SKIP() << "needs g++";
   const std::vector<MethodEntry> entries = methods_of(kOutsideGcc / "half_way.so");
-  ASSERT_EQ(entries.size(), 4u);
+  ASSERT_EQ(entries.size(), 5u);
   const Problem problem = test::circle();
   Report report;
   const auto curve_of = [&](const MethodEntry& entry) {

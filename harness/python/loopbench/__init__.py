@@ -24,8 +24,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .problem import Declined, Edges, Problem, read_problem
-from .serving import corrector, dataset, metric, serve, solve
+from .problem import Declined, Edges, Increment, Problem, read_problem
+from .serving import corrector, dataset, incremental, metric, serve, solve
 
 #: The version of loopbench, of the program and this package.
 __version__ = "0.3.0"
@@ -52,6 +52,7 @@ __all__ = [
     "Comparison",
     "Declined",
     "Edges",
+    "Increment",
     "Problem",
     "align",
     "associate",
@@ -60,6 +61,7 @@ __all__ = [
     "corrector",
     "dataset",
     "evaluate",
+    "incremental",
     "load",
     "methods",
     "metric",

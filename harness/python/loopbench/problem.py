@@ -110,6 +110,16 @@ class Problem:
         return self.keyframes[:, 1:]
 
 
+@dataclass(frozen=True, repr=False)
+class Increment(Problem):
+    """What has arrived since the last update of a replay; the fields are those of `Problem`.
+
+    Indices of edges count all keyframes from the first one.
+    """
+
+    withdrawn: Edges = Edges.from_rows(np.empty((0, 46)))  #: closures of this or earlier updates
+
+
 def _rows(file: Path) -> Array:
     lines = [line for line in file.read_text().splitlines() if line and line[0] != "#"]
     return np.array([line.split() for line in lines], dtype=float).reshape(-1, 8)
@@ -167,20 +177,18 @@ def read_problem(folder: str | Path) -> Problem:
     )
 
 
-def stamped(problem: Problem, poses: Any) -> Array:
+def stamped(stamps: Array, poses: Any) -> Array:
     """(n, 8) rows of a result: adds the keyframes' stamps to (n, 7) poses.
 
-    >>> one = np.array([[5, 0, 0, 0, 0, 0, 0, 1.0]])
-    >>> none = Edges.from_rows(np.empty((0, 46)))
-    >>> stamped(Problem(one, one[:0], none, none), [[1, 0, 0, 0, 0, 0, 1]])
+    >>> stamped(np.array([5.0]), [[1, 0, 0, 0, 0, 0, 1]])
     array([[5., 1., 0., 0., 0., 0., 0., 1.]])
     """
     out = np.ascontiguousarray(poses, dtype="<f8")
-    if out.ndim == 2 and out.shape[1] == 7 and len(out) == len(problem.keyframes):
-        out = np.column_stack([problem.stamps, out])
+    if out.ndim == 2 and out.shape[1] == 7 and len(out) == len(stamps):
+        out = np.column_stack([stamps, out])
     if out.ndim != 2 or out.shape[1] != 8:
         raise ValueError(
             f"the method returned an array of shape {out.shape}, expected "
-            f"({len(problem.keyframes)}, 7) or (any, 8) with stamps"
+            f"({len(stamps)}, 7) or (any, 8) with stamps"
         )
     return np.ascontiguousarray(out, dtype="<f8")

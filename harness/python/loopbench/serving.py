@@ -13,7 +13,7 @@ from typing import Any, BinaryIO, Callable, Mapping
 
 import numpy as np
 
-from .problem import Array, Declined, Edges, Problem, read_problem, stamped
+from .problem import Array, Declined, Edges, Increment, Problem, read_problem, stamped
 
 #: A method returns poses, (n, 7) at the keyframes or (k, 8) with stamps, and optionally a report:
 #: iterations, counts {name: number}, phases {name: seconds}, notes [text].
@@ -36,6 +36,22 @@ def corrector(function: Method) -> Method:
     """Registers a method for `serve`; the function itself is unchanged."""
     _registered["method"] = function
     return function
+
+
+def incremental(method: Callable[[], Any]) -> Callable[[], Any]:
+    """Registers a class for replays, as of `{method: command, updates: true, serve: ...}`.
+
+    A replay makes an object without arguments, and calls its `update(added)` with an `Increment`;
+    the method returns the poses of all keyframes so far, as a corrector does. A complete problem is
+    one update.
+    """
+
+    def complete(problem: Problem) -> Any:
+        return method().update(Increment(**vars(problem)))
+
+    _registered["incremental"] = method
+    _registered["method"] = complete
+    return method
 
 
 def metric(function: Metric) -> Metric:
@@ -77,7 +93,7 @@ def _arrays(header: Mapping[str, Any], data: bytes) -> dict[str, Array]:
 
 
 def _problem(header: Mapping[str, Any], arrays: dict[str, Array]) -> Problem:
-    return Problem(
+    fields = (
         arrays["keyframes"],
         arrays["frames"],
         Edges.from_rows(arrays["odometry"]),
@@ -86,19 +102,48 @@ def _problem(header: Mapping[str, Any], arrays: dict[str, Array]) -> Problem:
         header["similarity"],
         header["output"],
     )
+    if "withdrawn" in arrays:
+        return Increment(*fields, Edges.from_rows(arrays["withdrawn"]))
+    return Problem(*fields)
 
 
-def call(function: Method, problem: Problem) -> tuple[dict[str, Any], Array]:
+class _Replay:
+    """The method of the replay that is going on, and the stamps of its keyframes so far."""
+
+    def __init__(self) -> None:
+        self._method: Any = None
+        self._stamps = np.empty(0)
+
+    def answer(self, update: int, added: Problem) -> tuple[dict[str, Any], Array]:
+        if update == 0:
+            self._stamps = np.empty(0)
+        self._stamps = np.concatenate([self._stamps, added.stamps])
+
+        def run(added: Problem) -> Any:
+            if update == 0:
+                self._method = _function("incremental")()
+            if self._method is None:
+                raise RuntimeError(f"found update {update} of a replay, expected the first one")
+            return self._method.update(added)
+
+        return solve(run, added, self._stamps)
+
+
+def call(
+    function: Method, problem: Problem, stamps: Array | None = None
+) -> tuple[dict[str, Any], Array]:
     """Runs a method; returns the report (result.json) and (k, 8) poses, or raises its exception."""
     begin = time.perf_counter()
     returned = function(problem)
     seconds = time.perf_counter() - begin
     poses, report = returned if isinstance(returned, tuple) else (returned, {})
-    return {**report, "seconds": seconds}, stamped(problem, poses)
+    return {**report, "seconds": seconds}, stamped(problem.stamps if stamps is None else stamps, poses)
 
 
-def solve(function: Method, problem: Problem) -> tuple[dict[str, Any], Array]:
-    """Runs a method as `serve` does: never raises.
+def solve(
+    function: Method, problem: Problem, stamps: Array | None = None
+) -> tuple[dict[str, Any], Array]:
+    """Runs a method as `serve` does: never raises. `stamps` of its poses: by default the keyframes'.
 
     An exception becomes status failed with its message, `Declined` status declined.
 
@@ -115,7 +160,7 @@ def solve(function: Method, problem: Problem) -> tuple[dict[str, Any], Array]:
     """
     nothing = np.empty((0, 8))
     try:
-        return call(function, problem)
+        return call(function, problem, stamps)
     except Declined as why:
         return {"status": "declined", "why": str(why)}, nothing
     except Exception as error:  # noqa: BLE001: reported as the reason of the failed cell
@@ -149,7 +194,8 @@ def _plain(value: Any) -> Any:
 
 def answer_all(function: Method | None, questions: BinaryIO, answers: BinaryIO) -> None:
     """Answers requests until the end of `questions`: problems by `function` or the registered method,
-    paired poses by the registered metric."""
+    paired poses by the registered metric, updates of replays by the registered class."""
+    replay = _Replay()
     while True:
         header = questions.read(_HEADER.size)
         if not header:
@@ -162,6 +208,8 @@ def answer_all(function: Method | None, questions: BinaryIO, answers: BinaryIO) 
         poses = np.empty((0, 8))
         if request.get("kind") == "metric":
             report = measure(_function("metric"), arrays["reference"], arrays["estimate"])
+        elif request.get("kind") == "update":
+            report, poses = replay.answer(request["update"], _problem(request, arrays))
         else:
             problem = _problem(request, arrays)
             report, poses = solve(function or _function("method"), problem)

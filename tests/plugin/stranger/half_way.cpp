@@ -42,6 +42,41 @@ void fields(HalfWay::Options& o, Visit visit) {
   visit("share", o.share, "fraction of the gap to close [-]", Between{0.0, 1.0});
 }
 
+/// Extends its solution in replays: every keyframe is raised by one metre per closure so far.
+class Steps final : public Corrector {
+ public:
+  struct Options {};
+  explicit Steps(const Options&) {}
+
+  class Updates final : public Incremental {
+   public:
+    Trajectory update(const Increment& added, Report& report) override {
+      tracked_.insert(tracked_.end(), added.keyframes.begin(), added.keyframes.end());
+      closures_ += static_cast<double>(added.closures.size());
+      report.count("own_updates", ++updates_);
+      Trajectory out = tracked_;
+      for (StampedPose& pose : out) pose.world_from_body.translation.z() += closures_;
+      return out;
+    }
+
+   private:
+    Trajectory tracked_;
+    double closures_ = 0.0;
+    double updates_ = 0.0;
+  };
+
+  std::unique_ptr<Incremental> incremental(bool) const override {
+    return std::make_unique<Updates>();
+  }
+  Trajectory correct(const Problem& problem, Report& report) const override {
+    return Updates().update({problem.keyframes, problem.odometry, problem.closures, {}, {}, {}},
+                            report);
+  }
+};
+
+template <class Visit>
+void fields(Steps::Options&, Visit) {}
+
 /// A smoother whose curve type is defined in this shared object.
 class Lines final : public Smoother {
  public:
@@ -131,6 +166,7 @@ std::vector<Score> unprintable(const Evaluation&, const MaxHeightOptions&) {
 LOOPBENCH_PLUGIN(method<HalfWay>("half_way", "only the closing keyframe moves, and only half"),
                  method<Lines>("lines", "a polyline from outside"),
                  method<Thrower>("thrower", "always fails"),
+                 method<Steps>("steps", "one metre higher per closure, extended in replays"),
                  method("lifted",
                         "every keyframe one metre higher",
                         [](const Problem& problem) {
