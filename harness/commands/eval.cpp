@@ -18,6 +18,7 @@
 #include "harness/eval/eval_figures.hpp"
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/eval/evo_results.hpp"
+#include "harness/eval/group_summary.hpp"
 #include "harness/eval/recorded_store.hpp"
 #include "harness/eval/run_summary.hpp"
 #include "harness/report/report.hpp"
@@ -97,6 +98,10 @@ std::string result_text(const EvalArguments& a, const std::vector<EvaluationResu
   if (!style) out = markdown(tables);
   for (std::size_t i = 0; style && i < tables.size(); ++i) {
     out += (i == 0 ? "" : "\n") + terminal(tables[i], *style);
+  }
+  if (a.pairwise || a.align_together) {
+    const Table summary = group_summary(all, a.pairwise);
+    return out + "\n" + (style ? terminal(summary, *style) : markdown(summary));
   }
   return out + verdict_of(a, all, style) + below_reference_error(a, all);
 }

@@ -247,6 +247,33 @@ void declare(CLI::App& command, EvalArguments& a) {
       ->transform(
           CLI::CheckedTransformer(std::map<std::string, bool>{{"yes", true}, {"no", false}}))
       ->type_name("WORD");
+  auto* together = command.add_flag(
+      "--align-together",
+      a.align_together,
+      "One alignment for all EST of a common frame (robots, submaps, mapping runs): of one REF, or "
+      "of equal ALGORITHM and RUN");
+  together->excludes("--store");
+  command
+      .add_flag("--pairwise",
+                a.pairwise,
+                "Compare REF and EST as runs of one system, each pair of them, without a reference "
+                "(repeatability)")
+      ->excludes(together)
+      ->excludes("--store")
+      ->excludes("--report")
+      ->excludes("--common");
+  command
+      .add_option("--by-position",
+                  a.by_position,
+                  "Pair by position, not by time: each pose of EST with the nearest point of REF's "
+                  "path in the same direction, at most this far away [m] (repeated routes, laps)")
+      ->type_name("M")
+      ->check(finite_number())
+      ->check(positive_number())
+      ->excludes(together)
+      ->excludes("--cov")
+      ->excludes("--ref-cov")
+      ->excludes("--common");
   command.add_flag("--show-defaults",
                    "Print all options as a section of loopbench.yaml, which sets "
                    "them for the files beside it, or for all in "

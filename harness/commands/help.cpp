@@ -53,7 +53,9 @@ const std::map<std::string, std::string> kExamples{
     {"eval",
      "  loopbench eval reference.txt estimate.txt\n"
      "  loopbench eval reference.txt estimate.txt --align sim3 --json\n"
-     "  loopbench eval reference.txt a.txt b.txt --protocol evo,tum,rpg\n"},
+     "  loopbench eval reference.txt a.txt b.txt --protocol evo,tum,rpg\n"
+     "  loopbench eval reference.txt robot_a.txt robot_b.txt --align-together\n"
+     "  loopbench eval run_1.txt run_2.txt run_3.txt --pairwise --by-position 2\n"},
     {"get",
      "  loopbench get\n"
      "  loopbench get tum_fr1_room --data /data\n"
@@ -102,6 +104,10 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench traj crop run.txt --start 10 --end 60 --relative -o middle.txt\n"
      "  loopbench traj crop *.txt --start 1403715273.26 -o cropped/\n"
      "  zcat run.txt.gz | loopbench traj crop - --end 60 --relative -o start.txt\n"},
+    {"traj laps",
+     "  loopbench traj laps run.txt --radius 3 -o laps/\n"
+     "  loopbench eval laps/run_*.txt --pairwise --by-position 2\n"
+     "  loopbench eval reference.txt laps/run_*.txt --align-together\n"},
     {"traj downsample",
      "  loopbench traj downsample run.txt --count 500 -o fewer.txt\n"
      "  loopbench traj downsample run.txt --metres 0.2 --degrees 10 -o keyframes.txt\n"

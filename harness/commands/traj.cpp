@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <numeric>
 
 #include "datasets/core/covariance.hpp"
 #include "harness/base/printable.hpp"
@@ -88,6 +89,28 @@ int crop(const TrajArguments& a) {
     each.file = selected(each.file, within(each.file.poses, origin + a.start, origin + a.end));
     if (each.file.poses.empty()) throw InputError(each.name + ": has no poses in this time range");
   });
+}
+
+int split_laps(const TrajArguments& a) {
+  NamedTrajectories out;
+  for (const NamedTrajectory& each : read_all_named(a.files, a.reading)) {
+    const std::vector<std::size_t> starts = lap_starts(each.file.poses, a.radius);
+    if (starts.size() == 1) {
+      throw InputError(fmt::format(
+          "{}: the path does not return to within {:g} m of its first position in the same "
+          "direction, expected a lap or a larger --radius",
+          each.name,
+          a.radius));
+    }
+    for (std::size_t lap = 1; lap < starts.size(); ++lap) {
+      std::vector<std::size_t> indices(starts[lap] - starts[lap - 1]);
+      std::iota(indices.begin(), indices.end(), starts[lap - 1]);
+      // With an ending, which is replaced by that of the format.
+      const std::string name = fmt::format("{}_{}.txt", output_stem(each.name), lap);
+      out.push_back({name, selected(each.file, indices), each.findings});
+    }
+  }
+  return write_all(a, out);
 }
 
 int downsample(const TrajArguments& a) {
@@ -240,6 +263,7 @@ void add_traj(CLI::App& app, int& exit_code) {
                 {"sync", sync},
                 {"merge", merge_files},
                 {"crop", crop},
+                {"laps", split_laps},
                 {"downsample", downsample},
                 {"resample", resample},
                 {"transform", transform},

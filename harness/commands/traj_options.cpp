@@ -124,6 +124,17 @@ const std::vector<VerbInfo>& verb_infos() {
        {declare_pairing, declare_output}},
       {"merge", "Merge files into one trajectory, sorted by stamp", {declare_output}},
       {"crop", "Keep the poses in a time range", {declare_crop, declare_output}},
+      {"laps",
+       "Split a path into the laps that return to its first position",
+       {[](CLI::App& verb, TrajArguments& a) {
+          verb.add_option("--radius",
+                          a.radius,
+                          "Distance from the first position within which a lap ends [m]")
+              ->required()
+              ->check(finite_number())
+              ->check(positive_number());
+        },
+        declare_output}},
       {"downsample",
        "Keep some poses: evenly spaced, or by motion since the last kept one",
        {declare_steps,

@@ -32,6 +32,7 @@ struct TrajArguments {
   double start = -kForever;  ///< [s]
   double end = kForever;     ///< [s]
   bool relative = false;     ///< start and end count from the first stamp
+  double radius = 0.0;       ///< around the start of a lap [m]
   std::optional<std::size_t> count;
   MotionStep step;
   std::string left;  ///< transform; empty: none

@@ -197,6 +197,7 @@ ReferenceBody reference_body(const EvalArguments& a) {
 std::vector<FilePair> file_pairs(const EvalArguments& a) {
   if (a.estimates.empty()) return rpg_layout(a.reference);
   const bool is_folder = std::filesystem::is_directory(a.reference);
+  if (is_folder && a.pairwise) throw InputError(a.reference + ": --pairwise expects files");
   if (is_folder && a.estimates.size() == 1) return ov_eval_layout(a.reference, a.estimates[0]);
   if (!a.covariances.empty() && (a.estimates.size() != 1 || is_folder)) {
     throw InputError("--cov " + a.covariances + ": expected one EST");
@@ -205,6 +206,11 @@ std::vector<FilePair> file_pairs(const EvalArguments& a) {
   for (const std::string& estimate : a.estimates) {
     reject_folder(estimate, a);
     out.push_back({a.reference, estimate});
+  }
+  for (std::size_t i = 0; a.pairwise && i < a.estimates.size(); ++i) {
+    for (std::size_t k = i + 1; k < a.estimates.size(); ++k) {
+      out.push_back({a.estimates[i], a.estimates[k]});
+    }
   }
   return out;
 }

@@ -34,6 +34,8 @@ struct EvalArguments {
   std::vector<double> motion_filter;      ///< thresholds [m, deg] between poses; empty: none
   std::optional<double> start;            ///< time range of the reference [s]; none: all
   std::optional<double> end;
+  std::optional<double>
+      by_position;  ///< pair poses that are at most this far apart [m]; none: by time
   std::vector<std::string> protocols{"loopbench"};
   std::vector<std::string> settings;  ///< FIELD=VALUE of the protocol
   std::vector<std::string> fields;    ///< the same, of fields with an option of their own
@@ -53,12 +55,14 @@ struct EvalArguments {
   std::string per_pose;      ///< output file; empty: none
   std::string plot;          ///< prefix of figure files; empty: none
   FigureOptions figures;
-  std::string report;          ///< HTML file; empty: none
-  std::string store;           ///< folder of a store for the results; empty: none
-  std::string sequence;        ///< label of the reference in the store; empty: from its file name
-  std::string group;           ///< recording of the reference; empty: by its geometry
-  std::optional<bool> common;  ///< evaluate the times that all estimates cover; none: with a store
-  bool paired = false;         ///< pair runs of equal names in verdicts
+  std::string report;           ///< HTML file; empty: none
+  std::string store;            ///< folder of a store for the results; empty: none
+  std::string sequence;         ///< label of the reference in the store; empty: from its file name
+  std::string group;            ///< recording of the reference; empty: by its geometry
+  std::optional<bool> common;   ///< evaluate the times that all estimates cover; none: with a store
+  bool align_together = false;  ///< one alignment for all estimates of a system
+  bool pairwise = false;        ///< evaluate each pair of files, without a reference
+  bool paired = false;          ///< pair runs of equal names in verdicts
 
   /// Whether trajectories are kept with the results.
   bool keeps_traces() const { return !store.empty() || !report.empty(); }
@@ -86,8 +90,8 @@ EvaluatedRange evaluated_range(const EvalArguments& arguments);
 /// Throws InputError unless the text has three or seven numbers, with a unit quaternion.
 ReferenceBody reference_body(const EvalArguments& arguments);
 
-/// Pairs REF with each EST, or lists the files of an rpg folder (no EST) or of ov_eval folders (REF
-/// and EST). Throws InputError.
+/// Pairs REF with each EST (pairwise: also each EST with the later ones), or lists the files of an
+/// rpg folder (no EST) or of ov_eval folders (REF and EST). Throws InputError.
 std::vector<FilePair> file_pairs(const EvalArguments& arguments);
 
 }  // namespace loopbench::harness

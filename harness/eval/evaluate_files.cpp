@@ -10,6 +10,7 @@
 
 #include "datasets/core/parallel.hpp"
 #include "harness/base/write_file.hpp"
+#include "harness/eval/common_alignment.hpp"
 #include "harness/eval/recordings.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/model/same_recording.hpp"
@@ -189,7 +190,8 @@ std::vector<EvaluationResult> evaluate_files(
   for (const std::string& file : {a.per_pose, a.save_results}) reject_overwriting(inputs, file);
   std::vector<RecordedRun> labelled = runs_of(files, a);
   if (a.common.value_or(false)) set_common_times(labelled, a);
-  const RecordedSweep sweep = recorded_sweep(std::move(labelled), a);
+  RecordedSweep sweep = recorded_sweep(std::move(labelled), a);
+  if (a.align_together) sweep.alignments = common_alignments(sweep);
   const std::vector<RecordedRun>& runs = sweep.runs;
   check_stamp_options(a, runs);
   std::vector<Cell> cells = sweep.cells;
@@ -207,7 +209,8 @@ std::vector<EvaluationResult> evaluate_files(
     });
   }
   require_evaluated(all);
-  if (!a.min_coverage) check_coverage(all);
+  // Each estimate of a group may cover a part.
+  if (!a.min_coverage && !a.align_together) check_coverage(all);
   if (visit) visit(sweep, all);
   return results_of(std::move(all), sweep.sweep);
 }

@@ -18,6 +18,7 @@
 #include "harness/run/doctor_notes.hpp"
 #include "harness/run/sequence_identity.hpp"
 #include "harness/run/summarise_sequence.hpp"
+#include "metrics/pairing/nearest_position.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -106,7 +107,8 @@ struct PairEvaluation {
   const RecordedFile& reference;
   const RecordedFile& estimate;
   EvaluatedFile& out;
-  std::string common;  ///< times to evaluate; empty: all
+  std::string common;                         ///< times to evaluate; empty: all
+  const metrics::Alignment* given = nullptr;  ///< alignment under each protocol; null: none
 
   void evaluate(std::size_t number) {
     EvaluationResult& own = out.protocols[number];
@@ -128,9 +130,9 @@ struct PairEvaluation {
  private:
   /// The errors at these times, with the coverage of all.
   metrics::Evaluation within_common_times(const metrics::Evaluation& all,
-                                          const metrics::Protocol& rules) const {
+                                          const metrics::Alignment* fit) const {
     metrics::Evaluation part =
-        metrics::evaluate(reference.poses, poses_within(estimate.poses, common), rules);
+        metrics::evaluate(reference.poses, poses_within(estimate.poses, common), all.protocol, fit);
     part.coverage = all.coverage;
     return part;
   }
@@ -149,13 +151,16 @@ struct PairEvaluation {
     const EvalArguments& arguments = files.arguments;
     const Sweep& sweep = files.sweep;
     const auto& intervals = reference.findings.intervals;
+    const metrics::Alignment* fit = given ? given + row.protocol : nullptr;
     metrics::Evaluation evaluation = metrics::evaluate(
         reference.poses,
         intervals.empty() ? estimate.poses
                           : metrics::averaged_in(estimate.poses, intervals, rules.offset),
-        rules);
-    if (!common.empty()) evaluation = within_common_times(evaluation, rules);
-    if (arguments.start || arguments.end) count_in_range(evaluation.coverage, rules.offset);
+        rules,
+        fit);
+    if (!common.empty()) evaluation = within_common_times(evaluation, fit);
+    const bool has_range = (arguments.start || arguments.end) && !arguments.by_position;
+    if (has_range) count_in_range(evaluation.coverage, rules.offset);
     const bool are_printed = !reference.matrices.empty() && !estimate.matrices.empty();
     const std::vector<Matrix6>& read = reference.findings.covariances;
     const std::vector<Matrix6> of_reference =
@@ -220,6 +225,34 @@ void share_notes(std::vector<EvaluationResult>& evaluations, std::vector<std::st
   }
 }
 
+/// The nearest points of the reference's path at the stamps of the estimate (--by-position), with a
+/// note. Throws InputError if no pose has a partner, or for an --offset.
+RecordedFile reference_of_route(const RecordedFile& reference,
+                                const RecordedFile& estimate,
+                                const RecordedSweep& files) {
+  const metrics::Protocol& rules = files.sweep.protocols.front().rules;
+  const double farthest = *files.arguments.by_position;
+  if (rules.offset != 0.0) {
+    throw InputError("--by-position ignores stamps, expected no --offset");
+  }
+  try {
+    metrics::RepeatedRoute route =
+        metrics::on_repeated_route(reference.poses, estimate.poses, farthest, rules.align);
+    RecordedFile out{.poses = std::move(route.reference), .unstamped = estimate.unstamped};
+    out.note = fmt::format(
+        "paired by position: {} of {} poses are at most {:g} m from the path of {} poses, of which "
+        "{:.1f} % are visited",
+        out.poses.size(),
+        estimate.poses.size(),
+        farthest,
+        reference.poses.size(),
+        100.0 * route.visited);
+    return out;
+  } catch (const std::runtime_error& error) {
+    throw InputError(std::string("--by-position: ") + error.what());
+  }
+}
+
 }  // namespace
 
 SharedReference shared_reference(const std::string& file, const RecordedSweep& files) {
@@ -254,12 +287,18 @@ EvaluatedFile evaluate_poses(const Cell& cell,
   if (!run.common.empty()) {
     metadata.notes.push_back(common_times_note(estimate.poses, run.common));
   }
-  PairEvaluation evaluation{files, reference.read, estimate, out, run.common};
+  const bool is_group = !files.alignments.empty();
+  const auto* given = is_group ? files.alignments[cell.dataset].data() : nullptr;
+  if (is_group) {
+    metadata.notes.push_back("aligned together with the other estimates (--align-together)");
+  }
+  PairEvaluation evaluation{files, reference.read, estimate, out, run.common, given};
   for (std::size_t p = 0; p < out.protocols.size(); ++p) evaluation.evaluate(p);
   for (const RecordedFile* file : {&reference.read, &estimate}) {
     const bool is_reference = file == &reference.read;
     std::ranges::move(reading_notes(file->findings, is_reference ? "reference" : "estimate"),
                       std::back_inserter(metadata.notes));
+    if (!file->note.empty()) metadata.notes.push_back(file->note);
     if (!file->findings.damage.empty())
       metadata.notes.push_back("damaged file: " + file->findings.damage);
   }
@@ -276,7 +315,10 @@ EvaluatedFile evaluate_recorded(const Cell& cell,
   try {
     const RecordedFile estimate =
         recorded_estimate(run.estimate, files.arguments, files.has_digits, &reference.read);
-    return evaluate_poses(cell, files, reference, estimate);
+    if (!files.arguments.by_position) return evaluate_poses(cell, files, reference, estimate);
+    SharedReference route = reference;
+    route.read = reference_of_route(reference.read, estimate, files);
+    return evaluate_poses(cell, files, route, estimate);
   } catch (const InputError& error) {
     EvaluatedFile out = not_evaluated(cell, files);
     out.result.status = Status::failed;

@@ -9,6 +9,7 @@
 #include "harness/eval/recorded_runs.hpp"
 #include "harness/model/cells.hpp"
 #include "harness/model/sweep.hpp"
+#include "metrics/alignment/alignment.hpp"
 
 namespace loopbench::harness {
 
@@ -27,6 +28,10 @@ struct RecordedSweep {
   /// among all runs of the sequence, numbers in names as numbers, so that runs of equal names are
   /// paired.
   std::vector<Cell> cells;
+
+  /// Alignment of each run under each protocol (common_alignment.hpp); empty: each run is aligned
+  /// on its own.
+  std::vector<std::vector<metrics::Alignment>> alignments = {};
 };
 
 /// The methods are in the order of their first run. Throws InputError, OptionError.

@@ -124,6 +124,30 @@ std::size_t poses_in_gaps(const Trajectory& poses, const Trajectory& result, dou
   return out;
 }
 
+std::vector<std::size_t> lap_starts(const Trajectory& poses, double radius) {
+  std::vector<std::size_t> out{0};
+  const auto displacement = [&](std::size_t from, std::size_t to) -> Vector3 {
+    return poses[to].world_from_body.translation - poses[from].world_from_body.translation;
+  };
+  const auto distance = [&](std::size_t i) { return displacement(0, i).norm(); };
+  std::size_t i = 0;
+  while (i < poses.size() && distance(i) <= radius) ++i;
+  if (i == poses.size()) return out;
+  const Vector3 departure = displacement(0, i);
+  while (i < poses.size()) {
+    while (i < poses.size() && distance(i) > radius) ++i;
+    if (i == poses.size()) break;
+    const std::size_t enters = i;
+    std::size_t nearest = i;
+    for (; i < poses.size() && distance(i) <= radius; ++i) {
+      if (distance(i) < distance(nearest)) nearest = i;
+    }
+    const std::size_t leaves = std::min(i, poses.size() - 1);
+    if (displacement(enters - 1, leaves).dot(departure) > 0.0) out.push_back(nearest);
+  }
+  return out;
+}
+
 TrajectoryFile merged(const std::vector<TrajectoryFile>& files,
                       Repeats repeats,
                       std::vector<std::size_t>& dropped) {

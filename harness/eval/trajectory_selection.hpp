@@ -36,6 +36,11 @@ Trajectory resampled(const Trajectory& poses, const MotionStep& step);
 /// Number of poses of `result` strictly between two poses that are more than `gap` apart [s]. O(n).
 std::size_t poses_in_gaps(const Trajectory& poses, const Trajectory& result, double gap);
 
+/// The first pose of each lap, and the first pose after the last complete one: {0} without a lap. A
+/// lap ends where the path returns to within `radius` of its first position [m], after it has left,
+/// in the direction in which it left: at the nearest pose of this visit. O(n).
+std::vector<std::size_t> lap_starts(const Trajectory& poses, double radius);
+
 /// All poses in the order of their stamps. Of poses with equal stamps, the one of the first or of
 /// the last file is kept, and the others are added to `dropped`, which has an element per file.
 /// Throws InputError if repeats are refused and there are any. O(n log n).

@@ -1,0 +1,196 @@
+// `eval` of several trajectories of one frame, and of runs against each other.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "datasets/formats/formats.hpp"
+#include "harness/eval/trajectory_selection.hpp"
+#include "tests/support/eval_command.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/traj_command.hpp"
+
+namespace loopbench::eval_groups_test {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+struct Submaps {
+  TemporaryFolder folder;
+  std::string first = (folder.path() / "first.txt").string();
+  std::string second = (folder.path() / "second.txt").string();
+
+  /// The golden estimate in two files.
+  Submaps() {
+    const Trajectory all = read_trajectory(golden("est_drift.txt"));
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    write_tum(first, {all.begin(), middle});
+    write_tum(second, {middle, all.end()});
+  }
+};
+
+/// Sum of squared distances over the pairs of all results.
+double squares(const Json& results) {
+  double out = 0.0;
+  for (const Json& result : results) {
+    const double rmse = find(result, "ate", "translation")["rmse"];
+    out += rmse * rmse * result["pairs"].get<double>();
+  }
+  return out;
+}
+
+TEST(EvalGroups, SubmapsAlignedTogetherHaveTheErrorOfTheCompleteTrajectory) {
+  const Submaps maps;
+  const std::vector<std::string> files{golden("gt.txt"), maps.first, maps.second};
+  const auto with = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), files.begin(), files.end());
+    return options;
+  };
+  const Json one = eval_json({golden("gt.txt"), golden("est_drift.txt")});
+  const double complete = squares(Json::array({one})), paired = one["pairs"];
+  const Json together = eval_json(with({"--align-together"}));
+  EXPECT_NEAR(squares(together), complete, 1e-9 * complete);
+  EXPECT_LT(squares(eval_json(files)), 0.9 * complete);
+  EXPECT_EQ(together[0]["alignment"], together[1]["alignment"]);
+  EXPECT_THAT(together[0]["notes"].dump(), HasSubstr("aligned together with"));
+  EXPECT_THAT(refusal<InputError>(with({"--align-together", "--align", "none"})),
+              HasSubstr("does not align by least squares of all pairs"));
+  EXPECT_THAT(eval(with({"--align-together"})),
+              testing::AllOf(HasSubstr("over all estimates, aligned together"),
+                             HasSubstr(fmt::format(" {:.4g} |", std::sqrt(complete / paired)))));
+  EXPECT_THROW(eval(with({"--align-together", "--store", "x"})), CLI::ExcludesError);
+  EXPECT_THROW(eval(with({"--align-together", "--pairwise"})), CLI::ExcludesError);
+}
+
+TEST(EvalGroups, RobotsWithReferencesOfTheirOwnShareAnAlignment) {
+  const TemporaryFolder folder;
+  const Trajectory truth = read_trajectory(golden("gt.txt"));
+  const Trajectory estimate = read_trajectory(golden("est_drift.txt"));
+  const double middle = estimate[estimate.size() / 2].stamp;
+  for (const bool is_first : {true, false}) {
+    const auto part = [&](Trajectory all) {
+      std::erase_if(all, [&](const auto& pose) { return (pose.stamp < middle) != is_first; });
+      return all;
+    };
+    const std::string robot = is_first ? "a" : "b";
+    const auto runs = folder.path() / "systems" / "team" / robot;
+    std::filesystem::create_directories(runs);
+    std::filesystem::create_directories(folder.path() / "truths");
+    write_tum(folder.path() / "truths" / (robot + ".txt"), part(truth));
+    write_tum(runs / "0.txt", part(estimate));
+  }
+  const std::vector<std::string> arguments{(folder.path() / "truths").string(),
+                                           (folder.path() / "systems").string(),
+                                           "--align-together"};
+  const Json robots = eval_json(arguments);
+  ASSERT_EQ(robots.size(), 2u);
+  EXPECT_EQ(robots[0]["alignment"], robots[1]["alignment"]);
+  EXPECT_THAT(eval(arguments), HasSubstr("team: ate translation, rmse [m], loopbench"));
+  EXPECT_THAT(refusal<InputError>({golden("gt.txt"), "missing.txt", "--align-together"}),
+              HasSubstr("--align-together: missing.txt"));
+}
+
+TEST(EvalGroups, PartsOfAGroupAreNotIncomplete) {
+  TemporaryFolder folder;
+  const Trajectory all = read_trajectory(golden("est_drift.txt"));
+  std::vector<std::string> files{golden("gt.txt")};
+  constexpr std::size_t kParts = 15;
+  for (std::size_t k = 0; k < kParts; ++k) {
+    files.push_back((folder.path() / fmt::format("submap_{}.txt", k)).string());
+    const auto at = [&](std::size_t i) {
+      return all.begin() + static_cast<std::ptrdiff_t>(i * all.size() / kParts);
+    };
+    write_tum(files.back(), {at(k), at(k + 1)});
+  }
+  files.push_back("--align-together");
+  EXPECT_EQ(eval_json(files).size(), kParts);
+}
+
+TEST(EvalGroups, RunsAreComparedPairByPair) {
+  const std::vector<std::string> runs{
+      golden("gt.txt"), golden("est_drift.txt"), golden("est_corrected.txt")};
+  const Json all = eval_json({runs[0], runs[1], runs[2], "--pairwise"});
+  ASSERT_EQ(all.size(), 3u);
+  std::vector<double> expected;
+  for (const auto& [i, k] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 2}}) {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(k);
+    expected.push_back(find(eval_json({runs[a], runs[b]}), "ate", "translation")["rmse"]);
+    const Json& pair = all[expected.size() - 1];
+    EXPECT_EQ(find(pair, "ate", "translation")["rmse"], expected.back());
+  }
+  std::ranges::sort(expected);
+  const std::string text = eval({runs[0], runs[1], runs[2], "--pairwise"});
+  EXPECT_THAT(text, HasSubstr("differences between runs, without a reference"));
+  EXPECT_THAT(text, testing::ContainsRegex("ate translation, rmse .m., loopbench +\\| +3 "));
+  EXPECT_THAT(text, HasSubstr(fmt::format("{:.4g}", expected[1])));
+  EXPECT_THAT(text, testing::Not(HasSubstr("verdict")));
+}
+
+/// `laps` rounds of a circle of 10 m at a height, 40 poses each, and five poses more.
+Trajectory rounds(int laps, double first_stamp, double height) {
+  Trajectory out;
+  for (int i = 0; i < 40 * laps + 5; ++i) {
+    const double angle = M_PI / 20.0 * i;
+    const Vector3 position(10 * std::sin(angle), 10 - 10 * std::cos(angle), height);
+    out.push_back({first_stamp + 0.5 * i, {exp_so3({0, 0, angle}), position}});
+  }
+  return out;
+}
+
+TEST(EvalGroups, RepeatedRoutesArePairedByPosition) {
+  const TemporaryFolder folder;
+  const auto file = [&](const char* name) { return (folder.path() / name).string(); };
+  write_tum(file("first.txt"), rounds(1, 0, 0));
+  write_tum(file("second.txt"), rounds(1, 1000, 0.1));
+  const std::vector<std::string> files{file("first.txt"), file("second.txt")};
+  EXPECT_THAT(refusal<InputError>(files), HasSubstr("no pose of the estimate"));
+  const Json apart = eval_json({files[0], files[1], "--by-position", "2", "--align", "none"});
+  EXPECT_NEAR(find(apart, "ate", "translation")["rmse"], 0.1, 1e-12);
+  EXPECT_NEAR(find(apart, "ate", "rotation")["rmse"], 0.0, 1e-9);
+  EXPECT_THAT(apart["notes"].dump(),
+              HasSubstr("45 of 45 poses are at most 2 m from the path of 45 poses, of which 100.0 "
+                        "% are visited"));
+  const Json aligned = eval_json({files[0], files[1], "--by-position", "2"});
+  EXPECT_NEAR(find(aligned, "ate", "translation")["rmse"], 0.0, 1e-6);
+  EXPECT_THAT(refusal<InputError>({files[0], files[1], "--by-position", "0.05"}),
+              HasSubstr("--by-position: no pose of the estimate is within 0.05 m"));
+  EXPECT_THAT(refusal<InputError>({files[0], files[1], "--by-position", "2", "--offset", "1"}),
+              HasSubstr("expected no --offset"));
+  EXPECT_THROW(eval({files[0], files[1], "--by-position", "2", "--common", "yes"}),
+               CLI::ExcludesError);
+}
+
+TEST(EvalGroups, LapsAreComparedWithEachOther) {
+  const TemporaryFolder folder;
+  const std::string run = (folder.path() / "run.txt").string();
+  const std::string laps = (folder.path() / "laps").string() + "/";
+  const Trajectory poses = rounds(3, 0, 0);
+  EXPECT_THAT(lap_starts(poses, 3.0), testing::ElementsAre(0u, 40u, 80u, 120u));
+  write_tum(run, poses);
+  EXPECT_THAT(test::traj({"laps", run, "--radius", "3", "-o", laps}).output,
+              HasSubstr("run_3.txt: 40 poses"));
+  const std::vector<std::string> files{laps + "run_1.txt", laps + "run_2.txt", laps + "run_3.txt"};
+  const Json pairs = eval_json({files[0], files[1], files[2], "--pairwise", "--by-position", "1"});
+  ASSERT_EQ(pairs.size(), 3u);
+  for (const Json& pair : pairs) EXPECT_NEAR(find(pair, "ate", "translation")["rmse"], 0, 1e-9);
+  // Each lap covers a third of the reference, and all have its frame.
+  const Json together = eval_json({run, files[0], files[1], files[2], "--align-together"});
+  EXPECT_EQ(together.size(), 3u);
+  EXPECT_THAT(traj_refusal({"laps", files[0], "--radius", "1", "-o", laps}),
+              HasSubstr("does not return to within 1 m of its first position"));
+}
+
+TEST(EvalGroups, ALapPassesItsStartInOneDirection) {
+  Trajectory eight;  // passes its centre twice in a round, in directions 118 degrees apart
+  for (int i = 0; i <= 80; ++i) {
+    const double angle = M_PI / 40.0 * i;
+    eight.push_back(
+        {0.1 * i, {Rotation::Identity(), {20 * std::sin(angle), 6 * std::sin(2 * angle), 0}}});
+  }
+  EXPECT_THAT(lap_starts(eight, 2.0), testing::ElementsAre(0u, 80u));
+}
+
+}  // namespace
+}  // namespace loopbench::eval_groups_test
