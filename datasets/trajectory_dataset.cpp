@@ -126,11 +126,39 @@ void check_disabled(const TrajectoryOptions& o, const Params& given) {
   if (o.closures == ClosureSource::none && o.false_closures.share > 0.0) {
     reject_disabled(given, {"false_closures.share"}, source, "file, reference or estimate");
   }
+  if (o.anchors_file.empty()) reject_disabled_by_missing(given, "anchors.", "anchors.file");
   if (o.reference.empty()) reject_disabled_by_missing(given, "reference_", "reference");
   if (o.keyframes.rule == KeyframeRule::all) {
     reject_disabled(
         given, {"keyframes.value"}, "keyframes.rule = all", "every, seconds, metres or count");
   }
+}
+
+/// Adds the anchors of a file, and notes on what they are.
+void add_anchors(const AnchorFile& file,
+                 const Trajectory& run,
+                 const TrajectoryOptions& o,
+                 Sequence& sequence) {
+  std::size_t skipped = 0;
+  Problem& problem = sequence.problem;
+  problem.anchors = as_anchors(file.positions,
+                               problem.keyframes,
+                               run,
+                               {o.anchors_max_gap, InterpolationLimits{}.max_diff},
+                               skipped);
+  if (problem.anchors.empty()) {
+    throw InputError(o.anchors_file + ": no position is at the time of a pose");
+  }
+  std::vector<std::string>& notes = sequence.provenance.notes;
+  if (!file.note.empty()) notes.push_back(file.note);
+  if (skipped == 0) return;
+  notes.push_back(
+      fmt::format("{}: {} of {} positions skipped, which are not between two poses "
+                  "at most {} s apart",
+                  o.anchors_file,
+                  skipped,
+                  file.positions.size(),
+                  o.anchors_max_gap));
 }
 
 }  // namespace
@@ -257,6 +285,16 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
                                  (run_is_reference ? ", which is the reference" : "") +
                                  false_closures_text(o.false_closures, false_closures, all);
   sequence.provenance.oracle_closures = o.closures == ClosureSource::reference || run_is_reference;
+  if (!o.anchors_file.empty()) {
+    std::filesystem::path file = open(o.anchors_file, "anchors.file");
+    if (names_bag(o.anchors_file)) {
+      file = to_text(BagName{file.string(), bag_name(o.anchors_file).topic});
+    }
+    add_anchors(read_anchor_file(file, o.anchors_sigma),
+                in.frames.empty() ? in.estimate : in.frames,
+                o,
+                sequence);
+  }
   check(sequence.problem, sequence.name);
   check(sequence.reference, sequence.name + ": reference", Rotations::optional);
   return sequence;

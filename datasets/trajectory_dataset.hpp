@@ -2,6 +2,7 @@
 #pragma once
 
 #include "datasets/dataset.hpp"
+#include "datasets/derive/anchors.hpp"
 #include "datasets/derive/closures.hpp"
 #include "datasets/derive/false_closures.hpp"
 #include "datasets/derive/keyframes.hpp"
@@ -50,6 +51,9 @@ struct TrajectoryOptions {
   ClosureNoise closures_noise;
   InterpolationLimits reach;
   FalseClosures false_closures;
+  std::string anchors_file;
+  double anchors_sigma = 0.05;
+  double anchors_max_gap = 1.0;
   std::int64_t seed = 1;
   std::string stream;  ///< name of a shared noise stream; empty: own stream
   std::string sensor;
@@ -149,6 +153,18 @@ void fields(TrajectoryOptions& o, Visit visit) {
         "maximum gap interpolated in the reference or other run [s]",
         Between{0.0, 1e9});
   false_closure_fields(o.false_closures, visit);
+  visit("anchors.file",
+        o.anchors_file,
+        "file with measured positions: stamp x y z [sigma, or 6 columns of covariance], or any "
+        "format of a reference; empty: none");
+  visit("anchors.sigma",
+        o.anchors_sigma,
+        "standard deviation of measured positions that state none [m]",
+        GreaterThan{0.0});
+  visit("anchors.max_gap",
+        o.anchors_max_gap,
+        "maximum time between the poses around a measured position [s]",
+        Between{0.0, 1e9});
   visit("seed", o.seed, "random seed of the noise on closures from the reference");
   noise_stream_field(o.stream, visit);
   visit("sensor", o.sensor, "sensor, free text copied to the results");

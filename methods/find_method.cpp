@@ -33,7 +33,7 @@ Trajectory correct(const Problem& problem, const std::string& name, const Params
   const MethodEntry entry = find_method(name);
   const auto corrected = [&](const auto& method) -> Trajectory {
     if constexpr (requires(Report report) { result_of(*method, problem, report); }) {
-      const std::string why = method->why_declined(problem);
+      const std::string why = reason_to_decline(*method, problem);
       if (!why.empty()) throw InputError(name + ": is not applicable: " + why);
       Report report;
       return result_of(*method, problem, report);

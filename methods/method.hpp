@@ -28,6 +28,10 @@ class Corrector {
   /// Returns the reason why the method cannot process this problem; empty if it can.
   virtual std::string why_declined(const Problem&) const { return ""; }
 
+  /// Whether the method uses Problem::anchors, or, like `raw`, is defined without measurements. All
+  /// others decline problems with anchors, see reason_to_decline().
+  virtual bool accepts_anchors() const { return false; }
+
   /// Returns one pose per keyframe, in the same order and with the same stamps. Throws
   /// std::runtime_error on failure.
   virtual Trajectory correct(const Problem& problem, Report& report) const = 0;
@@ -58,6 +62,9 @@ class Estimator {
 
   virtual std::string why_declined(const Problem&) const { return ""; }
 
+  /// As Corrector::accepts_anchors().
+  virtual bool accepts_anchors() const { return false; }
+
   virtual std::unique_ptr<const Curve> estimate(const Problem& problem, Report& report) const = 0;
 
   /// As Corrector::incremental().
@@ -66,6 +73,17 @@ class Estimator {
     return nullptr;
   }
 };
+
+/// Returns the reason why a corrector or estimator cannot process the problem, empty if it can: its
+/// own, or anchors that it would ignore.
+template <class Method>
+std::string reason_to_decline(const Method& method, const Problem& problem) {
+  if (!problem.anchors.empty() && !method.accepts_anchors()) {
+    return "the problem has anchors (" + std::to_string(problem.anchors.size()) +
+           "), which the method does not use";
+  }
+  return method.why_declined(problem);
+}
 
 /// A stage in front of a method: passes a problem to it in the order of time.
 class Replayer {

@@ -39,7 +39,13 @@ Dm::Options robust() {
 }
 
 /// No correction: the baseline for all gains.
-Trajectory uncorrected(const Problem& problem) { return problem.keyframes; }
+class Raw final : public Corrector {
+ public:
+  using Options = NoOptions;
+  explicit Raw(const Options&) {}
+  bool accepts_anchors() const override { return true; }
+  Trajectory correct(const Problem& problem, Report&) const override { return problem.keyframes; }
+};
 
 /// The baseline smoother.
 std::unique_ptr<const Curve> polyline(const Problem& problem) {
@@ -51,7 +57,7 @@ std::unique_ptr<const Curve> polyline(const Problem& problem) {
 std::vector<MethodEntry> methods() {
   return {
       // Correctors: keyframes in, keyframes out.
-      method("raw", "uncorrected keyframes of the tracker", uncorrected),
+      method<Raw>("raw", "uncorrected keyframes of the tracker"),
       method<Uniform>("uniform", "closing error distributed evenly along each loop"),
       method<Uniform>("uniform_position",
                       "closing error distributed evenly, positions only",

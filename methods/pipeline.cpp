@@ -39,6 +39,9 @@ class Pipeline final : public Estimator {
     return smoother_ ? smoother_->why_declined(problem) : "";
   }
 
+  /// A smoother removes no drift, so that it is defined without anchors.
+  bool accepts_anchors() const override { return !corrector_ || corrector_->accepts_anchors(); }
+
   std::unique_ptr<const Curve> estimate(const Problem& problem, Report& report) const override {
     if (!corrector_) return smoothed(problem, report);
     Trajectory keyframes =
@@ -74,7 +77,8 @@ Problem with_keyframes(const Problem& problem, Trajectory keyframes) {
                 problem.closures,
                 {},
                 problem.planar,
-                problem.shared_landmarks};
+                problem.shared_landmarks,
+                problem.anchors};
   moved.frames.reserve(problem.frames.size());
   const std::vector<double> knots = stamps(before);
   KnotSpan span(knots);

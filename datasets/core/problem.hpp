@@ -1,4 +1,4 @@
-/// Input of a method: keyframes, odometry edges and loop closures, without the reference.
+/// Input of a method: keyframes, odometry edges, loop closures and anchors, without the reference.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "datasets/core/anchor.hpp"
 #include "datasets/core/se3.hpp"
 #include "datasets/core/trajectory.hpp"
 
@@ -32,13 +33,16 @@ struct Problem {
   bool planar = false;         ///< measured in SE(2), lifted to z = roll = pitch = 0
   /// Number of landmarks seen by both keyframes k and k + 1; empty if unknown.
   std::vector<std::size_t> shared_landmarks = {};
+  /// Measured positions, sorted by keyframe. The keyframes may be in another world frame.
+  std::vector<Anchor> anchors = {};
 };
 
 /// Throws InputError with `name` and the violated rule if edges or trajectories are invalid.
-/// O(keyframes + frames + edges).
+/// O(keyframes + frames + edges + anchors).
 inline void check(const Problem& problem, const std::string& name) {
   check(problem.keyframes, name + ": keyframes");
   check(problem.frames, name + ": frames");
+  check(problem.anchors, problem.keyframes.size(), name);
   if (!problem.shared_landmarks.empty() &&
       problem.shared_landmarks.size() + 1 != problem.keyframes.size()) {
     throw InputError(name + ": shared_landmarks has " +

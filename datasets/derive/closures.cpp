@@ -148,6 +148,16 @@ std::vector<Edge> with_local_scale(std::vector<Edge> edges,
   return edges;
 }
 
+Edge start_equals_end(const Trajectory& poses, double sigma_t) {
+  constexpr double kUnknown = 10.0;  // [rad]
+  const Rotation& first = poses.front().world_from_body.rotation;
+  const Rotation& last = poses.back().world_from_body.rotation;
+  return {0,
+          poses.size() - 1,
+          normalized(Pose{first.conjugate() * last, Vector3::Zero()}),
+          isotropic_information(sigma_t * sigma_t, kUnknown * kUnknown)};
+}
+
 void sort_closures(std::vector<Edge>& closures) {
   std::stable_sort(closures.begin(), closures.end(), [](const Edge& a, const Edge& b) {
     return std::tie(a.to, a.from) < std::tie(b.to, b.from);

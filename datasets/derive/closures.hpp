@@ -52,6 +52,12 @@ std::vector<Edge> with_local_scale(std::vector<Edge> edges,
                                    const Trajectory& run,
                                    const InterpolationLimits& reach);
 
+/// A closure between the first and the last of at least two poses, at the same position up to
+/// `sigma_t` [m], for a body that returned to its start with an unknown rotation. The rotation is
+/// that of the poses, so that spreading rules do not change it, with a standard deviation of 10
+/// rad, so that least squares ignore it.
+Edge start_equals_end(const Trajectory& poses, double sigma_t);
+
 /// Sorts closures by (to, from), as required by Problem.
 void sort_closures(std::vector<Edge>& closures);
 

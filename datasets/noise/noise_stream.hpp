@@ -48,6 +48,7 @@ inline bool is_data_option(const std::string& option) {
                               "frames",
                               "times",
                               "closures.file",
+                              "anchors.file",
                               "path",
                               "truth",
                               "closures.true_list",

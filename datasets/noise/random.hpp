@@ -17,7 +17,8 @@ enum class Purpose : std::uint32_t {
   odometry = 1,
   closures = 2,
   false_closures = 3,
-  white_noise = 4
+  white_noise = 4,
+  anchors = 5
 };
 
 class Random {

@@ -1,6 +1,7 @@
 #include "datasets/simulated/closures.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 #include "datasets/noise/random.hpp"
@@ -78,6 +79,31 @@ std::vector<Edge> simulate_closures(const Trajectory& truth,
   std::sort(out.begin(), out.end(), [](const Edge& a, const Edge& b) {
     return std::tie(a.to, a.from) < std::tie(b.to, b.from);
   });
+  return out;
+}
+
+std::vector<Anchor> simulate_anchors(const Trajectory& truth, const SimulatedOptions& options) {
+  const auto count = static_cast<std::size_t>(options.anchors.count);
+  if (count > truth.size()) {
+    throw OptionError("anchors.count",
+                      "anchors.count = " + std::to_string(count) + ": expected at most " +
+                          std::to_string(truth.size()) + ", the number of keyframes");
+  }
+  const Vector3 mask(1.0, 1.0, options.planar ? 0.0 : 1.0);
+  const double sigma = options.anchors.sigma;
+  const double stated = std::max(sigma, kSigmaFloor);
+  Random random(noise_stream(options), Purpose::anchors);
+  std::vector<std::size_t> keyframes(truth.size());
+  std::iota(keyframes.begin(), keyframes.end(), std::size_t{0});
+  std::vector<Anchor> out;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::swap(keyframes[k], keyframes[k + random.index(keyframes.size() - k)]);
+    const Vector3 error = sigma * mask.cwiseProduct(random.normal3());
+    out.push_back({keyframes[k],
+                   truth[keyframes[k]].world_from_body.translation + error,
+                   stated * stated * Matrix3::Identity()});
+  }
+  std::ranges::sort(out, {}, &Anchor::keyframe);
   return out;
 }
 

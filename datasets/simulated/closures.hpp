@@ -1,4 +1,4 @@
-/// Simulated loop closures, true and false.
+/// Simulated loop closures, true and false, and anchors.
 #pragma once
 
 #include <vector>
@@ -17,5 +17,10 @@ namespace loopbench {
 std::vector<Edge> simulate_closures(const Trajectory& truth,
                                     const RevisitRule& same,
                                     const SimulatedOptions& options);
+
+/// Returns anchors.count measured positions of different keyframes, drawn at random, with normal
+/// errors in x, y and, unless options.planar, z. Throws OptionError for more anchors than
+/// keyframes. O(keyframes).
+std::vector<Anchor> simulate_anchors(const Trajectory& truth, const SimulatedOptions& options);
 
 }  // namespace loopbench

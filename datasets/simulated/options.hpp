@@ -63,6 +63,12 @@ struct SimulatedClosures {
   double false_share = 0.0;  ///< false closures among all closures [-]
 };
 
+/// Measured positions of keyframes, drawn at random.
+struct SimulatedAnchors {
+  std::int64_t count = 0;
+  double sigma = 0.02;  ///< [m]
+};
+
 struct SimulatedOptions {
   SimulatedPath path = SimulatedPath::room;
   std::int64_t seed = 1;
@@ -76,6 +82,7 @@ struct SimulatedOptions {
   SystematicDrift drift;
   WhiteNoise white_noise;
   SimulatedClosures closures;
+  SimulatedAnchors anchors;
 };
 
 template <class Visit>
@@ -203,6 +210,15 @@ void fields(SimulatedOptions& o, Visit visit) {
         c.false_share,
         "share of false closures among all closures [-]",
         Between{0, 0.95});
+
+  visit("anchors.count",
+        o.anchors.count,
+        "number of measured positions, at keyframes drawn at random",
+        Between{0, 1'000'000});
+  visit("anchors.sigma",
+        o.anchors.sigma,
+        "standard deviation of each coordinate of a measured position [m]",
+        Between{0, 1e3});
 }
 
 /// Throws OptionError if an option has no effect or is invalid because of another option.

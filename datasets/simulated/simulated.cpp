@@ -166,6 +166,7 @@ Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
   out.problem.keyframes = at(keyframes, odometry.frames);
   out.problem.odometry = std::move(odometry.edges);
   out.problem.closures = simulate_closures(at(keyframes, truth), same, options);
+  out.problem.anchors = simulate_anchors(at(keyframes, truth), options);
   out.problem.frames = std::move(odometry.frames);
   out.problem.planar = options.planar;
   out.reference = std::move(reference);

@@ -80,6 +80,17 @@ void add_correct(CLI::App& app, int& exit_code) {
        c.loops,
        "Loop closures: stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r], or a g2o graph "
        "whose vertices are the poses of ESTIMATE");
+  file("--anchors",
+       c.anchors,
+       "Measured positions: stamp x y z [sigma, or xx xy xz yy yz zz of the covariance], or any "
+       "format of a reference");
+  command
+      ->add_option("--start-equals-end",
+                   c.start_equals_end,
+                   "Add a closure: the last position is the first one, up to this standard "
+                   "deviation [m]; the rotation is not measured")
+      ->type_name("METRES")
+      ->check(CLI::PositiveNumber);
   file("--frames", c.frames, "All tracked poses of the run, if ESTIMATE contains only keyframes");
   command
       ->add_option("--set",

@@ -75,7 +75,7 @@ const std::map<std::string, std::string> kExamples{
     {"correct",
      "  loopbench correct graph.g2o -o corrected.g2o --plot corrected.svg\n"
      "  loopbench correct run.txt --loops loops.txt --method motion_drift -o corrected.txt\n"
-     "  loopbench correct graph.g2o --method uniform:weights=distance -o corrected.txt --json\n"},
+     "  loopbench correct run.txt --anchors points.txt --method dual -o corrected.txt\n"},
     {"export",
      "  loopbench run configs/quickstart.yaml --save-trajectories\n"
      "  loopbench export results/quickstart --what trajectories -o estimates\n"

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
+#include "datasets/derive/closures.hpp"
 #include "datasets/derive/problem_graph.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 #include "harness/base/write_file.hpp"
@@ -24,6 +26,13 @@ std::optional<Residuals> residuals(const Problem& problem, const Trajectory& key
   evaluation.context.problem = &problem;
   evaluation.context.estimate = &keyframes;
   Residuals out;
+  double sum = 0.0;
+  for (const Anchor& anchor : problem.anchors) {
+    const double e = anchor_error(anchor, keyframes[anchor.keyframe].world_from_body).norm();
+    sum += e * e;
+    out.anchor_max = std::max(out.anchor_max.value_or(0.0), e);
+    out.anchor_rms = std::sqrt(sum / static_cast<double>(problem.anchors.size()));
+  }
   try {
     if (!problem.closures.empty()) {
       const std::vector<metrics::Score> scores = metrics::closure_residual(evaluation);
@@ -74,6 +83,9 @@ void write(const CorrectArguments& a, const Correction& done) {
     return write_tum(a.out, done.output, {"corrected by loopbench: " + done.method});
   }
   if (a.format != Format::g2o) return write_trajectory(a.out, {done.output}, a.format);
+  if (!done.problem.anchors.empty()) {
+    throw InputError(a.out + ": a g2o graph contains no anchors, expected another format");
+  }
   if (a.dense || !a.at.empty()) {
     throw InputError(a.out + ": a graph contains the keyframes, expected no --dense and no --at");
   }
@@ -110,7 +122,7 @@ Correction correct(Problem problem,
                    const std::vector<double>& at,
                    const Catalogue& catalogue) {
   const auto method = make_method(choice, catalogue, {});
-  if (const std::string why = method->why_declined(problem); !why.empty()) {
+  if (const std::string why = methods::reason_to_decline(*method, problem); !why.empty()) {
     throw InputError(name + ": " + choice.label + " declines: " + why);
   }
   Correction out;
@@ -134,25 +146,35 @@ Correction correct(Problem problem,
   return out;
 }
 
-Problem load_problem(const CorrectArguments& a, const Catalogue& catalogue) {
+Problem load_problem(const CorrectArguments& a,
+                     const Catalogue& catalogue,
+                     std::vector<std::string>* notes) {
   const bool graph = is_graph(a);
-  if (graph && !(a.loops.empty() && a.frames.empty())) {
+  if (graph && !(a.loops.empty() && a.frames.empty() && a.anchors.empty())) {
     throw InputError(a.estimate +
-                     ": is a g2o graph, which contains its closures and has no "
-                     "frames, expected no --loops and no --frames");
+                     ": is a g2o graph, which contains its closures and has no stamps and no "
+                     "frames, expected no --loops, no --anchors and no --frames");
   }
   const DatasetEntry& dataset = find_dataset(catalogue, graph ? "pose_graph" : "trajectory");
   Params options = parse_settings(a.settings, dataset.options);
   options[graph ? "path" : "estimate"] = a.estimate;
   if (!a.frames.empty()) options["frames"] = a.frames;
+  if (!a.anchors.empty()) options["anchors.file"] = a.anchors;
   if (!a.loops.empty()) {
     options["closures.file"] = a.loops;
     options["closures.source"] = "file";
   }
   dataset.check(options);
-  Problem out = dataset.load(options, DataRoot{{"."}}).problem;
+  Sequence loaded = dataset.load(options, DataRoot{{"."}});
+  Problem& out = loaded.problem;
+  if (a.start_equals_end) {
+    if (out.keyframes.size() < 3) throw InputError(a.estimate + ": has fewer than 3 keyframes");
+    out.closures.push_back(start_equals_end(out.keyframes, *a.start_equals_end));
+    sort_closures(out.closures);
+  }
   check(out, a.estimate);
-  return out;
+  if (notes != nullptr) *notes = std::move(loaded.provenance.notes);
+  return std::move(out);
 }
 
 FigureData before_and_after(const Correction& done) {
@@ -171,10 +193,12 @@ FigureData before_and_after(const Correction& done) {
 
 Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   if (!a.out.empty() && !is_dash(a.out))
-    reject_overwriting({a.estimate, a.loops, a.frames, a.at}, a.out);
+    reject_overwriting({a.estimate, a.loops, a.anchors, a.frames, a.at}, a.out);
   const MethodChoice choice = method_without_reference(a.method, catalogue);
-  Problem problem = load_problem(a, catalogue);
-  if (problem.closures.empty() && !is_graph(a) && uses_closures(choice, catalogue)) {
+  std::vector<std::string> notes;
+  Problem problem = load_problem(a, catalogue, &notes);
+  const bool has_measurements = !problem.closures.empty() || !problem.anchors.empty();
+  if (!has_measurements && !is_graph(a) && uses_closures(choice, catalogue)) {
     throw InputError(a.estimate + ": " + choice.label +
                      " declines: the problem has no loop closures, expected --loops FILE");
   }
@@ -182,6 +206,7 @@ Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   const std::vector<double> at = output_stamps(a, problem, outside);
   Correction out = correct(std::move(problem), a.estimate, choice, at, catalogue);
   out.outside = outside;
+  out.report.notes.insert(out.report.notes.begin(), notes.begin(), notes.end());
   if (!a.out.empty()) write(a, out);
   out.out = a.out;
   return out;

@@ -19,7 +19,9 @@ struct CorrectArguments {
   std::string estimate;               ///< trajectory in any known format, or a g2o graph
   std::string method = "pose_graph";  ///< NAME[:option=value,...][ + NAME[:...]]
   std::string loops;                  ///< closure file or g2o graph for a trajectory; empty: none
-  std::string frames;                 ///< all tracked poses of the run; empty: none
+  std::string anchors;                ///< measured positions for a trajectory; empty: none
+  std::optional<double> start_equals_end = {};  ///< deviation of a closure of the ends [m]
+  std::string frames;                           ///< all tracked poses of the run; empty: none
   std::vector<std::string> settings;  ///< OPTION=VALUE of dataset `trajectory` or `pose_graph`
   std::string at;                     ///< trajectory file whose stamps are used; empty: keyframes
   bool dense = false;                 ///< output keyframes and frames
@@ -35,6 +37,8 @@ struct Residuals {
   double rotation_max = 0.0;     ///< [deg]
   double chi2_odometry = 0.0;
   double chi2_closures = 0.0;
+  std::optional<double> anchor_rms = {};  ///< of the anchors, if there are any [m]
+  std::optional<double> anchor_max = {};  ///< [m]
 };
 
 struct Correction {
@@ -70,9 +74,11 @@ Correction correct(Problem problem,
 /// InputError, also if the method declines; other exceptions of the method are not caught.
 Correction correct(const CorrectArguments& arguments, const Catalogue& catalogue);
 
-/// The problem that correct() would correct, from `estimate`, `loops`, `frames` and `settings`.
-/// Throws InputError.
-Problem load_problem(const CorrectArguments& arguments, const Catalogue& catalogue);
+/// The problem that correct() would correct, from `estimate`, `loops`, `anchors`, `frames` and
+/// `settings`. Appends remarks of its dataset to `notes` unless it is null. Throws InputError.
+Problem load_problem(const CorrectArguments& arguments,
+                     const Catalogue& catalogue,
+                     std::vector<std::string>* notes = nullptr);
 
 /// Summary for a terminal: sizes, residuals before and after, counts and notes of the method.
 std::string text(const Correction& correction);
@@ -80,10 +86,10 @@ std::string text(const Correction& correction);
 /// Map of the keyframes before and after, without files.
 FigureData before_and_after(const Correction& correction);
 
-/// Object with keys estimate, method, keyframes, odometry, closures, rejected, seconds, before,
-/// after {translation_rms, translation_max, rotation_rms, rotation_max, chi2_odometry,
-/// chi2_closures} or null, counts {name: value}, phases [{name, seconds}], notes [text], output
-/// {file, poses, outside}.
+/// Object with keys estimate, method, keyframes, odometry, closures, anchors, rejected, seconds,
+/// before, after {translation_rms, translation_max, rotation_rms, rotation_max, chi2_odometry,
+/// chi2_closures, and with anchors anchor_rms, anchor_max} or null, counts {name: value}, phases
+/// [{name, seconds}], notes [text], output {file, poses, outside}.
 std::string json(const Correction& correction);
 
 }  // namespace loopbench::harness

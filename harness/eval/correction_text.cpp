@@ -33,6 +33,10 @@ nlohmann::json residuals_json(const std::optional<Residuals>& residuals) {
   if (!residuals) return nullptr;
   nlohmann::json out;
   for (const auto& [name, member] : kRows) out[name] = (*residuals).*member;
+  if (residuals->anchor_rms) {
+    out["anchor_rms"] = *residuals->anchor_rms;
+    out["anchor_max"] = *residuals->anchor_max;
+  }
   return out;
 }
 
@@ -45,6 +49,7 @@ std::string text(const Correction& c) {
                                 c.keyframes.size(),
                                 c.problem.odometry.size(),
                                 c.problem.closures.size());
+  if (!c.problem.anchors.empty()) out += fmt::format(", {} anchors", c.problem.anchors.size());
   if (c.rejected) out += fmt::format(" ({} rejected)", *c.rejected);
   out += fmt::format(", {:.1f} ms\n\n", 1e3 * c.seconds);
   if (c.before && c.after) {
@@ -56,6 +61,15 @@ std::string text(const Correction& c) {
                          residual_text((*c.before).*member),
                          residual_text((*c.after).*member));
     }
+    const auto anchors = [&](const char* title, std::optional<double> Residuals::*member) {
+      if (!((*c.before).*member)) return;
+      out += fmt::format("{:<28}{}{}\n",
+                         title,
+                         residual_text(*((*c.before).*member)),
+                         residual_text(*((*c.after).*member)));
+    };
+    anchors("anchor error, rms [m]", &Residuals::anchor_rms);
+    anchors("anchor error, max [m]", &Residuals::anchor_max);
   } else {
     out += "no residuals: an edge changes the scale\n";
   }
@@ -87,6 +101,7 @@ std::string json(const Correction& c) {
       {"keyframes", c.keyframes.size()},
       {"odometry", c.problem.odometry.size()},
       {"closures", c.problem.closures.size()},
+      {"anchors", c.problem.anchors.size()},
       {"rejected", c.rejected ? nlohmann::json(*c.rejected) : nlohmann::json(nullptr)},
       {"seconds", c.seconds},
       {"before", residuals_json(c.before)},

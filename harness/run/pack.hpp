@@ -74,6 +74,9 @@ inline constexpr bool kIsPlain<StampedPose> = true;
 template <>
 inline constexpr bool kIsPlain<Matrix6> = true;
 
+template <>
+inline constexpr bool kIsPlain<Anchor> = true;
+
 template <class Archive, Either<Edge> T>
 void walk(Archive& a, T& edge) {
   a(edge.from)(edge.to)(edge.from_from_to)(edge.information)(edge.scale);
@@ -81,7 +84,7 @@ void walk(Archive& a, T& edge) {
 
 template <class Archive, Either<Problem> T>
 void walk(Archive& a, T& p) {
-  a(p.keyframes)(p.odometry)(p.closures)(p.frames)(p.planar)(p.shared_landmarks);
+  a(p.keyframes)(p.odometry)(p.closures)(p.frames)(p.planar)(p.shared_landmarks)(p.anchors);
 }
 
 template <class Archive, Either<std::filesystem::path> T>

@@ -87,6 +87,12 @@ std::string content_of(const Sequence& sequence) {
   hash.add(std::uint64_t{problem.planar});
   hash.add(std::uint64_t{problem.shared_landmarks.size()});
   for (const std::size_t count : problem.shared_landmarks) hash.add(std::uint64_t{count});
+  for (const Anchor& anchor : problem.anchors) {
+    hash.add(std::uint64_t{anchor.keyframe});
+    for (const double x : anchor.position) hash.add(x);
+    for (const double x : anchor.covariance.reshaped()) hash.add(x);
+    for (const double x : anchor.point_in_body) hash.add(x);
+  }
   hash.add(sequence.reference);
   return hash.text();
 }

@@ -8,8 +8,8 @@
 namespace loopbench::harness {
 
 /// Hash of the method's input and the reference: keyframes, frames, odometry, closures with
-/// information and scale, shared_landmarks, planar and the reference, bit by bit. Sequences with
-/// equal content are one observation. O(poses + edges).
+/// information and scale, shared_landmarks, planar, anchors and the reference, bit by bit.
+/// Sequences with equal content are one observation. O(poses + edges).
 std::string content_of(const Sequence& sequence);
 
 /// Hash of stamps and poses, bit by bit. O(n).

@@ -27,14 +27,17 @@ inline std::string why_no_chain(const Problem& problem) {
   return "";
 }
 
-/// Returns why a chain cannot be corrected by at most `max_closures` loops, or an empty text. O(n).
+/// Returns why a chain cannot be corrected by at most `max_closures` loops and anchors, or an empty
+/// text. O(n).
 inline std::string loops_fault(const Problem& problem,
                                std::int64_t max_closures,
                                const std::string& option = "max_closures") {
-  if (problem.closures.empty()) return "the problem has no loop closures";
-  if (problem.closures.size() > static_cast<std::size_t>(max_closures)) {
-    return std::to_string(problem.closures.size()) + " closures exceed " + option + " = " +
-           std::to_string(max_closures);
+  const std::size_t closures = problem.closures.size(), anchors = problem.anchors.size();
+  if (closures + anchors == 0) return "the problem has no loop closures";
+  if (closures + anchors > static_cast<std::size_t>(max_closures)) {
+    return std::to_string(closures) + " closures " +
+           (anchors > 0 ? "and " + std::to_string(anchors) + " anchors " : "") + "exceed " +
+           option + " = " + std::to_string(max_closures);
   }
   return why_no_chain(problem);
 }

@@ -23,7 +23,7 @@ void fields(PairwiseConsistentOptions<Base>& o, Visit visit) {
 }
 
 /// Runs consistent_closures(), then `Base` on the remaining closures. Returns the keyframes
-/// unchanged when no two closures agree. Frames are not passed on.
+/// unchanged when no two closures agree and there are no anchors. Frames are not passed on.
 template <class Base>
 class PairwiseConsistent final : public Corrector {
  public:
@@ -32,6 +32,7 @@ class PairwiseConsistent final : public Corrector {
       : max_closures_(options.max_closures), base_(options.base) {}
 
   std::string why_declined(const Problem& problem) const override {
+    if (problem.closures.empty()) return "the problem has no loop closures";
     std::string fault = loops_fault(problem, max_closures_, "pcm.max_closures");
     if (!fault.empty()) return fault;
     // What the base declines with a single closure, it declines with any of them.
@@ -39,10 +40,13 @@ class PairwiseConsistent final : public Corrector {
         {problem.keyframes, problem.odometry, {problem.closures.front()}, {}, problem.planar});
   }
 
+  bool accepts_anchors() const override { return base_.accepts_anchors(); }
+
   /// Counts: those of `Base`, and `closures_consistent`. Throws std::runtime_error when `Base`
   /// throws or declines the remaining closures.
   Trajectory correct(const Problem& problem, Report& report) const override {
     Problem reduced{problem.keyframes, problem.odometry, {}, {}, problem.planar};
+    reduced.anchors = problem.anchors;
     const ConsistentClosures found =
         report.time("check", [&] { return consistent_closures(problem); });
     for (const std::size_t k : found.kept) reduced.closures.push_back(problem.closures[k]);
@@ -55,7 +59,7 @@ class PairwiseConsistent final : public Corrector {
     if (!found.is_largest) {
       report.notes.push_back("the search for the largest consistent set was not finished");
     }
-    if (reduced.closures.empty()) {
+    if (reduced.closures.empty() && reduced.anchors.empty()) {
       report.notes.push_back("no two closures are consistent: keyframes returned unchanged");
       return problem.keyframes;
     }

@@ -30,6 +30,9 @@ namespace loopbench::methods {
 /// is returned. `rescale` first multiplies the odometry's stated covariances by two factors
 /// estimated from the loops (variance_components.hpp).
 ///
+/// Anchors are loops from a fixed world in which only a position is measured (anchored_chain.hpp):
+/// three rows of the same equations. Their start is the keyframes, aligned to the anchors, alone.
+///
 /// Odometry edges must join all neighbouring keyframes. Full information matrices are used.
 /// Source: generalised least squares with few constraints. With the gaps c of the closures, their
 /// Jacobian G by the errors of the edges, and the covariances S (odometry) and S_L (closures), a
@@ -37,6 +40,7 @@ namespace loopbench::methods {
 class Dual final : public Corrector {
  public:
   enum class Start { automatic, keyframes };
+  enum class Use { all, closures, anchors };
   struct Options {
     int max_iterations = 500;
     double tolerance = 1e-10;
@@ -44,10 +48,16 @@ class Dual final : public Corrector {
     bool scale = true;
     Start start = Start::automatic;
     bool rescale = false;
+    Use use = Use::all;
   };
   explicit Dual(const Options& options) : options_(options) {}
 
   std::string why_declined(const Problem& problem) const override;
+
+  /// `rescale` knows no anchors.
+  bool accepts_anchors() const override {
+    return !options_.rescale || options_.use == Use::closures;
+  }
 
   /// Counts: `iterations`, `chi2_before`, `chi2` (the sum above), `chi2_per_dof`,
   /// and with `rescale` the factors `factor_t`, `factor_r` on standard deviations. Notes:
@@ -55,6 +65,9 @@ class Dual final : public Corrector {
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
+  /// The problem without the measurements that are not used.
+  Problem used_part(const Problem& problem) const;
+  static Trajectory correct_anchored(const Options& options, const Problem& stated, Report& report);
   static Trajectory correct_rigid(const Options& options, const Problem& problem, Report& report);
 
   Options options_;
@@ -63,6 +76,12 @@ class Dual final : public Corrector {
 inline auto choices(Dual::Start) {
   return std::array{std::pair{"auto", Dual::Start::automatic},
                     std::pair{"keyframes", Dual::Start::keyframes}};
+}
+
+inline auto choices(Dual::Use) {
+  return std::array{std::pair{"all", Dual::Use::all},
+                    std::pair{"closures", Dual::Use::closures},
+                    std::pair{"anchors", Dual::Use::anchors}};
 }
 
 template <class Visit>
@@ -74,7 +93,7 @@ void fields(Dual::Options& o, Visit visit) {
         Between{0.0, 1.0});
   visit("max_closures",
         o.max_closures,
-        "maximum number of closures; the time of the dense solve grows with its cube",
+        "maximum number of closures and anchors; the time of the dense solve grows with its cube",
         Between{1, 2000});
   visit("scale", o.scale, "estimate and remove scale drift first (Sim(3) chains)");
   visit("start",
@@ -84,6 +103,7 @@ void fields(Dual::Options& o, Visit visit) {
         o.rescale,
         "multiply the odometry's translation and rotation covariances by factors estimated from "
         "the loops");
+  visit("use", o.use, "measurements that are used, to compare what closures and anchors add");
 }
 
 }  // namespace loopbench::methods

@@ -53,8 +53,14 @@ NoiseModel stated_noise_model(const Problem& problem) {
   return out;
 }
 
-LoopedChain::LoopedChain(const Problem& problem, NoiseModel noise_model)
-    : problem_(problem), sums_(problem.closures), poses_(problem.keyframes.size()) {
+LoopedChain::LoopedChain(const Problem& problem,
+                         NoiseModel noise_model,
+                         std::vector<std::optional<Vector3>> points)
+    : problem_(problem),
+      sums_(problem.closures),
+      poses_(problem.keyframes.size()),
+      points_(std::move(points)) {
+  points_.resize(problem.closures.size());
   Vector3 sum = Vector3::Zero();
   for (const StampedPose& k : problem.keyframes) sum += k.world_from_body.translation;
   centre_ = sum / static_cast<double>(problem.keyframes.size());
@@ -172,7 +178,16 @@ Eigen::VectorXd LoopedChain::loop_errors(const std::vector<Pose>& poses) const {
   Eigen::VectorXd out(static_cast<Eigen::Index>(6 * problem_.closures.size()));
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
     const Edge& loop = problem_.closures[k];
-    of_closure(out, k) = edge_error(loop, poses[loop.from], poses[loop.to]);
+    const Pose& from = poses[loop.from];
+    const Pose& to = poses[loop.to];
+    if (measures_position(k)) {
+      const Vector3 reached =
+          from.rotation.conjugate() *
+          Vector3(to.rotation * *points_[k] + to.translation - from.translation);
+      of_closure(out, k) = twist(reached - loop.from_from_to.translation, Vector3::Zero());
+    } else {
+      of_closure(out, k) = edge_error(loop, from, to);
+    }
   }
   return out;
 }
@@ -185,9 +200,18 @@ LoopJacobian LoopedChain::linearise() const {
   }
   out.gap = loop_errors(poses_);
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
-    const Twist eta = of_closure(out.gap, k);
-    out.loop.push_back(inverse_right_jacobian_se3(eta) *
-                       adjoint(poses_[problem_.closures[k].to].inverse()));
+    const Edge& loop = problem_.closures[k];
+    const Pose& to = poses_[loop.to];
+    if (measures_position(k)) {  // the point moves by rho + phi x point
+      const Matrix3 back = poses_[loop.from].rotation.conjugate().toRotationMatrix();
+      Matrix6 by_twist = Matrix6::Zero();
+      by_twist.topLeftCorner<3, 3>() = back;
+      by_twist.topRightCorner<3, 3>() = -back * hat(to.rotation * *points_[k] + to.translation);
+      out.loop.push_back(by_twist);
+    } else {
+      const Twist eta = of_closure(out.gap, k);
+      out.loop.push_back(inverse_right_jacobian_se3(eta) * adjoint(to.inverse()));
+    }
   }
   out.gap -= loop_error_change(out, sums_, at_.errors);
   return out;

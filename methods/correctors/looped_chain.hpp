@@ -14,10 +14,15 @@ NoiseModel stated_noise_model(const Problem& problem);
 
 /// State of the chain at its current corrections: poses, errors e_i and drift beta. Positions are
 /// relative to the chain's centroid, because adjoints grow with the distance from the origin and
-/// lose precision. Keeps references to the problem.
+/// lose precision. Keeps references to the problem, and does not use its anchors.
 class LoopedChain {
  public:
-  LoopedChain(const Problem& problem, NoiseModel noise_model);
+  /// `points`: empty, or one entry per closure. A closure with a point b measures only a position:
+  /// eta = [R_from' (p_to + R_to b - p_from) - t; 0], and its information of the rotation has no
+  /// effect. See anchored_chain.hpp.
+  LoopedChain(const Problem& problem,
+              NoiseModel noise_model,
+              std::vector<std::optional<Vector3>> points = {});
 
   /// Returns half of sum w' S^-1 w + sum beta' V^-1 beta + sum eta' S_L^-1 eta. A cost that is not
   /// finite makes the chain unusable as a start.
@@ -66,6 +71,7 @@ class LoopedChain {
   Corrections gradient(const LoopJacobian& jacobian) const;
   std::vector<Pose> integrate(const std::vector<Twist>& errors) const;
   Eigen::VectorXd loop_errors(const std::vector<Pose>& poses) const;
+  bool measures_position(std::size_t closure) const { return points_[closure].has_value(); }
   double cost_of(const Corrections& at, const Eigen::VectorXd& loop_errors) const;
 
   const Problem& problem_;
@@ -73,6 +79,7 @@ class LoopedChain {
   NoiseModel noise_model_;
   std::vector<Pose> poses_;
   Corrections at_;
+  std::vector<std::optional<Vector3>> points_;
   Vector3 centre_;
   double cost_ = 0.0;
   bool is_near_minimum_ = false;  ///< the last step did not halve the cost

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "methods/correctors/anchors.hpp"
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/gnc.hpp"
 #include "methods/correctors/looped_chain.hpp"
@@ -96,7 +97,7 @@ double solve_loops(const Problem& problem, std::vector<ScaledPose>& poses, int& 
   constexpr int kFewLoops = 20;  // the time of an iteration grows with the cube
   constexpr int kMaxIterations = 100;
   constexpr double kConverged = 1e-12;  // relative change of the cost
-  if (!loops_fault(problem, kFewLoops).empty()) return 0.0;
+  if (!problem.anchors.empty() || !loops_fault(problem, kFewLoops).empty()) return 0.0;
   const NoiseModel noise_model = stated_noise_model(problem);
   std::optional<LoopedChain> chain = chordal_chain(problem, noise_model);
   if (!chain) return 0.0;
@@ -109,6 +110,16 @@ double solve_loops(const Problem& problem, std::vector<ScaledPose>& poses, int& 
   const Trajectory solved = chain->keyframes();
   for (std::size_t i = 0; i < poses.size(); ++i) poses[i].pose = solved[i].world_from_body;
   return before;
+}
+
+/// Moves initial values of the keyframes to their anchors if the first pose is free.
+void align_to_anchors(std::vector<ScaledPose>& poses,
+                      const UsedAnchors& used,
+                      Trajectory keyframes) {
+  if (!used.is_first_free) return;
+  for (std::size_t i = 0; i < poses.size(); ++i) keyframes[i].world_from_body = poses[i].pose;
+  const Pose motion = used.alignment(keyframes);
+  for (ScaledPose& each : poses) each.pose = normalized(motion * each.pose);
 }
 
 /// 99 % quantile of the chi-squared distribution with the group's degrees of freedom.
@@ -125,7 +136,12 @@ std::size_t dimensions(Group group) {
 }  // namespace
 
 std::string PoseGraphOptimizer::why_declined(const Problem& problem) const {
-  if (problem.closures.empty()) return "the problem has no loop closures";
+  if (problem.closures.empty() && problem.anchors.empty()) {
+    return "the problem has no loop closures";
+  }
+  if (std::string fault = anchors_fault(problem); !fault.empty()) return fault;
+  if (!problem.anchors.empty() && options_.group == Poses::sim3)
+    return "group is sim3, which has no anchors";
   if (options_.group == Poses::se2 && !problem.planar)
     return "group is se2, but the problem is not planar";
   if (options_.rescale) {
@@ -165,6 +181,11 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     poses = report.time("initial values",
                         [&] { return initial(problem, options_.start, options_.scale_sigma); });
   }
+  const UsedAnchors used(problem);
+  used.report_held_pose(report);
+  settings.anchors = used.anchors;
+  settings.is_first_free = used.is_first_free;
+  align_to_anchors(poses, used, problem.keyframes);
   std::vector<double> weights(problem.closures.size(), 1.0);
   int iterations = 0;
   const auto solve = [&](const PoseGraphSettings& solve_settings) {
@@ -192,7 +213,8 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     report.count("closures_kept", static_cast<double>(kept_count(weights)));
   }
   std::optional<double> annealed_from;
-  if (is_bounded(options_.loss) && options_.anneal && options_.gnc == Gnc::off) {
+  const bool anneals = is_bounded(options_.loss) && options_.anneal && !problem.closures.empty();
+  if (anneals && options_.gnc == Gnc::off) {
     annealed_from =
         report.time("anneal", [&] { return anneal(problem.closures, settings, poses, solve); });
   }
@@ -220,7 +242,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   if (!is_robust) {
     const std::size_t edges = problem.odometry.size() + kept_count(weights);
     const std::size_t degrees = freedom(problem.keyframes.size(), edges, dimensions(group));
-    report_chi2(2.0 * summary.cost, degrees, report);
+    report_chi2(2.0 * summary.cost, degrees + used.freedom(), report);
   }
   if (!summary.converged) {
     report.notes.push_back(

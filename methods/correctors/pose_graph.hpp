@@ -28,6 +28,8 @@ namespace loopbench::methods {
 /// in either case. Closures that are stated as almost exact are solved with bounded information
 /// (plausibility.hpp).
 ///
+/// Anchors have no loss. The start is aligned to them if they determine the frame (anchors.hpp).
+///
 /// Complexity: a few sparse factorisations, near linear in keyframes for chains; 10 to 30 times
 /// that for GNC. Sources: Grisetti et al., A tutorial on graph-based SLAM, 2010; Agarwal et al.,
 /// Dynamic covariance scaling, ICRA 2013; Suenderhauf and Protzel, Switchable constraints, IROS
@@ -54,6 +56,9 @@ class PoseGraphOptimizer final : public Corrector {
   /// Declines problems without closures, with unconnected keyframes, and non-planar ones with
   /// SE(2).
   std::string why_declined(const Problem& problem) const override;
+
+  /// `gnc` and `rescale` know no anchors.
+  bool accepts_anchors() const override { return options_.gnc == Gnc::off && !options_.rescale; }
 
   /// Counts: `iterations` (linear solves), `chi2_before`, `chi2` (sum of squared Mahalanobis
   /// errors; with a loss `robust_chi2`, sum of losses), without a loss `chi2_per_dof`, with

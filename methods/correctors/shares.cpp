@@ -5,6 +5,8 @@
 #include <string>
 #include <tuple>
 
+#include "methods/correctors/anchors.hpp"
+
 namespace loopbench::methods {
 
 std::vector<double> step_weights(const Trajectory& keyframes, StepWeights weights) {
@@ -40,6 +42,11 @@ std::optional<LoopShares> loop_shares(const std::vector<double>& shares,
   }
   for (double& w : out.cumulative) w /= total;
   return out;
+}
+
+std::string LoopCorrector::why_declined(const Problem& problem) const {
+  const bool is_empty = problem.closures.empty() && problem.anchors.empty();
+  return is_empty ? "the problem has no loop closures" : anchors_fault(problem);
 }
 
 LoopCorrection::LoopCorrection(const Pose& start,

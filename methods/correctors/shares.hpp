@@ -42,12 +42,10 @@ std::optional<LoopShares> loop_shares(const std::vector<double>& shares,
                                       const std::vector<bool>& frozen,
                                       const Edge& loop);
 
-/// A corrector that needs nothing but loop closures.
+/// A corrector that needs nothing but loop closures or anchors.
 class LoopCorrector : public Corrector {
  public:
-  std::string why_declined(const Problem& problem) const override {
-    return problem.closures.empty() ? "the problem has no loop closures" : "";
-  }
+  std::string why_declined(const Problem& problem) const override;
 };
 
 /// Correction of a loop's closing error by rotation about its start and shift. The pivot is the

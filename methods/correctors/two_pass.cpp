@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/correctors/anchors.hpp"
+
 namespace loopbench::methods {
 namespace {
 
@@ -123,7 +125,9 @@ Trajectory TwoPass::correct(const Problem& problem, Report& report) const {
     report.notes.push_back(std::to_string(skipped) +
                            " closures ignored: every step lies inside an earlier loop");
   }
-  return std::move(chain).take();
+  Trajectory out = std::move(chain).take();
+  spread_to_anchors(out, problem, translation_shares, report);
+  return out;
 }
 
 }  // namespace loopbench::methods

@@ -17,6 +17,9 @@ namespace loopbench::methods {
 /// one similarity transform. Unlike in `uniform`, rotating a step moves only the poses after it, as
 /// an odometry error does.
 ///
+/// Anchors are met last, by shares v (spread_to_anchors()), which opens loops that disagree with
+/// them.
+///
 /// Loops are closed one after the other in the order (to, from). O(keyframes + sum of loop
 /// lengths). Source: trajectory bending of COP-SLAM (Dubbelman, Browning, ICRA 2012 and T-RO 2015),
 /// implemented from the equations, with the shares as an option.
@@ -29,6 +32,8 @@ class TwoPass final : public LoopCorrector {
     bool scale = true;
   };
   explicit TwoPass(const Options& options) : options_(options) {}
+
+  bool accepts_anchors() const override { return true; }
 
   /// Counts: `closures`, `largest_closing_error` [m]. Throws std::runtime_error when closures are
   /// not sorted by (to, from) or refer to a missing keyframe.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "methods/correctors/anchors.hpp"
+
 namespace loopbench::methods {
 namespace {
 
@@ -63,6 +65,7 @@ Trajectory Uniform::correct(const Problem& problem, Report& report) const {
   chain.apply_tail(problem.keyframes.size());
 
   Trajectory out = std::move(chain).take();
+  spread_to_anchors(out, problem, shares, report);
   report_closing_errors(problem, out, report);
   const auto remark = [&](std::size_t count, const std::string& what) {
     if (count > 0) report.notes.push_back(std::to_string(count) + " closures: " + what);

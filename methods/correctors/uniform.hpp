@@ -15,7 +15,8 @@ namespace loopbench::methods {
 /// depend on the world frame. Information matrices are not used.
 ///
 /// Several loops are closed one after the other in the order (to, from). The option `overlap`
-/// selects the steps that a loop may change when it overlaps an earlier loop.
+/// selects the steps that a loop may change when it overlaps an earlier loop. Anchors are met last
+/// (spread_to_anchors()), which opens loops that disagree with them.
 ///
 /// Complexity O(keyframes + sum of loop lengths). Source: the rotation part as in Surmann,
 /// Nuechter et al. (6D SLAM) and Sprickerhof et al. (ELCH), pivot moved to the loop's start.
@@ -29,6 +30,8 @@ class Uniform final : public LoopCorrector {
     LoopOverlap overlap = LoopOverlap::all;
   };
   explicit Uniform(const Options& options) : options_(options) {}
+
+  bool accepts_anchors() const override { return true; }
 
   /// Counts: `closures`, `largest_closing_error` [m] over all closures after the last one was
   /// closed. Throws std::runtime_error when closures are not sorted by (to, from) or refer to a

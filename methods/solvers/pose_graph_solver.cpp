@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "methods/solvers/anchor_residual.hpp"
 #include "methods/solvers/edge_residual.hpp"
 #include "methods/solvers/groups/se2.hpp"
 #include "methods/solvers/groups/se3.hpp"
@@ -85,6 +86,40 @@ class EdgeCost final : public ceres::SizedCostFunction<G::kDof, G::kSize, G::kSi
   typename G::Element back_;
   typename G::Square root_;
 };
+
+/// Residual root * e with C^-1 = root' root.
+template <class G>
+class AnchorCost final : public ceres::SizedCostFunction<3, G::kSize> {
+ public:
+  explicit AnchorCost(const Anchor& anchor)
+      : anchor_(anchor), root_(anchor.covariance.inverse().llt().matrixU()) {}
+
+  bool Evaluate(double const* const* x, double* residual, double** jacobians) const override {
+    const AnchorResidual at = anchor_residual(anchor_, G::to_scaled_pose(G::read(x[0])).pose);
+    Eigen::Map<Vector3> out(residual);
+    out = root_ * at.error;
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    Eigen::Map<Eigen::Matrix<double, 3, G::kSize, Eigen::RowMajor>> map(jacobians[0]);
+    map.setZero();
+    constexpr int kPlane[] = {0, 1, 5};
+    for (int i = 0; i < G::kDof; ++i) {
+      map.col(i) = root_ * at.by_pose.col(G::kDof == 3 ? kPlane[i] : i);
+    }
+    return true;
+  }
+
+ private:
+  Anchor anchor_;
+  Matrix3 root_;
+};
+
+/// The anchor in the world of pose 0.
+Anchor relative_to(const Pose& world_from_first, Anchor anchor) {
+  const Matrix3 R = world_from_first.rotation.toRotationMatrix();
+  anchor.position = world_from_first.inverse() * anchor.position;
+  anchor.covariance = R.transpose() * anchor.covariance * R;
+  return anchor;
+}
 
 /// rho and its first two derivatives; x is the squared residual.
 class DynamicCovarianceScaling final : public ceres::LossFunction {
@@ -207,7 +242,14 @@ PoseGraphSummary solve_in(std::vector<ScaledPose>& poses,
   for (std::size_t k = 0; k < closures.size(); ++k) {
     if (weights[k] > 0.0) add(closures[k], weights[k], loss.get());
   }
-  problem.SetParameterBlockConstant(blocks.front().data());
+  if constexpr (G::kDof <= 6) {
+    for (const Anchor& anchor : settings.anchors) {
+      problem.AddResidualBlock(new AnchorCost<G>(relative_to(world_from_first.pose, anchor)),
+                               nullptr,
+                               blocks[anchor.keyframe].data());
+    }
+  }
+  if (!settings.is_first_free) problem.SetParameterBlockConstant(blocks.front().data());
 
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options(settings), &problem, &summary);
@@ -221,7 +263,7 @@ PoseGraphSummary solve_in(std::vector<ScaledPose>& poses,
     linear_solves += polished.num_linear_solves;
     cost = polished.final_cost;
   }
-  for (std::size_t i = 1; i < poses.size(); ++i) {
+  for (std::size_t i = settings.is_first_free ? 0 : 1; i < poses.size(); ++i) {
     poses[i] = normalized(world_from_first * G::to_scaled_pose(G::read(blocks[i].data())));
   }
   return {

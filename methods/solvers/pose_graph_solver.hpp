@@ -36,6 +36,9 @@ struct PoseGraphSettings {
   double loss_width = 1.0;  ///< width of the loss as a squared error [-]
   int max_iterations = 1000;
   double tolerance = 1e-14;  ///< relative change of the cost at convergence [-]
+  /// Not in Sim(3), in SE(2) in the plane of pose 0; the loss does not apply to them.
+  std::vector<Anchor> anchors = {};
+  bool is_first_free = false;  ///< pose 0 is estimated: anchors must determine the frame
 };
 
 struct PoseGraphSummary {
@@ -46,8 +49,9 @@ struct PoseGraphSummary {
 };
 
 /// Minimises 1/2 sum w rho(e' Omega e) over `poses`, with e = Log(Z^-1 X_i^-1 X_j) in the twists of
-/// the group. Pose 0 is fixed. weights[k] scales closure k; 0 removes it. Levenberg-Marquardt with
-/// a small initial damping, analytic Jacobians, sparse Cholesky, one thread; results are
+/// the group, plus 1/2 a' C^-1 a of each anchor with a = anchor_error() and covariance C. Pose 0 is
+/// fixed unless `is_first_free`. weights[k] scales closure k; 0 removes it. Levenberg-Marquardt
+/// with a small initial damping, analytic Jacobians, sparse Cholesky, one thread; results are
 /// bit-identical between runs. SE(2) uses the plane of pose 0 and ignores out-of-plane components;
 /// SE(2) and SE(3) ignore scales. Each iteration is one sparse factorisation, linear in the number
 /// of poses for chains with few closures. Throws std::runtime_error with the message of Ceres when

@@ -57,10 +57,15 @@ std::vector<Score> graph_cost(const Evaluation& evaluation, const GraphCostOptio
   };
   const double odometry = sum(problem.odometry);
   const double closures = sum(problem.closures);
-  // Directed only for the sum, which solvers minimise; its two parts are traded off.
-  return {single("chi2", "all", "1", odometry + closures),
-          directed(single("chi2", "odometry", "1", odometry), Better::neither),
-          directed(single("chi2", "closures", "1", closures), Better::neither)};
+  const double anchors = anchor_chi2(problem.anchors, poses);
+  // Directed only for the sum, which solvers minimise; its parts are traded off.
+  std::vector<Score> out{single("chi2", "all", "1", odometry + closures + anchors),
+                         directed(single("chi2", "odometry", "1", odometry), Better::neither),
+                         directed(single("chi2", "closures", "1", closures), Better::neither)};
+  if (!problem.anchors.empty()) {
+    out.push_back(directed(single("chi2", "anchors", "1", anchors), Better::neither));
+  }
+  return out;
 }
 
 }  // namespace loopbench::metrics

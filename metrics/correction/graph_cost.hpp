@@ -27,10 +27,10 @@ void fields(GraphCostOptions& o, Visit visit) {
       "error", o.error, "residual of an edge: twist, quaternion (as g2o) or chordal (as SE-Sync)");
 }
 
-/// Sums over edges, without the factor 1/2 of GTSAM and Ceres: chi2 of all edges, of odometry, of
-/// closures [1]. For chordal, weights as in chordal_weights.hpp. Needs no reference.
-/// Throws std::runtime_error if an edge changes the scale: rigid keyframes do not define its
-/// residual. O(keyframes + edges).
+/// Sums over edges, without the factor 1/2 of GTSAM and Ceres: chi2 of all edges and anchors, of
+/// odometry, of closures, and of anchors if there are any [1]. For chordal, weights as in
+/// chordal_weights.hpp. Needs no reference. Throws std::runtime_error if an edge changes the scale:
+/// rigid keyframes do not define its residual. O(keyframes + edges).
 std::vector<Score> graph_cost(const Evaluation& evaluation, const GraphCostOptions& options);
 
 }  // namespace loopbench::metrics

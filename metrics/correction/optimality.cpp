@@ -131,6 +131,9 @@ std::vector<Score> optimality(const Evaluation& evaluation, const NoOptions&) {
                       "), the certificate is for rigid poses");
     }
   }
+  if (!problem.anchors.empty()) {
+    throw Undefined("optimality: the problem has anchors, the certificate is for edges");
+  }
   const Certificate proof = certificate(problem, poses);
   const auto gap = [&](double cost) {
     return cost > proof.lower_bound ? 100.0 * (cost - proof.lower_bound) / cost : 0.0;

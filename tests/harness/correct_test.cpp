@@ -160,6 +160,42 @@ TEST_F(Correct, AGraphKeepsItsIdsAndEdges) {
   EXPECT_NE(after.vertices.back().translation, before.vertices.back().translation);
 }
 
+TEST_F(Correct, MeasuredPositionsAreAnchors) {
+  std::string points;
+  const Trajectory truth = read_trajectory(folder_.path() / "gt.txt");
+  for (std::size_t i = 0; i < truth.size(); i += 4) {
+    points += to_text(truth[i].stamp);
+    for (const double x : truth[i].world_from_body.translation) points += " " + to_text(x + 7.0);
+    points += " 0.001\n";
+  }
+  folder_.file("points.txt", points + "1e6 0 0 0 1\n");
+  const CommandResult done = loopbench_command(
+      "correct --method dual est.txt --anchors points.txt -o out.txt --json", folder_);
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const Json json = Json::parse(done.out);
+  EXPECT_EQ(json["anchors"], 10);
+  EXPECT_GT(json["before"]["anchor_rms"], 7.0) << "another world";
+  EXPECT_LT(json["after"]["anchor_max"], 0.01);
+  EXPECT_THAT(json["notes"][0].get<std::string>(), HasSubstr("points.txt: 1 of 11 positions"));
+  EXPECT_LT(evaluated("gt.txt", "out.txt"), 0.5 * evaluated("gt.txt", "est.txt"));
+  const std::string anchored = "correct est.txt --anchors points.txt ";
+  const CommandResult declined = loopbench_command(anchored + "--method motion_drift", folder_);
+  EXPECT_EQ(declined.exit_code, 2);
+  EXPECT_THAT(declined.err, HasSubstr("anchors (10), which the method does not use"));
+  EXPECT_THAT(loopbench_command(anchored + "-o out.g2o", folder_).err, HasSubstr("no anchors"));
+}
+
+TEST_F(Correct, StartEqualsEndNeedsNoMeasuredPose) {
+  const CommandResult done = loopbench_command(
+      "correct --method uniform est.txt --start-equals-end 0.01 -o out.txt", folder_);
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const Trajectory out = read_trajectory(folder_.path() / "out.txt");
+  EXPECT_NEAR(
+      (out.back().world_from_body.translation - out.front().world_from_body.translation).norm(),
+      0.0,
+      1e-9);
+}
+
 TEST_F(Correct, WritesOtherFormatsAndStandardOutput) {
   const std::string correct = "correct est.txt --loops loops.txt ";
   ASSERT_EQ(loopbench_command(correct + "-o out.txt", folder_).exit_code, 0);

@@ -232,6 +232,7 @@ TEST(Pack, GivesASequenceBackBitForBit) {
   sequence.problem.frames = sequence.problem.keyframes;
   sequence.problem.planar = true;
   sequence.problem.shared_landmarks = {3, 1, 4, 1, 5, 9};
+  sequence.problem.anchors = {{2, {1.0, 2.0, 3.0}, 0.5 * Matrix3::Identity(), {0.1, 0.2, 0.3}}};
   sequence.problem.closures.back().scale = 1.5;
   sequence.reference = sequence.problem.keyframes;
   sequence.provenance.inputs = {{"folder/a b.txt", "estimate"}, {"c.txt"}};
@@ -252,6 +253,8 @@ TEST(Pack, GivesASequenceBackBitForBit) {
   EXPECT_EQ(edge.information, sequence.problem.closures.back().information);
   EXPECT_EQ(edge.from_from_to.rotation.coeffs(),
             sequence.problem.closures.back().from_from_to.rotation.coeffs());
+  ASSERT_EQ(back.problem.anchors.size(), 1u);
+  EXPECT_EQ(back.problem.anchors[0].point_in_body, Vector3(0.1, 0.2, 0.3));
   EXPECT_EQ(back.provenance.body_from_reference->translation, Vector3(1.0, 2.0, 3.0));
 }
 

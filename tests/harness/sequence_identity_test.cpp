@@ -70,7 +70,7 @@ TEST(SequenceContent, DependsOnEveryPart) {
   base.problem.closures = {{0, 2, {}}};
   base.problem.frames = {{0.5, {}}};
   base.reference = base.problem.keyframes;
-  std::vector<Sequence> all(10, base);
+  std::vector<Sequence> all(12, base);
   all[1].problem.keyframes[1].world_from_body.translation.x() = 1e-300;
   all[2].problem.odometry[0].information(5, 5) = 2.0;
   all[3].problem.closures[0].from_from_to.rotation = Rotation(0.0, 1.0, 0.0, 0.0);
@@ -80,6 +80,8 @@ TEST(SequenceContent, DependsOnEveryPart) {
   all[7].problem.shared_landmarks = {3, 3};
   all[8].reference[2].stamp = 2.5;
   std::swap(all[9].problem.odometry, all[9].problem.closures);
+  all[10].problem.anchors = {{1, Vector3::Zero()}};
+  all[11].problem.anchors = {{1, Vector3::UnitX()}};
   std::set<std::string> contents;
   for (const Sequence& sequence : all) contents.insert(content_of(sequence));
   EXPECT_EQ(contents.size(), all.size());

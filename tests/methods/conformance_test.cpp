@@ -204,6 +204,31 @@ TEST_P(Conformance, DeclinesOrSolvesAwkwardProblems) {
   }
 }
 
+TEST_P(Conformance, UsesAnchorsOrDeclinesThem) {
+  const Vector3 error(0.2, -0.1, 0.0);
+  const Pose elsewhere{exp_so3({0.4, -1.1, 2.0}), {30.0, -20.0, 10.0}};
+  for (const auto& [name, base] : ordinary_problems()) {
+    SCOPED_TRACE(name);
+    const Problem problem = with_anchors(base, error);
+    ASSERT_NO_THROW(check(problem, name));
+    const std::string why = reason_to_decline(*method_, problem);
+    const bool is_smoother = GetParam().kind == Kind::smoother || GetParam().name == "raw";
+    EXPECT_EQ(method_->accepts_anchors(), is_smoother || why.empty());
+    if (!why.empty() || is_smoother) continue;
+    expect_valid_curve(problem);
+    Report report;
+    const Trajectory keyframes =
+        method_->estimate(problem, report)->sample(stamps(problem.keyframes));
+    EXPECT_LT(anchor_chi2(problem.anchors, keyframes),
+              0.5 * anchor_chi2(problem.anchors, problem.keyframes));
+    Trajectory moved = sampled(moved_by(elsewhere, problem));
+    for (StampedPose& pose : moved) {
+      pose.world_from_body = elsewhere.inverse() * pose.world_from_body;
+    }
+    expect_close(sampled(problem), moved, 1e-8 * size_of(problem), 1e-8);
+  }
+}
+
 TEST_P(Conformance, EndsAReplayWithTheResultOfTheCompleteProblem) {
   if (GetParam().kind == Kind::replay) return;
   const auto replayed = Online({}).replayed(build(GetParam()));

@@ -65,6 +65,18 @@ TEST(GraphCost, CountsATurnAsEachConventionDoes) {
   EXPECT_NEAR(evaluated.cost(GraphError::chordal)[0], 4.0 * (1.0 - std::cos(1.0)), 1e-12);
 }
 
+// 2 m away, with a variance of 4 m^2.
+TEST(GraphCost, CountsAnchors) {
+  Evaluated evaluated;
+  const double edges = evaluated.cost(GraphError::twist)[0];
+  const Vector3& at = evaluated.estimate[1].world_from_body.translation;
+  evaluated.problem.anchors = {{1, at + Vector3(2.0, 0.0, 0.0), 4.0 * Matrix3::Identity()}};
+  const std::vector<double> cost = evaluated.cost(GraphError::twist);
+  EXPECT_NEAR(cost[0], edges + 1.0, 1e-12);
+  ASSERT_EQ(cost.size(), 4u);
+  EXPECT_NEAR(cost[3], 1.0, 1e-12);
+}
+
 TEST(GraphCost, NeedsEdgesOfOneUnit) {
   Evaluated evaluated;
   evaluated.problem.closures[0].scale = 2.0;

@@ -185,6 +185,23 @@ inline Problem moved_by(const Pose& there_from_here, Problem problem) {
       pose.world_from_body = normalized(there_from_here * pose.world_from_body);
     }
   }
+  for (Anchor& anchor : problem.anchors) {
+    const Matrix3 R = there_from_here.rotation.toRotationMatrix();
+    anchor.position = there_from_here * anchor.position;
+    anchor.covariance = R * anchor.covariance * R.transpose();
+  }
+  return problem;
+}
+
+/// The problem with anchors at four keyframes, `error` [m] away from its keyframes.
+inline Problem with_anchors(Problem problem, const Vector3& error) {
+  const std::size_t last = problem.keyframes.size() - 1;
+  Matrix3 covariance = 1e-4 * Matrix3::Identity();
+  covariance(0, 1) = covariance(1, 0) = 3e-5;
+  for (const std::size_t i : {std::size_t{0}, last / 4, last / 2, last}) {
+    const Vector3& at = problem.keyframes[i].world_from_body.translation;
+    problem.anchors.push_back({i, at + (i == last ? 2.0 : 1.0) * error, covariance});
+  }
   return problem;
 }
 

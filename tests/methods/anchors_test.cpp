@@ -1,0 +1,192 @@
+// Absolute positions: splits worked by hand, both solvers against each other, and the first pose.
+#include "methods/correctors/anchors.hpp"
+
+#include <gtest/gtest.h>
+
+#include "datasets/derive/closures.hpp"
+#include "methods/correctors/dual.hpp"
+#include "methods/correctors/pose_graph.hpp"
+#include "methods/correctors/two_pass.hpp"
+#include "methods/correctors/uniform.hpp"
+#include "methods/solvers/anchor_residual.hpp"
+#include "tests/support/corrected.hpp"
+#include "tests/support/problems.hpp"
+
+namespace loopbench::anchors_test {
+
+using namespace methods;
+
+namespace {
+
+using namespace test;
+
+Anchor anchor(std::size_t keyframe, const Vector3& position, double variance) {
+  return {keyframe, position, variance * Matrix3::Identity()};
+}
+
+void expect_positions(const Trajectory& poses, const std::vector<double>& x, double tolerance) {
+  ASSERT_EQ(poses.size(), x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_NEAR(poses[i].world_from_body.translation.x(), x[i], tolerance) << i;
+    EXPECT_NEAR(poses[i].world_from_body.translation.tail<2>().norm(), 0.0, tolerance) << i;
+  }
+}
+
+double count_of(const Report& report, const std::string& name) {
+  for (const Count& count : report.counts) {
+    if (count.name == name) return count.value;
+  }
+  return std::nan("");
+}
+
+// Four unit steps of variance 1, the last position measured at 5 with variance 1. Five equal
+// variances share the gap of 1: each edge and the anchor take 0.2, chi2 = 5 * 0.04.
+TEST(Anchors, OneAnchorIsSharedByVariance) {
+  Problem problem = along_x({0.0, 1.0, 2.0, 3.0, 4.0});
+  problem.anchors = {anchor(4, {5.0, 0.0, 0.0}, 1.0)};
+  Report dual, graph;
+  const std::vector<double> expected{0.0, 1.2, 2.4, 3.6, 4.8};
+  expect_positions(corrected<Dual>(problem, {}, &dual), expected, 1e-10);
+  expect_positions(corrected<PoseGraphOptimizer>(problem, {}, &graph), expected, 1e-10);
+  for (const Report* report : {&dual, &graph}) {
+    EXPECT_NEAR(count_of(*report, "chi2"), 0.2, 1e-10);
+    EXPECT_NEAR(count_of(*report, "chi2_per_dof"), 0.2 / 3.0, 1e-10);
+    ASSERT_FALSE(report->notes.empty());
+    EXPECT_NE(report->notes.front().find("the first keyframe is held"), std::string::npos);
+  }
+  const std::vector<double> met{0.0, 1.25, 2.5, 3.75, 5.0};
+  expect_positions(corrected<Uniform>(problem), met, 1e-12);
+  expect_positions(corrected<TwoPass>(problem), met, 1e-12);
+}
+
+// In the plane, two anchors free the first pose. Variances 4 x 1 and 2 x 0.25 share the gap of 0.9:
+// each edge takes 0.2, each anchor 0.05.
+TEST(Anchors, TheFirstPoseIsFreeIfTheyDetermineTheFrame) {
+  Problem problem = along_x({0.0, 1.0, 2.0, 3.0, 4.0});
+  problem.planar = true;
+  problem.anchors = {anchor(0, Vector3::Zero(), 0.25), anchor(4, {4.9, 0.0, 0.0}, 0.25)};
+  const std::vector<double> expected{0.05, 1.25, 2.45, 3.65, 4.85};
+  expect_positions(corrected<Dual>(problem), expected, 1e-9);
+  expect_positions(corrected<PoseGraphOptimizer>(problem), expected, 1e-9);
+  problem.planar = false;  // two points leave the rotation about their line open
+  EXPECT_FALSE(UsedAnchors(problem).is_first_free);
+}
+
+TEST(Anchors, CovariancesCountPerAxis) {
+  Problem problem = along_x({0.0, 1.0});
+  problem.anchors = {anchor(1, {2.0, 0.0, 0.0}, 1.0)};
+  problem.anchors[0].covariance(0, 0) = 3.0;  // the edge has 1, so it takes a quarter of the gap
+  expect_positions(corrected<Dual>(problem), {0.0, 1.25}, 1e-10);
+  expect_positions(corrected<PoseGraphOptimizer>(problem), {0.0, 1.25}, 1e-10);
+}
+
+TEST(Anchors, JacobianEqualsNumericalDerivative) {
+  const Pose pose{exp_so3({0.3, -0.7, 1.1}), {2.0, -1.0, 0.5}};
+  const Anchor at{0, {1.0, 2.0, 3.0}, Matrix3::Identity(), {0.4, -0.2, 0.1}};
+  const AnchorResidual residual = anchor_residual(at, pose);
+  for (Eigen::Index d = 0; d < 6; ++d) {
+    const auto moved = [&](double by) {
+      return anchor_residual(at, pose * exp_se3(by * Twist::Unit(d))).error;
+    };
+    const Vector3 numeric = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+    EXPECT_NEAR((residual.by_pose.col(d) - numeric).norm(), 0.0, 1e-8) << d;
+  }
+}
+
+/// Anchors at every seventh keyframe of the true path, with errors of about 5 cm and a lever arm.
+Problem anchored(Problem problem, const Trajectory& truth) {
+  const Vector3 lever(0.3, -0.1, problem.planar ? 0.0 : 0.2);
+  for (std::size_t i = 3; i < truth.size(); i += 7) {
+    const double s = static_cast<double>(i);
+    const Vector3 error(0.05 * std::sin(s), 0.05 * std::cos(2.0 * s), 0.04 * std::sin(3.0 * s));
+    Anchor at = anchor(i, truth[i].world_from_body * lever + error, 2.5e-3);
+    at.covariance(0, 1) = at.covariance(1, 0) = 1e-3;
+    at.point_in_body = lever;
+    problem.anchors.push_back(at);
+  }
+  return problem;
+}
+
+TEST(Anchors, DualAndPoseGraphFindTheSameMinimum) {
+  const Pose elsewhere{exp_so3({0.4, -1.1, 2.0}), {30.0, -20.0, 10.0}};
+  for (const Problem& base : {hand_held(), planar()}) {
+    Problem problem = anchored(base, base.keyframes);
+    for (StampedPose& each : problem.keyframes) {  // the frame of the estimate is another one
+      each.world_from_body = normalized(elsewhere * each.world_from_body);
+    }
+    if (problem.planar) problem = anchored(base, base.keyframes);
+    ASSERT_TRUE(UsedAnchors(problem).is_first_free);
+    for (const bool with_loops : {true, false}) {
+      if (!with_loops) problem.closures.clear();
+      Report dual, graph;
+      const Trajectory a = corrected<Dual>(problem, {}, &dual);
+      const Trajectory b = corrected<PoseGraphOptimizer>(problem, {}, &graph);
+      expect_close(a, b, 1e-6);
+      const double chi2 = count_of(graph, "chi2");
+      EXPECT_NEAR(count_of(dual, "chi2"), chi2, 1e-7 * chi2);
+      EXPECT_LT(count_of(dual, "iterations"), 60.0);
+    }
+  }
+}
+
+TEST(Anchors, ExactOnesMoveAPerfectPathToTheirWorld) {
+  const Problem truth = perfect();
+  Problem problem = truth;
+  for (const std::size_t i : {std::size_t{5}, std::size_t{20}, std::size_t{33}, std::size_t{57}}) {
+    problem.anchors.push_back(anchor(i, truth.keyframes[i].world_from_body.translation, 1e-4));
+  }
+  const Pose elsewhere{exp_so3({0.4, -1.1, 2.0}), {30.0, -20.0, 10.0}};
+  for (StampedPose& each : problem.keyframes) {
+    each.world_from_body = normalized(elsewhere * each.world_from_body);
+  }
+  expect_close(corrected<Dual>(problem), truth.keyframes, 1e-8);
+  expect_close(corrected<PoseGraphOptimizer>(problem), truth.keyframes, 1e-8);
+  expect_close(corrected<Uniform>(problem), truth.keyframes, 1e-8);
+  expect_close(corrected<TwoPass>(problem), truth.keyframes, 1e-8);
+}
+
+// Loops are closed first; then positions between two anchors are shifted linearly.
+TEST(Anchors, SpreadingRulesMeetThemAndAveragesAtOneKeyframe) {
+  Problem problem = along_x({0.0, 1.0, 2.0, 3.0, 4.0});
+  problem.anchors = {anchor(2, {3.0, 0.0, 0.0}, 1.0), anchor(2, {5.0, 0.0, 0.0}, 3.0)};
+  // Weights 3/4 and 1/4: 3.5 at keyframe 2, 1.5 more than the estimate, and so after it.
+  expect_positions(corrected<Uniform>(problem), {0.0, 1.75, 3.5, 4.5, 5.5}, 1e-12);
+}
+
+TEST(Anchors, EdgesThatChangeTheScaleDecline) {
+  Problem problem = circle();
+  problem.anchors = {anchor(4, Vector3::Zero(), 1.0)};
+  problem.closures.front().scale = 1.1;
+  const std::string why = "anchors require edges of scale 1, but edges change the scale";
+  EXPECT_EQ(Dual({}).why_declined(problem), why);
+  EXPECT_EQ(PoseGraphOptimizer({}).why_declined(problem), why);
+  EXPECT_EQ(Uniform({}).why_declined(problem), why);
+}
+
+TEST(Anchors, MustBeSortedAndPositiveDefinite) {
+  Problem problem = circle();
+  problem.anchors = {anchor(4, Vector3::Zero(), 1.0), anchor(2, Vector3::Zero(), 1.0)};
+  EXPECT_THROW(check(problem, "p"), InputError);
+  problem.anchors = {anchor(41, Vector3::Zero(), 1.0)};
+  EXPECT_THROW(check(problem, "p"), InputError);
+  problem.anchors = {anchor(4, Vector3::Zero(), 0.0)};
+  EXPECT_THROW(check(problem, "p"), InputError);
+}
+
+// The gap of a straight path is its length. Its rotation is unknown, so that none is distributed.
+TEST(StartEqualsEnd, ClosesThePositionOnly) {
+  Problem problem = along_x({0.0, 1.0, 2.0, 1.5, 1.0});
+  problem.keyframes.back().world_from_body.rotation = exp_so3({0.0, 0.0, 0.5});
+  problem.odometry.back().from_from_to.rotation = exp_so3({0.0, 0.0, 0.5});
+  problem.closures = {start_equals_end(problem.keyframes, 1.0)};
+  ASSERT_NO_THROW(check(problem, "p"));
+  const Trajectory uniform = corrected<Uniform>(problem);
+  expect_positions(uniform, {0.0, 0.75, 1.5, 0.75, 0.0}, 1e-12);
+  EXPECT_NEAR(angle_between(uniform.back().world_from_body.rotation,
+                            problem.keyframes.back().world_from_body.rotation),
+              0.0,
+              1e-12);
+}
+
+}  // namespace
+}  // namespace loopbench::anchors_test
