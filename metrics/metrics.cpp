@@ -37,7 +37,7 @@ Score single(std::string relation, std::string axis, std::string unit, double va
   return {std::move(relation),
           std::move(axis),
           std::move(unit),
-          {1, value, value, value, 0.0, value, value, value * value}};
+          {1, value, value, value, 0.0, value, value, value * value, value, value, value}};
 }
 
 std::vector<MetricEntry> metrics() {
@@ -54,7 +54,7 @@ std::vector<MetricEntry> metrics() {
                                 along_cross),
       metric<AccuracyOptions>(
           "accuracy",
-          "percentiles of the position error, and shares of the reference's time below thresholds",
+          "shares of the reference's time with a position error below thresholds",
           accuracy),
       metric<ControlPointsOptions>("control_points",
                                    "score of the Hilti SLAM Challenge for surveyed points",

@@ -37,7 +37,8 @@ const std::map<std::string, std::string> kExamples{
     {"table",
      "  loopbench table results/quickstart\n"
      "  loopbench table results/quickstart --rows sequence --show gain\n"
-     "  loopbench table results/quickstart --split '' --plus-minus --format latex -o table.tex\n"},
+     "  loopbench table results/quickstart --split '' --plus-minus --format latex -o table.tex\n"
+     "  loopbench table results/quickstart --success 0.1 --value p95\n"},
     {"compare",
      "  loopbench compare results/quickstart\n"
      "  loopbench compare results/quickstart --power 0.05   # groups needed to find 5 %\n"

@@ -7,9 +7,11 @@
 #include "harness/commands/write_output.hpp"
 #include "harness/eval/evo_results.hpp"
 #include "harness/model/where.hpp"
+#include "harness/store/read.hpp"
 #include "harness/store/record_reader.hpp"
 #include "harness/tables/record_csv.hpp"
 #include "harness/tables/store_tables.hpp"
+#include "harness/tables/success.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -19,6 +21,7 @@ struct TableArguments {
   std::string store;
   TableSpec spec;
   std::vector<std::string> where;
+  std::optional<double> success;  ///< limit of the error of a successful run
   RankingOptions ranking;
   OutputOptions output;
   bool has_default_layout = true;  ///< no --rows, --columns, --split, --show, --where
@@ -27,8 +30,14 @@ struct TableArguments {
 
 std::string tables_text(const TableArguments& arguments) {
   const ExportFormat format = arguments.output.format();
-  const std::vector<Table> tables =
-      store_tables(arguments.store, arguments.where, arguments.spec, arguments.ranking);
+  std::vector<Table> tables;
+  if (arguments.success) {
+    std::vector<Record> records = read_records(arguments.store);
+    keep_where(records, arguments.where);
+    tables = {success_table(records, arguments.spec.value, *arguments.success)};
+  } else {
+    tables = store_tables(arguments.store, arguments.where, arguments.spec, arguments.ranking);
+  }
   if (format == ExportFormat::csv) return csv(tables);
   if (format == ExportFormat::json) return json(tables);
   return text(tables, arguments.output);
@@ -54,7 +63,7 @@ int print_evo_results(const TableArguments& arguments) {
   if (!arguments.has_default_layout) {
     throw InputError(arguments.files.front() +
                      ": a result file of evo has one layout, expected no --rows, --columns, "
-                     "--split, --show and --where");
+                     "--split, --show, --where and --success");
   }
   const std::vector<Record> records = read_evo_results(arguments.files);
   const ExportFormat format = arguments.output.format();
@@ -109,8 +118,9 @@ void add_table(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->capture_default_str();
   command
-      ->add_option(
-          "--value", arguments->spec.value, "Statistic: rmse mean median std min max sse count")
+      ->add_option("--value",
+                   arguments->spec.value,
+                   "Statistic: rmse mean median p90 p95 p99 std min max sse count")
       ->capture_default_str();
   command->add_flag("--plus-minus",
                     arguments->spec.plus_minus,
@@ -120,6 +130,13 @@ void add_table(CLI::App& app, int& exit_code) {
       arguments->spec.show,
       "Scores to show: ate,error x,gain,time; default: all, with --format latex or markdown the "
       "first, gain and time");
+  command
+      ->add_option("--success",
+                   arguments->success,
+                   "Print the share of runs of each method whose error is at most this (in its "
+                   "unit); failed and incomplete runs do not succeed. Default: the first score, "
+                   "usually ATE; others by --where and --value")
+      ->check(finite_number());
   command->add_option("--where",
                       arguments->where,
                       "Filter of rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, comma-separated; "
@@ -138,7 +155,7 @@ void add_table(CLI::App& app, int& exit_code) {
            ExportFormat::csv,
            ExportFormat::json});
   command->callback([arguments, command, &exit_code] {
-    for (const char* name : {"--rows", "--columns", "--split", "--show", "--where"}) {
+    for (const char* name : {"--rows", "--columns", "--split", "--show", "--where", "--success"}) {
       if (command->count(name) > 0) arguments->has_default_layout = false;
     }
     const ExportFormat format = arguments->output.format();

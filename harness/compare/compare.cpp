@@ -274,7 +274,7 @@ std::vector<Comparison> compare(std::vector<Observations> all, const CompareOpti
   if (!has_direction(options.value)) {
     throw InputError("value: '" + options.value +
                      "' depends on the number of errors: no value is better than another; expected "
-                     "rmse, mean, median, std, min or max");
+                     "rmse, mean, median, p90, p95, p99, std, min or max");
   }
   if (all.empty()) throw InputError("no scores to compare");
   if (std::ranges::count(all[0].methods, options.baseline) == 0) {

@@ -59,7 +59,7 @@ Record one_number(const Record& r,
   one.better = better;
   one.relation = one.axis = {};
   one.unit = unit;
-  one.statistics = {1, x, x, x, 0.0, x, x, x * x};
+  one.statistics = {1, x, x, x, 0.0, x, x, x * x, x, x, x};
   return one;
 }
 
@@ -88,7 +88,10 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
                                                 &metrics::Statistics::std,
                                                 &metrics::Statistics::min,
                                                 &metrics::Statistics::max,
-                                                &metrics::Statistics::sse}) {
+                                                &metrics::Statistics::sse,
+                                                &metrics::Statistics::p90,
+                                                &metrics::Statistics::p95,
+                                                &metrics::Statistics::p99}) {
       g.statistics.*number = gain(r.statistics.*number, b.*number);
     }
     if (!std::isfinite(g.statistics.rmse)) {

@@ -33,7 +33,7 @@ const std::vector<ConfigKey>& config_keys(const std::string& map) {
        {{"rows", "columns of the long table that name a row"},
         {"columns", "columns of the long table that name a column"},
         {"split", "columns of the long table with one table for each value"},
-        {"value", "statistic: rmse, mean, median, std, min, max, sse or count"},
+        {"value", "statistic: rmse, mean, median, p90, p95, p99, std, min, max, sse or count"},
         {"show", "scores to show, by their short names"},
         {"where", "filters of rows: column=value or column!=value"},
         {"plus_minus", "whether means have their standard deviations"}}},

@@ -53,6 +53,9 @@ Json to_json(const Record& record) {
               {"std", s.std},
               {"min", s.min},
               {"max", s.max},
+              {"p90", s.p90},
+              {"p95", s.p95},
+              {"p99", s.p99},
               {"count", s.count}});
   return out;
 }
@@ -154,7 +157,9 @@ void change_unit(std::vector<EvaluationResult>& results, const std::string& unit
       is_used = true;
       record.unit = unit;
       metrics::Statistics& s = record.statistics;
-      for (double* each : {&s.rmse, &s.mean, &s.median, &s.std, &s.min, &s.max}) *each *= factor;
+      for (double* each :
+           {&s.rmse, &s.mean, &s.median, &s.std, &s.min, &s.max, &s.p90, &s.p95, &s.p99})
+        *each *= factor;
       s.sse *= factor * factor;
     }
   }

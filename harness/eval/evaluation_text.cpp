@@ -155,11 +155,6 @@ std::vector<Record> compared_records(const EvaluationResult& result,
   return out;
 }
 
-std::string value_of(const metrics::Protocol& protocol) {
-  if (protocol.statistic == metrics::Statistic::mean) return "mean";
-  return protocol.statistic == metrics::Statistic::median ? "median" : "rmse";
-}
-
 std::string body_text(const EvaluationResult& result) {
   return result.reference_body.empty() ? "" : ", body offset " + result.reference_body;
 }
@@ -181,7 +176,7 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results,
   const EvaluationResult& first = *results.front();
   TableSpec spec;
   spec.split.clear();
-  spec.value = value_of(first.protocol.rules);
+  spec.value = to_text(first.protocol.rules.statistic);
   Table out = pivot(records, spec).front();
   out.headings[0] = "estimate";
   out.title = fmt::format("{}, {} against {}{}",

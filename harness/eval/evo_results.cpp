@@ -77,7 +77,10 @@ Record evo_record(const std::string& file) {
        number("std"),
        number("min"),
        number("max"),
-       number("sse")};
+       number("sse"),
+       std::nan(""),  // evo writes no percentiles
+       std::nan(""),
+       std::nan("")};
   if (s.rmse > 0.0) s.count = static_cast<std::size_t>(std::llround(s.sse / (s.rmse * s.rmse)));
   return out;
 }

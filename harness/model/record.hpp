@@ -89,8 +89,8 @@ const SharedText& metric_label(const Record& record);
 /// InputError with a suggestion for another name.
 std::string field(const Record& record, const std::string& name);
 
-/// Value of a record's named statistic: rmse, mean, median, std, min, max, sse, count. Throws
-/// InputError with a suggestion for another name.
+/// Value of a record's named statistic: rmse, mean, median (p50), p90, p95, p99, std, min, max,
+/// sse, count. Throws InputError with a suggestion for another name.
 double value(const Record& record, const std::string& name);
 
 /// Whether values of a statistic can be better than others: not those of count, nor of sse, which

@@ -19,7 +19,8 @@ namespace {
 bool is_finite(const metrics::Statistics& s) {
   return std::isfinite(s.rmse) && std::isfinite(s.mean) && std::isfinite(s.median) &&
          std::isfinite(s.std) && std::isfinite(s.min) && std::isfinite(s.max) &&
-         std::isfinite(s.sse);
+         std::isfinite(s.sse) && std::isfinite(s.p90) && std::isfinite(s.p95) &&
+         std::isfinite(s.p99);
 }
 
 /// A copy of all that a metric reads: that of a plugin can write through `const`, and the other

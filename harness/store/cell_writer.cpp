@@ -165,9 +165,10 @@ void CellWriter::write_scores(std::int64_t id, const CellResult& result, const S
     score_.bind(id, number++, definition_of(score, sweep.protocols[score.protocol]));
     const metrics::Statistics& s = score.score.statistics;
     if (has_numbers(score.status)) {
-      score_.bind(s.count, s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse);
+      score_.bind(
+          s.count, s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse, s.p90, s.p95, s.p99);
     } else {
-      for (int i = 0; i < 8; ++i) score_.bind(nullptr);
+      for (int i = 0; i < 11; ++i) score_.bind(nullptr);
     }
     const metrics::Coverage& coverage = score.coverage;
     score_.bind(coverage.pairs, coverage.possible, coverage.span);

@@ -234,7 +234,8 @@ void RecordReader::add_cell(const StoredCell& cell, std::vector<Record>& out) {
     Record& r = out.emplace_back(definition->second);
     set_cell(r, cell);
     metrics::Statistics& s = r.statistics;
-    scores_->read(s.count, s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse);
+    scores_->read(
+        s.count, s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse, s.p90, s.p95, s.p99);
     scores_->read(r.pairs, r.possible, r.span);
     const std::string_view status = scores_->view();
     if (has_status) r.status = from_text<Status>(std::string(status)).value_or(Status::failed);

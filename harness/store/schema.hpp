@@ -6,7 +6,7 @@
 namespace loopbench::harness {
 
 /// Incremented when the meaning of a table or column changes; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 11;
+inline constexpr int kSchemaVersion = 12;
 
 /// Creates the tables of a store, readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
@@ -85,6 +85,7 @@ inline constexpr const char* kSchema = R"sql(
     definition INTEGER NOT NULL REFERENCES score_definition(id),
     count INTEGER,                     -- these eight are NULL if the status is not ok or incomplete
     rmse REAL, mean REAL, median REAL, std REAL, min REAL, max REAL, sse REAL,
+    p90 REAL, p95 REAL, p99 REAL,
     pairs INTEGER NOT NULL,            -- evaluated pose pairs
     possible INTEGER NOT NULL,         -- possible pose pairs
     span REAL NOT NULL,                -- evaluated share of the reference's time, 0..1
@@ -95,7 +96,7 @@ inline constexpr const char* kSchema = R"sql(
   CREATE VIEW score AS
     SELECT v.cell, d.protocol, d.protocol_version, d.times, d.metric, d.label, d.relation, d.axis,
       d.unit, d.better, d.target, v.count, v.rmse, v.mean, v.median, v.std, v.min, v.max, v.sse,
-      v.pairs, v.possible, v.span, v.status, v.why, v.number
+      v.p90, v.p95, v.p99, v.pairs, v.possible, v.span, v.status, v.why, v.number
     FROM score_value v JOIN score_definition d ON d.id = v.definition;
   CREATE TABLE phase (                 -- reported by the method, as are the next three
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
@@ -146,7 +147,8 @@ struct CellTable {
 };
 inline constexpr CellTable kScoreTable{
     "score_value",
-    "number, definition, count, rmse, mean, median, std, min, max, sse, pairs, possible, span, "
+    "number, definition, count, rmse, mean, median, std, min, max, sse, p90, p95, p99, "
+    "pairs, possible, span, "
     "status, why"};
 inline constexpr CellTable kPhaseTable{"phase", "number, name, seconds"};
 inline constexpr CellTable kCountTable{"count", "number, name, value"};

@@ -40,7 +40,7 @@ const char* const kRowsHeader =
     "sequence,repeat,method,closures,oracle_closures,oracle_method,protocol,protocol_version,"
     "times,metric,label,"
     "relation,axis,unit,better,target,count,rmse,"
-    "mean,median,std,min,max,sse,pairs,possible,milliseconds,status,why\n";
+    "mean,median,std,min,max,sse,p90,p95,p99,pairs,possible,milliseconds,status,why\n";
 
 std::string csv_row(const Record& r) {
   const metrics::Statistics& s = r.statistics;
@@ -64,18 +64,22 @@ std::string csv_row(const Record& r) {
                   r.better == metrics::Better::target ? fmt::format("{}", r.target) : "");
   // An undefined score has empty fields, not zeros.
   const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; };
-  out += r.metric.empty() || !has_numbers(r.status) ? std::string(",,,,,,,,,,")
-                                                    : fmt::format("{},{},{},{},{},{},{},{},{},{},",
-                                                                  s.count,
-                                                                  number(s.rmse),
-                                                                  number(s.mean),
-                                                                  number(s.median),
-                                                                  number(s.std),
-                                                                  number(s.min),
-                                                                  number(s.max),
-                                                                  number(s.sse),
-                                                                  r.pairs,
-                                                                  r.possible);
+  out += r.metric.empty() || !has_numbers(r.status)
+             ? std::string(",,,,,,,,,,,,,")
+             : fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},",
+                           s.count,
+                           number(s.rmse),
+                           number(s.mean),
+                           number(s.median),
+                           number(s.std),
+                           number(s.min),
+                           number(s.max),
+                           number(s.sse),
+                           number(s.p90),
+                           number(s.p95),
+                           number(s.p99),
+                           r.pairs,
+                           r.possible);
   out +=
       fmt::format("{},{},{}\n", number(r.milliseconds), quoted(to_text(r.status)), quoted(r.why));
   return out;

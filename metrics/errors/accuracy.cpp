@@ -6,7 +6,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "metrics/numerics/percentile.hpp"
 #include "metrics/trajectory/tracking_gaps.hpp"
 
 namespace loopbench::metrics {
@@ -64,12 +63,6 @@ std::vector<Score> accuracy(const Evaluation& evaluation, const AccuracyOptions&
   }
   const std::vector<double> seconds = represented_time(reference, evaluation.reference);
   std::vector<Score> out;
-  std::vector<double> sorted = errors;
-  std::ranges::sort(sorted);
-  for (const int percent : {50, 90, 95, 99}) {
-    out.push_back(single(
-        "percentile", "p" + std::to_string(percent), "m", percentile(sorted, 0.01 * percent)));
-  }
   double area = 0.0;
   for (const double threshold : thresholds) {
     double within = 0.0;

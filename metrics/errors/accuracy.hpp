@@ -1,5 +1,4 @@
-/// Position errors that survive failures and outliers: percentiles, and the share of time below
-/// thresholds.
+/// Share of time with a position error below thresholds.
 #pragma once
 
 #include "metrics/metric.hpp"
@@ -21,8 +20,7 @@ void check_combination(const AccuracyOptions& options);
 /// Numbers of a text such as "0.1 0.3", positive and ascending. Throws OptionError.
 std::vector<double> ascending_numbers(const std::string& option, const std::string& text);
 
-/// `percentile` p50, p90, p95 and p99 of the position error [m]: linear between order statistics at
-/// rank (n - 1) p. `within` [%]: share of the reference's time with an error below each threshold;
+/// `within` [%]: share of the reference's time with an error below each threshold;
 /// a pair stands for half of the time to its neighbours. Tracking gaps (as in Coverage) and the
 /// time before the first and after the last pair count as failed. `area` [%]: area under the curve
 /// of this share over thresholds from 0 to the largest one, which is the mean of 1 - error /

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "datasets/core/parallel.hpp"
 #include "metrics/numerics/median.hpp"
@@ -52,6 +53,21 @@ Sums sums_of_block(std::span<const double> values) {
   return out;
 }
 
+/// Sets p90, p95 and p99; reorders the values. O(n).
+void set_percentiles(std::vector<double>& values, Statistics& out) {
+  auto from = values.begin();
+  for (const auto& [share, percentile] : {std::pair{0.90, &Statistics::p90},
+                                          std::pair{0.95, &Statistics::p95},
+                                          std::pair{0.99, &Statistics::p99}}) {
+    const double rank = share * static_cast<double>(values.size() - 1);
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(from, at, values.end());
+    const double next = at + 1 == values.end() ? *at : *std::min_element(at + 1, values.end());
+    out.*percentile = std::lerp(*at, next, rank - std::floor(rank));
+    from = at;
+  }
+}
+
 }  // namespace
 
 Statistics statistics(std::vector<double> errors, int ddof) {
@@ -76,6 +92,7 @@ Statistics statistics(std::vector<double> errors, int ddof) {
   const double squares = pairwise<double>(errors, squares_about_mean);
   out.std = free > 0.0 ? std::sqrt(squares / free) : 0.0;
   out.median = median(errors);
+  set_percentiles(errors, out);
   return out;
 }
 

@@ -16,6 +16,8 @@ struct Statistics {
   double min = 0.0;
   double max = 0.0;
   double sse = 0.0;  ///< sum of squares
+  /// Percentiles, linear between order statistics at rank (n - 1) p (numpy's default).
+  double p90 = 0.0, p95 = 0.0, p99 = 0.0;
 };
 
 /// Throws std::invalid_argument for an empty list and std::runtime_error if the sum of squares is

@@ -144,12 +144,15 @@ inline auto choices(Precision) {
                     std::pair{"float32", Precision::float32}};
 }
 
-/// Statistic of an error distribution that the original tool reports.
-enum class Statistic { rmse, mean, median };
+/// Statistic of an error distribution that summaries print.
+enum class Statistic { rmse, mean, median, p90, p95, p99 };
 inline auto choices(Statistic) {
   return std::array{std::pair{"rmse", Statistic::rmse},
                     std::pair{"mean", Statistic::mean},
-                    std::pair{"median", Statistic::median}};
+                    std::pair{"median", Statistic::median},
+                    std::pair{"p90", Statistic::p90},
+                    std::pair{"p95", Statistic::p95},
+                    std::pair{"p99", Statistic::p99}};
 }
 
 /// Sub-trajectories by length. Lengths and tolerance are text: see metrics/protocols/lengths.hpp.
@@ -252,7 +255,7 @@ void fields(Protocol& o, Visit visit) {
       "segments.precision", o.segments.precision, "floating-point precision of the segment errors");
   visit("segments.up", o.segments.up, "trajectory whose z axis is up for yaw and gravity angles");
   visit("ddof", o.ddof, "delta degrees of freedom: std divides by count - ddof", Between{0.0, 1.0});
-  visit("statistic", o.statistic, "statistic that the original tool reports");
+  visit("statistic", o.statistic, "statistic that summaries print; of tools: the one they report");
 }
 
 /// Throws OptionError, naming the field, if fields contradict each other or a length cannot be

@@ -8,8 +8,8 @@ import sys
 import tempfile
 
 COLUMNS = ["cell", "protocol", "protocol_version", "times", "metric", "label", "relation", "axis", "unit", "better",
-           "target", "count", "rmse", "mean", "median", "std", "min", "max", "sse", "pairs", "possible", "span",
-           "status", "why", "number"]
+           "target", "count", "rmse", "mean", "median", "std", "min", "max", "sse", "p90", "p95", "p99",
+           "pairs", "possible", "span", "status", "why", "number"]
 CONFIG = {"datasets": [{"dataset": "simulated", "path": "room", "keyframes": 40}], "methods": ["raw", "uniform"],
           "metrics": ["ate", {"metric": "rpe", "delta": 100000, "unit": "m", "label": "far"}], "times": "keyframes"}
 

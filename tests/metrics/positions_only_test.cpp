@@ -147,8 +147,6 @@ TEST(Accuracy, MissingTimeCountsAsFailed) {
   EXPECT_NEAR(find(scores, "within", "0.1").mean, 40.0, 0.2);
   EXPECT_NEAR(find(scores, "within", "1").mean, 70.0, 0.2);
   EXPECT_NEAR(find(scores, "area", "").mean, 40.0 * 0.95 + 30.0 * 0.5, 0.2);
-  EXPECT_NEAR(find(scores, "percentile", "p50").mean, 0.05, 1e-9);
-  EXPECT_NEAR(find(scores, "percentile", "p90").mean, 0.5, 1e-9);
   EXPECT_THROW(check_combination(AccuracyOptions{"0.1 x"}), OptionError);
 }
 

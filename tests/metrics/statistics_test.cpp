@@ -28,6 +28,20 @@ TEST(Statistics, OfFourNumbersByHand) {
   EXPECT_DOUBLE_EQ(s.std, std::sqrt(1.25));
   EXPECT_DOUBLE_EQ(s.min, 1.0);
   EXPECT_DOUBLE_EQ(s.max, 4.0);
+  // Ranks 2.7, 2.85 and 2.97 of the sorted numbers.
+  EXPECT_DOUBLE_EQ(s.p90, 3.7);
+  EXPECT_DOUBLE_EQ(s.p95, 3.85);
+  EXPECT_DOUBLE_EQ(s.p99, 3.97);
+}
+
+TEST(Statistics, PercentilesDoNotDependOnTheOrder) {
+  std::vector<double> values;
+  for (int i = 0; i <= 1000; ++i) values.push_back((i * 358) % 1001);  // 0 to 1000, shuffled
+  const Statistics s = statistics(values);
+  EXPECT_EQ(s.p90, 900.0);
+  EXPECT_EQ(s.p95, 950.0);
+  EXPECT_EQ(s.p99, 990.0);
+  EXPECT_EQ(statistics({7.0}).p99, 7.0);
 }
 
 TEST(Statistics, MedianOfAnOddCountIsTheMiddleOne) {
