@@ -36,7 +36,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench schema --plugin mine.so >schema.json\n"},
     {"table",
      "  loopbench table results/quickstart\n"
-     "  loopbench table results/quickstart --rows sequence --show gain\n"
      "  loopbench table results/quickstart --split '' --plus-minus --format latex -o table.tex\n"
      "  loopbench table results/quickstart --success 0.1 --value p95\n"},
     {"compare",
@@ -52,10 +51,8 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench check results/mine --baseline mine.json --update\n"
      "  loopbench check results/mine --baseline mine.json --junit junit.xml\n"},
     {"eval",
-     "  loopbench eval reference.txt estimate.txt\n"
-     "  loopbench eval reference.txt estimate.txt --align sim3 --json\n"
+     "  loopbench eval reference.txt estimate.txt --align sim3\n"
      "  loopbench eval reference.txt a.txt b.txt --protocol evo,tum,rpg\n"
-     "  loopbench eval reference.txt robot_a.txt robot_b.txt --align-together\n"
      "  loopbench eval run_1.txt run_2.txt run_3.txt --pairwise --by-position 2\n"},
     {"get",
      "  loopbench get\n"
