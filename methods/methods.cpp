@@ -1,6 +1,7 @@
 #include "datasets/core/polyline.hpp"
 #include "methods/correctors/checked.hpp"
 #include "methods/correctors/dual.hpp"
+#include "methods/correctors/dual_incremental.hpp"
 #include "methods/correctors/elch.hpp"
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 #include "methods/correctors/pose_graph.hpp"
@@ -76,6 +77,8 @@ std::vector<MethodEntry> methods() {
                       {.rotation_weights = StepWeights::rotation,
                        .translation_weights = StepWeights::distance}),
       method<Dual>("dual", "maximum likelihood on a chain, solved for the loop multipliers"),
+      method<DualIncremental>("dual_incremental",
+                              "dual by loop equations that grow with each closure; for replays"),
       method<MotionDrift>("motion_drift",
                           "dual with noise that grows with the motion and drift, averaged over "
                           "noise models drawn from their posterior"),
@@ -88,7 +91,11 @@ std::vector<MethodEntry> methods() {
       method<IncrementalPoseGraph>(
           "pose_graph_incremental_gate",
           "pose_graph_incremental without closures that raise chi2 too much, after IPC",
-          {.gate = true}),
+          {.robust = IncrementalRobustness::gate}),
+      method<IncrementalPoseGraph>(
+          "pose_graph_incremental_graduated",
+          "pose_graph_incremental with weights of closures by graduated non-convexity, after riSAM",
+          {.robust = IncrementalRobustness::graduated}),
       method<PoseGraphOptimizer>("pose_graph_huber",
                                  "pose_graph with a Huber loss on closures",
                                  {.loss = RobustLoss::huber}),

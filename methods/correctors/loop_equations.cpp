@@ -41,6 +41,49 @@ LoopEquations loop_equations(LoopJacobian jacobian,
   return out;
 }
 
+void LoopFactor::append(const Eigen::MatrixXd& rows) {
+  const Eigen::Index before = m_matrix.rows(), added = rows.rows();
+  const Eigen::MatrixXd below =
+      matrixL().solve(rows.leftCols(before).transpose()).transpose();  // B L^-T
+  const Eigen::LLT<Eigen::MatrixXd> corner(rows.rightCols(added) - below * below.transpose());
+  if (corner.info() != Eigen::Success) {
+    throw std::runtime_error("the loop equations are not positive definite");
+  }
+  m_matrix.conservativeResize(before + added, before + added);
+  m_matrix.bottomLeftCorner(added, before) = below;
+  m_matrix.bottomRightCorner(added, added) = corner.matrixL();
+}
+
+void append_closures(LoopEquations& equations,
+                     const LoopJacobian& now,
+                     const LoopSums& sums,
+                     const NoiseModel& noise_model) {
+  LoopJacobian& jacobian = equations.jacobian;
+  const std::size_t first = jacobian.loop.size();
+  const auto append = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(to.size()), from.end());
+  };
+  append(jacobian.edge, now.edge);
+  append(jacobian.loop, now.loop);
+  const std::size_t added = jacobian.loop.size() - first;
+  if (added == 0) return;
+  const std::vector<Matrix6> running = running_sum(sums, [&](std::size_t i) -> Matrix6 {
+    return jacobian.edge[i] * noise_model.covariance[i] * jacobian.edge[i].transpose();
+  });
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(6 * added),
+                                               static_cast<Eigen::Index>(6 * (first + added)));
+  for (std::size_t k = first; k < first + added; ++k) {
+    const auto row = static_cast<Eigen::Index>(6 * (k - first));
+    for (std::size_t l = 0; l < first + added; ++l) {
+      if (!sums.overlap(k, l)) continue;
+      rows.block<6, 6>(row, static_cast<Eigen::Index>(6 * l)) =
+          jacobian.loop[k] * sums.over_both(running, k, l) * jacobian.loop[l].transpose();
+    }
+    rows.block<6, 6>(row, static_cast<Eigen::Index>(6 * k)) += noise_model.closure_covariance[k];
+  }
+  equations.factor.append(rows);
+}
+
 Corrections minimum_cost_corrections(const LoopEquations& equations,
                                      const Eigen::VectorXd& gap,
                                      const std::vector<Edge>& closures,

@@ -94,11 +94,19 @@ struct Corrections {
   std::vector<Twist> drift;
 };
 
+/// A Cholesky factor to which rows can be added.
+class LoopFactor : public Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> {
+ public:
+  /// Factor of [M B'; B C] from that of M, where `rows` is [B C]. Throws std::runtime_error when
+  /// the matrix is not positive definite. O(rows size^2).
+  void append(const Eigen::MatrixXd& rows);
+};
+
 /// Cholesky factor of A S A' + S_L plus the covariance of the drift.
 struct LoopEquations {
   LoopJacobian jacobian;
   std::vector<Eigen::MatrixXd> shapes;  ///< A f_j of each drift, 6 closures x 6
-  Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor;
+  LoopFactor factor;
 };
 
 /// Assembles and factorises the equations. Throws std::runtime_error when the matrix is not
@@ -106,6 +114,14 @@ struct LoopEquations {
 LoopEquations loop_equations(LoopJacobian jacobian,
                              const LoopSums& sums,
                              const NoiseModel& noise_model);
+
+/// Adds the edges and closures by which `now` is larger than the equations, at the linearisation of
+/// `now`; the others keep theirs. `sums` and `noise_model` are of all closures; without drift.
+/// Throws as loop_equations(). O(edges + new (6 closures)^2).
+void append_closures(LoopEquations& equations,
+                     const LoopJacobian& now,
+                     const LoopSums& sums,
+                     const NoiseModel& noise_model);
 
 /// Returns the corrections of minimum cost for loop errors `gap` + A e. O(edges + closures^2).
 Corrections minimum_cost_corrections(const LoopEquations& equations,

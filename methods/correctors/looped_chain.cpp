@@ -151,8 +151,7 @@ bool LoopedChain::step_towards(const Corrections& target,
   return false;
 }
 
-bool LoopedChain::step() {
-  const LoopEquations equations = loop_equations(linearise(), sums_, noise_model_);
+bool LoopedChain::step_at(const LoopEquations& equations) {
   if (is_near_minimum_) {
     const Corrections direction = newton_direction(
         equations, gradient(equations.jacobian), sums_, problem_.closures, noise_model_);
@@ -161,6 +160,39 @@ bool LoopedChain::step() {
   const Eigen::VectorXd& gap = equations.jacobian.gap;
   return step_towards(
       minimum_cost_corrections(equations, gap, problem_.closures, noise_model_), equations, 1e-4);
+}
+
+void LoopedChain::grow() {
+  for (std::size_t i = at_.errors.size(); i < problem_.odometry.size(); ++i) {
+    const Edge& edge = problem_.odometry[i];
+    noise_model_.information.push_back(edge.information);
+    noise_model_.covariance.push_back(edge.information.inverse());
+    at_.errors.emplace_back(Twist::Zero());
+    poses_.push_back(normalized(poses_.back() * edge.from_from_to));
+  }
+  for (std::size_t k = noise_model_.closure_covariance.size(); k < problem_.closures.size(); ++k) {
+    const Edge& loop = problem_.closures[k];
+    noise_model_.closure_information.push_back(loop.information);
+    noise_model_.closure_covariance.push_back(loop.information.inverse());
+  }
+  sums_ = LoopSums(problem_.closures);
+  cost_ = cost_of(at_, loop_errors(poses_));
+}
+
+void LoopedChain::remove_closure(std::size_t k) {
+  if (k >= noise_model_.closure_covariance.size()) return;  // not known here
+  const auto at = static_cast<std::ptrdiff_t>(k);
+  noise_model_.closure_covariance.erase(noise_model_.closure_covariance.begin() + at);
+  noise_model_.closure_information.erase(noise_model_.closure_information.begin() + at);
+}
+
+bool LoopedChain::step_with(LoopEquations& equations) {
+  LoopJacobian& jacobian = equations.jacobian;
+  jacobian.gap = loop_errors(poses_);
+  jacobian.gap -= loop_error_change(jacobian, sums_, at_.errors);
+  const Corrections direction =
+      newton_direction(equations, gradient(linearise()), sums_, problem_.closures, noise_model_);
+  return step_towards(add_scaled(at_, 1.0, direction), equations, 0.25);
 }
 
 int LoopedChain::minimise(int max_iterations, double tolerance) {

@@ -42,7 +42,30 @@ class LoopedChain {
   /// reject almost every step. Each candidate therefore first gets a second-order correction that
   /// closes this residual. Throws std::runtime_error when the loop equations are not positive
   /// definite. O(edges + (6 closures)^3).
-  bool step();
+  bool step() { return step_at(equations()); }
+
+  /// The same with equations() of the current poses.
+  bool step_at(const LoopEquations& equations);
+
+  /// The problem has grown: new keyframes continue the chain without errors, and edges and closures
+  /// have their stated covariances. Without drift. O(edges + closures log closures).
+  void grow();
+
+  /// Closure `k` is about to be erased from the problem; grow() follows.
+  void remove_closure(std::size_t k);
+
+  /// The equations at the current poses. Throws std::runtime_error when they are not positive
+  /// definite.
+  LoopEquations equations() const { return loop_equations(linearise(), sums_, noise_model_); }
+
+  /// Extends equations of earlier poses to all edges and closures (append_closures()).
+  void extend(LoopEquations& equations) const {
+    append_closures(equations, linearise(), sums_, noise_model_);
+  }
+
+  /// As step(), by Newton's method with the exact gradient, but with equations of earlier poses: it
+  /// converges linearly, without their factorisation. O(edges + closures^2).
+  bool step_with(LoopEquations& equations);
 
   /// Steps until the relative change of the cost is at most `tolerance`. Returns the number of
   /// steps. Throws as step().

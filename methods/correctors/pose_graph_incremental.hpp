@@ -23,8 +23,8 @@ class IncrementalPoseGraph final : public Corrector {
     return why_no_chain(problem);
   }
 
-  /// Counts: `iterations`, `eliminations` (of poses, over all iterations), and with `gate`
-  /// `closures_kept`.
+  /// Counts: `iterations`, `eliminations` (of poses, over all iterations), and with
+  /// `robust: gate` `closures_kept`.
   Trajectory correct(const Problem& problem, Report& report) const override {
     return incremental(problem.planar)
         ->update({problem.keyframes, problem.odometry, problem.closures, {}, {}, {}}, report);
@@ -48,9 +48,10 @@ void fields(IncrementalSettings& o, Visit visit) {
         o.max_iterations,
         "maximum number of linearisations per update",
         Between{1, 1000});
-  visit("gate",
-        o.gate,
-        "reject a closure that raises chi2 by more than the 99 % quantile of its distribution");
+  visit("robust",
+        o.robust,
+        "false closures; gate: reject a closure that raises chi2 by more than the 99 % quantile of "
+        "its distribution; graduated: weigh closures by a loss that becomes less and less convex");
 }
 
 }  // namespace loopbench::methods

@@ -1,6 +1,7 @@
 #include "methods/solvers/incremental_smoother.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -23,11 +24,13 @@ class IncrementalSmoother final : public Incremental {
     for (const Edge& edge : added.odometry) add_edge(edge, true);
     const std::size_t before = tree_.eliminations();
     iterations_ = 0;
+    const std::size_t first_new = constraints_.size();
     for (const Edge& edge : added.closures) add_closure(edge);
     for (const Edge& edge : added.withdrawn) remove_edge(edge);
     optimise();
+    if (is(IncrementalRobustness::graduated)) harden(first_new);
     report.count("iterations", iterations_);
-    if (settings_.gate) report.count("closures_kept", static_cast<double>(kept_));
+    if (is(IncrementalRobustness::gate)) report.count("closures_kept", static_cast<double>(kept_));
     report.count("eliminations", static_cast<double>(tree_.eliminations() - before));
     if (!touched_.empty()) report.notes.push_back("stopped at max_iterations before the tolerance");
     return poses_;
@@ -39,12 +42,17 @@ class IncrementalSmoother final : public Incremental {
     Edge edge;
     Element to_from_measured_from;
     EdgeEquations equations;
-    double chi2 = 0.0;  ///< its part of chi2_
+    bool is_odometry = true;
+    double chi2 = 0.0;    ///< its part of chi2_
+    double mu = 0.0;      ///< `graduated`: 0, the loss is convex, to 1
+    double weight = 1.0;  ///< of the information
   };
+  static constexpr double kQuantile = G::kDof == 3 ? 11.345 : 16.812;  // of chi2, 99 %
+
+  bool is(IncrementalRobustness robust) const { return settings_.robust == robust; }
 
   void add_closure(const Edge& edge) {
-    if (!settings_.gate) return add_edge(edge, false);
-    constexpr double kQuantile = G::kDof == 3 ? 11.345 : 16.812;  // 99 %
+    if (!is(IncrementalRobustness::gate)) return add_edge(edge, false);
     optimise();
     const double before = chi2_;
     const std::vector<Element> at = at_;
@@ -72,7 +80,12 @@ class IncrementalSmoother final : public Incremental {
       const std::vector<std::size_t> touched = std::exchange(touched_, {});
       const std::vector<std::size_t> solved = tree_.update(touched, graph_);
       relinearise(solved);
-      if (!settings_.gate) continue;
+      if (is(IncrementalRobustness::graduated)) {
+        for (const std::size_t pose : solved) {
+          for (const std::size_t edge : edges_[pose]) reweigh(edge);
+        }
+      }
+      if (!is(IncrementalRobustness::gate)) continue;
       moved_.insert(moved_.end(), solved.begin(), solved.end());
       for (const std::vector<std::size_t>* moved : {&touched, &solved}) {
         for (const std::size_t pose : *moved) {
@@ -82,11 +95,41 @@ class IncrementalSmoother final : public Incremental {
     }
   }
 
-  void update_chi2(std::size_t index) {
+  /// Raises mu of the constraints from index `first` on from 0 to 1.
+  void harden(std::size_t first) {
+    constexpr int kSteps = 5;
+    for (int step = 1; step <= kSteps && first < constraints_.size(); ++step) {
+      for (std::size_t i = first; i < constraints_.size(); ++i) {
+        constraints_[i].mu = static_cast<double>(step) / kSteps;
+        reweigh(i);
+      }
+      optimise();
+    }
+  }
+
+  void reweigh(std::size_t index) {
+    constexpr double kSame = 1e-3;  // change of a weight that is not worth an elimination
     Constraint& of = constraints_[index];
+    if (of.is_odometry) return;
+    const double s = std::pow(chi2_of(of), of.mu);
+    const double sum = kQuantile + s;
+    const double weight = kQuantile * (kQuantile + s * (1.0 - of.mu)) / (sum * sum);
+    if (std::abs(weight - of.weight) <= kSame * of.weight) return;
+    of.weight = weight;
+    linearise(index);
+    touched_.push_back(of.edge.from);
+    touched_.push_back(of.edge.to);
+  }
+
+  double chi2_of(const Constraint& of) const {
     const typename G::Tangent e = group_edge_error<G>(
         of.to_from_measured_from, G::compose(G::inverse(now_[of.edge.from]), now_[of.edge.to]));
-    const double chi2 = e.dot(G::information(of.edge, 1.0) * e);
+    return e.dot(G::information(of.edge, 1.0) * e);
+  }
+
+  void update_chi2(std::size_t index) {
+    Constraint& of = constraints_[index];
+    const double chi2 = chi2_of(of);
     chi2_ += chi2 - std::exchange(of.chi2, chi2);
   }
 
@@ -107,7 +150,7 @@ class IncrementalSmoother final : public Incremental {
     }
     if (!is_odometry) ++kept_;
     const std::size_t index = constraints_.size();
-    constraints_.push_back({edge, G::inverse(measured), {edge.from, edge.to, {}}});
+    constraints_.push_back({edge, G::inverse(measured), {edge.from, edge.to, {}}, is_odometry});
     linearise(index);
     for (const std::size_t end : {edge.from, edge.to}) {
       edges_[end].push_back(index);
@@ -142,7 +185,7 @@ class IncrementalSmoother final : public Incremental {
     Eigen::Matrix<double, G::kDof, 2 * G::kDof + 1> jacobian;
     jacobian << residual.by_from, residual.by_to, -residual.error;
     of.equations.matrix = jacobian.template leftCols<2 * G::kDof>().transpose() *
-                          (G::information(of.edge, 1.0) * jacobian);
+                          (of.weight * (G::information(of.edge, 1.0) * jacobian));
   }
 
   /// Writes the poses of `solved`, and moves the points of linearisation whose corrections exceed
@@ -182,7 +225,7 @@ class IncrementalSmoother final : public Incremental {
   std::vector<std::vector<std::size_t>> edges_;  ///< constraints at each keyframe
   EliminationTree tree_;
   int iterations_ = 0;              ///< of the current update
-  double chi2_ = 0.0;               ///< at the estimate, kept up to date with `gate`
+  double chi2_ = 0.0;               ///< at the estimate, kept up to date for `gate`
   std::vector<std::size_t> moved_;  ///< by the closure that is tested
   std::size_t kept_ = 0;            ///< closures
   const EliminationTree::Graph graph_{

@@ -1,16 +1,27 @@
 /// Maximum likelihood of a growing pose graph, with a Cholesky factorisation that is updated.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <utility>
 
 #include "methods/incremental.hpp"
 
 namespace loopbench::methods {
 
+/// What is done about false closures: nothing; `gate`: a closure that raises the cost too much is
+/// rejected; `graduated`: closures are weighted by a loss that becomes less and less convex.
+enum class IncrementalRobustness { none, gate, graduated };
+inline auto choices(IncrementalRobustness) {
+  return std::array{std::pair{"none", IncrementalRobustness::none},
+                    std::pair{"gate", IncrementalRobustness::gate},
+                    std::pair{"graduated", IncrementalRobustness::graduated}};
+}
+
 struct IncrementalSettings {
   double tolerance = 1e-6;   ///< largest change of a pose at convergence [m], [rad]
   int max_iterations = 100;  ///< linearisations per update
-  bool gate = false;         ///< reject closures that raise the cost too much
+  IncrementalRobustness robust = IncrementalRobustness::none;
 };
 
 /// Minimises the cost of solve_pose_graph() without loss, in SE(2) or SE(3). Keyframe 0 is fixed.
@@ -33,6 +44,14 @@ struct IncrementalSettings {
 /// test of IPC without its limitation to the loops that overlap: Olivastri and Pretto, IPC:
 /// incremental probabilistic consensus-based consistent set maximization, IROS 2024 (arXiv
 /// 2405.08503).
+///
+/// With `graduated`, a closure with squared residual r2 has the weight c2 (c2 + s (1 - mu)) / (c2 +
+/// s)^2 with s = r2^mu, where c2 is that quantile: all weights are equal for mu = 0, and those of
+/// Geman and McClure for mu = 1. In an update mu rises from 0 to 1 in steps of 0.2 for the new
+/// closures, and remains 1 for the others, whose weights follow their residuals; so a closure that
+/// was rejected can return, and the other way round. After McGann, Rogers, Kaess, Robust
+/// incremental smoothing and mapping (riSAM), ICRA 2023, with constant steps, without the trust
+/// region.
 ///
 /// Source: Kaess, Johannsson, Roberts, Ila, Leonard, Dellaert, iSAM2: incremental smoothing and
 /// mapping using the Bayes tree, IJRR 31(2), 2012; here with single poses instead of cliques, and

@@ -1,8 +1,11 @@
-/// pose_graph_incremental: the minimum of pose_graph, reached in parts.
+/// pose_graph_incremental and dual_incremental: the minimum of pose_graph and dual, reached in
+/// parts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "methods/correctors/dual.hpp"
+#include "methods/correctors/dual_incremental.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/correctors/pose_graph_incremental.hpp"
 #include "methods/solvers/elimination_order.hpp"
@@ -30,6 +33,60 @@ Increment part(const Problem& problem, std::size_t begin, std::size_t end) {
   return out;
 }
 
+/// Of the problem, in parts of 20 keyframes.
+Trajectory in_parts(const Problem& problem, const Corrector& method, Report& report) {
+  const auto incremental = method.incremental(problem.planar);
+  Trajectory out;
+  for (std::size_t begin = 0; begin < problem.keyframes.size(); begin += 20) {
+    out = incremental->update(part(problem, begin, begin + 20), report);
+    EXPECT_EQ(out.size(), begin + 20);
+  }
+  return out;
+}
+
+TEST(DualIncremental, ReachesTheMinimumOfDualInParts) {
+  for (const bool planar : {false, true}) {
+    Problem problem = test::walk(2, 80, 0.02);
+    problem.planar = planar;
+    Report report;
+    const Trajectory expected = test::corrected<Dual>(problem);
+    test::expect_close(in_parts(problem, DualIncremental({}), report), expected, 1e-6);
+    test::expect_close(test::corrected<DualIncremental>(problem), expected, 1e-6);
+  }
+}
+
+TEST(DualIncremental, AnAgreeingClosureAddsRowsOnly) {
+  Problem problem = test::walk(2, 80, 0.02);
+  const auto method = DualIncremental({}).incremental(false);
+  Report first;
+  const Trajectory solved = method->update(part(problem, 0, 80), first);
+  EXPECT_GE(test::count(first, "assemblies"), 1.0);
+  const Pose measured = solved[10].world_from_body.inverse() * solved[70].world_from_body;
+  Increment added;
+  added.closures = {{10, 70, measured * exp_se3(Twist::Constant(1e-4)), Matrix6::Identity() * 1e4}};
+  Report second;
+  const Trajectory last = method->update(added, second);
+  EXPECT_EQ(test::count(second, "assemblies"), 0.0);
+  problem.closures.push_back(added.closures[0]);
+  test::expect_close(last, test::corrected<Dual>(problem), 1e-6);
+}
+
+TEST(DualIncremental, RemovesWithdrawnClosures) {
+  Problem problem = test::walk(3, 50, 0.02);
+  const auto method = DualIncremental({}).incremental(false);
+  Report report;
+  method->update(part(problem, 0, 50), report);
+  Increment withdrawal;
+  withdrawal.withdrawn = {problem.closures[1]};
+  const Trajectory last = method->update(withdrawal, report);
+  Problem left = problem;
+  left.closures.erase(left.closures.begin() + 1);
+  test::expect_close(last, test::corrected<Dual>(left), 1e-6);
+  withdrawal.withdrawn = left.closures;
+  const Trajectory none = method->update(withdrawal, report);
+  test::expect_close(none, problem.keyframes, 1e-9);  // odometry again
+}
+
 TEST(IncrementalSmoother, ReachesTheMinimumOfThePoseGraph) {
   for (const bool planar : {false, true}) {
     Problem problem = planar ? test::planar() : test::walk(1, 60, 0.02);
@@ -41,14 +98,10 @@ TEST(IncrementalSmoother, ReachesTheMinimumOfThePoseGraph) {
 
 TEST(IncrementalSmoother, EndsWithTheSameResultInParts) {
   const Problem problem = test::walk(2, 80, 0.02);
-  const auto method = IncrementalPoseGraph({}).incremental(false);
   Report report;
-  Trajectory last;
-  for (std::size_t begin = 0; begin < 80; begin += 20) {
-    last = method->update(part(problem, begin, begin + 20), report);
-    EXPECT_EQ(last.size(), begin + 20);
-  }
-  test::expect_close(last, test::corrected<IncrementalPoseGraph>(problem), 1e-6);
+  test::expect_close(in_parts(problem, IncrementalPoseGraph({}), report),
+                     test::corrected<IncrementalPoseGraph>(problem),
+                     1e-6);
 }
 
 TEST(IncrementalSmoother, RemovesWithdrawnClosures) {
@@ -87,9 +140,27 @@ TEST(IncrementalSmoother, RejectsAFalseClosureByTheIncreaseOfTheCost) {
   wrong.to = 40;
   problem.closures.insert(problem.closures.begin() + 1, wrong);
   Report report;
-  const Trajectory gated = test::corrected<IncrementalPoseGraph>(problem, {.gate = true}, &report);
+  const Trajectory gated = test::corrected<IncrementalPoseGraph>(
+      problem, {.robust = IncrementalRobustness::gate}, &report);
   EXPECT_EQ(test::count(report, "closures_kept"), 3.0);
   test::expect_close(gated, expected, 1e-6);
+}
+
+TEST(IncrementalSmoother, WeighsAFalseClosureDown) {
+  // A straight line of 1 m steps; steps and closure have sigma 0.1 m. The closure is 6 m short of 8
+  // m.
+  Problem problem = test::along_x({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+  for (Edge& edge : problem.odometry) edge.information = Matrix6::Identity() * 100.0;
+  problem.closures = {{0, 8, test::at_x(2.0), Matrix6::Identity() * 100.0}};
+  const IncrementalSettings graduated{.robust = IncrementalRobustness::graduated};
+  const Trajectory kept = test::corrected<IncrementalPoseGraph>(problem, graduated);
+  // chi2 of the closure is 3600, its weight (16.8 / 3617)^2 = 2e-5, and it moves 8 / (8 + 1 / 2e-5)
+  // of 6 m.
+  EXPECT_NEAR(kept[8].world_from_body.translation.x(), 8.0, 2e-3);
+  // A closure that agrees counts almost fully: 8 / 9 of 0.01 m.
+  problem.closures[0].from_from_to = test::at_x(7.99);
+  const Trajectory moved = test::corrected<IncrementalPoseGraph>(problem, graduated);
+  EXPECT_NEAR(moved[8].world_from_body.translation.x(), 8.0 - 0.01 * 8.0 / 9.0, 1e-5);
 }
 
 TEST(EliminationOrder, IsAPermutationThatEndsWithTheLastPose) {
