@@ -1,8 +1,12 @@
 #include "harness/model/trace.hpp"
 
 #include <algorithm>
+#include <limits>
 
+#include "datasets/core/replay.hpp"
 #include "metrics/numerics/angle.hpp"
+#include "metrics/online/causal_errors.hpp"
+#include "metrics/trajectory/projection.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -33,6 +37,31 @@ std::vector<TracePose> poses(const Trajectory& trajectory, const TraceOrigin& or
   visit_thinned(trajectory.size(), [&](std::size_t i) {
     out.push_back(small(trajectory[i].stamp, trajectory[i].world_from_body, origin));
   });
+  return out;
+}
+
+std::vector<TraceSample> samples(const metrics::Evaluation& evaluation, const TraceOrigin& origin) {
+  std::vector<TraceSample> out;
+  visit_thinned(evaluation.reference.size(), [&](std::size_t i) {
+    const StampedPose& reference = evaluation.reference[i];
+    const Pose& estimate = evaluation.estimate[i].world_from_body;
+    const Vector3 error = estimate.translation - reference.world_from_body.translation;
+    const double angle = angle_between(reference.world_from_body.rotation, estimate.rotation);
+    out.push_back({small(reference.stamp, estimate, origin),
+                   static_cast<float>(error.x()),
+                   static_cast<float>(error.y()),
+                   static_cast<float>(error.z()),
+                   static_cast<float>(angle * metrics::kDegrees)});
+  });
+  return out;
+}
+
+/// Poses between snapshots: as many as a screen shows over the complete path.
+Trajectory thinned(const Trajectory& causal) {
+  constexpr std::size_t kMost = 400;
+  const std::size_t step = causal.size() / kMost + 1;
+  Trajectory out;
+  for (std::size_t i = 0; i < causal.size(); i += step) out.push_back(causal[i]);
   return out;
 }
 
@@ -67,18 +96,28 @@ SequenceTrace sequence_trace(const Sequence& sequence) {
 CellTrace cell_trace(const metrics::Evaluation& evaluation,
                      metrics::Times times,
                      const TraceOrigin& origin) {
-  CellTrace out{times, {}};
-  visit_thinned(evaluation.reference.size(), [&](std::size_t i) {
-    const StampedPose& reference = evaluation.reference[i];
-    const Pose& estimate = evaluation.estimate[i].world_from_body;
-    const Vector3 error = estimate.translation - reference.world_from_body.translation;
-    const double angle = angle_between(reference.world_from_body.rotation, estimate.rotation);
-    out.samples.push_back({small(reference.stamp, estimate, origin),
-                           static_cast<float>(error.x()),
-                           static_cast<float>(error.y()),
-                           static_cast<float>(error.z()),
-                           static_cast<float>(angle * metrics::kDegrees)});
-  });
+  CellTrace out{times, samples(evaluation, origin)};
+  const Curve* curve = evaluation.context.curve;
+  const Replay* replay = curve == nullptr ? nullptr : curve->replay();
+  if (replay == nullptr || evaluation.context.reference == nullptr) return out;
+  try {
+    out.causal = samples(metrics::causal_evaluation(evaluation), origin);
+  } catch (
+      const metrics::Undefined&) {  // cannot be paired or aligned: only the snapshots are drawn
+  }
+  for (std::size_t i = 0; i < replay->snapshots.size(); ++i) {
+    const ReplaySnapshot& snapshot = replay->snapshots[i];
+    const bool is_last = i + 1 == replay->snapshots.size();
+    const double end =
+        is_last ? std::numeric_limits<double>::infinity() : replay->snapshots[i + 1].time;
+    Trajectory known = snapshot.poses;
+    for (const StampedPose& pose : thinned(replay->causal)) {
+      if (pose.stamp > snapshot.time && pose.stamp <= end) known.push_back(pose);
+    }
+    known = metrics::moved(evaluation.alignment, known);
+    metrics::project(known, evaluation.protocol.project);
+    out.snapshots.push_back({snapshot.time - origin.stamp, poses(known, origin)});
+  }
   return out;
 }
 

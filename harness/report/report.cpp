@@ -54,6 +54,7 @@ std::string script_elements(const std::string& nonce) {
                            "map",
                            "space",
                            "along",
+                           "replay",
                            "cut",
                            "spread",
                            "sweeps",

@@ -60,6 +60,7 @@ CellWriter::CellWriter(Database& database, std::string provenance_key)
       note_(insert_into(database, kNoteTable)),
       section_(insert_into(database, kSectionTable)),
       trace_(insert_into(database, kTraceTable)),
+      snapshot_(insert_into(database, kSnapshotTable)),
       set_checksum_(checksum_update(database)),
       one_more_(database.prepare("UPDATE run SET value = value + 1 WHERE key = 'cells'")) {}
 
@@ -87,8 +88,14 @@ void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
   const std::int64_t id = write_cell(result, keys);
   write_scores(id, result, keys.sweep());
   write_report(id, result.report);
-  if (!result.trace.samples.empty()) {
-    trace_.bind(id, to_text(result.trace.times), Blob{bytes_of(result.trace.samples)}).run();
+  const CellTrace& trace = result.trace;
+  if (trace.samples.empty()) return;
+  trace_.bind(
+      id, to_text(trace.times), Blob{bytes_of(trace.samples)}, Blob{bytes_of(trace.causal)});
+  trace_.run();
+  std::int64_t number = 0;
+  for (const TraceSnapshot& each : trace.snapshots) {
+    snapshot_.bind(id, number++, each.time, Blob{bytes_of(each.poses)}).run();
   }
 }
 

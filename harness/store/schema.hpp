@@ -122,7 +122,14 @@ inline constexpr const char* kSchema = R"sql(
     cell INTEGER PRIMARY KEY REFERENCES cell(id),
     times TEXT NOT NULL,               -- keyframes | dense
     samples BLOB NOT NULL,             -- TraceSample, 12 floats each, under the first protocol
+    causal BLOB NOT NULL,              -- the same of a replay: poses as known at their own time
     checksum INTEGER NOT NULL);
+  CREATE TABLE snapshot (              -- of a replay
+    cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
+    time REAL NOT NULL,                -- from here on known, relative to the sequence's origin [s]
+    poses BLOB NOT NULL,               -- TracePose, 8 floats each
+    checksum INTEGER NOT NULL,
+    PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE TABLE sequence_trace (
     sequence_key TEXT PRIMARY KEY,
     origin_stamp REAL NOT NULL,        -- stamps are relative to it [s]
@@ -154,9 +161,10 @@ inline constexpr CellTable kPhaseTable{"phase", "number, name, seconds"};
 inline constexpr CellTable kCountTable{"count", "number, name, value"};
 inline constexpr CellTable kNoteTable{"note", "number, text"};
 inline constexpr CellTable kSectionTable{"section", "number, kind, begin_stamp, end_stamp, what"};
-inline constexpr CellTable kTraceTable{"trace", "times, samples"};
+inline constexpr CellTable kTraceTable{"trace", "times, samples, causal"};
+inline constexpr CellTable kSnapshotTable{"snapshot", "number, time, poses"};
 inline constexpr CellTable kCellTables[] = {
-    kScoreTable, kPhaseTable, kCountTable, kNoteTable, kSectionTable, kTraceTable};
+    kScoreTable, kPhaseTable, kCountTable, kNoteTable, kSectionTable, kTraceTable, kSnapshotTable};
 
 /// Columns of the table cell between `id` and `checksum`.
 inline constexpr const char* kCellColumns =

@@ -8,9 +8,7 @@
 #include "metrics/trajectory/projection.hpp"
 
 namespace loopbench::metrics {
-namespace {
 
-/// The causal trajectory, paired and aligned. The replay must outlive the result.
 Evaluation causal_evaluation(const Evaluation& evaluation, const std::string& metric) {
   const Replay& replay = replay_of(evaluation, metric);
   const Trajectory& reference = needed(evaluation.context.reference, metric, "a reference");
@@ -22,8 +20,6 @@ Evaluation causal_evaluation(const Evaluation& evaluation, const std::string& me
                  .protocol = evaluation.protocol};
   return out;
 }
-
-}  // namespace
 
 std::vector<Score> causal_ate(const Evaluation& evaluation) {
   return ate(causal_evaluation(evaluation, "causal_ate"));

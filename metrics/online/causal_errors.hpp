@@ -6,10 +6,13 @@
 
 namespace loopbench::metrics {
 
-/// Scores of ate() and rpe() for the causal trajectory of a replay (replay.hpp): keyframe k with
-/// the data that had arrived at its time, including closures that arrived with it. It is paired and
-/// aligned by the rules of the protocol like any other estimate, with an alignment of its own.
-/// Throws Undefined if the method was not replayed. O(n log n).
+/// The causal trajectory of a replay (replay.hpp), keyframe k with the data that had arrived at its
+/// time, including closures that arrived with it; paired and aligned by the rules of the protocol
+/// like any other estimate, with an alignment of its own. The replay must outlive the result.
+/// Throws Undefined if the method was not replayed; `metric` is named in the reason. O(n log n).
+Evaluation causal_evaluation(const Evaluation& evaluation, const std::string& metric = "causal");
+
+/// Scores of ate() and rpe() for the causal trajectory. Throws as causal_evaluation().
 std::vector<Score> causal_ate(const Evaluation& evaluation);
 std::vector<Score> causal_rpe(const Evaluation& evaluation, const RpeOptions& options);
 
