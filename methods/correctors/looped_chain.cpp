@@ -175,6 +175,7 @@ void LoopedChain::grow() {
     noise_model_.closure_information.push_back(loop.information);
     noise_model_.closure_covariance.push_back(loop.information.inverse());
   }
+  points_.resize(problem_.closures.size());
   sums_ = LoopSums(problem_.closures);
   cost_ = cost_of(at_, loop_errors(poses_));
 }
@@ -184,6 +185,7 @@ void LoopedChain::remove_closure(std::size_t k) {
   const auto at = static_cast<std::ptrdiff_t>(k);
   noise_model_.closure_covariance.erase(noise_model_.closure_covariance.begin() + at);
   noise_model_.closure_information.erase(noise_model_.closure_information.begin() + at);
+  points_.erase(points_.begin() + at);
 }
 
 bool LoopedChain::step_with(LoopEquations& equations) {
