@@ -25,7 +25,9 @@ ln -s "$root/results/reference" results/reference
 [[ -z $quickstart ]] || cp -r "$quickstart" results/quickstart
 cp "$example"/{reference,open,loops}.txt .
 for name in gt marker truths/room; do cp reference.txt $name.txt; done
-for name in estimate good camera est systems/ours/room/1 systems/ours/room/2; do cp open.txt $name.txt; done
+for name in estimate good camera est robot_{a,b} run_{1,2,3} monday tuesday systems/ours/room/{1,2}; do
+  cp open.txt "$name.txt"
+done
 cp "$example/other.txt" systems/theirs/room/1.txt
 # An antenna in degrees, and every tenth position with a filler quaternion.
 awk 'BEGIN { print "time,latitude,longitude,height" }
