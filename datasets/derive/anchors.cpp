@@ -5,6 +5,7 @@
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/bags/messages.hpp"
+#include "datasets/core/params.hpp"
 #include "datasets/formats/columns.hpp"
 
 namespace loopbench {
