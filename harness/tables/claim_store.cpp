@@ -1,6 +1,7 @@
 #include "harness/tables/claim_store.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include "datasets/core/error.hpp"
 #include "harness/base/hash.hpp"
@@ -8,6 +9,7 @@
 #include "harness/compare/observations.hpp"
 #include "harness/compare/snapshot.hpp"
 #include "harness/model/where.hpp"
+#include "harness/store/read.hpp"
 #include "harness/tables/all_records.hpp"
 #include "harness/tables/comparison.hpp"
 
@@ -29,17 +31,39 @@ Look look_at_store(const Claim& claim, const std::filesystem::path& store) {
                    std::to_string(all.size()) + ": " + titles);
 }
 
+std::string definition_of_run(const std::string& chosen, const std::string& all) {
+  const std::size_t files = std::min(all.find("; "), all.size());
+  const std::string options = all.substr(0, files);
+  constexpr std::string_view kSeed = ", seed=";
+  const std::size_t seed = options.find(kSeed);
+  std::string out = chosen;
+  if (seed != std::string::npos) {
+    const std::size_t end = options.find(',', seed + kSeed.size());
+    out += options.substr(seed, end == std::string::npos ? end : end - seed);
+  }
+  return out + all.substr(files);
+}
+
 std::map<std::string, std::string> sequences_of(const Claim& claim,
                                                 const std::filesystem::path& store) {
   const Snapshot now = snapshot(store, {Tolerance{}});
   const auto passes = where(claim.where);
+  std::map<std::string, std::string> chosen;  // options by run
+  for (const CellRecord& cell : read_cells(store)) {
+    Record run;
+    run.sequence = cell.sequence;
+    run.repeat = cell.repeat;
+    chosen[run_name(run)] = cell.dataset_options.text();
+  }
   std::map<std::string, std::map<std::string, std::string>> runs;  // definitions by sequence
   for (const GateCell& cell : now.cells) {
     if (cell.method != claim.method && cell.method != claim.baseline) continue;
     const bool is_kept =
         cell.scores.empty() ? passes(cell) : std::ranges::any_of(cell.scores, passes);
     const auto definition = now.sequences.find(run_name(cell));
-    if (is_kept && definition != now.sequences.end()) runs[cell.sequence].insert(*definition);
+    if (!is_kept || definition == now.sequences.end()) continue;
+    const auto& [run, all] = *definition;
+    runs[cell.sequence][run] = definition_of_run(chosen[run], all);
   }
   std::map<std::string, std::string> out;
   for (const auto& [sequence, definitions] : runs) {

@@ -12,8 +12,13 @@ namespace loopbench::harness {
 /// The claim's next look at a store. Throws InputError if its filters leave no score or several.
 Look look_at_store(const Claim& claim, const std::filesystem::path& store);
 
+/// What identifies a run in a claim: its options that differ from the defaults (`chosen`), and the
+/// seed and the files of `all`, which lists all options ("NAME: a=1, seed=7; FILE BYTES HASH"). A
+/// dataset can get a new option without another definition.
+std::string definition_of_run(const std::string& chosen, const std::string& all);
+
 /// The sequences that the claim is about: the name of each with the hash of the definitions of its
-/// runs (options, seeds, contents of files), which is the same on every machine.
+/// runs, which is the same on every machine.
 std::map<std::string, std::string> sequences_of(const Claim& claim,
                                                 const std::filesystem::path& store);
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "harness/config/read_claim.hpp"
+#include "harness/tables/claim_store.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/compared_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
@@ -166,6 +167,15 @@ const char* const kConfig =
     "metrics: [ate]\n"
     "times: keyframes\n"
     "repeats: 8\n";
+
+TEST(ClaimCommand, ANewOptionOfADatasetIsNoOtherRun) {
+  EXPECT_EQ(definition_of_run("simulated: path=room",
+                              "simulated: new=0, path=room, seed=7, stream=; a.txt 3 beef"),
+            "simulated: path=room, seed=7; a.txt 3 beef");
+  EXPECT_EQ(definition_of_run("line: n=4", "line: bias=0, n=4, seed=3"), "line: n=4, seed=3");
+  EXPECT_EQ(definition_of_run("file: a=1", "file: a=1, b=2; a.txt 3 beef"),
+            "file: a=1; a.txt 3 beef");
+}
 
 TEST(ClaimCommand, WritesRunsAndRecordsALookOnce) {
   TemporaryFolder folder;
