@@ -20,6 +20,16 @@ struct Increment {
   std::vector<std::size_t> shared_landmarks;  ///< as Problem::shared_landmarks
 };
 
+/// A complete problem as one increment.
+inline Increment complete(const Problem& problem) {
+  return {problem.keyframes,
+          problem.odometry,
+          problem.closures,
+          {},
+          problem.frames,
+          problem.shared_landmarks};
+}
+
 /// Whether two edges are the same measurement of the same keyframes.
 inline bool is_same_measurement(const Edge& a, const Edge& b) {
   return a.from == b.from && a.to == b.to &&

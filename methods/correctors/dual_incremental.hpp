@@ -26,15 +26,12 @@ class DualIncremental final : public Corrector {
   explicit DualIncremental(const Options& options) : options_(options) {}
 
   std::string why_declined(const Problem& problem) const override {
-    if (problem.closures.empty()) return "the problem has no loop closures";
-    if (has_scale_drift(problem)) return "edges change the scale";
-    return why_no_chain(problem);
+    return rigid_loops_fault(problem);
   }
 
   /// Counts: `iterations`, and `assemblies` of the equations from nothing.
   Trajectory correct(const Problem& problem, Report& report) const override {
-    return incremental(problem.planar)
-        ->update({problem.keyframes, problem.odometry, problem.closures, {}, {}, {}}, report);
+    return incremental(problem.planar)->update(complete(problem), report);
   }
 
   std::unique_ptr<Incremental> incremental(bool planar) const override;

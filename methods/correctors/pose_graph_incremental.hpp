@@ -18,16 +18,13 @@ class IncrementalPoseGraph final : public Corrector {
   explicit IncrementalPoseGraph(const Options& options) : options_(options) {}
 
   std::string why_declined(const Problem& problem) const override {
-    if (problem.closures.empty()) return "the problem has no loop closures";
-    if (has_scale_drift(problem)) return "edges change the scale";
-    return why_no_chain(problem);
+    return rigid_loops_fault(problem);
   }
 
   /// Counts: `iterations`, `eliminations` (of poses, over all iterations), and with
   /// `robust: gate` `closures_kept`.
   Trajectory correct(const Problem& problem, Report& report) const override {
-    return incremental(problem.planar)
-        ->update({problem.keyframes, problem.odometry, problem.closures, {}, {}, {}}, report);
+    return incremental(problem.planar)->update(complete(problem), report);
   }
 
   std::unique_ptr<Incremental> incremental(bool planar) const override {

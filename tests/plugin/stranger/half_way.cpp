@@ -69,8 +69,7 @@ class Steps final : public Corrector {
     return std::make_unique<Updates>();
   }
   Trajectory correct(const Problem& problem, Report& report) const override {
-    return Updates().update({problem.keyframes, problem.odometry, problem.closures, {}, {}, {}},
-                            report);
+    return Updates().update(complete(problem), report);
   }
 };
 
