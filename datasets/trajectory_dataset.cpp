@@ -134,33 +134,6 @@ void check_disabled(const TrajectoryOptions& o, const Params& given) {
   }
 }
 
-/// Adds the anchors of a file, and notes on what they are.
-void add_anchors(const AnchorFile& file,
-                 const Trajectory& run,
-                 const TrajectoryOptions& o,
-                 Sequence& sequence) {
-  std::size_t skipped = 0;
-  Problem& problem = sequence.problem;
-  problem.anchors = as_anchors(file.positions,
-                               problem.keyframes,
-                               run,
-                               {o.anchors_max_gap, InterpolationLimits{}.max_diff},
-                               skipped);
-  if (problem.anchors.empty()) {
-    throw InputError(o.anchors_file + ": no position is at the time of a pose");
-  }
-  std::vector<std::string>& notes = sequence.provenance.notes;
-  if (!file.note.empty()) notes.push_back(file.note);
-  if (skipped == 0) return;
-  notes.push_back(
-      fmt::format("{}: {} of {} positions skipped, which are not between two poses "
-                  "at most {} s apart",
-                  o.anchors_file,
-                  skipped,
-                  file.positions.size(),
-                  o.anchors_max_gap));
-}
-
 }  // namespace
 
 void check_combination(const TrajectoryOptions& o, const Params& given) {
@@ -291,8 +264,9 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
       file = to_text(BagName{file.string(), bag_name(o.anchors_file).topic});
     }
     add_anchors(read_anchor_file(file, o.anchors_sigma),
+                o.anchors_file,
                 in.frames.empty() ? in.estimate : in.frames,
-                o,
+                o.anchors_max_gap,
                 sequence);
   }
   check(sequence.problem, sequence.name);

@@ -1,5 +1,7 @@
 #include "datasets/derive/anchors.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -109,6 +111,30 @@ std::vector<Anchor> as_anchors(const std::vector<StampedPosition>& positions,
   }
   std::ranges::stable_sort(out, {}, &Anchor::keyframe);
   return out;
+}
+
+void add_anchors(const AnchorFile& file,
+                 const std::string& name,
+                 const Trajectory& run,
+                 double max_gap,
+                 Sequence& sequence) {
+  std::size_t skipped = 0;
+  Problem& problem = sequence.problem;
+  problem.anchors = as_anchors(
+      file.positions, problem.keyframes, run, {max_gap, InterpolationLimits{}.max_diff}, skipped);
+  if (problem.anchors.empty()) {
+    throw InputError(name + ": no position is at the time of a pose");
+  }
+  std::vector<std::string>& notes = sequence.provenance.notes;
+  if (!file.note.empty()) notes.push_back(file.note);
+  if (skipped == 0) return;
+  notes.push_back(
+      fmt::format("{}: {} of {} positions skipped, which are not between two poses at most {} s "
+                  "apart",
+                  name,
+                  skipped,
+                  file.positions.size(),
+                  max_gap));
 }
 
 }  // namespace loopbench

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "datasets/core/problem.hpp"
+#include "datasets/core/sequence.hpp"
 #include "datasets/derive/poses_at.hpp"
 
 namespace loopbench {
@@ -38,5 +38,14 @@ std::vector<Anchor> as_anchors(const std::vector<StampedPosition>& positions,
                                const Trajectory& run,
                                const InterpolationLimits& reach,
                                std::size_t& skipped);
+
+/// Sets the anchors of the sequence's problem from those positions of the file that are between two
+/// poses of `run` at most `max_gap` apart [s], and adds notes on the file and on those skipped.
+/// Throws InputError with `name` if all are skipped.
+void add_anchors(const AnchorFile& file,
+                 const std::string& name,
+                 const Trajectory& run,
+                 double max_gap,
+                 Sequence& sequence);
 
 }  // namespace loopbench

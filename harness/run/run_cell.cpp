@@ -256,8 +256,7 @@ CellResult run_cell(const Cell& cell,
       return;
     }
     const auto method = make_method(choice, catalogue, sequence.reference, command_setting(sweep));
-    if (const std::string why = methods::reason_to_decline(*method, sequence.problem);
-        !why.empty()) {
+    if (const std::string why = reason_to_decline(*method, sequence.problem); !why.empty()) {
       result.status = Status::declined;
       result.why = stored_reason(why);
       return;
