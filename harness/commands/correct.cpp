@@ -7,6 +7,7 @@
 
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
+#include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/figure_options.hpp"
 #include "harness/commands/standard_output.hpp"
@@ -90,7 +91,8 @@ void add_correct(CLI::App& app, int& exit_code) {
                    "Add a closure: the last position is the first one, up to this standard "
                    "deviation [m]; the rotation is not measured")
       ->type_name("METRES")
-      ->check(CLI::PositiveNumber);
+      ->check(finite_number())
+      ->check(positive_number());
   file("--frames", c.frames, "All tracked poses of the run, if ESTIMATE contains only keyframes");
   command
       ->add_option("--set",
