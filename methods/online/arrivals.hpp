@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "datasets/core/fields.hpp"
 #include "datasets/core/problem.hpp"
 
 namespace loopbench::methods {
