@@ -61,6 +61,7 @@ std::string script_elements(const std::string& nonce) {
                            "front",
                            "pareto",
                            "detection",
+                           "calibration",
                            "tables",
                            "start"}) {
     scripts.push_back("\n" + asset_text(std::string("page/") + name + ".js"));

@@ -1,13 +1,15 @@
 /// The report in a browser: phone, laptop and large screen, light, dark and printed.
 #include <gtest/gtest.h>
 
-#include "tests/support/command.hpp"
+#include "tests/support/browser.hpp"
 
 namespace loopbench::report_screens_test {
 namespace {
 
+using namespace test;
+
 /// Reports in its title what does not fit the window.
-const char* const kProbe = R"probe(<script>
+const char* const kProbe = R"probe(
   const said = [];
   const wide = document.documentElement.clientWidth;
   if (document.documentElement.scrollWidth > wide) said.push("page wider than the window: " + document.documentElement.scrollWidth);
@@ -32,12 +34,12 @@ const char* const kProbe = R"probe(<script>
   const option = document.querySelector("#controls select").selectedOptions[0].textContent;
   document.title = `${wide} ${dark} ${option}: ` + (said.join("; ") || "well");
   if (parent !== window) parent.postMessage(document.title, "*");
-</script></body>)probe";
+)probe";
 
 class ReportScreens : public testing::Test {
  protected:
   void SetUp() override {
-    if (std::system("command -v chromium >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs chromium";
+    if (!has_chromium()) GTEST_SKIP() << "needs chromium";
     folder_.file("c.yaml",
                  "datasets: [{dataset: simulated, label: a, keyframes: 40}, {dataset: simulated, "
                  "label: b, keyframes: 40, path: office}]\n"
@@ -47,35 +49,16 @@ class ReportScreens : public testing::Test {
                  "metrics: [ate, axis_error, rpe]\nrepeats: 2\n");
     ASSERT_EQ(loopbench_command("run c.yaml", folder_).exit_code, 0);
     ASSERT_EQ(loopbench_command("report results/c -o page.html", folder_).exit_code, 0);
-    std::string page = read_all(folder_.path() / "page.html");
-    const std::size_t nonce = page.find("<script nonce=");
-    std::string probe(kProbe);
-    probe.replace(0, 7, page.substr(nonce, page.find('>', nonce) - nonce));
-    page.replace(page.rfind("</body>"), 7, probe);
-    folder_.file("page.html", page);
+    folder_.file("page.html", with_script(read_all(folder_.path() / "page.html"), kProbe));
     // Chromium has no window narrower than 500 pixels, but frames.
     folder_.file("phone.html",
                  "<title></title><iframe src='page.html' width='390' height='844' "
                  "style='border: 0'></iframe><script>onmessage = (event) => { document.title = "
                  "event.data; };</script>");
   }
-  /// The title of the page after the probe, and complaints of the console.
+  /// The title of the page after the probe.
   std::string title(const std::string& options, const std::string& page = "page.html") {
-    const std::string in = "cd '" + folder_.path().string() + "' && HOME=\"$PWD\" timeout 150 ";
-    const std::string line =
-        in +
-        "chromium --headless --no-sandbox --disable-gpu --no-first-run --hide-scrollbars "
-        "--disable-background-networking --disable-component-update --disable-sync "
-        "--enable-logging=stderr --user-data-dir=\"$PWD/profile\" " +
-        options + " \"file://$PWD/" + page + "\" >dom 2>log";
-    EXPECT_EQ(std::system(line.c_str()), 0);
-    const std::string log = read_all(folder_.path() / "log");
-    EXPECT_EQ(log.find("CONSOLE"), std::string::npos) << log;
-    const std::string dom = read_all(folder_.path() / "dom");
-    const std::size_t begin = dom.find("<title>");
-    return begin == std::string::npos
-               ? ""
-               : dom.substr(begin + 7, dom.find("</title>", begin) - begin - 7);
+    return title_of(in_browser(folder_, page, options));
   }
   TemporaryFolder folder_;
 };

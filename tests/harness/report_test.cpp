@@ -15,6 +15,7 @@
 #include "harness/report/packed.hpp"
 #include "harness/report/store_figures.hpp"
 #include "harness/store/store.hpp"
+#include "tests/support/browser.hpp"
 #include "tests/support/run_here.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_catalogue.hpp"
@@ -197,7 +198,7 @@ TEST_F(OfASweep, RunsItsOwnScriptsAndStylesOnly) {
 }
 
 /// Reads the state of the page, operates its controls, and returns results in its title.
-const char* const kProbe = R"(<script>
+const char* const kProbe = R"(
   const said = [];
   for (const id of ["controls", "map", "space", "before", "after", "along-x", "along-a", "boxes",
                     "forest", "cut-map", "cut-strip", "sweep-figures", "pareto-here", "verdicts", "scores", "failures"]) {
@@ -207,7 +208,7 @@ const char* const kProbe = R"(<script>
   const count = (what) => document.querySelectorAll(what).length;
   if (count("#map path.curve") < 2) said.push("no curves on the map");
   if (count("#boxes circle") < 12) said.push("runs are missing");
-  if (count("script") !== 18 || count("b[onclick], main i") > 0) said.push("a name became markup");
+  if (count("script") !== 19 || count("b[onclick], main i") > 0) said.push("a name became markup");
   const change = (element, value) => {
     element.value = value;
     element.dispatchEvent(new Event("change"));
@@ -258,37 +259,15 @@ const char* const kProbe = R"(<script>
   filter.dispatchEvent(new Event("input"));
   if ([...shown.querySelectorAll("tbody tr")].filter((r) => !r.hidden).length !== 2) said.push("filter");
   document.title = "probed: " + (said.join("; ") || "well");
-</script></body>)";
+)";
 
 TEST_F(OfASweep, AChromiumDrawsItWithoutAWordOfComplaint) {
-  if (std::system("command -v chromium >/dev/null 2>&1") != 0) {
-    GTEST_SKIP() << "needs chromium";
-  }
-  std::string page = *html_;
-  const std::size_t nonce = page.find("<script nonce=");
-  std::string probe(kProbe);
-  probe.replace(0, 7, page.substr(nonce, page.find('>', nonce) - nonce));
-  page.replace(page.rfind("</body>"), 7, probe);
-  const std::string name = folder_->file("page.html", page).string();
-  const std::string profile = (folder_->path() / "profile").string();
-  const std::string line =
-      "HOME='" + folder_->path().string() +
-      "' timeout 150 chromium --headless --no-sandbox --disable-gpu --no-first-run "
-      "--disable-background-networking --disable-component-update --disable-sync "
-      "--enable-logging=stderr --window-size=1400,2400 --user-data-dir='" +
-      profile + "' --dump-dom 'file://" + name + "' >'" + name + ".dom' 2>'" + name + ".log'";
-  ASSERT_EQ(std::system(line.c_str()), 0);
-  const auto text_of = [](const std::string& file) {
-    std::ifstream in(file);
-    return std::string(std::istreambuf_iterator<char>(in), {});
-  };
-  const std::string log = text_of(name + ".log");
-  const std::size_t complaint = log.find("CONSOLE");
-  EXPECT_EQ(complaint, std::string::npos) << log.substr(std::min(complaint, log.size()), 500);
-  const std::string dom = text_of(name + ".dom");
+  if (!test::has_chromium()) GTEST_SKIP() << "needs chromium";
+  folder_->file("page.html", test::with_script(*html_, kProbe));
+  const std::string dom =
+      test::in_browser(*folder_, "page.html", "--window-size=1400,2400 --dump-dom");
   EXPECT_TRUE(has(dom, "data-drawn=\"yes\""));
-  EXPECT_TRUE(has(dom, "<title>probed: well</title>"))
-      << dom.substr(std::min(dom.find("<title>"), dom.size()), 300);
+  EXPECT_EQ(test::title_of(dom), "probed: well");
 }
 
 }  // namespace
