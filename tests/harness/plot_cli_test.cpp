@@ -101,5 +101,18 @@ TEST_F(PlotCli, SelectsSequencesPanelsAndSize) {
   EXPECT_EQ(run("plot t --size 3").exit_code, 2);
 }
 
+TEST_F(PlotCli, SaysWhatStandsInItsWay) {
+  const CommandResult taken = run("plot r -o quote.yaml");
+  EXPECT_EQ(taken.exit_code, 2);
+  EXPECT_EQ(taken.out, "");
+  EXPECT_TRUE(has(taken.err, "cannot be written: Not a directory")) << taken.err;
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nowhere", 1);
+  const CommandResult alone = run("plot r -o without");
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_TRUE(has(alone.err, "python3 is not installed (package python3-matplotlib)")) << alone.err;
+}
+
 }  // namespace
 }  // namespace loopbench::plot_cli_test

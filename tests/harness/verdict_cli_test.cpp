@@ -63,15 +63,6 @@ TEST_F(VerdictCli, CompareGivesAVerdict) {
   EXPECT_TRUE(has(few.out, "nothing can be shown: ")) << few.out;
 }
 
-TEST_F(VerdictCli, CompareNeedsNoMetricBesideAFilter) {
-  const CommandResult result = run("compare r --where metric=ate,unit=deg");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.out.rfind("### ate", 0), 0u) << result.out;
-  const CommandResult none = run("compare r --where metric=rpe");
-  EXPECT_EQ(none.exit_code, 2);
-  EXPECT_TRUE(has(none.err, "r: no score to compare after --where")) << none.err;
-}
-
 TEST_F(VerdictCli, CompareStatesItsPower) {
   const CommandResult result = run("compare r --where unit=m --power 0.05");
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -301,19 +292,6 @@ TEST_F(VerdictCli, PlotWritesFiguresOfChosenMethods) {
   const CommandResult slip = run("plot r --methods unifrom");
   EXPECT_EQ(slip.exit_code, 2);
   EXPECT_TRUE(has(slip.err, "did you mean 'uniform'?")) << slip.err;
-}
-
-TEST_F(VerdictCli, PlotSaysWhatStandsInItsWay) {
-  const CommandResult taken = run("plot r -o c.yaml");
-  EXPECT_EQ(taken.exit_code, 2);
-  EXPECT_EQ(taken.out, "");
-  EXPECT_TRUE(has(taken.err, "cannot be written: Not a directory")) << taken.err;
-  const std::string path = std::getenv("PATH");
-  setenv("PATH", "/nowhere", 1);
-  const CommandResult alone = run("plot r -o without");
-  setenv("PATH", path.c_str(), 1);
-  EXPECT_EQ(alone.exit_code, 2);
-  EXPECT_TRUE(has(alone.err, "python3 is not installed (package python3-matplotlib)")) << alone.err;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "harness/compare/derived.hpp"
 #include "tests/studies/synthetic_records.hpp"
+#include "tests/support/command.hpp"
 #include "tests/support/compared_sweep.hpp"
 
 namespace loopbench::verdict_defects_test {
@@ -167,14 +168,22 @@ TEST(Defect8, HalfOfThePathIsNeverBest) {
 }
 
 TEST(Defect10, ASecondLabelOfAMethodCostsNothing) {
-  std::vector<Record> records = pairs(about(0.9, 6));
-  const double p = *find(compared(records, kAgainstRaw), "dual").p;
-  for (Record r : pairs(about(0.9, 6))) {
-    r.method = r.method + " again";
+  std::vector<Record> records = pairs(about(0.8, 8));
+  for (int run = 0; run < 8; ++run) {
+    const double turn = (run * 3) % 8 - 3.5;
+    records.push_back(score("room", run, "second", size_of(run) * (1.01 + 0.02 * turn)));
+    const double other = (run * 5) % 8 - 3.5;
+    records.push_back(score("room", run, "third", size_of(run) * (1.0 - 0.015 * other)));
+  }
+  const Comparison alone = compared(records, kAgainstRaw);
+  EXPECT_TRUE(alone.is_best) << verdict(alone);
+  for (Record r : pairs(about(0.8, 8))) {
+    if (r.method == "raw") continue;
+    r.method = "dual again";
     records.push_back(r);
   }
   const Comparison c = compared(records, kAgainstRaw);
-  EXPECT_EQ(*find(c, "dual").p, p);
+  EXPECT_EQ(*find(c, "dual").p, *find(alone, "dual").p);
   EXPECT_TRUE(c.is_best) << verdict(c);
 }
 
@@ -209,6 +218,21 @@ TEST(Defect13, TheMarginToTheNextIsInTheSentence) {
   for (int run = 0; run < 40; ++run) ratios.push_back(1.0 - 1e-5 * (1.0 + 0.01 * run));
   const std::string same = verdict(compared(pairs(ratios), kAgainstRaw));
   EXPECT_TRUE(same.starts_with("dual and raw are best, within 1 % of one another: ")) << same;
+}
+
+TEST(Defect14, AFilterNeedsNoMetricBesideIt) {
+  const TemporaryFolder folder;
+  folder.file("c.yaml",
+              "datasets: [{dataset: simulated, path: room, keyframes: 20}]\n"
+              "methods: [raw, uniform]\nmetrics: [{metric: rpe, delta: 1}]\n"
+              "times: keyframes\nrepeats: 2\n");
+  ASSERT_EQ(loopbench_command("run c.yaml --out r", folder).exit_code, 0);
+  const CommandResult result = loopbench_command("compare r --where metric=rpe", folder);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out.rfind("### rpe (delta=1) rmse", 0), 0u) << result.out;
+  const CommandResult none = loopbench_command("compare r --where metric=ate", folder);
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_TRUE(has(none.err, "r: no score to compare after --where")) << none.err;
 }
 
 TEST(Defect14, MethodsThatAreExcludedOnSomeRunsDoNotEndTheComparison) {
