@@ -13,6 +13,13 @@ install(FILES ${loopbench_python_files} DESTINATION ${loopbench_site} COMPONENT 
 # The program starts render.py for figures.
 install(FILES ${loopbench_python_files} COMPONENT program
   DESTINATION ${CMAKE_INSTALL_DATADIR}/loopbench/python/loopbench)
+# The wheel (cmake/loopbench_wheel.py adds its metadata): the package, the program, configs and render.py.
+set(loopbench_wheel loopbench-${PROJECT_VERSION}.data)
+install(FILES ${loopbench_python_files} DESTINATION loopbench COMPONENT wheel EXCLUDE_FROM_ALL)
+install(FILES ${loopbench_python_files} DESTINATION ${loopbench_wheel}/data/share/loopbench/python/loopbench
+  COMPONENT wheel EXCLUDE_FROM_ALL)
+install(DIRECTORY configs DESTINATION ${loopbench_wheel}/data/share/loopbench COMPONENT wheel EXCLUDE_FROM_ALL)
+install(TARGETS loopbench RUNTIME DESTINATION ${loopbench_wheel}/scripts COMPONENT wheel EXCLUDE_FROM_ALL)
 # The package in the build folder links to the Python files; the compiled module is beside them.
 set(loopbench_package ${PROJECT_BINARY_DIR}/python/loopbench)
 file(MAKE_DIRECTORY ${loopbench_package})
@@ -40,3 +47,4 @@ pybind11_add_module(loopbench_python MODULE NO_EXTRAS
 target_link_libraries(loopbench_python PRIVATE loopbench_warnings loopbench::harness)
 set_target_properties(loopbench_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${loopbench_package})
 install(TARGETS loopbench_python DESTINATION ${loopbench_site} COMPONENT python)
+install(TARGETS loopbench_python DESTINATION loopbench COMPONENT wheel EXCLUDE_FROM_ALL)

@@ -23,7 +23,7 @@ package_packages=(g++ dpkg-dev file help2man lintian debootstrap)
 # The compiled module of the Python package is optional: without these it is not built.
 python_packages=(python3-dev python3-numpy pybind11-dev)
 test_packages=(ccache libopencv-imgcodecs-dev libgtest-dev libgmock-dev libbenchmark-dev curl
-  python3-scipy python3-yaml python3-matplotlib python3-jsonschema)
+  python3-scipy python3-yaml python3-matplotlib python3-jsonschema python3-pip)
 # Programs that configs/external compares with; no script installs them.
 external_packages=(mrpt-apps)
 

@@ -53,6 +53,7 @@ struct EvalArguments {
   bool csv = false;
   std::string save_results;  ///< zip of evo to write; empty: none
   std::string per_pose;      ///< output file; empty: none
+  bool pose_errors = false;  ///< keep EvaluationResult::poses
   std::string plot;          ///< prefix of figure files; empty: none
   FigureOptions figures;
   std::string report;           ///< HTML file; empty: none

@@ -27,8 +27,10 @@ std::size_t rows_in(const Array& rows, py::ssize_t columns, const std::string& n
                    std::to_string(columns) + " columns");
 }
 
-/// Throws std::runtime_error for a quaternion that is not unit.
+/// Zeros are no rotation. Throws std::runtime_error for another quaternion that is not unit.
 Pose pose_at(const double* row, double& off_unit) {
+  const bool is_position = std::all_of(row + 3, row + 7, [](double x) { return x == 0.0; });
+  if (is_position) return {no_rotation(), {row[0], row[1], row[2]}};
   return {harness::unit_rotation({row[6], row[3], row[4], row[5]}, "pose", off_unit),
           {row[0], row[1], row[2]}};
 }
@@ -46,6 +48,7 @@ void for_each_row(std::size_t rows, const std::string& name, ReadRow read_row) {
 
 double* write_pose(double* at, const Pose& pose) {
   at = std::copy_n(pose.translation.data(), 3, at);
+  if (!has_rotation(pose)) return std::fill_n(at, 4, 0.0);
   return std::copy_n(pose.rotation.coeffs().data(), 4, at);
 }
 

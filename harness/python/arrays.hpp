@@ -1,5 +1,6 @@
 /// Conversion between numpy arrays and core types. Poses are rows of 8 numbers, stamp x y z qx qy
-/// qz qw [s, m], edges rows of 46, as in harness/catalogue/message.hpp.
+/// qz qw [s, m], edges rows of 46, as in harness/catalogue/message.hpp. A pose without rotation has
+/// four zeros, and is left to check(Trajectory).
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -20,7 +21,8 @@ struct ReadRows {
 };
 
 /// `name` is for messages. Throws InputError for another shape, for values that are not finite and
-/// for quaternions that are not unit; the order of stamps is left to check(Trajectory). O(n).
+/// for quaternions that are neither unit nor zero; the order of stamps is left to
+/// check(Trajectory). O(n).
 ReadRows read_rows(const Array& rows, const std::string& name);
 
 Array rows_of(const Trajectory& poses);

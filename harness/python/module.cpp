@@ -3,10 +3,14 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "datasets/core/fields.hpp"
 #include "datasets/derive/odometry.hpp"
+#include "datasets/derive/reference_body.hpp"
+#include "datasets/formats/formats.hpp"
 #include "harness/config/choices.hpp"
 #include "harness/eval/correct.hpp"
 #include "harness/eval/evaluate_files.hpp"
@@ -21,28 +25,75 @@ namespace py = pybind11;
 namespace loopbench::python {
 namespace {
 
-std::string evaluate_files(harness::EvalArguments arguments,
-                           const std::string& reference,
-                           const std::string& estimate) {
-  arguments.reference = reference;
-  arguments.estimates = {estimate};
-  return harness::json(harness::evaluate_files(arguments));
+/// JSON of `eval --json`, and the columns of harness::pose_csv() from the stamp on.
+py::tuple to_python(const std::vector<harness::EvaluationResult>& results) {
+  const std::vector<metrics::PoseError>& poses = results.front().poses;
+  constexpr py::ssize_t kColumns = 10;
+  Array errors({static_cast<py::ssize_t>(poses.size()), kColumns});
+  double* at = errors.mutable_data();
+  for (const metrics::PoseError& pose : poses) {
+    *at++ = pose.stamp;
+    *at++ = pose.estimate_stamp;
+    for (const Vector3& part : {pose.metres, pose.radians}) {
+      at = std::copy_n(part.data(), 3, at);
+      *at++ = part.norm();
+    }
+  }
+  return py::make_tuple(harness::json(results), errors);
 }
 
-std::string evaluate_arrays(const harness::EvalArguments& arguments,
-                            const Array& reference_rows,
-                            const Array& estimate_rows) {
+py::tuple evaluate_files(harness::EvalArguments arguments,
+                         const std::string& reference,
+                         const std::string& estimate) {
+  arguments.reference = reference;
+  arguments.estimates = {estimate};
+  std::vector<harness::EvaluationResult> results;
+  {
+    const py::gil_scoped_release unlocked;
+    results = harness::evaluate_files(arguments);
+  }
+  return to_python(results);
+}
+
+py::tuple evaluate_arrays(const harness::EvalArguments& arguments,
+                          const Array& reference_rows,
+                          const Array& estimate_rows) {
   ReadRows reference = read_rows(reference_rows, "reference");
   ReadRows estimate = read_rows(estimate_rows, "estimate");
-  const py::gil_scoped_release unlocked;
-  check(reference.poses, "reference");
-  check(estimate.poses, "estimate");
-  Trajectory in_body =
-      to_estimate_body(std::move(reference.poses), harness::reference_body(arguments));
-  return harness::json(harness::evaluate_in_memory(
-      arguments,
-      {.poses = std::move(in_body), .findings = {.off_unit = reference.off_unit}},
-      {.poses = std::move(estimate.poses), .findings = {.off_unit = estimate.off_unit}}));
+  std::vector<harness::EvaluationResult> results;
+  {
+    const py::gil_scoped_release unlocked;
+    check(reference.poses, "reference", Rotations::optional);
+    check(estimate.poses, "estimate", Rotations::optional);
+    const ReferenceBody body = harness::reference_body(arguments);
+    if (has_offset(body) && lacks_rotations(reference.poses)) {
+      throw InputError("reference_body: found a reference without rotations, expected files");
+    }
+    Trajectory in_body = to_estimate_body(std::move(reference.poses), body);
+    results = harness::evaluate_in_memory(
+        arguments,
+        {.poses = std::move(in_body), .findings = {.off_unit = reference.off_unit}},
+        {.poses = std::move(estimate.poses), .findings = {.off_unit = estimate.off_unit}});
+  }
+  return to_python(results);
+}
+
+Array read(const std::string& file,
+           const std::string& format,
+           const std::string& times,
+           std::optional<double> period,
+           const std::string& repeats) {
+  ReadOptions options{.positions = true};
+  FieldType<Format>::assign("format", options.format, format);
+  FieldType<Repeats>::assign("repeats", options.repeats, repeats);
+  if (!times.empty()) options.times = times;
+  options.period = period.value_or(options.period);
+  Trajectory out;
+  {
+    const py::gil_scoped_release unlocked;
+    out = read_trajectory(file, options);
+  }
+  return rows_of(out);
 }
 
 /// One trajectory of the arguments of a function.
@@ -177,6 +228,7 @@ PYBIND11_MODULE(_core, module) {
       .def_readwrite("diagnose", &Arguments::diagnose)
       .def_readwrite("correct_scale", &Arguments::correct_scale)
       .def_readwrite("metrics", &Arguments::metrics)
+      .def_readwrite("pose_errors", &Arguments::pose_errors)
       .def_readwrite("relation", &Arguments::relation)
       .def_readwrite("delta", &Arguments::delta)
       .def_readwrite("delta_unit", &Arguments::delta_unit)
@@ -188,11 +240,9 @@ PYBIND11_MODULE(_core, module) {
       .def_readwrite("times", &Arguments::times)
       .def_readwrite("period", &Arguments::period);
   py::class_<Problem>(module, "Problem").def(py::init(&python::problem_of));
-  module.def("evaluate_files",
-             &python::evaluate_files,
-             py::call_guard<py::gil_scoped_release>(),
-             "JSON of `eval --json`");
-  module.def("evaluate_arrays", &python::evaluate_arrays, "JSON of `eval --json`");
+  module.def("read_trajectory", &python::read, "rows of a file");
+  module.def("evaluate_files", &python::evaluate_files, "JSON of `eval --json`, errors of poses");
+  module.def("evaluate_arrays", &python::evaluate_arrays, "JSON of `eval --json`, errors of poses");
   module.def("associate", &python::associate, "paired rows of reference and estimate");
   module.def("align", &python::align, "aligned rows, scale, rank, condition, transform");
   module.def("tracking_gaps", &python::tracking_gaps, "begin and end of each gap");

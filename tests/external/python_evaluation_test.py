@@ -13,7 +13,9 @@ import sys
 import tempfile
 import threading
 import time
+import types
 import unittest
+import unittest.mock
 from pathlib import Path
 
 try:
@@ -220,6 +222,60 @@ class Evaluation(unittest.TestCase):
                 ("differ", ValueError, lambda: loopbench.align(rows, rows[1:]))):
             with self.assertRaisesRegex(error, text):
                 call()
+
+    def test_every_format_is_read(self):
+        rows = rows_of(GT)
+        np.testing.assert_allclose(loopbench.read_trajectory(GT), rows, rtol=0, atol=1e-7)  # normalised
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("kitti", "euroc", "g2o", "csv", "mcap"):
+                file = f"{folder}/file.{name}"
+                subprocess.run([PROGRAM, "traj", "convert", str(GT), "-o", file, "--to", name,
+                                *(["--times-out", folder + "/times"] if name == "kitti" else [])],
+                               check=True, capture_output=True)
+                found = loopbench.read_trajectory(file, times=folder + "/times" if name == "kitti" else "")
+                stamps = 0.1 * np.arange(len(rows)) if name == "g2o" else rows[:, 0]
+                np.testing.assert_allclose(found[:, 0], stamps, atol=1e-6, err_msg=name)
+                np.testing.assert_allclose(found[:, 1:4], rows[:, 1:4], atol=1e-6, err_msg=name)
+            with open(folder + "/bad.txt", "w") as bad:
+                bad.write("0 1 2 3 0 0 0 1\n0 1 2 3 0 0 0 1\n")
+            with self.assertRaisesRegex(ValueError, r"bad.txt:2: "):
+                loopbench.read_trajectory(folder + "/bad.txt")
+            self.assertEqual(len(loopbench.read_trajectory(folder + "/bad.txt", repeats="keep_last")), 1)
+
+    def test_positions_without_rotation(self):
+        rows = rows_of(GT)[:, :4]
+        with tempfile.TemporaryDirectory() as folder:
+            np.savetxt(folder + "/p.txt", rows, fmt="%.17g")
+            read = loopbench.read_trajectory(folder + "/p.txt")
+            self.assertEqual(read.tolist(), np.column_stack([rows, np.zeros((len(rows), 4))]).tolist())
+            estimate = GOLDEN / "est_drift.txt"
+            files = loopbench.evaluate(folder + "/p.txt", estimate, errors=True)
+        arrays = loopbench.evaluate(read, rows_of(estimate), errors=True)
+        self.assertEqual(files["metrics"], arrays["metrics"])
+        self.assertTrue(np.isnan(arrays["errors"]["angle_rad"]).all())
+        with self.assertRaisesRegex(ValueError, "without rotations"):
+            loopbench.evaluate(read, rows_of(estimate), reference_body="1,0,0")
+
+    def test_errors_of_poses_are_those_of_the_command(self):
+        for files in ((GT, GOLDEN / "est_drift.txt"), (rows_of(GT), rows_of(GOLDEN / "est_drift.txt"))):
+            errors = loopbench.evaluate(*files, errors=True)["errors"]
+            with tempfile.TemporaryDirectory() as folder:
+                subprocess.run([PROGRAM, "eval", str(GT), str(GOLDEN / "est_drift.txt"), "--per-pose",
+                                folder + "/e.csv"], check=True, capture_output=True)
+                names, *lines = Path(folder + "/e.csv").read_text().splitlines()
+            self.assertEqual(names.split(",")[4:], list(errors))
+            expected = np.array([line.split(",")[-10:] for line in lines], float)
+            self.assertEqual(np.column_stack(list(errors.values())).tolist(), expected.tolist())
+
+    def test_errors_are_a_data_frame_where_pandas_exists(self):
+        class Frame(dict):
+            """Stands for pandas.DataFrame."""
+
+        pandas = types.ModuleType("pandas")
+        pandas.DataFrame = Frame
+        rows = rows_of(GT)
+        with unittest.mock.patch.dict(sys.modules, pandas=pandas):
+            self.assertIsInstance(loopbench.evaluate(rows, rows, errors=True)["errors"], Frame)
 
     def test_association_and_alignment_give_the_ate(self):
         rows, estimate = rows_of(GT), rows_of(GOLDEN / "est_drift.txt")

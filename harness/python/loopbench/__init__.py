@@ -32,14 +32,16 @@ __version__ = "0.3.0"
 
 if TYPE_CHECKING:
     from .correction import correct, load, methods, problem_of
-    from .evaluation import Alignment, align, associate, evaluate, score, tracking_gaps
+    from .evaluation import Alignment, align, associate, evaluate, read_trajectory, score, tracking_gaps
     from .figures import plot_errors, plot_scores, plot_trajectories
     from .sweeps import ComparedMethod, Comparison, compare, read, rows, run
 
 # Imported when they are used: a served method starts without them.
 _MODULES = {
     "correction": ("correct", "load", "methods", "problem_of"),
-    "evaluation": ("Alignment", "align", "associate", "evaluate", "score", "tracking_gaps"),
+    "evaluation": (
+        "Alignment", "align", "associate", "evaluate", "read_trajectory", "score", "tracking_gaps"
+    ),
     "figures": ("plot_errors", "plot_scores", "plot_trajectories"),
     "sweeps": ("ComparedMethod", "Comparison", "compare", "read", "rows", "run"),
 }
@@ -71,6 +73,7 @@ __all__ = [
     "problem_of",
     "read",
     "read_problem",
+    "read_trajectory",
     "rows",
     "run",
     "score",

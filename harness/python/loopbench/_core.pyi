@@ -16,6 +16,7 @@ class EvalArguments:
     diagnose: bool
     correct_scale: bool
     metrics: list[str]
+    pose_errors: bool
     relation: str
     delta: float | None
     delta_unit: str
@@ -33,8 +34,15 @@ class Problem:
         self, keyframes: _Rows, frames: _Rows, odometry: _Rows, closures: _Rows, planar: bool, /
     ) -> None: ...
 
-def evaluate_files(arguments: EvalArguments, reference: str, estimate: str, /) -> str: ...
-def evaluate_arrays(arguments: EvalArguments, reference: _Rows, estimate: _Rows, /) -> str: ...
+def read_trajectory(
+    file: str, format: str, times: str, period: float | None, repeats: str, /
+) -> _Rows: ...
+def evaluate_files(
+    arguments: EvalArguments, reference: str, estimate: str, /
+) -> tuple[str, _Rows]: ...
+def evaluate_arrays(
+    arguments: EvalArguments, reference: _Rows, estimate: _Rows, /
+) -> tuple[str, _Rows]: ...
 def associate(
     arguments: EvalArguments, reference: _Rows, estimate: _Rows, /
 ) -> tuple[_Rows, _Rows]: ...

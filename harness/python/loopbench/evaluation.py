@@ -61,6 +61,45 @@ def _rows(poses: npt.ArrayLike) -> Array:
     return np.ascontiguousarray(poses, dtype=float)
 
 
+def read_trajectory(
+    file: str | os.PathLike[str],
+    format: str = "auto",
+    *,
+    times: str | os.PathLike[str] = "",
+    period: float | None = None,
+    repeats: str = "refuse",
+) -> Array:
+    """(n, 8) rows of a trajectory in any format that `loopbench traj` reads; the format is detected.
+
+    `times` is a file with the stamps of KITTI poses, `period` [s] the interval of poses without
+    stamps, `repeats` what to do with repeated stamps: refuse, keep_first or keep_last. Positions
+    without rotation have a quaternion of zeros. A trajectory in a bag is `bag:FILE#/topic`. Raises
+    ValueError with file and line.
+
+    >>> import tempfile
+    >>> with tempfile.NamedTemporaryFile("w") as file:
+    ...     print("0 1 2 3 0 0 0 1\\n1 2 2 3 0 0 0 1", file=file, flush=True)
+    ...     print(read_trajectory(file.name)[:, :3])
+    [[0. 1. 2.]
+     [1. 2. 2.]]
+    """
+    arguments = os.fspath(file), format, os.fspath(times), period, repeats
+    rows: Array = interruptible(_core.read_trajectory, *arguments)
+    return rows
+
+
+_ERRORS = ("stamp", "estimate_stamp", "x_m", "y_m", "z_m", "distance_m", "rx_rad", "ry_rad", "rz_rad", "angle_rad")
+
+
+def _table(errors: Array) -> Any:
+    columns = dict(zip(_ERRORS, errors.T))
+    try:
+        import pandas  # type: ignore[import]
+    except ImportError:
+        return columns
+    return pandas.DataFrame(columns)
+
+
 def evaluate(
     reference: Trajectory,
     estimate: Trajectory,
@@ -81,6 +120,7 @@ def evaluate(
     times: str | os.PathLike[str] = "",
     period: float | None = None,
     diagnose: bool = True,
+    errors: bool = False,
 ) -> dict[str, Any]:
     """Evaluates one estimate; returns the object that `loopbench eval --json` prints.
 
@@ -88,7 +128,9 @@ def evaluate(
     `eval`; `settings` are fields of the protocol, as of `--set`, and `metrics` texts as of
     `--metric`. `format` and all after it refer
     to files. `diagnose=False` leaves out notes and the diagnosis, whose search for a time offset
-    takes most of the time of small arrays. Raises ValueError for invalid input. Does not hold the interpreter's lock.
+    takes most of the time of small arrays. With `errors`, the result has `errors`, one row for each
+    pose with the columns of `eval --per-pose`: a pandas data frame, without pandas a dictionary of
+    arrays. Raises ValueError for invalid input. Does not hold the interpreter's lock.
 
     >>> t = np.arange(20.0)
     >>> none = 0 * t
@@ -98,8 +140,11 @@ def evaluate(
     0.0
     >>> round(score(evaluate(curve, higher, align="none"), "ate"), 9)
     1.0
-    >>> round(score(evaluate(curve, higher, align="none", settings={"max_diff": 0.01}), "ate"), 9)
-    1.0
+    >>> result = evaluate(curve, higher, align="none", metrics=["ate", "axis_error"], errors=True)
+    >>> {each["metric"] for each in result["metrics"]} == {"ate", "axis_error"}
+    True
+    >>> result["errors"]["z_m"][3], len(result["errors"]["angle_rad"])
+    (1.0, 20)
     """
     arguments = _arguments(protocol, align, settings)
     arguments.correct_scale = correct_scale
@@ -115,16 +160,20 @@ def evaluate(
     arguments.times = os.fspath(times)
     arguments.period = period
     arguments.diagnose = diagnose
+    arguments.pose_errors = errors
     if isinstance(reference, (str, os.PathLike)) and isinstance(estimate, (str, os.PathLike)):
-        text = interruptible(
+        text, rows = interruptible(
             _core.evaluate_files, arguments, os.fspath(reference), os.fspath(estimate)
         )
     elif isinstance(reference, (str, os.PathLike)) or isinstance(estimate, (str, os.PathLike)):
         raise TypeError("found a path and an array, expected two paths or two arrays")
     else:
-        rows = _rows(reference), _rows(estimate)
-        text = interruptible(_core.evaluate_arrays, arguments, *rows)
+        text, rows = interruptible(
+            _core.evaluate_arrays, arguments, _rows(reference), _rows(estimate)
+        )
     result: dict[str, Any] = json.loads(text)[0]
+    if errors:
+        result["errors"] = _table(rows)
     return result
 
 

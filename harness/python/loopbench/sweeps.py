@@ -1,4 +1,5 @@
-"""Sweeps by the program `loopbench`, which is searched in LOOPBENCH_PROGRAM and PATH."""
+"""Sweeps by the program `loopbench`, which is LOOPBENCH_PROGRAM, that beside the interpreter
+(where pip installs it), or in PATH."""
 
 from __future__ import annotations
 
@@ -7,6 +8,7 @@ import os
 import shutil
 import sqlite3
 import subprocess
+import sysconfig
 import tempfile
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -21,7 +23,8 @@ Row = dict[str, Any]
 
 
 def _program() -> str:
-    found = os.environ.get("LOOPBENCH_PROGRAM") or shutil.which("loopbench")
+    folders = os.pathsep.join([sysconfig.get_path("scripts"), os.environ.get("PATH", "")])
+    found = os.environ.get("LOOPBENCH_PROGRAM") or shutil.which("loopbench", path=folders)
     if not found:
         raise FileNotFoundError("no program loopbench in PATH; set LOOPBENCH_PROGRAM to its path")
     return found

@@ -1,0 +1,75 @@
+"""Build backend of the Python package (PEP 517), of the standard library alone.
+
+Builds preset `release` and packs what CMake installs as component `wheel`. With
+`--config-settings build-dir=FOLDER`, packs that build as it is.
+"""
+
+import base64
+import hashlib
+import re
+import subprocess
+import sysconfig
+import tempfile
+import tomllib
+import zipfile
+from pathlib import Path
+
+SOURCE = Path(__file__).resolve().parents[1]
+TARGETS = ("loopbench", "loopbench_python")
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """Name of the folder, with METADATA."""
+    project = tomllib.loads((SOURCE / "pyproject.toml").read_text())["project"]
+    version = re.search(r"project\(loopbench VERSION (\S+)", (SOURCE / "CMakeLists.txt").read_text())[1]
+    info = f"{project['name']}-{version}.dist-info"
+    Path(metadata_directory, info).mkdir()
+    Path(metadata_directory, info, "METADATA").write_text("".join(f"{line}\n" for line in (
+        "Metadata-Version: 2.1", f"Name: {project['name']}", f"Version: {version}",
+        f"Summary: {project['description']}", f"License: {project['license']['text']}",
+        f"Requires-Python: {project['requires-python']}",
+        *(f"Requires-Dist: {each}" for each in project["dependencies"]))))
+    return info
+
+
+def _tag(tree):
+    """Of the interpreter that the module is compiled for."""
+    module = next((tree / "loopbench").glob("_core.cpython-*.so"), None)
+    if module is None:
+        raise SystemExit("no compiled module: expected python3-dev, python3-numpy and pybind11-dev")
+    version = "cp" + re.findall(r"cpython-(\d+)", module.name)[0]
+    return f"{version}-{version}-" + re.sub(r"[-.]", "_", sysconfig.get_platform())
+
+
+def _pack(tree, wheel, info):
+    """Files with fixed dates, so that equal builds give equal wheels; RECORD is the last."""
+    record = []
+    with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED) as out:
+        for file in sorted(path for path in tree.rglob("*") if path.is_file()):
+            name, data = str(file.relative_to(tree)), file.read_bytes()
+            entry = zipfile.ZipInfo(name)
+            entry.external_attr = (0o100755 if file.parent.name == "scripts" else 0o100644) << 16
+            out.writestr(entry, data, zipfile.ZIP_DEFLATED)
+            digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
+            record.append(f"{name},sha256={digest},{len(data)}\n")
+        record.append(f"{info}/RECORD,,\n")
+        out.writestr(zipfile.ZipInfo(f"{info}/RECORD"), "".join(record))
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    build = (config_settings or {}).get("build-dir")
+    if build is None:
+        build = SOURCE / "build/release"
+        subprocess.run(["cmake", "--preset", "release"], cwd=SOURCE, check=True)
+        subprocess.run(["cmake", "--build", build, "--target", *TARGETS], check=True)
+    with tempfile.TemporaryDirectory() as folder:
+        tree = Path(folder)
+        subprocess.run(["cmake", "--install", build, "--prefix", tree, "--component", "wheel", "--strip"],
+                       check=True, stdout=subprocess.DEVNULL)
+        info = prepare_metadata_for_build_wheel(tree)
+        tag = _tag(tree)
+        (tree / info / "WHEEL").write_text(
+            f"Wheel-Version: 1.0\nGenerator: loopbench\nRoot-Is-Purelib: false\nTag: {tag}\n")
+        wheel = f"{Path(info).stem}-{tag}.whl"
+        _pack(tree, Path(wheel_directory) / wheel, info)
+    return wheel
