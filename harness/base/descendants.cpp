@@ -76,7 +76,7 @@ std::int64_t process_memory(const std::string& process) {
 }
 
 TreeUsage descendants_usage(std::int64_t at_fork,
-                            int most_processes,
+                            std::int64_t most_processes,
                             const std::vector<pid_t>& keep_alive) {
   TreeUsage out;
   std::vector<pid_t> waiting = own_children();

@@ -13,15 +13,15 @@ namespace loopbench::harness {
 std::vector<pid_t> own_children();
 
 struct TreeUsage {
-  std::int64_t memory = 0;  ///< private and shared memory beyond that at the fork [bytes]
-  int processes = 0;        ///< at most one more than the limit
+  std::int64_t memory = 0;     ///< private and shared memory beyond that at the fork [bytes]
+  std::int64_t processes = 0;  ///< at most one more than the limit
 };
 
 /// Usage of all descendants of the calling thread. Each counts with what it has beyond `at_fork`
 /// bytes; `keep_alive` children do not count; a copy of a process that has grown before counts with
 /// its growth again. Stops counting after `most_processes` of them.
 TreeUsage descendants_usage(std::int64_t at_fork,
-                            int most_processes,
+                            std::int64_t most_processes,
                             const std::vector<pid_t>& keep_alive = {});
 
 /// Memory of a process and all its descendants [bytes].

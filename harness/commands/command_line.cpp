@@ -43,7 +43,7 @@ std::string unknown_word(const CLI::App& command,
                          const std::string& name,
                          const CLI::ParseError& error) {
   const std::vector<std::string> words = command.remaining();
-  if (words.empty()) return "";
+  if (words.empty() || std::ranges::count(words, "--") > 0) return "";
   const bool is_unexpected = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
   const bool lacks_subcommand =
       command.get_require_subcommand_min() > 0 && command.get_subcommands().empty();
@@ -73,6 +73,7 @@ std::vector<std::string> normalised_options(const CLI::App& app, std::vector<std
   if (given.empty()) return words;
   const std::vector<std::string> known = long_options(*given.front());
   for (std::string& word : words) {
+    if (word == "--") break;  // files follow
     if (!word.starts_with("--")) continue;
     const std::size_t end = std::min(word.find('='), word.size());
     const std::string name = word.substr(0, end);

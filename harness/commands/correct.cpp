@@ -121,7 +121,8 @@ void add_correct(CLI::App& app, int& exit_code) {
       ->type_name("PREFIX");
   declare_figure_options(*command, a->figure, "--plot");
   command->add_option("--plugin", a->plugins, "Shared object with additional methods")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   command->add_flag("--json", a->json, "Print JSON instead of text");
   command->callback([a, &exit_code] { exit_code = run_correct(*a); });
 }

@@ -154,7 +154,8 @@ void declare(CLI::App& command, EvalArguments& a) {
           ->expected(1)
           ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("--plugin", a.plugins, "Shared object with additional metrics")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   command
       .add_option(
           "-r,--pose_relation",

@@ -193,7 +193,8 @@ void add_list(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--plugin", arguments->plugins, "Shared object with methods, datasets or metrics")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   command->add_flag("--json", arguments->json, "Print JSON");
   command->callback([arguments, &exit_code] { exit_code = list(*arguments); });
 }

@@ -245,7 +245,8 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
   command
       ->add_option(
           "--plugin", arguments->plugins, "Shared object with methods, datasets or metrics")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   command
       ->add_option("--retry",
                    arguments->retry,

@@ -58,7 +58,8 @@ Json limits_schema() {
   return map_of(keys_of("limits",
                         {{"seconds", {{"type", "number"}, {"minimum", 0}}},
                          {"memory", {{"type", {"string", "integer"}}}},
-                         {"cells", {{"type", "integer"}, {"minimum", 1}}}}));
+                         {"processes", kCount},
+                         {"cells", kCount}}));
 }
 
 Json timing_schema() {
@@ -146,7 +147,8 @@ void add_schema(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("schema", "Print the JSON Schema of configs, for editors and validators");
   command->add_option("--plugin", *plugins, "Shared object with methods, datasets or metrics")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   command->footer(
       "An editor with the YAML language server checks and completes a config whose first line is\n"
       "`# yaml-language-server: $schema=schema.json`, with the path of the printed file.");

@@ -25,6 +25,7 @@ const std::vector<ConfigKey>& config_keys(const std::string& map) {
       {"limits",
        {{"seconds", "wall time of one cell [s]; 0: no limit"},
         {"memory", "resident size of one cell: 2GiB, 500MB or bytes; none: no limit"},
+        {"processes", "largest number of processes of one cell, apart from threads"},
         {"cells", "largest number of cells of the sweep"}}},
       {"timing",
        {{"runs", "timed runs of each method"},

@@ -56,9 +56,11 @@ Limits as_limits(const YamlNode& node, const std::string& name) {
         return as_number(seconds, key, Between{0.0});
       });
   read_key(node, "limits.memory", out.memory, as_bytes);
-  read_key(node, "limits.cells", out.cells, [](const YamlNode& cells, const std::string& key) {
-    return as_integer(cells, key, 1'000'000'000);
-  });
+  const auto number = [](const YamlNode& given, const std::string& key) {
+    return as_integer(given, key, 1'000'000'000);
+  };
+  read_key(node, "limits.processes", out.processes, number);
+  read_key(node, "limits.cells", out.cells, number);
   return out;
 }
 

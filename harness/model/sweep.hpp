@@ -57,6 +57,7 @@ struct TableSpec {
 struct Limits {
   double seconds = 600.0;  ///< wall time of all timed runs and the evaluation [s]; 0: no limit
   std::int64_t memory = std::int64_t{8} << 30;  ///< resident size [bytes]; 0: no limit
+  std::int64_t processes = 64;                  ///< of one cell, apart from threads
   std::int64_t cells = 1'000'000;  ///< of the sweep before exclusions; more are rejected
 };
 

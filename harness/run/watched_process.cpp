@@ -24,8 +24,7 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr int kMemoryTick = 20;     // [ms], between checks of memory and processes
-constexpr int kMostProcesses = 64;  // of one process, apart from threads
+constexpr int kMemoryTick = 20;  // [ms], between checks of memory and processes
 
 /// Writable memory beyond the limit that a cell may reserve without using it [bytes].
 constexpr std::int64_t kReserve = std::int64_t{1} << 30;
@@ -130,10 +129,13 @@ std::optional<Verdict> exceeded(Watched& watched) {
   }
   // The process began as a copy of this one, which has not changed since.
   const std::int64_t at_fork = limits.memory > 0 ? process_memory("self") : 0;
-  const TreeUsage usage = descendants_usage(at_fork, kMostProcesses, watched.servers);
-  if (usage.processes > kMostProcesses) {
-    return Verdict{Status::failed,
-                   fmt::format("{} started more than {} processes", subject, kMostProcesses)};
+  const TreeUsage usage = descendants_usage(at_fork, limits.processes, watched.servers);
+  if (usage.processes > limits.processes) {
+    return Verdict{
+        Status::failed,
+        fmt::format("{} started more than {} processes; 'limits: {{processes: N}}' accepts more",
+                    subject,
+                    limits.processes)};
   }
   for (const pid_t server : watched.servers) {
     const std::int64_t memory = limits.memory > 0 ? tree_memory(server) : 0;

@@ -71,7 +71,7 @@ TEST(ConfigShape, AScalarOrAListWhereAMapBelongsIsRejected) {
     return why(config("{dataset: simulated}", "ate", rest));
   };
   EXPECT_EQ(refusal("limits: 60\n"),
-            "c.yaml:5: limits: found '60', expected a map of seconds, memory, cells");
+            "c.yaml:5: limits: found '60', expected a map of seconds, memory, processes, cells");
   EXPECT_EQ(refusal("limits: {cells: 0}\n"),
             "c.yaml:5: limits.cells: expected a whole number, 1 to 1000000000");
   EXPECT_EQ(refusal("limits: {memory: none, cells: 2000000}\n"), "");
