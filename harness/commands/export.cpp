@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -21,16 +22,35 @@
 namespace loopbench::harness {
 namespace {
 
-/// A file name for a cell: what is not a letter, digit, '.', '-' or '+' becomes '_'.
-std::string file_name(const CellRecord& cell, metrics::Times times) {
-  std::string out = cell.sequence + "-" + cell.method;
-  if (cell.repeat > 0) out += fmt::format("-repeat{}", cell.repeat);
-  for (char& c : out) {
+/// The text with '_' for what is not a letter, digit, '.', '-' or '+'.
+std::string file_name(std::string text) {
+  for (char& c : text) {
     const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
                           (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+';
     if (!is_plain) c = '_';
   }
-  return out + "-" + to_text(times) + ".txt";
+  return text;
+}
+
+std::string repeat_suffix(const CellRecord& cell) {
+  return cell.repeat > 0 ? fmt::format("-repeat{}", cell.repeat) : "";
+}
+
+/// Copies a file under the name, or NUMBER-NAME if that is taken, below `comments`. Returns the
+/// name, or "" if there is no file.
+std::string copy_file(const std::filesystem::path& from,
+                      const std::filesystem::path& folder,
+                      std::string name,
+                      std::set<std::string>& names,
+                      const std::string& comments) {
+  const std::ifstream in(from, std::ios::binary);
+  if (!in) return "";
+  if (names.contains(name)) name = fmt::format("{}-{}", names.size(), name);
+  names.insert(name);
+  std::ostringstream poses;
+  poses << in.rdbuf();
+  write_file(folder / name, comments + std::move(poses).str());
+  return name;
 }
 
 int export_trajectories(const std::filesystem::path& store, const std::filesystem::path& out) {
@@ -38,35 +58,51 @@ int export_trajectories(const std::filesystem::path& store, const std::filesyste
   reject_standard_output("-o", out);
   const std::filesystem::path saved = store_file(store).parent_path() / "trajectories";
   std::set<std::string> names;
-  std::size_t without = 0;
+  std::map<std::string, std::string> references;  // file of each content
+  std::string index = "file,reference,key,sequence,repeat,method,times\n";
+  std::size_t files = 0, without = 0;
   for (const CellRecord& cell : read_cells(store)) {
     bool has_file = false;
+    const std::string content(cell.content);
+    const std::string sequence = cell.sequence.text(), method = cell.method.text();
     for (const metrics::Times times : {metrics::Times::keyframes, metrics::Times::dense}) {
-      std::ifstream in(estimate_file(saved, cell.key, times), std::ios::binary);
-      if (!in) continue;
+      const std::string name = copy_file(
+          estimate_file(saved, cell.key, times),
+          out,
+          file_name(sequence + "-" + method + repeat_suffix(cell) + "-" + to_text(times) + ".txt"),
+          names,
+          fmt::format("# sequence: {}\n# repeat: {}\n# method: {}\n# times: {}\n# key: {}\n",
+                      printable(sequence),
+                      cell.repeat,
+                      printable(method),
+                      to_text(times),
+                      cell.key));
+      if (name.empty()) continue;
       has_file = true;
-      std::string name = file_name(cell, times);
-      if (names.contains(name)) name = fmt::format("{}-{}", cell.position, name);
-      names.insert(name);
-      std::ostringstream poses;
-      poses << in.rdbuf();
-      write_file(out / name,
-                 fmt::format("# sequence: {}\n# repeat: {}\n# method: {}\n# times: {}\n# key: {}\n",
-                             printable(cell.sequence.text()),
-                             cell.repeat,
-                             printable(cell.method.text()),
-                             to_text(times),
-                             cell.key) +
-                     std::move(poses).str());
+      ++files;
+      const auto [reference, is_new] = references.try_emplace(content);
+      if (is_new) {
+        const std::string own = file_name("reference-" + sequence + repeat_suffix(cell) + ".txt");
+        reference->second = copy_file(reference_file(saved, content), out, own, names, "");
+      }
+      index += fmt::format("{},{},{},{},{},{},{}\n",
+                           name,
+                           reference->second,
+                           cell.key,
+                           quoted(sequence),
+                           cell.repeat,
+                           quoted(method),
+                           to_text(times));
     }
     if (!has_file) ++without;
   }
-  if (names.empty()) {
+  if (files == 0) {
     throw InputError(store.string() +
                      ": has no saved trajectories; compute its cells with `run "
                      "CONFIG --save-trajectories --retry all`");
   }
-  fmt::print("{} files in {}\n", names.size(), out.string());
+  write_file(out / "index.csv", index);
+  fmt::print("{} files, their references and index.csv in {}\n", files, out.string());
   if (without > 0) fmt::print("{} cells have no saved trajectory\n", without);
   return kExitOk;
 }
@@ -114,8 +150,8 @@ void add_export(CLI::App& app, int& exit_code) {
   command
       ->add_option("--what",
                    a->what,
-                   "rows: every score, as CSV; trajectories: TUM files of the estimates, see `run "
-                   "--save-trajectories`")
+                   "rows: every score, as CSV; trajectories: TUM files of the estimates and "
+                   "references, with index.csv, see `run --save-trajectories`")
       ->check(CLI::IsMember({"rows", "trajectories"}))
       ->capture_default_str();
   command->add_option("-o,--out", a->out, "CSV file (default: standard output), or folder");

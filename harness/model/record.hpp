@@ -61,6 +61,7 @@ struct CellRecord {
   SharedText closures;
   bool oracle_closures = false;
   bool oracle = false;
+  SharedText content;              ///< hash of problem and reference; empty: unknown
   std::int64_t keyframes = 0;      ///< of the sequence; 0: it could not be loaded
   std::int64_t closure_count = 0;  ///< of the sequence
   SharedText worker;  ///< "isolated" or "in process", with ", serial" and ", pinned" if so, and

@@ -5,6 +5,8 @@
 
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/formats.hpp"
+#include "datasets/formats/trajectory_file.hpp"
+#include "harness/run/sequence_identity.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -32,6 +34,10 @@ void save_estimate(const Cell& cell,
                    const Sequence& sequence,
                    const Curve& curve) {
   if (estimate_folder().empty()) return;
+  const std::filesystem::path reference = reference_file(estimate_folder(), content_of(sequence));
+  if (!sequence.reference.empty() && !std::filesystem::exists(reference)) {
+    write_trajectory(reference, {.poses = sequence.reference}, Format::tum);
+  }
   write_tum(unnamed_file(cell, metrics::Times::keyframes),
             curve.sample(stamps(sequence.problem.keyframes)));
   if (std::ranges::count(sweep.times, metrics::Times::dense) == 0) return;
@@ -50,6 +56,11 @@ void keep_estimate(const Cell& cell, const std::string& key) {
     std::filesystem::rename(
         unnamed_file(cell, times), estimate_file(estimate_folder(), key, times), absent);
   }
+}
+
+std::filesystem::path reference_file(const std::filesystem::path& folder,
+                                     const std::string& content) {
+  return folder / ("reference-" + content + ".txt");
 }
 
 std::filesystem::path estimate_file(const std::filesystem::path& folder,

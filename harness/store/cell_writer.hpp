@@ -7,9 +7,13 @@
 
 #include "harness/model/result.hpp"
 #include "harness/run/cell_keys.hpp"
+#include "harness/store/schema.hpp"
 #include "harness/store/sqlite.hpp"
 
 namespace loopbench::harness {
+
+/// Inserts the id of a cell and the columns of the table, in that order.
+Statement insert_into(Database& database, const CellTable& table);
 
 /// Statements prepared once for all cells of a sweep.
 class CellWriter {

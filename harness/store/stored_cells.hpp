@@ -13,8 +13,7 @@ namespace loopbench::harness {
 /// A row of the table cell and its sequence. Phases, counts, notes and sections are not set.
 struct StoredCell : CellRecord {
   std::int64_t id = 0;
-  SharedText content;  ///< of its sequence, as is the group
-  SharedText group;
+  SharedText group;  ///< of its sequence
   std::int64_t failed_scores = 0;
   std::int64_t scores = 0;       ///< number of rows in score_value
   std::int64_t report_rows = 0;  ///< number of rows in phase, count, note and section

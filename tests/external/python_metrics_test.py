@@ -1,6 +1,8 @@
-"""The same metric in C++, Python and awk gives equal rows. First argument: loopbench."""
+"""The same metric in C++, as a plugin, in Python and awk gives equal rows. Arguments: loopbench and the
+plugin four_ways."""
 
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -46,31 +48,32 @@ class Metrics(unittest.TestCase):
         (self.folder / "height.py").write_text(PYTHON)
         (self.folder / "height.sh").write_text(AWK)
 
-    def rows(self, metrics, datasets=({"dataset": "simulated", "keyframes": 40},)):
+    def rows(self, metrics, datasets=({"dataset": "simulated", "keyframes": 40},), **settings):
         (self.folder / "c.yaml").write_text(json.dumps(
-            {"datasets": datasets, "methods": ["raw", "dual"], "metrics": metrics}))
+            {"datasets": datasets, "methods": ["raw", "dual"], "metrics": metrics, **settings}))
         out = self.folder / "r"
         self.done = subprocess.run([PROGRAM, "run", str(self.folder / "c.yaml"), "--out", str(out)],
                                    capture_output=True, text=True)
         return loopbench.rows(out)
 
-    def test_the_same_metric_in_three_languages(self):
+    def test_the_same_metric_in_every_language(self):
         rows = self.rows([
             {"metric": "axis_error", "label": "C++"},
             {"metric": "command", "label": "served", "serve": f"{sys.executable} height.py"},
             {"metric": "command", "label": "run",
              "run": f"{sys.executable} height.py {{evaluation}} {{result}}"},
             {"metric": "command", "label": "awk", "run": "sh height.sh {evaluation} {result}"},
-        ])
+            {"metric": "height_error", "label": "plugin"},
+        ], plugins=[os.path.abspath(sys.argv[2])])
         names = ("method", "times", "relation", "axis", "unit", "better", "count", "rmse", "mean", "median",
                  "std", "min", "max", "sse", "pairs")
         found = {}
         for row in rows:
             if row["axis"] == "z":
                 found.setdefault(row["label"], []).append([row[name] for name in names])
-        self.assertEqual(set(found), {"C++", "served", "run", "awk"}, self.done.stderr)
+        self.assertEqual(set(found), {"C++", "plugin", "served", "run", "awk"}, self.done.stderr)
         self.assertEqual(len(found["C++"]), 2 * 2)  # methods, times
-        for label in ("served", "run", "awk"):
+        for label in ("plugin", "served", "run", "awk"):
             self.assertEqual(found[label], found["C++"], label)
 
     def test_mistakes_cost_their_score(self):

@@ -1,0 +1,119 @@
+"""Scores that are put back into a store, `--`, --plugin and the limit of processes. Arguments:
+loopbench and the plugin four_ways. Needs only the standard library."""
+
+import csv
+import json
+import os
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PROGRAM, PLUGIN = (os.path.abspath(word) for word in sys.argv[1:3])
+SIMULATED = {"dataset": "simulated", "path": "room", "keyframes": 40}
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def call(self, *words, code=0):
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def sweep(self, *words, code=0, **config):
+        (self.folder / "c.yaml").write_text(json.dumps(
+            {"datasets": [SIMULATED], "methods": ["raw", "dual"], "metrics": ["ate"], **config}))
+        return self.call("run", "c.yaml", "--out", "r", *words, code=code)
+
+    def select(self, query):
+        database = sqlite3.connect(self.folder / "r/results.sqlite")
+        rows = database.execute(query).fetchall()
+        database.close()
+        return rows
+
+    def write(self, name, rows, columns):
+        with open(self.folder / name, "w", newline="") as file:
+            writer = csv.DictWriter(file, columns)
+            writer.writeheader()
+            writer.writerows(rows)
+
+    def heights(self, file):
+        lines = (self.folder / "out" / file).read_text().splitlines()
+        return [float(line.split()[3]) for line in lines if not line.startswith("#")]
+
+    def test_scores_computed_elsewhere_are_put_back(self):
+        self.sweep("--save-trajectories", repeats=3)
+        self.call("export", "r", "--what", "trajectories", "-o", "out")
+        with open(self.folder / "out/index.csv", newline="") as file:
+            index = list(csv.DictReader(file))
+        self.assertEqual(len(index), 2 * 3 * 2)  # methods, repeats, times
+        self.assertEqual(len({entry["reference"] for entry in index}), 3)
+        scores, expected = [], {}
+        for entry in index:
+            self.assertGreater(len(self.heights(entry["reference"])), 40)
+            heights = self.heights(entry["file"])
+            expected[entry["key"], entry["times"]] = max(heights), len(heights)
+            scores += [{**entry, "metric": "height", "unit": "m", "value": repr(z)} for z in heights]
+        columns = [*index[0], "metric", "unit", "value"]
+        self.write("scores.csv", scores, columns)
+        printed = self.call("import", "r", "scores.csv")
+        self.assertIn("12 scores of 6 cells imported into r", printed)
+        query = ("SELECT key, times, max, count FROM score JOIN cell ON cell.id = score.cell WHERE label ="
+                 " 'height (imported)' AND protocol = 'imported' AND metric = 'height' AND unit = 'm'")
+        found = {(key, times): (most, count) for key, times, most, count in self.select(query)}
+        self.assertEqual(found, expected)
+        # Marked wherever they are printed; later runs keep them; a second import replaces them.
+        for words in (["table", "r"], ["compare", "r", "--metric", "height (imported)"], ["export", "r"]):
+            self.assertIn("height (imported)", self.call(*words), words)
+        self.call("report", "r", "-o", "r.html")
+        self.assertIn("height (imported)", (self.folder / "r.html").read_text())
+        self.assertIn("(6 of them in earlier runs)", self.sweep("--retry", "damaged", repeats=3))
+        self.assertEqual(len(self.select(query)), 12)
+        self.call("import", "r", "scores.csv")
+        self.assertEqual(len(self.select(query)), 12)
+        self.call("merge", "r", "-o", "merged")
+        self.assertIn("height (imported)", self.call("table", "merged"))
+
+    def test_what_cannot_be_imported_names_file_and_line(self):
+        self.sweep()
+        (key,), *_ = self.select("SELECT key FROM cell")
+        good = {"key": key, "metric": "m", "value": "1"}
+        for change, text in (({"key": "x"}, ":3: found key 'x', expected that of a cell of r/results.sqlite"),
+                             ({"value": "nan"}, ":3: found 'nan', expected a number"),
+                             ({"better": "up"}, ":3: found 'up', expected lower | higher | target | neither"),
+                             ({"metric": ""}, ":3: metric is empty")):
+            self.write("s.csv", [{"better": "lower", **good}, {"better": "lower", **good, **change}],
+                       [*good, "better"])
+            self.assertIn("s.csv" + text, self.call("import", "r", "s.csv", code=2))
+        (self.folder / "s.csv").write_text("key,value\n")
+        self.assertIn("s.csv:1: expected a header with one column metric", self.call("import", "r", "s.csv", code=2))
+        self.assertEqual(self.select("SELECT count(*) FROM score WHERE protocol = 'imported'"), [(0,)])
+
+    def test_files_follow_a_plugin_or_two_dashes(self):
+        for name in ("a.txt", "-b.txt", "--full"):
+            (self.folder / name).write_text("".join(f"{t} {t} {t * t} 0 0 0 0 1\n" for t in range(20)))
+        for words in (["--", "a.txt", "-b.txt"], ["a.txt", "--", "--full"],
+                      ["--plugin", PLUGIN, "a.txt", "./-b.txt", "--metric", "height_error"]):
+            self.assertEqual(len(json.loads(self.call("eval", "--json", *words))), 1, words)
+        self.call("correct", "--plugin", PLUGIN, "a.txt", "--method", "raw")
+        self.assertIn("height_error", self.call("list", "--plugin", PLUGIN, "height_error"))
+        for words in (["--", "eval"], ["eval", "--"], ["list", "--", "a", "b", "c"]):
+            self.assertIn("loopbench: ", self.call(*words, code=2), words)
+
+    def test_the_limit_of_processes_is_an_option(self):
+        (self.folder / "many.sh").write_text(
+            "for i in $(seq 80); do sleep 1 & done; sleep 0.3; cp $1/keyframes.txt $2\n")
+        methods = [{"method": "command", "label": "many", "run": "sh many.sh {problem} {result}"}]
+        failed = self.sweep(methods=methods, code=1)
+        self.assertIn("started more than 64 processes; 'limits: {processes: N}' accepts more", failed)
+        self.sweep("--retry", "failed", methods=methods, limits={"processes": 200})
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
