@@ -209,6 +209,8 @@ void split_columns(std::string_view text, std::vector<std::string_view>& out) {
 }
 
 CsvHeader csv_header(std::string_view header) {
+  constexpr std::string_view kTrajectopy = "fields ";  // its comment `#fields t,px,py,...`
+  if (header.starts_with(kTrajectopy)) header.remove_prefix(kTrajectopy.size());
   PoseNames all;
   all.names = header_names(header);
   for (const std::string& name : all.names) all.meanings.push_back(pose_column(name));

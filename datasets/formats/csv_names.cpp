@@ -112,6 +112,24 @@ std::optional<PoseColumn> geodetic_column(const NamedColumn& name) {
   return std::nullopt;
 }
 
+/// Removes names of frames, words in capitals in the middle: "p_WS_W_x" -> "p_x".
+std::string without_frames(std::string_view name) {
+  std::string out(name);
+  for (std::size_t begin = out.find('_'); begin != out.npos;) {
+    const std::size_t end = out.find('_', begin + 1);
+    if (end == out.npos) break;
+    const bool is_frame = std::all_of(out.begin() + static_cast<std::ptrdiff_t>(begin) + 1,
+                                      out.begin() + static_cast<std::ptrdiff_t>(end),
+                                      [](unsigned char c) { return std::isupper(c) != 0; });
+    if (is_frame && end > begin + 1) {
+      out.erase(begin, end - begin);
+    } else {
+      begin = end;
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string plain_name(std::string_view name) {
@@ -177,6 +195,8 @@ std::optional<PoseColumn> time_column(const NamedColumn& name) {
 }
 
 std::optional<PoseColumn> pose_column(std::string_view name) {
+  const std::string bare = without_frames(name);
+  name = bare;
   const NamedColumn full = named_column(name);
   if (full.base.empty()) return std::nullopt;
   if (const auto time = time_column(full)) return time;

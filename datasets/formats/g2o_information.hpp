@@ -57,4 +57,14 @@ inline Matrix6 information_of_inverse(const Pose& a_from_b, const Matrix6& infor
   return 0.5 * (out + out.transpose());
 }
 
+/// The measurement from `to` to `from`. Translations of a similarity edge keep their scale, as in
+/// COP-SLAM, the source of these files.
+inline Edge inverted(Edge edge) {
+  std::swap(edge.from, edge.to);
+  edge.information = information_of_inverse(edge.from_from_to, edge.information);
+  edge.from_from_to = edge.from_from_to.inverse();
+  edge.scale = 1.0 / edge.scale;
+  return edge;
+}
+
 }  // namespace loopbench

@@ -4,9 +4,11 @@
 #include <string>
 
 #include "datasets/core/error.hpp"
+#include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "datasets/formats/g2o_information.hpp"
 #include "datasets/formats/g2o_records.hpp"
+#include "datasets/formats/rtabmap.hpp"
 
 namespace loopbench {
 namespace {
@@ -51,13 +53,9 @@ std::size_t index_of(const TextFile& file,
   return static_cast<std::size_t>(found - graph.ids.begin());
 }
 
-/// Inverts an edge, so that `from` is the smaller index. Translations of a similarity edge keep
-/// their scale, as in COP-SLAM, the source of these files.
+/// Inverts an edge, so that `from` is the smaller index.
 void invert_edge(const TextFile& file, std::size_t line, Edge& edge) {
-  std::swap(edge.from, edge.to);
-  edge.information = information_of_inverse(edge.from_from_to, edge.information);
-  edge.from_from_to = edge.from_from_to.inverse();
-  edge.scale = 1.0 / edge.scale;
+  edge = inverted(edge);
   const bool is_valid = is_finite(edge.from_from_to) && std::isfinite(edge.scale) &&
                         edge.information.allFinite() &&
                         edge.information.llt().info() == Eigen::Success;
@@ -69,6 +67,7 @@ void invert_edge(const TextFile& file, std::size_t line, Edge& edge) {
 }  // namespace
 
 PoseGraph read_g2o(const std::filesystem::path& path, const InformationRules& rules) {
+  if (is_rtabmap(open_input(path))) return read_rtabmap_graph(path);
   TextFile file(path);
   Records records = read_records(file, rules);
   PoseGraph out;
@@ -91,6 +90,10 @@ PoseGraph read_g2o(const std::filesystem::path& path, const InformationRules& ru
     out.lines.push_back(ends.line);
   }
   return out;
+}
+
+bool is_pose_graph(const std::filesystem::path& file) {
+  return is_rtabmap(open_input(file)) || detect_format(file) == Format::g2o;
 }
 
 std::vector<Pose> chain(const PoseGraph& graph, const std::string& name) {

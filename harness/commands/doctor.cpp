@@ -116,7 +116,7 @@ int doctor(const DoctorArguments& a) {
     input.loops = a.loops;
     all.push_back(of_closures(a.loops, load_problem(input, catalogue({}))));
   } else if (a.estimates.empty()) {
-    if (detect_format(a.reference) != Format::g2o) {
+    if (!is_pose_graph(a.reference)) {
       throw InputError(
           a.reference +
           ": expected REF and EST, a trajectory with --loops, or one pose graph (g2o)");

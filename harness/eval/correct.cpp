@@ -19,7 +19,7 @@
 namespace loopbench::harness {
 namespace {
 
-bool is_graph(const CorrectArguments& a) { return detect_format(a.estimate) == Format::g2o; }
+bool is_graph(const CorrectArguments& a) { return is_pose_graph(a.estimate); }
 
 std::optional<Residuals> residuals(const Problem& problem, const Trajectory& keyframes) {
   metrics::Evaluation evaluation;
