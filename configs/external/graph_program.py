@@ -75,12 +75,13 @@ def main(kind, problem, result, *command):
     graph.write_text("".join(lines))
     command += ["-o", result, str(graph)] if kind == "g2o" else [str(graph)]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-    if done.returncode != 0:
+    written = Path(result) if kind == "g2o" else folder / "poses.txt"
+    if done.returncode != 0 or not written.exists():
         sys.exit(command[0] + ": " + (done.stderr or done.stdout)[-500:])
     if kind == "g2o":
         steps = re.findall(r"iteration= \d+\s.*?\btime= ([\d.e+-]+)", done.stderr)
         return finish(result, seconds=sum(map(float, steps)), counts={"iterations": len(steps)})
-    rows = [[float(x) for x in line.split()] for line in (folder / "poses.txt").open()]
+    rows = [[float(x) for x in line.split()] for line in written.open()]
     Path(result).write_text(vertices(rows))
     total = re.search(r"Total elapsed computation time: ([\d.e+-]+)", done.stdout)
     return finish(result, seconds=float(total.group(1)))
