@@ -142,7 +142,8 @@ RunningProgram::~RunningProgram() {
 
 bool RunningProgram::has_ended() const { return !process_ || process_->has_ended(); }
 
-ProgramEnd RunningProgram::wait(std::string& output) {
+ProgramEnd RunningProgram::wait(std::string& output,
+                                const std::function<void(const std::string&)>& tick) {
   ProgramEnd end;
   TreeCost cost;
   end.start_error = start_error_;
@@ -157,8 +158,10 @@ ProgramEnd RunningProgram::wait(std::string& output) {
       cost.cpu_seconds = std::max(cost.cpu_seconds, now.cpu_seconds);
       cost.peak_memory = std::max(cost.peak_memory, now.peak_memory);
     }
-    constexpr int kBetweenSamples = 10;  // [ms]
-    if (poll(files.data(), files.size(), is_sandboxed_ ? kBetweenSamples : -1) < 0) continue;
+    if (tick) tick(output);
+    constexpr int kBetweenSamples = 10, kBetweenTicks = 200;  // [ms]
+    const int longest = is_sandboxed_ ? kBetweenSamples : tick ? kBetweenTicks : -1;
+    if (poll(files.data(), files.size(), longest) < 0) continue;
     if (files[1].revents != 0) is_open = read_available(output_, output);
     if (files[2].revents != 0) read_available(errors_, output);
   }

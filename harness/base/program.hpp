@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,9 +47,9 @@ class RunningProgram {
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
 
-  /// Waits for its end. `output` receives the end of what it printed. Also from a forked process,
-  /// then without times and memory.
-  ProgramEnd wait(std::string& output);
+  /// Waits for its end. `output` receives the end of what it printed, and `tick` gets it several
+  /// times a second. Also from a forked process, then without times and memory.
+  ProgramEnd wait(std::string& output, const std::function<void(const std::string&)>& tick = {});
 
   /// Whether the program has ended, without waiting.
   bool has_ended() const;

@@ -14,6 +14,7 @@
 #include "harness/base/write_file.hpp"
 #include "harness/catalogue/arguments.hpp"
 #include "harness/catalogue/command.hpp"
+#include "harness/catalogue/running_line.hpp"
 #include "harness/catalogue/scratch.hpp"
 
 namespace loopbench::harness {
@@ -31,6 +32,8 @@ struct CommandDatasetOptions {
   UsedTrajectory use = UsedTrajectory::open;
   bool shell = false;
   std::string depends;
+  double seconds = 0.0;
+  double memory = 0.0;
   TrajectoryOptions trajectory;  ///< the files of the program are set by the loader
 };
 
@@ -47,6 +50,9 @@ void fields(CommandDatasetOptions& o, Visit visit) {
   visit("use", o.use, "trajectory to correct or evaluate; closed: after the program's own closing");
   visit("shell", o.shell, "whether sh interprets the text of run");
   visit("depends", o.depends, "files whose change runs the program again, separated by blanks");
+  visit("seconds", o.seconds, "time limit of the program [s]; 0: that of cells", Between{0.0});
+  visit(
+      "memory", o.memory, "memory limit of the program [MiB]; 0: that of cells", Between{0.0, 1e9});
   fields(o.trajectory, [&](const char* name, auto& member, const char* help, const auto&... rule) {
     if (std::ranges::count(kProgramFiles, name) == 0) visit(name, member, help, rule...);
   });
@@ -156,7 +162,9 @@ void run_program(const CommandDatasetOptions& o,
                    {"trajectory", o.shell ? "${LOOPBENCH_TRAJECTORY}" : trajectory.string()},
                    {"seed", std::to_string(o.trajectory.seed)}});
   std::string output;
-  const ProgramEnd end = RunningProgram(start).wait(output);
+  RunningLine line(o.run);
+  const ProgramEnd end =
+      RunningProgram(start).wait(output, [&](const std::string& printed) { line.draw(printed); });
   if (end.exit_code != 0) {
     throw InputError(
         with_output("run: " + o.run + ": the program " + text(end) + hidden_note(sandbox), output));
@@ -250,6 +258,17 @@ Sequence load_command(const CommandDatasetOptions& o,
 }
 
 }  // namespace
+
+Limits loading_limits(const Choice& dataset, Limits of_cells) {
+  if (dataset.name != kCommandDataset) return of_cells;
+  const auto options = with(CommandDatasetOptions{}, dataset.options);
+  constexpr double kMebibyte = 1 << 20;
+  if (options.seconds > 0.0) of_cells.seconds = options.seconds;
+  if (options.memory > 0.0) {
+    of_cells.memory = static_cast<std::int64_t>(options.memory * kMebibyte);
+  }
+  return of_cells;
+}
 
 DatasetEntry command_dataset(const std::filesystem::path& cache) {
   return dataset<CommandDatasetOptions>(

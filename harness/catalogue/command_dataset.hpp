@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "datasets/dataset.hpp"
+#include "harness/model/sweep.hpp"
 
 namespace loopbench::harness {
 
@@ -16,5 +17,8 @@ inline constexpr const char* kCommandDataset = "command";
 
 /// Its entry. Outputs of programs are kept in `cache`; empty: in TMPDIR, which ends with a worker.
 DatasetEntry command_dataset(const std::filesystem::path& cache);
+
+/// Limits of loading a sequence: `of_cells`, except what the options of a program state.
+Limits loading_limits(const Choice& dataset, Limits of_cells);
 
 }  // namespace loopbench::harness

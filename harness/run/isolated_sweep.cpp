@@ -9,6 +9,7 @@
 
 #include "harness/base/descendants.hpp"
 #include "harness/base/print_error.hpp"
+#include "harness/catalogue/command_dataset.hpp"
 #include "harness/catalogue/external_methods.hpp"
 #include "harness/catalogue/loading.hpp"
 #include "harness/run/cell_queue.hpp"
@@ -18,6 +19,16 @@
 
 namespace loopbench::harness {
 namespace {
+
+/// The limits of cells, with the time of the sequence that may load for longest.
+Limits longest_limits(const Sweep& sweep) {
+  Limits out = sweep.limits;
+  if (out.seconds <= 0.0) return out;
+  for (const DatasetChoice& choice : sweep.datasets) {
+    out.seconds = std::max(out.seconds, loading_limits(choice.dataset, sweep.limits).seconds);
+  }
+  return out;
+}
 
 class IsolatedSweep {
  public:
@@ -31,7 +42,8 @@ class IsolatedSweep {
         queue_(context.cells),
         metadata_(context.cells.size()),
         slots_(context.sweep.serial ? 1 : static_cast<std::size_t>(jobs)),
-        core_(context.sweep.serial ? last_core() : -1) {}
+        core_(context.sweep.serial ? last_core() : -1),
+        longest_(longest_limits(context.sweep)) {}
 
   void run() {
     // Load all sequences first, so that a wrong path in the last dataset is reported immediately.
@@ -58,7 +70,7 @@ class IsolatedSweep {
         if (has_ended) {
           reap(slot);
         } else {
-          end_if_stuck(slot, context_.sweep.limits);
+          end_if_stuck(slot, longest_);
         }
       }
       if (stop_ > 1) return abandon();
@@ -273,6 +285,7 @@ class IsolatedSweep {
   Subreaper reaper_;  ///< ends strays after the workers
   std::vector<WorkerSlot> slots_;
   int core_;
+  Limits longest_;
 };
 
 }  // namespace

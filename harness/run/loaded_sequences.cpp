@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "datasets/core/error.hpp"
+#include "harness/catalogue/command_dataset.hpp"
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/run/catch_errors.hpp"
 #include "harness/run/pack.hpp"
@@ -53,7 +54,9 @@ const LoadedSequences::Entry* LoadedSequences::load(const Cell& cell, Failure& f
   const Choice& dataset = context_.sweep.datasets[cell.dataset].dataset;
   const DatasetEntry& known = find_dataset(context_.catalogue, dataset.name);
   if (known.prepare) known.prepare(dataset.options);
+  const Limits limits = loading_limits(dataset, context_.sweep.limits);
   const ProcessEnd end = processes_.run({.subject = "loading its sequence",
+                                         .limits = limits,
                                          .when = ", while loading its sequence",
                                          .is_captured = false,
                                          .kept = {},

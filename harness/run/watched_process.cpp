@@ -179,11 +179,8 @@ bool has_sweep_ended(int socket) {
   return poll(&sweep, 1, 0) > 0 && (sweep.revents & (POLLHUP | POLLERR)) != 0;
 }
 
-WatchedProcesses::WatchedProcesses(const Limits& limits, int sweep, const ScratchFolder* scratch)
-    : limits_(limits),
-      sweep_(sweep),
-      null_(open("/dev/null", O_RDWR | O_CLOEXEC)),
-      scratch_(scratch) {}
+WatchedProcesses::WatchedProcesses(int sweep, const ScratchFolder* scratch)
+    : sweep_(sweep), null_(open("/dev/null", O_RDWR | O_CLOEXEC)), scratch_(scratch) {}
 
 WatchedProcesses::~WatchedProcesses() { close(null_); }
 
@@ -192,7 +189,7 @@ void WatchedProcesses::prepare(const WatchedWork& work, int output) const {
   // If the system runs out of memory, it should kill this process, not the worker or the sweep.
   write_system_file("/proc/self/oom_score_adj", "800");
   // Ends growth that is faster than the worker's checks.
-  if (limits_.memory > 0) limit_data_memory(limits_.memory + kReserve);
+  if (work.limits.memory > 0) limit_data_memory(work.limits.memory + kReserve);
   warm_heap();
   const int target = work.is_captured ? output : STDERR_FILENO;
   dup2(null_, STDIN_FILENO);
@@ -212,7 +209,7 @@ ProcessEnd WatchedProcesses::run(const WatchedWork& work) {
   const pid_t id = process.id();
   output.close_write_end();
   const std::optional<Verdict> verdict =
-      watch({process, work.subject, limits_, servers.processes}, sweep_, output);
+      watch({process, work.subject, work.limits, servers.processes}, sweep_, output);
   const int status = process.end();
   end_servers(true);
   end_strays(running_servers().processes);  // what ended programs leave is not the next cell's

@@ -16,7 +16,8 @@ namespace loopbench::harness {
 
 /// What a process does and how reasons describe it.
 struct WatchedWork {
-  std::string subject;               ///< what exceeds a limit: "the cell"
+  std::string subject;  ///< what exceeds a limit: "the cell"
+  const Limits& limits;
   std::string when;                  ///< added to how it ended
   bool is_captured = true;           ///< its output is limited; otherwise it goes to standard error
   std::vector<int> kept;             ///< descriptors to keep open
@@ -40,7 +41,7 @@ class WatchedProcesses {
  public:
   /// `sweep`: socket to it; `scratch`: for programs, or null. Throws std::runtime_error without
   /// shared memory.
-  WatchedProcesses(const Limits& limits, int sweep, const ScratchFolder* scratch);
+  WatchedProcesses(int sweep, const ScratchFolder* scratch);
   ~WatchedProcesses();
   WatchedProcesses(const WatchedProcesses&) = delete;
   WatchedProcesses& operator=(const WatchedProcesses&) = delete;
@@ -53,7 +54,6 @@ class WatchedProcesses {
   /// In the new process.
   void prepare(const WatchedWork& work, int output) const;
 
-  const Limits& limits_;
   int sweep_;
   int null_;  ///< /dev/null
   const ScratchFolder* scratch_;

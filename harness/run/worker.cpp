@@ -88,7 +88,7 @@ class JobRunner {
       : context_(context),
         socket_(socket),
         core_(core),
-        processes_(context.sweep.limits, socket, scratch),
+        processes_(socket, scratch),
         loaded_(context, processes_) {}
 
   /// Answers one job; false if the sweep has closed the socket. Throws std::runtime_error if no
@@ -132,6 +132,7 @@ class JobRunner {
       return packed(result);
     };
     return processes_.run({.subject = "the cell",
+                           .limits = sweep.limits,
                            .when = "",
                            .is_captured = true,
                            .kept = running_servers().descriptors,
