@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "datasets/core/se3.hpp"
+
 namespace loopbench::methods {
 
 struct Phase {
@@ -31,6 +33,8 @@ struct Report {
   std::vector<Count> counts;
   std::vector<std::string> notes;  ///< fallbacks taken, gaps left: one short sentence each
   std::vector<Section> sections;   ///< sorted by kind, then by time
+  /// Covariance of each keyframe in fixed axes (datasets/core/covariance.hpp); empty: none stated.
+  std::vector<Matrix6> covariances;
 
   void count(std::string name, double value) { counts.push_back({std::move(name), value}); }
 

@@ -47,6 +47,13 @@ inline void displace(std::vector<Matrix6>& covariances,
   }
 }
 
+/// The covariance without errors out of the x-y plane of the body: of z, roll and pitch.
+inline Matrix6 planar_covariance(const Matrix6& covariance, const Matrix3& world_from_body) {
+  const Twist kept = twist({1.0, 1.0, 0.0}, {0.0, 0.0, 1.0});
+  const Matrix6 of_body = rotated(covariance, world_from_body.transpose());
+  return rotated(kept.asDiagonal() * of_body * kept.asDiagonal(), world_from_body);
+}
+
 /// Covariance at `stamp` [s], linear between the neighbouring poses and constant beyond the first
 /// and the last. O(log n).
 inline Matrix6 covariance_at(const Trajectory& poses,

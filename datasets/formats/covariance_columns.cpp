@@ -93,9 +93,11 @@ void put_covariance(const TextFile& file,
 }
 
 bool is_covariance(const Matrix6& matrix, bool has_rotation) {
-  if (has_rotation) return matrix.llt().info() == Eigen::Success;
-  const Matrix3 position = matrix.topLeftCorner<3, 3>();
-  return position.llt().info() == Eigen::Success;
+  std::vector<Eigen::Index> axes;
+  for (Eigen::Index i = 0; i < (has_rotation ? 6 : 3); ++i) {
+    if (!matrix.row(i).isZero(0.0)) axes.push_back(i);
+  }
+  return axes.empty() || Eigen::MatrixXd(matrix(axes, axes)).llt().info() == Eigen::Success;
 }
 
 std::optional<CovarianceColumns> covariance_columns(const TextFile& file,

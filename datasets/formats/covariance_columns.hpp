@@ -70,8 +70,9 @@ void put_covariance(const TextFile& file,
                     std::size_t poses,
                     Repeats repeats);
 
-/// Whether a symmetric matrix is positive definite; a block of rotations that is zero does not
-/// count for positions without rotation.
+/// Whether a symmetric matrix is positive definite in the axes that are not zero: the first pose
+/// can be exact, and planar poses have no errors of z, roll and pitch. Rotations do not count for
+/// positions without rotation.
 bool is_covariance(const Matrix6& matrix, bool has_rotation = true);
 
 }  // namespace loopbench

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "datasets/core/se3.hpp"
@@ -45,5 +46,10 @@ void write_trajectory(const std::filesystem::path& file,
                       Format format,
                       const std::optional<std::filesystem::path>& times = std::nullopt,
                       bool may_repeat = false);
+
+/// The same as tum, with `comments` as `# ` lines at the top.
+void write_tum(const std::filesystem::path& file,
+               const TrajectoryFile& trajectory,
+               const std::vector<std::string>& comments);
 
 }  // namespace loopbench

@@ -197,10 +197,16 @@ void write_trajectory(const std::filesystem::path& file,
 }
 
 void write_tum(const std::filesystem::path& file,
+               const TrajectoryFile& trajectory,
+               const std::vector<std::string>& comments) {
+  check(trajectory.poses, file.string());
+  tum_text(trajectory, comments).save(file);
+}
+
+void write_tum(const std::filesystem::path& file,
                const Trajectory& trajectory,
                const std::vector<std::string>& comments) {
-  check(trajectory, file.string());
-  tum_text({trajectory}, comments).save(file);
+  write_tum(file, TrajectoryFile{trajectory}, comments);
 }
 
 }  // namespace loopbench

@@ -6,11 +6,13 @@
 #include <chrono>
 #include <cmath>
 
+#include "datasets/core/covariance.hpp"
 #include "datasets/derive/closures.hpp"
 #include "datasets/derive/problem_graph.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/config/choices.hpp"
+#include "harness/run/check_output.hpp"
 #include "harness/run/doctor_notes.hpp"
 #include "harness/run/run_cell.hpp"
 #include "metrics/correction/closure_residual.hpp"
@@ -79,10 +81,17 @@ std::vector<double> output_stamps(const CorrectArguments& a,
 }
 
 void write(const CorrectArguments& a, const Correction& done) {
-  if (a.format == Format::tum) {
-    return write_tum(a.out, done.output, {"corrected by loopbench: " + done.method});
+  if (a.format != Format::g2o) {
+    TrajectoryFile file{done.output};
+    if (!done.report.covariances.empty()) {
+      for (const StampedPose& pose : done.output) {
+        file.covariances.push_back(
+            covariance_at(done.keyframes, done.report.covariances, pose.stamp));
+      }
+    }
+    if (a.format != Format::tum) return write_trajectory(a.out, file, a.format);
+    return write_tum(a.out, file, {"corrected by loopbench: " + done.method});
   }
-  if (a.format != Format::g2o) return write_trajectory(a.out, {done.output}, a.format);
   if (!done.problem.anchors.empty()) {
     throw InputError(a.out + ": a g2o graph contains no anchors, expected another format");
   }
@@ -134,6 +143,7 @@ Correction correct(Problem problem,
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   out.keyframes = curve->sample(stamps(out.problem.keyframes));
   check(out.keyframes, choice.label);
+  check_covariances(out.report.covariances, out.keyframes.size());
   out.output = curve->sample(at);
   check(out.output, choice.label);
   out.before = residuals(out.problem, out.problem.keyframes);

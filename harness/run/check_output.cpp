@@ -92,6 +92,20 @@ void CheckedCurve::require_valid_so_far() const {
   if (!first_error_.empty()) throw std::runtime_error(first_error_);
 }
 
+void check_covariances(const std::vector<Matrix6>& covariances, std::size_t keyframes) {
+  if (covariances.empty()) return;
+  if (covariances.size() != keyframes) {
+    reject("the method states {} covariances, expected one for each of {} keyframes",
+           covariances.size(),
+           keyframes);
+  }
+  for (std::size_t i = 0; i < keyframes; ++i) {
+    const Matrix6& each = covariances[i];
+    if (each.allFinite() && each.isApprox(each.transpose(), 1e-9)) continue;
+    reject("the covariance of keyframe {} is not finite and symmetric", i + 1);
+  }
+}
+
 void check_report(const methods::Report& report) {
   check_count(report.phases.size(), kMostItems, "phases");
   check_count(report.counts.size(), kMostItems, "counts");

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "datasets/core/curve.hpp"
 #include "datasets/core/trajectory.hpp"
@@ -45,6 +46,10 @@ class CheckedCurve final : public Curve {
   mutable std::mutex mutex_;
   mutable std::string first_error_;
 };
+
+/// Throws std::runtime_error unless the covariances of a report are empty, or finite, symmetric and
+/// one per keyframe.
+void check_covariances(const std::vector<Matrix6>& covariances, std::size_t keyframes);
 
 /// Throws std::runtime_error if a part of the report cannot be stored or displayed: more items or
 /// longer texts than the limits, texts that are not UTF-8 or contain control characters, numbers

@@ -8,6 +8,7 @@
 #include <ctime>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "harness/catalogue/external_methods.hpp"
 #include "harness/catalogue/floating_point_guard.hpp"
@@ -24,18 +25,25 @@
 namespace loopbench::harness {
 namespace {
 
+/// An estimate as a method returns it.
+struct Estimate {
+  const Curve& curve;
+  const std::vector<Matrix6>& covariances;  ///< one per keyframe; empty: none stated
+};
+
 metrics::Context context_of(const Sequence& sequence,
                             const Trajectory& at_keyframes,
-                            const Curve& curve,
+                            const Estimate& estimate,
                             metrics::Times times,
                             const metrics::Protocol& protocol) {
   return {.reference = &sequence.reference,
           .estimate = &at_keyframes,
           .problem = &sequence.problem,
-          .curve = &curve,
+          .curve = &estimate.curve,
           .times = times,
           .protocol = protocol,
-          .loop_candidates = &sequence.loop_candidates};
+          .loop_candidates = &sequence.loop_candidates,
+          .estimate_covariances = estimate.covariances.empty() ? nullptr : &estimate.covariances};
 }
 
 /// Whether all positions are equal to within 1e-9 of the reference's largest distance from its
@@ -164,9 +172,10 @@ void evaluate_curve(CellResult& result,
                     const ScoreResult& row,
                     const Sweep& sweep,
                     const Sequence& sequence,
-                    const Curve& curve,
+                    const Estimate& estimate,
                     const Catalogue& catalogue) {
   const std::vector<double> keyframe_stamps = stamps(sequence.problem.keyframes);
+  const Curve& curve = estimate.curve;
   const Trajectory at_keyframes = curve.sample(keyframe_stamps);
   const std::vector<double> tracked = metrics::tracked_stamps(sequence.problem);
   const metrics::Protocol& protocol = sweep.protocols[row.protocol].rules;
@@ -174,7 +183,7 @@ void evaluate_curve(CellResult& result,
   catch_errors(failure, [&] {
     metrics::Evaluation evaluation =
         metrics::evaluate(sequence.reference, curve, keyframe_stamps, row.times, protocol, tracked);
-    evaluation.context = context_of(sequence, at_keyframes, curve, row.times, protocol);
+    evaluation.context = context_of(sequence, at_keyframes, estimate, row.times, protocol);
     // Noise-free data equal the reference without any method.
     const bool has_moved = !has_equal_positions(at_keyframes, sequence.problem.keyframes);
     if (!result.oracle_method && has_moved &&
@@ -197,14 +206,14 @@ void evaluate_curve(CellResult& result,
 void add_scores_without_reference(CellResult& result,
                                   const Sweep& sweep,
                                   const Sequence& sequence,
-                                  const Curve& curve,
+                                  const Estimate& estimate,
                                   const Catalogue& catalogue) {
-  const Trajectory at_keyframes = curve.sample(stamps(sequence.problem.keyframes));
+  const Trajectory at_keyframes = estimate.curve.sample(stamps(sequence.problem.keyframes));
   for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
     metrics::Evaluation evaluation;
     evaluation.protocol = sweep.protocols[p].rules;
-    evaluation.context =
-        context_of(sequence, at_keyframes, curve, metrics::Times::keyframes, evaluation.protocol);
+    evaluation.context = context_of(
+        sequence, at_keyframes, estimate, metrics::Times::keyframes, evaluation.protocol);
     const ScoreResult row{p, metrics::Times::keyframes, "", "", {}, {}, Status::ok, ""};
     for (const MetricChoice& choice : sweep.metrics) {
       if (find_metric(catalogue, choice.metric.name).needs_reference) continue;
@@ -270,6 +279,10 @@ CellResult run_cell(const Cell& cell,
         timed(result, *method, is_foreign ? copy : sequence.problem, sweep.timing);
     check_span(curve.get(), sequence.problem.keyframes);
     const CheckedCurve checked(*curve);
+    // Only metrics read them: they are neither sent to the sweep nor stored.
+    const std::vector<Matrix6> covariances = std::exchange(result.report.covariances, {});
+    check_covariances(covariances, sequence.problem.keyframes.size());
+    const Estimate estimate{checked, covariances};
     const std::string unmoved = movement_note(sequence.problem,
                                               checked.sample(stamps(sequence.problem.keyframes)),
                                               result.report,
@@ -278,14 +291,14 @@ CellResult run_cell(const Cell& cell,
     save_estimate(cell, sweep, sequence, checked);
     if (sequence.reference.empty()) {
       result.why = "no reference to evaluate against";
-      add_scores_without_reference(result, sweep, sequence, checked, catalogue);
+      add_scores_without_reference(result, sweep, sequence, estimate, catalogue);
       checked.require_valid_so_far();
       return;
     }
     for (std::size_t p = 0; p < sweep.protocols.size(); ++p) {
       for (const metrics::Times times : sweep.times) {
         const ScoreResult row{p, times, "", "", {}, {}, Status::ok, ""};
-        evaluate_curve(result, row, sweep, sequence, checked, catalogue);
+        evaluate_curve(result, row, sweep, sequence, estimate, catalogue);
       }
     }
     checked.require_valid_so_far();

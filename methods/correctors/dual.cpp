@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "methods/correctors/anchored_chain.hpp"
 #include "methods/correctors/chain.hpp"
@@ -42,7 +43,11 @@ Trajectory Dual::correct(const Problem& problem, Report& report) const {
   }
   if (!problem.anchors.empty()) return correct_anchored(options_, problem, report);
   if (!options_.scale || !has_scale_drift(problem)) return correct_rigid(options_, problem, report);
-  return correct_rigid(options_, remove_scale_drift(problem), report);
+  Options rigid = options_;
+  if (std::exchange(rigid.covariances, false)) {
+    report.notes.emplace_back("covariances are not stated: that of the scale is not known");
+  }
+  return correct_rigid(rigid, remove_scale_drift(problem), report);
 }
 
 Trajectory Dual::correct_rigid(const Options& options, const Problem& stated, Report& report) {
@@ -75,6 +80,9 @@ Trajectory Dual::correct_rigid(const Options& options, const Problem& stated, Re
   report.count("iterations", iterations);
   report.count("chi2", 2.0 * best->cost());
   report_chi2(2.0 * best->cost(), degrees, report);
+  if (options.covariances) {
+    report.covariances = report.time("covariances", [&] { return best->covariances(); });
+  }
   return best->keyframes();
 }
 
@@ -104,6 +112,11 @@ Trajectory Dual::correct_anchored(const Options& options, const Problem& stated,
                                          moved.head<3>().norm() < kAtRest * anchored.size());
     problem.keyframes = std::move(solved);
     chi2 = 2.0 * chain.cost();
+    if (options.covariances && is_at_rest) {
+      report.covariances =
+          report.time("covariances", [&] { return chain.covariances(anchored.has_front); });
+      if (anchored.has_front) report.covariances.erase(report.covariances.begin());
+    }
   }
   if (!is_at_rest) report.notes.push_back("the first pose was still moving when iterations ended");
   report.count("iterations", iterations);

@@ -49,6 +49,7 @@ class Dual final : public Corrector {
     Start start = Start::automatic;
     bool rescale = false;
     Use use = Use::all;
+    bool covariances = false;
   };
   explicit Dual(const Options& options) : options_(options) {}
 
@@ -104,6 +105,9 @@ void fields(Dual::Options& o, Visit visit) {
         "multiply the odometry's translation and rotation covariances by factors estimated from "
         "the loops");
   visit("use", o.use, "measurements that are used, to compare what closures and anchors add");
+  visit("covariances",
+        o.covariances,
+        "state the covariance of each keyframe, for metric nees; not if edges change the scale");
 }
 
 }  // namespace loopbench::methods

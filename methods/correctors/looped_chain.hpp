@@ -78,6 +78,14 @@ class LoopedChain {
 
   Trajectory keyframes() const;
 
+  /// Covariance of each keyframe in fixed axes (datasets/core/covariance.hpp) to first order at the
+  /// current poses, without drift: that of the open chain minus the reduction by the loops. It
+  /// equals graph_covariances() at the same poses; zero for the first keyframe, and out of the
+  /// plane if the problem is planar. `has_front`: the first edge is that of an AnchoredChain, which
+  /// is no measurement. Throws as step(). O(edges closures + (6 closures)^3), and one
+  /// factorisation.
+  std::vector<Matrix6> covariances(bool has_front = false) const;  // chain_covariance.cpp
+
  private:
   /// State after a trial step.
   struct Candidate {

@@ -14,6 +14,7 @@
 #include "methods/correctors/plausibility.hpp"
 #include "methods/correctors/scale_drift.hpp"
 #include "methods/correctors/variance_components.hpp"
+#include "methods/solvers/graph_covariance.hpp"
 #include "methods/solvers/initial_values.hpp"
 #include "methods/solvers/pose_graph_solver.hpp"
 
@@ -249,6 +250,12 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
         "the last solve stopped at max_iterations before reaching the tolerance");
   }
 
+  if (options_.covariances) {
+    if (annealed_from) settings.loss = RobustLoss::none;  // the weights contain it
+    report.covariances = report.time("covariances", [&] {
+      return graph_covariances(poses, problem.odometry, problem.closures, weights, settings);
+    });
+  }
   Trajectory out = problem.keyframes;
   for (std::size_t i = 0; i < out.size(); ++i) out[i].world_from_body = poses[i].pose;
   return out;

@@ -50,6 +50,7 @@ class PoseGraphOptimizer final : public Corrector {
     int max_iterations = 1000;
     double tolerance = 1e-14;
     bool rescale = false;
+    bool covariances = false;
   };
   explicit PoseGraphOptimizer(const Options& options) : options_(options) {}
 
@@ -63,8 +64,8 @@ class PoseGraphOptimizer final : public Corrector {
   /// Counts: `iterations` (linear solves), `chi2_before`, `chi2` (sum of squared Mahalanobis
   /// errors; with a loss `robust_chi2`, sum of losses), without a loss `chi2_per_dof`, with
   /// `rescale` the factors `factor_t` and `factor_r` on standard deviations, and with GNC
-  /// `gnc_rounds` and `closures_kept`. Throws std::runtime_error when the solver finds no usable
-  /// solution.
+  /// `gnc_rounds` and `closures_kept`. States covariances if asked (graph_covariance.hpp). Throws
+  /// std::runtime_error when the solver finds no usable solution.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
@@ -121,6 +122,7 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
         o.rescale,
         "multiply the odometry's translation and rotation covariances by factors estimated from "
         "the loops (chains only)");
+  visit("covariances", o.covariances, "state the covariance of each keyframe, for metric nees");
 }
 
 }  // namespace loopbench::methods

@@ -50,6 +50,7 @@ bool BatchUpdates::solve(Report& report) {
     return false;
   }
   curve_ = method_.estimate(known_, report);
+  report.covariances.clear();  // of the keyframes known now
   chain_.replace(curve_->sample(stamps(known_.keyframes)));
   return true;
 }

@@ -206,6 +206,7 @@ std::unique_ptr<const Curve> GaussianProcess::smooth_with(const Trajectory& keyf
   report.count("power_r", parameters.power_r / unit);
   report.count("iterations", iterations);
   report.count("evaluations", evaluations);
+  if (options_.covariances) report.covariances = posterior.covariances(states, parameters);
   return std::make_unique<GpCurve<P>>(stamps(keyframes), posterior, std::move(states));
 }
 

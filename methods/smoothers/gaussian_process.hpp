@@ -28,13 +28,16 @@ class GaussianProcess final : public Smoother {
     std::optional<double> sigma_r = std::nullopt;  ///< [rad]
     std::optional<double> power_t = std::nullopt;  ///< [m^2/s^3], [m^2/s^5]
     std::optional<double> power_r = std::nullopt;  ///< [rad^2/s^3], [rad^2/s^5]
+    bool covariances = false;
   };
   explicit GaussianProcess(const Options& options) : options_(options) {}
 
   std::string why_declined(const Problem& problem) const override;
 
   /// Counts: `sigma_t` [m], `sigma_r` [rad], `power_t`, `power_r` (per s^3 or s^5), `iterations`,
-  /// `evaluations` of the evidence. Phases: `evidence`, `solve`. Throws std::runtime_error when the
+  /// `evaluations` of the evidence. Phases: `evidence`, `solve`. States covariances if asked: those
+  /// of the posterior at its parameters, which do not include drift; none if a
+  /// segment is too short. Throws std::runtime_error when the
   /// normal equations are singular.
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
@@ -74,6 +77,7 @@ void fields(GaussianProcess::Options& o, Visit visit) {
         o.power_r,
         "power spectral density of the rotation prior [rad^2/s^3 or rad^2/s^5]; none: estimated",
         GreaterThan{0.0});
+  visit("covariances", o.covariances, "state the covariance of each keyframe, for metric nees");
 }
 
 }  // namespace loopbench::methods

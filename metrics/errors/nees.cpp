@@ -17,21 +17,54 @@ constexpr double kTwoSided95 = 1.959963984540054;  // standard normal quantile a
 /// Squared radii of the regions of these probabilities, by degrees of freedom.
 struct Region {
   int percent;
-  double one, three, six;
+  double one, two, three, six;
   double squared_radius(int freedom) const {
-    return freedom == 1 ? one : freedom == 3 ? three : six;
+    return freedom == 1 ? one : freedom == 2 ? two : freedom == 3 ? three : six;
   }
 };
-constexpr std::array kRegions{Region{50, 0.4549364231195727, 2.365973884375338, 5.348120627447120},
-                              Region{90, 2.705543454095414, 6.251388631170324, 10.644640675668420},
-                              Region{95, 3.841458820694124, 7.814727903251178, 12.591587243743977}};
+constexpr std::array kRegions{
+    Region{50, 0.4549364231195727, 1.386294361119891, 2.365973884375338, 5.348120627447120},
+    Region{90, 2.705543454095414, 4.605170185988092, 6.251388631170324, 10.644640675668420},
+    Region{95, 3.841458820694124, 5.991464547107980, 7.814727903251178, 12.591587243743977}};
 
 /// Squared normalised errors of one part of the pose.
 struct NormalisedErrors {
   std::string part;
-  int freedom = 3;
-  std::vector<double> squares;
+  std::vector<int> axes;  ///< of the error [position; rotation]
+  bool is_axis = false;   ///< one of a part with several
+  std::vector<double> squares = {};
+  int freedom() const { return static_cast<int>(axes.size()); }
 };
+
+/// What the covariances of an estimate describe.
+enum class Stated { positions, planar, poses };
+
+/// Planar: all variances of z, roll and pitch are zero beside the others (up to rounding).
+Stated stated(const std::vector<Matrix6>& covariances, bool has_rotations) {
+  Twist largest = Twist::Zero();
+  for (const Matrix6& each : covariances) largest = largest.cwiseMax(each.diagonal());
+  if (!has_rotations || largest.tail<3>().isZero(0.0)) return Stated::positions;
+  constexpr double kRounding = 1e-18;
+  const bool is_flat = largest[2] <= kRounding * largest.head<2>().maxCoeff() &&
+                       largest.segment<2>(3).maxCoeff() <= kRounding * largest[5];
+  return is_flat ? Stated::planar : Stated::poses;
+}
+
+std::vector<NormalisedErrors> parts_of(Stated what) {
+  std::vector<NormalisedErrors> out;
+  std::vector<int> all{0, 1, 2, 3, 4, 5};
+  if (what == Stated::positions) {
+    out = {{"position", {0, 1, 2}}};
+  } else if (what == Stated::planar) {
+    out = {{"pose", {0, 1, 5}}, {"position", {0, 1}}, {"rotation", {5}}};
+  } else {
+    out = {{"pose", all}, {"position", {0, 1, 2}}, {"rotation", {3, 4, 5}}};
+  }
+  constexpr std::array kAxes{"x", "y", "z", "rx", "ry", "rz"};
+  const std::vector<int> axes = out.front().axes;
+  for (const int axis : axes) out.push_back({kAxes[static_cast<std::size_t>(axis)], {axis}, true});
+  return out;
+}
 
 double variance_of(const std::vector<double>& values) {
   const double middle = mean(values);
@@ -76,17 +109,33 @@ Trajectory unaligned(const Evaluation& evaluation) {
   return out;
 }
 
-template <int Size>
-double squared_norm(const Twist& error, const Matrix6& covariance, int begin, double stamp) {
-  const Eigen::Matrix<double, Size, 1> part = error.segment<Size>(begin);
-  return covariance_root<Size>(covariance, begin, stamp).matrixL().solve(part).squaredNorm();
+double squared_norm(const Twist& error,
+                    const Matrix6& covariance,
+                    const std::vector<int>& axes,
+                    double stamp) {
+  if (axes.size() == 1) return error[axes[0]] * error[axes[0]] / covariance(axes[0], axes[0]);
+  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+  const CovarianceRoot<Block> root = covariance_root(Block(covariance(axes, axes)), stamp);
+  return root.matrixL().solve(error(axes)).squaredNorm();
 }
 
 std::vector<NormalisedErrors> normalised_errors(const Evaluation& evaluation,
                                                 Gauge gauge,
-                                                bool has_rotations,
+                                                Stated what,
                                                 Align& type) {
+  const bool has_rotations = what != Stated::positions;
   type = type_of(gauge, evaluation.alignment.type);
+  const bool is_first_exact = type == Align::origin || type == Align::posyaw_origin;
+  const Context& context = evaluation.context;
+  if (!is_first_exact && context.reference_covariances == nullptr &&
+      covariance_at(
+          *context.estimate, *context.estimate_covariances, evaluation.estimate.front().stamp)
+          .isZero(0.0)) {
+    throw Undefined("nees: covariances are relative to the first pose, which needs gauge origin");
+  }
+  if (what == Stated::planar && !free_columns(type).empty() && gauge != Gauge::protocol) {
+    throw Undefined("nees: planar covariances have no weighted alignment, expected gauge origin");
+  }
   Trajectory estimate = evaluation.estimate;
   Alignment alignment = evaluation.alignment;
   if (gauge != Gauge::protocol) {
@@ -96,23 +145,13 @@ std::vector<NormalisedErrors> normalised_errors(const Evaluation& evaluation,
     estimate = moved(alignment, raw);
   }
   const PairCovariance covariance(evaluation, alignment);
-  constexpr std::array kAxes{"x", "y", "z", "rx", "ry", "rz"};
-  std::vector<NormalisedErrors> out{{"position", 3, {}}};
-  if (has_rotations) out = {{"pose", 6, {}}, {"position", 3, {}}, {"rotation", 3, {}}};
-  const std::size_t parts = out.size();
-  for (std::size_t k = 0; k < (has_rotations ? 6 : 3); ++k) out.push_back({kAxes[k], 1, {}});
-  const bool is_first_exact = type == Align::origin || type == Align::posyaw_origin;
+  std::vector<NormalisedErrors> out = parts_of(what);
   for (std::size_t i = is_first_exact ? 1 : 0; i < estimate.size(); ++i) {
     const auto& [stamp, reference] = evaluation.reference[i];
     const Twist error = error_of(reference, estimate[i].world_from_body, has_rotations);
     const Matrix6 C = covariance.at(stamp, estimate[i].stamp);
-    std::size_t part = 0;
-    if (has_rotations) out[part++].squares.push_back(squared_norm<6>(error, C, 0, stamp));
-    out[part++].squares.push_back(squared_norm<3>(error, C, 0, stamp));
-    if (has_rotations) out[part++].squares.push_back(squared_norm<3>(error, C, 3, stamp));
-    for (std::size_t k = 0; parts + k < out.size(); ++k) {
-      const auto axis = static_cast<Eigen::Index>(k);
-      out[parts + k].squares.push_back(error[axis] * error[axis] / C(axis, axis));
+    for (NormalisedErrors& each : out) {
+      each.squares.push_back(squared_norm(error, C, each.axes, stamp));
     }
   }
   if (out.front().squares.empty()) throw Undefined("nees: no pair remains besides the origin");
@@ -123,7 +162,7 @@ std::vector<NormalisedErrors> normalised_errors(const Evaluation& evaluation,
 /// mean and variance (quantiles of Wilson and Hilferty).
 void add_ratio(std::vector<Score>& out, const NormalisedErrors& errors, int fitted_freedom) {
   const auto n = static_cast<double>(errors.squares.size());
-  const double freedom = n * errors.freedom - fitted_freedom;
+  const double freedom = n * errors.freedom() - fitted_freedom;
   if (!(freedom > 0.0)) {
     out.push_back({"nees_ratio", errors.part, "1", {}, "the alignment fits all errors"});
     return;
@@ -157,7 +196,7 @@ Score coverage_score(int percent, const std::string& axis, double share) {
 
 /// Wilson's interval for as many independent pairs as the autocorrelation leaves.
 void add_interval(std::vector<Score>& out, const NormalisedErrors& errors, const Region& region) {
-  const std::vector<double> hits = inside(errors, region.squared_radius(errors.freedom));
+  const std::vector<double> hits = inside(errors, region.squared_radius(errors.freedom()));
   const double n = independent_values(hits);
   const double z2 = kTwoSided95 * kTwoSided95;
   const double p = mean(hits);
@@ -172,7 +211,7 @@ void add_interval(std::vector<Score>& out, const NormalisedErrors& errors, const
 }
 
 void add_thirds(std::vector<Score>& out, const NormalisedErrors& errors, const Region& region) {
-  const std::vector<double> hits = inside(errors, region.squared_radius(errors.freedom));
+  const std::vector<double> hits = inside(errors, region.squared_radius(errors.freedom()));
   const std::size_t n = hits.size();
   if (n < 3) return;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -191,29 +230,28 @@ std::vector<Score> nees(const Evaluation& evaluation, const NeesOptions& options
   if (evaluation.protocol.project != ProjectionPlane::none) {
     throw Undefined("nees: covariances are not projected");
   }
-  const Matrix6& first = evaluation.context.estimate_covariances->front();
   std::string why_no_rotation = why_no_attitude(evaluation);
-  if (why_no_rotation.empty() && first.bottomRows<3>().isZero(0.0)) {
+  const Stated what = stated(*evaluation.context.estimate_covariances, why_no_rotation.empty());
+  if (why_no_rotation.empty() && what == Stated::positions) {
     why_no_rotation = "the covariances of the estimate are those of positions";
   }
-  const bool has_rotations = why_no_rotation.empty();
   Align type{};
   const std::vector<NormalisedErrors> all =
-      normalised_errors(evaluation, options.gauge, has_rotations, type);
+      normalised_errors(evaluation, options.gauge, what, type);
   // The weighted alignment fits the first part, the protocol's least squares the positions.
   const auto fitted = static_cast<int>(free_columns(type).size());
   const std::string fitted_part = options.gauge == Gauge::protocol ? "position" : all.front().part;
   std::vector<Score> out;
   const int ddof = evaluation.protocol.ddof;
   for (const NormalisedErrors& errors : all) {
-    const bool is_part = errors.freedom > 1;
+    const bool is_part = !errors.is_axis;
     if (is_part) {
       Score each{"nees", errors.part, "1", statistics(errors.squares, ddof)};
       out.push_back(directed(std::move(each), Better::neither));
       add_ratio(out, errors, errors.part == fitted_part ? fitted : 0);
     }
     for (const Region& region : kRegions) {
-      const double share = mean(inside(errors, region.squared_radius(errors.freedom)));
+      const double share = mean(inside(errors, region.squared_radius(errors.freedom())));
       out.push_back(coverage_score(region.percent, errors.part, share));
       if (is_part && region.percent == 95) add_interval(out, errors, region);
     }
@@ -222,7 +260,8 @@ std::vector<Score> nees(const Evaluation& evaluation, const NeesOptions& options
   out.push_back(directed(single("independent", "", "1", independent_values(all.front().squares)),
                          Better::neither));
   for (const char* part : {"pose", "rotation"}) {
-    if (!has_rotations) out.push_back({"nees", part, "1", {}, why_no_rotation, Better::neither});
+    if (what == Stated::positions)
+      out.push_back({"nees", part, "1", {}, why_no_rotation, Better::neither});
   }
   return out;
 }

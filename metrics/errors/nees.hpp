@@ -50,9 +50,10 @@ void fields(NeesOptions& o, Visit visit) {
 /// the rotation. With gauge `origin`, the first pair is the origin, has no error and is not
 /// counted: covariances must be relative to the first pose.
 ///
-/// Without rotations, only the position is scored. Throws Undefined without covariances of the
-/// estimate and for projected trajectories; std::runtime_error if C is not positive definite. O(n
-/// log n).
+/// Planar covariances (none of z, roll and pitch) have 3 degrees of freedom of the pose and 2 of
+/// the position, and gauges `origin`, `none` and `protocol`. Without rotations, only the position
+/// is scored. Throws Undefined without covariances of the estimate and for projected trajectories;
+/// std::runtime_error if C is not positive definite. O(n log n).
 ///
 /// Source: Y. Bar-Shalom, X. R. Li, T. Kirubarajan, Estimation with applications to tracking and
 /// navigation, 2001, section 5.4.

@@ -26,8 +26,10 @@ Alignment weighted(const Evaluation& evaluation, const Trajectory& raw, Alignmen
       jacobian.topLeftCorner<3, 6>() << Matrix3::Identity(), -hat(arm);
       jacobian.block<3, 3>(3, 3).setIdentity();
       jacobian.topRightCorner<3, 1>() = arm;
-      const CovarianceRoot<Size> root =
-          covariance_root<Size>(covariance.at(stamp, estimate[i].stamp), 0, stamp);
+      using Block = Eigen::Matrix<double, Size, Size>;
+      const Matrix6 C = covariance.at(stamp, estimate[i].stamp);
+      const CovarianceRoot<Block> root =
+          covariance_root(Block(C.topLeftCorner<Size, Size>()), stamp);
       const Eigen::Matrix<double, Size, 7> J =
           root.matrixL().solve(Eigen::Matrix<double, Size, 7>(jacobian.topRows<Size>()));
       const Twist error = error_of(reference, pose, Size == 6);

@@ -45,15 +45,13 @@ inline Twist error_of(const Pose& reference, const Pose& estimate, bool has_rota
   return out;
 }
 
-template <int Size>
-using CovarianceRoot = Eigen::LLT<Eigen::Matrix<double, Size, Size>>;
+template <class Matrix>
+using CovarianceRoot = Eigen::LLT<Matrix>;
 
-/// Cholesky factor of a block on the diagonal. Throws std::runtime_error if it is not positive
-/// definite.
-
-template <int Size>
-CovarianceRoot<Size> covariance_root(const Matrix6& covariance, int begin, double stamp) {
-  CovarianceRoot<Size> out(covariance.block<Size, Size>(begin, begin));
+/// Cholesky factor. Throws std::runtime_error if the covariance is not positive definite.
+template <class Matrix>
+CovarianceRoot<Matrix> covariance_root(const Matrix& covariance, double stamp) {
+  CovarianceRoot<Matrix> out(covariance);
   if (out.info() == Eigen::Success) return out;
   throw std::runtime_error(
       fmt::format("nees: the covariance at stamp {:.9f} is not positive definite", stamp));

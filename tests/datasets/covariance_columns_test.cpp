@@ -106,6 +106,11 @@ TEST(CovarianceColumns, RejectsWhatItCannotRead) {
   const std::string second = "2 2 0 0 0 0 0 1";
   EXPECT_THAT(why(good + row_of(second, wrong, Part::all)),
               HasSubstr("wide.txt:2: covariance is not positive definite"));
+  Matrix6 planar = Matrix6::Zero();
+  planar(0, 0) = planar(1, 1) = planar(5, 5) = 0.1;
+  EXPECT_EQ(why(row_of(kPose, Matrix6::Zero(), Part::all) + row_of(second, planar, Part::all)), "");
+  planar(0, 2) = planar(2, 0) = 0.1;
+  EXPECT_THAT(why(row_of(kPose, planar, Part::all)), HasSubstr("is not positive definite"));
   wrong = example();
   wrong(0, 5) += 0.1;
   EXPECT_THAT(why(row_of(kPose, wrong, Part::all)), HasSubstr(":1: covariance is not symmetric"));

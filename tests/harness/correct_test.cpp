@@ -100,6 +100,45 @@ TEST_F(Correct, ItsFileHasTheScoreOfTheSweepsCell) {
   }
 }
 
+// The sweep scores the covariances that a method states, `correct` writes them, `eval` reads them.
+TEST_F(Correct, WritesTheCovariancesThatTheSweepScores) {
+  folder_.file(
+      "nees.yaml",
+      "datasets: [{dataset: trajectory, label: drive, estimate: est.txt, reference: gt.txt, "
+      "closures: {source: file, file: loops.txt}}]\n"
+      "methods: [raw, {method: dual, covariances: true}]\n"
+      "metrics: [{metric: nees, gauge: origin}]\ntimes: keyframes\n");
+  ASSERT_EQ(loopbench_command("run nees.yaml --out nees", folder_).exit_code, 0);
+  std::map<std::string, std::vector<double>> means;
+  std::string why;
+  for (const Record& record : read_records(folder_.path() / "nees")) {
+    if (record.status == Status::declined) {
+      why = record.why;
+    } else if (record.relation == "nees") {
+      means[record.axis].push_back(record.statistics.mean);
+    }
+  }
+  EXPECT_THAT(why, HasSubstr("states no covariances"));
+  ASSERT_EQ(loopbench_command("correct est.txt --loops loops.txt --method dual:covariances=true "
+                              "-o out.txt",
+                              folder_)
+                .exit_code,
+            0);
+  const CommandResult of_file =
+      loopbench_command("eval gt.txt out.txt --metric nees:gauge=origin --json", folder_);
+  ASSERT_EQ(of_file.exit_code, 0) << of_file.err;
+  const Json rows = Json::parse(of_file.out).at(0).at("metrics");
+  int compared = 0;
+  for (const Json& row : rows) {
+    if (row["relation"] != "nees") continue;
+    const double mean = row["mean"];
+    ASSERT_EQ(means[row["axis"]].size(), 1U);
+    EXPECT_NEAR(means[row["axis"]][0], mean, 1e-9 * mean) << row["axis"];
+    ++compared;
+  }
+  EXPECT_EQ(compared, 3);
+}
+
 TEST_F(Correct, TheOpenRunOfFr1RoomHasTheScoreOfTheSweepsCell) {
   const char* data = std::getenv("LOOPBENCH_DATA");
   if (data == nullptr) GTEST_SKIP() << "LOOPBENCH_DATA is not set";

@@ -212,6 +212,32 @@ TEST(Nees, OfAnotherPointOfTheBodyIsTheSame) {
   EXPECT_GT(std::abs(value(after, "nees", "position") - value(before, "nees", "position")), 0.01);
 }
 
+// Errors of 2 deviations along x and 3 about z, the others have none: three degrees of freedom.
+TEST(Nees, InThePlaneHasThreeDegreesOfFreedom) {
+  const Trajectory reference{{0, Pose{}}, {1, {exp_so3({0, 0, 0.03}), {5.2, 0, 0}}}};
+  const Trajectory estimate{{0, Pose{}}, {1, {Rotation::Identity(), {5, 0, 0}}}};
+  Matrix6 plane = diagonal(0.1, 0.01);
+  for (const Eigen::Index axis : {2, 3, 4}) plane(axis, axis) = 0.0;
+  const Covariances stated{Matrix6::Zero(), plane};  // the first pose is exact
+  const auto all = scores(reference, estimate, stated, Align::none, {.gauge = Gauge::origin});
+  EXPECT_NEAR(value(all, "nees", "pose"), 13.0, 1e-9);
+  EXPECT_NEAR(value(all, "nees", "position"), 4.0, 1e-9);
+  EXPECT_NEAR(value(all, "nees", "rotation"), 9.0, 1e-9);
+  EXPECT_NEAR(value(all, "nees_ratio", "pose"), 13.0 / 3.0, 1e-9);
+  // chi-squared of 2: 50 % up to 1.39, 90 % up to 4.61.
+  EXPECT_EQ(value(all, "coverage_50", "position"), 0.0);
+  EXPECT_EQ(value(all, "coverage_90", "position"), 100.0);
+  EXPECT_EQ(value(all, "coverage_95", "pose"), 0.0);
+  EXPECT_THAT(refusal_of([&] { scores(reference, estimate, stated, Align::none); }),
+              testing::HasSubstr("relative to the first pose, which needs gauge origin"));
+  std::mt19937_64 random(8);
+  const Trajectory walk = test::random_walk(random, 9);
+  EXPECT_THAT(refusal_of([&] {
+                scores(walk, walk, {9, plane}, Align::se3);
+              }),
+              testing::HasSubstr("planar covariances have no weighted alignment"));
+}
+
 TEST(Nees, OfPositionsHasNoRotation) {
   std::mt19937_64 random(6);
   const Trajectory estimate = test::random_walk(random, 20);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "datasets/core/covariance.hpp"
 #include "datasets/core/trajectory.hpp"
 #include "methods/smoothers/gp/link.hpp"
 
@@ -120,10 +121,30 @@ class GpPosterior {
            0.5 * (at.log_determinant + (poses - 1.0) * log_links + poses * log_poses);
   }
 
+  /// Returns the covariance of each pose in fixed axes (datasets/core/covariance.hpp) to first
+  /// order at `states`, the solution. One elimination and one pass back, O(n).
+  std::vector<Matrix6> covariances(const States& states, const GpParameters& parameters) const {
+    std::vector<Step> steps(states.size());
+    eliminate(states, parameters, &steps);
+    std::vector<Matrix6> out(states.size());
+    GpMatrix<P> of_next = GpMatrix<P>::Zero();
+    for (std::size_t i = states.size(); i-- > 0;) {
+      const auto& [to_next, offset, schur] = steps[i];
+      of_next =
+          (schur.llt().solve(GpMatrix<P>::Identity()) + to_next * of_next * to_next.transpose())
+              .eval();
+      const Matrix6 of_pose = of_next.template topLeftCorner<6, 6>();
+      out[i] = rotated(0.5 * (of_pose + of_pose.transpose()),
+                       states[i].pose.rotation.toRotationMatrix());
+    }
+    return out;
+  }
+
  private:
   struct Step {
     GpMatrix<P> to_next;  ///< delta_i = offset - to_next * delta_{i + 1}
     GpVector<P> offset;
+    GpMatrix<P> schur;  ///< information of delta_i given delta_{i + 1}
   };
   struct Elimination {
     double cost, decrease, log_determinant;
@@ -167,7 +188,7 @@ class GpPosterior {
       const GpVector<P> offset = factor.solve(gradient);
       out.decrease += 0.5 * gradient.dot(offset);
       const GpMatrix<P> to_next = factor.solve(coupling);
-      if (steps != nullptr) (*steps)[i] = {to_next, -offset};
+      if (steps != nullptr) (*steps)[i] = {to_next, -offset, block};
       if (is_last) break;
       block.noalias() = next.by_to.transpose() * next.by_to;
       block.noalias() -= coupling.transpose() * to_next;

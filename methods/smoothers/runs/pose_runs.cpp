@@ -120,6 +120,7 @@ std::unique_ptr<const Curve> smooth_segments(
   if (runs.size() == 1) return smooth(poses, report);
   std::vector<std::unique_ptr<const Curve>> parts;
   std::vector<Count> counts;
+  std::vector<Matrix6> covariances;
   std::size_t longest = 0;
   for (const PoseRun& run : runs) {
     Report part_report;
@@ -127,6 +128,7 @@ std::unique_ptr<const Curve> smooth_segments(
     std::ranges::move(part_report.phases, std::back_inserter(report.phases));
     std::ranges::move(part_report.sections, std::back_inserter(report.sections));
     std::ranges::move(part_report.notes, std::back_inserter(report.notes));
+    std::ranges::move(part_report.covariances, std::back_inserter(covariances));
     const std::size_t size = run.last - run.first + 1;
     if (size > longest) {
       longest = size;
@@ -134,6 +136,7 @@ std::unique_ptr<const Curve> smooth_segments(
     }
   }
   std::ranges::move(counts, std::back_inserter(report.counts));
+  if (covariances.size() == poses.size()) report.covariances = std::move(covariances);
   report.count("chords", static_cast<double>(runs.size() - 1));
   const double begin = poses[runs[0].last].stamp;
   const double end = poses[runs[1].first].stamp;
