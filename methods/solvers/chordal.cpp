@@ -1,15 +1,15 @@
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
-#include <Eigen/SparseCholesky>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
+#include "methods/solvers/block_cholesky.hpp"
 #include "methods/solvers/initial_values.hpp"
 
 namespace loopbench::methods {
 namespace {
-
-using Sparse = Eigen::SparseMatrix<double>;
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
 struct Weights {
   double kappa;  ///< inverse mean variance of rotation [1/rad^2]
@@ -22,57 +22,47 @@ Weights weights_of(const Edge& edge) {
           3.0 / covariance.topLeftCorner<3, 3>().trace()};
 }
 
-/// Normal equations whose unknowns are blocks of `size` rows for keyframes 1, 2, ..; keyframe 0 is
+/// Normal equations whose unknowns are blocks of D rows for keyframes 1, 2, ..; keyframe 0 is
 /// fixed.
+template <int D>
 class System {
  public:
-  System(std::size_t keyframes, Eigen::Index size)
-      : size_(size),
-        rows_(size * static_cast<Eigen::Index>(keyframes - 1)),
-        right_(Rows::Zero(rows_, 3)) {}
+  System(const EliminationStructure& structure, Eigen::Index columns)
+      : factor_(structure), right_(Eigen::MatrixXd::Zero(D * structure.blocks(), columns)) {}
 
   /// Adds weight |x_to - M x_from - c|^2, where M is orthogonal (or 1) and x_0 = first.
-  template <class Square, class Block>
-  void add(const Edge& edge, double weight, const Square& M, const Block& c, const Block& first) {
-    const Eigen::Index i = row_of(edge.from);
-    const Eigen::Index j = row_of(edge.to);  // never keyframe 0: from < to
-    diagonal(j, weight);
-    right_.middleRows(j, size_) += weight * c;
+  template <class Rows>
+  void add(const Edge& edge,
+           double weight,
+           const Eigen::Matrix<double, D, D>& M,
+           const Rows& c,
+           const Rows& first) {
+    const Eigen::Matrix<double, D, D> I = Eigen::Matrix<double, D, D>::Identity();
+    const int i = static_cast<int>(edge.from) - 1;
+    const int j = static_cast<int>(edge.to) - 1;  // never keyframe 0: from < to
+    factor_.add(factor_.place(j, j), weight * I);
+    right_.middleRows<D>(j * D) += weight * c;
     if (i < 0) {
-      right_.middleRows(j, size_) += weight * (M * first);
+      right_.middleRows<D>(j * D) += weight * (M * first);
       return;
     }
-    diagonal(i, weight);
-    right_.middleRows(i, size_) -= weight * (M.transpose() * c);
-    for (Eigen::Index r = 0; r < size_; ++r) {
-      for (Eigen::Index s = 0; s < size_; ++s)
-        entries_.emplace_back(j + r, i + s, -weight * M(r, s));
-    }
+    factor_.add(factor_.place(i, i), weight * I);
+    factor_.add(factor_.place(j, i), -weight * M);
+    right_.middleRows<D>(i * D) -= weight * (M.transpose() * c);
   }
 
-  Rows solve(const char* what) const {
-    Sparse H(rows_, rows_);
-    H.setFromTriplets(entries_.begin(), entries_.end());
-    const Eigen::SimplicialLDLT<Sparse, Eigen::Lower> factor(H);
-    if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.0)) {
+  const Eigen::MatrixXd& solve(const char* what) {
+    if (!factor_.factorise()) {
       throw std::runtime_error(std::string("pose graph: the chordal relaxation of ") + what +
                                " is singular; all keyframes must be connected by edges");
     }
-    return factor.solve(right_);
+    factor_.solve(right_);
+    return right_;
   }
 
  private:
-  Eigen::Index row_of(std::size_t keyframe) const {
-    return size_ * (static_cast<Eigen::Index>(keyframe) - 1);
-  }
-  void diagonal(Eigen::Index at, double weight) {
-    for (Eigen::Index r = 0; r < size_; ++r) entries_.emplace_back(at + r, at + r, weight);
-  }
-
-  Eigen::Index size_;
-  Eigen::Index rows_;
-  std::vector<Eigen::Triplet<double>> entries_;
-  Rows right_;
+  BlockCholesky<D> factor_;
+  Eigen::MatrixXd right_;
 };
 
 Rotation nearest_rotation(const Matrix3& M) {
@@ -86,10 +76,62 @@ Rotation nearest_rotation(const Matrix3& M) {
   return Rotation(R).normalized();
 }
 
-template <class Visit>
-void for_each_edge(const Problem& problem, Visit visit) {
-  for (const Edge& edge : problem.odometry) visit(edge, weights_of(edge));
-  for (const Edge& edge : problem.closures) visit(edge, weights_of(edge));
+struct WeightedEdges {
+  explicit WeightedEdges(const Problem& problem) {
+    for (const std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
+      for (const Edge& edge : *edges) all.emplace_back(&edge, weights_of(edge));
+    }
+  }
+  template <class Visit>
+  void for_each(Visit visit) const {
+    for (const auto& [edge, weights] : all) visit(*edge, weights);
+  }
+  EliminationStructure structure(std::size_t keyframes) const {
+    std::vector<std::pair<int, int>> pairs;
+    for_each([&](const Edge& edge, const Weights&) {
+      if (edge.from == 0) return;
+      pairs.emplace_back(static_cast<int>(edge.from) - 1, static_cast<int>(edge.to) - 1);
+    });
+    return {static_cast<int>(keyframes) - 1, pairs};
+  }
+
+  std::vector<std::pair<const Edge*, Weights>> all;
+};
+
+/// Relaxes the rotations about the z axis of keyframe 0 to (cos, sin).
+void planar_rotations(const WeightedEdges& edges,
+                      const EliminationStructure& structure,
+                      std::vector<ScaledPose>& out) {
+  System<2> rotations(structure, 1);
+  edges.for_each([&](const Edge& edge, const Weights& w) {
+    const Rotation& q = edge.from_from_to.rotation;
+    const Eigen::Matrix2d M = Eigen::Rotation2Dd(2.0 * std::atan2(q.z(), q.w())).matrix();
+    rotations.add<Eigen::Vector2d>(
+        edge, w.kappa, M, Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX());
+  });
+  const Eigen::MatrixXd& directions = rotations.solve("rotations");
+  for (std::size_t i = 1; i < out.size(); ++i) {
+    const Eigen::Vector2d d = directions.middleRows<2>(2 * static_cast<Eigen::Index>(i - 1));
+    out[i].pose.rotation = out[0].pose.rotation * exp_so3({0.0, 0.0, std::atan2(d.y(), d.x())});
+  }
+}
+
+/// R_j = R_i Z is equivalent to R_j' = Z' R_i': the unknowns are the transposes, three rows per
+/// keyframe.
+void spatial_rotations(const WeightedEdges& edges,
+                       const EliminationStructure& structure,
+                       std::vector<ScaledPose>& out) {
+  System<3> rotations(structure, 3);
+  const Matrix3 first = out[0].pose.rotation.toRotationMatrix().transpose();
+  edges.for_each([&](const Edge& edge, const Weights& w) {
+    const Matrix3 inverse_rotation = edge.from_from_to.rotation.toRotationMatrix().transpose();
+    rotations.add<Matrix3>(edge, w.kappa, inverse_rotation, Matrix3::Zero(), first);
+  });
+  const Eigen::MatrixXd& transposed = rotations.solve("rotations");
+  for (std::size_t i = 1; i < out.size(); ++i) {
+    const Matrix3 M = transposed.middleRows<3>(3 * static_cast<Eigen::Index>(i - 1)).transpose();
+    out[i].pose.rotation = nearest_rotation(M);
+  }
 }
 
 }  // namespace
@@ -101,46 +143,39 @@ std::vector<ScaledPose> chordal_values(const Problem& problem, double scale_sigm
   out[0].pose = problem.keyframes[0].world_from_body;
   if (n == 1) return out;
 
-  // R_j = R_i Z is equivalent to R_j' = Z' R_i': the unknowns are the transposes, three rows per
-  // keyframe.
-  System rotations(n, 3);
-  const Matrix3 first = out[0].pose.rotation.toRotationMatrix().transpose();
-  for_each_edge(problem, [&](const Edge& edge, const Weights& w) {
-    const Matrix3 inverse_rotation = edge.from_from_to.rotation.toRotationMatrix().transpose();
-    rotations.add(edge, w.kappa, inverse_rotation, Matrix3(Matrix3::Zero()), first);
-  });
-  const Rows transposed = rotations.solve("rotations");
-  for (std::size_t i = 1; i < n; ++i) {
-    const Matrix3 M = transposed.middleRows<3>(3 * static_cast<Eigen::Index>(i - 1)).transpose();
-    out[i].pose.rotation = nearest_rotation(M);
+  const WeightedEdges edges(problem);
+  const EliminationStructure structure = edges.structure(n);
+  if (problem.planar) {
+    planar_rotations(edges, structure, out);
+  } else {
+    spatial_rotations(edges, structure, out);
   }
 
   using Row = Eigen::RowVector3d;
   const Eigen::Matrix<double, 1, 1> one = Eigen::Matrix<double, 1, 1>::Identity();
   bool has_scale = false;
-  for_each_edge(problem, [&](const Edge& edge, const Weights&) { has_scale |= edge.scale != 1.0; });
+  edges.for_each([&](const Edge& edge, const Weights&) { has_scale |= edge.scale != 1.0; });
   if (has_scale) {
-    System scales(n, 1);
-    for_each_edge(problem, [&](const Edge& edge, const Weights&) {
+    System<1> scales(structure, 3);
+    edges.for_each([&](const Edge& edge, const Weights&) {
       const double weight = 1.0 / (scale_sigma * scale_sigma);
-      scales.add(edge, weight, one, Row(std::log(edge.scale), 0.0, 0.0), Row(Row::Zero()));
+      scales.add<Row>(edge, weight, one, Row(std::log(edge.scale), 0.0, 0.0), Row::Zero());
     });
-    const Rows logs = scales.solve("scales");
+    const Eigen::MatrixXd& logs = scales.solve("scales");
     for (std::size_t i = 1; i < n; ++i) {
       out[i].scale = std::exp(logs(static_cast<Eigen::Index>(i - 1), 0));
     }
   }
 
-  System translations(n, 1);
-  for_each_edge(problem, [&](const Edge& edge, const Weights& w) {
+  System<1> translations(structure, 3);
+  edges.for_each([&](const Edge& edge, const Weights& w) {
     const ScaledPose& from = out[edge.from];
     const Vector3 step = from.scale * (from.pose.rotation * edge.from_from_to.translation);
     // The deviations of a measurement are in the scale of its first keyframe.
     const double weight = w.tau / (from.scale * from.scale);
-    translations.add(
-        edge, weight, one, Row(step.transpose()), Row(out[0].pose.translation.transpose()));
+    translations.add<Row>(edge, weight, one, step.transpose(), out[0].pose.translation.transpose());
   });
-  const Rows positions = translations.solve("positions");
+  const Eigen::MatrixXd& positions = translations.solve("positions");
   for (std::size_t i = 1; i < n; ++i) {
     out[i].pose.translation = positions.row(static_cast<Eigen::Index>(i - 1)).transpose();
   }

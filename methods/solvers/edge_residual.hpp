@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <stdexcept>
+#include <string>
 
 #include "methods/solvers/groups/scaled_pose.hpp"
 
@@ -33,6 +35,18 @@ EdgeResidual<G> edge_residual(const typename G::Element& to_from_measured_from,
   out.by_to = G::inverse_right_jacobian(out.error);
   out.by_from = -out.by_to * G::adjoint(G::inverse(from_from_to));
   return out;
+}
+
+/// Returns U with U' U = weight * Omega. Throws std::runtime_error if it is not positive definite.
+template <class G>
+typename G::Square information_root(const Edge& edge, double weight, double scale_sigma) {
+  const Eigen::LLT<typename G::Square> factor(weight * G::information(edge, scale_sigma));
+  if (factor.info() != Eigen::Success) {
+    throw std::runtime_error("pose graph: the information matrix of edge " +
+                             std::to_string(edge.from) + " - " + std::to_string(edge.to) +
+                             " is not positive definite");
+  }
+  return factor.matrixU();
 }
 
 }  // namespace loopbench::methods

@@ -3,9 +3,6 @@
 
 #include <ceres/ceres.h>
 
-#include <stdexcept>
-#include <string>
-
 #include "methods/solvers/anchor_residual.hpp"
 #include "methods/solvers/edge_residual.hpp"
 
@@ -46,15 +43,8 @@ template <class G>
 class EdgeCost final : public ceres::SizedCostFunction<G::kDof, G::kSize, G::kSize> {
  public:
   EdgeCost(const Edge& edge, double weight, double scale_sigma)
-      : back_(G::inverse(G::from(measured(edge)))) {
-    const Eigen::LLT<typename G::Square> factor(weight * G::information(edge, scale_sigma));
-    if (factor.info() != Eigen::Success) {
-      throw std::runtime_error("pose graph: the information matrix of edge " +
-                               std::to_string(edge.from) + " - " + std::to_string(edge.to) +
-                               " is not positive definite");
-    }
-    root_ = factor.matrixU();
-  }
+      : back_(G::inverse(G::from(measured(edge)))),
+        root_(information_root<G>(edge, weight, scale_sigma)) {}
 
   bool Evaluate(double const* const* x, double* residual, double** jacobians) const override {
     Eigen::Map<typename G::Tangent> out(residual);

@@ -1,4 +1,4 @@
-/// Nonlinear least-squares solver of a pose graph (Ceres).
+/// Nonlinear least-squares solver of a pose graph.
 #pragma once
 
 #include <array>
@@ -51,11 +51,12 @@ struct PoseGraphSummary {
 /// Minimises 1/2 sum w rho(e' Omega e) over `poses`, with e = Log(Z^-1 X_i^-1 X_j) in the twists of
 /// the group, plus 1/2 a' C^-1 a of each anchor with a = anchor_error() and covariance C. Pose 0 is
 /// fixed unless `is_first_free`. weights[k] scales closure k; 0 removes it. Levenberg-Marquardt
-/// with a small initial damping, analytic Jacobians, sparse Cholesky, one thread; results are
-/// bit-identical between runs. SE(2) uses the plane of pose 0 and ignores out-of-plane components;
+/// with a small initial damping, analytic Jacobians, one thread; results are bit-identical between
+/// runs. Without a loss the block structure is ordered once and factorised by BlockCholesky; with a
+/// loss the solver is Ceres. SE(2) uses the plane of pose 0 and ignores out-of-plane components;
 /// SE(2) and SE(3) ignore scales. Each iteration is one sparse factorisation, linear in the number
-/// of poses for chains with few closures. Throws std::runtime_error with the message of Ceres when
-/// there is no usable solution, and when an information matrix is not positive definite.
+/// of poses for chains with few closures. Throws std::runtime_error when there is no usable
+/// solution, and when an information matrix is not positive definite.
 PoseGraphSummary solve_pose_graph(std::vector<ScaledPose>& poses,
                                   const std::vector<Edge>& odometry,
                                   const std::vector<Edge>& closures,

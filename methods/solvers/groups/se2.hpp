@@ -16,20 +16,23 @@ struct Se2 {
   struct Element {
     double x = 0.0, y = 0.0;  ///< [m]
     double yaw = 0.0;         ///< [rad], not wrapped
+    double c = 1.0, s = 0.0;  ///< cosine and sine of yaw
   };
 
-  static Element read(const double* from) { return {from[0], from[1], from[2]}; }
+  static Element read(const double* from) {
+    return {from[0], from[1], from[2], std::cos(from[2]), std::sin(from[2])};
+  }
   static void write(const Element& e, double* to) { to[0] = e.x, to[1] = e.y, to[2] = e.yaw; }
 
   static Element compose(const Element& a, const Element& b) {
-    const double c = std::cos(a.yaw);
-    const double s = std::sin(a.yaw);
-    return {a.x + c * b.x - s * b.y, a.y + s * b.x + c * b.y, a.yaw + b.yaw};
+    return {a.x + a.c * b.x - a.s * b.y,
+            a.y + a.s * b.x + a.c * b.y,
+            a.yaw + b.yaw,
+            a.c * b.c - a.s * b.s,
+            a.s * b.c + a.c * b.s};
   }
   static Element inverse(const Element& a) {
-    const double c = std::cos(a.yaw);
-    const double s = std::sin(a.yaw);
-    return {-c * a.x - s * a.y, s * a.x - c * a.y, -a.yaw};
+    return {-a.c * a.x - a.s * a.y, a.s * a.x - a.c * a.y, -a.yaw, a.c, -a.s};
   }
   static Element exp(const Tangent& xi) {
     const double angle = xi[2];
@@ -39,7 +42,7 @@ struct Se2 {
     // V = sinc(half) R(half) maps the tangent of the arc to its chord.
     const double c = half_sinc * std::cos(half);
     const double s = half_sinc * std::sin(half);
-    return {c * xi[0] - s * xi[1], s * xi[0] + c * xi[1], angle};
+    return {c * xi[0] - s * xi[1], s * xi[0] + c * xi[1], angle, std::cos(angle), std::sin(angle)};
   }
   static Tangent log(const Element& a) {
     const double angle = std::remainder(a.yaw, 2.0 * M_PI);
@@ -48,10 +51,8 @@ struct Se2 {
     return {along * a.x + across * a.y, along * a.y - across * a.x, angle};
   }
   static Square adjoint(const Element& a) {
-    const double c = std::cos(a.yaw);
-    const double s = std::sin(a.yaw);
     Square out;
-    out << c, -s, a.y, s, c, -a.x, 0.0, 0.0, 1.0;
+    out << a.c, -a.s, a.y, a.s, a.c, -a.x, 0.0, 0.0, 1.0;
     return out;
   }
   /// Inverse of the J in exp(xi + d) ~ exp(xi) exp(J d).
@@ -72,7 +73,8 @@ struct Se2 {
   /// Projection to the plane z = roll = pitch = 0.
   static Element from(const ScaledPose& a) {
     const Rotation& q = a.pose.rotation;
-    return {a.pose.translation.x(), a.pose.translation.y(), 2.0 * std::atan2(q.z(), q.w())};
+    const double yaw = 2.0 * std::atan2(q.z(), q.w());
+    return {a.pose.translation.x(), a.pose.translation.y(), yaw, std::cos(yaw), std::sin(yaw)};
   }
   static ScaledPose to_scaled_pose(const Element& a) {
     return {{exp_so3({0.0, 0.0, a.yaw}), {a.x, a.y, 0.0}}, 1.0};
@@ -91,7 +93,7 @@ struct Se2 {
   static double half_cotangent(double angle) {
     const double half = 0.5 * angle;
     if (std::abs(half) < kSmallAngle) return 1.0 - half * half / 3.0;
-    return half * std::cos(half) / std::sin(half);
+    return half / std::tan(half);
   }
 };
 

@@ -1,0 +1,288 @@
+#include "methods/solvers/block_cholesky.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace loopbench::methods {
+namespace {
+
+using ConstDense = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+using Dense = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
+Dense dense(double* begin, Eigen::Index rows, Eigen::Index columns, Eigen::Index stride) {
+  return {begin, rows, columns, Eigen::OuterStride<>(stride)};
+}
+/// Subtracts from entries begin .. end of a column the product of D columns of L with row `begin`
+/// of these columns.
+template <int D>
+void subtract(double* __restrict column,
+              const double* __restrict L,
+              Eigen::Index stride,
+              Eigen::Index begin,
+              Eigen::Index end) {
+  double weights[D];
+  for (int d = 0; d < D; ++d) weights[d] = L[begin + d * stride];
+  for (Eigen::Index r = begin; r < end; ++r) {
+    double sum = L[r] * weights[0];
+    for (int d = 1; d < D; ++d) sum += L[r + d * stride] * weights[d];
+    column[r] -= sum;
+  }
+}
+
+/// Solves L y = x of a panel in place, and subtracts its rows below from `below`.
+void solve_forward(const double* L,
+                   Eigen::Index width,
+                   Eigen::Index height,
+                   double* __restrict x,
+                   double* __restrict below) {
+  for (Eigen::Index c = 0; c < width; ++c, L += height) {
+    const double value = x[c] /= L[c];
+    for (Eigen::Index r = c + 1; r < width; ++r) x[r] -= L[r] * value;
+    for (Eigen::Index r = width; r < height; ++r) below[r - width] -= L[r] * value;
+  }
+}
+
+/// Solves L' x = y - B' below of a panel in place, where B are its rows below.
+void solve_backward(const double* L,
+                    Eigen::Index width,
+                    Eigen::Index height,
+                    double* __restrict x,
+                    const double* __restrict below) {
+  using Vector = Eigen::Map<const Eigen::VectorXd>;
+  for (Eigen::Index c = width; c-- > 0;) {
+    const double* column = L + c * height;
+    const double sum = Vector(column + width, height - width).dot(Vector(below, height - width)) +
+                       Vector(column + c + 1, width - c - 1).dot(Vector(x + c + 1, width - c - 1));
+    x[c] = (x[c] - sum) / column[c];
+  }
+}
+
+}  // namespace
+
+template <int D>
+BlockCholesky<D>::BlockCholesky(const EliminationStructure& structure)
+    : structure_(structure), children_(structure.supernodes().size()) {
+  std::size_t size = 0;
+  std::size_t top = 0;
+  std::size_t highest = 0;
+  int most_rows = 0;
+  for (std::size_t s = 0; s < children_.size(); ++s) {
+    const Supernode& node = structure.supernodes()[s];
+    panel_.push_back(size);
+    size +=
+        static_cast<std::size_t>(node.rows() * D) * static_cast<std::size_t>(node.columns() * D);
+    const auto side = static_cast<std::size_t>(node.below * D);
+    highest = std::max(highest, top + side * side);
+    update_.push_back(children_[s].empty() ? top : update_[children_[s].front()]);
+    top = update_[s] + side * side;
+    most_rows = std::max(most_rows, node.below);
+    if (node.parent < 0) continue;
+    const auto parent = static_cast<std::size_t>(node.parent);
+    children_[parent].push_back(s);
+    for (int r = 0; r < node.below; ++r) {
+      row_in_parent_.push_back(
+          structure.row_in(structure.supernodes()[parent], structure.rows_below(node)[r]));
+    }
+  }
+  values_.resize(size);
+  stack_.resize(highest);
+  gathered_.resize(most_rows * D);
+  ordered_.resize(structure.blocks() * D);
+}
+
+template <int D>
+typename BlockCholesky<D>::Place BlockCholesky<D>::place(int i, int j) const {
+  const int row = std::max(structure_.position(i), structure_.position(j));
+  const int column = std::min(structure_.position(i), structure_.position(j));
+  const int s = structure_.supernode_of(column);
+  const Supernode& node = structure_.supernodes()[static_cast<std::size_t>(s)];
+  const Eigen::Index stride = node.rows() * D;
+  const Eigen::Index offset = (column - node.first) * D * stride + structure_.row_in(node, row) * D;
+  return {panel_[static_cast<std::size_t>(s)] + static_cast<std::size_t>(offset),
+          stride,
+          structure_.position(i) < structure_.position(j)};
+}
+
+template <int D>
+void BlockCholesky<D>::set_zero() {
+  std::ranges::fill(values_, 0.0);
+}
+
+template <int D>
+void BlockCholesky<D>::add(const Place& at, const Block& block) {
+  Eigen::Map<Block, 0, Eigen::OuterStride<>> to(values_.data() + at.offset,
+                                                Eigen::OuterStride<>(at.stride));
+  if (at.is_transposed) {
+    to += block.transpose();
+  } else {
+    to += block;
+  }
+}
+
+template <int D>
+void BlockCholesky<D>::scale_diagonal(double factor, Eigen::VectorXd& diagonal) {
+  diagonal.resize(structure_.blocks() * D);
+  for (int i = 0; i < structure_.blocks(); ++i) {
+    const Place at = place(i, i);
+    for (int d = 0; d < D; ++d) {
+      double& entry = values_[at.offset + static_cast<std::size_t>(d * (at.stride + 1))];
+      diagonal[i * D + d] = entry;
+      entry *= 1.0 + factor;
+    }
+  }
+}
+
+template <int D>
+bool BlockCholesky<D>::eliminate_panel(double* panel, int columns, int rows) {
+  constexpr Eigen::Index kWide = 48;  // from here on Eigen's blocked kernels are faster
+  const Eigen::Index height = rows * D;
+  const Eigen::Index width = columns * D;
+  if (width >= kWide) {
+    Dense top = dense(panel, width, width, height);
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(top);
+    if (factor.info() != Eigen::Success) return false;
+    Dense below = dense(panel + width, height - width, width, height);
+    top.triangularView<Eigen::Lower>().transpose().template solveInPlace<Eigen::OnTheRight>(below);
+    return true;
+  }
+  for (Eigen::Index begin = 0; begin < width; begin += D) {
+    double* block = panel + begin * height;
+    for (Eigen::Index c = begin; c < begin + D; ++c) {
+      double* column = panel + c * height;
+      const double pivot = column[c];
+      if (!(pivot > 0.0)) return false;
+      const double root = std::sqrt(pivot);
+      const double inverse = 1.0 / root;
+      column[c] = root;
+      for (Eigen::Index r = c + 1; r < height; ++r) column[r] *= inverse;
+      for (Eigen::Index next = c + 1; next < begin + D; ++next) {
+        subtract<1>(panel + next * height, column, height, next, height);
+      }
+    }
+    for (Eigen::Index next = begin + D; next < width; ++next) {
+      subtract<D>(panel + next * height, block, height, next, height);
+    }
+  }
+  return true;
+}
+
+template <int D>
+void BlockCholesky<D>::subtract_products(double* update,
+                                         const double* panel,
+                                         int columns,
+                                         int rows) {
+  constexpr Eigen::Index kLarge = 96;  // from here on Eigen's blocked kernel is faster
+  const Eigen::Index height = rows * D;
+  const Eigen::Index width = columns * D;
+  const Eigen::Index side = height - width;
+  if (side + width >= kLarge) {
+    dense(update, side, side, side)
+        .template selfadjointView<Eigen::Lower>()
+        .rankUpdate(ConstDense(panel + width, side, width, Eigen::OuterStride<>(height)), -1.0);
+    return;
+  }
+  for (Eigen::Index column = 0; column < side; ++column) {
+    for (Eigen::Index c = 0; c < width; c += D) {
+      subtract<D>(update + column * side, panel + width + c * height, height, column, side);
+    }
+  }
+}
+
+template <int D>
+void BlockCholesky<D>::add_update(const double* from,
+                                  std::size_t child,
+                                  double* panel,
+                                  double* update) {
+  const Supernode& node = structure_.supernodes()[child];
+  const Supernode& parent = structure_.supernodes()[static_cast<std::size_t>(node.parent)];
+  const int* rows = row_in_parent_.data() + node.offset;
+  const Eigen::Index side = node.below * D;
+  for (int column = 0; column < node.below; ++column) {
+    const int to = rows[column];
+    const bool is_pivot = to < parent.columns();
+    const Eigen::Index stride = (is_pivot ? parent.rows() : parent.below) * D;
+    const int shift = is_pivot ? 0 : parent.columns();
+    double* target = (is_pivot ? panel : update) + (to - shift) * D * stride - shift * D;
+    for (int begin = column, end = column; begin < node.below; begin = end) {
+      do ++end;
+      while (end < node.below && rows[end] == rows[end - 1] + 1);
+      const Eigen::Index height = (end - begin) * D;
+      for (int d = 0; d < D; ++d) {
+        const double* source = from + (column * D + d) * side + begin * D;
+        double* sum = target + d * stride + rows[begin] * D;
+        for (Eigen::Index r = 0; r < height; ++r) sum[r] += source[r];
+      }
+    }
+  }
+}
+
+template <int D>
+bool BlockCholesky<D>::factorise() {
+  for (std::size_t s = 0; s < children_.size(); ++s) {
+    const Supernode& node = structure_.supernodes()[s];
+    const auto side = static_cast<std::size_t>(node.below * D);
+    double* panel = values_.data() + panel_[s];
+    std::size_t top = update_[s];  // above the updates of the children
+    if (!children_[s].empty()) {
+      const std::size_t last = children_[s].back();
+      const auto last_side = static_cast<std::size_t>(structure_.supernodes()[last].below * D);
+      top = update_[last] + last_side * last_side;
+    }
+    double* update = stack_.data() + top;
+    std::fill(update, update + side * side, 0.0);
+    for (const std::size_t child : children_[s]) {
+      add_update(stack_.data() + update_[child], child, panel, update);
+    }
+    if (!eliminate_panel(panel, node.columns(), node.rows())) return false;
+    if (side == 0) continue;
+    subtract_products(update, panel, node.columns(), node.rows());
+    if (top != update_[s]) std::copy(update, update + side * side, stack_.data() + update_[s]);
+  }
+  return true;
+}
+
+template <int D>
+void BlockCholesky<D>::solve(Eigen::MatrixXd& right) {
+  for (Eigen::Index column = 0; column < right.cols(); ++column) {
+    for (int i = 0; i < structure_.blocks(); ++i) {
+      ordered_.segment<D>(structure_.position(i) * D) = right.col(column).segment<D>(i * D);
+    }
+    const auto for_rows = [&](const Supernode& node, auto visit) {
+      const int* rows = structure_.rows_below(node);
+      for (int r = 0; r < node.below; ++r) {
+        visit(gathered_.segment<D>(r * D), ordered_.segment<D>(rows[r] * D));
+      }
+    };
+    for (std::size_t s = 0; s < children_.size(); ++s) {
+      const Supernode& node = structure_.supernodes()[s];
+      gathered_.head(node.below * D).setZero();
+      solve_forward(values_.data() + panel_[s],
+                    node.columns() * D,
+                    node.rows() * D,
+                    ordered_.data() + node.first * D,
+                    gathered_.data());
+      for_rows(node, [](auto gathered, auto ordered) { ordered += gathered; });
+    }
+    for (std::size_t s = children_.size(); s-- > 0;) {
+      const Supernode& node = structure_.supernodes()[s];
+      for_rows(node, [](auto gathered, auto ordered) { gathered = ordered; });
+      solve_backward(values_.data() + panel_[s],
+                     node.columns() * D,
+                     node.rows() * D,
+                     ordered_.data() + node.first * D,
+                     gathered_.data());
+    }
+    for (int i = 0; i < structure_.blocks(); ++i) {
+      right.col(column).segment<D>(i * D) = ordered_.segment<D>(structure_.position(i) * D);
+    }
+  }
+}
+
+template class BlockCholesky<1>;
+template class BlockCholesky<2>;
+template class BlockCholesky<3>;
+template class BlockCholesky<6>;
+template class BlockCholesky<7>;
+
+}  // namespace loopbench::methods

@@ -1,0 +1,63 @@
+/// Cholesky factorisation of a sparse symmetric matrix of D x D blocks.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "methods/solvers/elimination_structure.hpp"
+
+namespace loopbench::methods {
+
+/// Multifrontal factorisation: the panel of a supernode is assembled from the matrix and from the
+/// updates of its children in the elimination tree, and its own update goes to its parent. The
+/// matrix is assembled directly into the panels of the factor, so that nothing is allocated after
+/// construction. Implemented for D = 1, 2, 3, 6, 7. Deterministic, one thread. Source: Liu, The
+/// multifrontal method for sparse matrix solution: theory and practice, SIAM Review 34(1), 1992.
+template <int D>
+class BlockCholesky {
+ public:
+  using Block = Eigen::Matrix<double, D, D>;
+  /// Storage of the block in row i and column j or, if that is in the upper triangle, of its
+  /// transpose.
+  struct Place {
+    std::size_t offset = 0;
+    Eigen::Index stride = 0;
+    bool is_transposed = false;
+  };
+
+  /// `structure` must outlive this object.
+  explicit BlockCholesky(const EliminationStructure& structure);
+
+  /// The pair (i, j) is on the diagonal or in the pairs of the structure.
+  Place place(int i, int j) const;
+  void set_zero();
+  void add(const Place& at, const Block& block);
+  /// Multiplies the diagonal, whose values before are written to `diagonal`, by 1 + `factor`.
+  void scale_diagonal(double factor, Eigen::VectorXd& diagonal);
+
+  /// Replaces the matrix by its factor; false: it is not positive definite to rounding.
+  bool factorise();
+
+  /// Replaces the columns of `right`, with D rows per block, by the solutions.
+  void solve(Eigen::MatrixXd& right);
+
+ private:
+  using Supernode = EliminationStructure::Supernode;
+
+  bool eliminate_panel(double* panel, int columns, int rows);
+  void subtract_products(double* update, const double* panel, int columns, int rows);
+  void add_update(const double* from, std::size_t child, double* panel, double* update);
+
+  const EliminationStructure& structure_;
+  std::vector<std::size_t> panel_;  ///< offset of the panel of each supernode in values_
+  std::vector<double> values_;      ///< panels, column-major, rows() D x columns() D
+  std::vector<std::vector<std::size_t>> children_;
+  std::vector<int> row_in_parent_;   ///< of each row below of each supernode
+  std::vector<double> stack_;        ///< updates that wait for their parent, lower triangles
+  std::vector<std::size_t> update_;  ///< offset of the update of each supernode in stack_
+  Eigen::VectorXd ordered_;
+  Eigen::VectorXd gathered_;
+};
+
+}  // namespace loopbench::methods

@@ -1,0 +1,152 @@
+/// Robust least squares on a pose graph with Ceres.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "methods/solvers/pose_graph_costs.hpp"
+#include "methods/solvers/pose_graph_solver.hpp"
+#include "methods/solvers/weighted_graph.hpp"
+
+namespace loopbench::methods {
+
+/// rho and its first two derivatives; x is the squared residual.
+class DynamicCovarianceScaling final : public ceres::LossFunction {
+ public:
+  explicit DynamicCovarianceScaling(double width) : width_(width) {}
+  void Evaluate(double x, double rho[3]) const override {
+    if (x <= width_) {
+      rho[0] = x, rho[1] = 1.0, rho[2] = 0.0;
+      return;
+    }
+    const double sum = width_ + x;
+    const double four = 4.0 * width_ * width_;
+    rho[0] = 3.0 * width_ - four / sum, rho[1] = four / (sum * sum);
+    rho[2] = -2.0 * four / (sum * sum * sum);
+  }
+
+ private:
+  double width_;
+};
+
+class SwitchableConstraint final : public ceres::LossFunction {
+ public:
+  explicit SwitchableConstraint(double width) : width_(width) {}
+  void Evaluate(double x, double rho[3]) const override {
+    const double sum = width_ + x;
+    const double s = width_ / sum;  // the switch
+    rho[0] = s * x, rho[1] = s * s, rho[2] = -2.0 * s * s / sum;
+  }
+
+ private:
+  double width_;
+};
+
+inline std::unique_ptr<ceres::LossFunction> make_loss(const PoseGraphSettings& settings) {
+  const double width = settings.loss_width;
+  switch (settings.loss) {
+    case RobustLoss::none:
+      return nullptr;
+    case RobustLoss::huber:
+      return std::make_unique<ceres::HuberLoss>(std::sqrt(width));
+    case RobustLoss::cauchy:
+      return std::make_unique<ceres::CauchyLoss>(std::sqrt(width));
+    case RobustLoss::dcs:
+      return std::make_unique<DynamicCovarianceScaling>(width);
+    case RobustLoss::switchable:
+      return std::make_unique<SwitchableConstraint>(width);
+  }
+  return nullptr;
+}
+
+inline ceres::Solver::Options solver_options(const PoseGraphSettings& settings) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = settings.max_iterations;
+  options.function_tolerance = settings.tolerance;
+  // Only the change of the cost ends the iterations: gradients depend on units, and steps on the
+  // length of the trajectory.
+  options.gradient_tolerance = 1e-16;
+  options.parameter_tolerance = 1e-16;
+  // Long chains have directions with 1e-9 of the stiffness of their diagonal, along which Ceres's
+  // default damping of 1e-4 converges very slowly. Unsuccessful steps shrink the region quickly.
+  options.initial_trust_region_radius = 1e12;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  return options;
+}
+
+/// Whether the last steps were rejected although they exceed rounding: the cost is flat to its
+/// rounding error, but the poses have not converged. On long chains 1e-12 of the cost corresponds
+/// to a tenth of a millimetre.
+inline bool stalled(const ceres::Solver::Summary& summary) {
+  constexpr double kConverged = 1e-6;  // [m], [rad], norm over all poses
+  if (summary.termination_type != ceres::CONVERGENCE) return false;
+  double rejected = 0.0;
+  for (auto last = summary.iterations.rbegin(); last != summary.iterations.rend(); ++last) {
+    if (last->step_is_successful) break;
+    rejected = last->step_norm;  // ends with the earliest of them, which is damped least
+  }
+  return rejected > kConverged;
+}
+
+/// Options for a few more steps that may raise the cost.
+inline ceres::Solver::Options polishing_options(const PoseGraphSettings& settings) {
+  constexpr int kMaxIterations = 50;
+  ceres::Solver::Options options = solver_options(settings);
+  options.max_num_iterations = std::min(kMaxIterations, settings.max_iterations);
+  options.use_nonmonotonic_steps = true;
+  return options;
+}
+
+/// Moves `x`, in the world of pose 0, to a minimum of the cost of solve_pose_graph().
+template <class G>
+PoseGraphSummary minimise_with_ceres(std::vector<typename G::Element>& x,
+                                     const WeightedGraph& graph,
+                                     const PoseGraphSettings& settings) {
+  RightPerturbation<G> manifold;
+  const auto loss = make_loss(settings);
+  ceres::Problem::Options problem_options;
+  problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  problem_options.disable_all_safety_checks = true;
+  ceres::Problem problem(problem_options);
+  std::vector<std::array<double, static_cast<std::size_t>(G::kSize)>> blocks(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    G::write(x[i], blocks[i].data());
+    problem.AddParameterBlock(blocks[i].data(), G::kSize, &manifold);
+  }
+  graph.for_each_edge([&](const Edge& edge, double weight, bool is_closure) {
+    problem.AddResidualBlock(new EdgeCost<G>(edge, weight, settings.scale_sigma),
+                             is_closure ? loss.get() : nullptr,
+                             blocks[edge.from].data(),
+                             blocks[edge.to].data());
+  });
+  if constexpr (G::kDof <= 6) {
+    for (const Anchor& anchor : graph.anchors) {
+      problem.AddResidualBlock(new AnchorCost<G>(anchor), nullptr, blocks[anchor.keyframe].data());
+    }
+  }
+  if (!graph.is_first_free) problem.SetParameterBlockConstant(blocks.front().data());
+
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver_options(settings), &problem, &summary);
+  if (!summary.IsSolutionUsable()) throw std::runtime_error("pose graph: " + summary.message);
+  int linear_solves = summary.num_linear_solves;
+  double cost = summary.final_cost;
+  if (stalled(summary)) {
+    ceres::Solver::Summary polished;
+    ceres::Solve(polishing_options(settings), &problem, &polished);
+    if (!polished.IsSolutionUsable()) throw std::runtime_error("pose graph: " + polished.message);
+    linear_solves += polished.num_linear_solves;
+    cost = polished.final_cost;
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = G::read(blocks[i].data());
+  return {
+      linear_solves, summary.initial_cost, cost, summary.termination_type == ceres::CONVERGENCE};
+}
+
+}  // namespace loopbench::methods

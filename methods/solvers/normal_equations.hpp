@@ -1,0 +1,156 @@
+/// Normal equations of the edges and anchors of a pose graph.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "methods/solvers/anchor_residual.hpp"
+#include "methods/solvers/block_cholesky.hpp"
+#include "methods/solvers/edge_residual.hpp"
+#include "methods/solvers/weighted_graph.hpp"
+
+namespace loopbench::methods {
+
+/// J' J d = -J' r of the residuals r of solve_pose_graph() without loss. The pattern of the matrix
+/// and the order of its elimination are computed once; linearise() and solve() allocate nothing.
+template <class G>
+class NormalEquations {
+ public:
+  using Element = typename G::Element;
+  using Tangent = typename G::Tangent;
+  using Square = typename G::Square;
+
+  explicit NormalEquations(const WeightedGraph& graph)
+      : first_(graph.is_first_free ? 0 : 1), structure_(structure_of(graph)), factor_(structure_) {
+    for (int i = 0; i < structure_.blocks(); ++i) diagonal_places_.push_back(factor_.place(i, i));
+    graph.for_each_edge([&](const Edge& edge, double weight, bool) {
+      Term term{static_cast<int>(edge.from) - first_,
+                static_cast<int>(edge.to) - first_,
+                G::inverse(G::from(measured(edge))),
+                information_root<G>(edge, weight, graph.scale_sigma),
+                {}};
+      if (std::min(term.from, term.to) >= 0) term.between = factor_.place(term.from, term.to);
+      terms_.push_back(term);
+    });
+    for (const Anchor& anchor : graph.anchors) {
+      anchors_.push_back({anchor, anchor.covariance.inverse().llt().matrixU()});
+    }
+    gradient_.resize(structure_.blocks() * G::kDof, 1);
+  }
+
+  /// Index of the first pose that is estimated: 0 or 1.
+  std::size_t first() const { return static_cast<std::size_t>(first_); }
+
+  /// Returns half the sum of squared residuals.
+  double cost(const std::vector<Element>& x) const {
+    double sum = 0.0;
+    for (const Term& term : terms_) {
+      const Element from_from_to = G::compose(G::inverse(pose(x, term.from)), pose(x, term.to));
+      sum += (term.root * group_edge_error<G>(term.back, from_from_to)).squaredNorm();
+    }
+    for (const WhitenedAnchor& each : anchors_) {
+      const Pose at = G::to_scaled_pose(x[each.anchor.keyframe]).pose;
+      sum += (each.root * anchor_error(each.anchor, at)).squaredNorm();
+    }
+    return 0.5 * sum;
+  }
+
+  /// Assembles the equations at `x` and returns the cost there.
+  double linearise(const std::vector<Element>& x) {
+    factor_.set_zero();
+    gradient_.setZero();
+    double sum = 0.0;
+    for (const Term& term : terms_) {
+      const Element from_from_to = G::compose(G::inverse(pose(x, term.from)), pose(x, term.to));
+      const Tangent error = group_edge_error<G>(term.back, from_from_to);
+      const Tangent whitened = term.root * error;
+      sum += whitened.squaredNorm();
+      const Square J = term.root * G::inverse_right_jacobian(error);  // by the second pose
+      const Square H = J.transpose() * J;
+      const Tangent g = J.transpose() * whitened;
+      if (term.to >= 0) add(term.to, H, g);
+      if (term.from < 0) continue;
+      // The derivative by the first pose is -J M; see edge_residual().
+      const Square M = G::adjoint(G::inverse(from_from_to));
+      const Square MH = M.transpose() * H;
+      add(term.from, MH * M, -(M.transpose() * g));
+      if (term.to >= 0) factor_.add(term.between, -MH);
+    }
+    for (const WhitenedAnchor& each : anchors_) {
+      const Pose at = G::to_scaled_pose(x[each.anchor.keyframe]).pose;
+      const AnchorResidual residual = anchor_residual(each.anchor, at);
+      const Vector3 whitened = each.root * residual.error;
+      sum += whitened.squaredNorm();
+      const auto block = static_cast<int>(each.anchor.keyframe) - first_;
+      if (block < 0) continue;
+      Eigen::Matrix<double, 3, G::kDof> J = Eigen::Matrix<double, 3, G::kDof>::Zero();
+      constexpr int kPlane[] = {0, 1, 5};
+      for (int i = 0; i < std::min(G::kDof, 6); ++i) {
+        J.col(i) = each.root * residual.by_pose.col(G::kDof == 3 ? kPlane[i] : i);
+      }
+      add(block, J.transpose() * J, J.transpose() * whitened);
+    }
+    return 0.5 * sum;
+  }
+
+  struct Step {
+    Eigen::MatrixXd values;     ///< one column, kDof numbers per estimated pose
+    double predicted_decrease;  ///< of the cost
+  };
+
+  /// Solves (H + damping diag(H)) d = -g once per linearise(). False: not positive definite.
+  bool solve(double damping, Step& step) {
+    factor_.scale_diagonal(damping, diagonal_);
+    if (!factor_.factorise()) return false;
+    step.values = -gradient_;
+    factor_.solve(step.values);
+    const auto d = step.values.col(0).array();
+    step.predicted_decrease =
+        0.5 * ((damping * diagonal_.array() * d - gradient_.col(0).array()) * d).sum();
+    return true;
+  }
+
+ private:
+  struct Term {
+    int from;  ///< block, -1: the fixed pose
+    int to;
+    Element back;  ///< inverse of the measurement
+    Square root;
+    typename BlockCholesky<G::kDof>::Place between;
+  };
+  struct WhitenedAnchor {
+    Anchor anchor;
+    Matrix3 root;
+  };
+
+  static EliminationStructure structure_of(const WeightedGraph& graph) {
+    const int first = graph.is_first_free ? 0 : 1;
+    std::vector<std::pair<int, int>> pairs;
+    graph.for_each_edge([&](const Edge& edge, double, bool) {
+      const auto i = static_cast<int>(edge.from) - first;
+      const auto j = static_cast<int>(edge.to) - first;
+      if (std::min(i, j) >= 0) pairs.emplace_back(i, j);
+    });
+    return {static_cast<int>(graph.poses) - first, pairs};
+  }
+
+  const Element& pose(const std::vector<Element>& x, int block) const {
+    return x[static_cast<std::size_t>(block + first_)];
+  }
+  void add(int block, const Square& H, const Tangent& g) {
+    factor_.add(diagonal_places_[static_cast<std::size_t>(block)], H);
+    gradient_.middleRows<G::kDof>(block * G::kDof) += g;
+  }
+
+  int first_;
+  EliminationStructure structure_;
+  BlockCholesky<G::kDof> factor_;
+  std::vector<typename BlockCholesky<G::kDof>::Place> diagonal_places_;
+  std::vector<Term> terms_;
+  std::vector<WhitenedAnchor> anchors_;
+  Eigen::MatrixXd gradient_;
+  Eigen::VectorXd diagonal_;
+};
+
+}  // namespace loopbench::methods
