@@ -1,3 +1,4 @@
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <cmath>
@@ -17,9 +18,15 @@ struct Weights {
 };
 
 Weights weights_of(const Edge& edge) {
-  const Matrix6 covariance = edge.information.inverse();
-  return {3.0 / covariance.bottomRightCorner<3, 3>().trace(),
-          3.0 / covariance.topLeftCorner<3, 3>().trace()};
+  // The variances are the squared norms of the columns of L^-1. The inverse of the matrix would
+  // take a fifth of the time of the chordal relaxation.
+  const Eigen::LLT<Matrix6> factor(edge.information);
+  Vector3 variances[2];
+  for (int i = 0; i < 6; ++i) {
+    const Twist column = factor.matrixL().solve(Twist::Unit(i));
+    variances[i / 3][i % 3] = column.squaredNorm();
+  }
+  return {3.0 / variances[1].sum(), 3.0 / variances[0].sum()};
 }
 
 /// Normal equations whose unknowns are blocks of D rows for keyframes 1, 2, ..; keyframe 0 is
