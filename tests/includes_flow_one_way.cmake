@@ -67,7 +67,7 @@ set(folder_ceres "methods/solvers/")
 set(header_yaml "yaml-cpp/")
 set(folder_yaml "harness/config/")
 set(header_sqlite "sqlite3")
-set(folder_sqlite "harness/store/|datasets/bags/db3\\.cpp")  # stores, and ROS 2 bags
+set(folder_sqlite "harness/store/|datasets/bags/sqlite_file\\.cpp")  # stores, and files of others
 set(header_re2 "re2/")
 set(folder_re2 "harness/base/pattern\\.")
 set(header_cli "CLI/")

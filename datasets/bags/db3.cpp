@@ -1,7 +1,6 @@
 // ROS 2 bag in SQLite: tables topics(id, name, type, ...) and messages(id, topic_id, timestamp,
 // data). Messages can be compressed one by one (compression_mode: message).
 #include <fmt/format.h>
-#include <sqlite3.h>
 
 #include <map>
 
@@ -14,19 +13,14 @@ namespace {
 
 constexpr std::size_t kMaxMessage = std::size_t{1} << 30;  // [bytes]
 
-std::string text_column(const SqliteQuery& query, int column) {
-  const auto* text = sqlite3_column_text(query.get(), column);
-  return text == nullptr ? "" : reinterpret_cast<const char*>(text);
-}
-
 std::map<std::int64_t, BagTopic> topics_of(const SqliteFile& db) {
   std::map<std::int64_t, BagTopic> out;
   const SqliteQuery query = prepared(db, "SELECT id, name, type, serialization_format FROM topics");
-  while (query && sqlite3_step(query.get()) == SQLITE_ROW) {
-    BagTopic topic{text_column(query, 1), text_column(query, 2)};
+  while (step(query) == SqliteStep::row) {
+    BagTopic topic{std::string(text(query, 1)), std::string(text(query, 2))};
     topic.encoding = Encoding::cdr;
-    if (text_column(query, 3) == "cdr") topic.type = message_type(topic.type_name);
-    out[sqlite3_column_int64(query.get(), 0)] = topic;
+    if (text(query, 3) == "cdr") topic.type = message_type(topic.type_name);
+    out[integer(query, 0)] = topic;
   }
   return out;
 }
@@ -45,10 +39,10 @@ BagSummary read_db3(const OpenedFile& file, const WantsTopic& wants, const Visit
   const SqliteQuery query = prepared(db, "SELECT topic_id, data FROM messages ORDER BY id");
   std::size_t read = 0;
   std::size_t damaged = 0;
-  int code = SQLITE_CORRUPT;
-  while (query && (code = sqlite3_step(query.get())) == SQLITE_ROW) {
+  SqliteStep last = SqliteStep::failed;
+  while ((last = step(query)) == SqliteStep::row) {
     ++read;
-    const auto topic = topics.find(sqlite3_column_int64(query.get(), 0));
+    const auto topic = topics.find(integer(query, 0));
     if (topic == topics.end() || !wants(topic->second)) continue;
     const std::string_view bytes = blob(query, 1);
     try {
@@ -62,8 +56,8 @@ BagSummary read_db3(const OpenedFile& file, const WantsTopic& wants, const Visit
     }
   }
   if (damaged > 0) out.add_damage(fmt::format("{} messages are damaged", damaged));
-  if (code != SQLITE_DONE) {
-    out.add_damage(fmt::format("stops after {} messages: {}", read, sqlite3_errmsg(db.get())));
+  if (last == SqliteStep::failed) {
+    out.add_damage(fmt::format("stops after {} messages: {}", read, last_error(db)));
   }
   return out;
 }

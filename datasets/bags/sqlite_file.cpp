@@ -1,6 +1,7 @@
 #include "datasets/bags/sqlite_file.hpp"
 
 #include <fmt/format.h>
+#include <sqlite3.h>
 
 #include <algorithm>
 #include <fstream>
@@ -39,6 +40,9 @@ int load_into(sqlite3* db, const OpenedFile& file) {
 
 }  // namespace
 
+void CloseSqlite::operator()(sqlite3* handle) const { sqlite3_close(handle); }
+void CloseSqlite::operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
+
 SqliteFile open_sqlite(const OpenedFile& file) {
   const bool in_memory = file.memory != nullptr;
   sqlite3* handle = nullptr;
@@ -66,11 +70,27 @@ SqliteQuery prepared(const SqliteFile& db, const char* sql) {
 bool has_tables(const SqliteFile& db, std::initializer_list<std::string_view> names) {
   const SqliteQuery query = prepared(db, "SELECT name FROM sqlite_master WHERE type = 'table'");
   std::size_t found = 0;
-  while (query && sqlite3_step(query.get()) == SQLITE_ROW) {
-    const auto* name = reinterpret_cast<const char*>(sqlite3_column_text(query.get(), 0));
-    found += name != nullptr && std::ranges::count(names, std::string_view(name)) > 0 ? 1 : 0;
-  }
+  while (step(query) == SqliteStep::row) found += std::ranges::count(names, text(query, 0)) > 0;
   return found == names.size();
+}
+
+SqliteStep step(const SqliteQuery& query) {
+  const int code = query ? sqlite3_step(query.get()) : SQLITE_CORRUPT;
+  if (code == SQLITE_ROW) return SqliteStep::row;
+  return code == SQLITE_DONE ? SqliteStep::done : SqliteStep::failed;
+}
+
+std::int64_t integer(const SqliteQuery& query, int column) {
+  return sqlite3_column_int64(query.get(), column);
+}
+
+double real(const SqliteQuery& query, int column) {
+  return sqlite3_column_double(query.get(), column);
+}
+
+std::string_view text(const SqliteQuery& query, int column) {
+  const auto* found = reinterpret_cast<const char*>(sqlite3_column_text(query.get(), column));
+  return found == nullptr ? std::string_view() : std::string_view(found);
 }
 
 std::string_view blob(const SqliteQuery& query, int column) {
@@ -79,5 +99,7 @@ std::string_view blob(const SqliteQuery& query, int column) {
   return data == nullptr ? std::string_view()
                          : std::string_view(data, static_cast<std::size_t>(size));
 }
+
+std::string last_error(const SqliteFile& db) { return sqlite3_errmsg(db.get()); }
 
 }  // namespace loopbench

@@ -11,6 +11,7 @@
 
 #include "datasets/bags/messages.hpp"
 #include "datasets/bags/sqlite_file.hpp"
+#include "datasets/core/fields.hpp"
 #include "datasets/formats/definite_information.hpp"
 #include "datasets/formats/g2o_information.hpp"
 
@@ -62,10 +63,10 @@ std::vector<MapNode> nodes_of(const SqliteFile& db, const OpenedFile& file) {
   std::vector<MapNode> out;
   const SqliteQuery query =
       prepared(db, "SELECT id, stamp, pose FROM Node WHERE id > 0 ORDER BY id");
-  while (query && sqlite3_step(query.get()) == SQLITE_ROW) {
+  while (step(query) == SqliteStep::row) {
     const auto pose = transform_of(blob(query, 2));
-    const double stamp = sqlite3_column_double(query.get(), 1);
-    if (pose) out.push_back({sqlite3_column_int64(query.get(), 0), stamp, *pose});
+    const double stamp = real(query, 1);
+    if (pose) out.push_back({integer(query, 0), stamp, *pose});
   }
   if (out.empty()) {
     throw file.error(
@@ -134,13 +135,13 @@ PoseGraph read_rtabmap_graph(const std::filesystem::path& file) {
       db, "SELECT from_id, to_id, transform, information_matrix, type FROM Link ORDER BY rowid");
   std::set<std::pair<std::size_t, std::size_t>> known;
   std::size_t row = 0;
-  while (query && sqlite3_step(query.get()) == SQLITE_ROW) {
+  while (step(query) == SqliteStep::row) {
     ++row;
-    const int type = sqlite3_column_int(query.get(), 4);
-    const auto from = index_of(nodes, sqlite3_column_int64(query.get(), 0));
-    const auto to = index_of(nodes, sqlite3_column_int64(query.get(), 1));
-    if (!from || !to || *from == *to || type > kMergedNeighbour) continue;
-    if (type > kLastClosure && type != kMergedNeighbour) continue;
+    const std::int64_t type = integer(query, 4);
+    const auto from = index_of(nodes, integer(query, 0));
+    const auto to = index_of(nodes, integer(query, 1));
+    const bool is_wanted = type <= kLastClosure || type == kMergedNeighbour;
+    if (!is_wanted || !from || !to || *from == *to) continue;
     if (!known.insert(std::minmax(*from, *to)).second) continue;
     Edge edge = edge_of(query, fmt::format("{}: row {} of Link: ", input.name, row));
     edge.from = *from, edge.to = *to;
