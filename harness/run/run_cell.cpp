@@ -19,7 +19,6 @@
 #include "harness/run/doctor_notes.hpp"
 #include "harness/run/estimate_files.hpp"
 #include "harness/run/sequence_identity.hpp"
-#include "methods/pipeline.hpp"
 #include "metrics/trajectory/tracking_gaps.hpp"
 
 namespace loopbench::harness {
@@ -223,32 +222,6 @@ void add_scores_without_reference(CellResult& result,
 }
 
 }  // namespace
-
-std::unique_ptr<const methods::Estimator> make_method(const MethodChoice& choice,
-                                                      const Catalogue& catalogue,
-                                                      const Trajectory& reference,
-                                                      const CommandSetting& setting) {
-  std::unique_ptr<const methods::Corrector> corrector;
-  std::unique_ptr<const methods::Smoother> smoother;
-  std::unique_ptr<const methods::Estimator> joint;
-  std::unique_ptr<const methods::Replayer> replayer;
-  for (const Choice& part : choice.stages) {
-    const methods::MethodEntry& entry = find_method(catalogue, part.name);
-    methods::Stage stage = entry.make_oracle  ? entry.make_oracle(part.options, reference)
-                           : is_program(part) ? make_program(part, setting)
-                                              : entry.make(part.options);
-    const auto take = [&stage](auto& to) {
-      using Held = std::remove_reference_t<decltype(to)>;
-      if (auto* held = std::get_if<Held>(&stage)) to = std::move(*held);
-    };
-    take(corrector);
-    take(smoother);
-    take(joint);
-    take(replayer);
-  }
-  if (joint == nullptr) joint = methods::compose(std::move(corrector), std::move(smoother));
-  return replayer == nullptr ? std::move(joint) : replayer->replayed(std::move(joint));
-}
 
 CellResult run_cell(const Cell& cell,
                     const Sweep& sweep,
