@@ -67,8 +67,12 @@ Part part_of(const TextFile& file, const Line& first, std::size_t before, int ax
   for (std::size_t i = 0; i < before; ++i) columns.word();
   const auto count = static_cast<std::size_t>(axes * (axes + 1) / 2);
   const Numbers v = numbers_of(columns, count);
-  const bool is_lower = is_covariance(matrix_of(v, Part::lower, axes), axes == 6);
-  if (is_lower && is_covariance(matrix_of(v, Part::upper, axes), axes == 6)) {
+  const auto fits = [&](Part part) {  // axes without an error say nothing about the part
+    const Matrix6 matrix = matrix_of(v, part, axes);
+    return is_covariance(matrix, axes == 6) && (matrix.diagonal().head(axes).array() > 0.0).all();
+  };
+  const bool is_lower = fits(Part::lower);
+  if (is_lower && fits(Part::upper)) {
     throw file.error(first.number,
                      "the upper and the lower triangle of a covariance fit the last " +
                          std::to_string(count) + " columns, expected " +

@@ -103,6 +103,8 @@ def _trajectories(folder):
     for file in folder.glob("*.txt"):
         lines = file.read_text(encoding="utf-8").splitlines()
         head = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
+        if "sequence" not in head:  # a reference
+            continue
         rows = " ".join(line for line in lines if line[0] != "#").split()
         out[head["sequence"], head["method"], head["times"]] = np.array(rows, float).reshape(-1, 8)
     return out
