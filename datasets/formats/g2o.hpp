@@ -41,7 +41,8 @@ struct InformationRules {
   IndefiniteInformation indefinite = IndefiniteInformation::reject;
 };
 
-/// Reads a g2o file, or a database of RTAB-Map (rtabmap.hpp). Conventions of g2o (g2o wiki and sources; TORO; COP-SLAM):
+/// Reads a g2o file, or a database of RTAB-Map (rtabmap.hpp). Conventions of g2o (g2o wiki and
+/// sources; TORO; COP-SLAM):
 /// - Information of :QUAT edges refers to the vector part of the quaternion (half angles) and is
 ///   converted to twists: Omega_phi = Omega_q / 4, Omega_t,phi = Omega_tq / 2 (except for
 ///   RotationInformation::angles).

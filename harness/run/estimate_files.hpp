@@ -14,9 +14,10 @@ namespace loopbench::harness {
 /// cells run.
 void set_estimate_folder(const std::filesystem::path& folder);
 
-/// Writes the reference of the sequence, see reference_file(), and the estimate of a cell in its own world frame: at the keyframes and, if the sweep
-/// evaluates densely, at the reference's stamps (minus the offset of the first protocol) inside its
-/// span. Every digit is written. Does nothing without a folder. Throws InputError.
+/// Writes the reference of the sequence, see reference_file(), and the estimate of a cell in its
+/// own world frame: at the keyframes and, if the sweep evaluates densely, at the reference's stamps
+/// (minus the offset of the first protocol) inside its span. Every digit is written. Does nothing
+/// without a folder. Throws InputError.
 void save_estimate(const Cell& cell,
                    const Sweep& sweep,
                    const Sequence& sequence,
