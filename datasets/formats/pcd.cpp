@@ -51,6 +51,10 @@ CloudHeader cloud_header(const std::string& name, const std::string& bytes) {
     if (key == "POINTS") line >> out.points;
     if (key == "DATA") line >> out.data;
   }
+  if (out.points > bytes.size()) {
+    throw InputError(fmt::format(
+        "{}: states {} points, expected at most one per byte of the file", name, out.points));
+  }
   return out;
 }
 

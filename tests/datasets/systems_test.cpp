@@ -166,6 +166,12 @@ TEST(Systems, LioSamKeyframesAreAPointCloud) {
   }
   const auto cut = scratch.file("cut.pcd", binary.substr(0, binary.size() - 1));
   EXPECT_EQ(refusal([&] { read_trajectory(cut); }), cut.string() + ": ends after 1 of 2 points");
+  std::string many = binary;
+  many.replace(many.find("POINTS 2"), 8, "POINTS 99999999999");
+  const auto file = scratch.file("many.pcd", many);
+  EXPECT_EQ(
+      refusal([&] { read_trajectory(file); }),
+      file.string() + ": states 99999999999 points, expected at most one per byte of the file");
 }
 
 TEST(Systems, OkvisAndTrajectopyNameColumnsInTheirWay) {
