@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -10,13 +11,15 @@
 
 namespace loopbench::methods {
 
-void EliminationTree::add_pose() {
-  nodes_.emplace_back().correction = Eigen::VectorXd::Zero(d_);
+template <int D>
+void EliminationTree<D>::add_pose() {
+  nodes_.emplace_back();
   is_marked_.push_back(0);
   slot_.push_back(-1);
 }
 
-std::vector<std::size_t> EliminationTree::affected_by(const std::vector<std::size_t>& touched) {
+template <int D>
+std::vector<std::size_t> EliminationTree<D>::affected_by(const std::vector<std::size_t>& touched) {
   std::vector<std::size_t> out;
   for (std::size_t pose : touched) {
     for (; pose != kNone && pose != 0 && is_marked_[pose] == 0; pose = nodes_[pose].parent) {
@@ -28,12 +31,13 @@ std::vector<std::size_t> EliminationTree::affected_by(const std::vector<std::siz
   return out;
 }
 
-std::vector<std::size_t> EliminationTree::ordered(const std::vector<std::size_t>& affected,
-                                                  const Graph& graph) {
+template <int D>
+std::vector<std::size_t> EliminationTree<D>::ordered(const std::vector<std::size_t>& affected,
+                                                     const Graph& graph) {
   std::vector<std::vector<std::size_t>> cliques;
   for (const std::size_t pose : affected) {
-    for (const std::size_t edge : graph.edges_of(pose)) {
-      const EdgeEquations& of = graph.equations(edge);
+    for (const std::size_t edge : graph.edges_of[pose]) {
+      const EdgeEquations<D>& of = graph.equations[edge];
       if (of.from == pose && is_marked_[of.to] != 0) cliques.push_back({of.from, of.to});
     }
     for (const std::size_t child : nodes_[pose].children) {
@@ -43,7 +47,14 @@ std::vector<std::size_t> EliminationTree::ordered(const std::vector<std::size_t>
   return elimination_order(affected, cliques);
 }
 
-void EliminationTree::attach_to_parent(std::size_t pose) {
+template <int D>
+std::vector<std::size_t> EliminationTree<D>::by_rank(std::vector<std::size_t> affected) const {
+  std::ranges::sort(affected, {}, [&](std::size_t pose) { return nodes_[pose].rank; });
+  return affected;
+}
+
+template <int D>
+void EliminationTree<D>::attach_to_parent(std::size_t pose) {
   Node& node = nodes_[pose];
   const auto rank_of = [&](std::size_t other) { return nodes_[other].rank; };
   const auto first = std::ranges::min_element(node.separator, {}, rank_of);
@@ -51,25 +62,48 @@ void EliminationTree::attach_to_parent(std::size_t pose) {
   if (node.parent != kNone) nodes_[node.parent].children.push_back(pose);
 }
 
-void EliminationTree::add_block(Eigen::MatrixXd& front,
-                                const Eigen::MatrixXd& block,
-                                const std::vector<std::size_t>& poses) const {
+template <int D>
+template <class Equations, class Poses>
+void EliminationTree<D>::add_equations(Node& node,
+                                       const Equations& equations,
+                                       const Poses& poses) const {
+  // The matrix is symmetric: a block below the diagonal is added to its transpose.
+  const auto block = [&](std::size_t i, std::size_t j) {
+    return equations.template block<D, D>(static_cast<Eigen::Index>(i) * D,
+                                          static_cast<Eigen::Index>(j) * D);
+  };
+  const Eigen::Index right = equations.cols() - 1;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Eigen::Index row = slot_[poses[i]];
-    if (row < 0) continue;  // pose 0
-    const auto from_row = static_cast<Eigen::Index>(i) * d_;
-    for (std::size_t j = 0; j < poses.size(); ++j) {
-      const Eigen::Index column = slot_[poses[j]];
-      if (column < 0) continue;
-      front.block(row * d_, column * d_, d_, d_) +=
-          block.block(from_row, static_cast<Eigen::Index>(j) * d_, d_, d_);
+    const Eigen::Index slot = slot_[poses[i]];
+    if (slot < 0) continue;  // pose 0
+    const Vector value = equations.col(right).template segment<D>(static_cast<Eigen::Index>(i) * D);
+    if (slot == 0) {
+      node.rows.col(node.rows.cols() - 1) += value;
+    } else {
+      node.schur.col(node.schur.cols() - 1).template segment<D>((slot - 1) * D) += value;
     }
-    front.col(front.cols() - 1).segment(row * d_, d_) +=
-        block.col(block.cols() - 1).segment(from_row, d_);
+    for (std::size_t j = i; j < poses.size(); ++j) {
+      const Eigen::Index other = slot_[poses[j]];
+      if (other < 0) continue;
+      const auto [row, column] = std::minmax(slot, other);
+      const auto add_to = [&](auto to) {
+        if (slot <= other) {
+          to += block(i, j);
+        } else {
+          to += block(i, j).transpose();
+        }
+      };
+      if (row == 0) {
+        add_to(node.rows.template middleCols<D>(column * D));
+      } else {
+        add_to(node.schur.template block<D, D>((row - 1) * D, (column - 1) * D));
+      }
+    }
   }
 }
 
-void EliminationTree::eliminate(std::size_t pose, const Graph& graph) {
+template <int D>
+void EliminationTree<D>::eliminate(std::size_t pose, const Graph& graph) {
   Node& node = nodes_[pose];
   std::vector<std::size_t> front_poses;
   const auto add = [&](std::size_t other) {
@@ -79,8 +113,8 @@ void EliminationTree::eliminate(std::size_t pose, const Graph& graph) {
   };
   add(pose);
   std::vector<std::size_t> own;  // an edge belongs to the pose that is eliminated first
-  for (const std::size_t edge : graph.edges_of(pose)) {
-    const EdgeEquations& of = graph.equations(edge);
+  for (const std::size_t edge : graph.edges_of[pose]) {
+    const EdgeEquations<D>& of = graph.equations[edge];
     const std::size_t other = of.from == pose ? of.to : of.from;
     if (other != 0 && nodes_[other].rank < node.rank) continue;
     own.push_back(edge);
@@ -89,51 +123,61 @@ void EliminationTree::eliminate(std::size_t pose, const Graph& graph) {
   for (const std::size_t child : node.children) {
     for (const std::size_t other : nodes_[child].separator) add(other);
   }
-  const auto size = static_cast<Eigen::Index>(front_poses.size()) * d_;
-  Eigen::MatrixXd front = Eigen::MatrixXd::Zero(size, size + 1);
+  const auto rest = static_cast<Eigen::Index>(front_poses.size() - 1) * D;
+  node.rows.setZero(D, D + rest + 1);
+  node.schur.setZero(rest, rest + 1);
   for (const std::size_t edge : own) {
-    const EdgeEquations& of = graph.equations(edge);
-    add_block(front, of.matrix, {of.from, of.to});
+    const EdgeEquations<D>& of = graph.equations[edge];
+    add_equations(node, of.matrix, std::array{of.from, of.to});
   }
   for (const std::size_t child : node.children) {
-    add_block(front, nodes_[child].schur, nodes_[child].separator);
+    add_equations(node, nodes_[child].schur, nodes_[child].separator);
   }
   for (const std::size_t other : front_poses) slot_[other] = -1;
 
-  const Eigen::LLT<Eigen::MatrixXd> factor(front.topLeftCorner(d_, d_));
+  const Eigen::LLT<Eigen::Matrix<double, D, D>> factor(node.rows.template leftCols<D>());
   if (factor.info() != Eigen::Success) {
     throw std::runtime_error("the normal equations of keyframe " + std::to_string(pose) +
                              " are not positive definite");
   }
-  const Eigen::Index rest = size - d_;
-  node.rows.resize(d_, size + 1);
-  node.rows.leftCols(d_) = factor.matrixU();
-  node.rows.rightCols(rest + 1) = factor.matrixL().solve(front.topRightCorner(d_, rest + 1));
-  node.schur = front.bottomRightCorner(rest, rest + 1);
-  node.schur.noalias() -=
-      node.rows.middleCols(d_, rest).transpose() * node.rows.rightCols(rest + 1);
+  node.rows.template leftCols<D>() = factor.matrixU();
+  auto beside = node.rows.rightCols(rest + 1);
+  for (Eigen::Index j = 0; j <= rest; ++j) {
+    Vector column = beside.col(j);
+    factor.matrixL().solveInPlace(column);
+    beside.col(j) = column;
+  }
+  for (Eigen::Index j = 0; j < rest; j += D) {
+    node.schur.template middleCols<D>(j).topRows(j + D).noalias() -=
+        beside.leftCols(j + D).transpose() * beside.template middleCols<D>(j);
+  }
+  node.schur.col(rest).noalias() -= beside.leftCols(rest).transpose() * beside.col(rest);
   node.separator.assign(front_poses.begin() + 1, front_poses.end());
   ++eliminations_;
 }
 
-bool EliminationTree::solve(std::size_t pose) {
+template <int D>
+bool EliminationTree<D>::solve(std::size_t pose) {
   Node& node = nodes_[pose];
-  Eigen::VectorXd right = node.rows.col(node.rows.cols() - 1);
+  Vector right = node.rows.col(node.rows.cols() - 1);
   for (std::size_t k = 0; k < node.separator.size(); ++k) {
-    right -= node.rows.middleCols(static_cast<Eigen::Index>(1 + k) * d_, d_) *
+    right -= node.rows.template middleCols<D>(static_cast<Eigen::Index>(1 + k) * D) *
              nodes_[node.separator[k]].correction;
   }
-  node.rows.leftCols(d_).triangularView<Eigen::Upper>().solveInPlace(right);
+  node.rows.template leftCols<D>().template triangularView<Eigen::Upper>().solveInPlace(right);
   constexpr double kUnchanged = 1e-9;  // [m], [rad]
   const bool changes = (right - node.correction).cwiseAbs().maxCoeff() > kUnchanged;
-  node.correction = std::move(right);
+  node.correction = right;
   return changes;
 }
 
-std::vector<std::size_t> EliminationTree::update(const std::vector<std::size_t>& touched,
-                                                 const Graph& graph) {
+template <int D>
+std::vector<std::size_t> EliminationTree<D>::update(const std::vector<std::size_t>& touched,
+                                                    const Graph& graph,
+                                                    bool has_new_edges) {
   const std::vector<std::size_t> affected = affected_by(touched);
-  const std::vector<std::size_t> order = ordered(affected, graph);
+  const std::vector<std::size_t> order =
+      has_new_edges ? ordered(affected, graph) : by_rank(affected);
   std::vector<std::size_t> orphans;
   for (const std::size_t pose : affected) {
     for (const std::size_t child : nodes_[pose].children) {
@@ -173,5 +217,8 @@ std::vector<std::size_t> EliminationTree::update(const std::vector<std::size_t>&
   for (const std::size_t pose : changed) is_marked_[pose] = 0;
   return solved;
 }
+
+template class EliminationTree<3>;
+template class EliminationTree<6>;
 
 }  // namespace loopbench::methods

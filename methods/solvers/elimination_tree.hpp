@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -11,36 +10,40 @@ namespace loopbench::methods {
 
 /// Normal equations of one edge: the matrix over both poses, and the right-hand side as its last
 /// column.
+template <int D>
 struct EdgeEquations {
   std::size_t from = 0;
   std::size_t to = 0;
-  Eigen::MatrixXd matrix;  ///< 2 d x (2 d + 1), order [from, to]
+  Eigen::Matrix<double, 2 * D, 2 * D + 1> matrix;  ///< order [from, to]
 };
 
-/// Poses of `d` dimensions each; pose 0 is fixed. Each pose keeps its rows of the factor and the
+/// Poses of D dimensions each; pose 0 is fixed. Each pose keeps its rows of the factor and the
 /// Schur complement that its elimination leaves on its separator (the later poses that it is
 /// connected to). Its parent is the first pose of the separator, and the separators along a path to
 /// the root contain each other's remainders. So if edges change, only the poses at their ends and
-/// all ancestors of these are eliminated again. See incremental_smoother.hpp.
+/// all ancestors of these are eliminated again. Implemented for D = 3, 6. See
+/// incremental_smoother.hpp.
+template <int D>
 class EliminationTree {
  public:
-  explicit EliminationTree(Eigen::Index d) : d_(d) {}
+  using Vector = Eigen::Matrix<double, D, 1>;
+  struct Graph {
+    std::vector<std::vector<std::size_t>> edges_of;  ///< edges at each pose, by index
+    std::vector<EdgeEquations<D>> equations;         ///< of each edge, at its linearisation
+  };
 
   void add_pose();
 
-  /// Edges at a pose, by index, and the equations of an edge at the current linearisation.
-  struct Graph {
-    std::function<const std::vector<std::size_t>&(std::size_t pose)> edges_of;
-    std::function<const EdgeEquations&(std::size_t edge)> equations;
-  };
-
   /// Eliminates `touched` and their ancestors again, and computes the corrections that this
-  /// changes. `touched` contains both ends of every edge whose equations have changed. Returns the
-  /// poses with a new correction. Throws std::runtime_error if a block is not positive definite.
-  std::vector<std::size_t> update(const std::vector<std::size_t>& touched, const Graph& graph);
+  /// changes. `touched` contains both ends of every edge whose equations have changed. They are
+  /// ordered anew if there are new edges or poses since the last update. Returns the poses with a
+  /// new correction. Throws std::runtime_error if a block is not positive definite.
+  std::vector<std::size_t> update(const std::vector<std::size_t>& touched,
+                                  const Graph& graph,
+                                  bool has_new_edges);
 
-  /// Solution of the equations for one pose, d numbers.
-  const Eigen::VectorXd& correction(std::size_t pose) const { return nodes_[pose].correction; }
+  /// Solution of the equations for one pose.
+  const Vector& correction(std::size_t pose) const { return nodes_[pose].correction; }
 
   /// Number of eliminations so far.
   std::size_t eliminations() const { return eliminations_; }
@@ -48,28 +51,29 @@ class EliminationTree {
  private:
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   struct Node {
-    Eigen::VectorXd correction;
+    Vector correction = Vector::Zero();
     std::size_t rank = 0;  ///< time of the elimination; 0: none yet
     std::size_t parent = kNone;
     std::vector<std::size_t> separator;
     std::vector<std::size_t> children;
-    Eigen::MatrixXd rows;   ///< own triangle, separator, right-hand side: d x ((1 + k) d + 1)
-    Eigen::MatrixXd schur;  ///< on the separator, with right-hand side: k d x (k d + 1)
+    /// Own triangle, separator, right-hand side: D x ((1 + k) D + 1).
+    Eigen::Matrix<double, D, Eigen::Dynamic> rows;
+    /// Upper triangle of blocks on the separator, and right-hand side: k D x (k D + 1).
+    Eigen::MatrixXd schur;
   };
 
   std::vector<std::size_t> affected_by(const std::vector<std::size_t>& touched);
   std::vector<std::size_t> ordered(const std::vector<std::size_t>& affected, const Graph& graph);
+  std::vector<std::size_t> by_rank(std::vector<std::size_t> affected) const;
   void attach_to_parent(std::size_t pose);
   void eliminate(std::size_t pose, const Graph& graph);
-  void add_block(Eigen::MatrixXd& front,
-                 const Eigen::MatrixXd& block,
-                 const std::vector<std::size_t>& poses) const;
+  template <class Equations, class Poses>
+  void add_equations(Node& node, const Equations& equations, const Poses& poses) const;
   bool solve(std::size_t pose);
 
-  Eigen::Index d_;
   std::vector<Node> nodes_;
   std::vector<char> is_marked_;     ///< affected, then: correction changed
-  std::vector<Eigen::Index> slot_;  ///< of a pose in the current front, or -1
+  std::vector<Eigen::Index> slot_;  ///< of a pose in the rows of the current one, or -1
   std::size_t next_rank_ = 1;
   std::size_t eliminations_ = 0;
 };

@@ -16,8 +16,7 @@ namespace {
 template <class G>
 class IncrementalSmoother final : public Incremental {
  public:
-  explicit IncrementalSmoother(const IncrementalSettings& settings)
-      : settings_(settings), tree_(G::kDof) {}
+  explicit IncrementalSmoother(const IncrementalSettings& settings) : settings_(settings) {}
 
   Trajectory update(const Increment& added, Report& report) override {
     for (const StampedPose& keyframe : added.keyframes) add_keyframe(keyframe);
@@ -41,7 +40,7 @@ class IncrementalSmoother final : public Incremental {
   struct Constraint {
     Edge edge;
     Element to_from_measured_from;
-    EdgeEquations equations;
+    typename G::Square information;
     bool is_odometry = true;
     double chi2 = 0.0;    ///< its part of chi2_
     double mu = 0.0;      ///< `graduated`: 0, the loss is convex, to 1
@@ -69,7 +68,7 @@ class IncrementalSmoother final : public Incremental {
     }
     relinearise_edges(moved_);
     for (const std::size_t pose : moved_) {
-      for (const std::size_t each : edges_[pose]) update_chi2(each);
+      for (const std::size_t each : graph_.edges_of[pose]) update_chi2(each);
     }
   }
 
@@ -78,18 +77,19 @@ class IncrementalSmoother final : public Incremental {
     for (int i = 0; i < settings_.max_iterations && !touched_.empty(); ++i) {
       ++iterations_;
       const std::vector<std::size_t> touched = std::exchange(touched_, {});
-      const std::vector<std::size_t> solved = tree_.update(touched, graph_);
+      const std::vector<std::size_t> solved =
+          tree_.update(touched, graph_, std::exchange(has_new_edges_, false));
       relinearise(solved);
       if (is(IncrementalRobustness::graduated)) {
         for (const std::size_t pose : solved) {
-          for (const std::size_t edge : edges_[pose]) reweigh(edge);
+          for (const std::size_t edge : graph_.edges_of[pose]) reweigh(edge);
         }
       }
       if (!is(IncrementalRobustness::gate)) continue;
       moved_.insert(moved_.end(), solved.begin(), solved.end());
       for (const std::vector<std::size_t>* moved : {&touched, &solved}) {
         for (const std::size_t pose : *moved) {
-          for (const std::size_t edge : edges_[pose]) update_chi2(edge);
+          for (const std::size_t edge : graph_.edges_of[pose]) update_chi2(edge);
         }
       }
     }
@@ -124,7 +124,7 @@ class IncrementalSmoother final : public Incremental {
   double chi2_of(const Constraint& of) const {
     const typename G::Tangent e = group_edge_error<G>(
         of.to_from_measured_from, G::compose(G::inverse(now_[of.edge.from]), now_[of.edge.to]));
-    return e.dot(G::information(of.edge, 1.0) * e);
+    return e.dot(of.information * e);
   }
 
   void update_chi2(std::size_t index) {
@@ -138,7 +138,7 @@ class IncrementalSmoother final : public Incremental {
     poses_.push_back(keyframe);
     at_.push_back(Element{});
     now_.push_back(Element{});
-    edges_.emplace_back();
+    graph_.edges_of.emplace_back();
     tree_.add_pose();
   }
 
@@ -150,10 +150,12 @@ class IncrementalSmoother final : public Incremental {
     }
     if (!is_odometry) ++kept_;
     const std::size_t index = constraints_.size();
-    constraints_.push_back({edge, G::inverse(measured), {edge.from, edge.to, {}}, is_odometry});
+    constraints_.push_back({edge, G::inverse(measured), G::information(edge, 1.0), is_odometry});
+    graph_.equations.push_back({edge.from, edge.to, {}});
+    has_new_edges_ = true;
     linearise(index);
     for (const std::size_t end : {edge.from, edge.to}) {
-      edges_[end].push_back(index);
+      graph_.edges_of[end].push_back(index);
       touched_.push_back(end);
     }
   }
@@ -162,13 +164,13 @@ class IncrementalSmoother final : public Incremental {
     const auto is_it = [&](std::size_t index) {
       return is_same_measurement(constraints_[index].edge, edge);
     };
-    const auto found = std::ranges::find_if(edges_[edge.to], is_it);
-    if (found == edges_[edge.to].end()) return;
+    const auto found = std::ranges::find_if(graph_.edges_of[edge.to], is_it);
+    if (found == graph_.edges_of[edge.to].end()) return;
     const std::size_t index = *found;
     chi2_ -= constraints_[index].chi2;
     --kept_;
     for (const std::size_t end : {edge.from, edge.to}) {
-      std::erase(edges_[end], index);
+      std::erase(graph_.edges_of[end], index);
       touched_.push_back(end);
     }
   }
@@ -184,8 +186,8 @@ class IncrementalSmoother final : public Incremental {
         edge_residual<G>(of.to_from_measured_from, at_[of.edge.from], at_[of.edge.to]);
     Eigen::Matrix<double, G::kDof, 2 * G::kDof + 1> jacobian;
     jacobian << residual.by_from, residual.by_to, -residual.error;
-    of.equations.matrix = jacobian.template leftCols<2 * G::kDof>().transpose() *
-                          (of.weight * (G::information(of.edge, 1.0) * jacobian));
+    graph_.equations[index].matrix = jacobian.template leftCols<2 * G::kDof>().transpose() *
+                                     (of.weight * (of.information * jacobian));
   }
 
   /// Writes the poses of `solved`, and moves the points of linearisation whose corrections exceed
@@ -205,7 +207,8 @@ class IncrementalSmoother final : public Incremental {
   /// Linearises the edges at these poses and touches their ends.
   void relinearise_edges(const std::vector<std::size_t>& poses) {
     std::vector<std::size_t> edges;
-    for (const std::size_t i : poses) edges.insert(edges.end(), edges_[i].begin(), edges_[i].end());
+    for (const std::size_t i : poses)
+      edges.insert(edges.end(), graph_.edges_of[i].begin(), graph_.edges_of[i].end());
     std::ranges::sort(edges);
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     for (const std::size_t edge : edges) {
@@ -222,15 +225,13 @@ class IncrementalSmoother final : public Incremental {
   std::vector<Element> now_;          ///< estimate: at_ and its correction
   std::vector<std::size_t> touched_;  ///< poses to eliminate again in the next iteration
   std::vector<Constraint> constraints_;
-  std::vector<std::vector<std::size_t>> edges_;  ///< constraints at each keyframe
-  EliminationTree tree_;
+  typename EliminationTree<G::kDof>::Graph graph_;  ///< edge k: constraint k
+  EliminationTree<G::kDof> tree_;
+  bool has_new_edges_ = false;      ///< since the last elimination
   int iterations_ = 0;              ///< of the current update
   double chi2_ = 0.0;               ///< at the estimate, kept up to date for `gate`
   std::vector<std::size_t> moved_;  ///< by the closure that is tested
   std::size_t kept_ = 0;            ///< closures
-  const EliminationTree::Graph graph_{
-      [this](std::size_t pose) -> const std::vector<std::size_t>& { return edges_[pose]; },
-      [this](std::size_t edge) -> const EdgeEquations& { return constraints_[edge].equations; }};
 };
 
 }  // namespace
