@@ -282,6 +282,7 @@ void BlockCholesky<D>::solve(Eigen::MatrixXd& right) {
 template class BlockCholesky<1>;
 template class BlockCholesky<2>;
 template class BlockCholesky<3>;
+template class BlockCholesky<4>;
 template class BlockCholesky<6>;
 template class BlockCholesky<7>;
 

@@ -12,7 +12,7 @@ namespace loopbench::methods {
 /// Multifrontal factorisation: the panel of a supernode is assembled from the matrix and from the
 /// updates of its children in the elimination tree, and its own update goes to its parent. The
 /// matrix is assembled directly into the panels of the factor, so that nothing is allocated after
-/// construction. Implemented for D = 1, 2, 3, 6, 7. Deterministic, one thread. Source: Liu, The
+/// construction. Implemented for D = 1, 2, 3, 4, 6, 7. Deterministic, one thread. Source: Liu, The
 /// multifrontal method for sparse matrix solution: theory and practice, SIAM Review 34(1), 1992.
 template <int D>
 class BlockCholesky {

@@ -1,11 +1,12 @@
 /// Data matrix of the isotropic chordal cost of a pose graph, in blocks of keyframes.
 #pragma once
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCholesky>
+#include <Eigen/Geometry>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "methods/solvers/block_cholesky.hpp"
 #include "metrics/correction/chordal_weights.hpp"
 
 namespace loopbench::metrics {
@@ -18,9 +19,6 @@ class ChordalMatrix {
   using Block = Eigen::Matrix<double, kSize, kSize>;
   using Rotation = Eigen::Matrix<double, D, D>;
   using Poses = Eigen::Matrix<double, D, Eigen::Dynamic>;
-  using Sparse = Eigen::SparseMatrix<double>;
-  using Factor = Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>>;
-
   using Weights = Eigen::Matrix<double, 1, kSize>;
 
   /// Residual X_to - X_from step, weighted by columns: tau, then kappa.
@@ -34,17 +32,17 @@ class ChordalMatrix {
   /// O(edges), and one minimum-degree ordering of the keyframes.
   explicit ChordalMatrix(const Problem& problem)
       : size_(static_cast<Eigen::Index>(problem.keyframes.size())),
-        diagonal_(problem.keyframes.size(), Block::Zero()) {
+        diagonal_(problem.keyframes.size(), Block::Zero()),
+        structure_(structure_of(problem)) {
     for (const Edge& edge : problem.odometry) add(edge);
     for (const Edge& edge : problem.closures) add(edge);
-    order();
   }
 
   Eigen::Index size() const { return size_; }  ///< keyframes
   const std::vector<Link>& links() const { return links_; }
   const Block& diagonal(Eigen::Index i) const { return diagonal_[static_cast<std::size_t>(i)]; }
-  /// Position of a keyframe in the order of elimination.
-  Eigen::Index position(Eigen::Index i) const { return position_[static_cast<std::size_t>(i)]; }
+  /// Of symmetric matrices with a block per keyframe, such as M.
+  const methods::EliminationStructure& structure() const { return structure_; }
 
   /// Poses as columns of X. In the plane of keyframe 0 if D is 2.
   static Poses columns(const Trajectory& keyframes) {
@@ -92,36 +90,17 @@ class ChordalMatrix {
     return out;
   }
 
-  /// Lower triangle, in the order of elimination, of a symmetric matrix with the blocks
-  /// `diagonal(i)` and `off_diagonal(link)`.
+  /// Sets `out` to the symmetric matrix with the blocks `diagonal(i)` and `off_diagonal(link)`.
   template <int N, class Diagonal, class OffDiagonal>
-  Sparse assemble(Diagonal diagonal_block, OffDiagonal off_diagonal) const {
-    using Entry = Eigen::Triplet<double>;
-    std::vector<Entry> entries;
-    entries.reserve((diagonal_.size() + links_.size()) * N * N);
-    const auto add_entry = [&entries](Eigen::Index row, Eigen::Index column, double value) {
-      entries.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
-    };
-    for (Eigen::Index i = 0; i < size_; ++i) {
-      const Eigen::Matrix<double, N, N> block = diagonal_block(i);
-      for (int c = 0; c < N; ++c) {
-        for (int r = c; r < N; ++r)
-          add_entry(N * position(i) + r, N * position(i) + c, block(r, c));
-      }
-    }
+  void assemble(methods::BlockCholesky<N>& out,
+                Diagonal diagonal_block,
+                OffDiagonal off_diagonal) const {
+    out.set_zero();
+    for (int i = 0; i < static_cast<int>(size_); ++i) out.add(out.place(i, i), diagonal_block(i));
     for (const Link& link : links_) {
-      const Eigen::Matrix<double, N, N> block = off_diagonal(link);
-      const Eigen::Index from = N * position(link.from);
-      const Eigen::Index to = N * position(link.to);
-      for (int c = 0; c < N; ++c) {
-        for (int r = 0; r < N; ++r) {
-          add_entry(std::max(from + r, to + c), std::min(from + r, to + c), block(r, c));
-        }
-      }
+      out.add(out.place(static_cast<int>(link.from), static_cast<int>(link.to)),
+              off_diagonal(link));
     }
-    Sparse out(N * size_, N * size_);
-    out.setFromTriplets(entries.begin(), entries.end());
-    return out;
   }
 
  private:
@@ -148,29 +127,20 @@ class ChordalMatrix {
     links_.push_back(link);
   }
 
-  void order() {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (Eigen::Index i = 0; i < size_; ++i) {
-      entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
+  static methods::EliminationStructure structure_of(const Problem& problem) {
+    std::vector<std::pair<int, int>> pairs;
+    for (const std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
+      for (const Edge& edge : *edges) {
+        pairs.emplace_back(static_cast<int>(edge.from), static_cast<int>(edge.to));
+      }
     }
-    for (const Link& link : links_) {
-      entries.emplace_back(static_cast<int>(link.from), static_cast<int>(link.to), 1.0);
-      entries.emplace_back(static_cast<int>(link.to), static_cast<int>(link.from), 1.0);
-    }
-    Sparse graph(size_, size_);
-    graph.setFromTriplets(entries.begin(), entries.end());
-    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-    Eigen::AMDOrdering<int>()(graph, order);
-    position_.resize(diagonal_.size());
-    for (Eigen::Index k = 0; k < size_; ++k) {
-      position_[static_cast<std::size_t>(order.indices()[k])] = k;
-    }
+    return {static_cast<int>(problem.keyframes.size()), pairs};
   }
 
   Eigen::Index size_;
   std::vector<Block> diagonal_;
   std::vector<Link> links_;
-  std::vector<Eigen::Index> position_;
+  methods::EliminationStructure structure_;
 };
 
 }  // namespace loopbench::metrics

@@ -60,13 +60,13 @@ struct ChordalSteps {
     }
   }
 
-  static Poses moved(const Matrix& M, const Poses& X, const Eigen::VectorXd& step, double share) {
+  static Poses moved(const Matrix& M, const Poses& X, const Eigen::MatrixXd& step, double share) {
     Poses out = X;
     for (Eigen::Index i = 0; i < M.size(); ++i) {
-      const Eigen::Index at = kDof * M.position(i);
-      out.col(Matrix::kSize * i) += share * step.template segment<D>(at);
+      const Eigen::Index at = kDof * i;
+      out.col(Matrix::kSize * i) += share * step.col(0).template segment<D>(at);
       auto R = out.template middleCols<D>(Matrix::kSize * i + 1);
-      R = (R * exp(share * step.template segment<kAngles>(at + D))).eval();
+      R = (R * exp(share * step.col(0).template segment<kAngles>(at + D))).eval();
     }
     return out;
   }
@@ -75,7 +75,7 @@ struct ChordalSteps {
   static Eigen::VectorXd descent(const Matrix& M, const Poses& X, const Poses& XM) {
     Eigen::VectorXd out(kDof * M.size());
     for (Eigen::Index i = 0; i < M.size(); ++i) {
-      const Eigen::Index at = kDof * M.position(i);
+      const Eigen::Index at = kDof * i;
       out.template segment<D>(at) = -XM.col(Matrix::kSize * i);
       const auto by_angle = derivatives(X, i);
       for (int a = 0; a < kAngles; ++a) {
@@ -88,14 +88,18 @@ struct ChordalSteps {
     return out;
   }
 
-  /// Hessian with the curvature of the rotations (Newton) or without (Gauss-Newton).
-  static typename Matrix::Sparse hessian(const Matrix& M,
-                                         const Poses& X,
-                                         const std::vector<Rotation>& multipliers) {
+  /// Factorises the Hessian with the curvature of the rotations (Newton) or, if there are no
+  /// multipliers, without (Gauss-Newton). False: it is not positive definite.
+  static bool factorise(methods::BlockCholesky<kDof>& factor,
+                        const Matrix& M,
+                        const Poses& X,
+                        const std::vector<Rotation>& multipliers) {
     std::vector<std::array<Rotation, kAngles>> by_angle;
     by_angle.reserve(static_cast<std::size_t>(M.size()));
     for (Eigen::Index i = 0; i < M.size(); ++i) by_angle.push_back(derivatives(X, i));
-    const auto of = [&](Eigen::Index i) { return by_angle[static_cast<std::size_t>(i)]; };
+    const auto of = [&](Eigen::Index i) -> const auto& {
+      return by_angle[static_cast<std::size_t>(i)];
+    };
     const auto diagonal = [&](Eigen::Index i) -> Square {
       if (i == 0) return Square::Identity();
       typename Matrix::Block block = M.diagonal(i);
@@ -104,42 +108,45 @@ struct ChordalSteps {
       }
       return form(of(i), of(i), block);
     };
-    return M.template assemble<kDof>(diagonal, [&](const auto& link) -> Square {
+    M.template assemble<kDof>(factor, diagonal, [&](const auto& link) -> Square {
       if (link.from == 0 || link.to == 0) return Square::Zero();
       return form(of(link.from), of(link.to), link.block());
     });
+    return factor.factorise();
   }
 };
 
 /// Returns the local minimum that Newton's method reaches from X; where the Hessian is not positive
-/// definite, a Gauss-Newton step is taken. Steps are halved until the cost does not rise. Each of
-/// at most 20 iterations is one or two sparse factorisations. Keyframe 0 is fixed.
+/// definite, a Gauss-Newton step is taken. A factor is used again as long as the predicted decrease
+/// shrinks tenfold. Steps are halved until the cost does not rise. Keyframe 0 is fixed.
 template <int D>
 typename ChordalMatrix<D>::Poses chordal_minimum(const ChordalMatrix<D>& M,
                                                  typename ChordalMatrix<D>::Poses X) {
   using Steps = ChordalSteps<D>;
-  constexpr int kMaxIterations = 20;
+  constexpr int kMaxIterations = 50;
   constexpr double kConverged = 1e-15;  // predicted relative decrease of the cost
   constexpr double kRounding = 1e-9;    // below it the decrease cannot be measured
-  typename ChordalMatrix<D>::Factor factor;
-  const auto factorise = [&](const typename ChordalMatrix<D>::Sparse& H, bool first) {
-    if (first) factor.analyzePattern(H);
-    factor.factorize(H);
-    return factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0.0;
-  };
+  methods::BlockCholesky<Steps::kDof> factor(M.structure());
   auto [XM, cost] = M.times(X);
   double last_predicted = std::numeric_limits<double>::infinity();
+  bool is_factor_good = false;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    if (!factorise(Steps::hessian(M, X, M.multipliers(X, XM)), iteration == 0) &&
-        !factorise(Steps::hessian(M, X, {}), false)) {
+    const bool is_new = !is_factor_good;
+    if (is_new && !Steps::factorise(factor, M, X, M.multipliers(X, XM)) &&
+        !Steps::factorise(factor, M, X, {})) {
       return X;
     }
-    const Eigen::VectorXd right = Steps::descent(M, X, XM);
-    const Eigen::VectorXd step = factor.solve(right);
-    const double predicted = step.dot(right);
-    if (!(predicted > kConverged * cost)) return X;
+    const Eigen::MatrixXd right = Steps::descent(M, X, XM);
+    Eigen::MatrixXd step = right;
+    factor.solve(step);
+    const double predicted = step.col(0).dot(right.col(0));
+    if (!(predicted > kConverged * cost)) return Steps::moved(M, X, step, 1.0);
+    is_factor_good = predicted < 0.1 * last_predicted;
     const bool is_rounding = predicted < kRounding * cost;
-    if (is_rounding && !(predicted < 0.5 * last_predicted)) return X;
+    if (is_rounding && !(predicted < 0.5 * last_predicted)) {
+      if (is_new) return X;
+      continue;
+    }
     last_predicted = predicted;
     bool is_moved = false;
     for (double share = 1.0; share > 1e-3 && !is_moved; share *= 0.5) {
@@ -148,8 +155,10 @@ typename ChordalMatrix<D>::Poses chordal_minimum(const ChordalMatrix<D>& M,
       is_moved = product.cost <= cost || is_rounding;
       if (!is_moved) continue;
       X = std::move(next), XM = std::move(product.XM), cost = product.cost;
+      is_factor_good = is_factor_good && share == 1.0;
     }
-    if (!is_moved) return X;
+    if (!is_moved && is_new) return X;
+    is_factor_good = is_factor_good && is_moved;
   }
   return X;
 }

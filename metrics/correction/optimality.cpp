@@ -10,37 +10,33 @@
 namespace loopbench::metrics {
 namespace {
 
-/// S + eta I on rotations, for several eta.
+/// Whether S + eta I on rotations is positive definite.
 template <int D>
 class ShiftedMatrix {
  public:
-  ShiftedMatrix(const ChordalMatrix<D>& M,
-                const std::vector<typename ChordalMatrix<D>::Rotation>& multipliers)
-      : S_(M.template assemble<ChordalMatrix<D>::kSize>(
-            [&](Eigen::Index i) {
-              auto block = M.diagonal(i);
-              block.template bottomRightCorner<D, D>() -= multipliers[static_cast<std::size_t>(i)];
-              // Fixes t_0 = 0: the cost does not depend on it.
-              if (i == 0) block(0, 0) *= 2.0;
-              return block;
-            },
-            [](const auto& link) { return link.block(); })),
-        diagonal_(S_.diagonal()) {
-    factor_.analyzePattern(S_);
-  }
+  using Matrix = ChordalMatrix<D>;
+  ShiftedMatrix(const Matrix& M, const std::vector<typename Matrix::Rotation>& multipliers)
+      : M_(M), multipliers_(multipliers), factor_(M.structure()) {}
 
   bool is_positive(double eta) {
-    for (Eigen::Index r = 0; r < S_.rows(); ++r) {
-      if (r % (D + 1) != 0) S_.coeffRef(r, r) = diagonal_[r] + eta;
-    }
-    factor_.factorize(S_);
-    return factor_.info() == Eigen::Success && factor_.vectorD().minCoeff() > 0.0;
+    const auto diagonal = [&](Eigen::Index i) {
+      auto block = M_.diagonal(i);
+      auto rotation = block.template bottomRightCorner<D, D>();
+      rotation -= multipliers_[static_cast<std::size_t>(i)];
+      rotation.diagonal().array() += eta;
+      // Fixes t_0 = 0: the cost does not depend on it.
+      if (i == 0) block(0, 0) *= 2.0;
+      return block;
+    };
+    M_.template assemble<Matrix::kSize>(
+        factor_, diagonal, [](const auto& link) { return link.block(); });
+    return factor_.factorise();
   }
 
  private:
-  typename ChordalMatrix<D>::Sparse S_;
-  Eigen::VectorXd diagonal_;
-  typename ChordalMatrix<D>::Factor factor_;
+  const Matrix& M_;
+  const std::vector<typename Matrix::Rotation>& multipliers_;
+  methods::BlockCholesky<Matrix::kSize> factor_;
 };
 
 /// Smallest share of the cost, up to a factor of 1.6, whose shift makes the matrix positive; 1 if
