@@ -83,7 +83,7 @@ std::vector<MethodEntry> methods() {
                           "dual with noise that grows with the motion and drift, averaged over "
                           "noise models drawn from their posterior"),
       method<PoseGraphOptimizer>("pose_graph",
-                                 "maximum likelihood by sparse least squares (Ceres)",
+                                 "maximum likelihood by sparse least squares",
                                  {.start = PoseGraphOptimizer::Start::chordal}),
       method<IncrementalPoseGraph>(
           "pose_graph_incremental",
