@@ -75,6 +75,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
     entry.is_stated = true;
     table.note(kStatedNote);
   }
+  entry.is_gap = record.metric == "optimality" && record.relation == "gap" && spec.value != "count";
   add_error_count(table, column, record);
   entry.numbers.add(record, run, table.group_of_run[run], spec.value);
 }
@@ -143,6 +144,7 @@ TableMean mean_at(const TableNumbers& table, const TablePosition& position, bool
   out.value = entry->numbers.average();
   if (plus_minus) out.deviation = entry->numbers.deviation();
   out.is_stated = entry->is_stated;
+  out.is_gap = entry->is_gap;
   out.records = entry->numbers.size();
   out.averaged = entry->numbers.averaged();
   if (!out.value) out.status = out.averaged == 0 ? kNoCommonRun : "undefined";

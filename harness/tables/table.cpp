@@ -8,6 +8,7 @@
 
 #include "harness/base/printable.hpp"
 #include "harness/base/wrap.hpp"
+#include "metrics/correction/optimality.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -17,6 +18,7 @@ std::string mean_text(const TableMean& mean, int digits) {
       mean.possible == 0 ? "" : fmt::format(" ({} of {})", mean.records, mean.possible);
   const std::string deviation = mean.deviation ? " \u00b1 " + fixed(*mean.deviation, digits) : "";
   const std::string stated = mean.is_stated ? " (s)" : "";
+  if (mean.value && mean.is_gap) return metrics::gap_text(*mean.value) + over;
   if (mean.value) return fixed(*mean.value, digits) + deviation + stated + over;
   if (mean.status == kNoCommonRun) return "-" + over;
   return mean.status.empty() ? "-" : mean.status;

@@ -19,6 +19,7 @@ struct TableMean {
   std::size_t averaged = 0;  ///< of these, those on runs that all compared cells finished
   std::size_t possible = 0;  ///< records including failed and missing ones; 0: none is missing
   bool is_stated = false;    ///< times that programs state, marked (s)
+  bool is_gap = false;       ///< of the metric optimality, printed in words
   std::string status = {};   ///< "declined", "failed", "no common run", ... if there is no value
 
   friend bool operator==(const TableMean&, const TableMean&) = default;

@@ -84,6 +84,7 @@ struct EntryContents {
   std::string status = {};  ///< of a record that has no value
   std::size_t kind = 0;     ///< number of its texts in TableNumbers::kinds
   bool is_stated = false;   ///< has times that programs state
+  bool is_gap = false;      ///< a gap of the metric optimality
   RunSet tried = {};        ///< runs with a score of any status
   RunSet lost = {};         ///< runs on which a score failed
 };

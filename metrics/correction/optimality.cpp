@@ -1,6 +1,8 @@
 #include "metrics/correction/optimality.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
@@ -138,6 +140,14 @@ std::vector<Score> optimality(const Evaluation& evaluation, const NoOptions&) {
   return {single("gap", "minimum", "%", gap(is_own_minimum ? proof.minimum : proof.cost)),
           directed(single("gap", "estimate", "%", gap(proof.cost)), Better::neither),
           directed(single("rotation", "", "deg", kDegrees * proof.rotation), Better::neither)};
+}
+
+std::string gap_text(double percent) {
+  if (percent < 1e-4) return "globally optimal";
+  if (percent >= 100.0) return "not proved";
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "at most %.3g", percent);
+  return text.data();
 }
 
 }  // namespace loopbench::metrics

@@ -33,4 +33,7 @@ Certificate certificate(const Problem& problem, const Trajectory& keyframes);
 /// if an edge changes the scale.
 std::vector<Score> optimality(const Evaluation& evaluation, const NoOptions& options);
 
+/// A gap in words: "globally optimal" below 1e-4 %, "not proved" from 100 %, otherwise "at most x".
+std::string gap_text(double percent);
+
 }  // namespace loopbench::metrics

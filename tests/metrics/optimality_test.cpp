@@ -132,6 +132,12 @@ TEST(Optimality, GapIsThatOfTheEstimateIfTheMinimumIsAnother) {
   EXPECT_NEAR(optimality(evaluation, {})[0].statistics.rmse, 100.0, 1e-9);
 }
 
+TEST(Optimality, GapHasWords) {
+  EXPECT_EQ(gap_text(9.9e-5), "globally optimal");
+  EXPECT_EQ(gap_text(0.0262), "at most 0.0262");
+  EXPECT_EQ(gap_text(100.0), "not proved");
+}
+
 TEST(Optimality, IsUndefinedWithoutEdgesOrWithScale) {
   EXPECT_THROW(optimality({}, {}), Undefined);
   Problem problem = ring({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}});
