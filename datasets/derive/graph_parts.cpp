@@ -98,13 +98,6 @@ void require_complete_odometry(const GraphParts& parts,
   }
 }
 
-std::vector<double> vertex_stamps(const PoseGraph& graph, double period) {
-  std::vector<double> out;
-  out.reserve(graph.ids.size());
-  for (const std::int64_t id : graph.ids) out.push_back(static_cast<double>(id) * period);
-  return out;
-}
-
 Trajectory initial_poses(const PoseGraph& graph, double period) {
   const std::vector<Pose> poses = graph.vertices.empty() ? chain(graph) : graph.vertices;
   const std::vector<double> stamps = vertex_stamps(graph, period);

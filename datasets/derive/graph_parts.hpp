@@ -30,9 +30,6 @@ void require_complete_odometry(const GraphParts& parts,
                                const std::filesystem::path& file,
                                const std::string& why);
 
-/// Stamps of all vertices: id * period [s].
-std::vector<double> vertex_stamps(const PoseGraph& graph, double period);
-
 /// The vertices of the graph, or the composed odometry (see chain()) if it has none.
 Trajectory initial_poses(const PoseGraph& graph, double period);
 

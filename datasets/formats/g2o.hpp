@@ -69,6 +69,11 @@ bool is_pose_graph(const std::filesystem::path& file);
 /// InputError if the file cannot be written.
 void write_g2o(const std::filesystem::path& file, const PoseGraph& graph);
 
+/// Stamps of all vertices: id * period [s]. Of ids that are symbols of GTSAM (a letter in the
+/// highest byte, an index below) it is the index, or the position in the graph if several letters
+/// share indices.
+std::vector<double> vertex_stamps(const PoseGraph& graph, double period);
+
 /// Returns one pose per id, composed from the edges between consecutive ids; the first pose is the
 /// identity. If several edges connect the same vertices, the first in the file is used.
 /// Translations of a similarity graph are converted to the scale of the first vertex. Throws

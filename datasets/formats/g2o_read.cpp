@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "datasets/core/error.hpp"
@@ -94,6 +95,25 @@ PoseGraph read_g2o(const std::filesystem::path& path, const InformationRules& ru
 
 bool is_pose_graph(const std::filesystem::path& file) {
   return is_rtabmap(open_input(file)) || detect_format(file) == Format::g2o;
+}
+
+std::vector<double> vertex_stamps(const PoseGraph& graph, double period) {
+  constexpr int kIndexBits = 56;
+  const std::vector<std::int64_t>& ids = graph.ids;
+  const bool has_symbols = !ids.empty() && ids.front() >> kIndexBits > 0;
+  const auto index_of = [&](std::int64_t id) {
+    return has_symbols ? id & ((std::int64_t{1} << kIndexBits) - 1) : id;
+  };
+  const bool is_ambiguous =
+      has_symbols && std::ranges::adjacent_find(ids, std::greater_equal{}, index_of) != ids.end();
+  std::vector<double> out;
+  out.reserve(ids.size());
+  for (const std::int64_t id : ids) {
+    out.push_back(
+        (is_ambiguous ? static_cast<double>(out.size()) : static_cast<double>(index_of(id))) *
+        period);
+  }
+  return out;
 }
 
 std::vector<Pose> chain(const PoseGraph& graph, const std::string& name) {

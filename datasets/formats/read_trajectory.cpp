@@ -22,9 +22,8 @@ Trajectory trajectory_of(const PoseGraph& graph, const std::string& name, double
   const std::vector<Pose>& poses = graph.vertices.empty() ? composed : graph.vertices;
   Trajectory out;
   out.reserve(poses.size());
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    out.push_back({static_cast<double>(graph.ids[i]) * period, poses[i]});
-  }
+  const std::vector<double> stamps = vertex_stamps(graph, period);
+  for (std::size_t i = 0; i < poses.size(); ++i) out.push_back({stamps[i], poses[i]});
   check(out, name);  // composed poses may overflow; ids above 2^53 may give equal stamps
   return out;
 }

@@ -227,6 +227,19 @@ TEST(G2o, GivesATrajectoryOfVerticesOrOfTheChain) {
   EXPECT_TRUE(chained[2].world_from_body.translation.isApprox(Vector3(1, 1, 0)));
 }
 
+TEST(G2o, StampsOfSymbolsAreTheirIndices) {
+  PoseGraph graph;
+  const auto symbol = [](char letter, std::int64_t index) {
+    return (std::int64_t{letter} << 56) + index;
+  };
+  graph.ids = {symbol('a', 0), symbol('a', 1), symbol('a', 4)};
+  EXPECT_EQ(vertex_stamps(graph, 0.5), (std::vector<double>{0.0, 0.5, 2.0}));
+  graph.ids.push_back(symbol('b', 0));  // a second robot: the order of the file
+  EXPECT_EQ(vertex_stamps(graph, 0.5), (std::vector<double>{0.0, 0.5, 1.0, 1.5}));
+  graph.ids = {2, 7};
+  EXPECT_EQ(vertex_stamps(graph, 0.5), (std::vector<double>{1.0, 3.5}));
+}
+
 TEST(G2o, RefusesWhatOverflowsOnTheWay) {
   const TemporaryFolder scratch;
   const auto error_of = [&](const std::string& text) {
