@@ -1,10 +1,12 @@
-"""Adapter for pose-graph programs: graph_program.py g2o|se_sync PROBLEM RESULT [PROGRAM ARGUMENT...]
+"""Adapter for pose-graph programs: graph_program.py g2o_gn|g2o_lm|se_sync PROBLEM RESULT
 
-g2o: any build of g2o's command-line program; default `g2o -solver lm_var_eigen -i 100`.
+g2o_gn, g2o_lm: Gauss-Newton or Levenberg-Marquardt of g2o's command-line program, with the first sparse
+Cholesky solver that this build has.
 se_sync: the example `SE-Sync` of SE-Sync's C++ library, built with `write_poses = true`.
 
 The time that is stated is that of the optimisation, as the program prints it: reading, writing and the
-start of the process are not in it.
+start of the process are not in it. g2o has no test of convergence: its time ends with the first
+iteration that is within 1e-6 of its last cost.
 """
 
 import json
@@ -16,7 +18,28 @@ import subprocess
 import sys
 from pathlib import Path
 
-DEFAULTS = {"g2o": ["g2o", "-solver", "lm_var_eigen", "-i", "100"], "se_sync": ["SE-Sync"]}
+PROGRAMS = {"g2o_gn": "g2o", "g2o_lm": "g2o", "se_sync": "SE-Sync"}
+
+
+def g2o_command(kind):
+    """The names of solvers differ between builds."""
+    done = subprocess.run(["g2o", "-listSolvers"], capture_output=True, text=True)
+    listed = {line.split()[0] for line in (done.stdout + done.stderr).splitlines() if line.split()}
+    names = [kind[-2:] + "_var" + suffix for suffix in ("_cholmod", "_eigen", "", "_csparse")]
+    found = [name for name in names if name in listed]
+    if not found:
+        sys.exit("g2o has no sparse Cholesky solver, expected one of " + ", ".join(names))
+    return ["g2o", "-v", "-solver", found[0], "-i", "100"]
+
+
+def g2o_time(printed):
+    """Seconds and iterations to within 1e-6 of the last cost."""
+    steps = [(float(cost), float(time)) for cost, time in re.findall(
+        r"iteration= \d+\s+chi2= ([\d.e+-]+)\s+time= [\d.e+-]+\s+cumTime= ([\d.e+-]+)", printed)]
+    if not steps:
+        sys.exit("g2o printed no iterations: " + printed[-500:])
+    near = [cost <= steps[-1][0] * (1 + 1e-6) for cost, _ in steps].index(True)
+    return {"seconds": steps[near][1], "counts": {"iterations": near + 1}}
 
 
 def finish(result, **said):
@@ -63,24 +86,23 @@ def vertices(rows):
     return "\n".join(out) + "\n"
 
 
-def main(kind, problem, result, *command):
-    command = list(command) or DEFAULTS[kind]
-    if not shutil.which(command[0]):
-        return finish(result, status="declined", why=command[0] + " is not installed")
+def main(kind, problem, result):
+    if not shutil.which(PROGRAMS[kind]):
+        return finish(result, status="declined", why=PROGRAMS[kind] + " is not installed")
+    is_g2o = kind != "se_sync"
     folder = Path(os.environ.get("TMPDIR", "/tmp"))
     graph = folder / "graph.g2o"
     lines = list(Path(problem, "graph.g2o").open())
-    if kind == "se_sync":
+    if not is_g2o:
         lines = [of_angles(line) for line in lines if not line.startswith("FIX")]
     graph.write_text("".join(lines))
-    command += ["-o", result, str(graph)] if kind == "g2o" else [str(graph)]
+    command = g2o_command(kind) + ["-o", result, str(graph)] if is_g2o else ["SE-Sync", str(graph)]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-    written = Path(result) if kind == "g2o" else folder / "poses.txt"
+    written = Path(result) if is_g2o else folder / "poses.txt"
     if done.returncode != 0 or not written.exists():
         sys.exit(command[0] + ": " + (done.stderr or done.stdout)[-500:])
-    if kind == "g2o":
-        steps = re.findall(r"iteration= \d+\s.*?\btime= ([\d.e+-]+)", done.stderr)
-        return finish(result, seconds=sum(map(float, steps)), counts={"iterations": len(steps)})
+    if is_g2o:
+        return finish(result, **g2o_time(done.stderr))
     rows = [[float(x) for x in line.split()] for line in written.open()]
     Path(result).write_text(vertices(rows))
     total = re.search(r"Total elapsed computation time: ([\d.e+-]+)", done.stdout)

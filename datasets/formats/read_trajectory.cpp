@@ -108,7 +108,9 @@ TrajectoryFile from_text(const std::filesystem::path& path, const ReadOptions& o
     return out;
   }
   if (format == Format::g2o) {
-    out.poses = trajectory_of(read_g2o(path), file.name(), options.period);
+    // Poses do not depend on the information, which programs write with six digits.
+    const InformationRules any{.indefinite = IndefiniteInformation::project};
+    out.poses = trajectory_of(read_g2o(path, any), file.name(), options.period);
     out.has_stamps = false;
     return out;
   }

@@ -227,6 +227,15 @@ TEST(G2o, GivesATrajectoryOfVerticesOrOfTheChain) {
   EXPECT_TRUE(chained[2].world_from_body.translation.isApprox(Vector3(1, 1, 0)));
 }
 
+TEST(G2o, TrajectoriesNeedNoDefiniteInformation) {
+  const TemporaryFolder scratch;
+  const auto file = scratch.file(
+      "rounded.g2o",
+      "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nEDGE_SE2 0 1 1 0 0 1 1 0 0.999999 0 1\n");
+  EXPECT_EQ(read_trajectory(file).size(), 2u);
+  EXPECT_NE(refusal([&] { read_g2o(file); }).find(":3: information is not"), std::string::npos);
+}
+
 TEST(G2o, StampsOfSymbolsAreTheirIndices) {
   PoseGraph graph;
   const auto symbol = [](char letter, std::int64_t index) {
