@@ -32,7 +32,8 @@ Trajectory read_poses(const std::filesystem::path& file, const Problem& problem)
   if (format != Format::g2o) {
     throw InputError("result: has format " + to_text(format) + ", expected tum or g2o");
   }
-  const PoseGraph graph = read_g2o(file);
+  // Only its vertices are used: programs write information with six digits.
+  const PoseGraph graph = read_g2o(file, {.indefinite = IndefiniteInformation::project});
   if (graph.vertices.empty()) throw InputError("result: has no VERTEX lines");
   if (graph.ids.size() != problem.keyframes.size()) {
     throw InputError(fmt::format("result: has {} vertices, expected {}, one per keyframe",

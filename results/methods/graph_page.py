@@ -1,0 +1,95 @@
+"""Table and picture of results/methods/pose_graphs.md: graph_page.py STORE LOOPBENCH [PICTURE.png]
+
+STORE: results of configs/pose_graphs.yaml with --save-trajectories. The table goes to standard output.
+"""
+
+import csv
+import sqlite3
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+SCORES = """
+select method, label, relation, axis, score.rmse, cpu_seconds_median, peak_memory, keyframes,
+       odometry + sequence.closures as edges, sequence
+from cell join sequence using (sequence_key) left join score on score.cell = cell.id
+where cell.status = 'ok' order by cell.position"""
+COSTS = ["cost", "cost as g2o", "cost as SE-Sync"]
+
+
+def number(value):
+    return f"{value:.6g}" if value is not None and value < 1e6 else f"{value:.2e}" if value else "-"
+
+
+def gap(value):
+    if value is None:
+        return "-"
+    return "optimal" if value < 1e-4 else "not proved" if value >= 100 else f"at most {value:.2g} %"
+
+
+def print_table(store):
+    graphs = {}
+    for row in sqlite3.connect(store).execute(SCORES):
+        method, label, relation, axis, value, seconds, memory, poses, edges, name = row
+        graph = graphs.setdefault(name, {"poses": poses, "edges": edges})
+        own = graph.setdefault(method, {"seconds": seconds, "memory": memory})
+        if label in COSTS and axis == "all":
+            own[label] = value
+        if relation == "gap":
+            own["gap " + axis] = value
+    print("| graph | poses | edges | before | cost | as g2o | as SE-Sync | from odometry | certificate | estimate [%]"
+          " | ms | MB |")
+    print("| --- |" + " ---: |" * 7 + " --- |" + " ---: |" * 3)
+    for name, graph in graphs.items():
+        solved = graph["pose_graph"]
+        odometry = graph.get("pose_graph from odometry", {})
+        estimate = solved.get("gap estimate")
+        print(f"| {name} | {graph['poses']} | {graph['edges']} | {number(graph['raw'].get('cost'))} | "
+              + " | ".join(number(solved.get(cost)) for cost in COSTS)
+              + f" | {number(odometry.get('cost'))} | {gap(solved.get('gap minimum'))} | "
+              + ("-" if estimate is None else f"{estimate:.3g}")
+              + f" | {1e3 * solved['seconds']:.3g} | {solved['memory'] / 2**20:.0f} |")
+
+
+def poses_of(folder):
+    """Positions by graph and method."""
+    out = {}
+    for row in csv.DictReader((folder / "index.csv").open()):
+        out[row["sequence"], row["method"]] = np.loadtxt(folder / row["file"])[:, 1:4]
+    return out
+
+
+def draw(positions, picture):
+    names = [name for name, method in positions
+             if method == "raw" and "(" not in name][:10]
+    figure, axes = plt.subplots(4, 5, figsize=(10, 8.4))
+    for k, name in enumerate(names):
+        for row, method in enumerate(["raw", "pose_graph"]):
+            panel = axes[2 * (k // 5) + row, k % 5]
+            at = positions[name, method]
+            plane = sorted(np.argsort(-np.var(positions[name, "pose_graph"], axis=0), kind="stable")[:2])
+            panel.plot(at[:, plane[0]], at[:, plane[1]], lw=0.3, color=["#b35806", "#2166ac"][row])
+            panel.set_aspect("equal", "datalim")
+            panel.set_xticks([]), panel.set_yticks([])
+            panel.set_title(name if row == 0 else "", fontsize=9)
+    for row in range(4):
+        axes[row, 0].set_ylabel(["before", "after"][row % 2], fontsize=9)
+    figure.tight_layout(pad=0.4)
+    figure.savefig(picture, dpi=110)
+
+
+if __name__ == "__main__":
+    store, program = Path(sys.argv[1]), sys.argv[2]
+    print_table(store / "results.sqlite")
+    if len(sys.argv) > 3:
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([program, "export", store, "--what", "trajectories", "-o", folder],
+                           check=True, stdout=subprocess.DEVNULL)
+            draw(poses_of(Path(folder)), sys.argv[3])
