@@ -36,6 +36,17 @@ std::vector<double> loss_weights(const PoseGraphSettings& settings, std::vector<
   return squared;
 }
 
+/// Notes if a bounded loss leaves most closures without influence.
+void note_ignored(const std::vector<double>& weights, Report& report) {
+  constexpr double kLittle = 0.05;
+  const auto ignored =
+      std::ranges::count_if(weights, [](double weight) { return weight < kLittle; });
+  if (2 * ignored <= std::ssize(weights)) return;
+  report.notes.push_back(std::to_string(ignored) + " of " + std::to_string(weights.size()) +
+                         " closures have less than 5 % of their weight: the result is close to the "
+                         "odometry");
+}
+
 /// Chooses between two initial values and sets `poses` to the one from which the loss in `settings`
 /// reaches the lower cost: the given poses, or the solution of a continuation that uses the
 /// switchable loss and shrinks its width from the largest squared error by a factor of 0.7 per
@@ -244,6 +255,9 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     const std::size_t edges = problem.odometry.size() + kept_count(weights);
     const std::size_t degrees = freedom(problem.keyframes.size(), edges, dimensions(group));
     report_chi2(2.0 * summary.cost, degrees + used.freedom(), report);
+  }
+  if (is_bounded(options_.loss)) {
+    note_ignored(loss_weights(settings, squared_errors(poses, problem.closures, settings)), report);
   }
   if (!summary.converged) {
     report.notes.push_back(

@@ -62,5 +62,20 @@ TEST(BoundedLosses, TakeTheLowerOfBothMinima) {
   }
 }
 
+TEST(BoundedLosses, SayThatMostClosuresHaveNoInfluence) {
+  const Problem problem = driving(1, 0.0).problem;
+  const auto notes = [&](double width) {
+    Report report;
+    PoseGraphOptimizer({.loss = RobustLoss::switchable, .loss_width = width, .anneal = false})
+        .correct(problem, report);
+    return report.notes;
+  };
+  EXPECT_TRUE(notes(1e9).empty());
+  // The width is far below the errors that odometry leaves.
+  ASSERT_FALSE(notes(1e-6).empty());
+  EXPECT_NE(notes(1e-6).front().find("closures have less than 5 % of their weight"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace loopbench::bounded_losses_test
