@@ -239,7 +239,10 @@ void RecordReader::add_cell(const StoredCell& cell, std::vector<Record>& out) {
     scores_->read(r.pairs, r.possible, r.span);
     const std::string_view status = scores_->view();
     if (has_status) r.status = from_text<Status>(std::string(status)).value_or(Status::failed);
-    if (has_reason) scores_->read(r.why);
+    // The remark of a finished cell, for example that it has no reference, is no reason of a
+    // failure.
+    const bool has_failed = cell.status == Status::ok && r.status != Status::ok;
+    if (has_reason || has_failed) scores_->read(r.why);
   }
 }
 

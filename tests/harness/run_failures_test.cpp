@@ -144,6 +144,22 @@ TEST_F(RunFailures, AScoreThatIsNotFiniteFailsAlone) {
   }
 }
 
+TEST_F(RunFailures, WithoutAReferenceAFailedScoreKeepsItsOwnReason) {
+  known_.datasets[0].load = [](const Params& given, const DataRoot& root) {
+    Sequence out = tiny::load_line(with(tiny::LineOptions{}, given), root);
+    out.reference.clear();
+    return out;
+  };
+  known_.metrics.push_back(metric_without_reference<tiny::LengthOptions>(
+      "cost", "", [](const Evaluation&, const auto&) -> std::vector<Score> {
+        throw Undefined("an edge changes the scale");
+      }));
+  const std::vector<Record> records = records_of("shift", "metrics: [cost]\n");
+  ASSERT_FALSE(records.empty());
+  EXPECT_NE(records[0].status, Status::ok);
+  EXPECT_EQ(records[0].why, "an edge changes the scale");
+}
+
 TEST_F(RunFailures, ACellKnowsHowManyOfItsScoresFailedInAnyWay) {
   known_.metrics[0].score = [](const Evaluation&, const Params&) -> std::vector<Score> {
     throw std::bad_alloc();
