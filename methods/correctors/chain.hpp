@@ -47,17 +47,4 @@ inline Twist edge_error(const Edge& edge, const Pose& from, const Pose& to) {
   return log_se3(edge.from_from_to.inverse() * (from.inverse() * to));
 }
 
-/// Returns half the information-weighted squared residuals of odometry and closures, chi^2 / 2.
-/// O(edges).
-inline double chain_cost(const Problem& problem, const std::vector<Pose>& poses) {
-  double sum = 0.0;
-  for (const std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
-    for (const Edge& edge : *edges) {
-      const Twist e = edge_error(edge, poses[edge.from], poses[edge.to]);
-      sum += e.dot(edge.information * e);
-    }
-  }
-  return 0.5 * sum;
-}
-
 }  // namespace loopbench::methods

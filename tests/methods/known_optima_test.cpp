@@ -4,7 +4,6 @@
 #include <cstdlib>
 
 #include "datasets/pose_graph_dataset.hpp"
-#include "methods/correctors/chain.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "tests/support/corrected.hpp"
@@ -70,8 +69,8 @@ TEST(KnownOptimum, DualAndPoseGraphAgreeOnKitti00) {
   const Trajectory graph =
       test::corrected<PoseGraphOptimizer>(problem, {.max_iterations = 2000, .tolerance = 1e-15});
   EXPECT_LT(test::largest_distance(dual, graph), 1e-4);
-  const double cost = chain_cost(problem, test::poses_of(dual));
-  EXPECT_NEAR(cost, chain_cost(problem, test::poses_of(graph)), 1e-6 * cost);
+  const double cost = test::chain_cost(problem, test::poses_of(dual));
+  EXPECT_NEAR(cost, test::chain_cost(problem, test::poses_of(graph)), 1e-6 * cost);
 }
 
 TEST(KnownOptimum, LoopEquationsSaveIterationsOnKitti00) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "methods/correctors/chain.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/solvers/initial_values.hpp"
 #include "tests/support/corrected.hpp"

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/correctors/chain.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/smoothers/interpolating_splines.hpp"
 #include "methods/smoothers/spline/basis.hpp"

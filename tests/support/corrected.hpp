@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "methods/correctors/chain.hpp"
 #include "methods/method.hpp"
 
 namespace loopbench::test {
@@ -24,6 +25,18 @@ inline std::vector<Pose> poses_of(const Trajectory& trajectory) {
   std::vector<Pose> out;
   for (const StampedPose& each : trajectory) out.push_back(each.world_from_body);
   return out;
+}
+
+/// Half of chi^2 of odometry and closures.
+inline double chain_cost(const Problem& problem, const std::vector<Pose>& poses) {
+  double sum = 0.0;
+  for (const std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
+    for (const Edge& edge : *edges) {
+      const Twist e = methods::edge_error(edge, poses[edge.from], poses[edge.to]);
+      sum += e.dot(edge.information * e);
+    }
+  }
+  return 0.5 * sum;
 }
 
 /// Distances between the positions of two trajectories with the same stamps, not aligned [m].
