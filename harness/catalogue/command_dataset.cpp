@@ -14,7 +14,7 @@
 #include "harness/base/write_file.hpp"
 #include "harness/catalogue/arguments.hpp"
 #include "harness/catalogue/command.hpp"
-#include "harness/catalogue/running_line.hpp"
+#include "harness/catalogue/loading.hpp"
 #include "harness/catalogue/scratch.hpp"
 
 namespace loopbench::harness {

@@ -18,7 +18,6 @@
 #include "harness/eval/eval_figures.hpp"
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/eval/evo_results.hpp"
-#include "harness/eval/group_summary.hpp"
 #include "harness/eval/recorded_store.hpp"
 #include "harness/eval/run_summary.hpp"
 #include "harness/report/report.hpp"

@@ -27,7 +27,12 @@
 #include "harness/commands/huge_pages.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/run/build.hpp"
-#include "harness/run/source_commit.hpp"
+
+// Source of the program; defined in files that the build links only into the executable, so that a
+// commit does not relink anything else.
+extern char source_commit[];  ///< 40 hexadecimal digits, or "unknown"
+extern char source_state[];   ///< clean | dirty | unknown
+extern char code_hash[];      ///< of the libraries whose code decides the results of cells
 
 using namespace loopbench;
 using namespace loopbench::harness;

@@ -9,8 +9,8 @@
 #include <map>
 
 #include "datasets/bags/bag_trajectory.hpp"
-#include "harness/base/numbers.hpp"
 #include "harness/config/choices.hpp"
+#include "harness/eval/transformation.hpp"
 #include "metrics/errors/ape.hpp"
 #include "metrics/pairing/select_pairs.hpp"
 

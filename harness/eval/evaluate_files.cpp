@@ -10,8 +10,7 @@
 
 #include "datasets/core/parallel.hpp"
 #include "harness/base/write_file.hpp"
-#include "harness/eval/common_alignment.hpp"
-#include "harness/eval/recordings.hpp"
+#include "harness/eval/common_parts.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/model/same_recording.hpp"
 #include "metrics/numerics/median.hpp"

@@ -9,10 +9,10 @@
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/parallel.hpp"
+#include "harness/eval/common_parts.hpp"
 #include "harness/eval/eval_figures.hpp"
 #include "harness/eval/evaluation_checks.hpp"
 #include "harness/eval/recorded_identity.hpp"
-#include "harness/eval/recordings.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/run/add_scores.hpp"
 #include "harness/run/catch_errors.hpp"

@@ -11,8 +11,8 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/parallel.hpp"
+#include "harness/eval/common_parts.hpp"
 #include "harness/eval/recorded_evaluation.hpp"
-#include "harness/eval/recordings.hpp"
 #include "harness/model/same_recording.hpp"
 #include "harness/run/build.hpp"
 #include "harness/store/open.hpp"

@@ -29,7 +29,7 @@ struct RecordedSweep {
   /// paired.
   std::vector<Cell> cells;
 
-  /// Alignment of each run under each protocol (common_alignment.hpp); empty: each run is aligned
+  /// Alignment of each run under each protocol (common_parts.hpp); empty: each run is aligned
   /// on its own.
   std::vector<std::vector<metrics::Alignment>> alignments = {};
 };

@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
-
-#include "harness/base/numbers.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -92,6 +91,21 @@ Rotation reordered(const Rotation& q, const std::string& actual) {
 }
 
 }  // namespace
+
+std::vector<double> comma_separated_numbers(const std::string& text) {
+  std::vector<double> out;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (true) {
+    double value = 0.0;
+    const auto [rest, error] = std::from_chars(at, end, value);
+    if (error != std::errc{} || !std::isfinite(value)) return {};
+    if (rest != end && *rest != ',') return {};
+    out.push_back(value);
+    if (rest == end) return out;
+    for (at = rest + 1; at != end && *at == ' ';) ++at;
+  }
+}
 
 Similarity read_similarity(const std::string& text) {
   const std::vector<double> values = comma_separated_numbers(text);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "datasets/formats/trajectory_file.hpp"
 
@@ -12,6 +13,9 @@ struct Similarity {
   Pose pose;
   double scale = 1.0;
 };
+
+/// Comma-separated finite numbers; empty if `text` is anything else.
+std::vector<double> comma_separated_numbers(const std::string& text);
 
 /// Parses x,y,z[,qx,qy,qz,qw], or reads a JSON file with x, y, z, qx, qy, qz, qw and optionally
 /// scale, as evo does. Throws InputError.

@@ -1,11 +1,20 @@
-/// One alignment for several estimates that share a frame: robots, submaps, mapping runs.
+/// What several estimates have in common: the times that all cover, and one alignment.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "harness/eval/recorded_sweep.hpp"
 
 namespace loopbench::harness {
+
+/// Sets RecordedRun::common, from the files: the times that all estimates of the run's sequence
+/// cover, without their tracking gaps. Empty if every estimate is complete there (99 % of the time
+/// of all). Estimates that cannot be read or cover less than half of the longest do not count.
+void set_common_times(std::vector<RecordedRun>& runs, const EvalArguments& arguments);
+
+/// The poses within the ranges of RecordedRun::common.
+Trajectory poses_within(const Trajectory& poses, const std::string& common);
 
 /// For each run of the sweep, the alignment under each protocol, by least squares over the pairs of
 /// all estimates of its group: all files if there is one reference, otherwise the runs of equal
