@@ -6,6 +6,7 @@
 #include <string>
 
 #include "datasets/core/fields.hpp"
+#include "datasets/core/hash.hpp"
 #include "datasets/core/trajectory.hpp"
 
 namespace loopbench {
@@ -68,11 +69,26 @@ void noise_stream_field(std::string& stream, Visit visit) {
         "numbers; empty: independent of all other datasets");
 }
 
+inline constexpr std::uint64_t kSharedStream = 1;
+inline constexpr std::uint64_t kOwnStream = 2;
+
 /// Identity of a named stream, which several datasets may share (common random numbers).
-std::uint64_t noise_identity(const std::string& stream);
+inline std::uint64_t noise_identity(const std::string& stream) {
+  return hash_combine(kSharedStream, stream);
+}
 
 /// Identity of a dataset with its own stream: hash of its identity text and of the poses it is
 /// derived from. O(poses).
-std::uint64_t noise_identity(const std::string& text, const Trajectory& poses);
+inline std::uint64_t noise_identity(const std::string& text, const Trajectory& poses) {
+  std::uint64_t out = hash_combine(kOwnStream, text);
+  for (const auto& [stamp, pose] : poses) {
+    const Vector3& t = pose.translation;
+    const Rotation& q = pose.rotation;
+    for (const double value : {stamp, t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z()}) {
+      out = hash_combine(out, std::bit_cast<std::uint64_t>(value));
+    }
+  }
+  return out;
+}
 
 }  // namespace loopbench

@@ -1,12 +1,15 @@
 /// Reviewed numbers of a sweep: the reference of `loopbench check`.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "harness/compare/observations.hpp"
 #include "harness/model/record.hpp"
 
 namespace loopbench::harness {
@@ -23,13 +26,6 @@ struct Tolerance {
   double tie = 1e-6;  ///< relative change that counts as a tie in the test [-]
   std::optional<double> alpha = 0.01;
 };
-
-/// Limit for times: a cell's median wall time [ms], compared between runs on the same CPU, with a
-/// test for methods that are slower by a tenth or more.
-Tolerance time_limit(double relative);
-
-/// Whether a limit is about times (its `where` has metric=time); otherwise times are not checked.
-bool limits_time(const std::vector<Tolerance>& limits);
 
 /// One score of one cell with the statistics that have a limit.
 struct GateScore : Record {
@@ -61,18 +57,74 @@ struct Baseline {
   Snapshot snapshot;
 };
 
+inline GateScore gate_score(const Record& r, const std::set<std::string>& statistics) {
+  GateScore out{r, 0, {}};
+  if (has_numbers(r.status)) {
+    out.count = static_cast<std::int64_t>(r.statistics.count);
+    for (const std::string& statistic : statistics) out.values[statistic] = value(r, statistic);
+  } else {
+    out.pairs = out.possible = 0;
+  }
+  return out;
+}
+
+/// Limit for times: a cell's median wall time [ms], compared between runs on the same CPU, with a
+/// test for methods that are slower by a tenth or more.
+inline Tolerance time_limit(double relative) {
+  return {.where = {"metric=time"},
+          .values = {"rmse"},
+          .relative = relative,
+          .absolute = 1.0,
+          .tie = 0.1};
+}
+
+/// Whether a limit is about times (its `where` has metric=time); otherwise times are not checked.
+inline bool limits_time(const std::vector<Tolerance>& limits) {
+  return std::ranges::any_of(limits, [](const Tolerance& limit) {
+    return std::ranges::count(limit.where, "metric=time") > 0;
+  });
+}
+
 /// Whether some of its cells were computed by a build with uncommitted changes.
-bool is_dirty(const std::map<std::string, std::string>& build_summary);
+inline bool is_dirty(const std::map<std::string, std::string>& build_summary) {
+  const auto source = build_summary.find("source");
+  return source != build_summary.end() && source->second.find("dirty") != std::string::npos;
+}
 
 /// "room (repeat 2) / uniform".
-std::string name(const GateCell& cell);
+inline std::string name(const GateCell& cell) { return run_name(cell) + " / " + cell.method; }
 
 /// "ate translation 3d, dense, loopbench".
-std::string name(const GateScore& score);
+inline std::string name(const GateScore& score) {
+  std::string out = metric_label(score);
+  for (const std::string& word : {score.relation.text(), score.axis.text()}) {
+    if (!word.empty()) out += " " + word;
+  }
+  return out + ", " + score.times + ", " + score.protocol;
+}
 
 /// The cells of a store's records (without derived ones), with the statistics in `limits`. Throws
 /// InputError for an unknown statistic. O(n log n).
-std::vector<GateCell> gate_cells(const std::vector<Record>& records,
-                                 const std::vector<Tolerance>& limits);
+inline std::vector<GateCell> gate_cells(const std::vector<Record>& records,
+                                        const std::vector<Tolerance>& limits) {
+  std::set<std::string> statistics;
+  for (const Tolerance& limit : limits) {
+    for (const std::string& statistic : limit.values) {
+      value(Record{}, statistic);  // rejects an unknown statistic even without records
+      statistics.insert(statistic);
+    }
+  }
+  std::vector<GateCell> out;
+  std::map<std::int64_t, std::size_t> positions;
+  for (const Record& r : records) {
+    const auto [found, is_new] = positions.emplace(r.cell, out.size());
+    if (is_new) {
+      out.push_back({r, {}});
+      if (!r.metric.empty()) out.back().status = Status::ok;  // a cell with scores has no failure
+    }
+    if (!r.metric.empty()) out[found->second].scores.push_back(gate_score(r, statistics));
+  }
+  return out;
+}
 
 }  // namespace loopbench::harness

@@ -1,15 +1,93 @@
 /// What `eval` remarks about an evaluation: the diagnosis, the frame and accuracy of the reference.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "datasets/core/fields.hpp"
 #include "harness/eval/recorded_evaluation.hpp"
+#include "harness/run/evaluation_notes.hpp"
+#include "metrics/checks/diagnostics.hpp"
+#include "metrics/checks/extrinsic_offset.hpp"
+#include "metrics/errors/ate.hpp"
 
 namespace loopbench::harness {
 
+/// The error without alignment, if the files are in one datum: as stated (converted from WGS 84
+/// about one origin), or frames that differ by less than a tenth of the reference's size, of which
+/// the alignment hides at least half; otherwise empty. O(n).
+inline std::string shared_datum(const metrics::Evaluation& evaluation, bool is_one_datum) {
+  constexpr double kNear = 0.1, kHidden = 0.5;
+  const metrics::Alignment& fit = evaluation.alignment;
+  const bool is_projected = evaluation.protocol.project != metrics::ProjectionPlane::none;
+  if (fit.type == metrics::Align::none || is_projected) return "";
+  const Pose estimate_from_reference = fit.reference_from_estimate.inverse();
+  const auto& pairs = evaluation.reference;
+  Vector3 mean = Vector3::Zero();
+  for (const auto& [stamp, pose] : pairs) {
+    mean += pose.translation / static_cast<double>(pairs.size());
+  }
+  double size = 0.0, aligned = 0.0, unaligned = 0.0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Vector3& expected = pairs[i].world_from_body.translation;
+    const Vector3& found = evaluation.estimate[i].world_from_body.translation;
+    size += (expected - mean).squaredNorm();
+    aligned += (found - expected).squaredNorm();
+    unaligned += (estimate_from_reference * found / fit.scale - expected).squaredNorm();
+  }
+  const bool is_near =
+      unaligned <= kNear * kNear * size && aligned <= kHidden * kHidden * unaligned;
+  if (!is_one_datum && !is_near) return "";
+  const auto count = static_cast<double>(pairs.size());
+  return fmt::format(
+      "datum: both files {} in one frame: ATE {:.4g} m without alignment (--align none), {:.4g} m "
+      "with {}",
+      is_one_datum ? "are" : "seem to be",
+      std::sqrt(unaligned / count),
+      std::sqrt(aligned / count),
+      to_text(fit.type));
+}
+
+/// Whether the ATE exceeds the reference's own error of `sigma` [m] per axis; empty for 0. O(n).
+inline std::string reference_error(const metrics::Evaluation& evaluation, double sigma) {
+  if (sigma == 0.0) return "";
+  const double own = std::sqrt(3.0) * sigma;
+  const double error = metrics::ate(evaluation, {}).front().statistics.rmse;
+  const std::string text =
+      fmt::format("reference: {:g} m per axis are a position error of {:.3g} m (rmse)", sigma, own);
+  if (error <= own) {
+    return text + fmt::format(": the ATE of {:.3g} m is below it and shows nothing else", error);
+  }
+  return text + fmt::format("; without it, an ATE of {:.4g} m would be about {:.4g} m",
+                            error,
+                            std::sqrt(error * error - own * own));
+}
+
 /// Sets diagnosis, notes and other_body. O(n log n).
-void add_checks(EvaluationResult& out,
-                const metrics::Evaluation& evaluation,
-                const RecordedFile& reference,
-                const RecordedFile& estimate,
-                const RecordedSweep& files);
+inline void add_checks(EvaluationResult& out,
+                       const metrics::Evaluation& evaluation,
+                       const RecordedFile& reference,
+                       const RecordedFile& estimate,
+                       const RecordedSweep& files) {
+  out.diagnosis = metrics::diagnostics(evaluation, {});
+  out.notes = evaluation_notes(reference.poses, evaluation);
+  for (const std::string& note :
+       {shared_datum(evaluation, reference.findings.origin && estimate.findings.origin),
+        reference_error(evaluation, files.arguments.reference_sigma)}) {
+    if (!note.empty()) out.notes.push_back(note);
+  }
+  const double off_unit = std::max(reference.findings.off_unit, estimate.findings.off_unit);
+  for (metrics::Score& score : out.diagnosis) {
+    // Readers normalise, so the value is that of the files.
+    if (score.relation == "off_unit") score = metrics::single("off_unit", "", "1", off_unit);
+  }
+  const std::size_t left_out = reference.findings.repeated + estimate.findings.repeated;
+  out.diagnosis.push_back(metrics::single("left_out", "", "1", static_cast<double>(left_out)));
+  if (const auto offset = metrics::extrinsic_offset(evaluation, {})) {
+    out.other_body = metrics::other_body(*offset, pose_of(files.body));
+  }
+}
 
 }  // namespace loopbench::harness

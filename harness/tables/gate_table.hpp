@@ -1,17 +1,103 @@
 /// Reports of the gate as text.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "harness/compare/gate.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 
+inline const char* name(Finding::Kind kind) {
+  if (kind == Finding::Kind::regression) return "regression";
+  return kind == Finding::Kind::improvement ? "improvement" : "new";
+}
+
+inline std::string counted_findings(std::size_t count, const std::string& what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+inline std::string xml(const std::string& text) {
+  std::string out;
+  for (const char c : one_line(text)) {  // XML 1.0 does not allow control characters
+    if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '&') {
+      out += "&amp;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+inline std::string test_case(const std::string& sweep,
+                             const std::string& name,
+                             const std::vector<const Finding*>& regressions) {
+  std::string out = fmt::format("  <testcase classname=\"{}\" name=\"{}\"", xml(sweep), xml(name));
+  if (regressions.empty()) return out + "/>\n";
+  std::string all;
+  for (const Finding* finding : regressions) {
+    all += (all.empty() ? "" : "; ") + (finding->score.empty() ? "" : finding->score + ": ") +
+           finding->what;
+  }
+  return out + fmt::format(">\n    <failure message=\"{}\">{}</failure>\n  </testcase>\n",
+                           xml(counted_findings(regressions.size(), "regression")),
+                           xml(all));
+}
+
 /// Verdict and table of findings.
-std::string markdown(const GateReport& report, const std::string& sweep);
+inline std::string markdown(const GateReport& report, const std::string& sweep) {
+  Table out{fmt::format("{}: {}", sweep, report.passes() ? "passed" : "FAILED"),
+            {"cell", "score", "finding", "what"},
+            {},
+            {fmt::format("{}, {}, {} in {} and {}",
+                         counted_findings(report.count(Finding::Kind::regression), "regression"),
+                         counted_findings(report.count(Finding::Kind::improvement), "improvement"),
+                         counted_findings(report.count(Finding::Kind::added), "new cell"),
+                         counted_findings(report.cells, "cell"),
+                         counted_findings(report.scores, "score"))}};
+  for (const std::string& note : report.notes) out.notes.push_back(note);
+  for (const Finding& finding : report.findings) {
+    out.lines.push_back({{finding.cell}, {finding.score}, {name(finding.kind)}, {finding.what}});
+  }
+  if (!out.lines.empty()) return markdown(out);
+  std::string text = "### " + one_line(out.title) + "\n\n";
+  for (const std::string& note : out.notes) text += "- " + one_line(note) + "\n";
+  return text;
+}
 
 /// JUnit test suite with one case per cell of the baseline, failed if it has a regression, and one
 /// for each regression over all runs. Escaped for XML 1.0.
-std::string junit(const GateReport& report, const std::string& sweep);
+inline std::string junit(const GateReport& report, const std::string& sweep) {
+  std::map<std::string, std::vector<const Finding*>> regressions;
+  for (const std::string& cell : report.names) regressions[cell];
+  std::vector<std::string> order = report.names;
+  for (const Finding& finding : report.findings) {
+    if (finding.kind != Finding::Kind::regression) continue;
+    const auto [found, is_new] = regressions.try_emplace(finding.cell);
+    if (is_new) order.push_back(finding.cell);  // a method, for findings over all runs
+    found->second.push_back(&finding);
+  }
+  std::size_t failures = 0;
+  std::string cases;
+  for (const std::string& cell : order) {
+    if (!regressions[cell].empty()) ++failures;
+    cases += test_case(sweep, cell, regressions[cell]);
+  }
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\">\n{}</testsuite>\n",
+      xml("loopbench check " + sweep),
+      order.size(),
+      failures,
+      cases);
+}
 
 }  // namespace loopbench::harness

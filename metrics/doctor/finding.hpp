@@ -1,6 +1,9 @@
 /// A likely mistake in the input of an evaluation.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <array>
 #include <string>
 
 namespace loopbench::metrics {
@@ -39,9 +42,6 @@ enum class Fault {
 /// Findings with a smaller confidence are not reported.
 inline constexpr double kLeastConfidence = 0.25;
 
-/// "time_offset": short name of a fault.
-std::string fault_name(Fault fault);
-
 struct InputFinding {
   Fault fault{};
   std::string evidence;  ///< numbers that show the mistake
@@ -51,7 +51,48 @@ struct InputFinding {
   double value = 0.0;  ///< offset [s], ratio, or number of edges; see `evidence`
 };
 
+/// "time_offset": short name of a fault.
+inline std::string fault_name(Fault fault) {
+  // In the order of the enumerators.
+  static constexpr std::array kNames{"time_offset",
+                                     "stamp_unit",
+                                     "frame_indices",
+                                     "clock_drift",
+                                     "no_overlap",
+                                     "missing_poses",
+                                     "wrong_recording",
+                                     "jumps",
+                                     "constant_rotation",
+                                     "quaternion_order",
+                                     "conjugated",
+                                     "inverted_poses",
+                                     "axes",
+                                     "angle_unit",
+                                     "length_unit",
+                                     "scale",
+                                     "swapped",
+                                     "closure_direction",
+                                     "odometry_direction",
+                                     "closure_rotation",
+                                     "closure_unit",
+                                     "closure_frame",
+                                     "closure_gap",
+                                     "information_order",
+                                     "information_scale",
+                                     "nothing_moved",
+                                     "lever_arm",
+                                     "body_rotation"};
+  static_assert(kNames.size() == std::size_t{1} + static_cast<std::size_t>(Fault::body_rotation));
+  return kNames.at(static_cast<std::size_t>(fault));
+}
+
 /// "time_offset: EVIDENCE; FIX (confidence 0.93)".
-std::string text(const InputFinding& finding);
+inline std::string text(const InputFinding& finding) {
+  return fmt::format("{}: {}; {} (confidence {:.2f})",
+                     fault_name(finding.fault),
+                     finding.evidence,
+                     finding.fix,
+                     finding.confidence);
+}
 
 }  // namespace loopbench::metrics

@@ -1,6 +1,7 @@
 /// Checks of the edges of a pose graph: conventions, false closures, information, effect.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -9,14 +10,6 @@
 #include "metrics/doctor/finding.hpp"
 
 namespace loopbench::metrics {
-
-/// Compares closures with the odometry, without a reference:
-/// - conventions of odometry and closures, see find_odometry_repair() and find_closure_repair();
-/// - gaps, see check_gaps();
-/// - information, see check_information(), without the closures found before, and only if these
-///   are less than a fifth.
-/// Empty if the odometry is no chain. O((closures + keyframes) log).
-std::vector<InputFinding> check_closures(const Problem& problem);
 
 /// The correction of direction or unit of the odometry that makes it agree with the keyframes,
 /// whose poses a file can state on their own. nullopt if there is none. O(keyframes).
@@ -57,5 +50,36 @@ std::optional<InputFinding> check_information(const std::vector<Edge>& closures,
 /// nullopt without closures or if their median difference is below 1 mm and 0.01 deg.
 /// O(keyframes + closures).
 std::optional<InputFinding> check_movement(const Problem& problem, const Trajectory& corrected);
+
+/// Compares closures with the odometry, without a reference:
+/// - conventions of odometry and closures, see find_odometry_repair() and find_closure_repair();
+/// - gaps, see check_gaps();
+/// - information, see check_information(), without the closures found before, and only if these
+///   are less than a fifth.
+/// Empty if the odometry is no chain. O((closures + keyframes) log).
+inline std::vector<InputFinding> check_closures(const Problem& problem) {
+  std::vector<InputFinding> out;
+  const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
+  if (problem.closures.empty() || !is_chain) return out;
+  const Chain chain = chain_of(problem);
+  if (auto repair = find_odometry_repair(problem)) return {*repair};
+  const GapCheck gaps = check_gaps(problem.closures, chain);
+  const bool are_few_false = 5 * gaps.closures.size() < problem.closures.size();
+  if (auto repair = find_closure_repair(problem, chain)) {
+    // Smaller translations of all closures also shrink the gaps of a few false ones.
+    const bool is_unit = repair->fault == Fault::closure_unit;
+    if (!(is_unit && gaps.finding && are_few_false)) return {*repair};
+  }
+  if (gaps.finding) out.push_back(*gaps.finding);
+  if (are_few_false) {  // false closures show nothing about the information
+    std::vector<Edge> plausible;
+    for (std::size_t i = 0; i < problem.closures.size(); ++i) {
+      if (std::ranges::count(gaps.closures, i) == 0) plausible.push_back(problem.closures[i]);
+    }
+    if (auto found = check_information(plausible, chain)) out.push_back(*found);
+  }
+  std::erase_if(out, [](const InputFinding& f) { return f.confidence < kLeastConfidence; });
+  return out;
+}
 
 }  // namespace loopbench::metrics

@@ -1,7 +1,14 @@
 /// Share of time with a position error below thresholds.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
 #include "metrics/metric.hpp"
+#include "metrics/trajectory/tracking_gaps.hpp"
 
 namespace loopbench::metrics {
 
@@ -14,17 +21,79 @@ void fields(AccuracyOptions& o, Visit visit) {
   visit("thresholds", o.thresholds, "thresholds of the position error, ascending [m]");
 }
 
-/// Throws OptionError for thresholds that are not positive and ascending.
-void check_combination(const AccuracyOptions& options);
+inline constexpr double kAccuracyPause = 2.0;  // [s], as for Coverage::span
+
+/// Time that each pair stands for [s].
+inline std::vector<double> represented_time(const Trajectory& reference, const Trajectory& paired) {
+  const std::vector<TrackingGap> gaps =
+      tracking_gaps(reference, stamps(paired), 0.0, kAccuracyPause);
+  std::vector<double> out(paired.size(), 0.0);
+  std::size_t gap = 0;
+  for (std::size_t i = 1; i < paired.size(); ++i) {
+    const double begin = paired[i - 1].stamp;
+    while (gap < gaps.size() && gaps[gap].begin < begin) ++gap;
+    if (gap < gaps.size() && gaps[gap].begin == begin) continue;
+    const double half = 0.5 * std::max(0.0, paired[i].stamp - begin);
+    out[i - 1] += half;
+    out[i] += half;
+  }
+  return out;
+}
 
 /// Numbers of a text such as "0.1 0.3", positive and ascending. Throws OptionError.
-std::vector<double> ascending_numbers(const std::string& option, const std::string& text);
+inline std::vector<double> ascending_numbers(const std::string& option, const std::string& text) {
+  std::vector<double> out;
+  std::istringstream in(text);
+  for (double number = 0.0; in >> number;) {
+    if (!(number > (out.empty() ? 0.0 : out.back()))) break;
+    out.push_back(number);
+  }
+  if (!in.eof() || out.empty()) {
+    throw OptionError(option, option + " = '" + text + "': expected positive ascending numbers");
+  }
+  return out;
+}
+
+/// Throws OptionError for thresholds that are not positive and ascending.
+inline void check_combination(const AccuracyOptions& options) {
+  ascending_numbers("thresholds", options.thresholds);
+}
 
 /// `within` [%]: share of the reference's time with an error below each threshold;
 /// a pair stands for half of the time to its neighbours. Tracking gaps (as in Coverage) and the
 /// time before the first and after the last pair count as failed. `area` [%]: area under the curve
 /// of this share over thresholds from 0 to the largest one, which is the mean of 1 - error /
 /// largest, at least 0. Throws Undefined for a reference of one stamp. O(n log n).
-std::vector<Score> accuracy(const Evaluation& evaluation, const AccuracyOptions& options);
+inline std::vector<Score> accuracy(const Evaluation& evaluation, const AccuracyOptions& options) {
+  const std::vector<double> thresholds = ascending_numbers("thresholds", options.thresholds);
+  const Trajectory& reference =
+      needed(evaluation.context.reference, "accuracy", "the complete reference");
+  const double duration = reference.back().stamp - reference.front().stamp;
+  if (!(duration > 0.0)) throw Undefined("accuracy: the reference has no duration");
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < evaluation.reference.size(); ++i) {
+    errors.push_back((evaluation.reference[i].world_from_body.translation -
+                      evaluation.estimate[i].world_from_body.translation)
+                         .norm());
+  }
+  const std::vector<double> seconds = represented_time(reference, evaluation.reference);
+  std::vector<Score> out;
+  double area = 0.0;
+  for (const double threshold : thresholds) {
+    double within = 0.0;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      if (errors[i] < threshold) within += seconds[i];
+    }
+    out.push_back(
+        directed(single("within", fmt::format("{:g}", threshold), "%", 100.0 * within / duration),
+                 Better::higher));
+  }
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    area += seconds[i] * std::max(0.0, 1.0 - errors[i] / thresholds.back());
+  }
+  out.push_back(directed(single("area", "", "%", 100.0 * area / duration), Better::higher));
+  for (Score& score : out) score.statistics.count = errors.size();
+  return out;
+}
 
 }  // namespace loopbench::metrics

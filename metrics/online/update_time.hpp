@@ -1,7 +1,12 @@
 /// Time of the updates of a replay, its growth, and missed deadlines.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "metrics/metric.hpp"
+#include "metrics/numerics/percentile.hpp"
+#include "metrics/online/replay_of.hpp"
 
 namespace loopbench::metrics {
 
@@ -17,12 +22,64 @@ void fields(UpdateTimeOptions& o, Visit visit) {
         GreaterThan{0.0});
 }
 
+inline constexpr double kResolution = 1e-9;  // of the clock [s]
+
+/// Exponent of the growth, or the reason why there is none.
+inline Score growth_of_times(const std::vector<ReplayUpdate>& updates) {
+  Score out{"growth", "", "1", {}};
+  const std::size_t first = updates.front().keyframes;
+  const std::size_t last = updates.back().keyframes;
+  if (updates.size() < 3 || last < 2 * first) {
+    out.why_undefined =
+        "update_time: growth needs three updates over a doubled number of keyframes";
+    return out;
+  }
+  double mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0;
+  const auto count = static_cast<double>(updates.size());
+  const auto x_of = [](const ReplayUpdate& u) {
+    return std::log(static_cast<double>(u.keyframes));
+  };
+  const auto y_of = [](const ReplayUpdate& u) {
+    return std::log(std::max(kResolution, u.seconds));
+  };
+  for (const ReplayUpdate& update : updates) {
+    mean_x += x_of(update) / count;
+    mean_y += y_of(update) / count;
+  }
+  for (const ReplayUpdate& update : updates) {
+    const double x = x_of(update) - mean_x;
+    xx += x * x;
+    xy += x * (y_of(update) - mean_y);
+  }
+  return single("growth", "", "1", xy / xx);
+}
+
 /// Of the wall times of all updates: `percentile` median, p95, p99 and max [s]; `misses` [%], the
 /// share of updates longer than 1 / rate; `growth` [1], the exponent k of the least-squares fit
 /// time ~ keyframes^k in logarithms. `growth` is undefined for fewer than three updates, or if the
 /// number of keyframes does not at least double. These are measured times: they differ between
 /// runs. Needs no reference. Throws Undefined if the method was not replayed or had no update.
 /// O(updates log updates).
-std::vector<Score> update_time(const Evaluation& evaluation, const UpdateTimeOptions& options);
+inline std::vector<Score> update_time(const Evaluation& evaluation,
+                                      const UpdateTimeOptions& options) {
+  const std::vector<ReplayUpdate>& updates = replay_of(evaluation, "update_time").updates;
+  if (updates.empty()) throw Undefined("update_time: the replay had no update");
+  std::vector<double> sorted;
+  for (const ReplayUpdate& update : updates) sorted.push_back(update.seconds);
+  std::ranges::sort(sorted);
+  const auto misses = static_cast<double>(
+      std::ranges::count_if(sorted, [&](double seconds) { return seconds > 1.0 / options.rate; }));
+  std::vector<Score> out;
+  for (const auto& [name, share] :
+       {std::pair{"median", 0.5}, {"p95", 0.95}, {"p99", 0.99}, {"max", 1.0}}) {
+    out.push_back(single("percentile", name, "s", percentile(sorted, share)));
+  }
+  out.push_back(single("misses", "", "%", 100.0 * misses / static_cast<double>(sorted.size())));
+  out.push_back(growth_of_times(updates));
+  for (Score& score : out) {
+    if (score.why_undefined.empty()) score.statistics.count = sorted.size();
+  }
+  return out;
+}
 
 }  // namespace loopbench::metrics

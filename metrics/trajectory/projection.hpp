@@ -2,6 +2,7 @@
 #pragma once
 
 #include "datasets/core/trajectory.hpp"
+#include "metrics/numerics/euler.hpp"
 #include "metrics/protocols/protocol.hpp"
 
 namespace loopbench::metrics {
@@ -9,6 +10,14 @@ namespace loopbench::metrics {
 /// Sets the coordinate normal to the plane to zero and keeps of each orientation only its Euler
 /// angle about the normal (euler.hpp; for xz that is the pitch, limited to +-90 degrees). evo
 /// core/trajectory.py:200-230. O(n). No effect for `none`.
-void project(Trajectory& trajectory, ProjectionPlane plane);
+inline void project(Trajectory& trajectory, ProjectionPlane plane) {
+  if (plane == ProjectionPlane::none) return;
+  const int across = plane == ProjectionPlane::xy ? 2 : plane == ProjectionPlane::xz ? 1 : 0;
+  for (auto& [stamp, pose] : trajectory) {
+    const auto [roll, pitch, yaw] = euler(pose.rotation);
+    pose.translation[across] = 0.0;
+    pose.rotation = exp_so3(Vector3(roll, pitch, yaw)[across] * Vector3::Unit(across));
+  }
+}
 
 }  // namespace loopbench::metrics
