@@ -1,6 +1,7 @@
-"""Table and picture of results/methods/pose_graphs.md: graph_page.py STORE LOOPBENCH [PICTURE.png]
+"""Table and picture of results/methods/pose_graphs.md: graph_page.py STORE LOOPBENCH [DATA PICTURE.png]
 
 STORE: results of configs/pose_graphs.yaml with --save-trajectories. The table goes to standard output.
+DATA: the data folder; poses before the correction are read from its files.
 """
 
 import csv
@@ -44,37 +45,31 @@ def print_table(store):
             own[label] = value
         if relation == "gap":
             own["gap " + axis] = value
-    print("| graph | poses | edges | before | cost | as g2o | as SE-Sync | from odometry | certificate | estimate [%]"
+    print("| graph | poses | edges | cost | as g2o | as SE-Sync | from odometry | certificate | estimate [%]"
           " | ms | MB |")
-    print("| --- |" + " ---: |" * 7 + " --- |" + " ---: |" * 3)
+    print("| --- |" + " ---: |" * 6 + " --- |" + " ---: |" * 3)
     for name, graph in graphs.items():
         solved = graph["pose_graph"]
         odometry = graph.get("pose_graph from odometry", {})
         estimate = solved.get("gap estimate")
-        print(f"| {name} | {graph['poses']} | {graph['edges']} | {number(graph['raw'].get('cost'))} | "
+        print(f"| {name} | {graph['poses']} | {graph['edges']} | "
               + " | ".join(number(solved.get(cost)) for cost in COSTS)
               + f" | {number(odometry.get('cost'))} | {gap(solved.get('gap minimum'))} | "
               + ("-" if estimate is None else f"{estimate:.3g}")
               + f" | {1e3 * solved['seconds']:.3g} | {solved['memory'] / 2**20:.0f} |")
 
 
-def poses_of(folder):
-    """Positions by graph and method."""
-    out = {}
-    for row in csv.DictReader((folder / "index.csv").open()):
-        out[row["sequence"], row["method"]] = np.loadtxt(folder / row["file"])[:, 1:4]
-    return out
+def positions_in(file):
+    return np.loadtxt(file)[:, 1:4]
 
 
-def draw(positions, picture):
-    names = [name for name, method in positions
-             if method == "raw" and "(" not in name][:10]
+def draw(graphs, picture):
+    """graphs: (name, positions before, positions after)."""
     figure, axes = plt.subplots(4, 5, figsize=(10, 8.4))
-    for k, name in enumerate(names):
-        for row, method in enumerate(["raw", "pose_graph"]):
+    for k, (name, *positions) in enumerate(graphs):
+        plane = sorted(np.argsort(-np.var(positions[1], axis=0), kind="stable")[:2])
+        for row, at in enumerate(positions):
             panel = axes[2 * (k // 5) + row, k % 5]
-            at = positions[name, method]
-            plane = sorted(np.argsort(-np.var(positions[name, "pose_graph"], axis=0), kind="stable")[:2])
             panel.plot(at[:, plane[0]], at[:, plane[1]], lw=0.3, color=["#b35806", "#2166ac"][row])
             panel.set_aspect("equal", "datalim")
             panel.set_xticks([]), panel.set_yticks([])
@@ -85,11 +80,23 @@ def draw(positions, picture):
     figure.savefig(picture, dpi=110)
 
 
+def pictured(store, program, data, folder):
+    """The graphs of data/pose_graphs, with the information as in the file."""
+    def loopbench(*arguments):
+        subprocess.run([program, *arguments], check=True, stdout=subprocess.DEVNULL)
+
+    loopbench("export", store, "--what", "trajectories", "-o", folder)
+    for row in csv.DictReader(Path(folder, "index.csv").open()):
+        graph = [*Path(data, "pose_graphs").glob(row["sequence"] + "*.g2o")]
+        if row["method"] == "pose_graph" and graph:
+            before = Path(folder, graph[0].stem + "-before.txt")
+            loopbench("traj", "convert", graph[0], "-o", before)
+            yield row["sequence"], positions_in(before), positions_in(Path(folder, row["file"]))
+
+
 if __name__ == "__main__":
     store, program = Path(sys.argv[1]), sys.argv[2]
     print_table(store / "results.sqlite")
     if len(sys.argv) > 3:
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([program, "export", store, "--what", "trajectories", "-o", folder],
-                           check=True, stdout=subprocess.DEVNULL)
-            draw(poses_of(Path(folder)), sys.argv[3])
+            draw(pictured(store, program, sys.argv[3], folder), sys.argv[4])
