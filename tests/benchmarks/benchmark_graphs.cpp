@@ -18,6 +18,7 @@
 #include "methods/solvers/groups/se3.hpp"
 #include "metrics/correction/optimality.hpp"
 #include "tests/benchmarks/peak_memory.hpp"
+#include "tests/support/public_graphs.hpp"
 
 namespace loopbench {
 
@@ -117,16 +118,7 @@ int main(int argc, char** argv) {
         ->MeasureProcessCPUTime()
         ->Unit(benchmark::kMillisecond);
   };
-  for (const std::string name : {"intel",
-                                 "INTEL_1228_with_vertices",
-                                 "MIT",
-                                 "M3500_with_vertices",
-                                 "city10000",
-                                 "smallGrid3D",
-                                 "parking-garage",
-                                 "sphere2500",
-                                 "torus3D",
-                                 "cubicle"}) {
+  for (const std::string name : test::kPublicGraphs) {
     if (root == nullptr) continue;
     PoseGraphOptions options;
     options.path = "pose_graphs/" + name + ".g2o";

@@ -14,6 +14,7 @@
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/solvers/initial_values.hpp"
 #include "metrics/correction/chordal_matrix.hpp"
+#include "tests/support/public_graphs.hpp"
 
 namespace loopbench {
 namespace {
@@ -121,16 +122,7 @@ int main() {
   fmt::print(
       "| graph | start | chi2 of the start | iterations | chi2 | start [ms] |\n"
       "| --- | --- | ---: | ---: | ---: | ---: |\n");
-  for (const std::string name : {"intel",
-                                 "INTEL_1228_with_vertices",
-                                 "MIT",
-                                 "M3500_with_vertices",
-                                 "city10000",
-                                 "smallGrid3D",
-                                 "parking-garage",
-                                 "sphere2500",
-                                 "torus3D",
-                                 "cubicle"}) {
+  for (const std::string name : test::kPublicGraphs) {
     PoseGraphOptions options;
     options.path = "pose_graphs/" + name + ".g2o";
     options.rules.rotation = RotationInformation::angles;
