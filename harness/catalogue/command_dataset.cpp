@@ -279,4 +279,13 @@ DatasetEntry command_dataset(const std::filesystem::path& cache) {
       });
 }
 
+Limits longest_limits(const Sweep& sweep) {
+  Limits out = sweep.limits;
+  if (out.seconds <= 0.0) return out;
+  for (const DatasetChoice& choice : sweep.datasets) {
+    out.seconds = std::max(out.seconds, loading_limits(choice.dataset, sweep.limits).seconds);
+  }
+  return out;
+}
+
 }  // namespace loopbench::harness

@@ -21,4 +21,7 @@ DatasetEntry command_dataset(const std::filesystem::path& cache);
 /// Limits of loading a sequence: `of_cells`, except what the options of a program state.
 Limits loading_limits(const Choice& dataset, Limits of_cells);
 
+/// The limits of cells, with the time of the sequence that may load for longest.
+Limits longest_limits(const Sweep& sweep);
+
 }  // namespace loopbench::harness

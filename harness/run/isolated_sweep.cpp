@@ -20,16 +20,6 @@
 namespace loopbench::harness {
 namespace {
 
-/// The limits of cells, with the time of the sequence that may load for longest.
-Limits longest_limits(const Sweep& sweep) {
-  Limits out = sweep.limits;
-  if (out.seconds <= 0.0) return out;
-  for (const DatasetChoice& choice : sweep.datasets) {
-    out.seconds = std::max(out.seconds, loading_limits(choice.dataset, sweep.limits).seconds);
-  }
-  return out;
-}
-
 class IsolatedSweep {
  public:
   IsolatedSweep(const WorkerContext& context,
