@@ -19,7 +19,8 @@ struct Score {
   Statistics statistics;
   std::string why_undefined = {};  ///< set if the score is undefined; it has no statistics then
   Better better = Better::lower;
-  double target = 0.0;  ///< best value where `better` is target
+  double target = 0.0;                ///< best value where `better` is target
+  std::vector<double> per_pose = {};  ///< value at each pair, for figures; empty: none
 };
 
 /// Returns the score with the given direction instead of `lower`.

@@ -82,7 +82,7 @@ std::string answer_of_run(const metrics::Evaluation& evaluation,
   return text;
 }
 
-metrics::Score score_of(const nlohmann::json& entry, int ddof) {
+metrics::Score score_of(const nlohmann::json& entry, int ddof, std::size_t pairs) {
   metrics::Score out;
   const auto name = entry.at("name").get<std::string>();
   const auto unit = entry.at("unit").get<std::string>();
@@ -91,6 +91,7 @@ metrics::Score score_of(const nlohmann::json& entry, int ddof) {
     const auto values = entry.at("values").get<std::vector<double>>();
     if (values.empty()) throw metrics::Undefined(name + ": has no values");
     out = {name, axis, unit, metrics::statistics(values, ddof)};
+    if (values.size() == pairs) out.per_pose = values;
   } else {
     out = metrics::single(name, axis, unit, entry.at("value").get<double>());
   }
@@ -110,13 +111,13 @@ CommandOptions program_of_metric(const Params& options) {
   return with(CommandMetricOptions{}, options).program;
 }
 
-std::vector<metrics::Score> parse_scores(const std::string& text, int ddof) {
+std::vector<metrics::Score> parse_scores(const std::string& text, int ddof, std::size_t pairs) {
   require_ok(parse_metadata(text));
   try {
     std::vector<metrics::Score> out;
     const nlohmann::json answer = nlohmann::json::parse(text);
     for (const nlohmann::json& entry : answer.at("scores")) {
-      out.push_back(score_of(entry, ddof));
+      out.push_back(score_of(entry, ddof, pairs));
     }
     return out;
   } catch (const nlohmann::json::exception& error) {
@@ -131,7 +132,10 @@ std::vector<metrics::Score> command_scores(const metrics::Evaluation& evaluation
                                            const CommandSetting& setting) {
   const CommandOptions program = program_of_metric(options);
   const int ddof = evaluation.protocol.ddof;
-  if (program.serve.empty()) return parse_scores(answer_of_run(evaluation, program, setting), ddof);
+  const std::size_t pairs = evaluation.reference.size();
+  if (program.serve.empty()) {
+    return parse_scores(answer_of_run(evaluation, program, setting), ddof, pairs);
+  }
   std::string errors;
   try {
     const auto bytes = [&](std::uint64_t number) {
@@ -139,8 +143,7 @@ std::vector<metrics::Score> command_scores(const metrics::Evaluation& evaluation
                      {{"reference", &evaluation.reference}, {"estimate", &evaluation.estimate}},
                      number);
     };
-    return parse_scores(
-        ask_served(program, setting, bytes, evaluation.reference.size(), errors).text, ddof);
+    return parse_scores(ask_served(program, setting, bytes, pairs, errors).text, ddof, pairs);
   } catch (const metrics::Undefined&) {
     throw;
   } catch (const std::runtime_error& error) {

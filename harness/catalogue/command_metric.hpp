@@ -29,8 +29,9 @@ std::vector<metrics::Score> command_scores(const metrics::Evaluation& evaluation
                                            const Params& options,
                                            const CommandSetting& setting);
 
-/// Scores in the text of a result; lists of values become statistics with `ddof`. Throws
-/// std::runtime_error, and Undefined if the program declined.
-std::vector<metrics::Score> parse_scores(const std::string& json, int ddof);
+/// Scores in the text of a result; lists of values become statistics with `ddof`, and a list of
+/// length `pairs` is kept as Score::per_pose. Throws std::runtime_error, and Undefined if the
+/// program declined.
+std::vector<metrics::Score> parse_scores(const std::string& json, int ddof, std::size_t pairs);
 
 }  // namespace loopbench::harness

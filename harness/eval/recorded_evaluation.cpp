@@ -150,6 +150,7 @@ struct PairEvaluation {
       const StampedPose& first = reference.poses.front();
       const Vector3& p = first.world_from_body.translation;
       out.result.trace = cell_trace(evaluation, row.times, {first.stamp, p.x(), p.y(), p.z()});
+      add_pose_values(out.result, row);
     }
     checks.get();
   }

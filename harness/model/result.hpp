@@ -53,4 +53,16 @@ struct CellResult {
   std::shared_ptr<const SequenceMetadata> metadata;  ///< null if its sequence could not be loaded
 };
 
+/// Adds to the trace what the scores under the protocol and times of `row` state for each pose.
+inline void add_pose_values(CellResult& result, const ScoreResult& row) {
+  for (const ScoreResult& each : result.scores) {
+    const metrics::Score& score = each.score;
+    if (each.protocol != row.protocol || each.times != row.times || score.per_pose.empty())
+      continue;
+    const std::string relation = score.relation == each.label ? "" : " " + score.relation;
+    const std::string axis = score.axis.empty() ? "" : " " + score.axis;
+    add_values(result.trace, each.label + relation + axis, score.unit, score.per_pose);
+  }
+}
+
 }  // namespace loopbench::harness

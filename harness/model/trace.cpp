@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "datasets/core/replay.hpp"
 #include "metrics/numerics/angle.hpp"
@@ -119,6 +120,17 @@ CellTrace cell_trace(const metrics::Evaluation& evaluation,
     out.snapshots.push_back({snapshot.time - origin.stamp, poses(known, origin)});
   }
   return out;
+}
+
+void add_values(CellTrace& trace,
+                std::string name,
+                std::string unit,
+                const std::vector<double>& per_pose) {
+  TraceValues& added = trace.values.emplace_back();
+  added.name = std::move(name);
+  added.unit = std::move(unit);
+  visit_thinned(per_pose.size(),
+                [&](std::size_t i) { added.values.push_back(static_cast<float>(per_pose[i])); });
 }
 
 }  // namespace loopbench::harness

@@ -5,6 +5,7 @@
 /// sequence, so that float32 is sufficient far from zero.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "datasets/core/sequence.hpp"
@@ -57,11 +58,19 @@ struct TraceSnapshot {
   std::vector<TracePose> poses;  ///< aligned; after `time`, each pose as known at its own time
 };
 
+/// Values that a metric gave for each evaluated pose.
+struct TraceValues {
+  std::string name;  ///< of the metric and its score
+  std::string unit;
+  std::vector<float> values;  ///< at the samples of the cell's trace
+};
+
 struct CellTrace {
   metrics::Times times = metrics::Times::dense;  ///< evaluation times
   std::vector<TraceSample> samples;              ///< empty if nothing was evaluated
   std::vector<TraceSample> causal{};       ///< of a replay: each pose as known at its own time
   std::vector<TraceSnapshot> snapshots{};  ///< of a replay, in the order of time
+  std::vector<TraceValues> values{};
 };
 
 TraceOrigin trace_origin(const Sequence& sequence);
@@ -69,5 +78,11 @@ SequenceTrace sequence_trace(const Sequence& sequence);
 CellTrace cell_trace(const metrics::Evaluation& evaluation,
                      metrics::Times times,
                      const TraceOrigin& origin);
+
+/// Adds values of a metric, one for each pose that cell_trace() evaluated.
+void add_values(CellTrace& trace,
+                std::string name,
+                std::string unit,
+                const std::vector<double>& per_pose);
 
 }  // namespace loopbench::harness

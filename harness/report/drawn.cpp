@@ -96,6 +96,19 @@ CellErrors errors(const CellTrace& trace, std::size_t most) {
   return out;
 }
 
+/// [{name, unit, v}] of the poses of errors().
+nlohmann::json values_json(const CellTrace& trace, std::size_t most) {
+  nlohmann::json out = nlohmann::json::array();
+  for (const TraceValues& each : trace.values) {
+    Column drawn;
+    for (const std::size_t i : subsampled_indices(each.values.size(), most)) {
+      drawn.push_back(each.values[i]);
+    }
+    out.push_back({{"name", each.name}, {"unit", each.unit}, {"v", packed(drawn)}});
+  }
+  return out;
+}
+
 /// The sections of one kind.
 struct DrawnSections {
   std::size_t all = 0;
@@ -202,6 +215,7 @@ nlohmann::json traces_json(const ReportContent& content, const Thinning& thinnin
              {"y", packed(e.y)},
              {"z", packed(e.z)},
              {"angle", packed(e.angle)}};
+    if (!trace->values.empty()) drawn["values"] = values_json(*trace, thinning.points);
     if (!trace->snapshots.empty() && replayed.insert({cell.sequence, cell.method}).second) {
       drawn["replay"] = replay_json(*trace, thinning.points);
     }

@@ -59,6 +59,7 @@ CellWriter::CellWriter(Database& database, std::string provenance_key)
       section_(insert_into(database, kSectionTable)),
       trace_(insert_into(database, kTraceTable)),
       snapshot_(insert_into(database, kSnapshotTable)),
+      pose_value_(insert_into(database, kPoseValueTable)),
       set_checksum_(checksum_update(database)),
       one_more_(database.prepare("UPDATE run SET value = value + 1 WHERE key = 'cells'")) {}
 
@@ -94,6 +95,10 @@ void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
   std::int64_t number = 0;
   for (const TraceSnapshot& each : trace.snapshots) {
     snapshot_.bind(id, number++, each.time, Blob{bytes_of(each.poses)}).run();
+  }
+  number = 0;
+  for (const TraceValues& each : trace.values) {
+    pose_value_.bind(id, number++, each.name, each.unit, Blob{bytes_of(each.values)}).run();
   }
 }
 

@@ -45,6 +45,7 @@ class CellWriter {
   Statement section_;
   Statement trace_;
   Statement snapshot_;
+  Statement pose_value_;
   Statement set_checksum_;
   Statement one_more_;                  ///< cell of the store
   std::set<std::int64_t> definitions_;  ///< ids of those that are written

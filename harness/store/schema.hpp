@@ -6,7 +6,7 @@
 namespace loopbench::harness {
 
 /// Incremented when the meaning of a table or column changes; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 12;
+inline constexpr int kSchemaVersion = 13;
 
 /// Creates the tables of a store, readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
@@ -130,6 +130,12 @@ inline constexpr const char* kSchema = R"sql(
     poses BLOB NOT NULL,               -- TracePose, 8 floats each
     checksum INTEGER NOT NULL,
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
+  CREATE TABLE pose_value (            -- of a metric, for each sample of the trace
+    cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
+    name TEXT NOT NULL, unit TEXT NOT NULL,
+    value BLOB NOT NULL,               -- float32
+    checksum INTEGER NOT NULL,
+    PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE TABLE sequence_trace (
     sequence_key TEXT PRIMARY KEY,
     origin_stamp REAL NOT NULL,        -- stamps are relative to it [s]
@@ -163,8 +169,15 @@ inline constexpr CellTable kNoteTable{"note", "number, text"};
 inline constexpr CellTable kSectionTable{"section", "number, kind, begin_stamp, end_stamp, what"};
 inline constexpr CellTable kTraceTable{"trace", "times, samples, causal"};
 inline constexpr CellTable kSnapshotTable{"snapshot", "number, time, poses"};
-inline constexpr CellTable kCellTables[] = {
-    kScoreTable, kPhaseTable, kCountTable, kNoteTable, kSectionTable, kTraceTable, kSnapshotTable};
+inline constexpr CellTable kPoseValueTable{"pose_value", "number, name, unit, value"};
+inline constexpr CellTable kCellTables[] = {kScoreTable,
+                                            kPhaseTable,
+                                            kCountTable,
+                                            kNoteTable,
+                                            kSectionTable,
+                                            kTraceTable,
+                                            kSnapshotTable,
+                                            kPoseValueTable};
 
 /// Columns of the table cell between `id` and `checksum`.
 inline constexpr const char* kCellColumns =

@@ -86,6 +86,15 @@ inline std::optional<CellTrace> Traces::cell(std::int64_t position) {
     each.read(snapshot.time);
     snapshot.poses = from_blob<TracePose>(each.view());
   }
+  Statement values = database_.prepare(trace_query(kPoseValueTable));
+  values.bind(position);
+  while (values.step()) {
+    require_intact(values, "a value of each pose is");
+    values.integer();  // number
+    TraceValues& added = out.values.emplace_back();
+    values.read(added.name, added.unit);
+    added.values = from_blob<float>(values.view());
+  }
   return out;
 }
 

@@ -1,4 +1,4 @@
-// Errors in time or along the path, axis by axis.
+// Errors in time or along the path, axis by axis, and what metrics state for each pose.
 (() => {
   "use strict";
   const R = window.R;
@@ -33,6 +33,19 @@
           }
           methods.forEach((m, i) => R.curve(group, traces[i][by], traces[i][key], x, y, m));
         },
+      });
+    }
+    const stated = document.getElementById("along-values");
+    stated.replaceChildren();
+    for (const label of new Set(traces.flatMap((t) => [...t.values.keys()]))) {
+      const own = d3.range(traces.length).filter((i) => traces[i].values.has(label));
+      const host = stated.appendChild(document.createElement("figure"));
+      R.caption(host, label, R.runName(s));
+      R.chart(host, {
+        label: `${label} of ${own.map((i) => methods[i].label).join(", ")}`, height: 250, zoom: true,
+        x: { label: by === "s" ? "path length of the reference [m]" : "time [s]", domain: [0, far] },
+        y: { label, domain: R.padded(R.extent(own.map((i) => traces[i].values.get(label)))) },
+        draw: (group, x, y) => own.forEach((i) => R.curve(group, traces[i][by], traces[i].values.get(label), x, y, methods[i])),
       });
     }
     const last = document.getElementById("along-a");

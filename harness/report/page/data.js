@@ -72,6 +72,7 @@
       times: packed.times, t: reference.t, s: reference.s, ex, ey, ez, a,
       x: plus(reference.x, ex), y: plus(reference.y, ey), z: plus(reference.z, ez),
       norm: ex.map((e, k) => Math.hypot(e, ey[k], ez[k])),
+      values: new Map((packed.values || []).map((each) => [`${each.name} [${each.unit}]`, R.unpack(each.v)])),
     };
   });
 
