@@ -146,7 +146,8 @@ const std::map<std::string, std::string> kExamples{
     {"report",
      "  loopbench report results/quickstart -o report.html\n"
      "  loopbench report results/quickstart/results.sqlite -o - >report.html\n"
-     "  loopbench report results/quickstart -o report.html --size 2\n"},
+     "  loopbench report results/quickstart -o report.html --size 2\n"
+     "  loopbench report results/quickstart -o report.html --every 10\n"},
 };
 
 const std::string kUsualExitCodes = "0 success, 2 invalid input or output, 3 internal error.";

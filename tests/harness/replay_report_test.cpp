@@ -2,9 +2,15 @@
 /// the report.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
+#include <future>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "harness/report/data.hpp"
+#include "harness/store/open.hpp"
 #include "harness/store/traces.hpp"
 #include "tests/support/command.hpp"
 
@@ -74,6 +80,29 @@ awk '{ values = values (NR > 1 ? ", " : "") $4 }
       traces_json(read_report_content(folder.path() / "r"), {100, 1})["cells"]["0"]["values"];
   ASSERT_EQ(drawn.size(), 1u);
   EXPECT_EQ(drawn[0]["name"], "height top");
+}
+
+TEST(Report, IsWrittenAgainWhileASweepRuns) {
+  const TemporaryFolder folder;
+  folder.file("c.yaml",
+              "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmethods: [raw]\n"
+              "metrics: [ate]\n");
+  ASSERT_EQ(loopbench_command("run c.yaml --out r", folder).exit_code, 0);
+  const auto refreshes = [&] {
+    return read_all(folder.path() / "page.html").find("http-equiv=\"refresh\" content=\"1\"") !=
+           std::string::npos;
+  };
+  auto sweep = std::make_unique<FolderLock>(folder.path() / "r");
+  auto report = std::async(std::launch::async, [&] {
+    return loopbench_command("report r -o page.html --every 1", folder);
+  });
+  for (int i = 0; i < 500 && !std::filesystem::exists(folder.path() / "page.html"); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_TRUE(refreshes());
+  sweep.reset();
+  EXPECT_EQ(report.get().exit_code, 0);
+  EXPECT_FALSE(refreshes());
 }
 
 }  // namespace
