@@ -119,21 +119,28 @@ std::string only_in(const std::string& text, const std::string& other) {
 
 using Definitions = std::map<std::string, std::string>;
 
-void require_same(const Definitions& baseline,
-                  const Definitions& now,
-                  const std::string& what,
-                  bool may_be_missing) {
+/// Adds the text about the first label that differs, with the number of further ones.
+/// `may_be_missing`: whether `now` can lack labels.
+template <class Describe>
+void add_difference(std::vector<std::string>& out,
+                    const Definitions& baseline,
+                    const Definitions& now,
+                    bool may_be_missing,
+                    Describe describe) {
+  std::string first;
+  std::size_t more = 0;
   for (const auto& [label, text] : baseline) {
     const auto found = now.find(label);
-    if (found == now.end()) {
-      if (may_be_missing) continue;
-      throw InputError("the baseline has the " + what + " '" + label + "', but the results do not");
+    const bool differs = found == now.end() ? !may_be_missing : found->second != text;
+    if (!differs) continue;
+    if (first.empty()) {
+      first = describe(label, text, found == now.end() ? nullptr : &found->second);
+    } else {
+      ++more;
     }
-    if (found->second == text) continue;
-    throw InputError("the baseline defines the " + what + " '" + label + "' differently: it has '" +
-                     only_in(text, found->second) + "', these results have '" +
-                     only_in(found->second, text) + "'");
   }
+  if (first.empty()) return;
+  out.push_back(more == 0 ? first : fmt::format("{} (and {} more)", first, more));
 }
 
 bool are_comparable(const Snapshot& baseline, const Snapshot& now) {
@@ -186,20 +193,32 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
   return out;
 }
 
-void require_same_definitions(const Snapshot& baseline, const Snapshot& now) {
-  require_same(baseline.sequences, now.sequences, "sequence", true);
-  require_same(baseline.protocols, now.protocols, "protocol", false);
-  require_same(baseline.metrics, now.metrics, "metric", true);
-  require_same(baseline.methods, now.methods, "method", true);
-  if (!are_comparable(baseline, now)) return;
-  for (const auto& [label, content] : baseline.contents) {
-    const auto found = now.contents.find(label);
-    if (found == now.contents.end() || found->second == content) continue;
-    throw InputError("the baseline has different data for the sequence '" + label +
-                     "' with the same options and files: its poses, edges or reference differ "
-                     "(hash " +
-                     content + ", these results " + found->second + ")");
-  }
+std::vector<std::string> different_definitions(const Snapshot& baseline, const Snapshot& now) {
+  std::vector<std::string> out;
+  const auto add = [&](const char* what, const auto Snapshot::*member, bool may_be_missing) {
+    const auto describe = [&](const std::string& label,
+                              const std::string& before,
+                              const std::string* after) {
+      const std::string named = fmt::format("the {} '{}'", what, label);
+      if (after == nullptr) return "the baseline has " + named + ", but the results do not";
+      return "the baseline defines " + named + " differently: it has '" + only_in(before, *after) +
+             "', these results have '" + only_in(*after, before) + "'";
+    };
+    add_difference(out, baseline.*member, now.*member, may_be_missing, describe);
+  };
+  add("sequence", &Snapshot::sequences, true);
+  add("protocol", &Snapshot::protocols, false);
+  add("metric", &Snapshot::metrics, true);
+  add("method", &Snapshot::methods, true);
+  if (!are_comparable(baseline, now)) return out;
+  const auto describe =
+      [](const std::string& label, const std::string& before, const std::string* after) {
+        return "the baseline has different data for the sequence '" + label +
+               "' with the same options and files: its poses, edges or reference differ (hash " +
+               before + ", these results " + *after + ")";
+      };
+  add_difference(out, baseline.contents, now.contents, true, describe);
+  return out;
 }
 
 std::string note_on_contents(const Snapshot& baseline, const Snapshot& now) {
