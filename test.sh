@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # ./test.sh            setup, optimised build, all tests
 # ./test.sh all        also style, all tests under ASan and UBSan, and threaded code under TSan
-# ./test.sh NAME...    only these (lint, package, slurm, or a preset: release, debug, tsan, gcc)
+# ./test.sh NAME...    only these (lint, package, slurm, colcon, or a preset: release, debug, tsan, gcc)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/setup.sh
@@ -35,6 +35,12 @@ for preset in "$@"; do
     install_missing "${package_packages[@]}"
     cmake/package/test_package.sh
     counts+=("package: installed and run in a bare Debian")
+    continue
+  fi
+  if [[ $preset == colcon ]]; then
+    install_missing "${colcon_packages[@]}"
+    tests/plugin/colcon.sh
+    counts+=("colcon: a workspace with a package that uses loopbench")
     continue
   fi
   if [[ $preset == slurm ]]; then

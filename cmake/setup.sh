@@ -19,6 +19,7 @@ get_packages=(curl ca-certificates)
 sanitizer_packages=(libclang-rt-dev llvm)  # llvm: names of functions in reports
 lint_packages=(clang-format clang-tidy shellcheck)
 slurm_packages=(slurm-wlm munge)  # a real cluster for tests/slurm
+colcon_packages=(colcon)
 package_packages=(g++ dpkg-dev file help2man lintian debootstrap)
 # The compiled module of the Python package is optional: without these it is not built.
 python_packages=(python3-dev python3-numpy pybind11-dev)
