@@ -21,6 +21,7 @@ install(FILES cmake/package/completions/_loopbench COMPONENT program
   DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
 install(FILES cmake/package/completions/loopbench.fish COMPONENT program
   DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+install(PROGRAMS cmake/package/action.sh COMPONENT program DESTINATION ${CMAKE_INSTALL_DATADIR}/loopbench)
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/loopbench COMPONENT program)
 install(FILES ${pages}/copyright ${pages}/changelog.gz README.md CITATION.cff COMPONENT program
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/loopbench)

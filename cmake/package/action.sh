@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # action.sh CONFIG FOLDER [BASELINE] [DATA]: runs CONFIG, checks it against BASELINE, and writes report.html,
-# comment.md (summary table, verdicts, result of the check) and the results into FOLDER. Exits with the code of the
-# run, else of the check. LOOPBENCH names another program.
+# comment.md (summary table, verdicts, result of the check), badge.svg and the results into FOLDER. Exits with the code
+# of the run, else of the check. LOOPBENCH names another program.
 set -euo pipefail
 config=$1 folder=$2 baseline=${3:-} data=${4:-}
 loopbench=${LOOPBENCH:-loopbench}
@@ -40,5 +40,21 @@ fi
   printf '\nThe report is attached to this run: loopbench-report.\n'
 } >"$folder/comment.md"
 cat "$folder/comment.md"
+
+# badge TEXT COLOUR
+badge() {
+  cat <<END
+<svg xmlns="http://www.w3.org/2000/svg" width="150" height="20" role="img" aria-label="loopbench: $1">
+<title>loopbench: $1</title><rect width="150" height="20" rx="3" fill="#444"/><rect x="75" width="75" height="20" rx="3" fill="$2"/>
+<g fill="#fff" text-anchor="middle" font-family="Verdana,DejaVu Sans,sans-serif" font-size="11"><text x="38" y="14">loopbench</text><text x="112" y="14">$1</text></g>
+</svg>
+END
+}
+case $ran$checked$baseline in
+  00?*) badge passed "#1a7f37" ;;
+  00) badge "no baseline" "#666" ;;
+  01*) badge regressions "#b35900" ;;
+  *) badge failed "#c62828" ;;
+esac >"$folder/badge.svg"
 ((ran == 0)) || exit "$ran"
 exit "$checked"

@@ -1,5 +1,6 @@
-/// The script of the GitHub action.
+/// The script of the GitHub action and of the template for GitLab.
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include "tests/support/command.hpp"
 
@@ -33,6 +34,22 @@ TEST_F(Action, WritesCommentAndReport) {
   EXPECT_EQ(comment.find("next:"), std::string::npos) << comment;
   EXPECT_EQ(text("report/report.html").find("<!DOCTYPE html>"), 0u);
   EXPECT_EQ(text("out"), comment);
+  EXPECT_NE(text("report/badge.svg").find(">no baseline<"), std::string::npos);
+}
+
+TEST_F(Action, TheTemplateForGitLabRunsIt) {
+  const YAML::Node job =
+      YAML::LoadFile(LOOPBENCH_CONFIGS "/../cmake/package/gitlab.yml")[".loopbench"];
+  folder_.file("job.sh",
+               "set -eu\nexport LOOPBENCH='" LOOPBENCH_BINARY
+               "' LOOPBENCH_ACTION=" LOOPBENCH_CONFIGS
+               "/../cmake/package/action.sh LOOPBENCH_CONFIG=c.yaml LOOPBENCH_BASELINE=\n" +
+                   job["script"][0].as<std::string>() + "\nLOOPBENCH_TOKEN=\n" +
+                   job["after_script"][0].as<std::string>());
+  const std::string line = "cd '" + folder_.path().string() + "' && sh job.sh >out 2>err";
+  ASSERT_EQ(std::system(line.c_str()), 0) << text("err");
+  const auto kept = job["artifacts"]["paths"][0].as<std::string>();
+  EXPECT_EQ(text(kept + "/comment.md"), text("out"));
 }
 
 TEST_F(Action, FailsIfTheSweepGotWorse) {
@@ -42,12 +59,16 @@ TEST_F(Action, FailsIfTheSweepGotWorse) {
           .exit_code,
       0);
   const std::string baseline = text("b.json");
-  EXPECT_EQ(action("c.yaml report b.json"),
-            loopbench_command("check report/results --baseline b.json", folder_).exit_code);
+  // 2: a baseline of a build with uncommitted changes.
+  const int code = loopbench_command("check report/results --baseline b.json", folder_).exit_code;
+  EXPECT_EQ(action("c.yaml report b.json"), code);
+  const std::string outcome = code == 0 ? ">passed<" : ">failed<";
+  EXPECT_NE(text("report/badge.svg").find(outcome), std::string::npos);
   folder_.file("c.yaml",
                "datasets: [{dataset: simulated, label: a, keyframes: 40, noise: {gain: 3}}]\n"
                "methods: [raw, uniform]\nmetrics: [ate]\n");
   EXPECT_NE(action("c.yaml worse b.json"), 0);
+  EXPECT_EQ(text("worse/badge.svg").find(">passed<"), std::string::npos);
   EXPECT_NE(text("worse/comment.md").find("### Comparison with b.json"), std::string::npos)
       << text("worse/comment.md");
 }
@@ -55,6 +76,7 @@ TEST_F(Action, FailsIfTheSweepGotWorse) {
 TEST_F(Action, ReportsABadConfig) {
   folder_.file("c.yaml", "datasets: [simulated]\nmethods: [rw]\nmetrics: [ate]\n");
   EXPECT_EQ(action("c.yaml report"), 2);
+  EXPECT_NE(text("report/badge.svg").find(">failed<"), std::string::npos);
   EXPECT_NE(text("report/comment.md").find("c.yaml:2: no method is named 'rw'"), std::string::npos)
       << text("report/comment.md");
 }
