@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/bags/messages.hpp"
@@ -22,6 +24,26 @@ bool is_nanoseconds(std::string_view word) {
   constexpr std::size_t kMinDigits = 16;
   return word.size() >= kMinDigits &&
          std::all_of(word.begin(), word.end(), [](char c) { return '0' <= c && c <= '9'; });
+}
+
+/// Whether a line has a stamp and a 3 x 4 matrix whose first two rows begin with unit vectors.
+bool is_stamped_matrix(const TextFile& file, const Line& line) {
+  constexpr double kTolerance = 1e-3;
+  if (count_columns(file, line) != 13) return false;
+  Columns columns(file, line);
+  columns.word();
+  for (int row = 0; row < 2; ++row) {
+    double square = 0.0;
+    for (int i = 0; i < 4; ++i) {
+      const std::string_view word = columns.word();
+      double value = 0.0;
+      if (std::from_chars(word.data(), word.data() + word.size(), value).ec != std::errc{})
+        return false;
+      if (i < 3) square += value * value;
+    }
+    if (!(std::abs(square - 1.0) <= kTolerance)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -63,6 +85,7 @@ namespace {
 
 /// Detects by the numbers of the first lines.
 Format detect_by_numbers(const TextFile& file, const Line& line) {
+  if (is_stamped_matrix(file, line)) return Format::kitti;
   const std::string_view stamp = Columns(file, line).word();
   const bool is_integer = stamp.find_first_not_of("0123456789") == stamp.npos;
   const bool is_small = is_integer && has_small_nanoseconds(file);

@@ -6,6 +6,7 @@
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
+#include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_formats.hpp"
 
 namespace loopbench {
@@ -33,29 +34,56 @@ PoseMatrix matrix_of(const TextFile& file, std::size_t line, const Row& v) {
   return out;
 }
 
-/// Calls visit(matrix) for every line, in order.
+bool has_stamps(const TextFile& file, const Line& line) {
+  return count_columns(file, line) == kKittiColumns.size() + 1;
+}
+
+/// Calls visit(stamp, matrix, line) for every line, in order; without stamps, stamps are zero.
 template <class Visit>
 void each_row(TextFile& file, Visit visit) {
   Row v;
-  for (Line line; file.next(line);) {
+  Line line;
+  if (!file.next(line)) return;
+  const bool is_stamped = has_stamps(file, line);
+  const char* const expected =
+      is_stamped ? "13: a stamp and a 3 x 4 pose row by row" : "12: a 3 x 4 pose row by row";
+  do {
     Columns columns(file, line);
+    double stamp = 0.0;
+    if (is_stamped) {
+      const std::string_view word = columns.peek();
+      const double number = columns.number("stamp");
+      stamp = read_stamp(word, number, is_in_nanoseconds(number, false) ? -9 : 0).seconds;
+    }
     for (std::size_t i = 0; i < v.size(); ++i) {
-      if (columns.done())
-        throw wrong_columns(file, line, Format::kitti, "12: a 3 x 4 pose row by row");
+      if (columns.done()) throw wrong_columns(file, line, Format::kitti, expected);
       v[i] = columns.number(kKittiColumns[i]);
     }
-    if (!columns.done())
-      throw wrong_columns(file, line, Format::kitti, "12: a 3 x 4 pose row by row");
-    visit(matrix_of(file, line.number, v));
-  }
+    if (!columns.done()) throw wrong_columns(file, line, Format::kitti, expected);
+    visit(stamp, matrix_of(file, line.number, v), line.number);
+  } while (file.next(line));
+}
+
+Pose pose_of(const PoseMatrix& m) {
+  return {Rotation(Matrix3(m.linear())).normalized(), m.translation()};
 }
 
 /// Reads the poses of a part of a file; stamps are not set.
 Trajectory read_kitti_part(TextFile& file) {
   Trajectory out;
   out.reserve(file.estimated_lines(first_line(file)));
-  each_row(file, [&](const PoseMatrix& m) {
-    out.push_back({0.0, {Rotation(Matrix3(m.linear())).normalized(), m.translation()}});
+  each_row(file, [&](double, const PoseMatrix& m, std::size_t) {
+    out.push_back({0.0, pose_of(m)});
+  });
+  return out;
+}
+
+/// Reads a file whose rows begin with a stamp.
+Trajectory read_stamped(TextFile& file, const ReadOptions& options) {
+  Trajectory out;
+  StampOrder order(file, options.repeats);
+  each_row(file, [&](double stamp, const PoseMatrix& m, std::size_t line) {
+    order.put(stamp, line, pose_of(m), out);
   });
   return out;
 }
@@ -77,6 +105,10 @@ std::vector<double> read_times(const std::filesystem::path& path) {
 }
 
 Trajectory read_kitti(TextFile& file, const ReadOptions& options) {
+  if (has_stamps(file, first_line(file))) {
+    if (options.times) throw file.error(0, "has stamps: found --times, expected none");
+    return read_stamped(file, options);
+  }
   Trajectory out = joined(read_parallel(
       file, read_kitti_part, [](const Trajectory&, const Trajectory&) { return true; }));
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -98,7 +130,7 @@ std::vector<PoseMatrix> read_kitti_matrices(const std::filesystem::path& path) {
   TextFile file(path);
   first_line(file);
   std::vector<PoseMatrix> out;
-  each_row(file, [&](const PoseMatrix& matrix) { out.push_back(matrix); });
+  each_row(file, [&](double, const PoseMatrix& matrix, std::size_t) { out.push_back(matrix); });
   return out;
 }
 

@@ -1,4 +1,4 @@
-/// Files as SLAM systems write them: RTAB-Map, LIO-SAM, OKVIS, trajectopy.
+/// Files as SLAM systems and public datasets write them.
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
@@ -191,6 +191,44 @@ TEST(Systems, OkvisAndTrajectopyNameColumnsInTheirWay) {
     EXPECT_EQ(poses[1].world_from_body.translation, Vector3(1, 2, 4));
     EXPECT_EQ(poses[1].world_from_body.rotation.w(), 1.0);
   }
+}
+
+/// Two poses in the layouts in which public datasets publish their references.
+TEST(Systems, ReferencesOfPublicDatasetsAreReadAsTheyAre) {
+  const TemporaryFolder scratch;
+  const auto newer_college =
+      scratch.file("registered_poses.csv",
+                   "#sec,nsec,x,y,z,qx,qy,qz,qw\n1583836591,500000000,1,2,3,0,0,0,1\n"
+                   "1583836592,0,1,2,4,0,0,0.6,0.8\n");
+  const auto mulran = scratch.file("global_pose.csv",
+                                   "1583836591500000000,1,0,0,1,0,1,0,2,0,0,1,3\n"
+                                   "1583836592000000000,0.28,-0.96,0,1,0.96,0.28,0,2,0,0,1,4\n");
+  const auto helipr = scratch.file("Ouster_gt.txt",
+                                   "1583836591500000000 1 2 3 0 0 0 1\n"
+                                   "1583836592000000000 1 2 4 0 0 0.6 0.8\n");
+  const auto mcd =
+      scratch.file("pose_inW.csv",
+                   "num, t, x, y, z, qx, qy, qz, qw\n0, 1583836591.5, 1, 2, 3, 0, 0, 0, "
+                   "1\n1, 1583836592, 1, 2, 4, 0, 0, 0.6, 0.8\n");
+  for (const auto& file : {newer_college, mulran, helipr, mcd}) {
+    const Trajectory poses = read_trajectory(file);
+    ASSERT_EQ(poses.size(), 2u) << file;
+    EXPECT_EQ(poses[0].stamp, 1583836591.5) << file;
+    EXPECT_EQ(poses[1].stamp, 1583836592.0) << file;
+    EXPECT_EQ(poses[1].world_from_body.translation, Vector3(1, 2, 4)) << file;
+    EXPECT_NEAR(poses[1].world_from_body.rotation.z(), 0.6, 1e-12) << file;
+  }
+}
+
+TEST(Systems, StampedMatricesNameRowsThatAreWrong) {
+  const TemporaryFolder scratch;
+  const std::string row = ",1,0,0,1,0,1,0,2,0,0,1,3\n";
+  const auto shorter = scratch.file("a.csv", "1583836591500000000" + row + "1,2\n");
+  EXPECT_NE(refusal([&] { read_trajectory(shorter); }).find("a.csv:2: has 2 columns, expected 13"),
+            std::string::npos);
+  const auto late =
+      scratch.file("b.csv", "1583836591500000000" + row + "1583836591400000000" + row);
+  EXPECT_NE(refusal([&] { read_trajectory(late); }).find("b.csv:2: "), std::string::npos);
 }
 
 }  // namespace
