@@ -6,6 +6,7 @@ Builds preset `release` and packs what CMake installs as component `wheel`. With
 
 import base64
 import hashlib
+import os
 import re
 import subprocess
 import sysconfig
@@ -60,8 +61,11 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     build = (config_settings or {}).get("build-dir")
     if build is None:
         build = SOURCE / "build/release"
-        subprocess.run(["cmake", "--preset", "release"], cwd=SOURCE, check=True)
-        subprocess.run(["cmake", "--build", build, "--target", *TARGETS], check=True)
+        # By PYTHONPATH, pip hides the interpreter's packages, of which CMake needs numpy.
+        environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+        tests = () if (build / "CMakeCache.txt").exists() else ("-DLOOPBENCH_BUILD_TESTS=OFF",)
+        subprocess.run(["cmake", "--preset", "release", *tests], cwd=SOURCE, env=environment, check=True)
+        subprocess.run(["cmake", "--build", build, "--target", *TARGETS], env=environment, check=True)
     with tempfile.TemporaryDirectory() as folder:
         tree = Path(folder)
         subprocess.run(["cmake", "--install", build, "--prefix", tree, "--component", "wheel", "--strip"],
