@@ -20,6 +20,14 @@ struct PublicFile {
 /// The catalogue that the program contains.
 std::vector<PublicFile> public_files();
 
+/// A dataset that asks for a registration, or of which no hash is known: it is downloaded by hand.
+struct PublicPage {
+  std::string name;
+  std::string url;
+  std::string file;  ///< the reference, which is read as it is
+};
+std::vector<PublicPage> public_pages();
+
 /// 64 hexadecimal digits, by the program sha256sum. Throws InputError.
 std::string sha256_of_file(const std::filesystem::path& file);
 

@@ -20,9 +20,25 @@ struct GetArguments {
 
 void print_catalogue(const std::vector<PublicFile>& known) {
   const std::size_t columns = standard_output_style().width;
-  for (const PublicFile& each : known) {
-    const std::string line = fmt::format("{:<20} {} [{}]", each.name, each.summary, each.licence);
+  const auto print = [&](const std::string& name, const std::string& what) {
+    const std::string line = fmt::format("{:<20} {}", name, what);
     fmt::print("{}\n", columns == 0 ? line : cut(line, columns));
+  };
+  for (const PublicFile& each : known) {
+    print(each.name, fmt::format("{} [{}]", each.summary, each.licence));
+  }
+  for (const PublicPage& each : public_pages()) print(each.name, "by hand: " + each.url);
+}
+
+/// Throws InputError if the dataset cannot be downloaded by the program.
+void reject_by_hand(const std::string& name) {
+  for (const PublicPage& each : public_pages()) {
+    if (each.name != name) continue;
+    throw InputError(
+        fmt::format("{}: has to be downloaded by hand from {}; its {} is read as it is",
+                    name,
+                    each.url,
+                    each.file));
   }
 }
 
@@ -35,6 +51,7 @@ int get(const GetArguments& arguments) {
   std::vector<std::string> names;
   for (const PublicFile& each : known) names.push_back(each.name);
   for (const std::string& name : arguments.names) {
+    reject_by_hand(name);
     if (std::ranges::count(names, name) == 0) {
       throw InputError(unknown_name("sequence", name, names));
     }

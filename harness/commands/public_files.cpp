@@ -94,4 +94,19 @@ std::vector<PublicFile> public_files() {
            "pose graph of a small grid (3-D, simulated), 0.1 MB"}};
 }
 
+std::vector<PublicPage> public_pages() {
+  return {
+      {"newer_college_2020",
+       "https://ori-drs.github.io/newer-college-dataset/stereo-cam/",
+       "registered_poses.csv"},
+      {"newer_college_2021",
+       "https://ori-drs.github.io/newer-college-dataset/multi-cam/",
+       "gt-*.csv"},
+      {"hilti_2022", "https://hilti-challenge.com/dataset-2022.html", "exp*_imu.txt"},
+      {"mulran", "https://sites.google.com/view/mulran-pr", "global_pose.csv"},
+      {"helipr", "https://sites.google.com/view/heliprdataset", "Ouster_gt.txt"},
+      {"mcd", "https://mcdviral.github.io", "pose_inW.csv"},
+      {"oxford_spires", "https://dynamic.robots.ox.ac.uk/datasets/oxford-spires/", "gt-tum.txt"}};
+}
+
 }  // namespace loopbench::harness

@@ -109,6 +109,9 @@ TEST(GetCommand, ListsSequencesAndSuggestsNames) {
   EXPECT_NE(loopbench_command("get", folder).out.find("tum_fr1_room "), std::string::npos);
   EXPECT_EQ(loopbench_command("get kitti_01", folder).err,
             "loopbench: no sequence is named 'kitti_01'; did you mean 'kitti_00'?\n");
+  EXPECT_EQ(loopbench_command("get mulran", folder).err,
+            "loopbench: mulran: has to be downloaded by hand from "
+            "https://sites.google.com/view/mulran-pr; its global_pose.csv is read as it is\n");
 }
 
 }  // namespace
