@@ -26,27 +26,36 @@ bool is_nanoseconds(std::string_view word) {
          std::all_of(word.begin(), word.end(), [](char c) { return '0' <= c && c <= '9'; });
 }
 
+/// Sum of the squares of some columns; not a number if one is no number.
+double square_of_columns(const TextFile& file, const Line& line, std::size_t first, int count) {
+  Columns columns(file, line);
+  for (std::size_t i = 0; i < first; ++i) columns.word();
+  double out = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const std::string_view word = columns.word();
+    double value = 0.0;
+    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc{} || stop != word.data() + word.size()) return std::nan("");
+    out += value * value;
+  }
+  return out;
+}
+
+bool is_one(double square) { return std::abs(square - 1.0) <= 1e-3; }
+
 /// Whether a line has a stamp and a 3 x 4 matrix whose first two rows begin with unit vectors.
 bool is_stamped_matrix(const TextFile& file, const Line& line) {
-  constexpr double kTolerance = 1e-3;
-  if (count_columns(file, line) != 13) return false;
-  Columns columns(file, line);
-  columns.word();
-  for (int row = 0; row < 2; ++row) {
-    double square = 0.0;
-    for (int i = 0; i < 4; ++i) {
-      const std::string_view word = columns.word();
-      double value = 0.0;
-      if (std::from_chars(word.data(), word.data() + word.size(), value).ec != std::errc{})
-        return false;
-      if (i < 3) square += value * value;
-    }
-    if (!(std::abs(square - 1.0) <= kTolerance)) return false;
-  }
-  return true;
+  return count_columns(file, line) == 13 && is_one(square_of_columns(file, line, 1, 3)) &&
+         is_one(square_of_columns(file, line, 5, 3));
 }
 
 }  // namespace
+
+bool has_node_id(const TextFile& file, const Line& line) {
+  const bool is_in_seconds = Columns(file, line).word().find('.') != std::string_view::npos;
+  return is_in_seconds && count_columns(file, line) == 9 &&
+         is_one(square_of_columns(file, line, 4, 4));
+}
 
 bool has_small_nanoseconds(const TextFile& file) {
   constexpr std::int64_t kMinStep = 100'000;  // [ns]
@@ -70,6 +79,7 @@ std::optional<Format> guess(const TextFile& file, const Line& line) {
   if (is_nanoseconds(first) && (count >= 8 || count == 4)) return Format::euroc;
   if (first.find_first_not_of("+-.0123456789eE") != std::string_view::npos) return std::nullopt;
   if (count == 12) return Format::kitti;
+  if (has_node_id(file, line)) return Format::tum;
   if (count == 8 || count == 4 || count == 29 || count == 44) return Format::tum;
   return std::nullopt;
 }

@@ -17,6 +17,10 @@ std::optional<Format> guess(const TextFile& file, const Line& line);
 /// line and the known formats if none matches.
 Format detect_format(TextFile& file);
 
+/// Whether a line of TUM has a ninth column, the number of a node, as RTAB-Map exports it: the
+/// stamp has decimals, unlike that of EuRoC, and columns 5 to 8 are a unit quaternion.
+bool has_node_id(const TextFile& file, const Line& line);
+
 /// Whether the first two stamps are whole numbers at least 1e5 apart: nanoseconds of a clock that
 /// starts near 0, as in simulators, at 10 kHz or less. In seconds this would be more than a day.
 bool has_small_nanoseconds(const TextFile& file);

@@ -13,6 +13,7 @@ constexpr std::array kTumColumns{"stamp", "tx", "ty", "tz", "qx", "qy", "qz", "q
 struct TumColumns {
   std::size_t pose = kTumColumns.size();
   std::optional<CovarianceColumns> covariance;
+  bool has_id = false;  ///< a ninth column with the number of a node, as RTAB-Map exports it
   bool small_nanoseconds = false;
 };
 
@@ -21,6 +22,7 @@ TumColumns tum_columns(TextFile& file, bool positions) {
   TumColumns out;
   if (positions && count_columns(file, first) == 4) out.pose = 4;
   out.covariance = covariance_columns(file, first, kTumColumns.size());
+  out.has_id = !out.covariance && has_node_id(file, first);
   out.small_nanoseconds = has_small_nanoseconds(file);
   return out;
 }
@@ -47,6 +49,9 @@ InputError wrong_row(const TextFile& file,
                                        "reference, and by eval, doctor and traj") +
                           ", expected 8: stamp tx ty tz qx qy qz qw");
   }
+  if (layout.has_id) {
+    return wrong_columns(file, line, Format::tum, "9 as in the first row: a pose and an id");
+  }
   return wrong_columns(file, line, Format::tum, "8: stamp tx ty tz qx qy qz qw");
 }
 
@@ -66,6 +71,10 @@ Trajectory read_tum_part(TextFile& file, const ReadOptions& options, const TumCo
       if (count_columns(file, line) != layout.pose + layout.covariance->count()) {
         throw wrong_row(file, line, positions, layout);
       }
+    } else if (layout.has_id) {
+      if (columns.done()) throw wrong_row(file, line, positions, layout);
+      columns.integer("id");
+      if (!columns.done()) throw wrong_row(file, line, positions, layout);
     } else if (!columns.done()) {
       throw wrong_row(file, line, positions, layout);
     }

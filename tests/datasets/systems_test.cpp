@@ -220,6 +220,17 @@ TEST(Systems, ReferencesOfPublicDatasetsAreReadAsTheyAre) {
   }
 }
 
+TEST(Systems, RtabmapExportsPosesWithIds) {
+  const TemporaryFolder scratch;
+  const Trajectory poses = read_trajectory(
+      scratch.file("format11.txt", "1.5 1 2 3 0 0 0 1 7\n2.0 1 2 4 0 0 0.6 0.8 9\n"));
+  ASSERT_EQ(poses.size(), 2u);
+  EXPECT_EQ(poses[1].stamp, 2.0);
+  EXPECT_EQ(poses[1].world_from_body.translation, Vector3(1, 2, 4));
+  const auto comma = scratch.file("comma.txt", "0,5 0 0 0 0 0 0 1\n");  // a decimal comma, no id
+  EXPECT_NE(refusal([&] { read_trajectory(comma); }).find("has 9 columns"), std::string::npos);
+}
+
 TEST(Systems, StampedMatricesNameRowsThatAreWrong) {
   const TemporaryFolder scratch;
   const std::string row = ",1,0,0,1,0,1,0,2,0,0,1,3\n";
