@@ -17,12 +17,12 @@ using PluginEntry = std::variant<methods::MethodEntry, DatasetEntry, metrics::Me
 /// Properties that must be equal in both binaries before they exchange our types. `interface` stays
 /// the first member: it is read before the others, whose meaning depends on it.
 struct Abi {
-  int interface = 8;  ///< raise when this file or the headers that it includes change shape
+  int interface = 9;  ///< raise when this file or the headers that it includes change shape
   struct Property {
     const char* name;
     long value;
   };
-  std::array<Property, 14> properties{{
+  std::array<Property, 15> properties{{
       {"__cplusplus", __cplusplus},
       {"_GLIBCXX_RELEASE", _GLIBCXX_RELEASE},  // GCC and clang with the same one fit together
       {"EIGEN_WORLD_VERSION", EIGEN_WORLD_VERSION},
@@ -34,6 +34,7 @@ struct Abi {
       {"sizeof(Sequence)", sizeof(Sequence)},
       {"sizeof(Evaluation)", sizeof(metrics::Evaluation)},
       {"sizeof(Score)", sizeof(metrics::Score)},
+      {"sizeof(Report)", sizeof(methods::Report)},
       {"sizeof(MethodEntry)", sizeof(methods::MethodEntry)},
       {"sizeof(DatasetEntry)", sizeof(DatasetEntry)},
       {"sizeof(MetricEntry)", sizeof(metrics::MetricEntry)},
