@@ -55,6 +55,18 @@ struct PoseGraphOptions {
 };
 
 template <class Visit>
+void information_fields(InformationRules& rules, Visit visit) {
+  visit("information",
+        rules.rotation,
+        "convention of the rotation information of :QUAT edges: half_angles (quaternion vector, "
+        "g2o) or angles (GTSAM, SE-Sync)");
+  visit("indefinite",
+        rules.indefinite,
+        "edges whose information is not positive definite: reject, repair (planar terms stored at "
+        "z, roll and z, pitch), project (eigenvalues), isotropic (mean variances)");
+}
+
+template <class Visit>
 void fields(PoseGraphOptions& o, Visit visit) {
   visit("name", o.name, "name of the sequence; empty: folder and file name of path");
   visit("path", o.path, "g2o file with the pose graph");
@@ -63,14 +75,7 @@ void fields(PoseGraphOptions& o, Visit visit) {
         "ground truth file: g2o with the same vertex ids, or one pose per vertex; empty: none");
   visit("truth_axes", o.truth_axes, "body axes of the ground truth");
   reference_body_fields(o.reference_body, visit);
-  visit("information",
-        o.rules.rotation,
-        "convention of the rotation information of :QUAT edges: half_angles (quaternion vector, "
-        "g2o) or angles (GTSAM, SE-Sync)");
-  visit("indefinite",
-        o.rules.indefinite,
-        "edges whose information is not positive definite: reject, repair (planar terms stored at "
-        "z, roll and z, pitch), project (eigenvalues), isotropic (mean variances)");
+  information_fields(o.rules, visit);
   visit("period",
         o.period,
         "time between consecutive vertex ids: stamp = id * period [s]",

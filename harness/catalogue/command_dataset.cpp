@@ -1,21 +1,22 @@
 #include "harness/catalogue/command_dataset.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
+#include <chrono>
 #include <set>
 #include <string_view>
 
+#include "datasets/pose_graph_dataset.hpp"
 #include "datasets/trajectory_dataset.hpp"
-#include "harness/base/file_lock.hpp"
 #include "harness/base/hash.hpp"
 #include "harness/base/program.hpp"
-#include "harness/base/write_file.hpp"
 #include "harness/catalogue/arguments.hpp"
 #include "harness/catalogue/command.hpp"
 #include "harness/catalogue/loading.hpp"
-#include "harness/catalogue/scratch.hpp"
+#include "harness/catalogue/program_output.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -26,14 +27,18 @@ inline auto choices(UsedTrajectory) {
                     std::pair{"closed", UsedTrajectory::closed}};
 }
 
+constexpr double kMebibyte = 1 << 20;
+
 struct CommandDatasetOptions {
   std::string run;
+  std::string version;
   std::string sequence;
   UsedTrajectory use = UsedTrajectory::open;
   bool shell = false;
   std::string depends;
   double seconds = 0.0;
   double memory = 0.0;
+  InformationRules rules;
   TrajectoryOptions trajectory;  ///< the files of the program are set by the loader
 };
 
@@ -46,6 +51,7 @@ void fields(CommandDatasetOptions& o, Visit visit) {
   visit("run",
         o.run,
         "program and arguments; {sequence}: input, {trajectory}: file to write, {seed}: repeat");
+  visit("version", o.version, "version of the program, free text; another one runs it again");
   visit("sequence", o.sequence, "input of the program: a folder or a file; empty: none");
   visit("use", o.use, "trajectory to correct or evaluate; closed: after the program's own closing");
   visit("shell", o.shell, "whether sh interprets the text of run");
@@ -53,31 +59,10 @@ void fields(CommandDatasetOptions& o, Visit visit) {
   visit("seconds", o.seconds, "time limit of the program [s]; 0: that of cells", Between{0.0});
   visit(
       "memory", o.memory, "memory limit of the program [MiB]; 0: that of cells", Between{0.0, 1e9});
+  information_fields(o.rules, visit);
   fields(o.trajectory, [&](const char* name, auto& member, const char* help, const auto&... rule) {
     if (std::ranges::count(kProgramFiles, name) == 0) visit(name, member, help, rule...);
   });
-}
-
-constexpr const char* kOpen = "open.txt";
-constexpr const char* kHashes = "hashes";  // of the output, as it was written
-
-/// "NAME HASH" lines of the program's output in a folder.
-std::string output_hashes(const std::filesystem::path& folder) {
-  std::string out;
-  for (const char* suffix : {"", ".frames", ".loops", ".closed"}) {
-    const std::filesystem::path file = folder / (std::string(kOpen) + suffix);
-    if (std::filesystem::is_regular_file(file)) {
-      out += file.filename().string() + " " + hex(hash_of_file(file)) + "\n";
-    }
-  }
-  return out;
-}
-
-/// Whether the folder has what the program wrote, neither incomplete nor changed since.
-bool is_whole(const std::filesystem::path& folder) {
-  std::ifstream in(folder / kHashes, std::ios::binary);
-  const std::string stored{std::istreambuf_iterator<char>(in), {}};
-  return !stored.empty() && stored == output_hashes(folder);
 }
 
 /// The sequence's folder or file in the search folders.
@@ -113,18 +98,12 @@ std::string output_key(const CommandDatasetOptions& o,
                        const std::set<std::filesystem::path>& program,
                        const std::set<std::filesystem::path>& sequence) {
   Fields out;
-  out.add("command dataset 1").add(o.run).add(o.shell ? "sh" : "");
+  out.add("command dataset 2").add(o.run).add(o.shell ? "sh" : "").add(o.version);
   out.add(std::to_string(o.trajectory.seed));
   for (const auto& file : program) out.add(hex(hash_of_file(file)));
   out.add("sequence");
   for (const auto& file : sequence) out.add(file.filename().string()).add(hex(hash_of_file(file)));
   return out.hashed();
-}
-
-/// A regular file, not a link to one.
-bool is_own_file(const std::filesystem::path& file) {
-  std::error_code none;
-  return std::filesystem::is_regular_file(std::filesystem::symlink_status(file, none));
 }
 
 /// Restrictions of the program: it sees its sequence, but not the reference.
@@ -142,11 +121,11 @@ SandboxOptions sandbox_of(const CommandDatasetOptions& o,
   return options;
 }
 
-void run_program(const CommandDatasetOptions& o,
-                 const DataRoot& root,
-                 const std::filesystem::path& folder,
-                 const std::filesystem::path& sequence,
-                 const std::filesystem::path& trajectory) {
+ProgramCost run_program(const CommandDatasetOptions& o,
+                        const DataRoot& root,
+                        const std::filesystem::path& folder,
+                        const std::filesystem::path& sequence,
+                        const std::filesystem::path& trajectory) {
   const SandboxOptions sandbox = sandbox_of(o, root, sequence);
   ProgramStart start;
   start.folder = folder;
@@ -162,7 +141,8 @@ void run_program(const CommandDatasetOptions& o,
                    {"trajectory", o.shell ? "${LOOPBENCH_TRAJECTORY}" : trajectory.string()},
                    {"seed", std::to_string(o.trajectory.seed)}});
   std::string output;
-  RunningLine line(o.run);
+  RunningLine line(fmt::format("{}", fmt::join(start.arguments, " ")));
+  const auto begin = std::chrono::steady_clock::now();
   const ProgramEnd end =
       RunningProgram(start).wait(output, [&](const std::string& printed) { line.draw(printed); });
   if (end.exit_code != 0) {
@@ -172,42 +152,34 @@ void run_program(const CommandDatasetOptions& o,
   if (!is_own_file(trajectory)) {
     throw InputError(with_output("run: " + o.run + ": the program wrote no trajectory", output));
   }
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+  return {time.count(), end.peak_memory};
 }
 
-/// Folder with the program's output, from the cache or new.
-std::filesystem::path program_output(const CommandDatasetOptions& o,
-                                     const DataRoot& root,
-                                     const std::filesystem::path& folder,
-                                     const std::filesystem::path& sequence,
-                                     const std::filesystem::path& cache,
-                                     const std::string& key) {
-  const std::filesystem::path all =
-      cache.empty() ? std::filesystem::temp_directory_path() / "loopbench-programs"
-                    : cache / "programs";
-  const std::filesystem::path out = all / key;
-  if (is_whole(out)) return out;
-  std::filesystem::create_directories(all);
-  const FileLock lock(all / (key + ".lock"));  // a worker that needs the same run waits for it
-  if (is_whole(out)) return out;
-  const ExchangeFolder work;
-  run_program(o, root, folder, sequence, work.path() / kOpen);
-  std::string part = (all / (key + "-XXXXXX")).string();
-  if (mkdtemp(part.data()) == nullptr) throw InputError(part + ": cannot be created");
-  try {
-    for (const char* suffix : {"", ".frames", ".loops", ".closed"}) {
-      const std::string name = std::string(kOpen) + suffix;
-      if (is_own_file(work.path() / name)) {
-        std::filesystem::copy_file(work.path() / name, std::filesystem::path(part) / name);
-      }
-    }
-    write_file(std::filesystem::path(part) / kHashes, output_hashes(part));
-    std::filesystem::remove_all(out);  // an incomplete or changed one
-    std::filesystem::rename(part, out);
-  } catch (...) {
-    std::filesystem::remove_all(part);
-    throw;
+/// Throws InputError if a run that was kept took more than the dataset states.
+void require_limits(const CommandDatasetOptions& o, const ProgramCost& cost) {
+  if (o.seconds > 0.0 && cost.seconds > o.seconds) {
+    throw InputError(fmt::format(
+        "run: {}: the program took {:.1f} s, the limit is {:g} s", o.run, cost.seconds, o.seconds));
   }
-  return out;
+  const double memory = static_cast<double>(cost.peak_memory) / kMebibyte;
+  if (o.memory > 0.0 && memory > o.memory) {
+    throw InputError(fmt::format(
+        "run: {}: the program used {:.0f} MiB, the limit is {:g} MiB", o.run, memory, o.memory));
+  }
+}
+
+/// "the program took 42.1 s (real-time factor 0.35), 812 MiB"
+std::string cost_note(const ProgramCost& cost, const Trajectory& estimate) {
+  const double duration =
+      estimate.size() < 2 ? 0.0 : estimate.back().stamp - estimate.front().stamp;
+  const std::string share = duration > 0.0
+                                ? fmt::format(" (real-time factor {:.3g})", cost.seconds / duration)
+                                : std::string();
+  return fmt::format("the program took {:.3g} s{}, {:.0f} MiB",
+                     cost.seconds,
+                     share,
+                     static_cast<double>(cost.peak_memory) / kMebibyte);
 }
 
 /// Throws OptionError without a program, or if run does not name {trajectory}.
@@ -221,6 +193,24 @@ void check_combination(const CommandDatasetOptions& o) {
   }
 }
 
+bool has_edges(const std::filesystem::path& file, const InformationRules& rules) {
+  return detect_format(file) == Format::g2o && !read_g2o(file, rules).edges.empty();
+}
+
+/// A pose graph that the program wrote: its edges are the problem.
+PoseGraphOptions graph_options(const CommandDatasetOptions& o, const std::string& file) {
+  PoseGraphOptions out;
+  out.name = o.trajectory.name.empty() ? o.run : o.trajectory.name;
+  out.path = file;
+  out.truth = o.trajectory.reference;
+  out.reference_body = o.trajectory.reference_body;
+  out.rules = o.rules;
+  out.false_closures = o.trajectory.false_closures;
+  out.sensor = o.trajectory.sensor;
+  out.licence = o.trajectory.licence;
+  return out;
+}
+
 /// Runs the program in the first folder of `root`, the config's, unless `cache` has its output for
 /// the same command, program files, sequence content and seed. Throws InputError with the end of
 /// the program's output if it fails.
@@ -232,11 +222,17 @@ Sequence load_command(const CommandDatasetOptions& o,
   const std::filesystem::path sequence = found_sequence(o.sequence, root);
   const auto program = program_files(o, folder);
   const auto recording = files_of_sequence(sequence);
-  const std::filesystem::path out =
-      program_output(o, root, folder, sequence, cache, output_key(o, program, recording));
+  const std::filesystem::path kept =
+      cache.empty() ? std::filesystem::temp_directory_path() / "loopbench-programs"
+                    : cache / "programs";
+  const ProgramOutput out =
+      kept_output(kept, output_key(o, program, recording), [&](const auto& to) {
+        return run_program(o, root, folder, sequence, to);
+      });
+  require_limits(o, out.cost);
 
   TrajectoryOptions options = o.trajectory;
-  const std::string open = std::filesystem::absolute(out / kOpen).string();
+  const std::string open = std::filesystem::absolute(out.trajectory).string();
   const auto exists = [](const std::string& file) { return std::filesystem::exists(file); };
   const bool is_closed = o.use == UsedTrajectory::closed;
   options.estimate = is_closed ? open + ".closed" : open;
@@ -249,7 +245,10 @@ Sequence load_command(const CommandDatasetOptions& o,
     options.closures_file = open + ".loops";
   }
   if (options.name.empty()) options.name = o.run;
-  Sequence loaded = load_trajectory(options, root);
+  const bool is_graph = !is_closed && has_edges(open, o.rules);
+  Sequence loaded =
+      is_graph ? load_pose_graph(graph_options(o, open), root) : load_trajectory(options, root);
+  loaded.provenance.notes.push_back(cost_note(out.cost, loaded.problem.keyframes));
   loaded.provenance.closures = is_closed ? "none: closed by the program" : "of the program";
   for (const auto& files : {program, recording}) {
     for (const auto& file : files) loaded.provenance.inputs.push_back({file, ""});
@@ -262,7 +261,6 @@ Sequence load_command(const CommandDatasetOptions& o,
 Limits loading_limits(const Choice& dataset, Limits of_cells) {
   if (dataset.name != kCommandDataset) return of_cells;
   const auto options = with(CommandDatasetOptions{}, dataset.options);
-  constexpr double kMebibyte = 1 << 20;
   if (options.seconds > 0.0) of_cells.seconds = options.seconds;
   if (options.memory > 0.0) {
     of_cells.memory = static_cast<std::int64_t>(options.memory * kMebibyte);

@@ -76,6 +76,42 @@ TEST_F(CommandDataset, ItsOutputIsCorrectedAndCached) {
   EXPECT_EQ(runs(), 4u) << "the cached output changed";
 }
 
+TEST_F(CommandDataset, ItsEdgesAreThoseOfAGraph) {
+  folder_.file("graph.sh",
+               "{ for i in 0 1 2 3; do echo VERTEX_SE2 $i $i 0 0; done\n"
+               "for i in 0 1 2; do echo EDGE_SE2 $i $((i + 1)) 1 0 0 500 0 0 500 0 40000; done\n"
+               "echo EDGE_SE2 0 3 2.5 0 0 200 0 0 200 0 9000; } >$2\n");
+  folder_.file("c.yaml",
+               "datasets:\n  - {dataset: command, run: 'sh graph.sh none {trajectory}'}\n"
+               "methods:\n  - {method: command, run: 'cp {problem}/graph.g2o kept.g2o && cp "
+               "{problem}/keyframes.txt {result}', shell: true}\n"
+               "metrics: [graph_cost]\ntimes: keyframes\n");
+  const CommandResult done = loopbench_command("run c.yaml --no-sandbox --out r", folder_);
+  ASSERT_EQ(done.exit_code, 0) << done.err << done.out;
+  const std::string graph = read_all(folder_.path() / "kept.g2o");
+  EXPECT_THAT(graph, HasSubstr("EDGE_SE2 0 1 1 0 0 500 0 0 500 0 40000"));
+  EXPECT_THAT(graph, HasSubstr("EDGE_SE2 0 3 2.5 0 0 200 0 0 200 0 9000"));
+}
+
+TEST_F(CommandDataset, ItsCostIsKeptAndHeldToTheLimits) {
+  folder_.file("slam.sh",
+               "echo run >>runs\ndd bs=60M count=1 if=/dev/zero of=/dev/null\ncp $1 $2\n");
+  const std::string notes = run(program_).err;
+  EXPECT_THAT(notes, HasSubstr("mine: the program took "));
+  EXPECT_THAT(notes, HasSubstr("real-time factor"));
+  run("memory: 40, " + program_);
+  EXPECT_THAT(read_cells(folder_.path() / "r")[0].why, HasSubstr("MiB, the limit is 40 MiB"));
+  EXPECT_EQ(runs(), 1u);  // what was kept is checked
+}
+
+TEST_F(CommandDataset, AnotherVersionRunsAgain) {
+  run("version: a, " + program_);
+  run("version: a, " + program_);
+  EXPECT_EQ(runs(), 1u);
+  run("version: b, " + program_);
+  EXPECT_EQ(runs(), 2u);
+}
+
 TEST_F(CommandDataset, RepeatsAreRunsOfTheProgram) {
   const CommandResult done = run(program_, "repeats: 3\n");
   ASSERT_EQ(done.exit_code, 0) << done.err;
