@@ -4,7 +4,9 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string_view>
+#include <utility>
 
 #include "datasets/core/fields.hpp"
 #include "harness/base/write_file.hpp"
@@ -83,8 +85,16 @@ std::string answer_of_run(const metrics::Evaluation& evaluation,
 }
 
 metrics::Score score_of(const nlohmann::json& entry, int ddof, std::size_t pairs) {
+  static const std::vector<std::string> kKeys{
+      "name", "axis", "unit", "value", "values", "better", "target"};
+  require_keys(entry, kKeys, "result: a score");
   metrics::Score out;
+  if (!entry.contains("name")) throw std::runtime_error("result: a score has no name");
   const auto name = entry.at("name").get<std::string>();
+  if (!entry.contains("unit")) throw std::runtime_error("result: " + name + ": has no unit");
+  if (entry.contains("value") == entry.contains("values")) {
+    throw std::runtime_error("result: " + name + ": expected either value or values");
+  }
   const auto unit = entry.at("unit").get<std::string>();
   const std::string axis = entry.value("axis", "");
   if (entry.contains("values")) {
@@ -98,6 +108,19 @@ metrics::Score score_of(const nlohmann::json& entry, int ddof, std::size_t pairs
   FieldType<metrics::Better>::assign("better", out.better, entry.value("better", "lower"));
   out.target = entry.value("target", 0.0);
   return out;
+}
+
+/// Throws std::runtime_error without scores, or if two have one name and axis.
+void require_distinct(const std::vector<metrics::Score>& scores) {
+  if (scores.empty()) throw std::runtime_error("result: has no scores");
+  std::set<std::pair<std::string, std::string>> known;
+  for (const metrics::Score& score : scores) {
+    if (known.emplace(score.relation, score.axis).second) continue;
+    throw std::runtime_error(
+        fmt::format("result: two scores are named '{}'{}",
+                    score.relation,
+                    score.axis.empty() ? "" : " with axis '" + score.axis + "'"));
+  }
 }
 
 }  // namespace
@@ -116,9 +139,11 @@ std::vector<metrics::Score> parse_scores(const std::string& text, int ddof, std:
   try {
     std::vector<metrics::Score> out;
     const nlohmann::json answer = nlohmann::json::parse(text);
+    if (!answer.contains("scores")) throw std::runtime_error("result: has no scores");
     for (const nlohmann::json& entry : answer.at("scores")) {
       out.push_back(score_of(entry, ddof, pairs));
     }
+    require_distinct(out);
     return out;
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(std::string("result: ") + error.what());

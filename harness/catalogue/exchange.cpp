@@ -1,6 +1,7 @@
 #include "harness/catalogue/exchange.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -164,10 +165,24 @@ Trajectory read_result(const std::filesystem::path& file,
   }
 }
 
+void require_keys(const nlohmann::json& object,
+                  const std::vector<std::string>& known,
+                  const std::string& where) {
+  if (!object.is_object()) throw std::runtime_error(where + ": expected a JSON object");
+  for (const auto& [key, value] : object.items()) {
+    if (std::ranges::count(known, key) > 0) continue;
+    throw std::runtime_error(
+        fmt::format("{}: found key '{}', expected {}", where, key, fmt::join(known, ", ")));
+  }
+}
+
 ResultMetadata parse_metadata(const std::string& text) {
+  static const std::vector<std::string> kKeys{
+      "status", "why", "seconds", "iterations", "counts", "phases", "notes", "poses", "scores"};
   ResultMetadata out;
   try {
     const nlohmann::json json = nlohmann::json::parse(text);
+    require_keys(json, kKeys, "result.json");
     out.status = json.value("status", out.status);
     out.why = json.value("why", out.why);
     out.seconds = json.value("seconds", out.seconds);

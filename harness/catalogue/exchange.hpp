@@ -15,8 +15,10 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "datasets/core/problem.hpp"
 #include "methods/report.hpp"
@@ -75,8 +77,13 @@ struct ResultMetadata {
   methods::Report report;
 };
 
-/// Reads the text of result.json. Throws std::runtime_error if it is invalid.
+/// Reads the text of result.json. Throws std::runtime_error if it is invalid or has another key.
 ResultMetadata parse_metadata(const std::string& json);
+
+/// Throws std::runtime_error "WHERE: found key 'x', expected ..." for another key than `known`.
+void require_keys(const nlohmann::json& object,
+                  const std::vector<std::string>& known,
+                  const std::string& where);
 
 /// Throws Undefined with the program's reason if it declined, std::runtime_error if it failed.
 void require_ok(const ResultMetadata& metadata);

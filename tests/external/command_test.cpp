@@ -8,8 +8,10 @@
 #include "datasets/core/error.hpp"
 #include "datasets/core/params.hpp"
 #include "harness/catalogue/arguments.hpp"
+#include "harness/catalogue/command_metric.hpp"
 #include "harness/catalogue/exchange.hpp"
 #include "tests/support/program_sweep.hpp"
+#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::command_test {
 
@@ -225,6 +227,34 @@ TEST_F(Command, CellsAreKeyedByTheProgramsFilesAndVersion) {
   std::filesystem::remove(folder_.path() / "data");
   cells(method);
   EXPECT_THAT(ran_.err, HasSubstr("depends: "));
+}
+
+TEST(MetricResult, ItsMistakesAreNamed) {
+  const auto why = [](const std::string& text) {
+    return refusal_of([&] { parse_scores(text, 0, 2); });
+  };
+  EXPECT_EQ(why(R"({"scores": []})"), "result: has no scores");
+  EXPECT_EQ(why(R"({})"), "result: has no scores");
+  EXPECT_EQ(why(R"({"scores": [{"name": "a", "unit": "m", "value": 1, "beter": "higher"}]})"),
+            "result: a score: found key 'beter', expected name, axis, unit, value, values, better, "
+            "target");
+  EXPECT_EQ(why(R"({"scores": [{"name": "a", "value": 1}]})"), "result: a: has no unit");
+  const std::string both = R"({"name": "a", "unit": "m", "value": 1, "values": [1]})";
+  EXPECT_EQ(why(R"({"scores": [)" + both + "]}"), "result: a: expected either value or values");
+  const std::string one = R"({"name": "a", "unit": "m", "value": 1})";
+  EXPECT_EQ(why(R"({"scores": [)" + one + "," + one + "]}"), "result: two scores are named 'a'");
+  EXPECT_THAT(why(R"({"secnds": 1})"),
+              HasSubstr("result.json: found key 'secnds', expected status"));
+}
+
+TEST(MetricResult, AValueForEachPairIsKept) {
+  const auto kept = [](std::size_t pairs) {
+    return parse_scores(R"({"scores": [{"name": "a", "unit": "m", "values": [3, 4]}]})", 0, pairs)
+        .front()
+        .per_pose;
+  };
+  EXPECT_THAT(kept(2), ElementsAre(3.0, 4.0));
+  EXPECT_THAT(kept(3), ElementsAre());
 }
 
 TEST_F(Command, ImpossibleOptionsAreRejectedWithTheirLine) {
