@@ -26,6 +26,9 @@ class Alignment(NamedTuple):
     condition: float  #: large if the rotation about a line is poorly determined
     transform: Array  #: (7,) x y z qx qy qz qw of reference_from_estimate, applied after the scale
 
+    def __repr__(self) -> str:
+        return f"Alignment({len(self.poses)} poses, scale {self.scale:.6g}, rank {self.rank})"
+
     @property
     def rotation(self) -> Array:
         """(3, 3) reference_from_estimate."""
@@ -108,7 +111,7 @@ def evaluate(
     *,
     settings: Mapping[str, Any] | None = None,
     correct_scale: bool = False,
-    metrics: Sequence[str] = (),
+    metrics: str | Sequence[str] = (),
     relation: str = "",
     delta: float | None = None,
     delta_unit: str = "",
@@ -138,7 +141,7 @@ def evaluate(
     >>> higher = curve + [0, 0, 0, 1, 0, 0, 0, 0]
     >>> round(score(evaluate(curve, higher), "ate"), 9)
     0.0
-    >>> round(score(evaluate(curve, higher, align="none"), "ate"), 9)
+    >>> round(score(evaluate(curve, higher, align="none", metrics="ate"), "ate"), 9)
     1.0
     >>> result = evaluate(curve, higher, align="none", metrics=["ate", "axis_error"], errors=True)
     >>> {each["metric"] for each in result["metrics"]} == {"ate", "axis_error"}
@@ -148,10 +151,12 @@ def evaluate(
     """
     arguments = _arguments(protocol, align, settings)
     arguments.correct_scale = correct_scale
-    arguments.metrics = list(metrics)
+    arguments.metrics = [metrics] if isinstance(metrics, str) else list(metrics)
     arguments.relation = relation
     arguments.delta = delta
     arguments.delta_unit = delta_unit
+    if min_coverage is not None and not 0 <= min_coverage <= 1:
+        raise ValueError(f"min_coverage: found {min_coverage}, expected a number from 0 to 1")
     arguments.min_coverage = min_coverage
     arguments.reference_body = reference_body
     arguments.format = format

@@ -15,7 +15,10 @@ from .problem import Array
 
 
 def _rows(keyframes: npt.ArrayLike) -> Array:
-    return np.ascontiguousarray(keyframes, dtype=float)
+    out = np.ascontiguousarray(keyframes, dtype=float)
+    if not np.isfinite(out).all():
+        raise ValueError("found a number that is not finite")
+    return out
 
 
 def steps(keyframes: npt.ArrayLike) -> Array:
@@ -28,6 +31,9 @@ def speeds(keyframes: npt.ArrayLike) -> Array:
 
     >>> speeds([[0, 0, 0, 0, 0, 0, 0, 1], [2, 3, 0, 4, 0, 0, 0, 1]])
     array([2.5])
+    >>> speeds([[0, 0, 0, 0, 0, 0, 0, 1], [2, np.nan, 0, 4, 0, 0, 0, 1]])
+    Traceback (most recent call last):
+    ValueError: found a number that is not finite
     """
     rows = _rows(keyframes)
     out: Array = np.linalg.norm(steps(rows), axis=1) / np.diff(rows[:, 0])
