@@ -81,13 +81,11 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
   command.add_option("--protocol", a.protocols, "Evaluation protocols, see `list protocols`")
       ->type_name("PROTOCOL")
       ->delimiter(',')
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false)
       ->capture_default_str();
   command.add_option("--set", a.settings, "Field of the protocol to change")
       ->type_name("FIELD=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   // As evo's flag, or with a value: --align, --align sim3, --align=sim3.
   auto* align =
       command
@@ -151,8 +149,7 @@ void declare(CLI::App& command, EvalArguments& a) {
                       "Metric to evaluate instead of the default ones, see `list metrics`; options "
                       "follow a colon (rpe:delta=5,unit=m); repeat for several")
           ->type_name("METRIC")
-          ->expected(1)
-          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+          ->allow_extra_args(false);
   command.add_option("--plugin", a.plugins, "Shared object with additional metrics")
       ->type_name("FILE")
       ->allow_extra_args(false);
