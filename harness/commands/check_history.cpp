@@ -43,13 +43,13 @@ std::string changed_methods(const GateReport& report,
 /// Whether something changed.
 bool print_step(const StoredBaseline& before, const StoredBaseline& now) {
   GateReport report;
+  std::vector<std::string> first_notes =
+      different_definitions(before.baseline.snapshot, now.baseline.snapshot);
   try {
     report = changes(before.baseline, now.baseline.snapshot);
   } catch (const InputError& error) {
-    throw InputError(now.file + " after " + before.file + ": " + error.what());
+    first_notes.push_back(std::string("values are not compared: ") + error.what());
   }
-  std::vector<std::string> first_notes =
-      different_definitions(before.baseline.snapshot, now.baseline.snapshot);
   const std::string title = described(before) + " -> " + described(now);
   if (first_notes.empty() && report.findings.empty()) {
     fmt::print("### {}\n\n- no change\n\n", one_line(title));

@@ -47,7 +47,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench claim claim.yaml\n"
      "  loopbench claim results/claims/*.yaml\n"},
     {"check",
-     "  loopbench check results/quickstart --baseline results/reference/quickstart.json\n"
      "  loopbench check results/mine --baseline mine.json --update\n"
      "  loopbench check results/mine --baseline mine.json --junit junit.xml\n"
      "  loopbench check --history january.json june.json --chart history.svg\n"},
@@ -82,7 +81,6 @@ const std::map<std::string, std::string> kExamples{
     {"export",
      "  loopbench run configs/quickstart.yaml --save-trajectories\n"
      "  loopbench export results/quickstart --what trajectories -o estimates\n"
-     "  loopbench export results/quickstart --what rows -o rows.csv\n"
      "  loopbench export results/quickstart --what crate -o crate\n"},
     {"traj",
      "  loopbench traj info *.txt\n"
@@ -147,7 +145,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench plot results/quickstart --panels xy,angle --size 3.3,2.4 --format pdf\n"},
     {"report",
      "  loopbench report results/quickstart -o report.html\n"
-     "  loopbench report results/quickstart/results.sqlite -o - >report.html\n"
      "  loopbench report results/quickstart -o report.html --size 2\n"
      "  loopbench report results/quickstart -o report.html --every 10\n"},
 };

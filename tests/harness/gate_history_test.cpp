@@ -67,6 +67,16 @@ TEST_F(GateHistory, ReadsFormatThreeWhichHasNoDigest) {
   EXPECT_TRUE(has(history("old.json c.json").out, "uniform (1 cell)"));
 }
 
+TEST_F(GateHistory, GoesOnAfterAnotherSweep) {
+  write("other.json", [](Snapshot& now) {
+    for (GateCell& cell : now.cells) cell.sequence = "city";
+  });
+  const CommandResult result = history("a.json other.json a.json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(has(result.out, "values are not compared: the baseline is from an")) << result.out;
+  EXPECT_TRUE(has(result.out, "3 baselines: 2 of 2 steps with changes")) << result.out;
+}
+
 TEST_F(GateHistory, RejectsWhatIsNoHistory) {
   const auto error = [&](const std::string& arguments) {
     const CommandResult result = history(arguments);
@@ -75,10 +85,6 @@ TEST_F(GateHistory, RejectsWhatIsNoHistory) {
     return result.err;
   };
   EXPECT_EQ(error("a.json"), "loopbench: --history: expected at least two baselines\n");
-  write("other.json", [](Snapshot& now) {
-    for (GateCell& cell : now.cells) cell.sequence = "city";
-  });
-  EXPECT_TRUE(has(error("a.json other.json"), "other.json after a.json: the baseline is from an"));
   folder_.file("edited.json", "{\"loopbench_baseline\": 4}");
   EXPECT_TRUE(has(error("a.json edited.json"), "edited.json: digest: found none"));
   EXPECT_TRUE(has(error("a.json b.json --chart x.txt"), "expected a name that ends in svg"));

@@ -20,8 +20,8 @@ cat >"$workspace/src/embedded/package.xml" <<'END'
 </package>
 END
 cd "$workspace"
-colcon build --cmake-args -GNinja -DCMAKE_CXX_COMPILER=clang++ -DLOOPBENCH_BUILD_TESTS=OFF -DCMAKE_UNITY_BUILD=ON \
-  -DCMAKE_UNITY_BUILD_BATCH_SIZE=40
+colcon build --cmake-args -GNinja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS_RELEASE=-O0 \
+  -DLOOPBENCH_BUILD_TESTS=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=40
 set +u
 # shellcheck source=/dev/null
 source install/setup.bash
