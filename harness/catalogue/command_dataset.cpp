@@ -1,7 +1,6 @@
 #include "harness/catalogue/command_dataset.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -28,6 +27,7 @@ inline auto choices(UsedTrajectory) {
 }
 
 constexpr double kMebibyte = 1 << 20;
+constexpr std::int64_t kMostSeed = 0x7fffffff;  // that generators of all languages accept
 
 struct CommandDatasetOptions {
   std::string run;
@@ -50,7 +50,8 @@ template <class Visit>
 void fields(CommandDatasetOptions& o, Visit visit) {
   visit("run",
         o.run,
-        "program and arguments; {sequence}: input, {trajectory}: file to write, {seed}: repeat");
+        "program and arguments; {sequence}: input, {trajectory}: file to write, {seed}: another "
+        "number below 2^31 for each repeat");
   visit("version", o.version, "version of the program, free text; another one runs it again");
   visit("sequence", o.sequence, "input of the program: a folder or a file; empty: none");
   visit("use", o.use, "trajectory to correct or evaluate; closed: after the program's own closing");
@@ -139,9 +140,9 @@ ProgramCost run_program(const CommandDatasetOptions& o,
       with_values(command_words("run", o.run, o.shell),
                   {{"sequence", o.shell ? "${LOOPBENCH_SEQUENCE}" : sequence.string()},
                    {"trajectory", o.shell ? "${LOOPBENCH_TRAJECTORY}" : trajectory.string()},
-                   {"seed", std::to_string(o.trajectory.seed)}});
+                   {"seed", std::to_string(o.trajectory.seed & kMostSeed)}});
   std::string output;
-  RunningLine line(fmt::format("{}", fmt::join(start.arguments, " ")));
+  RunningLine line(o.run.substr(0, o.run.find(" {")));
   const auto begin = std::chrono::steady_clock::now();
   const ProgramEnd end =
       RunningProgram(start).wait(output, [&](const std::string& printed) { line.draw(printed); });
