@@ -30,12 +30,13 @@
 namespace loopbench::harness {
 namespace {
 
-/// The reasons why there are no scores.
-std::string reasons_text(const std::vector<Record>& records) {
+/// The reasons why there are no scores, of records that `selected` selects.
+template <class Selected>
+std::string reasons_text(const std::vector<Record>& records, Selected selected) {
   std::vector<Missing> missing;
   for (const Record& r : records) {
     const std::string what = r.metric.empty() ? "" : field(r, "score");
-    if (r.status != Status::ok) missing.push_back({r.method, what, to_text(r.status), r.why});
+    if (selected(r)) missing.push_back({r.method, what, to_text(r.status), r.why});
   }
   std::string out;
   for (const std::string& line : grouped(missing)) out += "- " + printable(line) + "\n";
@@ -170,8 +171,16 @@ void write_tables(const std::filesystem::path& store,
 std::string summary_text(std::vector<Record> records, const Sweep& sweep) {
   keep_where(records, sweep.table.where);
   const Table view = summary(records, {sweep.baseline, sweep.table.value, sweep.table.show});
-  if (view.lines.empty()) return reasons_text(records);
-  return (prints_to_terminal() ? terminal(view, standard_output_style()) : markdown(view)) + "\n";
+  if (view.lines.empty()) {
+    return reasons_text(records, [](const Record& r) { return r.status != Status::ok; });
+  }
+  const auto is_noted = [&](const std::string& why) {
+    return std::ranges::any_of(
+        view.notes, [&](const std::string& note) { return note.find(why) != std::string::npos; });
+  };
+  return (prints_to_terminal() ? terminal(view, standard_output_style()) : markdown(view)) + "\n" +
+         reasons_text(records,
+                      [&](const Record& r) { return is_failure(r.status) && !is_noted(r.why); });
 }
 
 std::string merge_command(const std::filesystem::path& out) {

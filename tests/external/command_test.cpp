@@ -247,6 +247,17 @@ TEST(MetricResult, ItsMistakesAreNamed) {
               HasSubstr("result.json: found key 'secnds', expected status"));
 }
 
+TEST(MetricResult, RunStatesWhyAMetricFailed) {
+  const TemporaryFolder folder;
+  folder.file(
+      "c.yaml",
+      "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmethods: [raw, dual]\n"
+      "metrics: [ate, {metric: command, label: bad, run: 'false {evaluation} {result}'}]\n");
+  const CommandResult ran = loopbench_command("run c.yaml --no-sandbox --out r", folder);
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_THAT(ran.out, HasSubstr("- raw, dual: bad failed: the program exited with code 1\n"));
+}
+
 TEST(MetricResult, AValueForEachPairIsKept) {
   const auto kept = [](std::size_t pairs) {
     return parse_scores(R"({"scores": [{"name": "a", "unit": "m", "values": [3, 4]}]})", 0, pairs)

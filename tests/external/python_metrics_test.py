@@ -88,7 +88,7 @@ class Metrics(unittest.TestCase):
         for name, status, why in (
             ("declines", "declined", "too flat"),
             ("raises", "failed", "RuntimeError: no luck"),
-            ("unnamed", "failed", "key 'name' not found"),
+            ("unnamed", "failed", "a score has no name"),
             ("nan", "failed", ""),
             ("sideways", "failed", "expected one of lower | higher | target | neither"),
             ("ratio", "ok", ""),
