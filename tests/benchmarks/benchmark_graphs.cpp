@@ -120,12 +120,8 @@ int main(int argc, char** argv) {
   };
   for (const std::string name : test::kPublicGraphs) {
     if (root == nullptr) continue;
-    PoseGraphOptions options;
-    options.path = "pose_graphs/" + name + ".g2o";
-    options.rules.indefinite = IndefiniteInformation::repair;
     try {
-      const Problem& problem =
-          problems.emplace(name, load_pose_graph(options, {{root}}).problem).first->second;
+      const Problem& problem = problems.emplace(name, test::public_graph(name, root)).first->second;
       time("SimplicialLDLT " + name, [&](benchmark::State& state) {
         factorise<Eigen::SimplicialLDLT<Sparse, Eigen::Lower>>(problem, state);
       });

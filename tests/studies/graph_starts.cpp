@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <random>
 
-#include "datasets/pose_graph_dataset.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/solvers/initial_values.hpp"
 #include "metrics/correction/chordal_matrix.hpp"
@@ -123,11 +122,7 @@ int main() {
       "| graph | start | chi2 of the start | iterations | chi2 | start [ms] |\n"
       "| --- | --- | ---: | ---: | ---: | ---: |\n");
   for (const std::string name : test::kPublicGraphs) {
-    PoseGraphOptions options;
-    options.path = "pose_graphs/" + name + ".g2o";
-    options.rules.rotation = RotationInformation::angles;
-    options.rules.indefinite = IndefiniteInformation::repair;
-    const Problem problem = load_pose_graph(options, {{root}}).problem;
+    const Problem problem = test::public_graph(name, root, RotationInformation::angles);
     compare(name, problem);
     if (name != "sphere2500") continue;
     for (const double sigma : {0.1, 0.2, 0.3}) {

@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <utility>
 
-#include "datasets/pose_graph_dataset.hpp"
 #include "methods/solvers/elimination_structure.hpp"
 #include "tests/support/public_graphs.hpp"
 
@@ -102,10 +101,7 @@ int main() {
   }
   fmt::print("| graph | replaced at | orders | kept / new |\n| --- | ---: | ---: | ---: |\n");
   for (const std::string name : test::kPublicGraphs) {
-    PoseGraphOptions options;
-    options.path = "pose_graphs/" + name + ".g2o";
-    options.rules.indefinite = IndefiniteInformation::repair;
-    const Problem problem = load_pose_graph(options, {{root}}).problem;
+    const Problem problem = test::public_graph(name, root);
     for (const double limit : {1.3, 2.0, 5.0}) {
       const Comparison each = compare(problem, limit);
       fmt::print("| {} | {} | {} | {:.2f} |\n", name, limit, each.orders, each.ratio);

@@ -2,6 +2,10 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
+#include <string>
+
+#include "datasets/pose_graph_dataset.hpp"
 
 namespace loopbench::test {
 
@@ -15,5 +19,16 @@ inline constexpr std::array kPublicGraphs = {"intel",
                                              "sphere2500",
                                              "torus3D",
                                              "cubicle"};
+
+/// One of them in the data folder `root`; indefinite information is repaired.
+inline Problem public_graph(const std::string& name,
+                            const std::filesystem::path& root,
+                            RotationInformation rotation = RotationInformation::half_angles) {
+  PoseGraphOptions options;
+  options.path = "pose_graphs/" + name + ".g2o";
+  options.rules.rotation = rotation;
+  options.rules.indefinite = IndefiniteInformation::repair;
+  return load_pose_graph(options, {{root}}).problem;
+}
 
 }  // namespace loopbench::test
