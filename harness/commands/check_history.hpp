@@ -14,9 +14,9 @@ struct HistoryOptions {
 };
 
 /// Prints, for every two consecutive files, other definitions and the findings of the gate with the
-/// limits of the earlier file, and draws the chart. Baselines without common cells are stated and not
-/// compared. Throws InputError for fewer than two files, for a file that is no baseline, and if the
-/// chart has no score.
+/// limits of the earlier file, and draws the chart. Baselines without common cells are stated and
+/// not compared. Throws InputError for fewer than two files, for a file that is no baseline, and if
+/// the chart has no score.
 void check_history(const HistoryOptions& options);
 
 }  // namespace loopbench::harness
