@@ -7,7 +7,6 @@
 
 #include <Eigen/SVD>
 #include <chrono>
-#include <cstdlib>
 #include <random>
 
 #include "methods/correctors/pose_graph.hpp"
@@ -113,11 +112,7 @@ Problem with_noise(Problem problem, double sigma) {
 
 int main() {
   using namespace loopbench;
-  const char* root = std::getenv("LOOPBENCH_DATA");
-  if (root == nullptr) {
-    fmt::print(stderr, "graph_starts: LOOPBENCH_DATA is not set\n");
-    return 2;
-  }
+  const char* root = test::required_data();
   fmt::print(
       "| graph | start | chi2 of the start | iterations | chi2 | start [ms] |\n"
       "| --- | --- | ---: | ---: | ---: | ---: |\n");

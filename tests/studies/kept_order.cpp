@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 #include "methods/solvers/elimination_structure.hpp"
@@ -94,11 +93,7 @@ Comparison compare(const Problem& problem, double limit) {
 
 int main() {
   using namespace loopbench;
-  const char* root = std::getenv("LOOPBENCH_DATA");
-  if (root == nullptr) {
-    fmt::print(stderr, "kept_order: LOOPBENCH_DATA is not set\n");
-    return 2;
-  }
+  const char* root = test::required_data();
   fmt::print("| graph | replaced at | orders | kept / new |\n| --- | ---: | ---: | ---: |\n");
   for (const std::string name : test::kPublicGraphs) {
     const Problem problem = test::public_graph(name, root);
