@@ -10,7 +10,7 @@
 namespace loopbench {
 
 /// Guesses the format from the number of columns and the first word: g2o tags, nanoseconds and at
-/// least 8 columns, 12 numbers, 4, 8, 29 or 44 numbers.
+/// least 8 columns, 12 numbers, 4, 8, 29 or 44 numbers, or 9 with a node id.
 std::optional<Format> guess(const TextFile& file, const Line& line);
 
 /// Detects the format from the first line of data, without consuming it. Throws InputError with the

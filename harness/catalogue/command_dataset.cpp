@@ -142,6 +142,7 @@ ProgramCost run_program(const CommandDatasetOptions& o,
                    {"trajectory", o.shell ? "${LOOPBENCH_TRAJECTORY}" : trajectory.string()},
                    {"seed", std::to_string(o.trajectory.seed & kMostSeed)}});
   std::string output;
+  // Without arguments in braces: their paths would fill the line.
   RunningLine line(o.run.substr(0, o.run.find(" {")));
   const auto begin = std::chrono::steady_clock::now();
   const ProgramEnd end =

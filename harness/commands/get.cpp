@@ -30,8 +30,8 @@ void print_catalogue(const std::vector<PublicFile>& known) {
   for (const PublicPage& each : public_pages()) print(each.name, "by hand: " + each.url);
 }
 
-/// Throws InputError if the dataset cannot be downloaded by the program.
-void reject_by_hand(const std::string& name) {
+/// Throws InputError if the dataset has to be downloaded by hand.
+void require_downloadable(const std::string& name) {
   for (const PublicPage& each : public_pages()) {
     if (each.name != name) continue;
     throw InputError(
@@ -51,7 +51,7 @@ int get(const GetArguments& arguments) {
   std::vector<std::string> names;
   for (const PublicFile& each : known) names.push_back(each.name);
   for (const std::string& name : arguments.names) {
-    reject_by_hand(name);
+    require_downloadable(name);
     if (std::ranges::count(names, name) == 0) {
       throw InputError(unknown_name("sequence", name, names));
     }

@@ -47,8 +47,8 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench claim claim.yaml\n"
      "  loopbench claim results/claims/*.yaml\n"},
     {"check",
+     "  loopbench check results/quickstart --baseline results/reference/quickstart.json\n"
      "  loopbench check results/mine --baseline mine.json --update\n"
-     "  loopbench check results/mine --baseline mine.json --junit junit.xml\n"
      "  loopbench check --history january.json june.json --chart history.svg\n"},
     {"eval",
      "  loopbench eval reference.txt estimate.txt --align sim3\n"

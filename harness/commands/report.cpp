@@ -57,8 +57,8 @@ void add_report(CLI::App& app, int& exit_code) {
       ->add_option(
           "--every",
           arguments->every,
-          "While `run` writes to the store, write the report again every N seconds; an open "
-          "page follows")
+          "While `run` writes to the store, write the report again every N seconds; a page "
+          "that is open in a browser reloads itself")
       ->type_name("N")
       ->check(number_between(1.0, 3600.0));
   command->callback([arguments, &exit_code] {
