@@ -3,6 +3,7 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <utility>
 
 namespace loopbench::methods {
 namespace {
@@ -88,7 +89,11 @@ bool is_dense_enough(int columns, double zeros) {
 
 EliminationStructure::EliminationStructure(int blocks,
                                            const std::vector<std::pair<int, int>>& pairs)
-    : position_(minimum_degree(blocks, pairs)), owner_(at(blocks)) {
+    : EliminationStructure(minimum_degree(blocks, pairs), pairs) {}
+
+EliminationStructure::EliminationStructure(std::vector<int> position,
+                                           const std::vector<std::pair<int, int>>& pairs)
+    : position_(std::move(position)), owner_(position_.size()) {
   Lists unordered = columns_of_factor(position_, pairs);
   const std::vector<int> order = postorder(unordered);
   for (int& position : position_) position = order[at(position)];
@@ -100,7 +105,7 @@ EliminationStructure::EliminationStructure(int blocks,
   }
 
   double entries = 0.0;
-  for (int j = 0; j < blocks; ++j) {
+  for (int j = 0; j < blocks(); ++j) {
     const std::vector<int>& rows = columns[at(j)];
     const auto own = static_cast<double>(rows.size()) + 1.0;
     if (j > 0 && !columns[at(j - 1)].empty() && columns[at(j - 1)].front() == j) {
@@ -127,6 +132,14 @@ EliminationStructure::EliminationStructure(int blocks,
   for (Supernode& node : supernodes_) {
     if (node.below > 0) node.parent = supernode_of(rows_[node.offset]);
   }
+}
+
+double EliminationStructure::work() const {
+  double sum = 0.0;
+  for (const Supernode& node : supernodes_) {
+    for (int height = node.rows(); height > node.below; --height) sum += double(height) * height;
+  }
+  return sum;
 }
 
 int EliminationStructure::row_in(const Supernode& in, int column) const {

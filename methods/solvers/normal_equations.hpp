@@ -8,6 +8,7 @@
 #include "methods/solvers/anchor_residual.hpp"
 #include "methods/solvers/block_cholesky.hpp"
 #include "methods/solvers/edge_residual.hpp"
+#include "methods/solvers/kept_order.hpp"
 #include "methods/solvers/weighted_graph.hpp"
 
 namespace loopbench::methods {
@@ -21,8 +22,11 @@ class NormalEquations {
   using Tangent = typename G::Tangent;
   using Square = typename G::Square;
 
-  explicit NormalEquations(const WeightedGraph& graph)
-      : first_(graph.is_first_free ? 0 : 1), structure_(structure_of(graph)), factor_(structure_) {
+  /// `order` may be null: a new order.
+  NormalEquations(const WeightedGraph& graph, KeptOrder* order)
+      : first_(graph.is_first_free ? 0 : 1),
+        structure_(structure_of(graph, order)),
+        factor_(structure_) {
     for (int i = 0; i < structure_.blocks(); ++i) diagonal_places_.push_back(factor_.place(i, i));
     graph.for_each_edge([&](const Edge& edge, double weight, bool) {
       Term term{static_cast<int>(edge.from) - first_,
@@ -124,7 +128,7 @@ class NormalEquations {
     Matrix3 root;
   };
 
-  static EliminationStructure structure_of(const WeightedGraph& graph) {
+  static EliminationStructure structure_of(const WeightedGraph& graph, KeptOrder* order) {
     const int first = graph.is_first_free ? 0 : 1;
     std::vector<std::pair<int, int>> pairs;
     graph.for_each_edge([&](const Edge& edge, double, bool) {
@@ -132,7 +136,8 @@ class NormalEquations {
       const auto j = static_cast<int>(edge.to) - first;
       if (std::min(i, j) >= 0) pairs.emplace_back(i, j);
     });
-    return {static_cast<int>(graph.poses) - first, pairs};
+    const int blocks = static_cast<int>(graph.poses) - first;
+    return order ? order->structure(blocks, pairs) : EliminationStructure(blocks, pairs);
   }
 
   const Element& pose(const std::vector<Element>& x, int block) const {

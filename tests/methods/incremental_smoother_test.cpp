@@ -1,5 +1,6 @@
 /// pose_graph_incremental and dual_incremental: the minimum of pose_graph and dual, reached in
 /// parts.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,6 +54,22 @@ TEST(DualIncremental, ReachesTheMinimumOfDualInParts) {
     test::expect_close(in_parts(problem, DualIncremental({}), report), expected, 1e-6);
     test::expect_close(test::corrected<DualIncremental>(problem), expected, 1e-6);
   }
+}
+
+TEST(PoseGraph, KeepsItsOrderInPartsAndReachesTheSameMinimum) {
+  const Problem problem = test::walk(2, 80, 0.02);
+  Report report;
+  const PoseGraphOptimizer method({.keep_order = 2.0});
+  const Trajectory expected = test::corrected<PoseGraphOptimizer>(problem);
+  test::expect_close(in_parts(problem, method, report), expected, 1e-6);
+  EXPECT_EQ(report.counts.back().name, "orders");
+  EXPECT_EQ(report.counts.back().value, 1.0);
+}
+
+TEST(PoseGraph, KeepsAnOrderOnlyWithoutALoss) {
+  EXPECT_EQ(PoseGraphOptimizer({}).incremental(false), nullptr);
+  const PoseGraphOptimizer robust({.loss = RobustLoss::huber, .keep_order = 2.0});
+  EXPECT_THAT(robust.why_declined(test::walk(2, 80, 0.02)), ::testing::HasSubstr("loss: none"));
 }
 
 TEST(DualIncremental, AnAgreeingClosureAddsRowsOnly) {

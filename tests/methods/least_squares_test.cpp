@@ -2,6 +2,8 @@
 // compared with those of Ceres.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
 #include <random>
 
 #include "methods/solvers/groups/se2.hpp"
@@ -28,9 +30,10 @@ class Random {
 
 /// A random positive definite matrix with the blocks of `pairs`, by BlockCholesky and dense.
 template <int D>
-void expect_solves(int blocks, const std::vector<std::pair<int, int>>& pairs) {
+void expect_solves(const EliminationStructure& structure,
+                   const std::vector<std::pair<int, int>>& pairs) {
   Random random;
-  const EliminationStructure structure(blocks, pairs);
+  const int blocks = structure.blocks();
   BlockCholesky<D> factor(structure);
   factor.set_zero();
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(blocks * D, blocks * D);
@@ -67,11 +70,35 @@ TEST(BlockCholesky, SolvesChainsWithLoopsAndCliques) {
   for (int i = 0; i < 20; ++i) {  // wide enough for the kernels of large supernodes
     for (int j = 0; j < i; ++j) pairs.emplace_back(3 * i, 3 * j);
   }
-  expect_solves<1>(60, pairs);
-  expect_solves<2>(60, pairs);
-  expect_solves<3>(60, pairs);
-  expect_solves<6>(60, pairs);
-  expect_solves<7>(60, pairs);
+  const EliminationStructure structure(60, pairs);
+  expect_solves<1>(structure, pairs);
+  expect_solves<2>(structure, pairs);
+  expect_solves<3>(structure, pairs);
+  expect_solves<6>(structure, pairs);
+  expect_solves<7>(structure, pairs);
+  std::vector<int> given(60);
+  std::iota(given.begin(), given.end(), 0);
+  expect_solves<3>(EliminationStructure(given, pairs), pairs);
+}
+
+TEST(KeptOrder, IsReplacedWhenItsWorkHasGrown) {
+  KeptOrder order(2.0);
+  std::vector<std::pair<int, int>> pairs;
+  const auto chain = [&](int begin, int end) {
+    for (int i = std::max(begin, 1); i < end; ++i) pairs.emplace_back(i - 1, i);
+    return order.structure(end, pairs);
+  };
+  chain(0, 50);
+  const EliminationStructure longer = chain(50, 53);
+  EXPECT_EQ(order.computed(), 1);
+  expect_solves<3>(longer, pairs);
+  for (int i = 0; i < 53; i += 2) {  // edges between all parts of the chain
+    for (int j = 1; j < 53; j += 7) pairs.emplace_back(i, j);
+  }
+  const EliminationStructure dense = order.structure(53, pairs);
+  EXPECT_EQ(order.computed(), 2);
+  EXPECT_EQ(dense.positions(), EliminationStructure(53, pairs).positions());
+  expect_solves<3>(dense, pairs);
 }
 
 TEST(BlockCholesky, ReportsThatAMatrixIsNotPositiveDefinite) {
@@ -178,7 +205,7 @@ void expect_slope(Group group) {
   const Graph graph = random_graph(group);
   const WeightedGraph weighted{
       graph.poses.size(), graph.odometry, graph.closures, graph.weights, graph.anchors, true};
-  NormalEquations<G> equations(weighted);
+  NormalEquations<G> equations(weighted, nullptr);
   std::vector<typename G::Element> x;
   for (const ScaledPose& pose : graph.poses) x.push_back(G::from(pose));
   const double cost = equations.linearise(x);

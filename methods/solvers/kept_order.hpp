@@ -1,0 +1,44 @@
+/// Elimination order that is used again while a graph grows.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "methods/solvers/elimination_structure.hpp"
+
+namespace loopbench::methods {
+
+/// New blocks are eliminated after all earlier ones, until a factorisation takes more than `limit`
+/// times the work per block that it took under a new order; then the order is computed again.
+class KeptOrder {
+ public:
+  explicit KeptOrder(double limit) : limit_(limit) {}
+
+  /// Structure of a graph of at least as many blocks as in the call before. Complexity as that of
+  /// EliminationStructure.
+  EliminationStructure structure(int blocks, const std::vector<std::pair<int, int>>& pairs) {
+    while (static_cast<int>(position_.size()) < blocks) {
+      position_.push_back(static_cast<int>(position_.size()));
+    }
+    if (computed_ > 0) {
+      EliminationStructure kept(position_, pairs);
+      if (kept.work() <= limit_ * work_per_block_ * blocks) return kept;
+    }
+    EliminationStructure out(blocks, pairs);
+    position_ = out.positions();
+    work_per_block_ = out.work() / blocks;
+    ++computed_;
+    return out;
+  }
+
+  /// Number of orders computed so far.
+  int computed() const { return computed_; }
+
+ private:
+  double limit_;
+  std::vector<int> position_;
+  double work_per_block_ = 0.0;
+  int computed_ = 0;
+};
+
+}  // namespace loopbench::methods
