@@ -103,15 +103,17 @@ Decoded read_topic(const std::string& file, const std::string& name) {
   Decoded out = decode_all(
       file, [&](const BagTopic& topic) { return topic.name == name && has_poses(topic); }, append);
   const auto found = std::ranges::find(out.summary.topics, name, &BagTopic::name);
-  const std::string known = " (topics: " + known_topics(out.summary.topics) + ")";
+  const auto known = [&] {
+    return " (topics: " + known_topics(out.summary.topics) + tf_frames(file) + ")";
+  };
   if (found == out.summary.topics.end()) {
-    throw InputError(file + ": has no topic '" + name + "'" + known + damage_text(out.summary));
+    throw InputError(file + ": has no topic '" + name + "'" + known() + damage_text(out.summary));
   }
   if (!has_poses(*found)) {
     throw InputError(file + ": topic '" + name + "' has type " + found->type_name +
                      ", expected PoseStamped, PoseWithCovarianceStamped, Odometry, "
                      "TransformStamped, Path, PointStamped or NavSatFix" +
-                     known);
+                     known());
   }
   for (const PoseMessage& pose : out.poses) {
     if (pose.child == out.poses.front().child) continue;

@@ -137,6 +137,15 @@ std::string recording(const char* name) {
   return data == nullptr ? "" : std::string(data) + "/bags/" + name;
 }
 
+TEST(RealBags, FramesAreListedWhateverIsMissing) {
+  if (recording("").empty()) GTEST_SKIP() << "needs LOOPBENCH_DATA";
+  const std::string file = recording("tf_example.bag");
+  for (const std::string name : {file, "bag:" + file + "#/odom", "bag:" + file + "#/tf"}) {
+    EXPECT_THAT(refusal([&] { read_trajectory(name); }),
+                HasSubstr("tf:PARENT.CHILD; frames: base_footprint, base_link, odom)"));
+  }
+}
+
 TEST(RealBags, TheSameTransformsComeFromBothRosVersions) {
   if (recording("").empty()) GTEST_SKIP() << "needs LOOPBENCH_DATA";
   const auto one =
