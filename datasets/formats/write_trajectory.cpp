@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +21,7 @@ std::int64_t rounded_nanoseconds(double stamp) {
 
 void write_stamp(TextWriter& out, const TrajectoryFile& file, std::size_t i) {
   if (file.nanoseconds.empty()) {
-    out.number(file.poses[i].stamp);
+    out.word(fmt::format("{}", file.poses[i].stamp));  // shortest, but 1700000000, not 1.7e+09
   } else {
     out.word(seconds_text(file.nanoseconds[i]));
   }

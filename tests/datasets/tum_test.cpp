@@ -47,6 +47,13 @@ TEST(Tum, WritingAndReadingKeepsEveryBit) {
   EXPECT_TRUE(same_bits(read_trajectory(scratch.path() / "a.txt"), poses));
 }
 
+TEST(Tum, StampsHaveNoExponent) {
+  const TemporaryFolder scratch;
+  write_tum(scratch.path() / "a.txt", Trajectory{{1.7e9, {}}, {1.7e9 + 0.5, {}}});
+  EXPECT_EQ(content(scratch.path() / "a.txt"),
+            "1700000000 0 0 0 0 0 0 1\n1700000000.5 0 0 0 0 0 0 1\n");
+}
+
 TEST(Tum, CommentsStandOnTopAndAreSkipped) {
   const TemporaryFolder scratch;
   const Trajectory poses{{0.5, {}}};
