@@ -218,7 +218,18 @@ void return_large_lists() {
 #endif
 }
 
+void reject_results_of_evo(const EvalArguments& a) {
+  std::vector<std::string> files = a.estimates;
+  files.push_back(a.reference);
+  for (const std::string& file : files) {
+    if (!is_evo_result(file)) continue;
+    throw InputError(file + ": is a result of evo, expected trajectories; `loopbench table " +
+                     file + "` prints results, `loopbench compare` compares them");
+  }
+}
+
 int eval(const EvalArguments& a, const Source& source) {
+  reject_results_of_evo(a);
   if (a.estimates.empty() && !std::filesystem::is_directory(a.reference)) {
     throw CLI::RequiredError("EST");
   }

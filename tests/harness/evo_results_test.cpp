@@ -82,6 +82,12 @@ TEST(EvoResults, AreTabulatedAndCompared) {
   EXPECT_EQ(loopbench_command("table a.zip b.zip -o a.zip", folder).exit_code, 2);
   const CommandResult two = loopbench_command("compare one_store another_store", folder);
   EXPECT_EQ(two.exit_code, 2);
+  for (const char* files : {"eval a.zip", "eval a.zip b.zip"}) {
+    const CommandResult evaluated = loopbench_command(files, folder);
+    EXPECT_EQ(evaluated.exit_code, 2);
+    EXPECT_THAT(evaluated.err,
+                HasSubstr("is a result of evo, expected trajectories; `loopbench table"));
+  }
   EXPECT_THAT(two.err, HasSubstr("expected one store"));
 }
 
