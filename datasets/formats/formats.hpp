@@ -31,8 +31,9 @@ inline auto choices(Format) {
 
 /// Handling of a pose with the same stamp as the previous one, which occurs in published files. The
 /// reader of TUM keeps the last, evo all. Decreasing stamps, and repeated stamps in a times file,
-/// are always rejected.
-enum class Repeats { refuse, keep_first, keep_last };
+/// are always rejected. `keep_all` is not a choice of users, because only the association of evo
+/// accepts equal stamps.
+enum class Repeats { refuse, keep_first, keep_last, keep_all };
 inline auto choices(Repeats) {
   return std::array{std::pair{"refuse", Repeats::refuse},
                     std::pair{"keep_first", Repeats::keep_first},

@@ -77,9 +77,10 @@ class StampOrder {
     }
   }
 
-  /// Returns false if `stamp` repeats the last one and repeats are allowed. Throws InputError.
+  /// Returns false if `stamp` repeats the last one, which is not kept. Throws InputError.
   bool accepts(double stamp, std::size_t line) {
-    if (last_line_ != 0 && !(stamp > last_stamp_)) {
+    const bool is_kept = repeats_ == Repeats::keep_all && stamp == last_stamp_;
+    if (last_line_ != 0 && !(stamp > last_stamp_) && !is_kept) {
       reject_or_drop(stamp, line);
       return false;
     }

@@ -51,7 +51,8 @@ TrajectoryFile from_bag(const std::string& name, const ReadOptions& options) {
       const std::string rule = violated_degrees(pose.frame_from_child.translation);
       if (!rule.empty()) throw InputError(name + ": " + rule);
     }
-    const bool repeats = !out.poses.empty() && stamp == out.poses.back().stamp;
+    const bool repeats = options.repeats != Repeats::keep_all && !out.poses.empty() &&
+                         stamp == out.poses.back().stamp;
     if (repeats && is_same_pose(*last, pose)) continue;
     if (repeats) {
       if (options.repeats == Repeats::refuse) {

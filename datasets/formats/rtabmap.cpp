@@ -114,7 +114,7 @@ TrajectoryFile read_rtabmap_poses(const std::filesystem::path& file, const ReadO
                       to_text(node.stamp)));
     }
     if (repeats && options.repeats == Repeats::keep_first) continue;
-    if (repeats) out.poses.pop_back();
+    if (repeats && options.repeats == Repeats::keep_last) out.poses.pop_back();
     out.poses.push_back({node.stamp, node.pose});
   }
   return out;

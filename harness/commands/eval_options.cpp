@@ -49,8 +49,10 @@ void declare_files(CLI::App& command, EvalArguments& a) {
   };
   file("--cov", a.covariances, "EST");
   file("--ref-cov", a.reference_covariances, "REF");
-  word("--repeats", a.repeats, "Handling of equal stamps: " + choice_list<Repeats>())
-      ->capture_default_str();
+  word("--repeats",
+       a.repeats,
+       "Handling of equal stamps: " + choice_list<Repeats>() +
+           "; default: refuse, or all are kept if every protocol pairs as evo does");
   command.add_option("--times", a.times, "Times file for KITTI poses, one stamp per line [s]")
       ->type_name("FILE");
   command.add_option("--period", a.period, "Time between KITTI or g2o poses without stamps [s]")

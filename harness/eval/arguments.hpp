@@ -28,8 +28,8 @@ struct EvalArguments {
   std::string covariances;                    ///< file of the only estimate's; empty: none
   std::string reference_covariances;          ///< file of the reference's; empty: none
   std::string times;                          ///< empty: none
-  std::string repeats = "refuse";
-  std::optional<double> period;           ///< [s]; none: default of ReadOptions
+  std::string repeats;           ///< empty: refuse, or keep all if every protocol pairs as evo does
+  std::optional<double> period;  ///< [s]; none: default of ReadOptions
   std::optional<std::size_t> downsample;  ///< most poses of each file
   std::vector<double> motion_filter;      ///< thresholds [m, deg] between poses; empty: none
   std::optional<double> start;            ///< time range of the reference [s]; none: all

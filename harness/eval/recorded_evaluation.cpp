@@ -210,6 +210,13 @@ RecordedFile reference_of_route(const RecordedFile& reference,
   }
 }
 
+/// The first pose of each stamp: the doctor needs increasing stamps.
+Trajectory without_repeats(Trajectory poses) {
+  const auto are_equal = [](const auto& a, const auto& b) { return a.stamp == b.stamp; };
+  poses.erase(std::unique(poses.begin(), poses.end(), are_equal), poses.end());
+  return poses;
+}
+
 }  // namespace
 
 SharedReference shared_reference(const std::string& file, const RecordedSweep& files) {
@@ -237,9 +244,12 @@ EvaluatedFile evaluate_poses(const Cell& cell,
       std::async(is_large ? std::launch::async : std::launch::deferred, [&] {
         if (!files.arguments.diagnose) return std::vector<std::string>{};
         const bool has_stamps = reference.read.unstamped.empty() && estimate.unstamped.empty();
-        return doctor_notes(
-            {reference.read.poses, estimate.poses, run.reference, run.estimate, has_stamps},
-            files.sweep.protocols);
+        return doctor_notes({without_repeats(reference.read.poses),
+                             without_repeats(estimate.poses),
+                             run.reference,
+                             run.estimate,
+                             has_stamps},
+                            files.sweep.protocols);
       });
   if (!run.common.empty()) {
     metadata.notes.push_back(common_times_note(estimate.poses, run.common));

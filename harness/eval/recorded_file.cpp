@@ -10,6 +10,7 @@
 #include "datasets/formats/covariance_columns.hpp"
 #include "datasets/formats/text_formats.hpp"
 #include "harness/eval/trajectory_selection.hpp"
+#include "metrics/protocols/protocols.hpp"
 #include "metrics/trajectory/position_only.hpp"
 
 namespace loopbench::harness {
@@ -21,8 +22,15 @@ Format format_of(const char* option, const std::string& word) {
   return out;
 }
 
+/// As evo by default, whose association accepts equal stamps.
 Repeats repeats_of(const EvalArguments& a) {
-  Repeats out{};
+  Repeats out = Repeats::refuse;
+  if (a.repeats.empty()) {
+    const auto is_evo = [](const metrics::NamedProtocol& each) {
+      return each.rules.association == metrics::Association::evo;
+    };
+    return std::ranges::all_of(protocols(a), is_evo) ? Repeats::keep_all : out;
+  }
   FieldType<Repeats>::assign("repeats", out, a.repeats);
   return out;
 }
@@ -169,7 +177,7 @@ Params reading_options(const EvalArguments& a) {
   }
   Params out{{"format", to_text(format_of("format", a.format))},
              {"reference_format", to_text(format_of("ref-format", reference_format(a)))},
-             {"repeats", to_text(repeats_of(a))},
+             {"repeats", a.repeats.empty() ? "refuse" : to_text(repeats_of(a))},
              {"times", a.times},
              {"reference_body", a.reference_body.value_or("")},
              {"period", period}};

@@ -26,6 +26,7 @@ void for_each_nearest(const std::vector<double>& wanted,
     if (after == stamps.size() ||
         (after > 0 && wanted[i] - stamps[after - 1] <= stamps[after] - wanted[i])) {
       nearest = after - 1;
+      while (nearest > 0 && stamps[nearest - 1] == stamps[nearest]) --nearest;
     }
     if (std::abs(stamps[nearest] - wanted[i]) <= max_diff) visit(i, nearest);
   }

@@ -23,7 +23,8 @@ struct IndexPair {
 /// are equally long) the nearest stamp of the longer list, the first of two equally near ones, kept
 /// if the difference is <= max_diff. A stamp of the longer list can be paired twice. Rounding as in
 /// evo: the offset is added to the estimate if that list is longer, otherwise subtracted from the
-/// reference. Result in the order of the shorter list. Stamps must strictly increase. O(n + m).
+/// reference. Result in the order of the shorter list. Stamps must not decrease: both poses of a
+/// repeated stamp of the shorter list are paired, of the longer list the first. O(n + m).
 std::vector<IndexPair> match_evo(std::vector<double> reference,
                                  std::vector<double> estimate,
                                  double max_diff,

@@ -244,5 +244,32 @@ TEST(Eval, ErrorsOfPosesHaveTheStampsOfBoth) {
   EXPECT_NE(row.find(",1,1.01,0,"), std::string::npos) << row;
 }
 
+// Pairs by the literal sync.py of evo: 6 of the 7 repeated stamps are within 0.01 s of a reference
+// pose.
+TEST(Eval, KeepsEqualStampsAsEvoDoes) {
+  const TemporaryFolder folder;
+  std::ifstream drift(golden("est_drift.txt"));
+  std::string repeated;
+  std::size_t rows = 0;
+  for (std::string line; std::getline(drift, line);) {
+    repeated += line + "\n";
+    if (line.starts_with('#') || rows++ % 100 != 0) continue;
+    repeated += line.substr(0, line.find(' ')) + " 1 2 3 0 0 0 1\n";
+  }
+  const std::string file = written(folder.path() / "repeated.txt", repeated);
+  const Json result = eval_json({golden("gt.txt"), file, "--protocol=evo", "-a"});
+  EXPECT_EQ(result["possible"], 664);
+  EXPECT_EQ(result["pairs"], 641);
+  const Json first = eval_json({golden("gt.txt"), file, "--protocol=evo", "--repeats=keep_first"});
+  EXPECT_EQ(first["pairs"], 635);
+  for (const char* protocols : {"--protocol=tum", "--protocol=loopbench"}) {
+    EXPECT_THROW(eval({golden("gt.txt"), file, protocols}), InputError);
+  }
+  EXPECT_THAT(eval({golden("gt.txt"), file, "--protocol=evo,tum"}, kExitSomeCellsFailed),
+              HasSubstr("is already on line"));
+  // Either file can repeat stamps.
+  EXPECT_EQ(eval_json({file, golden("gt.txt"), "--protocol=evo", "-a"})["pairs"], 641);
+}
+
 }  // namespace
 }  // namespace loopbench::eval_files_test

@@ -261,5 +261,13 @@ TEST(Association, IndexPairsByNumberOrNotAtAll) {
   EXPECT_THROW(associate(line({0.0, 1.0}), line({0.0}), protocol), std::runtime_error);
 }
 
+TEST(Association, EvoPairsBothPosesOfARepeatedStamp) {
+  const Stamps longer{0.0, 1.0, 1.0, 2.0, 3.0, 3.0, 4.0}, shorter{0.999, 1.004, 1.004, 3.0, 3.005};
+  const Pairs pairs = match_evo(longer, shorter, 0.01, 0.0);
+  EXPECT_EQ(pairs, literal_evo(longer, shorter, 0.01, 0.0));
+  EXPECT_EQ(pairs, (Pairs{{1, 0}, {1, 1}, {1, 2}, {4, 3}, {4, 4}}));
+  EXPECT_EQ(match_evo(shorter, longer, 0.01, 0.0), literal_evo(shorter, longer, 0.01, 0.0));
+}
+
 }  // namespace
 }  // namespace loopbench::association_test
