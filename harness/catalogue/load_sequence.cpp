@@ -1,7 +1,9 @@
 #include "harness/catalogue/load_sequence.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <string_view>
+#include <utility>
 
 #include "datasets/core/error.hpp"
 #include "harness/base/printable.hpp"
@@ -71,10 +73,12 @@ Params full_options(const DatasetChoice& choice, const DatasetEntry& entry, int 
   return out;
 }
 
-Sequence load_sequence(const Cell& cell,
-                       const Sweep& sweep,
-                       const Catalogue& catalogue,
-                       const DataRoot& root) {
+namespace {
+
+Sequence load_one(const Cell& cell,
+                  const Sweep& sweep,
+                  const Catalogue& catalogue,
+                  const DataRoot& root) {
   const DatasetChoice& choice = sweep.datasets[cell.dataset];
   const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
   Params options = choice.dataset.options;
@@ -86,6 +90,40 @@ Sequence load_sequence(const Cell& cell,
   check(sequence.problem, choice.label);
   check(sequence.reference, choice.label + ": reference", Rotations::optional);
   return sequence;
+}
+
+}  // namespace
+
+std::vector<std::size_t> related_datasets(const Sweep& sweep, std::size_t dataset) {
+  std::vector<std::size_t> out;
+  const std::string& odometer = sweep.datasets[dataset].odometer;
+  for (std::size_t i = 0; i < sweep.datasets.size() && !odometer.empty(); ++i) {
+    if (i != dataset && sweep.datasets[i].odometer == odometer) out.push_back(i);
+  }
+  return out;
+}
+
+Sequence load_sequence(const Cell& cell,
+                       const Sweep& sweep,
+                       const Catalogue& catalogue,
+                       const DataRoot& root) {
+  Sequence out = load_one(cell, sweep, catalogue, root);
+  std::vector<Problem> related;
+  for (const std::size_t other : related_datasets(sweep, cell.dataset)) {
+    Cell one = cell;
+    one.dataset = other;
+    Sequence sequence = load_one(one, sweep, catalogue, root);
+    sequence.problem.frames.clear();
+    related.push_back(std::move(sequence.problem));
+    out.provenance.oracle_closures |= sequence.provenance.oracle_closures;
+    for (const InputPath& input : sequence.provenance.inputs) {
+      out.provenance.inputs.push_back({input.path, ""});
+    }
+  }
+  if (!related.empty()) {
+    out.problem.related = std::make_shared<const std::vector<Problem>>(std::move(related));
+  }
+  return out;
 }
 
 }  // namespace loopbench::harness

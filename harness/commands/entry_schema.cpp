@@ -52,8 +52,8 @@ Json entry_schema(const std::string& kind, const Entry& entry) {
         option_schema(option, [&](const Params& given) { return accepts(entry, given); });
     references[option.name] = property_reference(id, option.name);
   }
-  Json properties{{kind, true}, {"label", true}, {"group", true}, {"sweep", true}, {"zip", true}};
-  if (kind != "dataset") properties.erase("group");
+  Json properties{{kind, true}, {"label", true}, {"sweep", true}, {"zip", true}};
+  if (kind == "dataset") properties.update(Json{{"group", true}, {"odometer", true}});
   Json nested = references;
   add_nested(nested);
   for (const auto& [name, schema] : nested.items()) {
@@ -69,12 +69,13 @@ Json entry_schema(const std::string& kind, const Entry& entry) {
 Json list_schema(const std::string& kind, const Json& known, const Json& by_name) {
   Json map{{"type", "object"},
            {"required", {kind}},
-           {"properties",
-            {{kind, known},
-             {"label", with_help("name in tables", kText)},
-             {"group", with_help("name of runs that are not independent", kText)}}},
+           {"properties", {{kind, known}, {"label", with_help("name in tables", kText)}}},
            {"allOf", by_name}};
-  if (kind != "dataset") map["properties"].erase("group");
+  if (kind == "dataset") {
+    map["properties"]["group"] = with_help("name of runs that are not independent", kText);
+    map["properties"]["odometer"] =
+        with_help("what measured the odometry: methods can learn from its other chains", kText);
+  }
   return {{"type", "array"},
           {"minItems", 1},
           {"items",

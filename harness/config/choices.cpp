@@ -130,10 +130,15 @@ std::vector<DatasetChoice> read_datasets(const YamlNode& entry,
                                          const Catalogue& catalogue,
                                          const Folders& folders) {
   std::string group;
+  std::string odometer;
   read_key(entry, "group", group, as_text);
+  read_key(entry, "odometer", odometer, as_text);
   std::vector<DatasetChoice> out =
-      dataset_choices(read_entry(entry, "dataset", {"group"}), catalogue, folders);
-  for (DatasetChoice& choice : out) choice.group = group;
+      dataset_choices(read_entry(entry, "dataset", {"group", "odometer"}), catalogue, folders);
+  for (DatasetChoice& choice : out) {
+    choice.group = group;
+    choice.odometer = odometer;
+  }
   return out;
 }
 

@@ -21,6 +21,9 @@ struct DatasetChoice {
   std::string label;  ///< name, plus the swept options
   Choice dataset;
   std::string group = {};  ///< name of a group of dependent runs; empty: see source_of()
+  /// Name of what measured the odometry: methods get the other chains of the sweep that have it
+  /// (Problem::related). Empty: none.
+  std::string odometer = {};
 };
 
 struct MethodChoice {

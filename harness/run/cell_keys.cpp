@@ -90,6 +90,12 @@ const std::string& CellKeys::configuration_hash(const Cell& cell) {
   fields.add(choice.dataset.name).add(hashed(in_full(entry.options, options)));
   fields.add(plugin_version(catalogue_, "dataset", choice.dataset.name));
   if (!choice.group.empty()) fields.add(choice.group);  // stored with the sequence
+  for (const std::size_t other : related_datasets(sweep_, cell.dataset)) {
+    const Choice& related = sweep_.datasets[other].dataset;
+    const DatasetEntry& of = find_dataset(catalogue_, related.name);
+    fields.add(related.name)
+        .add(hashed(in_full(of.options, full_options(sweep_.datasets[other], of, cell.repeat))));
+  }
   return found->second = fields.hashed();
 }
 

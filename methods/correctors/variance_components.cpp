@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "methods/correctors/looped_chain.hpp"
 
@@ -19,54 +18,11 @@ using LatticePoint = std::array<int, 2>;  // lattice indices of translation and 
 
 double factor_of(int steps) { return std::exp2(kLattice * steps); }
 
-/// Covariance of the loop errors: factor_t translation + factor_r rotation + sqrt(factor_t
-/// factor_r) mixed + closures. Only the lower triangles are valid.
-struct LoopCovariance {
-  Eigen::VectorXd gap;
-  Eigen::MatrixXd translation, rotation, mixed, closures;
-};
-
-LoopCovariance loop_covariance(const Problem& problem,
-                               const NoiseModel& stated,
-                               const LoopedChain& chain) {
-  const LoopJacobian jacobian = chain.linearise();
-  std::vector<std::size_t> all_closures(problem.closures.size());
-  std::iota(all_closures.begin(), all_closures.end(), std::size_t{0});
-  const std::vector<Eigen::Index> rows = gap_rows(all_closures, problem.planar);
-  const auto through = [&](auto part) -> Eigen::MatrixXd {
-    const Eigen::MatrixXd all = propagate_covariance(
-        jacobian, chain.sums(), running_sum(chain.sums(), [&](std::size_t i) -> Matrix6 {
-          return jacobian.edge[i] * part(stated.covariance[i]) * jacobian.edge[i].transpose();
-        }));
-    return all(rows, rows);
-  };
-  const auto block = [](const Matrix6& S, Eigen::Index row, Eigen::Index column) {
-    Matrix6 out = Matrix6::Zero();
-    out.block<3, 3>(row, column) = S.block<3, 3>(row, column);
-    return out;
-  };
-  LoopCovariance out;
-  out.gap = jacobian.gap(rows);
-  out.translation = through([&](const Matrix6& S) { return block(S, 0, 0); });
-  out.rotation = through([&](const Matrix6& S) { return block(S, 3, 3); });
-  out.mixed = through([&](const Matrix6& S) -> Matrix6 { return block(S, 0, 3) + block(S, 3, 0); });
-  const auto size = static_cast<Eigen::Index>(6 * problem.closures.size());
-  Eigen::MatrixXd closures = Eigen::MatrixXd::Zero(size, size);
-  for (std::size_t k = 0; k < problem.closures.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(6 * k);
-    closures.block<6, 6>(at, at) = stated.closure_covariance[k];
-  }
-  out.closures = closures(rows, rows);
-  return out;
-}
-
 /// Returns -log posterior up to a constant, or infinity when the covariance is not positive
 /// definite.
 double objective(const LoopCovariance& loops, const LatticePoint& steps) {
-  const double t = factor_of(steps[0]), r = factor_of(steps[1]);
-  const Eigen::MatrixXd covariance =
-      t * loops.translation + r * loops.rotation + std::sqrt(t * r) * loops.mixed + loops.closures;
-  const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor(covariance);
+  const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor(
+      loops.under({factor_of(steps[0]), factor_of(steps[1])}));
   if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
   const Eigen::VectorXd white = factor.matrixL().solve(loops.gap);
   double out = 0.5 * white.squaredNorm() + factor.matrixLLT().diagonal().array().log().sum();

@@ -5,6 +5,8 @@
 
 #include <atomic>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "datasets/core/parallel.hpp"
 #include "methods/correctors/dual.hpp"
@@ -92,11 +94,24 @@ void print_chains(const DataRoot& root) {
               }));
 }
 
+/// The control with five others of its kind as related chains.
+DevelopmentChain with_related(const std::vector<DriftControl>& controls, std::size_t i) {
+  constexpr std::size_t kRelated = 5;
+  DevelopmentChain out = controls[i].chain;
+  std::vector<Problem> related;
+  for (std::size_t j = 1; related.size() < kRelated; ++j) {
+    const DevelopmentChain& other = controls[(i + j) % controls.size()].chain;
+    if (other.name == out.name) related.push_back(other.problem);
+  }
+  out.problem.related = std::make_shared<const std::vector<Problem>>(std::move(related));
+  return out;
+}
+
 void print_controls(double gain) {
   const std::vector<DriftControl> controls = drift_controls(gain);
   fmt::print("\nNoise gain {}:\n\n", gain);
   print_table("control",
-              {"drift known", "dual rescaled", "never abstains", "motion_drift"},
+              {"drift known", "dual rescaled", "never abstains", "motion_drift", "related"},
               computed(controls.size(), [&](std::size_t i) {
                 const DriftControl& control = controls[i];
                 std::vector<double> logs = log_ratios(control.chain);
@@ -105,6 +120,10 @@ void print_controls(double gain) {
                   return std::log(rmse_of(Dual({}).correct(chain.problem, report), chain));
                 };
                 logs.insert(logs.begin(), dual(control.without_drift) - dual(control.chain));
+                const DevelopmentChain related = with_related(controls, i);
+                logs.push_back(
+                    std::log(rmse_of(MotionDrift({}).correct(related.problem, report), related)) -
+                    dual(control.chain));
                 return std::pair{control.chain.name, logs};
               }));
 }

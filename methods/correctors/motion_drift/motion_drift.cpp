@@ -7,6 +7,7 @@
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/motion_drift/evidence.hpp"
+#include "methods/correctors/motion_drift/shared_drift.hpp"
 #include "methods/correctors/scale_drift.hpp"
 
 namespace loopbench::methods {
@@ -157,6 +158,13 @@ void note_large_move(const LargestMove& move, Report& report) {
                          " m: the drift is extrapolated far beyond the loops");
 }
 
+void count_rates(const DriftRates& rates, Report& report) {
+  constexpr const char* kNames[] = {"per_metre.x", "per_metre.y", "per_metre.z", "per_radian"};
+  for (Eigen::Index k = 0; k < rates.size(); ++k) {
+    if (rates[k] != 0.0) report.count(std::string("shared.") + kNames[k], rates[k]);
+  }
+}
+
 double squared_change(const std::vector<Twist>& errors, const std::vector<Twist>& other) {
   double sum = 0.0;
   for (std::size_t i = 0; i < errors.size(); ++i) sum += (errors[i] - other[i]).squaredNorm();
@@ -170,8 +178,14 @@ std::string MotionDrift::why_declined(const Problem& problem) const {
 }
 
 Trajectory MotionDrift::correct(const Problem& problem, Report& report) const {
-  if (!options_.scale || !has_scale_drift(problem)) return correct_rigid(problem, report);
-  return correct_rigid(remove_scale_drift(problem), report);
+  if (options_.scale && has_scale_drift(problem)) {
+    return correct_rigid(remove_scale_drift(problem), report, false);
+  }
+  if (!options_.related || !problem.related) return correct_rigid(problem, report, false);
+  const DriftRates shared = report.time("related chains", [&] { return repeated_drift(problem); });
+  count_rates(shared, report);
+  if (shared.isZero(0.0)) return correct_rigid(problem, report, false);
+  return correct_rigid(without_drift(problem, shared), report, true);
 }
 
 bool MotionDrift::abstains(const MotionPrior& prior,
@@ -184,7 +198,7 @@ bool MotionDrift::abstains(const MotionPrior& prior,
   return after * (1.0 - before) < options_.abstain_factor * (1.0 - after) * before || after == 0.0;
 }
 
-Trajectory MotionDrift::correct_rigid(const Problem& problem, Report& report) const {
+Trajectory MotionDrift::correct_rigid(const Problem& problem, Report& report, bool rescale) const {
   std::vector<EdgeMotion> edge_motions = motions(problem);
   limit_drift(edge_motions, problem, options_.prior.drift_reach);
   LoopedChain chain(problem, stated_noise_model(problem));
@@ -205,7 +219,7 @@ Trajectory MotionDrift::correct_rigid(const Problem& problem, Report& report) co
     count_probabilities(prior, posterior, report);
     if (abstains(prior, posterior, problem.closures.size())) {
       report.count("abstained", 1.0);
-      return Dual({.scale = false}).correct(problem, report);
+      return Dual({.scale = false, .rescale = rescale}).correct(problem, report);
     }
     chain.set_noise_model(noise_model_of(posterior.centre, problem, edge_motions));
     iterations += chain.minimise(options_.max_iterations, options_.tolerance);

@@ -33,6 +33,10 @@ namespace loopbench::methods {
 /// geometric mean of the models drawn under the most probable hypothesis. Scale changes of edges
 /// (Sim(3)) are estimated and removed first, as in `dual`.
 ///
+/// Where other chains of the odometer are known (Problem::related), drift that repeats in them is
+/// removed first (shared_drift.hpp); where the method abstains then, the result is that of `dual`
+/// with `rescale`.
+///
 /// Complexity: about ten times O(edges + (6 closures)^3) and about a thousand times O((6
 /// fit_closures)^3). Sources: Murray, Adams, MacKay, Elliptical slice
 /// sampling, AISTATS 2010; Hoeting et al., Bayesian model averaging, Statistical Science 1999.
@@ -52,6 +56,7 @@ class MotionDrift final : public Corrector {
     double tolerance = 1e-14;
     int max_closures = 300;
     bool scale = true;
+    bool related = true;
     std::array<Values, 2> noise{};  ///< by Component; variances
     std::array<Values, 2> drift{};  ///< by Component; standard deviations of the rates
     std::array<std::optional<double>, 2>
@@ -64,14 +69,15 @@ class MotionDrift final : public Corrector {
   /// Counts: `iterations`; `log_evidence` of the gaps; `probability.*`, the posterior probabilities
   /// of the hypotheses; the values of the most probable hypothesis, named and scaled like the
   /// options (noise: variances; drift: standard deviations of the rates; 0: term excluded);
-  /// `abstained` (1) and the counts of `dual` in place of these values;
-  /// `largest_move` of a keyframe and `explained_move` [m], what the gap of one closure explains.
-  /// Adds a note when largest_move is far above explained_move. Throws std::runtime_error when the
-  /// loop equations cannot be solved.
+  /// `shared.per_metre.x` and so on: rates that were removed; `abstained` (1) and the counts of
+  /// `dual` in place of these values; `largest_move` of a keyframe and `explained_move` [m], what
+  /// the gap of one closure explains. Adds a note when largest_move is far above explained_move.
+  /// Throws std::runtime_error when the loop equations cannot be solved.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
-  Trajectory correct_rigid(const Problem& problem, Report& report) const;
+  /// `rescale`: option of `dual` where the method abstains.
+  Trajectory correct_rigid(const Problem& problem, Report& report, bool rescale) const;
   bool abstains(const MotionPrior& prior,
                 const MotionPosterior& posterior,
                 std::size_t closures) const;
@@ -144,6 +150,11 @@ void fields(MotionDrift::Options& o, Visit visit) {
         "grows with its cube",
         Between{1, 2000});
   visit("scale", o.scale, "estimate and remove scale drift first (Sim(3) chains)");
+  visit(
+      "related",
+      o.related,
+      "first remove rotation drift that repeats in the loops of the other chains of the sweep that "
+      "have the same `odometer`");
 
   const auto by_regressor = [&](const std::string& what,
                                 const std::string& help,
