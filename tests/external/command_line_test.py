@@ -78,6 +78,14 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(len(self.select(query)), 12)
         self.call("import", "r", "scores.csv")
         self.assertEqual(len(self.select(query)), 12)
+        # The number of values of a score is not the number of evaluated poses of the others.
+        self.write("width.csv", [{"key": entry["key"], "metric": "width", "value": "7"} for entry in index],
+                   ["key", "metric", "value"])
+        self.call("import", "r", "width.csv")
+        self.call("import", "r", "scores.csv")
+        table = self.call("table", "r", "--where", "protocol=imported")
+        self.assertNotIn("pairs |", table)
+        self.assertIn("height (imported) value [m]: ", table.partition("evaluated pairs: ")[2])
         self.call("merge", "r", "-o", "merged")
         self.assertIn("height (imported)", self.call("table", "merged"))
 
