@@ -104,6 +104,18 @@ class CommandLine(unittest.TestCase):
         self.assertIn("s.csv:1: expected a header with one column metric", self.call("import", "r", "s.csv", code=2))
         self.assertEqual(self.select("SELECT count(*) FROM score WHERE protocol = 'imported'"), [(0,)])
 
+    def test_lists_with_commas_take_no_files_that_follow(self):
+        for name, height in (("a.txt", 0), ("b.txt", 1), ("c.txt", 2)):
+            (self.folder / name).write_text("".join(f"{t} {t} {t % 3} {height} 0 0 0 1\n" for t in range(20)))
+        files = ("a.txt", "b.txt", "c.txt")
+        for labels in (("--labels", "A,B"), ("--labels", "A", "--labels", "B")):
+            self.assertIn("c.txt", self.call("eval", *labels, *files))
+        self.assertIn("--size requires --plot", self.call("eval", "--size", "3,2", *files, code=2))
+        self.assertIn("B: no such file", self.call("eval", "--labels", "A", "B", "a.txt", "b.txt", code=2))
+        self.sweep()
+        self.assertIn("raw", self.call("table", "--rows", "method,times", "r"))
+        self.assertIn("--size: expected WIDTH,HEIGHT, found 1 numbers", self.call("plot", "r", "-o", "f", "--size", "3", code=2))
+
     def test_a_crate_refers_to_what_it_has(self):
         poses = "".join(f"{t} {t} {t % 3} 0 0 0 0 1\n" for t in range(20))
         for name in ("a.txt", "b.txt"):
