@@ -114,9 +114,9 @@ Format detect_by_numbers(const TextFile& file, const Line& line) {
   }
   throw file.error(line.number,
                    what +
-                       ", expected tum (8 columns, 29 or 44 with a covariance), kitti (12 "
-                       "columns), euroc (whole nanoseconds "
-                       "and 7 or more columns) or g2o (VERTEX and EDGE lines)");
+                       ", expected tum (8 columns, 9 with a node id, 29 or 44 with a covariance), "
+                       "kitti (12 columns, 13 with a stamp), euroc (whole nanoseconds and 7 or "
+                       "more columns) or g2o (VERTEX and EDGE lines)");
 }
 
 /// Whether the reader of `format` reads columns in this order and these units anyway.

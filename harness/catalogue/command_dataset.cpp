@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <fstream>
 #include <set>
 #include <string_view>
 
@@ -195,8 +196,14 @@ void check_combination(const CommandDatasetOptions& o) {
   }
 }
 
-bool has_edges(const std::filesystem::path& file, const InformationRules& rules) {
-  return detect_format(file) == Format::g2o && !read_g2o(file, rules).edges.empty();
+/// Whether a file of g2o has edges, which follow the vertices; without reading all of it.
+bool has_edges(const std::filesystem::path& file) {
+  if (detect_format(file) != Format::g2o) return false;
+  std::ifstream in(file);
+  std::string word;
+  for (std::string rest; in >> word && !word.starts_with("EDGE"); std::getline(in, rest)) {
+  }
+  return word.starts_with("EDGE");
 }
 
 /// A pose graph that the program wrote: its edges are the problem.
@@ -247,7 +254,7 @@ Sequence load_command(const CommandDatasetOptions& o,
     options.closures_file = open + ".loops";
   }
   if (options.name.empty()) options.name = o.run;
-  const bool is_graph = !is_closed && has_edges(open, o.rules);
+  const bool is_graph = !is_closed && has_edges(open);
   Sequence loaded =
       is_graph ? load_pose_graph(graph_options(o, open), root) : load_trajectory(options, root);
   loaded.provenance.notes.push_back(cost_note(out.cost, loaded.problem.keyframes));

@@ -175,13 +175,14 @@ Json list_schemas(const Catalogue& catalogue, Json& definitions) {
   Json methods = define(definitions, "method", catalogue.methods);
   const Json metrics = define(definitions, "metric", catalogue.metrics);
   definitions["composed"] = composed_schema(catalogue.methods, definitions);
-  const Json composed{{"pattern", composed_pattern(catalogue.methods)}};
+  // Without anyOf, so that validators list the names.
+  const Json name{{"if", {{"pattern", "\\+"}}},
+                  {"then", {{"pattern", composed_pattern(catalogue.methods)}}},
+                  {"else", one_of(names(catalogue.methods))}};
   methods.push_back(if_name("method", {{"pattern", "\\+"}}, "composed"));
-  return {
-      {"datasets", list_schema("dataset", one_of(names(catalogue.datasets)), datasets)},
-      {"methods",
-       list_schema("method", {{"anyOf", {one_of(names(catalogue.methods)), composed}}}, methods)},
-      {"metrics", list_schema("metric", one_of(names(catalogue.metrics)), metrics)}};
+  return {{"datasets", list_schema("dataset", one_of(names(catalogue.datasets)), datasets)},
+          {"methods", list_schema("method", name, methods)},
+          {"metrics", list_schema("metric", one_of(names(catalogue.metrics)), metrics)}};
 }
 
 }  // namespace loopbench::harness

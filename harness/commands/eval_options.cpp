@@ -200,8 +200,10 @@ void declare(CLI::App& command, EvalArguments& a) {
           "Zip file for the APE of the only EST, as evo writes it, for `table` and `compare`")
       ->type_name("FILE");
   command
-      .add_option(
-          "--per-pose", a.per_pose, "CSV file for the error of every pose; - is standard output")
+      .add_option("--per-pose",
+                  a.per_pose,
+                  "CSV file for the error of every pose, with what metrics state for each; - is "
+                  "standard output")
       ->type_name("FILE");
   command
       .add_option(

@@ -41,7 +41,6 @@ inline void declare_figure_options(CLI::App& command,
                       "Width and height of a panel [in]; default: 3.5,2.8; of eval 3.5 in divided "
                       "by the columns")
           ->delimiter(',')
-          ->expected(2)
           ->check(CLI::Range(0.5, 50.0))
           ->type_name("WIDTH,HEIGHT"),
       command

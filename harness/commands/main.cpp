@@ -118,6 +118,14 @@ int run(CLI::App& app,
 
 }  // namespace
 
+/// Lists with commas take one word at a time: others would be files that follow.
+void take_one_word(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    if (option->get_delimiter() != '\0') option->allow_extra_args(false);
+  }
+  for (CLI::App* command : app.get_subcommands({})) take_one_word(*command);
+}
+
 // NOLINTNEXTLINE(bugprone-exception-escape): what is outside run() throws only without memory
 int main(int argc, char** argv) {
   reserve_standard_streams();
@@ -151,6 +159,7 @@ int main(int argc, char** argv) {
   add_help(app, exit_code);
   add_complete(app, exit_code);
   add_footers(app);
+  take_one_word(app);
   int print_errno = 0;
   const int out = run(app, words, exit_code, print_errno);
   // Output counts as written only after the buffer is flushed.

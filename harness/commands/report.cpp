@@ -30,6 +30,18 @@ std::string write_report(const std::string& store,
   return fmt::format("{}: {:.2f} MB\n", printable(out), 1e-6 * static_cast<double>(html.size()));
 }
 
+/// Waits until `run` has created the store. Returns at once if something else has the name.
+void wait_for_store(const std::filesystem::path& store, std::chrono::seconds between) {
+  const auto is_missing = [&] {
+    const bool is_folder = std::filesystem::is_directory(store);
+    const std::filesystem::path file = is_folder ? store / "results.sqlite" : store;
+    return !std::filesystem::exists(file) || (std::filesystem::is_regular_file(file) &&
+                                              has_no_tables(file) && is_being_written(store));
+  };
+  if (is_missing()) print_error("{}: waiting for `run` to create it\n", printable(store.string()));
+  while (is_missing()) std::this_thread::sleep_for(between);
+}
+
 }  // namespace
 
 void add_report(CLI::App& app, int& exit_code) {
@@ -62,13 +74,15 @@ void add_report(CLI::App& app, int& exit_code) {
       ->type_name("N")
       ->check(number_between(1.0, 3600.0));
   command->callback([arguments, &exit_code] {
-    reject_overwriting({store_file(arguments->store)}, arguments->out);
     if (arguments->every > 0 && is_dash(arguments->out)) {
       throw InputError("--every: needs a file to write again and again, found --out -");
     }
+    const std::chrono::seconds between(arguments->every);
+    if (arguments->every > 0) wait_for_store(arguments->store, between);
+    reject_overwriting({store_file(arguments->store)}, arguments->out);
     while (arguments->every > 0 && is_being_written(arguments->store)) {
       write_report(arguments->store, arguments->out, arguments->megabytes, arguments->every);
-      std::this_thread::sleep_for(std::chrono::seconds(arguments->every));
+      std::this_thread::sleep_for(between);
     }
     const std::string written =
         write_report(arguments->store, arguments->out, arguments->megabytes, 0);

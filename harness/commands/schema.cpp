@@ -50,8 +50,9 @@ Json protocol_schema() {
 Json times_schema() {
   Json known = Json::array();
   for (const auto& [name, value] : choices(metrics::Times{})) known.push_back(name);
-  return {
-      {"anyOf", {one_of(known), {{"type", "array"}, {"minItems", 1}, {"items", one_of(known)}}}}};
+  return {{"if", {{"type", "array"}}},
+          {"then", {{"minItems", 1}, {"items", one_of(known)}}},
+          {"else", one_of(known)}};
 }
 
 Json limits_schema() {
@@ -112,8 +113,12 @@ Json config_schema(const Catalogue& catalogue) {
   Json out{{"$schema", "http://json-schema.org/draft-07/schema#"},
            {"title", "config of loopbench"}};
   out.update(map_of(std::move(properties), {"datasets", "methods", "metrics"}));
-  out["patternProperties"] = {{"^_", true}};  // for anchors
-  out["if"] = {{"required", {"plugins"}}};    // their names are not known here
+  // Names with _ are for anchors. Validators list the others, as `run` does.
+  Json names = Json::array();
+  for (const auto& [name, schema] : out["properties"].items()) names.push_back(name);
+  out.erase("additionalProperties");
+  out["propertyNames"] = {{"if", {{"pattern", "^_"}}}, {"else", one_of(std::move(names))}};
+  out["if"] = {{"required", {"plugins"}}};  // their names are not known here
   out["else"]["properties"] = list_schemas(catalogue, definitions);
   out["definitions"] = std::move(definitions);
   return out;

@@ -111,7 +111,20 @@ Json to_json(const EvaluationResult& result) {
   return out;
 }
 
+/// Each once.
+std::vector<std::string> stated_columns(const std::vector<EvaluationResult>& results) {
+  std::vector<std::string> out;
+  for (const EvaluationResult& result : results) {
+    for (const PoseValues& each : result.pose_values) {
+      if (std::ranges::count(out, column_name(each)) == 0) out.push_back(column_name(each));
+    }
+  }
+  return out;
+}
+
 }  // namespace
+
+std::string column_name(const PoseValues& values) { return values.name + "_" + values.unit; }
 
 std::string status(const EvaluationResult& result) {
   if (!result.why_failed.empty()) return "failed";
@@ -175,16 +188,29 @@ std::string json(const std::vector<EvaluationResult>& results) {
 std::string pose_csv(const std::vector<EvaluationResult>& results) {
   std::string out =
       "reference,estimate,protocol,protocol_version,stamp,estimate_stamp,x_m,y_m,z_m,distance_m,"
-      "rx_rad,ry_rad,rz_rad,angle_rad\n";
+      "rx_rad,ry_rad,rz_rad,angle_rad";
+  const std::vector<std::string> stated = stated_columns(results);
+  for (const std::string& column : stated) out += "," + quoted(column);
+  out += '\n';
   for (const EvaluationResult& result : results) {
+    std::vector<const PoseValues*> values(stated.size());
+    for (const PoseValues& each : result.pose_values) {
+      const auto place = std::ranges::find(stated, column_name(each)) - stated.begin();
+      values[static_cast<std::size_t>(place)] = &each;
+    }
     const std::string front = quoted(result.reference) + "," + quoted(result.estimate) + "," +
                               quoted(result.protocol.label()) + "," +
                               quoted(result.protocol.version);
-    for (const auto& [stamp, estimate_stamp, e, r] : result.poses) {
+    for (std::size_t i = 0; i < result.poses.size(); ++i) {
+      const auto& [stamp, estimate_stamp, e, r] = result.poses[i];
       out += fmt::format(
           "{},{},{},{},{},{},{}", front, stamp, estimate_stamp, e.x(), e.y(), e.z(), e.norm());
-      out += r.hasNaN() ? std::string(",,,,\n")
-                        : fmt::format(",{},{},{},{}\n", r.x(), r.y(), r.z(), r.norm());
+      out += r.hasNaN() ? std::string(",,,,")
+                        : fmt::format(",{},{},{},{}", r.x(), r.y(), r.z(), r.norm());
+      for (const PoseValues* each : values) {
+        out += each == nullptr ? "," : fmt::format(",{}", each->values[i]);
+      }
+      out += '\n';
     }
   }
   return out;

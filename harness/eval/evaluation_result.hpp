@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/model/record.hpp"
+#include "harness/model/result.hpp"
 #include "harness/report/curve.hpp"
 #include "harness/tables/table.hpp"
 #include "metrics/errors/ape.hpp"
@@ -39,6 +40,7 @@ struct EvaluationResult {
   std::string other_body;                 ///< set if the reference seems to track another body
   std::vector<std::string> notes;         ///< of the readers, the doctor and the evaluation
   std::vector<metrics::PoseError> poses;  ///< only on request
+  std::vector<PoseValues> pose_values;    ///< of metrics, for each of `poses`; with them
   DrawnEvaluation drawn;                  ///< only on request, without name
   std::string why_failed;                 ///< set if the evaluation failed
   std::vector<Record> records;            ///< one without a metric if the evaluation failed
@@ -75,7 +77,11 @@ std::vector<Table> comparison(const std::vector<EvaluationResult>& results,
 /// metric are. Failed evaluations have empty metrics, undefined and failed.
 std::string json(const std::vector<EvaluationResult>& results);
 
-/// One line per pose; doubles in full precision.
+/// Column of pose_csv(): "height_m".
+std::string column_name(const PoseValues& values);
+
+/// One line per pose; doubles in full precision. Columns column_name() of what metrics state for
+/// each pose follow, empty where a result has none.
 std::string pose_csv(const std::vector<EvaluationResult>& results);
 
 /// Converts all scores in metres (to mm, cm or km) or in degrees (to rad). Throws InputError for

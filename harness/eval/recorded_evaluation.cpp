@@ -146,6 +146,7 @@ struct PairEvaluation {
       own.drawn = drawn_evaluation(reference.poses, evaluation);
     }
     add_scores(out.result, row, evaluation, sweep, files.catalogue, is_large);
+    if (!own.poses.empty()) own.pose_values = pose_values(out.result, row);
     if (files.arguments.keeps_traces() && row.protocol == 0) {
       const StampedPose& first = reference.poses.front();
       const Vector3& p = first.world_from_body.translation;

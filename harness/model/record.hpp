@@ -17,6 +17,10 @@ namespace loopbench::harness {
 /// In `CellRecord::worker`: the times are statements of a program.
 inline constexpr const char* kStatedTimes = ", times as stated";
 
+/// Protocol of imported scores, whose pairs are unknown; the labels of their metrics end with
+/// " (imported)".
+inline constexpr const char* kImported = "imported";
+
 /// A declined or failed cell has one record with empty metric and the reason.
 struct Record {
   std::int64_t cell = 0;  ///< position in the sweep
@@ -42,7 +46,7 @@ struct Record {
   SharedText content;   ///< hash of problem and reference, equal for equal inputs; can be empty
   metrics::Statistics statistics;
   std::int64_t pairs = 0;     ///< evaluated pose pairs
-  std::int64_t possible = 0;  ///< possible pose pairs
+  std::int64_t possible = 0;  ///< possible pose pairs; 0: unknown
   double span = 1.0;          ///< evaluated share of the reference's time, 0..1
   Status status = Status::ok;
   SharedText why;

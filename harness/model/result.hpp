@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/model/cells.hpp"
@@ -53,15 +54,31 @@ struct CellResult {
   std::shared_ptr<const SequenceMetadata> metadata;  ///< null if its sequence could not be loaded
 };
 
-/// Adds to the trace what the scores under the protocol and times of `row` state for each pose.
-inline void add_pose_values(CellResult& result, const ScoreResult& row) {
+/// What a score states for each evaluated pose.
+struct PoseValues {
+  std::string name;  ///< label of the metric, with relation and axis
+  std::string unit;
+  std::vector<double> values;  ///< one for each pair
+};
+
+/// Those of the scores under the protocol and times of `row`.
+inline std::vector<PoseValues> pose_values(const CellResult& result, const ScoreResult& row) {
+  std::vector<PoseValues> out;
   for (const ScoreResult& each : result.scores) {
     const metrics::Score& score = each.score;
     if (each.protocol != row.protocol || each.times != row.times || score.per_pose.empty())
       continue;
     const std::string relation = score.relation == each.label ? "" : " " + score.relation;
     const std::string axis = score.axis.empty() ? "" : " " + score.axis;
-    add_values(result.trace, each.label + relation + axis, score.unit, score.per_pose);
+    out.push_back({each.label + relation + axis, score.unit, score.per_pose});
+  }
+  return out;
+}
+
+/// Adds them to the trace.
+inline void add_pose_values(CellResult& result, const ScoreResult& row) {
+  for (PoseValues& each : pose_values(result, row)) {
+    add_values(result.trace, std::move(each.name), std::move(each.unit), each.values);
   }
 }
 

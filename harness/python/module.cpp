@@ -25,21 +25,27 @@ namespace py = pybind11;
 namespace loopbench::python {
 namespace {
 
-/// JSON of `eval --json`, and the columns of harness::pose_csv() from the stamp on.
+/// JSON of `eval --json`, the columns of harness::pose_csv() from the stamp on, and the names of
+/// those that metrics state.
 py::tuple to_python(const std::vector<harness::EvaluationResult>& results) {
   const std::vector<metrics::PoseError>& poses = results.front().poses;
-  constexpr py::ssize_t kColumns = 10;
-  Array errors({static_cast<py::ssize_t>(poses.size()), kColumns});
+  const std::vector<harness::PoseValues>& stated = results.front().pose_values;
+  const std::size_t columns = 10 + stated.size();
+  Array errors({static_cast<py::ssize_t>(poses.size()), static_cast<py::ssize_t>(columns)});
   double* at = errors.mutable_data();
-  for (const metrics::PoseError& pose : poses) {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const metrics::PoseError& pose = poses[i];
     *at++ = pose.stamp;
     *at++ = pose.estimate_stamp;
     for (const Vector3& part : {pose.metres, pose.radians}) {
       at = std::copy_n(part.data(), 3, at);
       *at++ = part.norm();
     }
+    for (const harness::PoseValues& each : stated) *at++ = each.values[i];
   }
-  return py::make_tuple(harness::json(results), errors);
+  std::vector<std::string> names;
+  for (const harness::PoseValues& each : stated) names.push_back(harness::column_name(each));
+  return py::make_tuple(harness::json(results), errors, names);
 }
 
 py::tuple evaluate_files(harness::EvalArguments arguments,
@@ -241,8 +247,10 @@ PYBIND11_MODULE(_core, module) {
       .def_readwrite("period", &Arguments::period);
   py::class_<Problem>(module, "Problem").def(py::init(&python::problem_of));
   module.def("read_trajectory", &python::read, "rows of a file");
-  module.def("evaluate_files", &python::evaluate_files, "JSON of `eval --json`, errors of poses");
-  module.def("evaluate_arrays", &python::evaluate_arrays, "JSON of `eval --json`, errors of poses");
+  module.def(
+      "evaluate_files", &python::evaluate_files, "JSON of `eval --json`, errors of poses, names");
+  module.def(
+      "evaluate_arrays", &python::evaluate_arrays, "JSON of `eval --json`, errors of poses, names");
   module.def("associate", &python::associate, "paired rows of reference and estimate");
   module.def("align", &python::align, "aligned rows, scale, rank, condition, transform");
   module.def("tracking_gaps", &python::tracking_gaps, "begin and end of each gap");

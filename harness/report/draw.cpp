@@ -30,6 +30,10 @@ nlohmann::json json_of(const DrawnFigure& figure) {
                      {"script", options.script},
                      {"style", options.style}};
   if (!options.plane.empty()) out["plane"] = options.plane;
+  if (!options.size.empty() && options.size.size() != 2) {
+    throw InputError(
+        fmt::format("--size: expected WIDTH,HEIGHT, found {} numbers", options.size.size()));
+  }
   if (!options.size.empty()) out["size"] = options.size;
   if (options.columns) out["columns"] = *options.columns;
   if (options.font) out["font"] = *options.font;

@@ -11,6 +11,7 @@
 #include "harness/catalogue/command_metric.hpp"
 #include "harness/catalogue/external_methods.hpp"
 #include "harness/catalogue/floating_point_guard.hpp"
+#include "harness/run/activity.hpp"
 #include "harness/run/catch_errors.hpp"
 
 namespace loopbench::harness {
@@ -77,6 +78,7 @@ std::vector<ScoreResult> rows_of(const MetricChoice& choice,
   row.label = choice.label;
   row.coverage = evaluation.coverage;
   const metrics::MetricEntry& metric = find_metric(catalogue, choice.metric.name);
+  const Activity activity("metric " + (row.label.empty() ? row.metric : row.label));
   catch_errors(row, [&] {
     std::vector<metrics::Score> scores =
         scores_of_metric(metric, choice.metric.options, evaluation, sweep, catalogue);

@@ -19,6 +19,7 @@
 #include "harness/base/system_file.hpp"
 #include "harness/catalogue/server.hpp"
 #include "harness/run/active_clock.hpp"
+#include "harness/run/activity.hpp"
 #include "harness/run/warm_heap.hpp"
 
 namespace loopbench::harness {
@@ -180,7 +181,9 @@ bool has_sweep_ended(int socket) {
 }
 
 WatchedProcesses::WatchedProcesses(int sweep, const ScratchFolder* scratch)
-    : sweep_(sweep), null_(open("/dev/null", O_RDWR | O_CLOEXEC)), scratch_(scratch) {}
+    : sweep_(sweep), null_(open("/dev/null", O_RDWR | O_CLOEXEC)), scratch_(scratch) {
+  Activity::share();
+}
 
 WatchedProcesses::~WatchedProcesses() { close(null_); }
 
@@ -200,6 +203,7 @@ void WatchedProcesses::prepare(const WatchedWork& work, int output) const {
 
 ProcessEnd WatchedProcesses::run(const WatchedWork& work) {
   area_.clear();
+  Activity::clear();
   CellOutput output;
   const RunningServers servers = running_servers();
   ChildProcess process(ProcessGroup::own, [&] {
@@ -220,19 +224,22 @@ ProcessEnd WatchedProcesses::run(const WatchedWork& work) {
     _exit(0);
   }
   output.forward();
-  if (verdict) return {{}, verdict->status, verdict->why, "SIGKILL"};
+  const std::string activity = Activity::current();
+  const std::string in = activity.empty() ? "" : " in " + activity;
+  if (verdict) return {{}, verdict->status, verdict->why + in, "SIGKILL"};
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
     if (const auto result = area_.read(id)) return {*result, Status::ok, "", ""};
   }
   if (WIFEXITED(status)) {
-    const std::string why = fmt::format("exited, exit code {}{}", WEXITSTATUS(status), work.when);
+    const std::string why =
+        fmt::format("exited, exit code {}{}", WEXITSTATUS(status), in + work.when);
     return {{}, Status::crashed, why, ""};
   }
   const std::string signal = signal_name(WTERMSIG(status));
   const bool is_kill = WTERMSIG(status) == SIGKILL;
   return {{},
           Status::crashed,
-          "ended by " + signal + work.when +
+          "ended by " + signal + in + work.when +
               (is_kill ? ", not by this program (system out of memory?)" : ""),
           signal};
 }

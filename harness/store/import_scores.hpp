@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "datasets/core/fields.hpp"
+#include "harness/model/record.hpp"
 #include "harness/store/cell_writer.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/stored_cells.hpp"
@@ -14,9 +15,6 @@
 #include "metrics/metric.hpp"
 
 namespace loopbench::harness {
-
-/// Protocol of imported scores; the labels of their metrics end with " (imported)".
-inline constexpr const char* kImported = "imported";
 
 struct ImportedScore {
   std::string source;  ///< "scores.csv:3", for messages
@@ -78,7 +76,7 @@ inline std::size_t import_scores(const std::filesystem::path& store,
       const metrics::Statistics& s = each.score.statistics;
       insert.bind(id, number, definition)
           .bind(s.count, s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse, s.p90, s.p95, s.p99)
-          .bind(s.count, s.count, 1.0, "ok", "")
+          .bind(0, 0, 1.0, "ok", "")  // pairs are unknown
           .run();
       changed.insert(id);
     }

@@ -78,6 +78,14 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(len(self.select(query)), 12)
         self.call("import", "r", "scores.csv")
         self.assertEqual(len(self.select(query)), 12)
+        # The number of values of a score is not the number of evaluated poses of the others.
+        self.write("width.csv", [{"key": entry["key"], "metric": "width", "value": "7"} for entry in index],
+                   ["key", "metric", "value"])
+        self.call("import", "r", "width.csv")
+        self.call("import", "r", "scores.csv")
+        table = self.call("table", "r", "--where", "protocol=imported")
+        self.assertNotIn("pairs |", table)
+        self.assertIn("height (imported) value [m]: ", table.partition("evaluated pairs: ")[2])
         self.call("merge", "r", "-o", "merged")
         self.assertIn("height (imported)", self.call("table", "merged"))
 
@@ -95,6 +103,18 @@ class CommandLine(unittest.TestCase):
         (self.folder / "s.csv").write_text("key,value\n")
         self.assertIn("s.csv:1: expected a header with one column metric", self.call("import", "r", "s.csv", code=2))
         self.assertEqual(self.select("SELECT count(*) FROM score WHERE protocol = 'imported'"), [(0,)])
+
+    def test_lists_with_commas_take_no_files_that_follow(self):
+        for name, height in (("a.txt", 0), ("b.txt", 1), ("c.txt", 2)):
+            (self.folder / name).write_text("".join(f"{t} {t} {t % 3} {height} 0 0 0 1\n" for t in range(20)))
+        files = ("a.txt", "b.txt", "c.txt")
+        for labels in (("--labels", "A,B"), ("--labels", "A", "--labels", "B")):
+            self.assertIn("c.txt", self.call("eval", *labels, *files))
+        self.assertIn("--size requires --plot", self.call("eval", "--size", "3,2", *files, code=2))
+        self.assertIn("B: no such file", self.call("eval", "--labels", "A", "B", "a.txt", "b.txt", code=2))
+        self.sweep()
+        self.assertIn("raw", self.call("table", "--rows", "method,times", "r"))
+        self.assertIn("--size: expected WIDTH,HEIGHT, found 1 numbers", self.call("plot", "r", "-o", "f", "--size", "3", code=2))
 
     def test_a_crate_refers_to_what_it_has(self):
         poses = "".join(f"{t} {t} {t % 3} 0 0 0 0 1\n" for t in range(20))

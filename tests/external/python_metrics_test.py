@@ -1,6 +1,7 @@
 """The same metric in C++, as a plugin, in Python and awk gives equal rows. Arguments: loopbench and the
 plugin four_ways."""
 
+import csv
 import json
 import os
 import subprocess
@@ -9,7 +10,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from python_support import PROGRAM
+from python_support import PROGRAM, has
 
 import loopbench
 
@@ -97,6 +98,13 @@ class Metrics(unittest.TestCase):
             self.assertIn(why, rows[name]["why"] or "", name)
         self.assertEqual(rows["ratio"]["target"], 1.0)
 
+    def test_a_metric_that_does_not_end_is_named(self):
+        (self.folder / "endless.sh").write_text("sleep 60")
+        endless = {"metric": "command", "label": "endless", "run": "sh endless.sh {evaluation} {result}"}
+        for row in self.rows(["ate", endless], limits={"seconds": 1}):
+            self.assertEqual(row["cell_status"], "timeout")
+            self.assertEqual(row["cell_why"], "the cell exceeded the time limit of 1 s in metric endless")
+
     def test_eval_takes_it_and_a_changed_program_recomputes(self):
         for name, height in (("a.txt", 0.0), ("b.txt", 0.5)):
             lines = (f"{t} {t} {t * t} {height * t} 0 0 0 1\n" for t in range(20))
@@ -107,6 +115,18 @@ class Metrics(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         score = next(s for s in json.loads(done.stdout)[0]["metrics"] if s["axis"] == "z")
         self.assertEqual((score["max"], score["min"]), (9.5, 0.0))
+        done = subprocess.run([PROGRAM, "eval", "a.txt", "b.txt", "--align", "none", "--metric", metric,
+                               "--per-pose", "-"], cwd=self.folder, capture_output=True, text=True)
+        poses = list(csv.DictReader(done.stdout.splitlines()[:21]))
+        (column,) = [name for name in poses[0] if name.endswith(" z_m")]
+        self.assertEqual([float(pose[column]) for pose in poses], [0.5 * t for t in range(20)])
+        self.assertEqual([pose[column] for pose in poses], [pose["z_m"] for pose in poses])
+        if has("loopbench._core"):
+            files = (self.folder / "a.txt", self.folder / "b.txt")
+            absolute = metric.replace("height.sh", str(self.folder / "height.sh"))
+            errors = loopbench.evaluate(*files, align="none", metrics=[absolute], errors=True)["errors"]
+            (column,) = [name for name in errors if name.endswith(" z_m")]
+            self.assertEqual(list(errors[column]), list(errors["z_m"]))
         metrics = [{"metric": "command", "run": "sh height.sh {evaluation} {result}"}]
         self.rows(metrics)
         self.rows(metrics)

@@ -44,6 +44,24 @@ class Sweeps(unittest.TestCase):
                 thread.join(20)
                 self.assertFalse(thread.is_alive(), "threads that answered have ended")
 
+    def test_functions_are_metrics(self):
+        @loopbench.metric
+        def height(reference, estimate):
+            return {"name": "height", "unit": "m", "values": np.abs(estimate[:, 3] - reference[:, 3])}
+
+        rows = loopbench.run({**CONFIG, "methods": ["raw", lifted], "metrics": [
+            "ate", "axis_error", height, {"metric": lambda *poses: {"name": "n", "unit": "1", "value": len(poses)},
+                                          "label": "two"}]}, jobs=2)
+        self.assertEqual({row["status"] for row in rows}, {"ok"}, rows)
+        value = {(row["method"], row["label"] or row["metric"], row["axis"]): row["rmse"] for row in rows}
+        for method in ("raw", "lifted"):
+            self.assertEqual(value[method, "height", ""], value[method, "axis_error", "z"])
+            self.assertEqual(value[method, "two", ""], 2)
+        with self.assertRaisesRegex(TypeError, "functions can be entries of methods and metrics"):
+            loopbench.run({**CONFIG, "methods": ["raw"], "datasets": [height]})
+        rows = loopbench.run({**CONFIG, "methods": ["raw"], "repeats": np.int64(2)})
+        self.assertEqual({row["repeat"] for row in rows}, {0, 1})
+
     def test_shards_and_comparisons_by_metric(self):
         config = {**CONFIG, "methods": ["raw", "uniform"], "repeats": 8,
                   "metrics": ["ate", "axis_error"]}

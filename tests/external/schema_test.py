@@ -106,22 +106,31 @@ class Schema(unittest.TestCase):
             self.assertEqual(complaints(text), "", text)
 
     def test_mistakes_are_found_by_the_schema_and_by_run(self):
-        for word, text in {
-            "methds": config(methds=["raw"]),
-            "unifrom": config(methods=["unifrom"]),
-            "cubic": config(methods=["dual + cubic"]),
-            "turn_mux": config(methods=[{"method": "dm", "turn_mux": 1}]),
-            "turn_mix": config(methods=[{"method": "dual + dm", "turn_mix": 1}]),
-            "turn_max": config(methods=[{"method": "dm", "turn_max": "wide"}]),
-            "gian": config(datasets=[{"dataset": "simulated", "noise": {"gian": 0}}]),
-            "keyframes": config(datasets=[{"dataset": "simulated", "sweep": {"keyframes": [1.5]}}]),
-            "path": config(datasets=[{"dataset": "simulated", "path": "rom"}]),
-            "delta": config(metrics=[{"metric": "rpe", "delta": -1}]),
-            "alignn": config(protocol={"alignn": "se3"}),
-            "memori": config(limits={"memori": "1GiB"}),
-            "colums": config(table={"colums": "score"}),
-            "repeats": config(repeats=0),
-        }.items():
+        """By the schema at a path, and with the same word; what `run` suggests, the schema accepts."""
+        for path, word, right, text in (
+            ("", "methds", "methods", config(methds=["raw"])),
+            ("methods.0", "unifrom", "uniform", config(methods=["unifrom"])),
+            ("methods.0.method", "unifrom", "uniform", config(methods=[{"method": "unifrom"}])),
+            ("methods.0", "cubic", "cubic_spline", config(methods=["dual + cubic"])),
+            ("metrics.0", "aet", "ate", config(metrics=["aet"])),
+            ("datasets.0.dataset", "simulatd", "simulated", config(datasets=[{"dataset": "simulatd"}])),
+            ("methods.0", "turn_mux", "turn_max", config(methods=[{"method": "dm", "turn_mux": 1}])),
+            ("methods.0", "turn_mix", "turn_max", config(methods=[{"method": "dual + dm", "turn_mix": 1}])),
+            ("metrics.0", "dleta", "delta", config(metrics=[{"metric": "rpe", "dleta": 1}])),
+            ("datasets.0.noise", "gian", "gain", config(datasets=[{"dataset": "simulated", "noise": {"gian": 0}}])),
+            ("protocol", "alignn", "align", config(protocol={"alignn": "se3"})),
+            ("protocol", "evoo", "evo", config(protocol="evoo")),
+            ("limits", "memori", "memory", config(limits={"memori": "1GiB"})),
+            ("table", "colums", "columns", config(table={"colums": "score"})),
+            ("times", "times", "dense", config(times="dence")),
+            ("datasets.0.path", "rom", "room", config(datasets=[{"dataset": "simulated", "path": "rom"}])),
+            ("methods.0.turn_max", "wide", "number", config(methods=[{"method": "dm", "turn_max": "wide"}])),
+            ("datasets.0.sweep.keyframes.0", "1.5", "",
+             config(datasets=[{"dataset": "simulated", "sweep": {"keyframes": [1.5]}}])),
+            ("metrics.0.delta", "-1", "0", config(metrics=[{"metric": "rpe", "delta": -1}])),
+            ("min_coverage", "2", "1", config(min_coverage=2)),
+            ("repeats", "repeats", "1", config(repeats=0)),
+        ):
             with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
                 file.write(text)
                 file.flush()
@@ -130,7 +139,11 @@ class Schema(unittest.TestCase):
                 )
             self.assertEqual(done.returncode, 2, text)
             self.assertIn(word, done.stderr)
-            self.assertIn(word, complaints(text))
+            self.assertIn(right, done.stderr)
+            (error,) = VALIDATOR.iter_errors(yaml.load(text, Yaml12))
+            self.assertEqual(".".join(map(str, error.absolute_path)), path, text)
+            self.assertIn(word, f"{path}: {error.message}")
+            self.assertIn(right, error.message + str(list(error.schema.get("properties", ()))))
 
 
 if __name__ == "__main__":

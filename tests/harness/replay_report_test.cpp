@@ -87,7 +87,14 @@ TEST(Report, IsWrittenAgainWhileASweepRuns) {
   folder.file("c.yaml",
               "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmethods: [raw]\n"
               "metrics: [ate]\n");
+  // One that begins before the sweep waits for it.
+  auto early = std::async(std::launch::async, [&] {
+    return loopbench_command("report r -o early.html --every 1", folder);
+  });
   ASSERT_EQ(loopbench_command("run c.yaml --out r", folder).exit_code, 0);
+  EXPECT_EQ(early.get().exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "early.html"));
+  EXPECT_EQ(loopbench_command("report c.yaml --every 1", folder).exit_code, 2) << "no store";
   const auto refreshes = [&] {
     return read_all(folder.path() / "page.html").find("http-equiv=\"refresh\" content=\"1\"") !=
            std::string::npos;

@@ -94,8 +94,8 @@ def read_trajectory(
 _ERRORS = ("stamp", "estimate_stamp", "x_m", "y_m", "z_m", "distance_m", "rx_rad", "ry_rad", "rz_rad", "angle_rad")
 
 
-def _table(errors: Array) -> Any:
-    columns = dict(zip(_ERRORS, errors.T))
+def _table(errors: Array, stated: Sequence[str]) -> Any:
+    columns = dict(zip((*_ERRORS, *stated), errors.T))
     try:
         import pandas  # type: ignore[import]
     except ImportError:
@@ -167,18 +167,18 @@ def evaluate(
     arguments.diagnose = diagnose
     arguments.pose_errors = errors
     if isinstance(reference, (str, os.PathLike)) and isinstance(estimate, (str, os.PathLike)):
-        text, rows = interruptible(
+        text, rows, stated = interruptible(
             _core.evaluate_files, arguments, os.fspath(reference), os.fspath(estimate)
         )
     elif isinstance(reference, (str, os.PathLike)) or isinstance(estimate, (str, os.PathLike)):
         raise TypeError("found a path and an array, expected two paths or two arrays")
     else:
-        text, rows = interruptible(
+        text, rows, stated = interruptible(
             _core.evaluate_arrays, arguments, _rows(reference), _rows(estimate)
         )
     result: dict[str, Any] = json.loads(text)[0]
     if errors:
-        result["errors"] = _table(rows)
+        result["errors"] = _table(rows, stated)
     return result
 
 

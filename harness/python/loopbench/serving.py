@@ -192,9 +192,11 @@ def _plain(value: Any) -> Any:
     raise TypeError(f"{type(value).__name__} cannot be written as JSON")
 
 
-def answer_all(function: Method | None, questions: BinaryIO, answers: BinaryIO) -> None:
+def answer_all(
+    function: Method | None, questions: BinaryIO, answers: BinaryIO, metric: Metric | None = None
+) -> None:
     """Answers requests until the end of `questions`: problems by `function` or the registered method,
-    paired poses by the registered metric, updates of replays by the registered class."""
+    paired poses by `metric` or the registered one, updates of replays by the registered class."""
     replay = _Replay()
     while True:
         header = questions.read(_HEADER.size)
@@ -207,7 +209,7 @@ def answer_all(function: Method | None, questions: BinaryIO, answers: BinaryIO) 
         arrays = _arrays(request, _read(questions, data))
         poses = np.empty((0, 8))
         if request.get("kind") == "metric":
-            report = measure(_function("metric"), arrays["reference"], arrays["estimate"])
+            report = measure(metric or _function("metric"), arrays["reference"], arrays["estimate"])
         elif request.get("kind") == "update":
             report, poses = replay.answer(request["update"], _problem(request, arrays))
         else:

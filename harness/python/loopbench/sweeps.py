@@ -14,6 +14,8 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Mapping
 
+import numpy as np
+
 from .in_process import served
 
 if TYPE_CHECKING:
@@ -37,6 +39,18 @@ def _call(*words: str, accepted: tuple[int, ...] = (0,)) -> str:
     return done.stdout
 
 
+def _no_value(value: Any) -> Any:
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    if isinstance(value, Path):
+        return str(value)
+    raise TypeError(
+        f"config: found {value!r}, expected numbers, texts, lists or dictionaries; functions can be "
+        "entries of methods and metrics; for a dataset write a file with @loopbench.dataset and use "
+        "{'dataset': 'command', 'run': 'python3 FILE {sequence} {trajectory} {seed}'}"
+    )
+
+
 def run(
     config: str | Path | Mapping[str, Any],
     out: str | Path | None = None,
@@ -45,11 +59,12 @@ def run(
 ) -> list[Row]:
     """Runs a sweep from a file or from the dictionary that a file would contain; returns `rows`.
 
-    The methods of a dictionary may be functions as for `correct`, or dictionaries with such a
-    `method` and a `label`. `shard`: only this part, such as "3/8", into OUT/shards/3-of-8. Paths in
+    The methods of a dictionary may be functions as for `correct`, and its metrics functions as for
+    `metric`, or dictionaries with such a `method` or `metric` and a `label`. `shard`: only this part, such as "3/8", into OUT/shards/3-of-8. Paths in
     a dictionary are relative to the current folder. The store is written to `out`, by default
     results/NAME for a file; that of a dictionary is removed. Failed cells are rows, not errors.
-    Raises RuntimeError with the program's message if the config is invalid.
+    Raises RuntimeError with the program's message if the config is invalid, TypeError if a value
+    cannot be written in a file.
     """
     if not isinstance(config, Mapping):
         out = Path(out or Path("results") / Path(config).stem)
@@ -57,7 +72,7 @@ def run(
         _call(*words, *(["--shard", shard] if shard else []), accepted=(0, 1))
         return rows(out / "shards" / shard.replace("/", "-of-") if shard else out)
     with served(config) as programs, tempfile.NamedTemporaryFile("w", suffix=".yaml", dir=".", prefix=".sweep-") as file:
-        json.dump(programs, file)
+        json.dump(programs, file, default=_no_value)
         file.flush()
         if out is not None:
             return run(file.name, out, jobs, shard)
