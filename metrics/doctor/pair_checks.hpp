@@ -13,12 +13,12 @@ namespace loopbench::metrics {
 /// The stamps of one file are replaced by factor * stamp + offset.
 struct StampRepair {
   InputFinding finding;
-  double factor = 1.0;  ///< 0: unknown
+  double factor = 1.0;
   double offset = 0.0;  ///< [s]
   bool is_of_reference = false;
 };
 
-/// Poses with stamps factor * stamp + offset; none if the factor is 0. O(n).
+/// Poses with stamps factor * stamp + offset. O(n).
 Trajectory restamped(Trajectory poses, double factor, double offset);
 
 /// The stamps of one file fit those of the other only after division by 10^3, 10^6 or 10^9. O(1).
@@ -26,12 +26,13 @@ std::optional<StampRepair> check_stamp_unit(const Trajectory& reference,
                                             const Trajectory& estimate);
 
 /// The estimate's stamps are the integers from 0 or 1 on, at which few poses pair or speeds do not
-/// agree. Tries usual frame rates and the rate at which both files last equally long. O(1e7).
+/// agree, but do at a usual frame rate or at the rate at which both files last equally long.
+/// O(1e7).
 std::optional<StampRepair> check_frame_indices(const Trajectory& reference,
                                                const Trajectory& estimate);
 
-/// The offset of the estimate grows from its first to its last third, and that of the middle third,
-/// which is not used for that, is between. O(1e6).
+/// The offset of the estimate grows from its first to its last third, that of the middle third is
+/// between, and relative rotations have smaller errors without this drift. O(1e6).
 std::optional<StampRepair> check_clock_drift(const Trajectory& reference,
                                              const Trajectory& estimate);
 
