@@ -52,9 +52,10 @@ std::pair<double, double> largest_motion(const Trajectory& poses) {
 constexpr double kConstant = 1e-6;  // [rad]
 
 /// Median ratio of rotation angles over intervals in which the trajectory that rotates more does so
-/// by 20 to 120 deg.
+/// by 20 to 120 deg, and the other one by less than 2.5 deg: larger angles times 57 are ambiguous.
 double angle_ratio(const CommonPoses& poses) {
-  constexpr double kLeast = 20.0 / kDegrees, kMost = 120.0 / kDegrees;
+  constexpr double kLeast = 20.0 / kDegrees, kMost = 120.0 / kDegrees,
+                   kMostOfOther = 2.5 / kDegrees;
   std::vector<double> ratios;
   std::size_t from = 0;
   for (std::size_t to = 1; to < poses.stamps.size(); ++to) {
@@ -64,7 +65,10 @@ double angle_ratio(const CommonPoses& poses) {
     const double reference = angle(poses.reference), estimate = angle(poses.estimate);
     const double larger = std::max(reference, estimate);
     if (larger < kLeast) continue;
-    if (larger <= kMost && reference > 0.0) ratios.push_back(estimate / reference);
+    const double smaller = std::min(reference, estimate);
+    if (larger <= kMost && smaller > 0.0 && smaller < kMostOfOther) {
+      ratios.push_back(estimate / reference);
+    }
     from = to;
   }
   return ratios.size() < 8 ? 1.0 : median_value(std::move(ratios));
