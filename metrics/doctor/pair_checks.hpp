@@ -13,12 +13,12 @@ namespace loopbench::metrics {
 /// The stamps of one file are replaced by factor * stamp + offset.
 struct StampRepair {
   InputFinding finding;
-  double factor = 1.0;
+  double factor = 1.0;  ///< 0: unknown
   double offset = 0.0;  ///< [s]
   bool is_of_reference = false;
 };
 
-/// Poses with stamps factor * stamp + offset. O(n).
+/// Poses with stamps factor * stamp + offset; none if the factor is 0. O(n).
 Trajectory restamped(Trajectory poses, double factor, double offset);
 
 /// The stamps of one file fit those of the other only after division by 10^3, 10^6 or 10^9. O(1).

@@ -42,6 +42,7 @@ bool has_frame_indices(const Trajectory& poses) {
 }  // namespace
 
 Trajectory restamped(Trajectory poses, double factor, double offset) {
+  if (factor == 0.0) poses.clear();
   for (StampedPose& pose : poses) pose.stamp = factor * pose.stamp + offset;
   return poses;
 }
@@ -105,7 +106,18 @@ std::optional<StampRepair> check_frame_indices(const Trajectory& reference,
     factor = interval;
     offset = begin + found->offset;
   }
-  if (factor == 0.0) return std::nullopt;
+  if (factor == 0.0) {
+    if (overlap(reference, estimate) > 0.0) return std::nullopt;
+    return StampRepair{
+        {Fault::frame_indices,
+         fmt::format("the estimate's stamps are whole numbers from {:g} to {:g}, as frame indices; "
+                     "no usual frame rate fits: paired poses 0 %",
+                     estimate.front().stamp,
+                     estimate.back().stamp),
+         "write the estimate's stamps in seconds",
+         0.7},
+        0.0};
+  }
   return StampRepair{
       {Fault::frame_indices,
        fmt::format("the estimate's stamps are frame indices: with {:.4g} s per frame, paired poses "
