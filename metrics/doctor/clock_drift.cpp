@@ -6,71 +6,65 @@
 
 #include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/pair_checks.hpp"
-#include "metrics/doctor/speed_match.hpp"
 #include "metrics/doctor/time_offset.hpp"
 
 namespace loopbench::metrics {
 
 std::optional<StampRepair> check_clock_drift(const Trajectory& reference,
                                              const Trajectory& estimate) {
-  constexpr double kLeast = 0.008, kOfInterval = 0.15;  // change of the offset [s]
-  constexpr double kLeastRate = 3e-4;  // clocks of computers differ by 1e-4 at most
-  constexpr double kMostRate = 0.01;
-  constexpr double kDeviations = 6.0, kOfChange = 0.3;
-  if (estimate.size() < 3 * kFewestCommonPoses || reference.size() < kFewestCommonPoses ||
-      reference.front().stamp > estimate.back().stamp ||
-      estimate.front().stamp > reference.back().stamp) {
-    return std::nullopt;
-  }
-  const double searched =
-      std::max(1.0, kMostRate * (estimate.back().stamp - estimate.front().stamp));
-  std::array<TimeOffset, 3> offsets;
-  std::array<double, 3> centres{};
-  for (std::size_t part = 0; part < 3; ++part) {
-    const auto at = [&](std::size_t i) {
-      return estimate.begin() + static_cast<std::ptrdiff_t>(i * estimate.size() / 3);
+  constexpr double kLeast = 0.015, kOfInterval = 0.1, kDeviations = 3.0;  // of the change [s]
+  constexpr double kLeastRate = 5e-4;  // clocks of computers differ by 1e-4 at most
+  constexpr double kMostRate = 0.01, kOfChange = 0.3;
+  constexpr double kMostOfTurning = 0.98;
+  constexpr std::size_t kParts = 3;
+  const std::size_t n = estimate.size();
+  if (n < kParts * kFewestCommonPoses) return std::nullopt;
+  const double origin = estimate.front().stamp;
+  const double searched = std::max(1.0, kMostRate * (estimate.back().stamp - origin));
+  std::array<TimeOffset, kParts> found;
+  std::array<double, kParts> centres{};
+  for (std::size_t i = 0; i < kParts; ++i) {
+    const auto at = [&](std::size_t part) {
+      return estimate.begin() + static_cast<std::ptrdiff_t>(part * n / kParts);
     };
-    const Trajectory third(at(part), at(part + 1));
-    const auto found = estimate_time_offset(reference, third, searched);
-    if (!found || !found->has_common_time) return std::nullopt;
-    offsets[part] = *found;
-    centres[part] = 0.5 * (third.front().stamp + third.back().stamp);
+    const Trajectory third(at(i), at(i + 1));
+    const auto offset = estimate_time_offset(reference, third, searched);
+    if (!offset || !offset->has_common_time) return std::nullopt;
+    found[i] = *offset;
+    centres[i] = 0.5 * (third.front().stamp + third.back().stamp);
   }
-  const double change = offsets[2].offset - offsets[0].offset;
+  const double change = found[2].offset - found[0].offset;
   const double rate = change / (centres[2] - centres[0]);
-  const double expected = offsets[0].offset + rate * (centres[1] - centres[0]);
-  const double deviation = std::hypot(offsets[0].deviation, offsets[2].deviation);
-  const double error = std::abs(offsets[1].offset - expected);
+  const auto drifted = [&](double stamp) { return found[0].offset + rate * (stamp - centres[0]); };
+  const double error = std::abs(found[1].offset - drifted(centres[1]));
+  const double deviation = std::hypot(found[0].deviation, found[2].deviation);
   if (std::abs(change) <
           std::max({kLeast, kOfInterval * usual_interval(estimate), kDeviations * deviation}) ||
       std::abs(rate) < kLeastRate || std::abs(rate) > kMostRate ||
       error > kOfChange * std::abs(change)) {
     return std::nullopt;
   }
-  const double origin = estimate.front().stamp;
-  const double at_zero = offsets[0].offset - rate * centres[0];  // for the stamp 0
-  const double constant = SpeedMatch(reference, estimate).at(offsets[1].offset);
-  const double drifting = SpeedMatch(reference, restamped(estimate, 1.0 + rate, at_zero)).at(0.0);
-  if (drifting < constant) return std::nullopt;
-  const double offset = offsets[0].offset + rate * (origin - centres[0]);
+  const auto turning = [&](const Trajectory& poses, double offset) {
+    return agreement(common_poses(reference, poses, offset, kMostCommonPoses)).turning;
+  };
+  Trajectory corrected = restamped(estimate, 1.0 + rate, drifted(0.0));
+  const double before = turning(estimate, found[1].offset), after = turning(corrected, 0.0);
+  if (!(after < kMostOfTurning * before)) return std::nullopt;
   return StampRepair{
       {Fault::clock_drift,
+       fmt::format("the estimate's clock drifts by {:.3f} %: its offset grows from {:.3f} to "
+                   "{:.3f} s; error of relative rotations {:.1f} -> {:.1f} %",
+                   100.0 * rate,
+                   found[0].offset,
+                   found[2].offset,
+                   100.0 * before,
+                   100.0 * after),
        fmt::format(
-           "the estimate's clock drifts by {:.3f} %: its offset grows from {:.3f} to {:.3f} "
-           "s; in the middle third, which was not used, offset {:.3f} -> {:.3f} s, correlation of "
-           "speeds {:.3f} -> {:.3f}",
-           100.0 * rate,
-           offsets[0].offset,
-           offsets[2].offset,
-           offsets[1].offset,
-           offsets[1].offset - expected,
-           constant,
-           drifting),
-       fmt::format("correct its stamps t: t + {:.4f} + {:.6f} (t - {:.3f})", offset, rate, origin),
+           "correct its stamps t: t + {:.4f} + {:.6f} (t - {:.3f})", drifted(origin), rate, origin),
        1.0 - error / std::abs(change),
        rate},
       1.0 + rate,
-      at_zero};
+      drifted(0.0)};
 }
 
 }  // namespace loopbench::metrics

@@ -88,10 +88,6 @@ double gap_of(const Edge& closure, const Chain& chain) {
   return gap.translation.norm();
 }
 
-double drift_of(const Edge& closure, const Chain& chain) {
-  return gap_of(closure, chain) / std::max(1.0, chain.length(closure.from, closure.to));
-}
-
 SquaredError median_error(const std::vector<SquaredError>& all) {
   const auto median_of = [&](double SquaredError::*part) {
     std::vector<double> values;

@@ -40,9 +40,6 @@ SquaredError closure_error(const Edge& closure, const Chain& chain, bool is_exch
 /// Distance between the end of the odometry along a loop and the closure [m].
 double gap_of(const Edge& closure, const Chain& chain);
 
-/// gap_of() over the length of the odometry along the loop, of at least 1 m.
-double drift_of(const Edge& closure, const Chain& chain);
-
 /// Median of each part.
 SquaredError median_error(const std::vector<SquaredError>& all);
 

@@ -51,35 +51,24 @@ std::pair<double, double> largest_motion(const Trajectory& poses) {
 
 constexpr double kConstant = 1e-6;  // [rad]
 
-/// Median ratio of rotation angles over short intervals, without wraps.
+/// Median ratio of rotation angles over intervals in which the trajectory that rotates more does so
+/// by 20 to 120 deg, and the other one by less than 2.5 deg: larger angles times 57 are ambiguous.
 double angle_ratio(const CommonPoses& poses) {
-  constexpr double kLeast = 0.05 / kDegrees, kMost = 2.5 / kDegrees;
-  std::vector<double> ratios;
-  for (std::size_t i = 1; i < poses.stamps.size(); ++i) {
-    const auto angle = [&](const std::vector<Pose>& list) {
-      return angle_between(list[i - 1].rotation, list[i].rotation);
-    };
-    const double reference = angle(poses.reference);
-    const double estimate = angle(poses.estimate);
-    const double smaller = std::min(reference, estimate);
-    if (smaller < kLeast || smaller > kMost) continue;
-    ratios.push_back(estimate / reference);
-  }
-  return ratios.size() < 8 ? 1.0 : median_value(std::move(ratios));
-}
-
-/// Median ratio of rotation angles over intervals in which the reference rotates by 5 to 60 deg.
-double ratio_of_larger_angles(const CommonPoses& poses) {
-  constexpr double kLeast = 5.0 / kDegrees, kMost = 60.0 / kDegrees;
+  constexpr double kLeast = 20.0 / kDegrees, kMost = 120.0 / kDegrees,
+                   kMostOfOther = 2.5 / kDegrees;
   std::vector<double> ratios;
   std::size_t from = 0;
   for (std::size_t to = 1; to < poses.stamps.size(); ++to) {
     const auto angle = [&](const std::vector<Pose>& list) {
       return angle_between(list[from].rotation, list[to].rotation);
     };
-    const double reference = angle(poses.reference);
-    if (reference < kLeast) continue;
-    if (reference <= kMost) ratios.push_back(angle(poses.estimate) / reference);
+    const double reference = angle(poses.reference), estimate = angle(poses.estimate);
+    const double larger = std::max(reference, estimate);
+    if (larger < kLeast) continue;
+    const double smaller = std::min(reference, estimate);
+    if (larger <= kMost && smaller > 0.0 && smaller < kMostOfOther) {
+      ratios.push_back(estimate / reference);
+    }
     from = to;
   }
   return ratios.size() < 8 ? 1.0 : median_value(std::move(ratios));
@@ -182,8 +171,7 @@ std::optional<InputFinding> check_constant_rotation(const Trajectory& reference,
 }
 
 std::optional<InputFinding> check_angle_unit(const CommonPoses& poses) {
-  const double of_larger = ratio_of_larger_angles(poses);
-  const double ratio = of_larger < 0.1 ? of_larger : angle_ratio(poses);
+  const double ratio = angle_ratio(poses);
   constexpr double kFactor = kDegrees, kTolerance = 2.2;
   const bool is_large = ratio > kFactor / kTolerance && ratio < kFactor * kTolerance;
   const bool is_small = ratio < kTolerance / kFactor && ratio > 1.0 / (kFactor * kTolerance);

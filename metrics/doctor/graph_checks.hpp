@@ -27,13 +27,10 @@ struct GapCheck {
   std::vector<std::size_t> closures;  ///< indices of the false ones
 };
 
-/// - The odometry along a loop ends further from the closure than 2 m, and than eight times the
-///   drift per distance of the median loop (at most 35 % of the loop's length) or 50 times the
-///   squared error over its variance of nine in ten loops.
-/// - If there is none, and for at least ten closures: the same limit for the path over odometry and
-///   the nearest other closure, which drifts less. The worst closure is removed before the others
-///   are compared again.
-/// O(closures log).
+/// Closures that end more than 2 m from the odometry along their loop and more than eight times the
+/// drift per distance of the median loop (at most 35 % of the loop's length). With at least ten
+/// closures, the same for the paths over odometry and one other closure: two of the three shortest
+/// have to contradict. A finding if the gaps are smaller by 10 % without them. O(closures log).
 GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain);
 
 /// Compares the gaps of all loops with the covariance of odometry and closures. Medians of

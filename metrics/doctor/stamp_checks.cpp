@@ -11,20 +11,11 @@
 namespace loopbench::metrics {
 namespace {
 
-struct TimeRange {
-  double begin = 0.0;
-  double end = 0.0;
+double duration(const Trajectory& poses) { return poses.back().stamp - poses.front().stamp; }
 
-  double length() const { return end - begin; }
-};
-
-TimeRange range_of(const Trajectory& poses, double factor = 1.0) {
-  return {factor * poses.front().stamp, factor * poses.back().stamp};
-}
-
-/// Length of the common range; negative: the distance between the ranges.
-double overlap(const TimeRange& a, const TimeRange& b) {
-  return std::min(a.end, b.end) - std::max(a.begin, b.begin);
+/// Length of the common range [s]; negative: the distance between the ranges.
+double overlap(const Trajectory& a, const Trajectory& b) {
+  return std::min(a.back().stamp, b.back().stamp) - std::max(a.front().stamp, b.front().stamp);
 }
 
 const char* fraction_name(double factor) {
@@ -60,17 +51,14 @@ std::optional<StampRepair> check_stamp_unit(const Trajectory& reference,
                                             const Trajectory& estimate) {
   constexpr double kHardly = 0.01, kMostly = 0.5, kLeastPart = 0.05;
   if (reference.size() < 2 || estimate.size() < 2) return std::nullopt;
-  const TimeRange of_reference = range_of(reference), of_estimate = range_of(estimate);
-  const double longer = std::max(of_reference.length(), of_estimate.length());
-  if (overlap(of_reference, of_estimate) > kHardly * longer) return std::nullopt;
+  const double longer = std::max(duration(reference), duration(estimate));
+  if (overlap(reference, estimate) > kHardly * longer) return std::nullopt;
   for (const double factor : {1e3, 1e6, 1e9}) {
     for (const bool is_reference : {false, true}) {
-      const TimeRange a = range_of(reference, is_reference ? 1.0 / factor : 1.0);
-      const TimeRange b = range_of(estimate, is_reference ? 1.0 : 1.0 / factor);
-      const double shorter = std::min(a.length(), b.length());
-      const bool is_alike = shorter > kLeastPart * std::max(a.length(), b.length());
-      if (!is_alike || overlap(a, b) < kMostly * shorter) continue;
-      const double of_stamps = is_reference ? factor : 1.0 / factor;
+      const Trajectory a = restamped(reference, is_reference ? 1.0 / factor : 1.0, 0.0);
+      const Trajectory b = restamped(estimate, is_reference ? 1.0 : 1.0 / factor, 0.0);
+      const auto [shorter, other] = std::minmax(duration(a), duration(b));
+      if (shorter < kLeastPart * other || overlap(a, b) < kMostly * shorter) continue;
       return StampRepair{
           {Fault::stamp_unit,
            fmt::format("the stamps of the {} are {:g} times too large ({}): paired poses "
@@ -79,11 +67,11 @@ std::optional<StampRepair> check_stamp_unit(const Trajectory& reference,
                        factor,
                        fraction_name(factor),
                        paired_share(reference, estimate),
-                       paired_share(reference, restamped(estimate, of_stamps, 0.0))),
+                       paired_share(a, b)),
            fmt::format(
                "traj transform {} --stamp-scale {:g}", is_reference ? "REF" : "EST", 1.0 / factor),
            1.0,
-           1.0 / of_stamps},
+           is_reference ? 1.0 / factor : factor},
           1.0 / factor,
           0.0,
           is_reference};
@@ -99,40 +87,33 @@ std::optional<StampRepair> check_frame_indices(const Trajectory& reference,
       !has_frame_indices(estimate) || has_frame_indices(reference)) {
     return std::nullopt;
   }
-  const TimeRange of_reference = range_of(reference), of_estimate = range_of(estimate);
   std::optional<TimeOffset> as_read;
-  if (overlap(of_reference, of_estimate) > 0.0) {
-    as_read = estimate_time_offset(reference, estimate, 0.0);
-  }
+  if (overlap(reference, estimate) > 0.0) as_read = estimate_time_offset(reference, estimate, 0.0);
   if (as_read && as_read->before > kAgrees) return std::nullopt;
   double best = kAgrees, factor = 0.0, offset = 0.0;
-  std::vector<double> intervals{of_reference.length() / of_estimate.length()};
+  const double longest = duration(reference);
+  std::vector<double> intervals{longest / duration(estimate)};
   for (const double rate : {5, 10, 15, 20, 25, 30, 50, 60, 100, 200}) {
-    const double length = of_estimate.length() / rate;
-    const bool is_possible =
-        length > 0.3 * of_reference.length() && length < 1.5 * of_reference.length();
-    if (is_possible) intervals.push_back(1.0 / rate);
+    const double length = duration(estimate) / rate;
+    if (length > 0.3 * longest && length < 1.5 * longest) intervals.push_back(1.0 / rate);
   }
   for (const double interval : intervals) {
-    const double begin = of_reference.begin - interval * of_estimate.begin;
-    const auto found = estimate_time_offset(
-        reference, restamped(estimate, interval, begin), 0.5 * of_reference.length());
+    const double begin = reference.front().stamp - interval * estimate.front().stamp;
+    const auto found =
+        estimate_time_offset(reference, restamped(estimate, interval, begin), 0.5 * longest);
     if (!found || !(found->correlation > best)) continue;
     best = found->correlation;
     factor = interval;
     offset = begin + found->offset;
   }
   if (factor == 0.0) {
-    if (overlap(of_reference, of_estimate) > 0.0) return std::nullopt;
+    if (overlap(reference, estimate) > 0.0) return std::nullopt;
     return StampRepair{
         {Fault::frame_indices,
-         fmt::format(
-             "the estimate's stamps are whole numbers from {:g} to {:g}, as frame indices, "
-             "the reference's {:.3f} to {:.3f} s; no usual frame rate fits: paired poses 0 %",
-             of_estimate.begin,
-             of_estimate.end,
-             of_reference.begin,
-             of_reference.end),
+         fmt::format("the estimate's stamps are whole numbers from {:g} to {:g}, as frame indices; "
+                     "no usual frame rate fits: paired poses 0 %",
+                     estimate.front().stamp,
+                     estimate.back().stamp),
          "write the estimate's stamps in seconds",
          0.7},
         0.0};
@@ -155,16 +136,15 @@ std::optional<StampRepair> check_frame_indices(const Trajectory& reference,
 
 std::optional<InputFinding> check_overlap(const Trajectory& reference, const Trajectory& estimate) {
   if (reference.empty() || estimate.empty()) return std::nullopt;
-  const TimeRange a = range_of(reference), b = range_of(estimate);
-  const double distance = -overlap(a, b);
+  const double distance = -overlap(reference, estimate);
   if (!(distance > 0.0)) return std::nullopt;
   return InputFinding{Fault::no_overlap,
                       fmt::format("the estimate's stamps ({:.3f} to {:.3f} s) and the reference's "
                                   "({:.3f} to {:.3f} s) have no common time",
-                                  b.begin,
-                                  b.end,
-                                  a.begin,
-                                  a.end),
+                                  estimate.front().stamp,
+                                  estimate.back().stamp,
+                                  reference.front().stamp,
+                                  reference.back().stamp),
                       "give files of the same recording, or the offset of their clocks (--offset)",
                       1.0,
                       distance};

@@ -130,48 +130,47 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
 std::optional<InputFinding> offset_finding(const TimeOffset& found,
                                            const Trajectory& reference,
                                            const Trajectory& estimate) {
-  constexpr double kSmallest = 0.012;  // [s]
-  constexpr double kOfInterval = 0.35;
-  constexpr double kDeviations = 5.0;
-  constexpr double kMostUnexplained = 0.7, kMostOfSmall = 0.9;
-  constexpr double kSurely = 10.0, kHalf = 0.4, kLeastGain = 0.03, kAligned = 0.1;
-  constexpr double kProvenAlone = 0.04;  // [s]; smaller ones need smaller errors, too
-  constexpr double kLeastAlone = 0.85;   // correlation of files without common time
+  constexpr double kSmallest = 0.02, kOfInterval = 0.35, kDeviations = 5.0;  // [s]
+  constexpr double kSmall = 0.1;  // [s]; these need smaller errors
+  constexpr double kLeastGain = 0.1, kMostRatio = 0.9, kLeastConfident = 0.3;
+  constexpr double kMostUnexplained = 0.7;
+  constexpr double kLeastAlone = 0.85;  // correlation of files without common time
   const double size = std::abs(found.offset);
   const double interval = std::min(0.2, usual_interval(estimate));
   if (size < std::max({kSmallest, kOfInterval * interval, kDeviations * found.deviation})) {
     return std::nullopt;
   }
-  const bool is_clear = raises_correlation(found) && found.unexplained <= kMostUnexplained;
-  // Smooth motion correlates nearly as well without a small offset, but not by chance.
-  const bool is_small = found.has_common_time && found.correlation > found.before &&
-                        size > kSurely * found.deviation && size > kHalf * interval;
-  if (!is_clear && !is_small) return std::nullopt;
-  if (!found.has_common_time && found.correlation < kLeastAlone) return std::nullopt;
-  const SpeedMatch match(reference, estimate, Part::tested);
-  const double remaining =
-      found.has_common_time ? unexplained(match.score(0.0), match.score(found.offset)) : 0.5;
-  if (remaining > (is_clear ? kMostUnexplained : kMostOfSmall)) return std::nullopt;
-  if (!is_clear || size < kProvenAlone) {
+  double confidence = 0.5;
+  std::string change =
+      fmt::format("correlation of speeds {:.3f} -> {:.3f}", found.before, found.correlation);
+  if (!found.has_common_time) {
+    if (found.correlation < kLeastAlone) return std::nullopt;
+  } else if (size < kSmall) {
     const auto errors = [&](double offset) {
       return agreement(common_poses(reference, estimate, offset, kMostCommonPoses));
     };
     const Agreement before = errors(0.0), after = errors(found.offset);
-    if (before.similarity > kAligned * before.spread || after.cost() > before.cost() - kLeastGain ||
-        after.similarity > before.similarity) {
+    const Improvement gained = improvement(before, after);
+    if (after.cost() > before.cost() - kLeastGain || gained.ratio > kMostRatio) return std::nullopt;
+    change += ", " + gained.text;
+    confidence = std::max(kLeastConfident, 1.0 - gained.ratio);
+  } else {
+    const SpeedMatch match(reference, estimate, Part::tested);
+    const double remaining = unexplained(match.score(0.0), match.score(found.offset));
+    if (!raises_correlation(found) || std::max(found.unexplained, remaining) > kMostUnexplained) {
       return std::nullopt;
     }
+    confidence = 1.0 - remaining;
   }
   return InputFinding{Fault::time_offset,
                       fmt::format("the estimate's stamps are {:.3f} +- {:.3f} s {} the "
-                                  "reference's: correlation of speeds {:.3f} -> {:.3f}",
+                                  "reference's: {}",
                                   size,
                                   found.deviation,
                                   found.offset > 0.0 ? "behind" : "ahead of",
-                                  found.before,
-                                  found.correlation),
+                                  change),
                       fmt::format("--offset {:.4f}", found.offset),
-                      is_clear ? 1.0 - remaining : std::max(0.3, 1.0 - remaining),
+                      confidence,
                       found.offset};
 }
 

@@ -27,11 +27,11 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
                                                const Trajectory& estimate,
                                                double searched = 10.0);
 
-/// A finding if the offset is significant (five standard deviations, above 12 ms and 35 % of the
-/// estimate's interval) and leaves at most 70 % of what the correlation of speeds does not explain
-/// without it, also on intervals kept for this test. Smooth motion correlates alike without a small
-/// offset: it needs ten deviations, and the errors after an alignment have to decrease. Files
-/// without common time need a correlation of 0.85: those of different recordings reach 0.75.
+/// A finding if the offset is significant (five standard deviations, above 20 ms and 35 % of the
+/// estimate's interval). Below 0.1 s, it has to reduce the errors after an alignment. Above, it has
+/// to leave at most 70 % of what the correlation of speeds does not explain without it, also on
+/// intervals kept for this test. Files without common time need a correlation of 0.85: those of
+/// different recordings reach 0.75.
 std::optional<InputFinding> offset_finding(const TimeOffset& found,
                                            const Trajectory& reference,
                                            const Trajectory& estimate);
