@@ -1,19 +1,33 @@
 #include <memory>
 
+#include "datasets/core/polyline.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/online/batch_updates.hpp"
-#include "methods/pipeline.hpp"
 #include "methods/solvers/kept_order.hpp"
 
 namespace loopbench::methods {
 namespace {
 
+class CorrectedPolyline final : public Estimator {
+ public:
+  CorrectedPolyline(const PoseGraphOptimizer::Options& options, KeptOrder& order)
+      : corrector_(options, &order) {}
+
+  std::string why_declined(const Problem& problem) const override {
+    return corrector_.why_declined(problem);
+  }
+  std::unique_ptr<const Curve> estimate(const Problem& problem, Report& report) const override {
+    return std::make_unique<Polyline>(corrector_.correct(problem, report));
+  }
+
+ private:
+  PoseGraphOptimizer corrector_;
+};
+
 class PoseGraphUpdates final : public Incremental {
  public:
   PoseGraphUpdates(const PoseGraphOptimizer::Options& options, bool planar)
-      : order_(*options.keep_order),
-        method_(compose(std::make_unique<PoseGraphOptimizer>(options, &order_), nullptr)),
-        updates_(*method_, planar, true) {}
+      : order_(*options.keep_order), method_(options, order_), updates_(method_, planar, true) {}
 
   Trajectory update(const Increment& added, Report& report) override {
     Trajectory out = updates_.update(added, report);
@@ -23,7 +37,7 @@ class PoseGraphUpdates final : public Incremental {
 
  private:
   KeptOrder order_;
-  std::unique_ptr<const Estimator> method_;
+  CorrectedPolyline method_;
   BatchUpdates updates_;
 };
 
