@@ -1,6 +1,7 @@
 #include "harness/catalogue/load_sequence.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -108,18 +109,26 @@ Sequence load_sequence(const Cell& cell,
                        const Catalogue& catalogue,
                        const DataRoot& root) {
   Sequence out = load_one(cell, sweep, catalogue, root);
+  const auto reads_same_file = [&](const Sequence& other) {
+    return std::ranges::any_of(other.provenance.inputs, [&](const InputPath& input) {
+      return std::ranges::count(out.provenance.inputs, input.path, &InputPath::path) > 0;
+    });
+  };
+  std::vector<InputPath> inputs;
   std::vector<Problem> related;
   for (const std::size_t other : related_datasets(sweep, cell.dataset)) {
     Cell one = cell;
     one.dataset = other;
     Sequence sequence = load_one(one, sweep, catalogue, root);
+    for (const InputPath& input : sequence.provenance.inputs) {
+      inputs.push_back({input.path, sweep.datasets[other].label + ": " + input.option});
+    }
+    if (reads_same_file(sequence)) continue;  // the same drive with other options
     sequence.problem.frames.clear();
     related.push_back(std::move(sequence.problem));
     out.provenance.oracle_closures |= sequence.provenance.oracle_closures;
-    for (const InputPath& input : sequence.provenance.inputs) {
-      out.provenance.inputs.push_back({input.path, ""});
-    }
   }
+  std::ranges::move(inputs, std::back_inserter(out.provenance.inputs));
   if (!related.empty()) {
     out.problem.related = std::make_shared<const std::vector<Problem>>(std::move(related));
   }

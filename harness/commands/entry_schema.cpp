@@ -74,7 +74,7 @@ Json list_schema(const std::string& kind, const Json& known, const Json& by_name
   if (kind == "dataset") {
     map["properties"]["group"] = with_help("name of runs that are not independent", kText);
     map["properties"]["odometer"] =
-        with_help("what measured the odometry: methods can learn from its other chains", kText);
+        with_help("name of the odometer: methods in C++ can learn from its other chains", kText);
   }
   return {{"type", "array"},
           {"minItems", 1},

@@ -202,7 +202,7 @@ void declare(CLI::App& command, EvalArguments& a) {
   command
       .add_option("--per-pose",
                   a.per_pose,
-                  "CSV file for the error of every pose, with what metrics state for each; - is "
+                  "CSV file for the error of every pose, and per-pose values of metrics; - is "
                   "standard output")
       ->type_name("FILE");
   command

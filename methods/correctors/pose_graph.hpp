@@ -134,7 +134,8 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
   visit("covariances", o.covariances, "state the covariance of each keyframe, for metric nees");
   visit("keep_order",
         o.keep_order,
-        "in a replay, start from the last solution and keep the elimination order until a "
+        "in a replay without smoother, start from the last solution and keep the elimination order "
+        "until a "
         "factorisation takes this many times the work per pose of a new order; none: do neither",
         GreaterThan{1.0});
 }

@@ -32,6 +32,7 @@ class PoseGraphUpdates final : public Incremental {
   Trajectory update(const Increment& added, Report& report) override {
     Trajectory out = updates_.update(added, report);
     report.count("orders", order_.computed());
+    if (updates_.declined() > 0) report.count("updates_declined", updates_.declined());
     return out;
   }
 

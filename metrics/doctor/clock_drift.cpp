@@ -15,7 +15,7 @@ std::optional<StampRepair> check_clock_drift(const Trajectory& reference,
   constexpr double kLeast = 0.015, kOfInterval = 0.1, kDeviations = 3.0;  // of the change [s]
   constexpr double kLeastRate = 5e-4;  // clocks of computers differ by 1e-4 at most
   constexpr double kMostRate = 0.01, kOfChange = 0.3;
-  constexpr double kMostOfTurning = 0.98;
+  constexpr double kMostOfErrors = 0.98;
   constexpr std::size_t kParts = 3;
   const std::size_t n = estimate.size();
   if (n < kParts * kFewestCommonPoses) return std::nullopt;
@@ -44,21 +44,27 @@ std::optional<StampRepair> check_clock_drift(const Trajectory& reference,
       error > kOfChange * std::abs(change)) {
     return std::nullopt;
   }
-  const auto turning = [&](const Trajectory& poses, double offset) {
-    return agreement(common_poses(reference, poses, offset, kMostCommonPoses)).turning;
-  };
   Trajectory corrected = restamped(estimate, 1.0 + rate, drifted(0.0));
-  const double before = turning(estimate, found[1].offset), after = turning(corrected, 0.0);
-  if (!(after < kMostOfTurning * before)) return std::nullopt;
+  const Agreement before =
+      agreement(common_poses(reference, estimate, found[1].offset, kMostCommonPoses));
+  const Agreement after = agreement(common_poses(reference, corrected, 0.0, kMostCommonPoses));
+  const bool turns = before.has_rotations;
+  const double ratio =
+      turns ? after.turning / before.turning : after.similarity / before.similarity;
+  if (!(ratio < kMostOfErrors)) return std::nullopt;
   return StampRepair{
       {Fault::clock_drift,
-       fmt::format("the estimate's clock drifts by {:.3f} %: its offset grows from {:.3f} to "
-                   "{:.3f} s; error of relative rotations {:.1f} -> {:.1f} %",
-                   100.0 * rate,
-                   found[0].offset,
-                   found[2].offset,
-                   100.0 * before,
-                   100.0 * after),
+       fmt::format(
+           "the estimate's clock drifts by {:.3f} %: its offset grows from {:.3f} to "
+           "{:.3f} s; {}",
+           100.0 * rate,
+           found[0].offset,
+           found[2].offset,
+           turns ? fmt::format("error of relative rotations {:.1f} -> {:.1f} %",
+                               100.0 * before.turning,
+                               100.0 * after.turning)
+                 : fmt::format(
+                       "position error {:.3g} -> {:.3g} m", before.similarity, after.similarity)),
        fmt::format(
            "correct its stamps t: t + {:.4f} + {:.6f} (t - {:.3f})", drifted(origin), rate, origin),
        1.0 - error / std::abs(change),

@@ -57,7 +57,7 @@ std::optional<StampRepair> check_stamp_unit(const Trajectory& reference,
     for (const bool is_reference : {false, true}) {
       const Trajectory a = restamped(reference, is_reference ? 1.0 / factor : 1.0, 0.0);
       const Trajectory b = restamped(estimate, is_reference ? 1.0 : 1.0 / factor, 0.0);
-      const auto [shorter, other] = std::minmax(duration(a), duration(b));
+      const auto [shorter, other] = std::minmax({duration(a), duration(b)});
       if (shorter < kLeastPart * other || overlap(a, b) < kMostly * shorter) continue;
       return StampRepair{
           {Fault::stamp_unit,

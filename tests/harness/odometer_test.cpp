@@ -2,10 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/run/cell_keys.hpp"
 #include "harness/run/pack.hpp"
+#include "harness/run/summarise_sequence.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::odometer_test {
 
@@ -64,6 +69,73 @@ TEST_F(Odometer, ChainsReachTheProcessOfACell) {
   ASSERT_NE(received.problem.related, nullptr);
   EXPECT_EQ(received.problem.related->front().odometry.size(),
             sent.problem.related->front().odometry.size());
+}
+
+TEST_F(Odometer, TheSameFileWithOtherOptionsIsNoOtherChain) {
+  const TemporaryFolder folder;
+  std::ofstream poses(folder.path() / "walk.txt");
+  for (int i = 0; i < 40; ++i) poses << i << " " << i << " " << i * i << " 0 0 0 0 1\n";
+  poses.close();
+  const Sweep sweep = parse_sweep(R"(
+datasets:
+  - {dataset: trajectory, estimate: walk.txt, odometer: feet, keyframes: {rule: every}, sweep: {keyframes.value: [2, 3]}}
+methods: [raw]
+metrics: [path_length]
+)",
+                                  (folder.path() / "c.yaml").string(),
+                                  known_);
+  EXPECT_EQ(load_sequence({}, sweep, known_, {{folder.path()}}).problem.related, nullptr);
+}
+
+TEST_F(Odometer, FilesOfOtherChainsAreFoundInANewDataFolder) {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, double step) {
+    std::filesystem::create_directories((folder.path() / name).parent_path());
+    std::ofstream poses(folder.path() / name);
+    for (int i = 0; i < 40; ++i) poses << i << " " << i * step << " 0 0 0 0 0 1\n";
+  };
+  for (const std::string name : {"a.txt", "b.txt"}) {
+    write("old/" + name, 1.0);
+    write("new/" + name, name == "b.txt" ? 2.0 : 1.0);
+  }
+  const Sweep sweep = parse_sweep(R"(
+datasets:
+  - {dataset: trajectory, label: a, estimate: a.txt, odometer: feet}
+  - {dataset: trajectory, label: b, estimate: b.txt, odometer: feet}
+methods: [raw]
+metrics: [path_length]
+)",
+                                  "c.yaml",
+                                  known_);
+  const DataRoot old{{folder.path() / "old"}}, fresh{{folder.path() / "new"}};
+  const auto stored = hashed_inputs(load_sequence({}, sweep, known_, old).provenance.inputs);
+  const auto now = CellKeys(sweep, known_, fresh, "build").current_inputs({}, stored);
+  ASSERT_EQ(now.size(), 2u);
+  EXPECT_EQ(now[0].hash, stored[0].hash);
+  EXPECT_NE(now[1].hash, stored[1].hash);
+}
+
+TEST_F(Odometer, ANameThatOneDatasetHasIsAnError) {
+  EXPECT_THAT(
+      [&] {
+        parse_sweep("datasets: [{dataset: simulated, odometer: whels}]\nmethods: [raw]\n",
+                    "c.yaml",
+                    known_);
+      },
+      testing::ThrowsMessage<InputError>(testing::HasSubstr("has the odometer 'whels'")));
+}
+
+TEST_F(Odometer, ProgramsCannotHaveIt) {
+  EXPECT_THAT(
+      [&] {
+        parse_sweep(
+            "datasets: [{dataset: command, run: 'x {trajectory}', odometer: o}, {dataset: "
+            "simulated, odometer: "
+            "o}]\n",
+            "c.yaml",
+            known_);
+      },
+      testing::ThrowsMessage<InputError>(testing::HasSubstr("expected a built-in dataset")));
 }
 
 }  // namespace

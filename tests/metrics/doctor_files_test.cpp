@@ -88,6 +88,19 @@ TEST(Doctor, ClockDrift) {
   }
 }
 
+TEST(Doctor, ClockDriftBesideAReferenceWithoutRotations) {
+  Trajectory reference = truth();
+  for (StampedPose& pose : reference) pose.world_from_body.rotation = Rotation::Identity();
+  Trajectory estimate = without_errors();
+  for (StampedPose& pose : estimate) pose.stamp = 1.0 + 1.005 * (pose.stamp - 1.0);
+  std::vector<Fault> found;
+  for (const auto& each : diagnosis(reference, estimate, "reference.txt", "run.txt").findings) {
+    found.push_back(each.fault);
+  }
+  EXPECT_THAT(found, testing::Contains(Fault::clock_drift));
+  EXPECT_THAT(found, testing::Not(testing::Contains(Fault::time_offset)));
+}
+
 TEST(Doctor, HalfAFrameOfOffset) {
   for (const double offset : {0.025, -0.025}) {
     Trajectory estimate = without_errors();

@@ -6,9 +6,9 @@
 namespace loopbench::methods {
 namespace {
 
-/// Angles about z that were measured out of the plane are mostly noise, and their product with a
-/// rate would take it away.
-double turn_of(const Edge& edge, bool planar) {
+/// Rotation about z in the plane. In space, measured roll and pitch of a vehicle are mostly noise,
+/// and the best rate would be -1, which removes all rotation.
+double planar_rotation(const Edge& edge, bool planar) {
   return planar ? log_so3(edge.from_from_to.rotation).z() : 0.0;
 }
 
@@ -23,10 +23,10 @@ Eigen::MatrixXd rate_shapes(const Problem& problem,
   };
   const Eigen::MatrixXd by_length =
       change([](const Edge& edge) { return edge.from_from_to.translation.norm(); });
-  const Eigen::MatrixXd by_turn =
-      change([&](const Edge& edge) { return turn_of(edge, problem.planar); });
+  const Eigen::MatrixXd by_rotation =
+      change([&](const Edge& edge) { return planar_rotation(edge, problem.planar); });
   Eigen::MatrixXd out(jacobian.gap.size(), 4);
-  out << by_length.rightCols<3>(), by_turn.col(5);
+  out << by_length.rightCols<3>(), by_rotation.col(5);
   if (problem.planar) out.leftCols<2>().setZero();
   return out;
 }
@@ -37,7 +37,7 @@ Problem without_drift(Problem problem, const DriftRates& rates) {
   for (std::size_t i = 0; i < problem.odometry.size(); ++i) {
     const Edge& edge = problem.odometry[i];
     Vector3 error = edge.from_from_to.translation.norm() * rates.head<3>();
-    error.z() += turn_of(edge, problem.planar) * rates[3];
+    error.z() += planar_rotation(edge, problem.planar) * rates[3];
     Pose& measured = problem.odometry[i].from_from_to;
     measured = normalized(measured * exp_se3(twist(Vector3::Zero(), error)));
     problem.keyframes[i + 1].world_from_body =

@@ -7,7 +7,7 @@
 
 namespace loopbench::methods {
 
-/// What the loops of one chain state about the rates b: the likelihood is exp(-misfit + b' vector -
+/// Likelihood of the rates b, given the loops of one chain: exp(-misfit + b' vector -
 /// b' information b / 2) up to a constant.
 struct MeasuredRates {
   DriftRates vector;

@@ -182,7 +182,8 @@ Trajectory MotionDrift::correct(const Problem& problem, Report& report) const {
     return correct_rigid(remove_scale_drift(problem), report, false);
   }
   if (!options_.related || !problem.related) return correct_rigid(problem, report, false);
-  const DriftRates shared = report.time("related chains", [&] { return repeated_drift(problem); });
+  const DriftRates shared =
+      report.time("related chains", [&] { return repeated_drift(problem, report); });
   count_rates(shared, report);
   if (shared.isZero(0.0)) return correct_rigid(problem, report, false);
   return correct_rigid(without_drift(problem, shared), report, true);

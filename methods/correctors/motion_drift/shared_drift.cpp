@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "methods/correctors/chain.hpp"
@@ -236,7 +237,7 @@ SharedDrift shared_drift(const std::vector<Problem>& chains) {
   return out;
 }
 
-DriftRates repeated_drift(const Problem& problem) {
+DriftRates repeated_drift(const Problem& problem, Report& report) {
   constexpr std::size_t kChains = 3, kClosures = 16;
   constexpr double kErrors = 3.0;
   std::vector<Problem> chains;
@@ -250,7 +251,12 @@ DriftRates repeated_drift(const Problem& problem) {
     }
   }
   DriftRates out = DriftRates::Zero();
-  if (chains.size() < kChains || closures < kClosures) return out;
+  if (chains.size() < kChains || closures < kClosures) {
+    report.notes.push_back("nothing is learnt from " + std::to_string(chains.size()) +
+                           " related chains with " + std::to_string(closures) +
+                           " closures: 3 chains with 16 closures are needed");
+    return out;
+  }
   const SharedDrift shared = shared_drift(chains);
   for (Eigen::Index k = 0; k < 4; ++k) {
     const double square = shared.mean[k] * shared.mean[k];

@@ -6,6 +6,7 @@
 
 #include "datasets/core/problem.hpp"
 #include "methods/correctors/loop_covariance.hpp"
+#include "methods/report.hpp"
 
 namespace loopbench::methods {
 
@@ -34,10 +35,11 @@ SharedDrift shared_drift(const std::vector<Problem>& chains);
 /// The chain with the rates removed from its odometry and keyframes. O(edges).
 Problem without_drift(Problem problem, const DriftRates& rates);
 
-/// The rates of `problem.related` that may be removed from `problem`; zero if there are fewer than
-/// three chains or 16 closures to learn from. A rate has to be three times its standard error and
-/// larger than the deviation between chains, and none is removed if the own loops are less likely
-/// without them.
-DriftRates repeated_drift(const Problem& problem);
+/// The rates of `problem.related` that may be removed from `problem`; zero, with a note, if there
+/// are fewer than three chains or 16 closures to learn from. Rates about axes out of the plane are
+/// not removed from a planar problem, nor rates per radian from others. A rate has to be three
+/// times its standard error and larger than the deviation between chains, and none is removed if
+/// the chain's own loops are less likely without them.
+DriftRates repeated_drift(const Problem& problem, Report& report);
 
 }  // namespace loopbench::methods
