@@ -15,7 +15,7 @@ std::optional<StampRepair> check_clock_drift(const Trajectory& reference,
   constexpr double kLeast = 0.015, kOfInterval = 0.1, kDeviations = 3.0;  // of the change [s]
   constexpr double kLeastRate = 5e-4;  // clocks of computers differ by 1e-4 at most
   constexpr double kMostRate = 0.01, kOfChange = 0.3;
-  constexpr double kMostOfErrors = 0.98;
+  constexpr double kMostOfRotation = 0.98, kMostOfPosition = 0.5;  // of the error before
   constexpr std::size_t kParts = 3;
   const std::size_t n = estimate.size();
   if (n < kParts * kFewestCommonPoses) return std::nullopt;
@@ -51,7 +51,7 @@ std::optional<StampRepair> check_clock_drift(const Trajectory& reference,
   const bool turns = before.has_rotations;
   const double ratio =
       turns ? after.turning / before.turning : after.similarity / before.similarity;
-  if (!(ratio < kMostOfErrors)) return std::nullopt;
+  if (!(ratio < (turns ? kMostOfRotation : kMostOfPosition))) return std::nullopt;
   return StampRepair{
       {Fault::clock_drift,
        fmt::format(
