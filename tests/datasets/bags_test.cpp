@@ -140,7 +140,7 @@ std::string recording(const char* name) {
 TEST(RealBags, FramesAreListedWhateverIsMissing) {
   if (recording("").empty()) GTEST_SKIP() << "needs LOOPBENCH_DATA";
   const std::string file = recording("tf_example.bag");
-  for (const std::string name : {file, "bag:" + file + "#/odom", "bag:" + file + "#/tf"}) {
+  for (const std::string& name : {file, "bag:" + file + "#/odom", "bag:" + file + "#/tf"}) {
     EXPECT_THAT(refusal([&] { read_trajectory(name); }),
                 HasSubstr("tf:PARENT.CHILD; frames: base_footprint, base_link, odom)"));
   }
