@@ -177,7 +177,7 @@ Params reading_options(const EvalArguments& a) {
   }
   Params out{{"format", to_text(format_of("format", a.format))},
              {"reference_format", to_text(format_of("ref-format", reference_format(a)))},
-             {"repeats", to_text(repeats_of(a))},
+             {"repeats", repeats_of(a) == Repeats::keep_all ? "keep_all" : to_text(repeats_of(a))},
              {"times", a.times},
              {"reference_body", a.reference_body.value_or("")},
              {"period", period}};

@@ -63,7 +63,8 @@ TEST_F(Odometer, CellsDependOnItsOtherChains) {
 
 TEST_F(Odometer, ChainsReachTheProcessOfACell) {
   const Sequence sent = load(0);
-  Unpacker unpacker(packed(sent));
+  const std::string bytes = packed(sent);
+  Unpacker unpacker(bytes);
   Sequence received;
   unpacker(received);
   ASSERT_NE(received.problem.related, nullptr);
