@@ -48,23 +48,23 @@ std::optional<StampRepair> check_clock_drift(const Trajectory& reference,
   const Agreement before =
       agreement(common_poses(reference, estimate, found[1].offset, kMostCommonPoses));
   const Agreement after = agreement(common_poses(reference, corrected, 0.0, kMostCommonPoses));
-  const bool turns = before.has_rotations;
+  const bool by_rotation = before.has_rotations;
   const double ratio =
-      turns ? after.turning / before.turning : after.similarity / before.similarity;
-  if (!(ratio < (turns ? kMostOfRotation : kMostOfPosition))) return std::nullopt;
+      by_rotation ? after.turning / before.turning : after.similarity / before.similarity;
+  if (!(ratio < (by_rotation ? kMostOfRotation : kMostOfPosition))) return std::nullopt;
   return StampRepair{
       {Fault::clock_drift,
-       fmt::format(
-           "the estimate's clock drifts by {:.3f} %: its offset grows from {:.3f} to "
-           "{:.3f} s; {}",
-           100.0 * rate,
-           found[0].offset,
-           found[2].offset,
-           turns ? fmt::format("error of relative rotations {:.1f} -> {:.1f} %",
-                               100.0 * before.turning,
-                               100.0 * after.turning)
-                 : fmt::format(
-                       "position error {:.3g} -> {:.3g} m", before.similarity, after.similarity)),
+       fmt::format("the estimate's clock drifts by {:.3f} %: its offset grows from {:.3f} to "
+                   "{:.3f} s; {}",
+                   100.0 * rate,
+                   found[0].offset,
+                   found[2].offset,
+                   by_rotation ? fmt::format("error of relative rotations {:.1f} -> {:.1f} %",
+                                             100.0 * before.turning,
+                                             100.0 * after.turning)
+                               : fmt::format("position error {:.3g} -> {:.3g} m",
+                                             before.similarity,
+                                             after.similarity)),
        fmt::format(
            "correct its stamps t: t + {:.4f} + {:.6f} (t - {:.3f})", drifted(origin), rate, origin),
        1.0 - error / std::abs(change),
