@@ -22,20 +22,25 @@ template <int D>
 std::vector<std::size_t> EliminationTree<D>::affected_by(const std::vector<std::size_t>& touched) {
   std::vector<std::size_t> out;
   for (std::size_t pose : touched) {
+    const auto begin = static_cast<std::ptrdiff_t>(out.size());
     for (; pose != kNone && pose != 0 && is_marked_[pose] == 0; pose = nodes_[pose].parent) {
       is_marked_[pose] = 1;
       out.push_back(pose);
     }
+    std::reverse(out.begin() + begin, out.end());
   }
-  std::ranges::sort(out);
+  // A path ends below a pose of an earlier one: later paths come first.
+  std::ranges::reverse(out);
   return out;
 }
 
 template <int D>
-std::vector<std::size_t> EliminationTree<D>::ordered(const std::vector<std::size_t>& affected,
-                                                     const Graph& graph) {
+std::vector<std::size_t> EliminationTree<D>::ordered(const Graph& graph) const {
+  std::vector<std::size_t> affected;
   std::vector<std::vector<std::size_t>> cliques;
-  for (const std::size_t pose : affected) {
+  for (std::size_t pose = 0; pose < nodes_.size(); ++pose) {
+    if (is_marked_[pose] == 0) continue;
+    affected.push_back(pose);
     for (const std::size_t edge : graph.edges_of[pose]) {
       const EdgeEquations<D>& of = graph.equations[edge];
       if (of.from == pose && is_marked_[of.to] != 0) cliques.push_back({of.from, of.to});
@@ -45,12 +50,6 @@ std::vector<std::size_t> EliminationTree<D>::ordered(const std::vector<std::size
     }
   }
   return elimination_order(affected, cliques);
-}
-
-template <int D>
-std::vector<std::size_t> EliminationTree<D>::by_rank(std::vector<std::size_t> affected) const {
-  std::ranges::sort(affected, {}, [&](std::size_t pose) { return nodes_[pose].rank; });
-  return affected;
 }
 
 template <int D>
@@ -176,8 +175,7 @@ std::vector<std::size_t> EliminationTree<D>::update(const std::vector<std::size_
                                                     const Graph& graph,
                                                     bool has_new_edges) {
   const std::vector<std::size_t> affected = affected_by(touched);
-  const std::vector<std::size_t> order =
-      has_new_edges ? ordered(affected, graph) : by_rank(affected);
+  const std::vector<std::size_t> order = has_new_edges ? ordered(graph) : affected;
   std::vector<std::size_t> orphans;
   for (const std::size_t pose : affected) {
     for (const std::size_t child : nodes_[pose].children) {

@@ -62,9 +62,10 @@ class EliminationTree {
     Eigen::MatrixXd schur;
   };
 
+  /// Marks these poses and their ancestors. Returns them, each before its parent.
   std::vector<std::size_t> affected_by(const std::vector<std::size_t>& touched);
-  std::vector<std::size_t> ordered(const std::vector<std::size_t>& affected, const Graph& graph);
-  std::vector<std::size_t> by_rank(std::vector<std::size_t> affected) const;
+  /// The marked poses in a new order.
+  std::vector<std::size_t> ordered(const Graph& graph) const;
   void attach_to_parent(std::size_t pose);
   void eliminate(std::size_t pose, const Graph& graph);
   template <class Equations, class Poses>

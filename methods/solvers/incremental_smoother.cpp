@@ -152,6 +152,7 @@ class IncrementalSmoother final : public Incremental {
     const std::size_t index = constraints_.size();
     constraints_.push_back({edge, G::inverse(measured), G::information(edge, 1.0), is_odometry});
     graph_.equations.push_back({edge.from, edge.to, {}});
+    is_linearised_.push_back(0);
     has_new_edges_ = true;
     linearise(index);
     for (const std::size_t end : {edge.from, edge.to}) {
@@ -207,11 +208,13 @@ class IncrementalSmoother final : public Incremental {
   /// Linearises the edges at these poses and touches their ends.
   void relinearise_edges(const std::vector<std::size_t>& poses) {
     std::vector<std::size_t> edges;
-    for (const std::size_t i : poses)
-      edges.insert(edges.end(), graph_.edges_of[i].begin(), graph_.edges_of[i].end());
-    std::ranges::sort(edges);
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    for (const std::size_t i : poses) {
+      for (const std::size_t edge : graph_.edges_of[i]) {
+        if (std::exchange(is_linearised_[edge], 1) == 0) edges.push_back(edge);
+      }
+    }
     for (const std::size_t edge : edges) {
+      is_linearised_[edge] = 0;
       linearise(edge);
       touched_.push_back(constraints_[edge].edge.from);
       touched_.push_back(constraints_[edge].edge.to);
@@ -227,11 +230,12 @@ class IncrementalSmoother final : public Incremental {
   std::vector<Constraint> constraints_;
   typename EliminationTree<G::kDof>::Graph graph_;  ///< edge k: constraint k
   EliminationTree<G::kDof> tree_;
-  bool has_new_edges_ = false;      ///< since the last elimination
-  int iterations_ = 0;              ///< of the current update
-  double chi2_ = 0.0;               ///< at the estimate, kept up to date for `gate`
-  std::vector<std::size_t> moved_;  ///< by the closure that is tested
-  std::size_t kept_ = 0;            ///< closures
+  std::vector<char> is_linearised_;  ///< edges: already in this relinearisation
+  bool has_new_edges_ = false;       ///< since the last elimination
+  int iterations_ = 0;               ///< of the current update
+  double chi2_ = 0.0;                ///< at the estimate, kept up to date for `gate`
+  std::vector<std::size_t> moved_;   ///< by the closure that is tested
+  std::size_t kept_ = 0;             ///< closures
 };
 
 }  // namespace
