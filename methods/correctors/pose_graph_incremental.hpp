@@ -41,6 +41,11 @@ void fields(IncrementalSettings& o, Visit visit) {
         o.tolerance,
         "largest correction of a pose that is not relinearised [m], [rad]",
         GreaterThan{0.0});
+  visit("decrease",
+        o.decrease,
+        "an update ends when another linearisation is expected to lower chi2 by less than this "
+        "share of it",
+        Between{0.0, 1.0});
   visit("max_iterations",
         o.max_iterations,
         "maximum number of linearisations per update",

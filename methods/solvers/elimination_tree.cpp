@@ -151,6 +151,7 @@ void EliminationTree<D>::eliminate(std::size_t pose, const Graph& graph) {
         beside.leftCols(j + D).transpose() * beside.template middleCols<D>(j);
   }
   node.schur.col(rest).noalias() -= beside.leftCols(rest).transpose() * beside.col(rest);
+  decrease_ += beside.col(rest).squaredNorm();
   node.separator.assign(front_poses.begin() + 1, front_poses.end());
   ++eliminations_;
 }
@@ -188,6 +189,7 @@ std::vector<std::size_t> EliminationTree<D>::update(const std::vector<std::size_
     is_marked_[pose] = 0;
   }
   for (const std::size_t orphan : orphans) attach_to_parent(orphan);
+  decrease_ = 0.0;
   for (const std::size_t pose : order) {
     eliminate(pose, graph);
     attach_to_parent(pose);

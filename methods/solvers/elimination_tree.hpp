@@ -45,6 +45,10 @@ class EliminationTree {
   /// Solution of the equations for one pose.
   const Vector& correction(std::size_t pose) const { return nodes_[pose].correction; }
 
+  /// Decrease of the quadratic cost from the points of linearisation to the solution, in the poses
+  /// that the last update eliminated.
+  double decrease() const { return decrease_; }
+
   /// Number of eliminations so far.
   std::size_t eliminations() const { return eliminations_; }
 
@@ -77,6 +81,7 @@ class EliminationTree {
   std::vector<Eigen::Index> slot_;  ///< of a pose in the rows of the current one, or -1
   std::size_t next_rank_ = 1;
   std::size_t eliminations_ = 0;
+  double decrease_ = 0.0;
 };
 
 }  // namespace loopbench::methods

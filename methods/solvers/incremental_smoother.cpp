@@ -42,6 +42,7 @@ class IncrementalSmoother final : public Incremental {
     Element to_from_measured_from;
     typename G::Square information;
     bool is_odometry = true;
+    double cost = 0.0;    ///< its part of cost_
     double chi2 = 0.0;    ///< its part of chi2_
     double mu = 0.0;      ///< `graduated`: 0, the loss is convex, to 1
     double weight = 1.0;  ///< of the information
@@ -72,26 +73,37 @@ class IncrementalSmoother final : public Incremental {
     }
   }
 
-  /// Updates the factorisation until no correction exceeds the tolerance.
+  /// Updates the factorisation until no correction exceeds the tolerance, or another linearisation
+  /// is not worth its time.
   void optimise() {
+    double before = 0.0;
     for (int i = 0; i < settings_.max_iterations && !touched_.empty(); ++i) {
       ++iterations_;
       const std::vector<std::size_t> touched = std::exchange(touched_, {});
       const std::vector<std::size_t> solved =
           tree_.update(touched, graph_, std::exchange(has_new_edges_, false));
-      relinearise(solved);
+      for (const std::size_t pose : solved) {
+        set_estimate(pose, G::compose(at_[pose], G::exp(tree_.correction(pose))));
+      }
       if (is(IncrementalRobustness::graduated)) {
         for (const std::size_t pose : solved) {
           for (const std::size_t edge : graph_.edges_of[pose]) reweigh(edge);
         }
       }
-      if (!is(IncrementalRobustness::gate)) continue;
-      moved_.insert(moved_.end(), solved.begin(), solved.end());
-      for (const std::vector<std::size_t>* moved : {&touched, &solved}) {
-        for (const std::size_t pose : *moved) {
-          for (const std::size_t edge : graph_.edges_of[pose]) update_chi2(edge);
+      if (is(IncrementalRobustness::gate)) {
+        moved_.insert(moved_.end(), solved.begin(), solved.end());
+        for (const std::vector<std::size_t>* moved : {&touched, &solved}) {
+          for (const std::size_t pose : *moved) {
+            for (const std::size_t edge : graph_.edges_of[pose]) update_chi2(edge);
+          }
         }
       }
+      // Gauss-Newton converges linearly: the next decrease is to this one as this one to the last.
+      const double now = tree_.decrease();
+      const double next = before > 0.0 ? now * now / before : now;
+      if (i > 0 && touched_.empty() && next <= settings_.decrease * cost_) break;
+      before = now;
+      relinearise(solved);
     }
   }
 
@@ -168,6 +180,7 @@ class IncrementalSmoother final : public Incremental {
     const auto found = std::ranges::find_if(graph_.edges_of[edge.to], is_it);
     if (found == graph_.edges_of[edge.to].end()) return;
     const std::size_t index = *found;
+    cost_ -= constraints_[index].cost;
     chi2_ -= constraints_[index].chi2;
     --kept_;
     for (const std::size_t end : {edge.from, edge.to}) {
@@ -185,20 +198,19 @@ class IncrementalSmoother final : public Incremental {
     Constraint& of = constraints_[index];
     const EdgeResidual<G> residual =
         edge_residual<G>(of.to_from_measured_from, at_[of.edge.from], at_[of.edge.to]);
+    const double cost = of.weight * residual.error.dot(of.information * residual.error);
+    cost_ += cost - std::exchange(of.cost, cost);
     Eigen::Matrix<double, G::kDof, 2 * G::kDof + 1> jacobian;
     jacobian << residual.by_from, residual.by_to, -residual.error;
     graph_.equations[index].matrix = jacobian.template leftCols<2 * G::kDof>().transpose() *
                                      (of.weight * (of.information * jacobian));
   }
 
-  /// Writes the poses of `solved`, and moves the points of linearisation whose corrections exceed
-  /// the tolerance.
+  /// Moves the points of linearisation whose corrections exceed the tolerance.
   void relinearise(const std::vector<std::size_t>& solved) {
     std::vector<std::size_t> moved;
     for (const std::size_t i : solved) {
-      const typename G::Tangent correction = tree_.correction(i);
-      set_estimate(i, G::compose(at_[i], G::exp(correction)));
-      if (correction.cwiseAbs().maxCoeff() <= settings_.tolerance) continue;
+      if (tree_.correction(i).cwiseAbs().maxCoeff() <= settings_.tolerance) continue;
       at_[i] = now_[i];
       moved.push_back(i);
     }
@@ -233,6 +245,7 @@ class IncrementalSmoother final : public Incremental {
   std::vector<char> is_linearised_;  ///< edges: already in this relinearisation
   bool has_new_edges_ = false;       ///< since the last elimination
   int iterations_ = 0;               ///< of the current update
+  double cost_ = 0.0;                ///< at the points of linearisation
   double chi2_ = 0.0;                ///< at the estimate, kept up to date for `gate`
   std::vector<std::size_t> moved_;   ///< by the closure that is tested
   std::size_t kept_ = 0;             ///< closures

@@ -19,7 +19,8 @@ inline auto choices(IncrementalRobustness) {
 }
 
 struct IncrementalSettings {
-  double tolerance = 1e-6;   ///< largest change of a pose at convergence [m], [rad]
+  double tolerance = 1e-6;   ///< largest correction without a new linearisation [m], [rad]
+  double decrease = 1e-12;   ///< smallest decrease, relative to the cost, that is worth one
   int max_iterations = 100;  ///< linearisations per update
   IncrementalRobustness robust = IncrementalRobustness::none;
 };
@@ -31,7 +32,8 @@ struct IncrementalSettings {
 /// of these is its parent. New, withdrawn and relinearised edges concern the poses at their ends
 /// and all ancestors of these in the elimination tree; only those are ordered (minimum degree, the
 /// newest one last) and eliminated again. Corrections are propagated down the tree as far as they
-/// change. A pose is relinearised when its correction exceeds the tolerance, until none does.
+/// change. A pose is relinearised when its correction exceeds the tolerance, until none does, or
+/// until the next decrease of the cost, extrapolated from the last two, is below `decrease`.
 ///
 /// On a chain, a closure concerns the poses along its loop, so an update is O(loop) with a factor
 /// for the number of loops that overlap there, and O(keyframes) for the copy of the result. A new
