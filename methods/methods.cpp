@@ -20,7 +20,6 @@
 #include "methods/smoothers/smoothing_spline.hpp"
 #include "methods/smoothers/spline_regression.hpp"
 #include "methods/smoothers/tracked_frames.hpp"
-#include "methods/smoothers/trend_filter.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -135,7 +134,6 @@ std::vector<MethodEntry> methods() {
       method<SavitzkyGolay>("savitzky_golay", "local polynomial regression in time"),
       method<SmoothingSpline>("smoothing_spline",
                               "penalised cubic spline, penalty chosen by REML or GCV"),
-      method<TrendFilter>("trend_filter", "piecewise linear motion by L1 trend filtering"),
       method<GaussianProcess>("gp_wnoa", "Gaussian process on SE(3), white noise on acceleration"),
       method<GaussianProcess>("gp_wnoj",
                               "Gaussian process on SE(3), white noise on jerk",

@@ -1,14 +1,18 @@
 #include "harness/catalogue/program_output.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <optional>
 #include <sstream>
 
 #include "datasets/core/error.hpp"
-#include "harness/base/file_lock.hpp"
 #include "harness/base/hash.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/catalogue/scratch.hpp"
@@ -19,6 +23,27 @@ namespace {
 constexpr const char* kOpen = "open.txt";
 constexpr const char* kRecord = "record";  // hashes of the output as it was written, and the cost
 constexpr const char* kSuffixes[] = {"", ".frames", ".loops", ".closed"};
+
+/// Locks a file, which is created if it is absent and stays, until destroyed or until the process
+/// ends. Waits for other holders.
+class FileLock {
+ public:
+  /// Throws InputError if the file cannot be opened for writing.
+  explicit FileLock(const std::filesystem::path& file)
+      : descriptor_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)) {
+    if (descriptor_ < 0) {
+      throw InputError(file.string() + ": cannot be written: " + std::strerror(errno));
+    }
+    while (flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+  ~FileLock() { close(descriptor_); }
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+ private:
+  int descriptor_;
+};
 
 /// "NAME HASH" lines of the program's output in a folder.
 std::string output_hashes(const std::filesystem::path& folder) {

@@ -19,14 +19,6 @@ namespace {
 
 using namespace gate_snapshot;
 
-TEST(Gate, PassesTheSameNumbers) {
-  const GateReport report = after([](Snapshot&) {});
-  EXPECT_TRUE(report.passes());
-  EXPECT_TRUE(report.findings.empty());
-  EXPECT_EQ(report.cells, 16u);
-  EXPECT_EQ(report.scores, 16u);
-}
-
 TEST(Gate, NamesTheCellWhoseNumberMovedBeyondItsLimit) {
   const GateReport report = after([](Snapshot& now) { rmse(now, 3) *= 1.0011; });
   ASSERT_EQ(report.findings.size(), 1u);
@@ -211,16 +203,6 @@ TEST(Gate, TellsTheOptionsThatDiffer) {
       with("simulated: laps=1, path=room; a.txt 3 cafe"),
       "the baseline defines the sequence 'room' differently: it has 'a.txt 3 beef', these results "
       "have 'a.txt 3 cafe'");
-}
-
-TEST(Gate, RefusesOtherInputsAndProtocols) {
-  EXPECT_EQ(refusal_of([] { after([](Snapshot& now) { now.sequences["room"] = "path=city"; }); }),
-            "the baseline defines the sequence 'room' differently: it has 'path=room', these "
-            "results have "
-            "'path=city'");
-  EXPECT_NE(refusal_of([] { after([](Snapshot& now) { now.protocols.clear(); }); }), "");
-  EXPECT_NE(refusal_of([] { after([](Snapshot& n) { n.protocols["loopbench [1]"] = ""; }); }), "");
-  EXPECT_EQ(refusal_of([] { after([](Snapshot& now) { now.sequences.clear(); }); }), "");
 }
 
 TEST(Gate, RefusesAnotherSweepEvenWhereAPartWouldDo) {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "harness/compare/baseline_file.hpp"
 #include "tests/support/command.hpp"
@@ -173,29 +172,6 @@ TEST_F(VerdictCli, TheGateLooksAtTimesWhenTold) {
   EXPECT_EQ(run("check r --baseline t.json --time 1").exit_code, 2);
 }
 
-TEST_F(VerdictCli, TablesEscapeNamesInEveryFormat) {
-  const std::string table = "table r --split times --rows sequence --columns score --show ate";
-  EXPECT_TRUE(has(run(table).out, "| off\\|ice\\_&amp;%&lt;b> |")) << run(table).out;
-  EXPECT_TRUE(has(run(table + " --format latex").out,
-                  "off\\textbar{}ice\\_\\&\\%\\textless{}b\\textgreater{} & "));
-  EXPECT_TRUE(has(run(table + " --format terminal").out, "off|ice_&%<b>"));
-  EXPECT_TRUE(has(run(table + " --format json").out, "\"off|ice_&%<b>\""));
-  EXPECT_TRUE(has(run(table + " --format csv").out, ",off|ice_&%<b>,"));
-}
-
-TEST_F(VerdictCli, TablesMarkTheBestOnlyWhereItIsSignificant) {
-  const std::string table = "table r --columns score --show ate --where unit=m";
-  const std::string pooled = run(table + " --split times").out;
-  EXPECT_TRUE(std::regex_search(pooled, std::regex("uniform +\\| \\*\\*[0-9.]+\\*\\*"))) << pooled;
-  EXPECT_TRUE(has(pooled, "- marked: best and second best, if significantly"));
-  const std::string apart = run(table + " --split sequence").out;
-  EXPECT_FALSE(has(apart, "**")) << apart;
-  EXPECT_TRUE(
-      has(apart,
-          "- no best value is marked: 4 independent runs per entry cannot show a difference at "
-          "0.05"));
-}
-
 TEST_F(VerdictCli, TheGatePassesItsOwnNumbers) {
   const CommandResult result = run("check r --baseline b.json --junit j.xml --markdown m.md");
   EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
@@ -252,16 +228,6 @@ TEST_F(VerdictCli, AnUpdateKeepsTheLimits) {
   folder_->file("strict.json", text.replace(at, 16, "\"relative\":0.002"));
   EXPECT_EQ(run("check r --baseline strict.json --update").exit_code, 0);
   EXPECT_TRUE(has(read("strict.json"), "\"relative\":0.002"));
-}
-
-TEST_F(VerdictCli, ReportWritesOneFileThatEscapesItsNames) {
-  const CommandResult result = run("report r -o new/report.html");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  const std::string html = read("new/report.html");
-  EXPECT_TRUE(has(html, "off|ice_&amp;%&lt;b&gt;"));
-  EXPECT_FALSE(has(html, "%<b>"));
-  EXPECT_EQ(run("report nowhere").exit_code, 2);
-  EXPECT_EQ(run("report r -o c.yaml/report.html").exit_code, 2);
 }
 
 TEST_F(VerdictCli, NoCommandWritesOverWhatItReads) {

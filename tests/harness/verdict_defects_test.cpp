@@ -97,13 +97,6 @@ TEST(Defect3, PIsThatOfTheTestWhereRankAndMeanDisagree) {
   EXPECT_TRUE(has(verdict(c), "on most runs, but the geometric mean ratio is 0.8")) << verdict(c);
 }
 
-TEST(Defect4, RunsThatAreFarBetterKeepTheClaim) {
-  std::vector<double> ratios = about(0.95, 10);
-  EXPECT_TRUE(compared(pairs(ratios), kAgainstRaw).is_best);
-  ratios[3] = ratios[7] = 0.61;
-  EXPECT_TRUE(compared(pairs(ratios), kAgainstRaw).is_best);
-}
-
 TEST(Defect5, TheOrderOfEqualMethodsOnOneSequenceIsInTheSentence) {
   std::vector<Record> records;  // smooth is 0.3 % below dm, but 3 % above it on `sparse`
   for (int seed = 0; seed < 16; ++seed) {
@@ -165,26 +158,6 @@ TEST(Defect8, HalfOfThePathIsNeverBest) {
   EXPECT_FALSE(c.is_best);
   EXPECT_TRUE(verdict(c).starts_with("no method is called best: dual covers 52 % of the reference"))
       << verdict(c);
-}
-
-TEST(Defect10, ASecondLabelOfAMethodCostsNothing) {
-  std::vector<Record> records = pairs(about(0.8, 8));
-  for (int run = 0; run < 8; ++run) {
-    const double turn = (run * 3) % 8 - 3.5;
-    records.push_back(score("room", run, "second", size_of(run) * (1.01 + 0.02 * turn)));
-    const double other = (run * 5) % 8 - 3.5;
-    records.push_back(score("room", run, "third", size_of(run) * (1.0 - 0.015 * other)));
-  }
-  const Comparison alone = compared(records, kAgainstRaw);
-  EXPECT_TRUE(alone.is_best) << verdict(alone);
-  for (Record r : pairs(about(0.8, 8))) {
-    if (r.method == "raw") continue;
-    r.method = "dual again";
-    records.push_back(r);
-  }
-  const Comparison c = compared(records, kAgainstRaw);
-  EXPECT_EQ(*find(c, "dual").p, *find(alone, "dual").p);
-  EXPECT_TRUE(c.is_best) << verdict(c);
 }
 
 TEST(Defect12, TheLeadersIntervalHoldsAmongTwentyOneEqualMethods) {
