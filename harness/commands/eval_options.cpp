@@ -183,12 +183,21 @@ void declare(CLI::App& command, EvalArguments& a) {
                   a.unit,
                   "Unit of lengths (mm, cm, m, km) or angles (deg, rad) in the results")
       ->type_name("WORD:mm|cm|m|km|deg|rad");
+  command
+      .add_option("--columns",
+                  a.columns,
+                  "Comma-separated columns of the table, or of --csv, by their headings with or "
+                  "without unit (ate,rpe_1_s,coverage)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAMES");
   command.add_flag("--full", a.full, "Print all statistics, single axes and the diagnosis");
   flag("--all_pairs", "pairs=all", "Use all pairs for rpe");
   flag("--pairs_from_reference",
        "pairs_from=reference",
        "Measure --delta along REF instead of the estimate");
-  command.add_flag("--json", a.json, "Print JSON in full precision, one list entry per evaluation");
+  command.add_flag("--json", a.json, "Print JSON in full precision, one list entry per evaluation")
+      ->excludes("--columns");
   command
       .add_flag(
           "--csv", a.csv, "Print a CSV line per score in full precision, as `export --what rows`")
@@ -227,6 +236,7 @@ void declare(CLI::App& command, EvalArguments& a) {
       ->type_name("DIR")
       ->excludes("--json")
       ->excludes("--csv")
+      ->excludes("--columns")
       ->excludes("--unit")
       ->excludes("--save_results")
       ->excludes("--per-pose");
