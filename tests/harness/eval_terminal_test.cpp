@@ -55,6 +55,14 @@ TEST_F(EvalOnATerminal, OneEstimateFits) {
   EXPECT_EQ(wide.out, loopbench_command("eval gt.txt a.txt", folder_).out);
 }
 
+TEST_F(EvalOnATerminal, HelpBreaksListsOfChoices) {
+  std::istringstream help(run("eval --help", 60).out);
+  for (std::string line; std::getline(help, line);) {
+    const bool is_example = line.starts_with("  loopbench ");
+    EXPECT_TRUE(is_example || harness::width(line) <= 60) << line;
+  }
+}
+
 TEST_F(EvalOnATerminal, ColumnsAreChosen) {
   const auto last = [&](const std::string& arguments) {
     const CommandResult result = loopbench_command("eval gt.txt a.txt " + arguments, folder_);
