@@ -92,6 +92,7 @@ TEST_F(ReportScreens, EveryScoreOfTwoEstimatesIsInTheWindow) {
   const std::string dump = "--virtual-time-budget=5000 --dump-dom";
   EXPECT_EQ(title(dump, "phone.html"), "390 of true: well");
   EXPECT_EQ(title("--window-size=1280,800 " + dump), "1280 of true: well");
+  EXPECT_EQ(title("--window-size=1920,1080 " + dump), "1920 of true: well");
 }
 
 }  // namespace
