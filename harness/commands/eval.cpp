@@ -91,8 +91,8 @@ Detail detail_of(const EvalArguments& a) {
 std::string result_text(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
   const std::optional<TerminalStyle> style = terminal_style();
   const Detail detail = detail_of(a);
-  if (all.size() == 1) return text(all.front(), style, detail);
-  const std::vector<Table> tables = comparison(all, detail);
+  if (all.size() == 1) return text(all.front(), style, detail, a.columns);
+  const std::vector<Table> tables = comparison(all, detail, a.columns);
   std::string out;
   if (!style) out = markdown(tables);
   for (std::size_t i = 0; style && i < tables.size(); ++i) {
@@ -252,7 +252,7 @@ int eval(const EvalArguments& a, const Source& source) {
   if (a.json) {
     fmt::print("{}", json(all));
   } else if (a.csv) {
-    fmt::print("{}", csv(all_records(all)));
+    fmt::print("{}", csv(all_records(all), a.columns));
   } else {
     fmt::print("{}", printable(result_text(a, all)));
   }

@@ -19,11 +19,13 @@ void declare_files(CLI::App& command, EvalArguments& a) {
                   "stamped_groundtruth.txt and stamped_traj_estimate*.txt. If EST is a folder "
                   "ALGORITHM/DATASET/RUN.txt, REF is a folder with DATASET.txt")
       ->type_name("EST");
-  const auto word = [&](const char* name, std::string& value, const std::string& help) {
-    return command.add_option(name, value, help)->type_name("WORD");
-  };
-  word("--format", a.format, choice_list<Format>())->capture_default_str();
-  word("--ref-format", a.reference_format, "File format of REF, if different from --format");
+  command.add_option("--format", a.format, "File format")
+      ->type_name(choice_type<Format>())
+      ->capture_default_str();
+  command
+      .add_option(
+          "--ref-format", a.reference_format, "File format of REF, if different from --format")
+      ->type_name(choice_type<Format>());
   command
       .add_option("--ref-body",
                   a.reference_body,
@@ -49,10 +51,12 @@ void declare_files(CLI::App& command, EvalArguments& a) {
   };
   file("--cov", a.covariances, "EST");
   file("--ref-cov", a.reference_covariances, "REF");
-  word("--repeats",
-       a.repeats,
-       "Handling of equal stamps: " + choice_list<Repeats>() +
-           "; default: refuse, or all are kept if every protocol pairs as evo does");
+  command
+      .add_option("--repeats",
+                  a.repeats,
+                  "Handling of equal stamps; default: refuse, or all are kept if every protocol "
+                  "pairs as evo does")
+      ->type_name(choice_type<Repeats>());
   command.add_option("--times", a.times, "Times file for KITTI poses, one stamp per line [s]")
       ->type_name("FILE");
   command.add_option("--period", a.period, "Time between KITTI or g2o poses without stamps [s]")
@@ -89,14 +93,10 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
       ->type_name("FIELD=VALUE")
       ->allow_extra_args(false);
   // As evo's flag, or with a value: --align, --align sim3, --align=sim3.
-  auto* align =
-      command
-          .add_option("--align",
-                      a.align,
-                      "Alignment: " + choice_list<metrics::Align>() + "; without value: se3")
-          ->expected(0, 1)
-          ->default_str("se3")
-          ->type_name("HOW");
+  auto* align = command.add_option("--align", a.align, "Alignment (without value: se3)")
+                    ->expected(0, 1)
+                    ->default_str("se3")
+                    ->type_name(choice_type<metrics::Align>());
   auto* rigid = command.add_flag_callback(
       "-a", [&a] { a.align = "se3"; }, "Short for --align se3");
   command
@@ -118,12 +118,10 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
   };
   field("--n_to_align", "align_first", "Number of first pairs used for the alignment")
       ->type_name("INT");
-  field("--association",
-        "association",
-        "Association in time: " + choice_list<metrics::Association>());
-  field("--project_to_plane",
-        "project",
-        "Plane to project onto: " + choice_list<metrics::ProjectionPlane>());
+  field("--association", "association", "Association in time")
+      ->type_name(choice_type<metrics::Association>());
+  field("--project_to_plane", "project", "Plane to project onto")
+      ->type_name(choice_type<metrics::ProjectionPlane>());
   seconds(
       "--max-diff,--t_max_diff", "max_diff", "Maximum time difference between paired poses [s]");
   seconds("--max-gap", "max_gap", "Longest reference gap to interpolate across [s]");
@@ -156,23 +154,18 @@ void declare(CLI::App& command, EvalArguments& a) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   command
-      .add_option(
-          "-r,--pose_relation",
-          a.relation,
-          "Evaluate only ape and rpe, in the relation full, trans_part, rot_part, angle_deg, "
-          "angle_rad, point_distance, point_distance_error_ratio or rpy")
-      ->type_name("WORD")
+      .add_option("-r,--pose_relation", a.relation, "Evaluate only ape and rpe, in this relation")
+      ->type_name(
+          "WORD:full|trans_part|rot_part|angle_deg|angle_rad|point_distance|"
+          "point_distance_error_ratio|rpy")
       ->excludes(metric);
   command
       .add_option("-d,--delta", a.delta, "Distance between paired poses for rpe, in --delta_unit")
       ->type_name("NUMBER")
       ->excludes(metric)
       ->check(finite_number());
-  command
-      .add_option("-u,--delta_unit",
-                  a.delta_unit,
-                  "Unit of --delta: f, s, m, d or r (frames, s, m, deg, rad)")
-      ->type_name("WORD")
+  command.add_option("-u,--delta_unit", a.delta_unit, "Unit of --delta (frames, s, m, deg, rad)")
+      ->type_name("WORD:f|s|m|d|r")
       ->excludes(metric);
   const auto flag = [&](const char* option, const char* setting, const char* help) {
     command.add_flag_callback(
@@ -183,12 +176,21 @@ void declare(CLI::App& command, EvalArguments& a) {
                   a.unit,
                   "Unit of lengths (mm, cm, m, km) or angles (deg, rad) in the results")
       ->type_name("WORD:mm|cm|m|km|deg|rad");
+  command
+      .add_option("--columns",
+                  a.columns,
+                  "Comma-separated columns of the table, or of --csv, by their headings with or "
+                  "without unit (ate,rpe_1_s,coverage)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAMES");
   command.add_flag("--full", a.full, "Print all statistics, single axes and the diagnosis");
   flag("--all_pairs", "pairs=all", "Use all pairs for rpe");
   flag("--pairs_from_reference",
        "pairs_from=reference",
        "Measure --delta along REF instead of the estimate");
-  command.add_flag("--json", a.json, "Print JSON in full precision, one list entry per evaluation");
+  command.add_flag("--json", a.json, "Print JSON in full precision, one list entry per evaluation")
+      ->excludes("--columns");
   command
       .add_flag(
           "--csv", a.csv, "Print a CSV line per score in full precision, as `export --what rows`")
@@ -227,6 +229,7 @@ void declare(CLI::App& command, EvalArguments& a) {
       ->type_name("DIR")
       ->excludes("--json")
       ->excludes("--csv")
+      ->excludes("--columns")
       ->excludes("--unit")
       ->excludes("--save_results")
       ->excludes("--per-pose");

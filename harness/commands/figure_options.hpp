@@ -49,7 +49,7 @@ inline void declare_figure_options(CLI::App& command,
           ->check(CLI::Range(2.0, 100.0))
           ->type_name("PT"),
       command
-          .add_option("--columns",
+          .add_option("--panel-columns",
                       options.columns,
                       "Panels in a row; default: 2; of traj plot 3; of curves of eval 1")
           ->check(CLI::Range(1, 10))

@@ -58,7 +58,8 @@ std::string default_text(const std::string& text) {
 }
 
 constexpr std::size_t kWidest = 100;
-constexpr std::size_t kTextColumn = 26;  ///< of the descriptions
+constexpr std::size_t kLongestChoice = 40;  ///< longer ones are in the description
+constexpr std::size_t kTextColumn = 26;     ///< of the descriptions
 
 /// 0: unlimited.
 std::size_t help_width() { return std::min(kWidest, standard_output_style().width); }
@@ -119,11 +120,14 @@ class HelpFormatter final : public CLI::Formatter {
   std::string make_option(const CLI::Option* option, bool is_positional) const override {
     const std::vector<std::string> choices = choices_of(*option);
     const bool is_list = option->get_expected_max() == CLI::detail::expected_max_vector_size;
-    std::string value = choices.empty() ? placeholder(*option) : joined(choices, "|");
+    const std::string list = joined(choices, "|");
+    const bool is_short = list.size() <= kLongestChoice;
+    std::string value = choices.empty() || !is_short ? placeholder(*option) : list;
     if (is_positional && value == "TEXT") value.clear();
     const std::string name = joined(names_of(*option), ", ") + (value.empty() ? "" : " " + value) +
                              (is_list && !value.empty() ? " ..." : "");
     std::string help = option->get_description();
+    if (!is_short) help += ": " + joined(choices, " | ");
     if (!option->get_envname().empty()) {
       help += " (environment variable " + option->get_envname() + ")";
     }

@@ -17,16 +17,14 @@ void declare_inputs(CLI::App& verb, TrajArguments& a) {
                   "bag:FILE#/topic or bag:FILE#tf:PARENT.CHILD")
       ->required()
       ->expected(1, -1);
-  verb.add_option("-f,--format", a.reading.format, "Format of the files: auto, tum, kitti, ...")
-      ->type_name("WORD");
+  verb.add_option("-f,--format", a.reading.format, "Format of the files")
+      ->type_name(choice_type<Format>());
   verb.add_option("--times", a.reading.times, "Times of KITTI poses, one per line [s]")
       ->type_name("FILE");
   verb.add_option("--period", a.reading.period, "Time between poses without stamps [s]")
       ->check(finite_number());
-  verb.add_option("--repeats",
-                  a.reading.repeats,
-                  "Poses with a repeated stamp: refuse, keep_first or keep_last")
-      ->type_name("WORD");
+  verb.add_option("--repeats", a.reading.repeats, "Poses with a repeated stamp")
+      ->type_name(choice_type<Repeats>());
   verb.add_option("--tf", a.reading.tf, "Frames in the TF tree of bags without a topic")
       ->type_name("PARENT.CHILD");
   verb.add_flag("--all-topics", a.reading.all_topics, "All trajectories of bags without a topic");
@@ -102,8 +100,7 @@ void declare_transform(CLI::App& verb, TrajArguments& a) {
 }
 
 void declare_alignment(CLI::App& verb, TrajArguments& a) {
-  verb.add_option("--align", a.align, "Alignment: se3, sim3, scale, origin, posyaw, ...")
-      ->type_name("WORD");
+  verb.add_option("--align", a.align, "Alignment")->type_name(choice_type<metrics::Align>());
   verb.add_option("--align-first,--n_to_align", a.align_first, "Number of first pairs, 0 for all");
 }
 

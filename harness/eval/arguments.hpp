@@ -47,8 +47,9 @@ struct EvalArguments {
   std::string delta_unit;
   std::vector<std::string> metrics;  ///< NAME[:option=value,...]; empty: the default metrics
   std::vector<std::filesystem::path> plugins;
-  std::string unit;   ///< of lengths or angles in the results; empty: m and deg
-  bool full = false;  ///< print all scores and the diagnosis
+  std::vector<std::string> columns;  ///< of the table or CSV; empty: the default ones
+  std::string unit;                  ///< of lengths or angles in the results; empty: m and deg
+  bool full = false;                 ///< print all scores and the diagnosis
   bool json = false;
   bool csv = false;
   std::string save_results;  ///< zip of evo to write; empty: none

@@ -192,7 +192,8 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results,
 
 std::string text(const EvaluationResult& result,
                  const std::optional<TerminalStyle>& style,
-                 Detail detail) {
+                 Detail detail,
+                 const std::vector<std::string>& chosen) {
   const std::size_t columns = style ? std::max<std::size_t>(40, style->width) : 0;
   const auto line = [&](const char* name, const std::string& value) {
     return property(name, value, columns);
@@ -224,22 +225,29 @@ std::string text(const EvaluationResult& result,
     EvaluationResult row = result;
     row.estimate = std::filesystem::path(result.estimate).filename().string();
     std::erase_if(row.records, [&](const Record& record) {
-      return !is_total(record) || !is_in_summary(record, result.protocol.rules);
+      const bool is_wanted = !chosen.empty() || is_in_summary(record, result.protocol.rules);
+      return !is_total(record) || !is_wanted;
     });
     for (Record& record : row.records) {
       if (has_numbers(record.status)) record.status = Status::ok;
     }
-    Table summary = comparison({row}, detail).front();
+    Table summary = comparison({row}, detail, chosen).front();
     summary.title.clear();
     summary.notes = grouped(missing_scores(row, ""));
     return out + "\n" + terminal(summary, {style ? columns : 80, style && style->color});
   }
-  const std::string scores = terminal(scores_view(result, 6));
+  const auto view = [&](std::optional<int> digits) {
+    return with_columns({scores_view(result, digits)}, chosen).front();
+  };
+  const std::string scores = terminal(view(6));
   if (!style || fits(scores, columns)) return out + "\n" + scores;
-  return out + "\n" + terminal(scores_view(result, std::nullopt), {columns, style->color});
+  return out + "\n" + terminal(view(std::nullopt), {columns, style->color});
 }
 
-std::vector<Table> comparison(const std::vector<EvaluationResult>& results, Detail detail) {
+std::vector<Table> comparison(const std::vector<EvaluationResult>& results,
+                              Detail detail,
+                              const std::vector<std::string>& columns) {
+  if (!columns.empty() && detail == Detail::summary) detail = Detail::all;
   const bool has_totals = std::ranges::any_of(results, [](const EvaluationResult& result) {
     return std::ranges::any_of(result.records, is_total);
   });
@@ -258,7 +266,7 @@ std::vector<Table> comparison(const std::vector<EvaluationResult>& results, Deta
   }
   std::vector<Table> out;
   for (const Group& group : groups) out.push_back(comparison_of(group, detail, has_totals));
-  return out;
+  return with_columns(std::move(out), columns);
 }
 
 }  // namespace loopbench::harness

@@ -22,19 +22,6 @@ Format format_of(const char* option, const std::string& word) {
   return out;
 }
 
-/// As evo by default, whose association accepts equal stamps.
-Repeats repeats_of(const EvalArguments& a) {
-  Repeats out = Repeats::refuse;
-  if (a.repeats.empty()) {
-    const auto is_evo = [](const metrics::NamedProtocol& each) {
-      return each.rules.association == metrics::Association::evo;
-    };
-    return std::ranges::all_of(protocols(a), is_evo) ? Repeats::keep_all : out;
-  }
-  FieldType<Repeats>::assign("repeats", out, a.repeats);
-  return out;
-}
-
 const std::string& reference_format(const EvalArguments& a) {
   return a.reference_format.empty() ? a.format : a.reference_format;
 }
@@ -113,6 +100,18 @@ bool has_poses_of(Format wanted, const EvalArguments& a, const std::vector<Recor
 }
 
 }  // namespace
+
+Repeats repeats_of(const EvalArguments& a) {
+  Repeats out = Repeats::refuse;
+  if (a.repeats.empty()) {
+    const auto is_evo = [](const metrics::NamedProtocol& each) {
+      return each.rules.association == metrics::Association::evo;
+    };
+    return std::ranges::all_of(protocols(a), is_evo) ? Repeats::keep_all : out;
+  }
+  FieldType<Repeats>::assign("repeats", out, a.repeats);
+  return out;
+}
 
 RecordedFile recorded_reference(const std::string& file, const EvalArguments& a, bool with_digits) {
   RecordedFile out = read_recorded(

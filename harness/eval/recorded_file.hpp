@@ -36,6 +36,10 @@ RecordedFile recorded_estimate(const std::string& file,
 /// How latitudes and longitudes were converted, and rows without a fix.
 std::vector<std::string> reading_notes(const ReadFindings& findings, const std::string& whose);
 
+/// Handling of equal stamps: as stated, otherwise that of evo if every protocol pairs as evo does.
+/// Throws OptionError.
+Repeats repeats_of(const EvalArguments& arguments);
+
 /// The arguments by which all files are read, as options. Throws OptionError for invalid ones.
 Params reading_options(const EvalArguments& arguments);
 

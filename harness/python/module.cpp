@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "harness/config/choices.hpp"
 #include "harness/eval/correct.hpp"
 #include "harness/eval/evaluate_files.hpp"
+#include "harness/eval/recorded_file.hpp"
 #include "harness/python/arrays.hpp"
 #include "harness/python/manifold.hpp"
 #include "metrics/alignment/alignment.hpp"
@@ -61,6 +63,20 @@ py::tuple evaluate_files(harness::EvalArguments arguments,
   return to_python(results);
 }
 
+/// check(), which accepts equal stamps where `eval` keeps those of files.
+void check_array(Trajectory poses,
+                 const std::string& name,
+                 const harness::EvalArguments& arguments) {
+  if (harness::repeats_of(arguments) == Repeats::keep_all) {
+    double last = NAN;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const double stamp = std::exchange(last, poses[i].stamp);
+      if (poses[i].stamp == stamp) poses[i].stamp = std::nextafter(poses[i - 1].stamp, HUGE_VAL);
+    }
+  }
+  check(poses, name, Rotations::optional);
+}
+
 py::tuple evaluate_arrays(const harness::EvalArguments& arguments,
                           const Array& reference_rows,
                           const Array& estimate_rows) {
@@ -69,8 +85,8 @@ py::tuple evaluate_arrays(const harness::EvalArguments& arguments,
   std::vector<harness::EvaluationResult> results;
   {
     const py::gil_scoped_release unlocked;
-    check(reference.poses, "reference", Rotations::optional);
-    check(estimate.poses, "estimate", Rotations::optional);
+    check_array(reference.poses, "reference", arguments);
+    check_array(estimate.poses, "estimate", arguments);
     const ReferenceBody body = harness::reference_body(arguments);
     if (has_offset(body) && lacks_rotations(reference.poses)) {
       throw InputError("reference_body: found a reference without rotations, expected files");

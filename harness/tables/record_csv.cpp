@@ -1,15 +1,55 @@
 #include "harness/tables/record_csv.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
+#include "datasets/core/error.hpp"
 #include "harness/base/printable.hpp"
+#include "harness/base/suggest.hpp"
 
 namespace loopbench::harness {
 namespace {
+
+/// The fields of kRowsHeader, quoted where necessary.
+std::vector<std::string> fields_of(const Record& r) {
+  const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; };
+  const auto boolean = [](bool x) { return fmt::format("{}", x); };
+  std::vector<std::string> out{
+      quoted(r.sequence),
+      fmt::format("{}", r.repeat),
+      quoted(r.method),
+      quoted(r.closures),
+      boolean(r.oracle_closures),
+      boolean(r.oracle),
+      quoted(r.protocol),
+      quoted(r.protocol_version),
+      quoted(r.times),
+      quoted(r.metric),
+      quoted(metric_label(r)),
+      quoted(r.relation),
+      quoted(r.axis),
+      quoted(r.unit),
+      to_text(r.better),
+      r.better == metrics::Better::target ? fmt::format("{}", r.target) : ""};
+  // An undefined score has empty fields, not zeros.
+  const bool has_scores = !r.metric.empty() && has_numbers(r.status);
+  const auto score = [&](const std::string& text) { out.push_back(has_scores ? text : ""); };
+  const metrics::Statistics& s = r.statistics;
+  score(fmt::format("{}", s.count));
+  for (const double x :
+       {s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse, s.p90, s.p95, s.p99}) {
+    score(number(x));
+  }
+  score(fmt::format("{}", r.pairs));
+  score(fmt::format("{}", r.possible));
+  out.insert(out.end(), {number(r.milliseconds), quoted(to_text(r.status)), quoted(r.why)});
+  return out;
+}
 
 /// Whether a spreadsheet would evaluate the text. Numbers with a sign, also with a unit, and a dash
 /// are no formulas.
@@ -42,52 +82,33 @@ const char* const kRowsHeader =
     "relation,axis,unit,better,target,count,rmse,"
     "mean,median,std,min,max,sse,p90,p95,p99,pairs,possible,milliseconds,status,why\n";
 
-std::string csv_row(const Record& r) {
-  const metrics::Statistics& s = r.statistics;
-  std::string out =
-      fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},",
-                  quoted(r.sequence),
-                  r.repeat,
-                  quoted(r.method),
-                  quoted(r.closures),
-                  r.oracle_closures,
-                  r.oracle,
-                  quoted(r.protocol),
-                  quoted(r.protocol_version),
-                  quoted(r.times),
-                  quoted(r.metric),
-                  quoted(metric_label(r)),
-                  quoted(r.relation),
-                  quoted(r.axis),
-                  quoted(r.unit),
-                  to_text(r.better),
-                  r.better == metrics::Better::target ? fmt::format("{}", r.target) : "");
-  // An undefined score has empty fields, not zeros.
-  const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; };
-  out += r.metric.empty() || !has_numbers(r.status)
-             ? std::string(",,,,,,,,,,,,,")
-             : fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},",
-                           s.count,
-                           number(s.rmse),
-                           number(s.mean),
-                           number(s.median),
-                           number(s.std),
-                           number(s.min),
-                           number(s.max),
-                           number(s.sse),
-                           number(s.p90),
-                           number(s.p95),
-                           number(s.p99),
-                           r.pairs,
-                           r.possible);
-  out +=
-      fmt::format("{},{},{}\n", number(r.milliseconds), quoted(to_text(r.status)), quoted(r.why));
-  return out;
+std::string csv_row(const Record& record) {
+  return fmt::format("{}\n", fmt::join(fields_of(record), ","));
 }
 
-std::string csv(const std::vector<Record>& records) {
+std::string csv(const std::vector<Record>& records, const std::vector<std::string>& columns) {
   std::string out = kRowsHeader;
-  for (const Record& r : records) out += csv_row(r);
+  if (columns.empty()) {
+    for (const Record& r : records) out += csv_row(r);
+    return out;
+  }
+  std::vector<std::string> names;
+  std::istringstream header(out.substr(0, out.size() - 1));
+  for (std::string name; std::getline(header, name, ',');) names.push_back(name);
+  std::vector<std::size_t> places;
+  for (const std::string& column : columns) {
+    const auto found = std::ranges::find(names, column);
+    if (found == names.end()) {
+      throw InputError("--columns: " + unknown_name("column", column, names));
+    }
+    places.push_back(static_cast<std::size_t>(found - names.begin()));
+  }
+  out = fmt::format("{}\n", fmt::join(columns, ","));
+  for (const Record& r : records) {
+    const std::vector<std::string> all = fields_of(r);
+    for (std::size_t i = 0; i < places.size(); ++i) out += (i == 0 ? "" : ",") + all[places[i]];
+    out += "\n";
+  }
   return out;
 }
 

@@ -13,8 +13,9 @@ namespace loopbench::harness {
 /// with + or - and is no number) gets a leading apostrophe, which spreadsheets hide.
 std::string quoted(const std::string& text);
 
-/// The long table: one line per record with all columns.
-std::string csv(const std::vector<Record>& records);
+/// The long table: one line per record, with these columns of kRowsHeader; none: all. Throws
+/// InputError for an unknown column.
+std::string csv(const std::vector<Record>& records, const std::vector<std::string>& columns = {});
 
 /// Its first line, and the line of one record.
 extern const char* const kRowsHeader;

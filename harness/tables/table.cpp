@@ -1,17 +1,29 @@
 #include "harness/tables/table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
 
+#include "datasets/core/error.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/wrap.hpp"
 #include "metrics/correction/optimality.hpp"
 
 namespace loopbench::harness {
 namespace {
+
+/// "rpe 1 s [m]" and "rpe_1_s" name the column "rpe 1 s [m]".
+bool is_column_name(const std::string& heading, const std::string& name) {
+  const auto plain = [](std::string text) {
+    std::ranges::replace(text, '_', ' ');
+    return text;
+  };
+  return plain(name) == plain(heading) ||
+         plain(name) == plain(heading.substr(0, heading.rfind(" [")));
+}
 
 std::string mean_text(const TableMean& mean, int digits) {
   const std::string over =
@@ -100,6 +112,40 @@ Table with_common_unit(Table table) {
   }
   (table.title.empty() ? table.headings[0] : table.title) += unit;
   return table;
+}
+
+std::vector<Table> with_columns(std::vector<Table> tables, const std::vector<std::string>& names) {
+  if (names.empty()) return tables;
+  std::vector<std::string> known;
+  for (const Table& table : tables) {
+    for (std::size_t c = 1; c < table.headings.size(); ++c) {
+      const bool is_new = std::ranges::count(known, table.headings[c]) == 0;
+      if (is_new) known.push_back(table.headings[c]);
+    }
+  }
+  for (const std::string& name : names) {
+    const auto is_named = [&](const std::string& heading) { return is_column_name(heading, name); };
+    if (std::ranges::any_of(known, is_named)) continue;
+    throw InputError(fmt::format(
+        "--columns: no column is named '{}', expected {}", name, fmt::join(known, ", ")));
+  }
+  for (Table& table : tables) {
+    std::vector<std::size_t> places{0};
+    for (const std::string& name : names) {
+      for (std::size_t c = 1; c < table.headings.size(); ++c) {
+        const bool is_named = is_column_name(table.headings[c], name);
+        if (is_named && std::ranges::count(places, c) == 0) places.push_back(c);
+      }
+    }
+    const auto chosen = [&](const auto& all) {
+      std::decay_t<decltype(all)> out;
+      for (const std::size_t place : places) out.push_back(all[place]);
+      return out;
+    };
+    table.headings = chosen(table.headings);
+    for (std::vector<TableCell>& line : table.lines) line = chosen(line);
+  }
+  return tables;
 }
 
 std::string padded(const std::string& text, std::size_t columns, bool left) {

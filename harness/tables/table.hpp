@@ -76,6 +76,11 @@ Table without_empty_columns(Table table);
 /// there is no title, instead of in every heading. The formats for papers and pages use it.
 Table with_common_unit(Table table);
 
+/// Keeps the first column and those with the given names, in this order. A name is a heading with
+/// or without its unit, underscores being equal to spaces. Throws InputError, with the accepted
+/// names, for one that no table has.
+std::vector<Table> with_columns(std::vector<Table> tables, const std::vector<std::string>& names);
+
 /// GitHub Markdown, padded for reading on a terminal. Best in bold, second best in italics.
 /// Markdown and HTML markup is escaped.
 std::string markdown(const Table& table);

@@ -242,6 +242,23 @@ class Evaluation(unittest.TestCase):
                 loopbench.read_trajectory(folder + "/bad.txt")
             self.assertEqual(len(loopbench.read_trajectory(folder + "/bad.txt", repeats="keep_last")), 1)
 
+    def test_repeated_stamps_are_kept_as_by_eval_under_evo(self):
+        rows = np.repeat(rows_of(GT)[:40], [2, 1] * 20, axis=0)
+        rows[1::3, 1] += 0.5
+        with tempfile.TemporaryDirectory() as folder:
+            file = folder + "/twice.txt"
+            np.savetxt(file, rows, fmt="%.17g")
+            expected = eval_json(GT, file, "--protocol", "evo")[0]["metrics"]
+            self.assertTrue(expected)
+            self.assertEqual(loopbench.evaluate(GT, file, "evo")["metrics"], expected)
+            arrays = loopbench.evaluate(rows_of(GT), rows, "evo")
+            self.assertAlmostEqual(loopbench.score(arrays, "ate"), expected[0]["rmse"], places=9)
+            for pair in ((GT, file), (rows_of(GT), rows)):
+                with self.assertRaisesRegex(ValueError, "stamp"):
+                    loopbench.evaluate(*pair)
+                with self.assertRaisesRegex(ValueError, "stamp"):
+                    loopbench.evaluate(*pair, "evo", repeats="refuse")
+
     def test_positions_without_rotation(self):
         rows = rows_of(GT)[:, :4]
         with tempfile.TemporaryDirectory() as folder:

@@ -55,6 +55,38 @@ TEST_F(EvalOnATerminal, OneEstimateFits) {
   EXPECT_EQ(wide.out, loopbench_command("eval gt.txt a.txt", folder_).out);
 }
 
+TEST_F(EvalOnATerminal, HelpBreaksListsOfChoices) {
+  std::istringstream help(run("eval --help", 60).out);
+  for (std::string line; std::getline(help, line);) {
+    const bool is_example = line.starts_with("  loopbench ");
+    EXPECT_TRUE(is_example || harness::width(line) <= 60) << line;
+  }
+}
+
+TEST_F(EvalOnATerminal, ColumnsAreChosen) {
+  const auto last = [&](const std::string& arguments) {
+    const CommandResult result = loopbench_command("eval gt.txt a.txt " + arguments, folder_);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.out;
+  };
+  EXPECT_THAT(last("--columns rpe_1_m,ate"),
+              HasSubstr("\nestimate  rpe 1 m [m]  rpe 1 m [deg]  ate [m]  ate [deg]\n"));
+  EXPECT_THAT(last("b.txt --columns 'coverage [%],ate [m]'"),
+              HasSubstr("\n| estimate | coverage [%] | ate [m] |\n"));
+  EXPECT_THAT(last("--metric ate --columns max,rmse"),
+              HasSubstr("\nscore           max      rmse\n"));
+  EXPECT_THAT(last("--csv --columns metric,unit"), testing::StartsWith("metric,unit\nate,m\n"));
+  const auto error = [&](const std::string& arguments) {
+    const CommandResult result = loopbench_command("eval gt.txt a.txt " + arguments, folder_);
+    EXPECT_EQ(result.exit_code, 2);
+    return result.err;
+  };
+  EXPECT_THAT(error("--metric ate --columns ate"),
+              HasSubstr("--columns: no column is named 'ate', expected rmse, mean, median"));
+  EXPECT_THAT(error("--csv --columns metricc"), HasSubstr("did you mean 'metric'?"));
+  EXPECT_THAT(error("--json --columns ate"), HasSubstr("--columns excludes --json"));
+}
+
 TEST_F(EvalOnATerminal, SeveralEstimatesFitAndEndWithAVerdict) {
   for (const std::size_t columns : {80UL, 120UL}) {
     const std::string text = run("eval gt.txt a.txt b.txt", columns).out;

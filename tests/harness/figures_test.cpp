@@ -148,7 +148,7 @@ TEST(Figures, EvalFiguresAreOneColumnWideUnlessASizeIsGiven) {
     EXPECT_THAT(svg(name), HasSubstr("width=\"252pt\"")) << name;  // 3.5 in of 72 points
   }
   const CommandResult sized =
-      loopbench_command(eval + "--plot b --size 2,1.5 --columns 3 --font 9", folder);
+      loopbench_command(eval + "--plot b --size 2,1.5 --panel-columns 3 --font 9", folder);
   ASSERT_EQ(sized.exit_code, 0) << sized.err;
   EXPECT_THAT(svg("b_errors.svg"), HasSubstr("width=\"432pt\""));
   EXPECT_THAT(svg("b_errors.svg"), HasSubstr("font: 9px"));
@@ -182,7 +182,7 @@ TEST(Figures, TrajPlotHasShortNamesAndDrawsThePlaneOfCameraAxes) {
   for (StampedPose& pose : poses) pose.world_from_body.translation.z() = pose.stamp;
   std::filesystem::create_directories(folder.path() / "runs");
   write_tum(folder.path() / "runs/first.txt", poses);
-  const std::string plot = "traj plot runs/first.txt --panels plane --columns 1 ";
+  const std::string plot = "traj plot runs/first.txt --panels plane --panel-columns 1 ";
   const auto axes = [&](const std::string& options) {
     const CommandResult result = loopbench_command(plot + "-o f.svg " + options, folder);
     EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -87,7 +87,7 @@ TEST_F(PlotCli, SelectsSequencesPanelsAndSize) {
                "keyframes: 40, label: b}]\nmethods: [raw]\nmetrics: [ate]\n");
   ASSERT_EQ(run("run two.yaml --out t").exit_code, 0);
   const CommandResult one =
-      run("plot t -o f --sequences b --panels xz,angle --size 3,2 --format svg --columns 1");
+      run("plot t -o f --sequences b --panels xz,angle --size 3,2 --format svg --panel-columns 1");
   ASSERT_EQ(one.exit_code, 0) << one.err;
   EXPECT_EQ(one.out, "f/02_b_trajectories.svg\nf/02_b_errors.svg\n");
   const std::string drawn = read("f/02_b_trajectories.svg");

@@ -74,5 +74,26 @@ TEST_F(ReportScreens, FitAndPrint) {
   EXPECT_EQ(read_all(folder_.path() / "page.pdf").compare(0, 5, "%PDF-"), 0);
 }
 
+/// Names the cells of scores and verdicts that are outside the window.
+const char* const kCellProbe = R"probe(
+  const wide = document.documentElement.clientWidth;
+  const cells = [...document.querySelectorAll("#scores th, #scores td, .texts td:last-child")];
+  const outside = cells.filter(cell => !cell.closest("[hidden]") && cell.getBoundingClientRect().right > wide);
+  document.title = `${wide} of ${cells.length > 40}: ` + (outside.map(cell => cell.textContent).join("; ") || "well");
+  if (parent !== window) parent.postMessage(document.title, "*");
+)probe";
+
+TEST_F(ReportScreens, EveryScoreOfTwoEstimatesIsInTheWindow) {
+  const std::string golden = LOOPBENCH_TEST_DATA "/golden/";
+  const std::string eval = "eval " + golden + "gt.txt " + golden + "est_drift.txt " + golden +
+                           "est_corrected.txt --report page.html";
+  ASSERT_EQ(loopbench_command(eval, folder_).exit_code, 0);
+  folder_.file("page.html", with_script(read_all(folder_.path() / "page.html"), kCellProbe));
+  const std::string dump = "--virtual-time-budget=5000 --dump-dom";
+  EXPECT_EQ(title(dump, "phone.html"), "390 of true: well");
+  EXPECT_EQ(title("--window-size=1280,800 " + dump), "1280 of true: well");
+  EXPECT_EQ(title("--window-size=1920,1080 " + dump), "1920 of true: well");
+}
+
 }  // namespace
 }  // namespace loopbench::report_screens_test
