@@ -38,7 +38,7 @@ Pose inverted(const Pose& p) { return p.inverse(); }
 
 /// A repair without parameters, of either file.
 void add_convention(std::vector<Proposal>& to,
-                    Fault fault,
+                    Fault::Name fault,
                     const char* what,
                     const char* option,
                     double penalty,

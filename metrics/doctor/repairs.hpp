@@ -12,7 +12,7 @@
 namespace loopbench::metrics {
 
 struct Repair {
-  Fault fault{};
+  Fault::Name fault;
   std::string what;    ///< "quaternions of the estimate in the order w x y z"
   std::string fix;     ///< a command or an option
   double value = 0.0;  ///< see InputFinding::value
