@@ -59,7 +59,7 @@ class LoopGroup {
   Eigen::MatrixXd of_odometry_, of_closures_;  ///< covariances as stated
 };
 
-inline constexpr double kLeastVariance = 1e-12;  // of rounded numbers
+inline constexpr double kLeastVariance = 1e-16;  // of rounded numbers
 
 inline LoopGroup::LoopGroup(std::vector<const Edge*> closures, const Chain& chain)
     : closures_(std::move(closures)), chain_(chain) {
@@ -149,9 +149,12 @@ inline void LoopGroup::add_errors(const Eigen::VectorXd& values,
 
 inline std::pair<double, LoopGroup::Logarithms> LoopGroup::best_of(
     const Eigen::VectorXd& values) const {
-  Logarithms near{0.0, 0.0}, far{0.0, 4.0};
-  const double of_near = pattern_search(values, near), of_far = pattern_search(values, far);
-  return of_near > of_far ? std::pair(of_near, near) : std::pair(of_far, far);
+  std::pair<double, Logarithms> best{-std::numeric_limits<double>::infinity(), {}};
+  for (Logarithms at : {Logarithms{0.0, 0.0}, Logarithms{0.0, 4.0}, Logarithms{10.0, 0.0}}) {
+    const double found = pattern_search(values, at);
+    if (found > best.first) best = {found, at};
+  }
+  return best;
 }
 
 inline double LoopGroup::log_likelihood(const std::vector<Pose>& measured,
