@@ -54,10 +54,12 @@ double gain_of_order(const std::vector<LoopGroup>& as_read, const std::vector<Lo
   return out;
 }
 
-/// Too small or too large variances; much larger factors are those of measurements without noise.
-bool is_far(double logarithm) {
-  const double factor = std::exp(logarithm);
-  return factor > 100.0 || (factor < 1e-5 && factor > 1e-10);
+/// Stated variances are too small, or too large.
+bool is_far(double logarithm) { return logarithm > std::log(100.0) || logarithm < std::log(1e-5); }
+
+/// Measurements without noise show nothing about its size.
+bool is_exact(const LoopGroup::Logarithms& factors) {
+  return std::max(factors[kOdometry], factors[kClosures]) < std::log(1e-10);
 }
 
 bool is_any_far(const LoopGroup::Logarithms& factors) {
@@ -71,6 +73,8 @@ std::optional<InputFinding> check_information(const Problem& problem, const Chai
   constexpr double kLeastOfOrder = 5.0, kLeastProven = 3.0;  // in logarithms of the likelihood
   if (problem.closures.size() < kFewest) return std::nullopt;
   const std::vector<LoopGroup> groups = groups_of(problem.closures, chain);
+  const LoopGroup::Logarithms factors = median_factors(groups);
+  if (is_exact(factors)) return std::nullopt;
   Problem other = problem;
   exchange_blocks(other.odometry);
   exchange_blocks(other.closures);
@@ -88,7 +92,6 @@ std::optional<InputFinding> check_information(const Problem& problem, const Chai
         1.0 - std::exp(-0.25 * (gain)),
         gain};
   }
-  const LoopGroup::Logarithms factors = median_factors(groups);
   if (!is_any_far(factors)) return std::nullopt;
   const double before = tested(groups, {0.0, 0.0}), after = tested(groups, factors);
   if (after - before < kLeastProven) return std::nullopt;
