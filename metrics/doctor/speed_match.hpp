@@ -18,7 +18,7 @@ class SpeedMatch {
   SpeedMatch(const Trajectory& reference, const Trajectory& estimate, Part part = Part::all);
 
   double interval() const { return interval_; }
-  std::size_t intervals() const { return motions_.size(); }
+  std::size_t intervals() const { return speeds_.size(); }
 
   struct Score {
     double angle = 0.0;
@@ -29,31 +29,27 @@ class SpeedMatch {
     double best() const;
   };
 
-  Score score(double offset) const { return score(signals(offset)); }
-
-  /// Of speeds instead of steps: at constant speeds, steps correlate at any offset if the durations
-  /// of intervals differ.
-  Score score_of_speeds(double offset) const;
+  /// Of speeds, not of steps: at constant speeds, steps correlate at any offset if the durations of
+  /// intervals differ.
+  Score score(double offset) const;
 
   double at(double offset) const { return score(offset).best(); }
 
  private:
-  /// Motion of the estimate between two of its stamps.
-  struct TimedMotion {
+  /// Speeds of the estimate between two of its stamps.
+  struct TimedSpeed {
     double begin = 0.0;
     double end = 0.0;
-    double angle = 0.0;
-    double distance = 0.0;
+    double angle = 0.0;     ///< [rad/s]
+    double distance = 0.0;  ///< [m/s]
   };
 
-  MotionSignals signals(double offset) const;
-  Score score(const MotionSignals& signals) const;
-  std::optional<Pose> reference_at(double stamp) const;
+  /// Searches from the index `hint` on, and sets it.
+  std::optional<Pose> reference_at(double stamp, std::size_t& hint) const;
 
   const Trajectory& reference_;
-  std::vector<TimedMotion> motions_;
+  std::vector<TimedSpeed> speeds_;
   double interval_ = 0.0;
-  double rate_ = 0.0;  ///< poses of the reference per second
   double longest_gap_ = 0.0;
 };
 
