@@ -24,6 +24,10 @@ inline constexpr std::array kOracleModels{OracleModel::time,
 /// minima. Levenberg-Marquardt with differences, from zero rates; about 300 corrections.
 double oracle_error(const DevelopmentChain& chain, OracleModel model);
 
+/// ATE [m] that `dual` leaves with the gains that minimise its own cost, under a prior of 10 % on
+/// each: an estimate from odometry and loops only, without the reference. NaN for Sim(3) chains.
+double gains_from_loops_error(const DevelopmentChain& chain);
+
 /// ATE (RMSE) of the keyframes after rigid alignment, with scale for Sim(3) chains [m].
 double aligned_error(const Trajectory& estimate, const DevelopmentChain& chain);
 

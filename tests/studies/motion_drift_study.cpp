@@ -155,17 +155,18 @@ void print_oracle(const DevelopmentChain& chain, bool is_target) {
     return aligned_error(method.correct(of.problem, report), of);
   };
   const double dual = error(Dual({}), chain);
-  fmt::print("| {} | {:.4f} | {:.4f} | {:.4f} | {:.4f} |",
+  fmt::print("| {} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {:.4f} |",
              chain.name,
              dual,
              error(Dual({.rescale = true}), chain),
              error(MotionDrift({}), chain),
+             gains_from_loops_error(chain),
              error(Dual({}), with_exact_closures(chain)));
   const auto errors = computed(kOracleModels.size(), [&](std::size_t i) {
     return std::pair{std::string(), std::vector{oracle_error(chain, kOracleModels[i])}};
   });
   for (const auto& [name, values] : errors) fmt::print(" {:.4f} |", values.front());
-  fmt::print("\n| ratio without drift | 1 | | | |");
+  fmt::print("\n| ratio without drift | 1 | | | | |");
   for (std::size_t i = 0; i < kOracleModels.size(); ++i) {
     const bool is_computed = is_target || kOracleModels[i] == OracleModel::gains;
     fmt::print(" {} |",
@@ -177,14 +178,23 @@ void print_oracle(const DevelopmentChain& chain, bool is_target) {
 
 void print_oracles(const DataRoot& root) {
   fmt::print(
-      "| chain | dual | dual rescaled | motion_drift | exact closures | time | distance | "
+      "| chain | dual | dual rescaled | motion_drift | gains from loops | exact closures | time | "
+      "distance | "
       "rotation | gains | all |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | "
-      "---: |\n");
+      "---: | ---: |\n");
   for (const DevelopmentChain& chain : target_chains(root)) print_oracle(chain, true);
-  for (const DevelopmentChain& chain : development_chains(root)) {
+  const std::vector<DevelopmentChain> chains = development_chains(root);
+  for (const DevelopmentChain& chain : chains) {
     const bool is_complete = chain.name.find("loops") != std::string::npos;
     if (chain.odometer == "INTEL" && is_complete) print_oracle(chain, false);
   }
+  fmt::print("\n");
+  print_table("odometer", {"gains from loops"}, computed(chains.size(), [&](std::size_t i) {
+                Report report;
+                const double dual = rmse_of(Dual({}).correct(chains[i].problem, report), chains[i]);
+                return std::pair{chains[i].odometer,
+                                 std::vector{std::log(gains_from_loops_error(chains[i]) / dual)}};
+              }));
 }
 
 }  // namespace
