@@ -9,6 +9,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/catalogue/floating_point_guard.hpp"
+#include "harness/catalogue/oracle_closures.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -124,9 +125,10 @@ Sequence load_sequence(const Cell& cell,
       inputs.push_back({input.path, sweep.datasets[other].label + ": " + input.option});
     }
     if (reads_same_file(sequence)) continue;  // the same drive with other options
+    out.provenance.oracle_closures |=
+        sequence.provenance.oracle_closures || undeclared_oracle_closures(sequence) > 0;
     sequence.problem.frames.clear();
     related.push_back(std::move(sequence.problem));
-    out.provenance.oracle_closures |= sequence.provenance.oracle_closures;
   }
   std::ranges::move(inputs, std::back_inserter(out.provenance.inputs));
   if (!related.empty()) {

@@ -7,6 +7,7 @@
 #include "datasets/derive/poses_at.hpp"
 #include "harness/base/hash.hpp"
 #include "harness/base/printable.hpp"
+#include "harness/catalogue/oracle_closures.hpp"
 #include "harness/run/check_output.hpp"
 #include "harness/run/doctor_notes.hpp"
 #include "harness/run/evaluation_notes.hpp"
@@ -17,9 +18,6 @@
 
 namespace loopbench::harness {
 namespace {
-
-constexpr double kCopyDistance = 1e-4;  // [m]; rounding of trajectory files is at most this
-constexpr double kCopyAngle = 1e-4;     // [rad]
 
 bool is_copy(const Trajectory& poses, const Trajectory& reference) {
   const auto truth = poses_at(reference, stamps(poses), {});
@@ -54,33 +52,6 @@ std::string copied_reference(const Sequence& sequence) {
   return "";
 }
 
-/// Number of closures that equal the reference's relative pose to within 0.1 mm and 0.1 mrad, far
-/// below sensor noise; the reference is interpolated at the keyframe stamps. Closures measured as
-/// the identity are not counted (a placeholder, or a body at rest). 0 for simulated data, whose
-/// closures can be noise-free, and for a reference without orientations. O(keyframes + closures).
-std::size_t closures_equal_to_reference(const Sequence& sequence) {
-  const Problem& problem = sequence.problem;
-  const bool measured = sequence.provenance.noise.empty();
-  if (!measured || sequence.reference.empty() || problem.closures.empty()) return 0;
-  if (metrics::is_position_only(sequence.reference)) return 0;
-  const auto truth = poses_at(sequence.reference, stamps(problem.keyframes), {});
-  std::size_t equal = 0;
-  for (const Edge& closure : problem.closures) {
-    if (!truth[closure.from] || !truth[closure.to]) continue;
-    if (is_close(closure.from_from_to, Pose{}, kCopyDistance, kCopyAngle)) continue;
-    const Pose from_from_to = truth[closure.from]->inverse() * *truth[closure.to];
-    if (is_close(closure.from_from_to, from_from_to, kCopyDistance, kCopyAngle)) ++equal;
-  }
-  return equal;
-}
-
-/// Whether at least one in twenty closures equals the reference, so that the others can be added
-/// false closures.
-bool are_oracle_closures(std::size_t equal, std::size_t all) {
-  constexpr std::size_t kOneIn = 20;  // at most 95 % of all closures are false
-  return equal > 0 && kOneIn * equal >= all;
-}
-
 /// Warning if the motion of the raw keyframes indicates another body than the reference's;
 /// otherwise empty.
 std::string reference_of_other_body(const Sequence& sequence) {
@@ -102,11 +73,11 @@ std::string reference_of_other_body(const Sequence& sequence) {
 /// Marks closures that equal the reference as oracle closures, for any source file.
 void flag_oracle_closures(SequenceMetadata& out, const Sequence& sequence) {
   if (out.oracle_closures) return;
-  const std::size_t all = sequence.problem.closures.size();
-  const std::size_t equal = closures_equal_to_reference(sequence);
-  if (!are_oracle_closures(equal, all)) return;
+  const std::size_t equal = undeclared_oracle_closures(sequence);
+  if (equal == 0) return;
   out.oracle_closures = true;
-  out.closures += fmt::format("; {} of {} equal the reference", equal, all);
+  out.closures +=
+      fmt::format("; {} of {} equal the reference", equal, sequence.problem.closures.size());
 }
 
 /// A dataset of a plugin can return any text, which would be printed and stored for every cell.

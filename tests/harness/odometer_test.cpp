@@ -1,4 +1,5 @@
 /// Chains of the same odometer in a sweep: what methods get of them, and what depends on them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -86,6 +87,31 @@ metrics: [path_length]
                                   (folder.path() / "c.yaml").string(),
                                   known_);
   EXPECT_EQ(load_sequence({}, sweep, known_, {{folder.path()}}).problem.related, nullptr);
+}
+
+TEST_F(Odometer, ClosuresOfOtherChainsThatEqualTheReferenceAreOracleClosures) {
+  const TemporaryFolder folder;
+  const auto walk = [](double scale) {
+    std::string out;
+    for (int i = 0; i < 40; ++i) {
+      const char* rotation = i == 0 ? "0 0 0.6 0.8" : "0 0 0 1";
+      out += fmt::format("{} {} {} 0 {}\n", i, scale * i, 0.01 * i * i, rotation);
+    }
+    return out;
+  };
+  for (const std::string name : {"a.txt", "b.txt"}) folder.file(name, walk(1.01));
+  folder.file("truth.txt", walk(1.0));
+  folder.file("exact.txt", "1 19 18 3.6 0 0 0 0 1\n");
+  const Sweep sweep = parse_sweep(R"(
+datasets:
+  - {dataset: trajectory, label: a, estimate: a.txt, odometer: feet}
+  - {dataset: trajectory, label: b, estimate: b.txt, reference: truth.txt, closures: {source: file, file: exact.txt}, odometer: feet}
+methods: [raw]
+metrics: [path_length]
+)",
+                                  "c.yaml",
+                                  known_);
+  EXPECT_TRUE(load_sequence({}, sweep, known_, {{folder.path()}}).provenance.oracle_closures);
 }
 
 TEST_F(Odometer, FilesOfOtherChainsAreFoundInANewDataFolder) {

@@ -1,8 +1,10 @@
 // Errors of motion_drift relative to those of dual:
 //   motion_drift_study DATA > chains.md    development chains, complete and in sections
 //   motion_drift_study > controls.md       simulated controls with known drift, 50 seeds each
+//   motion_drift_study DATA oracle         errors left if rates of drift, or closures, were exact
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <memory>
@@ -13,6 +15,7 @@
 #include "methods/correctors/motion_drift/motion_drift.hpp"
 #include "tests/studies/development_chains.hpp"
 #include "tests/studies/drift_controls.hpp"
+#include "tests/studies/drift_oracle.hpp"
 
 namespace loopbench {
 
@@ -128,18 +131,87 @@ void print_controls(double gain) {
               }));
 }
 
+/// What fitting the rates gains where there is no drift: median ratio of the oracle's error to that
+/// of `dual` on copies of the chain without drift, and the number of copies with less than `ratio`.
+std::string chance(const DevelopmentChain& chain, OracleModel model, double ratio) {
+  constexpr std::size_t kSeeds = 20;
+  const auto copies = computed(kSeeds, [&](std::size_t seed) {
+    const DevelopmentChain copy = without_drift_control(chain, static_cast<int>(seed) + 1);
+    Report report;
+    const double dual = rmse_of(Dual({}).correct(copy.problem, report), copy);
+    return std::pair{std::string(), std::vector{oracle_error(copy, model) / dual}};
+  });
+  std::vector<double> ratios;
+  for (const auto& [name, values] : copies) ratios.push_back(values.front());
+  std::ranges::sort(ratios);
+  const auto below = std::ranges::lower_bound(ratios, ratio) - ratios.begin();
+  return fmt::format("{:.2f} ({})", ratios[kSeeds / 2], below);
+}
+
+/// Two rows: errors [m], and the gain of the oracle by chance.
+void print_oracle(const DevelopmentChain& chain, bool is_target) {
+  Report report;
+  const auto error = [&](const Corrector& method, const DevelopmentChain& of) {
+    return aligned_error(method.correct(of.problem, report), of);
+  };
+  const double dual = error(Dual({}), chain);
+  fmt::print("| {} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {:.4f} |",
+             chain.name,
+             dual,
+             error(Dual({.rescale = true}), chain),
+             error(MotionDrift({}), chain),
+             gains_from_loops_error(chain),
+             error(Dual({}), with_exact_closures(chain)));
+  const auto errors = computed(kOracleModels.size(), [&](std::size_t i) {
+    return std::pair{std::string(), std::vector{oracle_error(chain, kOracleModels[i])}};
+  });
+  for (const auto& [name, values] : errors) fmt::print(" {:.4f} |", values.front());
+  fmt::print("\n| ratio without drift | 1 | | | | |");
+  for (std::size_t i = 0; i < kOracleModels.size(); ++i) {
+    const bool is_computed = is_target || kOracleModels[i] == OracleModel::gains;
+    fmt::print(" {} |",
+               is_computed ? chance(chain, kOracleModels[i], errors[i].second.front() / dual) : "");
+  }
+  fmt::print("\n");
+  std::fflush(stdout);
+}
+
+void print_oracles(const DataRoot& root) {
+  fmt::print(
+      "| chain | dual | dual rescaled | motion_drift | gains from loops | exact closures | time | "
+      "distance | "
+      "rotation | gains | all |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | "
+      "---: | ---: |\n");
+  for (const DevelopmentChain& chain : target_chains(root)) print_oracle(chain, true);
+  const std::vector<DevelopmentChain> chains = development_chains(root);
+  for (const DevelopmentChain& chain : chains) {
+    const bool is_complete = chain.name.find("loops") != std::string::npos;
+    if (chain.odometer == "INTEL" && is_complete) print_oracle(chain, false);
+  }
+  fmt::print("\n");
+  print_table("odometer", {"gains from loops"}, computed(chains.size(), [&](std::size_t i) {
+                Report report;
+                const double dual = rmse_of(Dual({}).correct(chains[i].problem, report), chains[i]);
+                return std::pair{chains[i].odometer,
+                                 std::vector{std::log(gains_from_loops_error(chains[i]) / dual)}};
+              }));
+}
+
 }  // namespace
 }  // namespace loopbench
 
 int main(int argc, char** argv) {
   using namespace loopbench;
-  if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
+  const bool is_oracle = argc == 3 && std::string(argv[2]) == "oracle";
+  if ((argc > 2 && !is_oracle) || (argc == 2 && argv[1][0] == '-')) {
     const bool is_asked = argc == 2 && std::string(argv[1]) == "--help";
-    fmt::print(is_asked ? stdout : stderr, "usage: motion_drift_study [DATA]\n");
+    fmt::print(is_asked ? stdout : stderr, "usage: motion_drift_study [DATA [oracle]]\n");
     return is_asked ? 0 : 2;
   }
   try {
-    if (argc == 2) {
+    if (is_oracle) {
+      print_oracles({{argv[1]}});
+    } else if (argc == 2) {
       print_chains({{argv[1]}});
     } else {
       for (const double gain : {1.0, 0.25}) print_controls(gain);
