@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "datasets/derive/graph_parts.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/commands/commands.hpp"
@@ -31,12 +32,23 @@ struct Diagnosed {
 Diagnosed of_closures(const std::string& name, const Problem& problem) {
   Diagnosed out{name, {}};
   out.result.findings = metrics::check_closures(problem);
+  const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
+  out.result.has_checked = is_chain && !problem.closures.empty();
   if (problem.closures.empty()) {
     out.result.unchecked.emplace_back("closures, information: there are no closures");
-  } else if (problem.odometry.size() + 1 != problem.keyframes.size()) {
+  } else if (!is_chain) {
     out.result.unchecked.emplace_back("closures, information: the odometry is no chain");
   }
-  out.result.has_checked = out.result.unchecked.empty();
+  return out;
+}
+
+Problem problem_of(const PoseGraph& graph, const std::string& file) {
+  GraphParts parts = split_graph(graph, file);
+  Problem out;
+  out.keyframes = initial_poses(graph, ReadOptions{}.period);
+  out.odometry = std::move(parts.odometry);
+  out.closures = std::move(parts.closures);
+  out.planar = graph.planar;
   return out;
 }
 
@@ -68,7 +80,7 @@ std::string report_json(const std::vector<Diagnosed>& all) {
   for (const Diagnosed& each : all) {
     nlohmann::json findings = nlohmann::json::array();
     for (const metrics::InputFinding& finding : each.result.findings) {
-      findings.push_back({{"fault", finding.fault},
+      findings.push_back({{"fault", metrics::fault_name(finding.fault)},
                           {"evidence", finding.evidence},
                           {"fix", finding.fix},
                           {"confidence", finding.confidence},
@@ -96,17 +108,20 @@ int doctor(const DoctorArguments& a) {
       all.push_back(of_pair(reference, estimate));
     }
   }
-  if (a.estimates.empty() && a.loops.empty() && !is_pose_graph(a.reference)) {
-    throw InputError(a.reference +
-                     ": expected REF and EST, a trajectory with --loops, or one pose graph (g2o)");
-  }
-  if (a.estimates.empty() || !a.loops.empty()) {
+  if (!a.loops.empty()) {
     if (a.estimates.size() > 1) throw InputError("--loops: expected one trajectory");
+    const std::string& owner = a.estimates.empty() ? a.reference : a.estimates.front();
     CorrectArguments input;
-    input.estimate = a.estimates.empty() ? a.reference : a.estimates.front();
+    input.estimate = owner;
     input.loops = a.loops;
-    all.push_back(
-        of_closures(a.loops.empty() ? a.reference : a.loops, load_problem(input, catalogue({}))));
+    all.push_back(of_closures(a.loops, load_problem(input, catalogue({}))));
+  } else if (a.estimates.empty()) {
+    if (!is_pose_graph(a.reference)) {
+      throw InputError(
+          a.reference +
+          ": expected REF and EST, a trajectory with --loops, or one pose graph (g2o)");
+    }
+    all.push_back(of_closures(a.reference, problem_of(read_g2o(a.reference), a.reference)));
   }
   fmt::print("{}", a.json ? report_json(all) : printable(report_text(all)));
   const bool is_clean = std::ranges::all_of(all, [](const Diagnosed& each) {

@@ -22,11 +22,17 @@ std::vector<metrics::InputFinding> sure_findings(
     const ReadPair& pair, const std::vector<metrics::NamedProtocol>& protocols) {
   if (protocols.empty() || pair.reference.empty() || pair.estimate.empty()) return {};
   const double offset = protocols.front().rules.offset;
-  Trajectory shifted = pair.estimate;
-  for (StampedPose& pose : shifted) pose.stamp += offset;
+  Trajectory shifted;
+  if (offset != 0.0) {
+    shifted = pair.estimate;
+    for (StampedPose& pose : shifted) pose.stamp += offset;
+  }
   std::vector<metrics::InputFinding> out =
-      metrics::diagnosis(
-          pair.reference, shifted, pair.reference_name, pair.estimate_name, pair.has_stamps)
+      metrics::diagnosis(pair.reference,
+                         offset != 0.0 ? shifted : pair.estimate,
+                         pair.reference_name,
+                         pair.estimate_name,
+                         pair.has_stamps)
           .findings;
   const bool is_aligned = std::ranges::all_of(protocols, aligns_scale);
   std::erase_if(out, [&](metrics::InputFinding& finding) {
@@ -35,18 +41,11 @@ std::vector<metrics::InputFinding> sure_findings(
       finding.value += offset;
       finding.fix = fmt::format("--offset {:.4f}", finding.value);
     }
-    return finding.fault == metrics::Fault::lever_arm ||  // the evaluation has a note of its own
+    return finding.confidence < kSureFinding ||
+           finding.fault == metrics::Fault::lever_arm ||  // the evaluation has a note of its own
            finding.fault == metrics::Fault::body_rotation ||
            (finding.fault == metrics::Fault::scale && is_aligned);
   });
-  return out;
-}
-
-std::vector<std::string> notes_of(const std::vector<metrics::InputFinding>& findings) {
-  std::vector<std::string> out;
-  for (const metrics::InputFinding& finding : findings) {
-    if (finding.confidence >= kSureFinding) out.push_back(kDoctorPrefix + text(finding));
-  }
   return out;
 }
 
@@ -57,33 +56,45 @@ bool has_own_stamps(const Trajectory& poses) { return poses.front().stamp != 0.0
 
 std::vector<std::string> doctor_notes(const ReadPair& pair,
                                       const std::vector<metrics::NamedProtocol>& protocols) {
-  return notes_of(sure_findings(pair, protocols));
+  std::vector<std::string> out;
+  for (const metrics::InputFinding& finding : sure_findings(pair, protocols)) {
+    out.push_back(kDoctorPrefix + text(finding));
+  }
+  return out;
 }
 
 std::vector<std::string> doctor_notes(const Sequence& sequence, const Sweep& sweep) {
+  std::vector<std::string> out;
   const Provenance& source = sequence.provenance;
   const Problem& problem = sequence.problem;
-  if (source.inputs.empty() || !source.noise.empty() || problem.keyframes.empty()) return {};
-  std::vector<metrics::InputFinding> found = metrics::check_closures(problem);
+  if (source.inputs.empty() || !source.noise.empty() || problem.keyframes.empty()) return out;
+  const auto add = [&](const std::vector<metrics::InputFinding>& findings) {
+    for (metrics::InputFinding finding : findings) {
+      if (finding.confidence < kSureFinding) continue;
+      if (finding.fault == metrics::Fault::time_offset) {
+        finding.fix = fmt::format("protocol: {{offset: {:.4f}}}", finding.value);
+      } else if (finding.fault == metrics::Fault::scale) {
+        finding.fix = "protocol: {align: sim3}";
+      }
+      out.push_back(kDoctorPrefix + text(finding));
+    }
+  };
   if (!sequence.reference.empty()) {
     const bool has_stamps = has_own_stamps(sequence.reference) && has_own_stamps(problem.keyframes);
-    const std::vector<metrics::InputFinding> of_pair = sure_findings(
+    add(sure_findings(
         {sequence.reference, problem.keyframes, source.reference.string(), "", has_stamps},
-        sweep.protocols);
-    found.insert(found.begin(), of_pair.begin(), of_pair.end());
+        sweep.protocols));
   }
-  for (metrics::InputFinding& finding : found) {
-    if (finding.fault == metrics::Fault::time_offset) {
-      finding.fix = fmt::format("protocol: {{offset: {:.4f}}}", finding.value);
-    } else if (finding.fault == metrics::Fault::scale) {
-      finding.fix = "protocol: {align: sim3}";
-    }
-  }
-  return notes_of(found);
+  add(metrics::check_closures(problem));
+  return out;
 }
 
 std::vector<std::string> closure_notes(const Problem& problem) {
-  return notes_of(metrics::check_closures(problem));
+  std::vector<std::string> out;
+  for (const metrics::InputFinding& finding : metrics::check_closures(problem)) {
+    if (finding.confidence >= kSureFinding) out.push_back(kDoctorPrefix + text(finding));
+  }
+  return out;
 }
 
 std::string movement_note(const Problem& problem,
@@ -111,20 +122,25 @@ bool uses_closures(const MethodChoice& choice, const Catalogue& catalogue) {
 void CellNotes::add(const std::string& method, const CellResult& result) {
   for (const std::string& note : result.report.notes) {
     if (!note.starts_with(kDoctorPrefix)) continue;
-    const auto known = std::ranges::find(noted_, method, &Noted::method);
-    if (known == noted_.end()) {
-      noted_.push_back({method, note, 1});
+    const auto known =
+        std::ranges::find(counts_, method, &std::pair<std::string, std::size_t>::first);
+    if (known == counts_.end()) {
+      counts_.emplace_back(method, 1);
+      examples_.push_back(note);
     } else {
-      ++known->cells;
+      ++known->second;
     }
   }
 }
 
 std::vector<std::string> CellNotes::lines() const {
   std::vector<std::string> out;
-  for (const auto& [method, note, cells] : noted_) {
-    const std::string more = cells == 1 ? "" : fmt::format(" (and {} more cells)", cells - 1);
-    out.push_back(fmt::format("{}: {}{}", method, note, more));
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    const std::size_t count = counts_[i].second;
+    out.push_back(fmt::format("{}: {}{}",
+                              counts_[i].first,
+                              examples_[i],
+                              count == 1 ? "" : fmt::format(" (and {} more cells)", count - 1)));
   }
   return out;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/catalogue/catalogue.hpp"
@@ -53,12 +54,8 @@ class CellNotes {
   std::vector<std::string> lines() const;
 
  private:
-  struct Noted {
-    std::string method, note;
-    std::size_t cells = 0;
-  };
-
-  std::vector<Noted> noted_;
+  std::vector<std::pair<std::string, std::size_t>> counts_;  ///< of cells by method
+  std::vector<std::string> examples_;                        ///< the first note of each method
 };
 
 }  // namespace loopbench::harness

@@ -31,13 +31,11 @@ std::vector<Gap> gaps_of(const std::vector<const Edge*>& closures,
   std::vector<Gap> out;
   const std::size_t end = std::min(closures.size(), index + kCompared + 1);
   for (std::size_t j = index - std::min(index, kCompared); j < end; ++j) {
-    const Edge& other = *closures[j];
+    const Neighbours pair{&edge, closures[j]};
     const double length =
-        kClosureLength + chain.length(edge.from, other.from) + chain.length(edge.to, other.to);
+        kClosureLength + chain.length(edge.from, pair.b->from) + chain.length(edge.to, pair.b->to);
     if (j == index || length >= chain.length(edge.from, edge.to)) continue;
-    const Pose around = chain.between(edge.from, other.from) * other.from_from_to *
-                        chain.between(other.to, edge.to);
-    out.push_back({log_se3(edge.from_from_to.inverse() * around).head<3>().norm(), length});
+    out.push_back({neighbour_residual(pair, chain).head<3>().norm(), length});
   }
   std::ranges::sort(out, {}, &Gap::length);
   out.resize(std::min(kVotes, out.size()));
@@ -64,7 +62,9 @@ struct FalseClosure {
 }  // namespace
 
 GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain) {
-  const std::vector<const Edge*> sorted = sorted_by_end(closures);
+  std::vector<const Edge*> sorted;
+  for (const Edge& edge : closures) sorted.push_back(&edge);
+  std::ranges::stable_sort(sorted, {}, [](const Edge* e) { return std::max(e->from, e->to); });
   std::vector<std::vector<Gap>> all;
   std::vector<Gap> of_odometry, of_closures;
   for (std::size_t i = 0; i < sorted.size(); ++i) {

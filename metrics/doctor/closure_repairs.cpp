@@ -21,7 +21,7 @@ namespace {
 using EdgeChange = std::function<Pose(const Pose&, const Rotation&)>;
 
 struct EdgeRepair {
-  Fault::Name fault;
+  Fault fault{};
   std::string what;
   std::string fix;
   EdgeChange change;
@@ -101,6 +101,26 @@ std::vector<EdgeRepair> candidates() {
   return out;
 }
 
+/// Groups of up to five closures that follow each other, evenly chosen.
+std::vector<LoopGroup> groups_of(const Problem& problem, const Chain& chain) {
+  constexpr std::size_t kSize = 5, kMost = 14;
+  std::vector<const Edge*> sorted;
+  for (const Edge& edge : problem.closures) sorted.push_back(&edge);
+  std::ranges::stable_sort(sorted, {}, [](const Edge* e) { return std::max(e->from, e->to); });
+  const std::size_t n = sorted.size();
+  std::vector<LoopGroup> out;
+  const std::size_t count = std::clamp<std::size_t>((n + 1) / kSize, n < kSize + 1 ? 1 : 2, kMost);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t begin = i * n / count;
+    const std::size_t size = std::min({(i + 1) * n / count - begin, count == 1 ? n : kSize});
+    out.emplace_back(
+        std::vector<const Edge*>(sorted.begin() + static_cast<std::ptrdiff_t>(begin),
+                                 sorted.begin() + static_cast<std::ptrdiff_t>(begin + size)),
+        chain);
+  }
+  return out;
+}
+
 double log_likelihood(const LoopGroup& group,
                       const Chain& chain,
                       const EdgeRepair* repair,
@@ -119,6 +139,12 @@ double log_likelihood(const LoopGroup& group,
     out -= static_cast<double>(measured.size()) * repair->penalty_of_closure;
   }
   return out;
+}
+
+/// Choices and proofs use alternate groups; all, if there are few, which differ little by chance.
+std::size_t step_of(const std::vector<LoopGroup>& groups) {
+  constexpr std::size_t kFewestForHalves = 6;
+  return groups.size() < kFewestForHalves ? 1 : 2;
 }
 
 /// Sum over every other group; one group, whose closures may be false, counts up to a limit.
@@ -202,7 +228,7 @@ std::optional<InputFinding> find_odometry_repair(const Problem& problem) {
 std::optional<InputFinding> find_closure_repair(const Problem& problem, const Chain& chain) {
   constexpr double kLeastChosen = 5.0, kLeastProven = 3.0;  // in logarithms of the likelihood
   constexpr double kMostRatio = 0.9, kMostOfUnit = 0.3;     // shrinking removes noise, too
-  const std::vector<LoopGroup> groups = groups_of(problem.closures, chain);
+  const std::vector<LoopGroup> groups = groups_of(problem, chain);
   static const std::vector<EdgeRepair> all = candidates();
   std::vector<double> as_read;
   PredictionError before;

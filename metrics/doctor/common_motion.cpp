@@ -1,6 +1,5 @@
 #include "metrics/doctor/common_motion.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -50,13 +49,19 @@ std::size_t first_from(const Trajectory& poses, double stamp, std::size_t hint) 
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   constexpr std::size_t kFewest = 5;
   if (a.size() != b.size() || a.size() < kFewest) return 0.0;
-  const auto centred = [](const std::vector<double>& values) -> Eigen::ArrayXd {
-    const Eigen::Map<const Eigen::ArrayXd> all(values.data(), std::ssize(values));
-    return all - all.mean();
-  };
-  const Eigen::ArrayXd x = centred(a), y = centred(b);
-  const double squares = x.square().sum() * y.square().sum();
-  return squares > 0.0 ? (x * y).sum() / std::sqrt(squares) : 0.0;
+  const auto n = static_cast<double>(a.size());
+  double mean_a = 0.0, mean_b = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    mean_a += a[i] / n;
+    mean_b += b[i] / n;
+  }
+  double aa = 0.0, bb = 0.0, ab = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    aa += (a[i] - mean_a) * (a[i] - mean_a);
+    bb += (b[i] - mean_b) * (b[i] - mean_b);
+    ab += (a[i] - mean_a) * (b[i] - mean_b);
+  }
+  return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
 }
 
 CommonPoses common_poses(const Trajectory& reference,

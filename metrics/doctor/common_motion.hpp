@@ -22,6 +22,14 @@ CommonPoses common_poses(const Trajectory& reference,
                          double offset,
                          std::size_t most);
 
+/// Magnitudes of motion over consecutive intervals: independent of world frames and of the body's
+/// axes.
+struct MotionSignals {
+  std::vector<double> reference_angle, estimate_angle;        ///< [rad]
+  std::vector<double> reference_distance, estimate_distance;  ///< [m]
+  std::vector<double> duration;                               ///< [s]
+};
+
 /// Median time between poses [s]; of at most 20 000 evenly chosen steps. 0 below two poses.
 double usual_interval(const Trajectory& poses);
 

@@ -33,11 +33,14 @@ struct GapCheck {
 /// have to contradict. A finding if the gaps are smaller by 10 % without them. O(closures log).
 GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain);
 
-/// Factors of the stated variances of odometry and closures that fit the gaps of groups of loops
-/// best: above 100 or below 1e-5, the scale of the information is wrong, or the order of its
-/// blocks, if their exchange fits better. Fitted to every other group, and has to make the
-/// remaining ones likelier. O(keyframes + closures log).
-std::optional<InputFinding> check_information(const Problem& problem, const Chain& chain);
+/// Compares the gaps of all loops with the covariance of odometry and closures. Medians of
+/// translation and rotation far from 1, but near 1 after exchange of the blocks: wrong order. Far
+/// from 1 otherwise: wrong scale, of the odometry only if pairs of neighbouring closures agree with
+/// their covariance. Only these pairs far from it: wrong scale of the closures. The factor of a
+/// wrong scale is fitted to every other gap, and has to bring the remaining ones closer to 1.
+/// O(closures).
+std::optional<InputFinding> check_information(const std::vector<Edge>& closures,
+                                              const Chain& chain);
 
 /// A finding if the closures differ from the odometry, but no keyframe has moved by a hundredth of
 /// their median difference. `corrected`: the keyframes after the correction, as many as before.
@@ -66,12 +69,9 @@ inline std::vector<InputFinding> check_closures(const Problem& problem) {
   }
   if (gaps.finding) out.push_back(*gaps.finding);
   if (are_few_false) {  // false closures show nothing about the information
-    Problem plausible = problem;
-    plausible.closures.clear();
+    std::vector<Edge> plausible;
     for (std::size_t i = 0; i < problem.closures.size(); ++i) {
-      if (std::ranges::count(gaps.closures, i) == 0) {
-        plausible.closures.push_back(problem.closures[i]);
-      }
+      if (std::ranges::count(gaps.closures, i) == 0) plausible.push_back(problem.closures[i]);
     }
     if (auto found = check_information(plausible, chain)) out.push_back(*found);
   }

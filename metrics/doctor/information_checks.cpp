@@ -2,117 +2,143 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/graph_checks.hpp"
-#include "metrics/doctor/loop_likelihood.hpp"
 
 namespace loopbench::metrics {
 namespace {
 
-constexpr std::size_t kOdometry = 0, kClosures = 1;  // in LoopGroup::Logarithms
+constexpr double kInformationTooLarge = 100.0,
+                 kInformationTooSmall = 1e-5;  // squared errors over stated variances
 
-/// Medians over every other group from `first` on.
-LoopGroup::Logarithms median_factors(const std::vector<LoopGroup>& groups) {
-  std::vector<double> of_odometry, of_closures;
-  for (std::size_t i = 0; i < groups.size(); i += step_of(groups)) {
-    const LoopGroup::Logarithms factors = groups[i].best_factors();
-    of_odometry.push_back(factors[kOdometry]);
-    of_closures.push_back(factors[kClosures]);
-  }
-  return {median_value(std::move(of_odometry)), median_value(std::move(of_closures))};
-}
+/// Smaller ones are those of noise-free measurements, which show nothing about the noise.
+constexpr double kOfExactMeasurements = 1e-10;
 
-/// Sum of the log likelihoods of the groups that did not contribute to the medians.
-double tested(const std::vector<LoopGroup>& groups, const LoopGroup::Logarithms& factors) {
-  double out = 0.0;
-  const std::size_t step = step_of(groups);
-  for (std::size_t i = step - 1; i < groups.size(); i += step) {
-    out += groups[i].log_likelihood_of(factors);
+std::vector<SquaredError> loop_errors(const std::vector<Edge>& closures,
+                                      const Chain& chain,
+                                      bool is_exchanged = false) {
+  std::vector<SquaredError> out;
+  for (const Edge& closure : closures) {
+    out.push_back(closure_error(closure, chain, is_exchanged));
   }
   return out;
 }
 
-void exchange_blocks(std::vector<Edge>& edges) {
-  for (Edge& edge : edges) {
-    const Matrix6 given = edge.information;
-    edge.information.topLeftCorner<3, 3>() = given.bottomRightCorner<3, 3>();
-    edge.information.bottomRightCorner<3, 3>() = given.topLeftCorner<3, 3>();
+/// How far translation and rotation are from what is stated, in logarithms.
+double distance(const SquaredError& error) {
+  const auto logarithm = [](double x) { return std::abs(std::log(std::max(x, 1e-12))); };
+  return logarithm(error.translation) + logarithm(error.rotation);
+}
+
+std::string text(const SquaredError& error) {
+  return fmt::format(
+      "{:.3g} (translation) and {:.3g} (rotation)", error.translation, error.rotation);
+}
+
+/// Edges whose information is wrong, and the gaps that show it.
+struct WrongScale {
+  const char* edges;
+  const char* options;
+  bool is_of_odometry = true, is_of_closures = true;
+  bool is_of_neighbours = false;  ///< shown by neighbouring closures instead of loops
+};
+
+/// The factor is estimated from every other gap, and tested on the remaining ones.
+std::optional<InputFinding> wrong_scale(const WrongScale& wrong,
+                                        const std::vector<Edge>& closures,
+                                        const Chain& chain) {
+  constexpr int kMostSteps = 8;
+  constexpr double kNearOne = 1.3;
+  std::size_t count = 0;
+  const auto median_after = [&](double factor, std::size_t first) {
+    std::vector<Edge> edges = closures;
+    Chain scaled = chain;
+    for (Edge& edge : edges) edge.information *= wrong.is_of_closures ? factor : 1.0;
+    for (Matrix6& each : scaled.covariances) each /= wrong.is_of_odometry ? factor : 1.0;
+    const std::vector<SquaredError> all =
+        wrong.is_of_neighbours ? neighbour_errors(neighbours_of(edges, scaled), scaled)
+                               : loop_errors(edges, scaled);
+    count = all.size();
+    constexpr std::size_t kFewestForHalves = 6;
+    const bool has_halves = all.size() >= kFewestForHalves;
+    std::vector<double> part;
+    for (std::size_t i = has_halves ? first : 0; i < all.size(); i += has_halves ? 2 : 1) {
+      part.push_back(all[i].whole);
+    }
+    return std::max(median_value(std::move(part)), 1e-30);
+  };
+  double factor = 1.0;
+  for (int step = 0; step < kMostSteps; ++step) {  // the other edges have a part in each error
+    const double error = median_after(factor, 0);
+    if (std::abs(std::log(error)) < std::log(kNearOne)) break;
+    factor /= error;
   }
-}
-
-/// Gain of the log likelihood, each with the factors that fit best. One group, whose closures may
-/// be false, counts up to a limit.
-double gain_of_order(const std::vector<LoopGroup>& as_read, const std::vector<LoopGroup>& other) {
-  constexpr double kMostOfGroup = 20.0;
-  double out = 0.0;
-  for (std::size_t i = 0; i < as_read.size(); ++i) {
-    const double gain = other[i].log_likelihood_of(other[i].best_factors()) -
-                        as_read[i].log_likelihood_of(as_read[i].best_factors());
-    out += std::clamp(gain, -kMostOfGroup, kMostOfGroup);
-  }
-  return out;
-}
-
-/// Stated variances are too small, or too large.
-bool is_far(double logarithm) { return logarithm > std::log(100.0) || logarithm < std::log(1e-5); }
-
-/// Measurements without noise show nothing about its size.
-bool is_exact(const LoopGroup::Logarithms& factors) {
-  return std::max(factors[kOdometry], factors[kClosures]) < std::log(1e-10);
-}
-
-bool is_any_far(const LoopGroup::Logarithms& factors) {
-  return is_far(factors[kOdometry]) || is_far(factors[kClosures]);
+  const double before = median_after(1.0, 1), after = median_after(factor, 1);
+  if (std::abs(std::log(after)) > std::abs(std::log(before))) return std::nullopt;
+  return InputFinding{
+      Fault::information_scale,
+      fmt::format("squared gaps of {} over their stated variances (median of {}): {:.3g} -> {:.3g} "
+                  "with the information of {} times {:.1g}",
+                  wrong.is_of_neighbours ? "neighbouring closures" : "the loops",
+                  count,
+                  before,
+                  after,
+                  wrong.edges,
+                  factor),
+      fmt::format(
+          "check the information of {}; for a trajectory: options {}", wrong.edges, wrong.options),
+      0.8,
+      before};
 }
 
 }  // namespace
 
-std::optional<InputFinding> check_information(const Problem& problem, const Chain& chain) {
+std::optional<InputFinding> check_information(const std::vector<Edge>& closures,
+                                              const Chain& chain) {
   constexpr std::size_t kFewest = 2;
-  constexpr double kLeastOfOrder = 5.0, kLeastProven = 3.0;  // in logarithms of the likelihood
-  if (problem.closures.size() < kFewest) return std::nullopt;
-  const std::vector<LoopGroup> groups = groups_of(problem.closures, chain);
-  const LoopGroup::Logarithms factors = median_factors(groups);
-  if (is_exact(factors)) return std::nullopt;
-  Problem other = problem;
-  exchange_blocks(other.odometry);
-  exchange_blocks(other.closures);
-  const Chain other_chain = chain_of(other);
-  const std::vector<LoopGroup> other_groups = groups_of(other.closures, other_chain);
-  const double gain = gain_of_order(groups, other_groups);
-  if (gain > kLeastOfOrder * static_cast<double>(groups.size()) &&
-      !is_any_far(median_factors(other_groups))) {
+  constexpr double kFar = 1000.0, kNear = 100.0;  // in variance
+  if (closures.size() < kFewest) return std::nullopt;
+  const SquaredError loops = median_error(loop_errors(closures, chain));
+  const double before = distance(loops);
+  const SquaredError other =
+      before > std::log(kFar) ? median_error(loop_errors(closures, exchanged(chain), true)) : loops;
+  const double after = distance(other);
+  if (before > std::log(kFar) && after < std::min(0.5 * before, std::log(kNear))) {
     return InputFinding{
         Fault::information_order,
-        fmt::format("exchanging the blocks of translation and rotation makes the gaps of the loops "
-                    "likelier (logarithm of the ratio {:.1f})",
-                    gain),
+        fmt::format("squared gaps of the loops are {} times the stated variances; {} after "
+                    "exchange of the blocks",
+                    text(loops),
+                    text(other)),
         "check the order of the blocks: g2o has those of x y z first",
-        1.0 - std::exp(-0.25 * (gain)),
-        gain};
+        1.0 - after / before,
+        before};
   }
-  if (!is_any_far(factors)) return std::nullopt;
-  const double before = tested(groups, {0.0, 0.0}), after = tested(groups, factors);
-  if (after - before < kLeastProven) return std::nullopt;
-  const bool of_both = is_far(factors[kOdometry]) && is_far(factors[kClosures]);
-  const bool of_odometry = is_far(factors[kOdometry]);
-  const char* edges = of_both ? "all edges" : of_odometry ? "the odometry" : "the closures";
-  const double factor = std::exp(factors[of_odometry ? kOdometry : kClosures]);
-  return InputFinding{
-      Fault::information_scale,
-      fmt::format("the gaps of the loops fit {:.1g} times the stated variances of {} (median of {} "
-                  "groups of loops; logarithm of the ratio of likelihoods {:.1f})",
-                  factor,
-                  edges,
-                  groups.size(),
-                  after - before),
-      fmt::format("check the information of {}; for a trajectory: options {}{}",
-                  edges,
-                  of_odometry ? "odometry.sigma_*" : "closures.sigma_*",
-                  of_both ? ", closures.sigma_*" : ""),
-      0.8,
-      factor};
+  const std::vector<SquaredError> neighbours =
+      neighbour_errors(neighbours_of(closures, chain), chain);
+  const bool has_neighbours = !neighbours.empty();
+  const SquaredError near = median_error(neighbours);
+  const WrongScale of_all{"all edges", "odometry.sigma_*, closures.sigma_*"};
+  if (std::min(loops.translation, loops.rotation) > kInformationTooLarge ||
+      loops.whole > kInformationTooLarge) {
+    const bool is_of_odometry = has_neighbours && near.whole < kInformationTooLarge;
+    return wrong_scale(
+        is_of_odometry ? WrongScale{"the odometry", "odometry.sigma_*", true, false} : of_all,
+        closures,
+        chain);
+  }
+  if (loops.whole > kOfExactMeasurements &&
+      std::max(loops.translation, loops.rotation) < kInformationTooSmall) {
+    return wrong_scale(of_all, closures, chain);
+  }
+  if (has_neighbours && near.whole > kOfExactMeasurements &&
+      (near.whole < kInformationTooSmall || near.whole > kInformationTooLarge)) {
+    return wrong_scale({"the closures", "closures.sigma_*", false, true, true}, closures, chain);
+  }
+  return std::nullopt;
 }
 
 }  // namespace loopbench::metrics

@@ -34,19 +34,10 @@ class LoopGroup {
   /// predictions with these factors to `errors`. O(closures^3).
   double log_likelihood(const std::vector<Pose>& measured, PredictionError* errors = nullptr) const;
 
-  /// Logarithms of the factors for odometry and closures.
-  using Logarithms = std::array<double, 2>;
-
-  /// The factors that fit best to the closures as they are. O(closures^3).
-  Logarithms best_factors() const;
-
-  /// The same likelihood of the closures as they are, with given factors. O(closures^3).
-  double log_likelihood_of(const Logarithms& factors) const;
-
  private:
-  std::vector<Pose> as_read() const;
+  using Logarithms = std::array<double, 2>;  // of the factors
+
   Eigen::VectorXd gaps(const std::vector<Pose>& measured) const;
-  std::pair<double, Logarithms> best_of(const Eigen::VectorXd& values) const;
   Eigen::MatrixXd covariance(const Logarithms& factors) const;
   double log_likelihood_of(const Eigen::VectorXd& values, const Logarithms& factors) const;
   double pattern_search(const Eigen::VectorXd& values, Logarithms& at) const;
@@ -59,7 +50,7 @@ class LoopGroup {
   Eigen::MatrixXd of_odometry_, of_closures_;  ///< covariances as stated
 };
 
-inline constexpr double kLeastVariance = 1e-16;  // of rounded numbers
+inline constexpr double kLeastVariance = 1e-12;  // of rounded numbers
 
 inline LoopGroup::LoopGroup(std::vector<const Edge*> closures, const Chain& chain)
     : closures_(std::move(closures)), chain_(chain) {
@@ -147,66 +138,13 @@ inline void LoopGroup::add_errors(const Eigen::VectorXd& values,
   }
 }
 
-inline std::pair<double, LoopGroup::Logarithms> LoopGroup::best_of(
-    const Eigen::VectorXd& values) const {
-  std::pair<double, Logarithms> best{-std::numeric_limits<double>::infinity(), {}};
-  for (Logarithms at : {Logarithms{0.0, 0.0}, Logarithms{0.0, 4.0}, Logarithms{10.0, 0.0}}) {
-    const double found = pattern_search(values, at);
-    if (found > best.first) best = {found, at};
-  }
-  return best;
-}
-
 inline double LoopGroup::log_likelihood(const std::vector<Pose>& measured,
                                         PredictionError* errors) const {
   const Eigen::VectorXd values = gaps(measured);
-  const auto [likelihood, factors] = best_of(values);
-  if (errors != nullptr) add_errors(values, factors, *errors);
-  return likelihood;
-}
-
-inline std::vector<Pose> LoopGroup::as_read() const {
-  std::vector<Pose> out;
-  for (const Edge* edge : closures_) out.push_back(edge->from_from_to);
-  return out;
-}
-
-inline LoopGroup::Logarithms LoopGroup::best_factors() const {
-  return best_of(gaps(as_read())).second;
-}
-
-inline double LoopGroup::log_likelihood_of(const Logarithms& factors) const {
-  return log_likelihood_of(gaps(as_read()), factors);
-}
-
-/// The same edge again has the same error, so the two do not show how large errors are.
-inline bool is_copy(const Edge* a, const Edge* b) {
-  return a->from == b->from && a->to == b->to &&
-         a->from_from_to.translation == b->from_from_to.translation &&
-         a->from_from_to.rotation.coeffs() == b->from_from_to.rotation.coeffs();
-}
-
-/// Groups of up to five different closures that follow each other, evenly chosen.
-inline std::vector<LoopGroup> groups_of(const std::vector<Edge>& closures, const Chain& chain) {
-  constexpr std::size_t kSize = 5, kMost = 14;
-  std::vector<const Edge*> sorted = sorted_by_end(closures);
-  sorted.erase(std::unique(sorted.begin(), sorted.end(), is_copy), sorted.end());
-  const std::size_t n = sorted.size();
-  const std::size_t count = std::clamp<std::size_t>((n + 1) / kSize, n < kSize + 1 ? 1 : 2, kMost);
-  std::vector<LoopGroup> out;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto begin = sorted.begin() + static_cast<std::ptrdiff_t>(i * n / count);
-    const std::size_t size = (i + 1) * n / count - i * n / count;
-    const auto end = begin + static_cast<std::ptrdiff_t>(count == 1 ? n : std::min(size, kSize));
-    out.emplace_back(std::vector<const Edge*>(begin, end), chain);
-  }
-  return out;
-}
-
-/// Choices and proofs use alternate groups; all, if there are few, which differ little by chance.
-inline std::size_t step_of(const std::vector<LoopGroup>& groups) {
-  constexpr std::size_t kFewestForHalves = 6;
-  return groups.size() < kFewestForHalves ? 1 : 2;
+  Logarithms near{0.0, 0.0}, far{0.0, 4.0};
+  const double of_near = pattern_search(values, near), of_far = pattern_search(values, far);
+  if (errors != nullptr) add_errors(values, of_near > of_far ? near : far, *errors);
+  return std::max(of_near, of_far);
 }
 
 }  // namespace loopbench::metrics

@@ -39,8 +39,8 @@ std::optional<StampRepair> check_clock_drift(const Trajectory& reference,
 /// The time ranges do not overlap. O(1).
 std::optional<InputFinding> check_overlap(const Trajectory& reference, const Trajectory& estimate);
 
-/// The estimate has no poses in at least a quarter of the reference's path, in tracking_gaps()
-/// above 2 s. O(n).
+/// The estimate has no poses in at least a quarter of the reference's path, in gaps above 2 s and
+/// ten of its usual intervals. O(n).
 std::optional<InputFinding> check_missing(const Trajectory& reference, const Trajectory& estimate);
 
 /// Only the estimate's name contains a word like "groundtruth", or the estimate has at least twice

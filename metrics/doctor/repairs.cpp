@@ -12,9 +12,6 @@
 namespace loopbench::metrics {
 namespace {
 
-/// Estimates the parameters of a repair from poses; nullopt if these do not suggest it.
-using Proposal = std::function<std::optional<Repair>(const CommonPoses&)>;
-
 using Change = std::function<Pose(const Pose&)>;
 
 std::function<void(CommonPoses&)> to_each(bool of_reference, const Change& change) {
@@ -41,7 +38,7 @@ Pose inverted(const Pose& p) { return p.inverse(); }
 
 /// A repair without parameters, of either file.
 void add_convention(std::vector<Proposal>& to,
-                    Fault::Name fault,
+                    Fault fault,
                     const char* what,
                     const char* option,
                     double penalty,
@@ -158,8 +155,6 @@ std::optional<Repair> lever_arm_repair(const CommonPoses& poses) {
       to_each(false, [body](const Pose& p) { return p * body; })};
 }
 
-/// Order and sign of quaternions, inverted poses, axes, units of lengths, scale, rotation and lever
-/// arm of the body.
 std::vector<Proposal> all_proposals() {
   std::vector<Proposal> out;
   add_convention(out,
@@ -196,9 +191,6 @@ bool agrees(const Agreement& a) {
          a.rotation < kSmallAngle;
 }
 
-/// In Agreement::cost(): a factor of 2 in the errors.
-double least_gain(const Repair& repair) { return repair.fault == Fault::lever_arm ? 0.2 : 0.7; }
-
 CommonPoses thinned(const CommonPoses& poses, std::size_t most) {
   CommonPoses out;
   const std::size_t step = (poses.stamps.size() + most - 1) / most;
@@ -212,7 +204,14 @@ CommonPoses thinned(const CommonPoses& poses, std::size_t most) {
 
 }  // namespace
 
+const std::vector<Proposal>& proposals() {
+  static const std::vector<Proposal> all = all_proposals();
+  return all;
+}
+
 std::optional<Proven> best_repair(const CommonPoses& poses) {
+  constexpr double kLeastGain = 0.7;  // a factor of 2 in the errors
+  constexpr double kLeastOfLeverArm = 0.2;
   constexpr double kMostRatio = 0.75;
   constexpr std::size_t kMostCompared = 300;  // for the choice among all
   if (poses.stamps.size() < kFewestCommonPoses) return std::nullopt;
@@ -220,14 +219,14 @@ std::optional<Proven> best_repair(const CommonPoses& poses) {
   const Agreement before = agreement(poses), before_of_few = agreement(few);
   const bool is_good = agrees(before);
   std::vector<std::pair<double, const Proposal*>> gains;
-  static const std::vector<Proposal> all = all_proposals();
-  for (const Proposal& proposal : all) {
+  for (const Proposal& proposal : proposals()) {
     const std::optional<Repair> repair = proposal(fitted);
     if (!repair || (is_good && repair->fault != Fault::lever_arm)) continue;
     CommonPoses changed = few;
     repair->apply(changed);
     const double gain = before_of_few.cost() - agreement(changed).cost() - repair->penalty;
-    if (gain > least_gain(*repair)) gains.emplace_back(-gain, &proposal);
+    if (gain > (repair->fault == Fault::lever_arm ? kLeastOfLeverArm : kLeastGain))
+      gains.emplace_back(-gain, &proposal);
   }
   std::ranges::sort(gains, {}, [](const auto& each) { return each.first; });
   for (const auto& [gain, proposal] : gains) {
@@ -236,7 +235,11 @@ std::optional<Proven> best_repair(const CommonPoses& poses) {
     repair->apply(changed);
     const Agreement after = agreement(changed);
     const Improvement gained = improvement(before, after);
-    if (before.cost() - after.cost() < least_gain(*repair) || gained.ratio > kMostRatio) continue;
+    const bool is_lever_arm = repair->fault == Fault::lever_arm;
+    if (before.cost() - after.cost() < (is_lever_arm ? kLeastOfLeverArm : kLeastGain) ||
+        gained.ratio > kMostRatio) {
+      continue;
+    }
     if (std::optional<Repair> final = (*proposal)(poses)) return Proven{std::move(*final), gained};
   }
   return std::nullopt;

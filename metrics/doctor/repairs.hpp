@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/finding.hpp"
@@ -11,7 +12,7 @@
 namespace loopbench::metrics {
 
 struct Repair {
-  Fault::Name fault;
+  Fault fault{};
   std::string what;    ///< "quaternions of the estimate in the order w x y z"
   std::string fix;     ///< a command or an option
   double value = 0.0;  ///< see InputFinding::value
@@ -20,6 +21,13 @@ struct Repair {
   double penalty = 0.0;
   std::function<void(CommonPoses&)> apply;
 };
+
+/// Estimates the parameters of a repair from poses; nullopt if these do not suggest it.
+using Proposal = std::function<std::optional<Repair>(const CommonPoses&)>;
+
+/// Order and sign of quaternions, inverted poses, axes, units of angles and lengths, scale,
+/// rotation and lever arm of the body.
+const std::vector<Proposal>& proposals();
 
 /// A repair that improves the agreement on poses that it was not fitted to.
 struct Proven {

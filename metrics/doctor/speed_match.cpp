@@ -12,31 +12,53 @@ SpeedMatch::SpeedMatch(const Trajectory& reference, const Trajectory& estimate, 
     : reference_(reference) {
   constexpr std::size_t kMostPairs = 600;
   constexpr double kShortest = 0.1, kLongest = 10.0;  // [s]; of intervals
-  constexpr double kRounding = 0.99;
   const double usual = usual_interval(reference);
-  interval_ = kRounding * std::max({kShortest, usual, usual_interval(estimate)});
+  interval_ = std::max({kShortest, usual, 0.99 * usual_interval(estimate)});
   longest_gap_ = std::max(1.0, 10.0 * usual);
   const std::size_t step = std::max<std::size_t>(1, estimate.size() / kMostPairs);
+  const double whole = reference.empty() ? 0.0 : reference.back().stamp - reference[0].stamp;
+  if (whole > 0.0) rate_ = static_cast<double>(reference.size() - 1) / whole;
   std::size_t j = 0;
   for (std::size_t i = 0; i < estimate.size(); i = std::max(j, i + step)) {
-    j = first_from(estimate, estimate[i].stamp + interval_, i + 1);
+    j = std::max(j, i);
+    const auto is_short = [&](std::size_t k) {  // the sum below is rounded
+      return estimate[k].stamp - estimate[i].stamp < interval_;
+    };
+    j = std::max(j, first_from(estimate, estimate[i].stamp + interval_, j));
+    while (j > i && !is_short(j - 1)) --j;
+    while (j < estimate.size() && is_short(j)) ++j;
     if (j == estimate.size()) break;
     const double duration = estimate[j].stamp - estimate[i].stamp;
     if (duration > kLongest * interval_) continue;
     const Pose& from = estimate[i].world_from_body;
     const Pose& to = estimate[j].world_from_body;
-    speeds_.push_back({estimate[i].stamp,
-                       estimate[j].stamp,
-                       angle_between(from.rotation, to.rotation) / duration,
-                       (to.translation - from.translation).norm() / duration});
+    motions_.push_back({estimate[i].stamp,
+                        estimate[j].stamp,
+                        angle_between(from.rotation, to.rotation),
+                        (to.translation - from.translation).norm()});
   }
   if (part == Part::all) return;
-  const std::size_t n = speeds_.size();
-  std::vector<TimedSpeed> kept;
+  const std::size_t n = motions_.size();
+  std::vector<TimedMotion> kept;
   for (std::size_t i = 0; i < n; ++i) {
-    if (is_fitted(i, n) == (part == Part::fitted)) kept.push_back(speeds_[i]);
+    if (is_fitted(i, n) == (part == Part::fitted)) kept.push_back(motions_[i]);
   }
-  speeds_ = std::move(kept);
+  motions_ = std::move(kept);
+}
+
+MotionSignals SpeedMatch::signals(double offset) const {
+  MotionSignals out;
+  for (const TimedMotion& motion : motions_) {
+    const std::optional<Pose> from = reference_at(motion.begin + offset);
+    const std::optional<Pose> to = reference_at(motion.end + offset);
+    if (!from || !to) continue;
+    out.reference_angle.push_back(angle_between(from->rotation, to->rotation));
+    out.estimate_angle.push_back(motion.angle);
+    out.reference_distance.push_back((to->translation - from->translation).norm());
+    out.estimate_distance.push_back(motion.distance);
+    out.duration.push_back(motion.end - motion.begin);
+  }
+  return out;
 }
 
 double SpeedMatch::Score::best() const {
@@ -45,33 +67,33 @@ double SpeedMatch::Score::best() const {
   return std::max({0.5 * (angle + distance), angle - kPenalty, distance - kPenalty});
 }
 
-SpeedMatch::Score SpeedMatch::score(double offset) const {
-  constexpr std::size_t kFewest = 10;
-  std::vector<double> reference_angle, estimate_angle, reference_distance, estimate_distance;
-  std::size_t hint = 0;
-  for (const TimedSpeed& speed : speeds_) {
-    const std::optional<Pose> from = reference_at(speed.begin + offset, hint);
-    const std::optional<Pose> to = reference_at(speed.end + offset, hint);
-    if (!from || !to) continue;
-    const double duration = speed.end - speed.begin;
-    reference_angle.push_back(angle_between(from->rotation, to->rotation) / duration);
-    estimate_angle.push_back(speed.angle);
-    reference_distance.push_back((to->translation - from->translation).norm() / duration);
-    estimate_distance.push_back(speed.distance);
+SpeedMatch::Score SpeedMatch::score_of_speeds(double offset) const {
+  MotionSignals s = signals(offset);
+  for (auto* values :
+       {&s.reference_angle, &s.estimate_angle, &s.reference_distance, &s.estimate_distance}) {
+    for (std::size_t i = 0; i < values->size(); ++i) (*values)[i] /= s.duration[i];
   }
-  if (reference_angle.size() < std::max(kFewest, speeds_.size() / 5)) return {};
-  return {correlation(reference_angle, estimate_angle),
-          correlation(reference_distance, estimate_distance),
+  return score(s);
+}
+
+SpeedMatch::Score SpeedMatch::score(const MotionSignals& s) const {
+  constexpr std::size_t kFewest = 10;
+  if (s.reference_angle.size() < std::max(kFewest, motions_.size() / 5)) return {};
+  return {correlation(s.reference_angle, s.estimate_angle),
+          correlation(s.reference_distance, s.estimate_distance),
           true};
 }
 
-std::optional<Pose> SpeedMatch::reference_at(double stamp, std::size_t& hint) const {
+std::optional<Pose> SpeedMatch::reference_at(double stamp) const {
   if (reference_.empty() || !(stamp >= reference_.front().stamp)) return std::nullopt;
-  hint = first_from(reference_, stamp, hint);
-  if (hint == reference_.size()) return std::nullopt;
-  const StampedPose& after = reference_[hint];
+  // Poses are close to evenly spaced, so the search begins near its result.
+  const double expected =
+      std::min(rate_ * (stamp - reference_.front().stamp), static_cast<double>(reference_.size()));
+  const std::size_t index = first_from(reference_, stamp, static_cast<std::size_t>(expected));
+  if (index == reference_.size()) return std::nullopt;
+  const StampedPose& after = reference_[index];
   if (after.stamp == stamp) return after.world_from_body;
-  const StampedPose& before = reference_[hint - 1];
+  const StampedPose& before = reference_[index - 1];
   const double gap = after.stamp - before.stamp;
   if (gap > longest_gap_) return std::nullopt;
   return interpolate(before.world_from_body, after.world_from_body, (stamp - before.stamp) / gap);

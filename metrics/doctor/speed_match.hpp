@@ -18,7 +18,7 @@ class SpeedMatch {
   SpeedMatch(const Trajectory& reference, const Trajectory& estimate, Part part = Part::all);
 
   double interval() const { return interval_; }
-  std::size_t intervals() const { return speeds_.size(); }
+  std::size_t intervals() const { return motions_.size(); }
 
   struct Score {
     double angle = 0.0;
@@ -29,27 +29,31 @@ class SpeedMatch {
     double best() const;
   };
 
-  /// Of speeds, not of steps: at constant speeds, steps correlate at any offset if the durations of
-  /// intervals differ.
-  Score score(double offset) const;
+  Score score(double offset) const { return score(signals(offset)); }
+
+  /// Of speeds instead of steps: at constant speeds, steps correlate at any offset if the durations
+  /// of intervals differ.
+  Score score_of_speeds(double offset) const;
 
   double at(double offset) const { return score(offset).best(); }
 
  private:
-  /// Speeds of the estimate between two of its stamps.
-  struct TimedSpeed {
+  /// Motion of the estimate between two of its stamps.
+  struct TimedMotion {
     double begin = 0.0;
     double end = 0.0;
-    double angle = 0.0;     ///< [rad/s]
-    double distance = 0.0;  ///< [m/s]
+    double angle = 0.0;
+    double distance = 0.0;
   };
 
-  /// Searches from the index `hint` on, and sets it.
-  std::optional<Pose> reference_at(double stamp, std::size_t& hint) const;
+  MotionSignals signals(double offset) const;
+  Score score(const MotionSignals& signals) const;
+  std::optional<Pose> reference_at(double stamp) const;
 
   const Trajectory& reference_;
-  std::vector<TimedSpeed> speeds_;
+  std::vector<TimedMotion> motions_;
   double interval_ = 0.0;
+  double rate_ = 0.0;  ///< poses of the reference per second
   double longest_gap_ = 0.0;
 };
 

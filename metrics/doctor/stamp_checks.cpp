@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/pair_checks.hpp"
 #include "metrics/doctor/time_offset.hpp"
-#include "metrics/trajectory/tracking_gaps.hpp"
 
 namespace loopbench::metrics {
 namespace {
@@ -153,21 +151,27 @@ std::optional<InputFinding> check_overlap(const Trajectory& reference, const Tra
 }
 
 std::optional<InputFinding> check_missing(const Trajectory& reference, const Trajectory& estimate) {
-  constexpr double kLeastShare = 0.25, kLeastGap = 2.0;  // [-], [s]
+  constexpr double kLeastShare = 0.25, kLeastGap = 2.0, kOfInterval = 10.0;
   if (reference.size() < kFewestCommonPoses || estimate.size() < kFewestCommonPoses) {
     return std::nullopt;
   }
-  TrackingGap longest;
-  double missing = 0.0;  // [m]
-  for (const TrackingGap& gap : tracking_gaps(reference, stamps(estimate), 0.0, kLeastGap)) {
-    Trajectory inside;
-    std::ranges::copy_if(reference, std::back_inserter(inside), [&](const StampedPose& pose) {
-      return pose.stamp >= gap.begin && pose.stamp <= gap.end;
-    });
-    missing += path_length(inside);
-    if (gap.end - gap.begin > longest.end - longest.begin) longest = gap;
+  const double least = std::max(kLeastGap, kOfInterval * usual_interval(estimate));
+  double all = 0.0, missing = 0.0;  // [m]
+  double longest = 0.0, longest_begin = 0.0;
+  std::size_t next = 0;
+  for (std::size_t i = 1; i < reference.size(); ++i) {
+    const auto& [stamp, pose] = reference[i];
+    const double step = (pose.translation - reference[i - 1].world_from_body.translation).norm();
+    all += step;
+    next = first_from(estimate, stamp, next);
+    const double begin = next == 0 ? reference.front().stamp : estimate[next - 1].stamp;
+    const double end = next == estimate.size() ? reference.back().stamp : estimate[next].stamp;
+    if (end - begin < least) continue;
+    missing += step;
+    if (end - begin <= longest) continue;
+    longest = end - begin;
+    longest_begin = begin;
   }
-  const double all = path_length(reference);
   const double share = all > 0.0 ? missing / all : 0.0;
   if (share < kLeastShare) return std::nullopt;
   return InputFinding{
@@ -175,8 +179,8 @@ std::optional<InputFinding> check_missing(const Trajectory& reference, const Tra
       fmt::format("the estimate has no poses for {:.0f} % of the reference's path; the longest "
                   "gap has {:.1f} s and begins at {:.3f}",
                   100.0 * share,
-                  longest.end - longest.begin,
-                  longest.begin),
+                  longest,
+                  longest_begin),
       "errors hold for the covered part only: state the coverage, or run the system again",
       1.0,
       share};

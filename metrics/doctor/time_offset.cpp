@@ -90,7 +90,7 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
                                                const Trajectory& estimate,
                                                double searched) {
   constexpr std::size_t kFewestPoses = 20;
-  constexpr double kLeastCorrelation = 0.6;
+  constexpr double kLeastCorrelation = 0.6, kLeastOfSpeeds = 0.3;
   if (reference.size() < kFewestPoses || estimate.size() < kFewestPoses) return std::nullopt;
   const SpeedMatch match(reference, estimate);
   TimeOffset out;
@@ -118,7 +118,10 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
   out.offset = vertex(match, best.offset, fine);
   const SpeedMatch::Score after = match.score(out.offset);
   out.correlation = after.best();
-  if (out.correlation < kLeastCorrelation) return std::nullopt;
+  if (out.correlation < kLeastCorrelation ||
+      match.score_of_speeds(out.offset).best() < kLeastOfSpeeds) {
+    return std::nullopt;
+  }
   out.unexplained = unexplained(before, after);
   out.deviation = deviation_of(match, out.offset, 0.5 * fine);
   return out;

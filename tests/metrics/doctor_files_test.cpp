@@ -93,7 +93,7 @@ TEST(Doctor, ClockDriftBesideAReferenceWithoutRotations) {
   for (StampedPose& pose : reference) pose.world_from_body.rotation = Rotation::Identity();
   Trajectory estimate = without_errors();
   for (StampedPose& pose : estimate) pose.stamp = 1.0 + 1.005 * (pose.stamp - 1.0);
-  std::vector<Fault::Name> found;
+  std::vector<Fault> found;
   for (const auto& each : diagnosis(reference, estimate, "reference.txt", "run.txt").findings) {
     found.push_back(each.fault);
   }

@@ -11,7 +11,6 @@
 #include "metrics/doctor/closure_chain.hpp"
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/graph_checks.hpp"
-#include "metrics/doctor/loop_likelihood.hpp"
 
 namespace loopbench {
 namespace {
@@ -129,29 +128,13 @@ std::string unless_too_small(const Problem& problem) {
                      : unless_false(problem);
 }
 
-/// Whether two different closures connect the same two sections of the odometry.
-bool has_neighbours(const Problem& problem) {
-  constexpr std::size_t kSearched = 12, kMostKeyframes = 15;
-  constexpr double kMostMetres = 15.0;
-  const metrics::Chain chain = metrics::chain_of(problem);
-  const auto is_near = [&](std::size_t i, std::size_t j) {
-    return (i > j ? i - j : j - i) <= kMostKeyframes && chain.length(i, j) <= kMostMetres;
-  };
-  const std::vector<Edge>& all = problem.closures;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t j = i + 1; j < std::min(all.size(), i + 1 + kSearched); ++j) {
-      if (!metrics::is_copy(&all[i], &all[j]) && is_near(all[i].from, all[j].from) &&
-          is_near(all[i].to, all[j].to)) {
-        return true;
-      }
-    }
-  }
-  return false;
+std::size_t pairs_of(const Problem& problem) {
+  return metrics::neighbours_of(problem.closures, metrics::chain_of(problem)).size();
 }
 
 /// Without two closures between the same sections, the drift hides how exact closures are.
 std::string unless_isolated(const Problem& problem) {
-  return !has_neighbours(problem)
+  return pairs_of(problem) == 0
              ? "no two closures connect the same sections, so that none can be compared"
              : unless_false(problem);
 }
