@@ -123,6 +123,7 @@ std::vector<Table> with_columns(std::vector<Table> tables, const std::vector<std
       if (is_new) known.push_back(table.headings[c]);
     }
   }
+  if (known.empty()) return tables;  // nothing was evaluated
   for (const std::string& name : names) {
     const auto is_named = [&](const std::string& heading) { return is_column_name(heading, name); };
     if (std::ranges::any_of(known, is_named)) continue;

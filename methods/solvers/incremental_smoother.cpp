@@ -42,6 +42,7 @@ class IncrementalSmoother final : public Incremental {
     Element to_from_measured_from;
     typename G::Square information;
     bool is_odometry = true;
+    bool is_removed = false;
     double cost = 0.0;    ///< its part of cost_
     double chi2 = 0.0;    ///< its part of chi2_
     double mu = 0.0;      ///< `graduated`: 0, the loss is convex, to 1
@@ -122,7 +123,7 @@ class IncrementalSmoother final : public Incremental {
   void reweigh(std::size_t index) {
     constexpr double kSame = 1e-3;  // change of a weight that is not worth an elimination
     Constraint& of = constraints_[index];
-    if (of.is_odometry) return;
+    if (of.is_odometry || of.is_removed) return;
     const double s = std::pow(chi2_of(of), of.mu);
     const double sum = kQuantile + s;
     const double weight = kQuantile * (kQuantile + s * (1.0 - of.mu)) / (sum * sum);
@@ -180,6 +181,7 @@ class IncrementalSmoother final : public Incremental {
     const auto found = std::ranges::find_if(graph_.edges_of[edge.to], is_it);
     if (found == graph_.edges_of[edge.to].end()) return;
     const std::size_t index = *found;
+    constraints_[index].is_removed = true;
     cost_ -= constraints_[index].cost;
     chi2_ -= constraints_[index].chi2;
     --kept_;

@@ -81,6 +81,8 @@ PoseGraphSummary minimise_least_squares(std::vector<typename G::Element>& x,
       // is a tenth of a millimetre on long chains.
       if (predicted >= last_predicted) out.converged = true;
     } else {
+      out.converged = predicted <= settings.tolerance * cost;  // no step was taken
+      last_predicted = std::numeric_limits<double>::infinity();
       if (!out.converged) damp_more();
       continue;
     }

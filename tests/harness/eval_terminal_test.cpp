@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <sstream>
 
 #include "datasets/formats/formats.hpp"
@@ -85,6 +86,14 @@ TEST_F(EvalOnATerminal, ColumnsAreChosen) {
               HasSubstr("--columns: no column is named 'ate', expected rmse, mean, median"));
   EXPECT_THAT(error("--csv --columns metricc"), HasSubstr("did you mean 'metric'?"));
   EXPECT_THAT(error("--json --columns ate"), HasSubstr("--columns excludes --json"));
+}
+
+TEST_F(EvalOnATerminal, ColumnsOfEstimatesThatAllFailedDoNotHideTheReason) {
+  std::ofstream(folder_.path() / "far.txt") << "9000 0 0 0 0 0 0 1\n9001 1 0 0 0 0 0 1\n";
+  const CommandResult result =
+      loopbench_command("eval gt.txt far.txt far.txt --columns ate", folder_);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("matches the reference"));
 }
 
 TEST_F(EvalOnATerminal, SeveralEstimatesFitAndEndWithAVerdict) {

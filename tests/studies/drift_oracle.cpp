@@ -260,7 +260,9 @@ DevelopmentChain without_drift_control(const DevelopmentChain& chain, int seed) 
   for (std::vector<Edge>* edges : {&out.problem.odometry, &out.problem.closures}) {
     for (Edge& edge : *edges) {
       const Matrix6 deviations = edge.information.inverse().eval().llt().matrixL();
-      const Twist error = deviations * twist(random.normal3(), random.normal3());
+      const Vector3 translation = random.normal3(), rotation = random.normal3();
+      Twist error = deviations * twist(translation, rotation);
+      if (out.problem.planar) error.segment<3>(2).setZero();  // z, roll, pitch
       const Pose exact =
           truth[edge.from].world_from_body.inverse() * truth[edge.to].world_from_body;
       edge.from_from_to = normalized(exact * exp_se3(error));

@@ -129,10 +129,10 @@ def evaluate(
 
     Reference and estimate are two paths or two arrays. The other arguments are the options of
     `eval`; `settings` are fields of the protocol, as of `--set`, and `metrics` texts as of
-    `--metric`. `format` and all after it refer to files. Equal stamps are handled as by `eval`: all
-    poses are kept if the protocol pairs as evo does, otherwise `repeats` decides, and arrays are
-    rejected. `diagnose=False` leaves out notes and the diagnosis, whose search for a time offset
-    takes most of the time of small arrays. With `errors`, the result has `errors`, one row for each
+    `--metric`. `format` and all after it refer to files. `repeats` says what becomes of equal
+    stamps in files, as in `eval`; by default all poses are kept if the protocol pairs as evo does,
+    otherwise they are an error. `diagnose=False` leaves out notes and the diagnosis, whose search
+    for a time offset takes most of the time of small arrays. With `errors`, the result has `errors`, one row for each
     pose with the columns of `eval --per-pose`: a pandas data frame, without pandas a dictionary of
     arrays. Raises ValueError for invalid input. Does not hold the interpreter's lock.
 
