@@ -31,16 +31,8 @@ double gains_from_loops_error(const DevelopmentChain& chain);
 /// ATE (RMSE) of the keyframes after rigid alignment, with scale for Sim(3) chains [m].
 double aligned_error(const Trajectory& estimate, const DevelopmentChain& chain);
 
-/// The chain with its closures measured in the reference without noise, at the same keyframes and
-/// with the same covariances. Closures at keyframes without reference are left out.
-DevelopmentChain with_exact_closures(const DevelopmentChain& chain);
-
 /// A chain without drift: the truth is the result of `dual`, odometry and closures are drawn around
 /// it with the covariances rescaled from the loops. Scale is exact in rigid chains only.
 DevelopmentChain without_drift_control(const DevelopmentChain& chain, int seed);
-
-/// The targets of the article's sequences (configs of results/methods/argument.md and
-/// argument_mono.md). Throws DataMissing.
-std::vector<DevelopmentChain> target_chains(const DataRoot& root);
 
 }  // namespace loopbench

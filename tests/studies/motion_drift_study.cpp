@@ -16,6 +16,7 @@
 #include "tests/studies/development_chains.hpp"
 #include "tests/studies/drift_controls.hpp"
 #include "tests/studies/drift_oracle.hpp"
+#include "tests/studies/target_chains.hpp"
 
 namespace loopbench {
 
