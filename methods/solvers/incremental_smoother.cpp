@@ -77,7 +77,7 @@ class IncrementalSmoother final : public Incremental {
   /// Updates the factorisation until no correction exceeds the tolerance, or another linearisation
   /// is not worth its time.
   void optimise() {
-    double before = 0.0;
+    double last_decrease = 0.0;
     for (int i = 0; i < settings_.max_iterations && !touched_.empty(); ++i) {
       ++iterations_;
       const std::vector<std::size_t> touched = std::exchange(touched_, {});
@@ -100,10 +100,11 @@ class IncrementalSmoother final : public Incremental {
         }
       }
       // Gauss-Newton converges linearly: the next decrease is to this one as this one to the last.
-      const double now = tree_.decrease();
-      const double next = before > 0.0 ? now * now / before : now;
-      if (i > 0 && touched_.empty() && next <= settings_.decrease * cost_) break;
-      before = now;
+      const double decrease = tree_.decrease();
+      const double next_decrease =
+          last_decrease > 0.0 ? decrease * decrease / last_decrease : decrease;
+      if (i > 0 && touched_.empty() && next_decrease <= settings_.decrease * cost_) break;
+      last_decrease = decrease;
       relinearise(solved);
     }
   }
