@@ -20,7 +20,7 @@ inline auto choices(IncrementalRobustness) {
 
 struct IncrementalSettings {
   double tolerance = 1e-6;   ///< largest correction without a new linearisation [m], [rad]
-  double decrease = 1e-12;   ///< smallest decrease, relative to the cost, that is worth one
+  double decrease = 1e-8;    ///< smallest decrease, relative to the cost, that is worth one
   int max_iterations = 100;  ///< linearisations per update
   IncrementalRobustness robust = IncrementalRobustness::none;
 };

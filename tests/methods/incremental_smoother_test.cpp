@@ -133,7 +133,7 @@ TEST(IncrementalSmoother, EndsBeforeALinearisationThatHardlyLowersTheCost) {
   Report exact_report;
   const Trajectory exact = in_parts(problem, IncrementalPoseGraph(kExact), exact_report);
   Report report;
-  const IncrementalPoseGraph early({.decrease = 1e-8});
+  const IncrementalPoseGraph early(IncrementalSettings{});
   const Trajectory solved = in_parts(problem, early, report);
   EXPECT_LT(iterations(report), iterations(exact_report));
   EXPECT_TRUE(report.notes.empty());
