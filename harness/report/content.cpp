@@ -116,11 +116,16 @@ std::vector<std::string> default_methods(const ReportContent& content) {
 }
 
 std::vector<std::string> style_order(const ReportContent& content) {
-  std::vector<std::string> out = content.methods;
+  std::vector<std::string> out;
   const auto baseline = content.run.find("baseline");
-  if (baseline == content.run.end()) return out;
-  const auto found = std::ranges::find(out, baseline->second);
-  if (found != out.end()) std::rotate(out.begin(), found, found + 1);
+  if (baseline != content.run.end()) add_new(out, baseline->second);
+  // More methods than colours: those that are drawn by default must not share one.
+  if (content.methods.size() > kCurveColors.size()) {
+    for (const std::string& name : default_methods(content)) add_new(out, name);
+  }
+  for (const std::string& name : content.methods) add_new(out, name);
+  std::erase_if(
+      out, [&](const std::string& name) { return std::ranges::count(content.methods, name) == 0; });
   return out;
 }
 

@@ -54,8 +54,9 @@ ReportContent read_report_content(const std::filesystem::path& store,
 /// sweep.
 std::vector<std::string> default_methods(const ReportContent& content);
 
-/// All methods, the baseline first, then in the order of the sweep. Their indices determine their
-/// styles (curve_style()) in `plot` and in the report.
+/// All methods, the baseline first, then in the order of the sweep; if there are more methods than
+/// colours, default_methods() first. Their indices determine their styles (curve_style()) in `plot`
+/// and in the report.
 std::vector<std::string> style_order(const ReportContent& content);
 
 /// Tables and verdicts are plain HTML; figures are drawn from embedded data by the page's scripts

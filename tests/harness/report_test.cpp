@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
@@ -155,6 +156,22 @@ TEST_F(OfASweep, MethodsHaveTheStylesAndTheChoiceOfPlot) {
     EXPECT_EQ(scores["styles"][m]["dash"], curve_style(curve.style).dash) << curve.name;
   }
   EXPECT_EQ(style_order(content).front(), "straight");  // the baseline
+}
+
+TEST_F(OfASweep, MethodsThatAreDrawnByDefaultShareNoColour) {
+  ReportContent content = read_report_content(folder_->path());
+  for (int i = 0; i < 20; ++i) {
+    content.methods.insert(content.methods.begin() + 1, "other " + std::to_string(i));
+  }
+  const std::vector<std::string> order = style_order(content);
+  EXPECT_EQ(order.size(), content.methods.size());
+  std::set<std::string> colors;
+  const std::vector<std::string> shown = default_methods(content);
+  for (const std::string& name : shown) {
+    const auto index = std::ranges::find(order, name) - order.begin();
+    colors.insert(curve_style(static_cast<std::size_t>(index)).color);
+  }
+  EXPECT_EQ(colors.size(), shown.size());
 }
 
 TEST_F(OfASweep, StaysBelowItsSizeOrNamesTheLeast) {
