@@ -112,8 +112,8 @@ def chain_parts(program, store):
                       str(sum(ratio > 1.05 for ratio in ratios.values())), f"{ratios[worst]:.2f} ({worst[0]})"))
     parts["correctors"] = aligned(("method", "ratio to `dual`", "p", "ratio to `dual rescaled`", "to `dual`, without KITTI 08",
                                    "routes", "lowest route", "highest route", "chains above 1.05", "highest chain"), lines)
-    parts["chains"] = (f"{len(found)} chains of {len(set(family.values()))} odometers on {len(routes)} routes;"
-                       f" without KITTI 08 {forward['dual']['groups']} routes.\n")
+    parts["chains"] = (f"{len(found)} chains of {len({name.split(' (')[0] for name in family.values()})} odometers on"
+                       f" {len(routes)} routes, {forward['dual']['groups']} without KITTI 08.\n")
     kept = rows_of(store, KEPT)
     if kept:
         least = min(kept, key=lambda row: row["kept"] / row["closures"])
@@ -172,9 +172,10 @@ def graph_part(store):
 def cost_part(stores):
     """Over all sweeps, by method."""
     cells = [row for store in stores for row in {row["id"]: row for row in rows_of(store)}.values()]
+    cells = [(re.sub(r"^smoother ([NM])\d", r"smoothers \1", row["method"]), row) for row in cells]
     lines = []
-    for method in dict.fromkeys(row["method"] for row in cells):
-        own = [row for row in cells if row["method"] == method]
+    for method in dict.fromkeys(method for method, _ in cells):
+        own = [row for name, row in cells if name == method]
         good = [row for row in own if row["status"] == "ok"]
         seconds = [row["seconds"] for row in good] or [math.nan]
         lines.append((method, str(len(own)), str(sum(r["status"] == "declined" for r in own)),

@@ -142,7 +142,10 @@ def main():
         parts = parts_of(program)
     except (RuntimeError, OSError) as reason:
         sys.exit(f"make.py: {reason}")
-    given.page.write_text(with_parts(given.page.read_text(encoding="utf-8"), parts), encoding="utf-8")
+    page = given.page.read_text(encoding="utf-8")
+    if missing := [name for name in parts if f"<!-- {name}, written by make.py -->\n" not in page]:
+        sys.exit(f"make.py: {given.page} has no line '<!-- {missing[0]}, written by make.py -->'")
+    given.page.write_text(with_parts(page, parts), encoding="utf-8")
     print(given.page)
 
 
