@@ -117,7 +117,7 @@ def chain_parts(program, store):
     kept = rows_of(store, KEPT)
     if kept:
         least = min(kept, key=lambda row: row["kept"] / row["closures"])
-        parts["rejected"] = (f"`pose_graph_pcm` rejects {sum(r['closures'] - r['kept'] for r in kept):.0f} of"
+        parts["chains"] += (f"`pose_graph_pcm` rejects {sum(r['closures'] - r['kept'] for r in kept):.0f} of"
                              f" {sum(r['closures'] for r in kept)} closures here, the largest share on {least['sequence']}:"
                              f" {least['closures'] - least['kept']:.0f} of {least['closures']}.\n")
     return parts
@@ -165,8 +165,8 @@ def graph_part(store):
     differ = [f"{name} {ratio:.4g}" for name, ratio in worse.items() if abs(ratio - 1) > 1e-6]
     proved = sum(g.get("gap", 100) < 1e-4 for g in graphs.values())
     return (f"{len(graphs)} graphs with up to {max(g['edges'] for g in graphs.values())} edges; on {proved} the nearest minimum of"
-            f" the isotropic cost is proved to be the global one.\nFrom odometry the cost is the same on {len(graphs) - len(differ)}."
-            f" On the others its ratio to that of the chordal start is: {'; '.join(differ)}.\n")
+            f" the isotropic cost is proved to be the global one.\nFrom odometry the cost is the same on"
+            f" {len(graphs) - len(differ)}. On the others its ratio to that of the chordal start is: {'; '.join(differ)}.\n")
 
 
 def cost_part(stores):

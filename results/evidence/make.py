@@ -41,7 +41,8 @@ class Program:
     def __call__(self, *words, codes=(0,)):
         done = subprocess.run([self.file, *map(str, words)], capture_output=True, text=True, cwd=ROOT)
         if done.returncode not in codes:
-            raise RuntimeError(f"loopbench {words[0]}: {(done.stderr.strip() or 'no message').splitlines()[0]}")
+            lines = done.stderr.strip().splitlines() or ["no message"]
+            raise RuntimeError(f"loopbench {words[0]}: {next((x for x in lines if x.startswith('loopbench: ')), lines[0])}")
         return done.stdout
 
     def timed(self, name, *words, codes):
@@ -109,11 +110,11 @@ def builds_of(store):
             for k in known.values()}
 
 
-def time_parts(program, stores):
+def time_part(program, stores):
     wall, used = (sum(each[k] for each in program.times) for k in (1, 2))
     steps = ", ".join(f"{name} {each:.0f} s" for name, each, _ in program.times)
-    return {"build": f"Build: {'; '.join(sorted(set().union(*map(builds_of, stores))))}.\n",
-            "times": f"{wall:.0f} s with {program.jobs} workers, {used:.0f} s of processor time: {steps}.\n"}
+    return (f"{wall:.0f} s with {program.jobs} workers, {used:.0f} s of processor time: {steps}.\n"
+            f"{'; '.join(sorted(set().union(*map(builds_of, stores))))}.\n")
 
 
 def parts_of(program):
@@ -121,7 +122,7 @@ def parts_of(program):
     return {**chain_parts(program, chains), "first look": first_look_part(program.data),
             **outlier_parts(program, outliers), "graphs": graph_part(graphs),
             "spacing": spacing_part(program, dict(zip(("cameras", "roads"), spacing))),
-            "claims": claim_part(program), "costs": cost_part(stores), **time_parts(program, stores)}
+            "claims": claim_part(program), "costs": cost_part(stores), "times": time_part(program, stores)}
 
 
 def main():

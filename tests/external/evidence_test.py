@@ -67,7 +67,7 @@ class Evidence(unittest.TestCase):
                     errors[row["sequence"], row["method"]] = float(row["rmse"])
         logs = [math.log(errors[chain, "uniform"] / errors[chain, "dual"]) for chain in ("kiss_icp 00", "viso2 00")]
         parts = chain_parts(self.program, self.chains)
-        self.assertEqual(parts["chains"], "3 chains of 2 odometers on 2 routes, 1 without KITTI 08.\n")
+        self.assertIn("3 chains of 2 odometers on 2 routes, 1 without KITTI 08.\n", parts["chains"])
         route = cells(parts["by route"])["KITTI 00"]
         self.assertEqual((route["chains"], route["uniform"]), ("2", f"{math.exp(sum(logs) / 2):.2f}"))
         self.assertEqual(list(cells(parts["by odometer"])), ["kiss_icp", "viso2", "LiDAR, all", "the others"])
