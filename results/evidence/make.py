@@ -8,6 +8,7 @@ import argparse
 import contextlib
 import csv
 import io
+import json
 import os
 import re
 import resource
@@ -36,7 +37,7 @@ class Program:
     """The program; results of configs are below `stores`."""
 
     def __init__(self, file, data, stores, jobs):
-        self.file, self.data, self.stores, self.jobs, self.times = str(file), data, stores, jobs, []
+        self.file, self.data, self.stores, self.jobs, self.times = str(file), data, stores, jobs, {}
 
     def __call__(self, *words, codes=(0,)):
         done = subprocess.run([self.file, *map(str, words)], capture_output=True, text=True, cwd=ROOT)
@@ -45,21 +46,26 @@ class Program:
             raise RuntimeError(f"loopbench {words[0]}: {next((x for x in lines if x.startswith('loopbench: ')), lines[0])}")
         return done.stdout
 
-    def timed(self, name, *words, codes):
-        """Prints and records the time, also the processor time of all processes."""
+    def timed(self, name, command, config, out):
+        """Keeps the times of the step, also the processor time of all processes, if it starts without stored cells."""
         print(f"{name} ...", file=sys.stderr, flush=True)
+        kept = self.stores / "times.json"
+        times = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
+        is_first = name not in times or not out.exists()
         begin, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
-        out = self(*words, "--data", self.data, "-j", self.jobs, codes=codes)
+        text = self(command, *config, "--out", out, "--data", self.data, "-j", self.jobs, codes=(0, 1))
         used = resource.getrusage(resource.RUSAGE_CHILDREN)
-        self.times.append((name, time.monotonic() - begin,
-                           used.ru_utime + used.ru_stime - before.ru_utime - before.ru_stime))
-        print(f"{name}: {self.times[-1][1]:.0f} s", file=sys.stderr, flush=True)
-        return out
+        spent = (time.monotonic() - begin, used.ru_utime + used.ru_stime - before.ru_utime - before.ru_stime)
+        if is_first:
+            kept.write_text(json.dumps({**times, name: spent}), encoding="utf-8")
+        print(f"{name}: {spent[0]:.0f} s", file=sys.stderr, flush=True)
+        self.times[name] = spent if is_first else times[name]
+        return text
 
     def store(self, config):
         """Path of the store of a config, after its sweep was run. Failed cells have rows."""
         out = self.stores / Path(config).stem
-        self.timed(out.name, "run", ROOT / config, "--out", out, codes=(0, 1))
+        self.timed(out.name, "run", [ROOT / config], out)
         return out
 
     def compared(self, store, baseline, *where):
@@ -90,7 +96,7 @@ def claim_part(program):
     lines = []
     for config, claims in files.items():
         out = program.stores / Path(config).stem
-        text = program.timed(f"claims of {out.name}", "claim", *claims, "--out", out, codes=(0, 1))
+        text = program.timed(f"claims of {out.name}", "claim", claims, out)
         found = re.findall(r"(?m)^(\S.*?): (.*)\n  (.*)\n  (.*look.*)$", text)
         if len(found) != len(claims):
             raise RuntimeError(f"claim: expected {len(claims)} answers, found {len(found)}")
@@ -111,8 +117,8 @@ def builds_of(store):
 
 
 def time_part(program, stores):
-    wall, used = (sum(each[k] for each in program.times) for k in (1, 2))
-    steps = ", ".join(f"{name} {each:.0f} s" for name, each, _ in program.times)
+    wall, used = map(sum, zip(*program.times.values()))
+    steps = ", ".join(f"{name} {each:.0f} s" for name, (each, _) in program.times.items())
     return (f"{wall:.0f} s with {program.jobs} workers, {used:.0f} s of processor time: {steps}.\n"
             f"{'; '.join(sorted(set().union(*map(builds_of, stores))))}.\n")
 
