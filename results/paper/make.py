@@ -7,21 +7,13 @@ from __future__ import annotations
 
 import argparse
 import os
-import re
 import sys
 from pathlib import Path
 
 RESULTS = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(RESULTS / "paper"), str(RESULTS / "methods")]
+sys.path[:0] = [str(RESULTS), str(RESULTS / "paper"), str(RESULTS / "methods")]
 
-
-def with_parts(readme, parts):
-    """The page with the text after each `<!-- NAME, written by make.py -->` replaced, up to the
-    next empty line."""
-    for name, text in parts.items():
-        head = f"<!-- {name}, written by make.py -->\n"
-        readme = re.sub(re.escape(head) + r"(?:.+\n)*", lambda _: head + text, readme)
-    return readme
+from pages import with_parts  # noqa: E402
 
 
 def article_pages(configs, out, readme=""):

@@ -1,0 +1,184 @@
+"""Tables of the page from stores and from `compare`: parts by name, as Markdown."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import re
+import sqlite3
+from collections import defaultdict
+from statistics import median
+
+from article.verdicts import table
+
+ROBUST = ("pose_graph_cauchy", "pose_graph_dcs", "pose_graph_gnc_tls", "pose_graph_pcm")
+LIDAR = ("kiss_icp", "elastic_icp", "steam_icp", "steam_lo", "simple_lidar_odom", "imls", "loam")
+ROWS = """
+select cell.id, cell.position, cell.sequence, repeat, method, cell.status, cpu_seconds_median as seconds,
+  peak_memory as memory, group_name as grouped, sequence.closures as closures,
+  odometry + sequence.closures as edges, label, relation, score.axis as axis, score.unit as unit, rmse
+from cell join sequence using (sequence_key) left join score on score.cell = cell.id
+where cell.position is not null order by cell.position, repeat, score.number"""
+KEPT = """
+select cell.sequence, value as kept, sequence.closures as closures
+from cell join sequence using (sequence_key) join count on count.cell = cell.id
+where cell.position is not null and method = 'pose_graph_pcm' and name = 'closures_consistent' order by cell.position"""
+
+
+def rows_of(store, query=ROWS):
+    with contextlib.closing(sqlite3.connect(f"file:{store / 'results.sqlite'}?mode=ro", uri=True)) as database:
+        database.row_factory = sqlite3.Row
+        return database.execute(query).fetchall()
+
+
+def aligned(head, lines):
+    return table(head, ("---", *["---:"] * (len(head) - 1)), *lines)
+
+
+def geometric_mean(values):
+    return math.exp(sum(map(math.log, values)) / len(values)) if values else math.nan
+
+
+def digits(value):
+    return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
+
+
+def ratio_of(value):
+    return f"{value:.3f}" if value < 10 else digits(value)
+
+
+def ratio_text(row):
+    """Typical ratio with its interval; without one if there are too few groups."""
+    low, high = row["ratio_low"], row["ratio_high"]
+    return ratio_of(float(row["ratio"])) + (f" [{ratio_of(float(low))}, {ratio_of(float(high))}]" if low else "")
+
+
+def ates(rows):
+    """ATE [m] by (sequence, repeat), then by method, and what is known of the sequences."""
+    found, known = defaultdict(dict), {}
+    for row in rows:
+        if row["label"] == "ate" and row["unit"] == "m" and row["rmse"] is not None:
+            found[row["sequence"], row["repeat"]][row["method"]] = row["rmse"]
+            known[row["sequence"], row["repeat"]] = row
+    return found, known
+
+
+def chain_parts(program, store):
+    found, known = ates(rows_of(store))
+    found = {run: each for run, each in found.items() if "dual" in each}
+    methods = list(dict.fromkeys(m for each in found.values() for m in each))
+    family = {run: run[0].rsplit(" ", 1)[0] for run in found}
+    route = {run: known[run]["grouped"].removeprefix("group:") for run in found}
+
+    def means(runs, method):
+        return geometric_mean([found[run][method] / found[run]["dual"] for run in runs if method in found[run]])
+
+    def by(key, head, more):
+        lines = []
+        for name in dict.fromkeys(key[run] for run in found):
+            lines.append((name, [run for run in found if key[run] == name]))
+        if key is family:
+            lines += [("LiDAR, all", [r for r in found if family[r] in LIDAR]),
+                      ("the others", [r for r in found if family[r] not in LIDAR])]
+        else:
+            lines.sort(key=lambda line: line[0])
+        return aligned((*head, *(m for m in methods if m != "dual")), [
+            (name, *more(runs), *(f"{means(runs, m):.2f}" for m in methods if m != "dual"))
+            for name, runs in lines])
+
+    parts = {
+        "by odometer": by(family, ("odometer", "chains", "routes"),
+                          lambda runs: (str(len(runs)), str(len({route[r] for r in runs})))),
+        "by route": by(route, ("route", "chains", "closures", "dual [m]", "dual above raw"), lambda runs: (
+            str(len(runs)), "-".join(map(str, sorted({f(known[r]["closures"] for r in runs) for f in (min, max)}))),
+            digits(geometric_mean([found[r]["dual"] for r in runs])),
+            str(sum(found[r]["dual"] > found[r].get("raw", math.inf) for r in runs)))),
+    }
+    routes = sorted(set(route.values()))
+    everywhere, rescaled = (program.compared(store, baseline) for baseline in ("dual", "dual rescaled"))
+    forward = program.compared(store, "dual", "sequence~.*[^8]$")
+    lines = []
+    for method in methods:
+        if method == "dual":
+            continue
+        row, ratios = everywhere[method], {r: e[method] / e["dual"] for r, e in found.items() if method in e}
+        worst = max(ratios, key=ratios.get)
+        of_route = {name: means([r for r in found if route[r] == name], method) for name in routes}
+        low, high = (f(of_route, key=of_route.get) for f in (min, max))
+        lines.append((method, ratio_text(row), f"{float(row['p']):.2g}" if row["p"] else "-",
+                      "" if method == "dual rescaled" else ratio_text(rescaled[method]), ratio_text(forward[method]),
+                      f"{row['better']}/{row['worse']}/{row['equal']}",
+                      f"{of_route[low]:.2f} ({low})", f"{of_route[high]:.2f} ({high})",
+                      str(sum(ratio > 1.05 for ratio in ratios.values())), f"{ratios[worst]:.2f} ({worst[0]})"))
+    parts["correctors"] = aligned(("method", "ratio to `dual`", "p", "ratio to `dual rescaled`", "to `dual`, without KITTI 08",
+                                   "routes", "lowest route", "highest route", "chains above 1.05", "highest chain"), lines)
+    parts["chains"] = (f"{len(found)} chains of {len({name.split(' (')[0] for name in family.values()})} odometers on"
+                       f" {len(routes)} routes, {forward['dual']['groups']} without KITTI 08.\n")
+    kept = rows_of(store, KEPT)
+    if kept:
+        least = min(kept, key=lambda row: row["kept"] / row["closures"])
+        parts["chains"] += (f"`pose_graph_pcm` rejects {sum(r['closures'] - r['kept'] for r in kept):.0f} of"
+                             f" {sum(r['closures'] for r in kept)} closures here, the largest share on {least['sequence']}:"
+                             f" {least['closures'] - least['kept']:.0f} of {least['closures']}.\n")
+    return parts
+
+
+def outlier_parts(program, store):
+    found, _ = ates(rows_of(store))
+    shares = list(dict.fromkeys(re.search(r"share=(.*)\)", run[0])[1] for run in found))
+    methods, columns = list(dict.fromkeys(m for each in found.values() for m in each)), []
+    head = ["method"]
+    for share in shares:
+        runs = [each for run, each in found.items() if run[0].endswith(f"share={share})")]
+        compared = program.compared(store, "pose_graph_pcm", rf"sequence~.*share={re.escape(share)}\)")
+        columns.append(["; ".join((*((ratio_text(compared[m]),) if m != "pose_graph_pcm" else ()),
+                                   str(sum(e.get(m, math.inf) > e["raw"] for e in runs)))) for m in methods])
+        head.append(f"{100 * float(share):g} % false ({len(runs)} runs, {compared['raw']['groups']} routes)")
+    above = [(run[0].split(" (")[0], m) for run, each in found.items() for m in ROBUST if each.get(m, math.inf) > each["raw"]]
+    counted = "; ".join(f"{chain}: " + ", ".join(f"{m} {above.count((chain, m))}" for m in ROBUST if (chain, m) in above)
+                        for chain in dict.fromkeys(chain for chain, _ in above))
+    return {"outliers": aligned(head, [(m, *(column[k] for column in columns)) for k, m in enumerate(methods)]),
+            "above raw": f"Runs of robust methods above `raw`, at all shares: {counted or 'none'}.\n"}
+
+
+def spacing_part(program, stores):
+    columns, head = {}, ["method"]
+    for title, store in stores.items():
+        for value in ("0.3", "0.8", "1.6"):
+            columns[title, value] = program.compared(store, "polyline", rf"sequence~.*value={re.escape(value)}\)")
+            row = columns[title, value]["polyline"]
+            head.append(f"{title}, {value} s ({row['runs']} runs, {row['groups']} groups)")
+    methods = [m for m in next(iter(columns.values())) if m != "polyline"]
+    return aligned(head, [(m, *(ratio_text(c[m]) if m in c else "" for c in columns.values())) for m in sorted(methods)])
+
+
+def graph_part(store):
+    graphs = defaultdict(dict)
+    for row in rows_of(store):
+        graph = graphs[row["sequence"]]
+        graph["edges"] = row["edges"]
+        if row["label"] == "cost" and row["axis"] == "all":
+            graph[row["method"]] = row["rmse"]
+        if row["relation"] == "gap" and row["axis"] == "minimum" and row["method"] == "pose_graph":
+            graph["gap"] = row["rmse"]
+    worse = {name: g["pose_graph from odometry"] / g["pose_graph"] for name, g in graphs.items()}
+    differ = [f"{name} {ratio:.4g}" for name, ratio in worse.items() if abs(ratio - 1) > 1e-6]
+    proved = sum(g.get("gap", 100) < 1e-4 for g in graphs.values())
+    return (f"{len(graphs)} graphs with up to {max(g['edges'] for g in graphs.values())} edges; on {proved} the nearest minimum of"
+            f" the isotropic cost is proved to be the global one.\nFrom odometry the cost is the same on"
+            f" {len(graphs) - len(differ)}. On the others its ratio to that of the chordal start is: {'; '.join(differ)}.\n")
+
+
+def cost_part(stores):
+    """Over all sweeps, by method."""
+    cells = [row for store in stores for row in {row["id"]: row for row in rows_of(store)}.values()]
+    cells = [(re.sub(r"^smoother ([NM])\d", r"smoothers \1", row["method"]), row) for row in cells]
+    lines = []
+    for method in dict.fromkeys(method for method, _ in cells):
+        own = [row for name, row in cells if name == method]
+        good = [row for row in own if row["status"] == "ok"]
+        seconds = [row["seconds"] for row in good] or [math.nan]
+        lines.append((method, str(len(own)), str(sum(r["status"] == "declined" for r in own)),
+                      str(sum(r["status"] not in ("ok", "declined") for r in own)), digits(1e3 * median(seconds)),
+                      digits(1e3 * max(seconds)), digits(max((r["memory"] for r in good), default=math.nan) / 2**20)))
+    return aligned(("method", "cells", "declined", "failed", "median [ms]", "maximum [ms]", "memory [MiB]"), lines)

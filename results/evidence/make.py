@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+"""Runs the sweeps of results/evidence/README.md and writes the tables of that page. Needs Python's standard library and the
+program. Cells that are stored are not run again."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import csv
+import io
+import json
+import os
+import re
+import resource
+import shutil
+import sqlite3
+import subprocess
+import sys
+import time
+from collections import defaultdict
+from pathlib import Path
+
+RESULTS = Path(__file__).resolve().parents[1]
+ROOT = RESULTS.parent
+sys.path[:0] = [str(RESULTS), str(RESULTS / "paper")]
+
+from article.verdicts import table  # noqa: E402
+from evidence_tables import (chain_parts, cost_part, geometric_mean, graph_part,  # noqa: E402
+                             outlier_parts, spacing_part)
+from pages import with_parts  # noqa: E402
+
+SWEEPS = ("configs/chains_real.yaml", "configs/outliers_real.yaml", "configs/pose_graphs.yaml",
+          "results/methods/configs/spacing.yaml", "results/methods/configs/spacing_road.yaml")
+
+
+class Program:
+    """The program; results of configs are below `stores`."""
+
+    def __init__(self, file, data, stores, jobs):
+        self.file, self.data, self.stores, self.jobs, self.times = str(file), data, stores, jobs, {}
+
+    def __call__(self, *words, codes=(0,)):
+        done = subprocess.run([self.file, *map(str, words)], capture_output=True, text=True, cwd=ROOT)
+        if done.returncode not in codes:
+            lines = done.stderr.strip().splitlines() or ["no message"]
+            raise RuntimeError(f"loopbench {words[0]}: {next((x for x in lines if x.startswith('loopbench: ')), lines[0])}")
+        return done.stdout
+
+    def timed(self, name, command, config, out):
+        """Keeps the times of the step, also the processor time of all processes, if it starts without stored cells."""
+        print(f"{name} ...", file=sys.stderr, flush=True)
+        kept = self.stores / "times.json"
+        times = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
+        is_first = name not in times or not out.exists()
+        begin, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
+        text = self(command, *config, "--out", out, "--data", self.data, "-j", self.jobs, codes=(0, 1))
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        spent = (time.monotonic() - begin, used.ru_utime + used.ru_stime - before.ru_utime - before.ru_stime)
+        if is_first:
+            kept.write_text(json.dumps({**times, name: spent}), encoding="utf-8")
+        print(f"{name}: {spent[0]:.0f} s", file=sys.stderr, flush=True)
+        self.times[name] = spent if is_first else times[name]
+        return text
+
+    def store(self, config):
+        """Path of the store of a config, after its sweep was run. Failed cells have rows."""
+        out = self.stores / Path(config).stem
+        self.timed(out.name, "run", [ROOT / config], out)
+        return out
+
+    def compared(self, store, baseline, *where):
+        """Rows of `compare` for the ATE by method."""
+        text = self("compare", store, "--baseline", baseline, "--where", "label=ate", "unit=m", *where, "--format", "csv")
+        return {row["method"]: row for row in csv.DictReader(io.StringIO(text))}
+
+
+def first_look_part(data):
+    """The tables of the first look as that build printed them."""
+    lines = []
+    for file, title in (("lidar_chains", "LiDAR"), ("held_out_chains", "KITTI 02, 05, 09, Pittsburgh")):
+        errors = defaultdict(dict)
+        with open(Path(data) / "first_look" / f"{file}.csv", encoding="utf-8") as text:
+            for row in csv.DictReader(text):
+                if row["column"] == "ate [m]" and row["table"].endswith(", keyframes") and row["status"] == "ok":
+                    errors[row["table"]][row["row"]] = float(row["value"])
+        ratios = [e["motion_drift"] / e["dual"] for e in errors.values() if {"motion_drift", "dual"} <= set(e)]
+        lines.append(f"{title}: {geometric_mean(ratios):.3f} of `dual` on {len(ratios)} chains, lower on"
+                     f" {sum(ratio < 1 for ratio in ratios)}")
+    return "; ".join(lines) + ".\n"
+
+
+def claim_part(program):
+    files = defaultdict(list)
+    for file in sorted(RESULTS.glob("claims/*.yaml")):
+        files[re.search(r"(?m)^config: '?(.*?)'?$", file.read_text(encoding="utf-8"))[1]].append(file)
+    lines = []
+    for config, claims in files.items():
+        out = program.stores / Path(config).stem
+        text = program.timed(f"claims of {out.name}", "claim", claims, out)
+        found = re.findall(r"(?m)^(\S.*?): (.*)\n  (.*)\n  (.*look.*)$", text)
+        if len(found) != len(claims):
+            raise RuntimeError(f"claim: expected {len(claims)} answers, found {len(found)}")
+        lines += [(f"`{file.stem}`", answer, statement, numbers.split("; claimed")[0], re.search(r"look \d+", look)[0])
+                  for file, (answer, statement, numbers, look) in zip(claims, found)]
+    return table(("claim", "answer", "statement", "result", "look"), ["---"] * 5, *lines)
+
+
+def builds_of(store):
+    """Commits, compilers and processors of the cells of a store."""
+    with contextlib.closing(sqlite3.connect(f"file:{store / 'results.sqlite'}?mode=ro", uri=True)) as database:
+        known = defaultdict(dict)
+        for key, name, value in database.execute("select provenance_key, key, value from provenance where provenance_key"
+                                                 " in (select provenance_key from cell where position is not null)"):
+            known[key][name] = value
+    return {f"commit {k['commit'][:8]}{' with changes' * (k['source'] != 'clean')}, {k['compiler']}, {k['cpu']}"
+            for k in known.values()}
+
+
+def time_part(program, stores):
+    wall, used = map(sum, zip(*program.times.values()))
+    steps = ", ".join(f"{name} {each:.0f} s" for name, (each, _) in program.times.items())
+    return (f"{wall:.0f} s with {program.jobs} workers, {used:.0f} s of processor time: {steps}.\n"
+            f"{'; '.join(sorted(set().union(*map(builds_of, stores))))}.\n")
+
+
+def parts_of(program):
+    chains, outliers, graphs, *spacing = stores = [program.store(config) for config in SWEEPS]
+    return {**chain_parts(program, chains), "first look": first_look_part(program.data),
+            **outlier_parts(program, outliers), "graphs": graph_part(graphs),
+            "spacing": spacing_part(program, dict(zip(("cameras", "roads"), spacing))),
+            "claims": claim_part(program), "costs": cost_part(stores), "times": time_part(program, stores)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--data", default=os.environ.get("LOOPBENCH_DATA", ""),
+                        help="folder with real datasets (environment variable LOOPBENCH_DATA)")
+    parser.add_argument("--program", help="loopbench; default: build/release, the path, or ./run.sh, which builds it")
+    parser.add_argument("--stores", type=Path, default=RESULTS / "evidence" / "stores", help="folder of the sweeps' results")
+    parser.add_argument("--page", type=Path, default=RESULTS / "evidence" / "README.md", help="page to update")
+    parser.add_argument("-j", "--jobs", type=int, default=2, help="number of workers")
+    given = parser.parse_args()
+    if not Path(given.data, "kitti").is_dir() or not given.data:
+        sys.exit(f"make.py: found no folder kitti in '{given.data}'; give the folder of real datasets with --data DIR")
+    built = ROOT / "build" / "release" / "loopbench"
+    file = given.program or (built if built.exists() else shutil.which("loopbench") or ROOT / "run.sh")
+    program = Program(Path(file).resolve(), Path(given.data).resolve(), given.stores.resolve(), given.jobs)
+    try:
+        parts = parts_of(program)
+    except (RuntimeError, OSError) as reason:
+        sys.exit(f"make.py: {reason}")
+    page = given.page.read_text(encoding="utf-8")
+    if missing := [name for name in parts if f"<!-- {name}, written by make.py -->\n" not in page]:
+        sys.exit(f"make.py: {given.page} has no line '<!-- {missing[0]}, written by make.py -->'")
+    given.page.write_text(with_parts(page, parts), encoding="utf-8")
+    print(given.page)
+
+
+if __name__ == "__main__":
+    main()

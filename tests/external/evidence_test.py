@@ -1,0 +1,94 @@
+"""The command of results/evidence: its errors, and its tables from small simulated sweeps. Argument: loopbench."""
+
+import csv
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+EVIDENCE = ROOT / "results" / "evidence"
+LOOPBENCH = os.path.abspath(sys.argv[1])
+sys.path.insert(0, str(EVIDENCE))
+
+from make import Program, builds_of, with_parts  # noqa: E402
+from evidence_tables import chain_parts, cost_part, outlier_parts  # noqa: E402
+
+DRIVE = "dataset: simulated, closures.max: 4"
+CHAINS = "".join(f"  - {{{DRIVE}, label: {odometer} {route}, group: KITTI {route}, seed: {seed}}}\n" for seed, (odometer, route) in
+                 enumerate((("kiss_icp", "00"), ("kiss_icp", "08"), ("viso2", "00")), 1))
+METHODS = """methods: [raw, uniform, dual, {method: dual, label: dual rescaled, rescale: true}, pose_graph_pcm]
+metrics: [ate]
+times: keyframes
+timing: 1
+"""
+FALSE = "sweep: {closures.false_share: [0, 0.5]}"
+
+
+def run_make(*words, data=""):
+    environment = {**os.environ, "LOOPBENCH_DATA": data}
+    return subprocess.run([sys.executable, "-B", EVIDENCE / "make.py", *words], capture_output=True, text=True, env=environment)
+
+
+def cells(part):
+    """Rows of a table by the first column, as dictionaries."""
+    head, _, *lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in part.splitlines()]
+    return {line[0]: dict(zip(head, line)) for line in lines}
+
+
+class Evidence(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        work = Path(cls.folder.name)
+        cls.program = Program(LOOPBENCH, work, work / "stores", 2)
+        for name, entries in (("chains", CHAINS), ("outliers", f"  - {{{DRIVE}, label: kiss_icp 00, {FALSE}}}\n")):
+            (work / f"{name}.yaml").write_text(f"datasets:\n{entries}{METHODS}", encoding="utf-8")
+        cls.chains, cls.outliers = (cls.program.store(work / f"{name}.yaml") for name in ("chains", "outliers"))
+
+    def test_help_and_missing_data(self):
+        done = run_make("--help")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("--data", done.stdout)
+        for words in ((), ("--data", self.folder.name)):
+            done = run_make(*words)
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, r"^make.py: found no folder kitti in '.*'; give .* with --data DIR\n$")
+
+    def test_ratios_are_those_of_the_rows(self):
+        errors = {}
+        with open(self.chains / "rows.csv", encoding="utf-8") as text:
+            for row in csv.DictReader(text):
+                if row["label"] == "ate" and row["unit"] == "m":
+                    errors[row["sequence"], row["method"]] = float(row["rmse"])
+        logs = [math.log(errors[chain, "uniform"] / errors[chain, "dual"]) for chain in ("kiss_icp 00", "viso2 00")]
+        parts = chain_parts(self.program, self.chains)
+        self.assertIn("3 chains of 2 odometers on 2 routes, 1 without KITTI 08.\n", parts["chains"])
+        route = cells(parts["by route"])["KITTI 00"]
+        self.assertEqual((route["chains"], route["uniform"]), ("2", f"{math.exp(sum(logs) / 2):.2f}"))
+        self.assertEqual(list(cells(parts["by odometer"])), ["kiss_icp", "viso2", "LiDAR, all", "the others"])
+        corrector = cells(parts["correctors"])["uniform"]
+        self.assertEqual(corrector["p"], "-")  # two groups are too few
+        self.assertNotIn("[", corrector["ratio to `dual`"])
+
+    def test_false_closures_and_costs(self):
+        parts = outlier_parts(self.program, self.outliers)
+        self.assertEqual(list(cells(parts["outliers"])["dual"])[1:],
+                         ["0 % false (1 runs, 1 routes)", "50 % false (1 runs, 1 routes)"])
+        cost = cells(cost_part([self.chains, self.outliers]))["dual"]
+        self.assertEqual((cost["cells"], cost["declined"], cost["failed"]), ("5", "0", "0"))
+        self.assertEqual(len(builds_of(self.chains)), 1)
+
+    def test_written_parts_are_stable(self):
+        page = "# Page\n\n<!-- a, written by make.py -->\nold\nold\n\nprose\n"
+        once = with_parts(page, {"a": "| new |\n"})
+        self.assertEqual(once, "# Page\n\n<!-- a, written by make.py -->\n| new |\n\nprose\n")
+        self.assertEqual(with_parts(once, {"a": "| new |\n"}), once)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
