@@ -162,7 +162,8 @@ std::string body_text(const EvaluationResult& result) {
 /// Results with one reference and one protocol.
 Table comparison_of(const std::vector<const EvaluationResult*>& results,
                     Detail detail,
-                    bool has_totals) {
+                    bool has_totals,
+                    const std::vector<std::string>& show) {
   std::vector<Record> records;
   std::vector<Missing> notes;
   for (const EvaluationResult* result : results) {
@@ -176,6 +177,7 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results,
   const EvaluationResult& first = *results.front();
   TableSpec spec;
   spec.split.clear();
+  spec.show = show;
   spec.value = to_text(first.protocol.rules.statistic);
   Table out = pivot(records, spec).front();
   out.headings[0] = "estimate";
@@ -264,9 +266,19 @@ std::vector<Table> comparison(const std::vector<EvaluationResult>& results,
       same->push_back(&result);
     }
   }
-  std::vector<Table> out;
-  for (const Group& group : groups) out.push_back(comparison_of(group, detail, has_totals));
-  return with_columns(std::move(out), columns);
+  const auto tables = [&](const std::vector<std::string>& show) {
+    std::vector<Table> out;
+    for (const Group& group : groups) out.push_back(comparison_of(group, detail, has_totals, show));
+    return out;
+  };
+  if (columns.empty()) return tables({});
+  std::vector<std::string> show;  // so that notes name no others
+  for (const Table& table : with_columns(tables({}), columns)) {
+    for (const std::string& heading : table.headings) {
+      show.push_back(heading.substr(0, heading.rfind(" [")));
+    }
+  }
+  return with_columns(tables(show), columns);
 }
 
 }  // namespace loopbench::harness

@@ -74,6 +74,9 @@ TEST_F(EvalOnATerminal, ColumnsAreChosen) {
               HasSubstr("\nestimate  rpe 1 m [m]  rpe 1 m [deg]  ate [m]  ate [deg]\n"));
   EXPECT_THAT(last("b.txt --columns 'coverage [%],ate [m]'"),
               HasSubstr("\n| estimate | coverage [%] | ate [m] |\n"));
+  const std::string counts = "number of errors";  // of rpe, not of ate
+  EXPECT_THAT(last("b.txt --columns rpe_1_m"), HasSubstr(counts));
+  EXPECT_THAT(last("b.txt --columns ate"), testing::Not(HasSubstr(counts)));
   EXPECT_THAT(last("--metric ate --columns max,rmse"),
               HasSubstr("\nscore           max      rmse\n"));
   EXPECT_THAT(last("--csv --columns metric,unit"), testing::StartsWith("metric,unit\nate,m\n"));
