@@ -60,6 +60,21 @@ Diagnosed of_pair(const NamedTrajectory& reference, const NamedTrajectory& estim
           metrics::diagnosis(truth, poses, reference.name, estimate.name, has_stamps)};
 }
 
+/// `eval` would refuse such a file.
+void add_repeated_stamps(const NamedTrajectory& file,
+                         std::vector<metrics::InputFinding>& findings) {
+  if (file.findings.repeated == 0) return;
+  findings.push_back(
+      {metrics::Fault::repeated_stamps,
+       fmt::format("{}: {} with the stamp of the one before",
+                   file.name,
+                   file.findings.repeated == 1 ? "one pose"
+                                               : fmt::format("{} poses", file.findings.repeated)),
+       "--repeats keep_first or keep_last",
+       1.0,
+       static_cast<double>(file.findings.repeated)});
+}
+
 std::string report_text(const std::vector<Diagnosed>& all) {
   std::string out;
   for (const Diagnosed& each : all) {
@@ -101,11 +116,17 @@ std::string report_json(const std::vector<Diagnosed>& all) {
 int doctor(const DoctorArguments& a) {
   std::vector<Diagnosed> all;
   if (!a.estimates.empty()) {
-    ReadArguments of_reference = a.reading;
+    ReadArguments reading = a.reading;
+    if (reading.repeats.empty()) reading.repeats = to_text(Repeats::keep_first);
+    ReadArguments of_reference = reading;
     if (!a.reference_format.empty()) of_reference.format = a.reference_format;
     const NamedTrajectory reference = read_named(a.reference, of_reference);
-    for (const NamedTrajectory& estimate : read_all_named(a.estimates, a.reading)) {
-      all.push_back(of_pair(reference, estimate));
+    for (const NamedTrajectory& estimate : read_all_named(a.estimates, reading)) {
+      std::vector<metrics::InputFinding>& found =
+          all.emplace_back(of_pair(reference, estimate)).result.findings;
+      if (!a.reading.repeats.empty()) continue;
+      add_repeated_stamps(reference, found);
+      add_repeated_stamps(estimate, found);
     }
   }
   if (!a.loops.empty()) {

@@ -11,6 +11,7 @@ namespace loopbench::metrics {
 enum class Fault {
   time_offset,
   stamp_unit,         ///< milliseconds, microseconds or nanoseconds for seconds
+  repeated_stamps,    ///< poses with the stamp of the one before
   frame_indices,      ///< frame numbers instead of seconds
   clock_drift,        ///< clocks of different rates
   no_overlap,         ///< no common time
@@ -56,6 +57,7 @@ inline std::string fault_name(Fault fault) {
   // In the order of the enumerators.
   static constexpr std::array kNames{"time_offset",
                                      "stamp_unit",
+                                     "repeated_stamps",
                                      "frame_indices",
                                      "clock_drift",
                                      "no_overlap",

@@ -83,6 +83,26 @@ TEST_F(DoctorNotes, EvalNotesWhatItsOptionsLeave) {
   EXPECT_THAT(eval("late.txt --offset -0.2"), ContainsRegex(kOffset)) << "the sum";
 }
 
+TEST_F(DoctorNotes, RepeatedStampsAreFoundAndDoNotHideOtherMistakes) {
+  std::string rows;
+  std::ifstream file(folder_.path() / "small.txt");
+  for (std::string line; std::getline(file, line);) {
+    rows += line + "\n";
+    if (rows.size() > line.size() + 1 && rows.size() < 3 * line.size()) rows += line + "\n";
+  }
+  folder_.file("twice.txt", rows);
+  const CommandResult found = loopbench_command("doctor gt.txt twice.txt", folder_);
+  EXPECT_EQ(found.exit_code, 1) << found.err;
+  EXPECT_THAT(found.out,
+              HasSubstr("  repeated_stamps: twice.txt: one pose with the stamp of the one before; "
+                        "--repeats keep_first or keep_last"));
+  EXPECT_THAT(found.out, HasSubstr("  scale: "));
+  const CommandResult given =
+      loopbench_command("doctor gt.txt twice.txt --repeats keep_last", folder_);
+  EXPECT_THAT(given.out, Not(HasSubstr("repeated_stamps")));
+  EXPECT_EQ(loopbench_command("doctor gt.txt twice.txt --repeats refuse", folder_).exit_code, 2);
+}
+
 /// Applies the command "traj transform EST ..." that `doctor` names for a changed estimate.
 TEST_F(DoctorNotes, TheNamedCommandRemovesTheFinding) {
   const Trajectory estimate = read_trajectory(folder_.path() / "est.txt");
