@@ -166,7 +166,8 @@ class Record {
     }
     const bool is_rejected = rules_.indefinite == IndefiniteInformation::reject;
     throw file_.error(line_.number,
-                      is_rejected ? "information is not positive definite"
+                      is_rejected ? "information is not positive definite (option indefinite: "
+                                    "repair, project, isotropic)"
                                   : "information is not positive definite and cannot be altered "
                                     "as the option `indefinite` states");
   }

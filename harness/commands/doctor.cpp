@@ -75,6 +75,18 @@ void add_repeated_stamps(const NamedTrajectory& file,
        static_cast<double>(file.findings.repeated)});
 }
 
+/// Other commands refuse such a graph.
+void add_indefinite(const PoseGraph& graph, std::vector<metrics::InputFinding>& findings) {
+  if (graph.altered == 0) return;
+  findings.push_back({metrics::Fault::information_indefinite,
+                      fmt::format("the information of {} of {} edges is not positive definite",
+                                  graph.altered,
+                                  graph.edges.size()),
+                      "option indefinite of dataset pose_graph: repair, project or isotropic",
+                      1.0,
+                      static_cast<double>(graph.altered)});
+}
+
 std::string report_text(const std::vector<Diagnosed>& all) {
   std::string out;
   for (const Diagnosed& each : all) {
@@ -142,7 +154,9 @@ int doctor(const DoctorArguments& a) {
           a.reference +
           ": expected REF and EST, a trajectory with --loops, or one pose graph (g2o)");
     }
-    all.push_back(of_closures(a.reference, problem_of(read_g2o(a.reference), a.reference)));
+    const PoseGraph graph = read_g2o(a.reference, {.indefinite = IndefiniteInformation::project});
+    all.push_back(of_closures(a.reference, problem_of(graph, a.reference)));
+    add_indefinite(graph, all.back().result.findings);
   }
   fmt::print("{}", a.json ? report_json(all) : printable(report_text(all)));
   const bool is_clean = std::ranges::all_of(all, [](const Diagnosed& each) {

@@ -99,7 +99,8 @@ void write(const CorrectArguments& a, const Correction& done) {
     throw InputError(a.out + ": a graph contains the keyframes, expected no --dense and no --at");
   }
   std::vector<std::int64_t> ids;
-  if (is_graph(a)) ids = read_g2o(a.estimate).ids;
+  const InformationRules any{.indefinite = IndefiniteInformation::project};  // only ids are used
+  if (is_graph(a)) ids = read_g2o(a.estimate, any).ids;
   if (ids.size() != done.keyframes.size()) ids.clear();  // some poses are frames
   write_g2o(a.out, problem_graph(done.problem, done.keyframes, std::move(ids)));
 }

@@ -20,24 +20,25 @@ enum class Fault {
   jumps,              ///< positions jump
   constant_rotation,  ///< one file has no rotations
   quaternion_order,
-  conjugated,          ///< rotations are inverted, positions are not
-  inverted_poses,      ///< world and body are exchanged
-  axes,                ///< mirrored or permuted axes
-  angle_unit,          ///< degrees for radians, or radians for degrees
-  length_unit,         ///< millimetres or centimetres for metres
-  scale,               ///< an estimate without metric scale, aligned without scale
-  swapped,             ///< reference and estimate are exchanged
-  closure_direction,   ///< closures from `to` to `from`
-  odometry_direction,  ///< odometry from `to` to `from`
-  closure_rotation,    ///< quaternion order or unit of angles of closures
-  closure_unit,        ///< length units of closures and odometry differ
-  closure_frame,       ///< closures between other bodies than the odometry
-  closure_gap,         ///< closures that the odometry contradicts
-  information_order,   ///< blocks of rotation and translation exchanged
-  information_scale,   ///< stated covariances contradict the residuals
-  nothing_moved,       ///< a correction without effect
-  lever_arm,           ///< the reference is that of another body
-  body_rotation        ///< the axes of the reference's body differ from the estimate's
+  conjugated,              ///< rotations are inverted, positions are not
+  inverted_poses,          ///< world and body are exchanged
+  axes,                    ///< mirrored or permuted axes
+  angle_unit,              ///< degrees for radians, or radians for degrees
+  length_unit,             ///< millimetres or centimetres for metres
+  scale,                   ///< an estimate without metric scale, aligned without scale
+  swapped,                 ///< reference and estimate are exchanged
+  closure_direction,       ///< closures from `to` to `from`
+  odometry_direction,      ///< odometry from `to` to `from`
+  closure_rotation,        ///< quaternion order or unit of angles of closures
+  closure_unit,            ///< length units of closures and odometry differ
+  closure_frame,           ///< closures between other bodies than the odometry
+  closure_gap,             ///< closures that the odometry contradicts
+  information_order,       ///< blocks of rotation and translation exchanged
+  information_indefinite,  ///< matrices that are not positive definite
+  information_scale,       ///< stated covariances contradict the residuals
+  nothing_moved,           ///< a correction without effect
+  lever_arm,               ///< the reference is that of another body
+  body_rotation            ///< the axes of the reference's body differ from the estimate's
 };
 
 /// Findings with a smaller confidence are not reported.
@@ -80,6 +81,7 @@ inline std::string fault_name(Fault fault) {
                                      "closure_frame",
                                      "closure_gap",
                                      "information_order",
+                                     "information_indefinite",
                                      "information_scale",
                                      "nothing_moved",
                                      "lever_arm",

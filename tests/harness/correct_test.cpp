@@ -179,26 +179,6 @@ TEST_F(Correct, RejectedClosuresAreCounted) {
   EXPECT_EQ(json["rejected"], 2.0 - json["counts"]["closures_consistent"].get<double>());
 }
 
-TEST_F(Correct, AGraphKeepsItsIdsAndEdges) {
-  const Trajectory truth = test::hand_held_truth(12);
-  const Problem problem =
-      test::drifting(truth, twist({0.02, 0.0, 0.0}, {0.0, 0.0, 0.01}), {{0, 11}});
-  std::vector<std::int64_t> ids(12);
-  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = 100 + static_cast<std::int64_t>(i);
-  write_g2o(folder_.path() / "in.g2o", problem_graph(problem, problem.keyframes, ids));
-  const CommandResult done = loopbench_command("correct --method dual in.g2o -o out.g2o", folder_);
-  ASSERT_EQ(done.exit_code, 0) << done.err;
-  const PoseGraph before = read_g2o(folder_.path() / "in.g2o");
-  const PoseGraph after = read_g2o(folder_.path() / "out.g2o");
-  EXPECT_EQ(after.ids, ids);
-  ASSERT_EQ(after.edges.size(), before.edges.size());
-  for (std::size_t i = 0; i < before.edges.size(); ++i) {
-    EXPECT_EQ(after.edges[i].information, before.edges[i].information);
-    EXPECT_EQ(after.edges[i].from_from_to.translation, before.edges[i].from_from_to.translation);
-  }
-  EXPECT_NE(after.vertices.back().translation, before.vertices.back().translation);
-}
-
 TEST_F(Correct, MeasuredPositionsAreAnchors) {
   std::string points;
   const Trajectory truth = read_trajectory(folder_.path() / "gt.txt");
