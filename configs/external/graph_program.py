@@ -1,8 +1,8 @@
 """Adapter for pose-graph programs: graph_program.py KIND PROBLEM RESULT
 
 KIND states the program, which has to be on the path, and the algorithm:
-g2o_gn, g2o_lm        g2o: Gauss-Newton or Levenberg-Marquardt with the first sparse Cholesky solver that
-                      this build has, or with the one of a suffix (g2o_gn_eigen, g2o_lm_cholmod ..)
+g2o_gn, g2o_lm        g2o: Gauss-Newton or Levenberg-Marquardt with the Cholesky factorisation of a suffix
+                      (g2o_gn_cholmod, g2o_gn_eigen, g2o_gn_csparse), or the first that this build has
 gtsam_gn, gtsam_lm    gtsam_pose_graph, see gtsam_pose_graph.cpp
 gtsam_start           the same: Gauss-Newton from GTSAM's own start, whose time is included
 factrs_gn, factrs_lm  factrs_pose_graph, see factrs_pose_graph.rs
@@ -36,15 +36,15 @@ class Declined(Exception):
     """The program is not there or lacks what is asked for."""
 
 
-def g2o_solver(algorithm, suffix=None):
-    """The names of solvers differ between builds."""
+def g2o_solver(algorithm, factorisation=None):
+    """The names of solvers differ between builds, their second column is the library that they use."""
     done = subprocess.run(["g2o", "-listSolvers"], capture_output=True, text=True)
-    listed = {line.split()[0] for line in (done.stdout + done.stderr).splitlines() if line.split()}
-    suffixes = ("_cholmod", "_eigen", "", "_csparse") if suffix is None else ("_" + suffix,)
-    names = [algorithm + "_var" + each for each in suffixes]
-    found = [name for name in names if name in listed]
+    listed = {library.lower(): name for name, library in re.findall(
+        rf"^({algorithm}_var(?:_[a-z]+)?)\s+(\w+)", done.stdout + done.stderr, re.MULTILINE)}
+    wanted = [factorisation] if factorisation else ["cholmod", "eigen", "csparse"]
+    found = [listed[each] for each in wanted if each in listed]
     if not found:
-        raise Declined("g2o was built without the solver " + " or ".join(names))
+        raise Declined("g2o was built without the Cholesky factorisation of " + " or ".join(wanted))
     return found[0]
 
 
