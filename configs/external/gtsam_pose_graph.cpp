@@ -3,7 +3,7 @@
 //   start: Gauss-Newton from GTSAM's own start, chordal in space and LAGO in the plane
 // Prints the seconds of the start and the optimisation, and the iterations. GTSAM's examples print
 // no time and write six digits, therefore this program. For an installed GTSAM (4.2 or later):
-//   c++ -std=c++17 -O2 gtsam_pose_graph.cpp -o gtsam_pose_graph -lgtsam
+//   c++ -std=c++17 -O3 -DNDEBUG gtsam_pose_graph.cpp -o gtsam_pose_graph -lgtsam
 // with the folder of the Eigen that GTSAM was built with as -I.
 #include <gtsam/geometry/Pose2.h>
 #include <gtsam/geometry/Pose3.h>
