@@ -1,12 +1,20 @@
-"""Adapter for pose-graph programs: graph_program.py g2o_gn|g2o_lm|se_sync PROBLEM RESULT
+"""Adapter for pose-graph programs: graph_program.py KIND PROBLEM RESULT
 
-g2o_gn, g2o_lm: Gauss-Newton or Levenberg-Marquardt of g2o's command-line program, with the first sparse
-Cholesky solver that this build has.
-se_sync: the example `SE-Sync` of SE-Sync's C++ library, built with `write_poses = true`.
+KIND states the program, which has to be on the path, and the algorithm:
+g2o_gn, g2o_lm        g2o: Gauss-Newton or Levenberg-Marquardt with the Cholesky factorisation of a suffix
+                      (g2o_gn_cholmod, g2o_gn_eigen, g2o_gn_csparse), or the first that this build has
+gtsam_gn, gtsam_lm    gtsam_pose_graph, see gtsam_pose_graph.cpp
+gtsam_start           the same: Gauss-Newton from GTSAM's own start, whose time is included
+factrs_gn, factrs_lm  factrs_pose_graph, see factrs_pose_graph.rs
+apex_gn, apex_lm, apex_dl  pose_graph_g2o of apex-solver, which ignores the information matrices
+se_sync               SE-Sync, the example of its C++ library, built with `write_poses = true`; the time
+                      of its chordal start is included
+The others start from the poses of the file.
 
-The time that is stated is that of the optimisation, as the program prints it: reading, writing and the
-start of the process are not in it. g2o has no test of convergence: its time ends with the first
-iteration that is within 1e-6 of its last cost.
+A program that is missing declines the cell. The time that is stated is that of the optimisation, as the
+program prints it: reading, writing and the start of the process are not in it. g2o has no test of
+convergence: its time ends with the first iteration that is within 1e-6 of its last cost. SE-Sync
+stops at its own tolerances, the others at a relative decrease of the cost below 1e-6.
 """
 
 import json
@@ -18,18 +26,26 @@ import subprocess
 import sys
 from pathlib import Path
 
-PROGRAMS = {"g2o_gn": "g2o", "g2o_lm": "g2o", "se_sync": "SE-Sync"}
+PROGRAMS = {"g2o": "g2o", "gtsam": "gtsam_pose_graph", "factrs": "factrs_pose_graph",
+            "apex": "pose_graph_g2o", "se": "SE-Sync"}
+NUMBER = r"([\d.]+(?:e[+-]?\d+)?)"
+UNITS = {"": 1.0, "s": 1.0, "ms": 1e-3}
 
 
-def g2o_command(kind):
-    """The names of solvers differ between builds."""
+class Declined(Exception):
+    """The program is not there or lacks what is asked for."""
+
+
+def g2o_solver(algorithm, factorisation=None):
+    """The names of solvers differ between builds, their second column is the library that they use."""
     done = subprocess.run(["g2o", "-listSolvers"], capture_output=True, text=True)
-    listed = {line.split()[0] for line in (done.stdout + done.stderr).splitlines() if line.split()}
-    names = [kind[-2:] + "_var" + suffix for suffix in ("_cholmod", "_eigen", "", "_csparse")]
-    found = [name for name in names if name in listed]
+    listed = {library.lower(): name for name, library in re.findall(
+        rf"^({algorithm}_var(?:_[a-z]+)?)\s+(\w+)", done.stdout + done.stderr, re.MULTILINE)}
+    wanted = [factorisation] if factorisation else ["cholmod", "eigen", "csparse"]
+    found = [listed[each] for each in wanted if each in listed]
     if not found:
-        sys.exit("g2o has no sparse Cholesky solver, expected one of " + ", ".join(names))
-    return ["g2o", "-v", "-solver", found[0], "-i", "100"]
+        raise Declined("g2o was built without the Cholesky factorisation of " + " or ".join(wanted))
+    return found[0]
 
 
 def g2o_time(printed):
@@ -42,8 +58,14 @@ def g2o_time(printed):
     return {"seconds": steps[near][1], "counts": {"iterations": near + 1}}
 
 
-def finish(result, **said):
-    Path(result + ".json").write_text(json.dumps(said) + "\n")
+def stated_time(printed, seconds, iterations="iterations"):
+    """The numbers after the words `seconds`, in s or ms, and `iterations`, if they are printed."""
+    time = re.search(seconds + r"\s*" + NUMBER + "(ms|s|)", printed)
+    if not time:
+        sys.exit(f"expected '{seconds}' and a time: " + printed[-500:])
+    count = re.search(iterations + r"\s*(\d+)", printed)
+    return {"seconds": float(time.group(1)) * UNITS[time.group(2)],
+            "counts": {"iterations": int(count.group(1))} if count else {}}
 
 
 def quaternion(R):
@@ -82,31 +104,70 @@ def vertices(rows):
         R = [row[n + d * i:n + d * (i + 1)] for row in rows]
         rotation = [math.atan2(R[1][0], R[0][0])] if d == 2 else quaternion(R)
         kind = "VERTEX_SE2" if d == 2 else "VERTEX_SE3:QUAT"
-        out.append(" ".join([kind, str(i), *map(repr, t + rotation)]))
-    return "\n".join(out) + "\n"
+        out.append(" ".join([kind, str(i), *map(repr, t + rotation)]) + "\n")
+    return out
+
+
+def command(program, options, graph, written, spatial):
+    """The command line. pose_graph_g2o only reads files of certain names in the folder data."""
+    if program == "g2o":
+        return ["-v", "-solver", g2o_solver(*options), "-i", "100", "-o", written, graph]
+    if program == "SE-Sync":
+        return [graph]
+    if program == "pose_graph_g2o":
+        name, folder = ("sphere2500", "3d") if spatial else ("intel", "2d")
+        data = Path(graph).parent / "data" / "odometry" / folder
+        data.mkdir(parents=True)
+        shutil.move(graph, data / (name + ".g2o"))
+        return ["--dataset", name, "--optimizer", options[0], "--cost-tolerance", "1e-6",
+                "--parameter-tolerance", "1e-12", "--save-output", written]
+    return [options[0], graph, written]
+
+
+def stated(program, done):
+    if program == "g2o":
+        return g2o_time(done.stderr)
+    if program == "SE-Sync":
+        return stated_time(done.stdout, "Total elapsed computation time:")
+    if program == "pose_graph_g2o":
+        return stated_time(done.stdout, "Optimization time:", "Iterations:")
+    return stated_time(done.stdout, "seconds", "iterations")
+
+
+def run(kind, problem, result):
+    """Writes the vertices of the result; the contents of its .json file."""
+    library, *options = kind.split("_")
+    program = PROGRAMS[library]
+    if not shutil.which(program):
+        raise Declined(program + " is not on the path")
+    folder = Path(os.environ.get("TMPDIR", "/tmp"))
+    graph, written = folder / "graph.g2o", folder / "written.g2o"
+    lines = Path(problem, "graph.g2o").read_text().splitlines(keepends=True)
+    if program != "g2o":
+        lines = [of_angles(line) for line in lines if not line.startswith("FIX")]
+    graph.write_text("".join(lines))
+    spatial = any(line.startswith("EDGE_SE3") for line in lines)
+    words = [program, *command(program, options, str(graph), str(written), spatial)]
+    done = subprocess.run(words, cwd=folder, capture_output=True, text=True)
+    if program == "SE-Sync":
+        written = folder / "poses.txt"
+    if not written.exists():  # pose_graph_g2o fails at its maximum of iterations, after writing
+        sys.exit(program + ": " + (done.stderr or done.stdout)[-500:])
+    with written.open() as file:
+        if program == "SE-Sync":
+            poses = vertices([[float(x) for x in line.split()] for line in file])
+        else:
+            poses = [line for line in file if line.startswith("VERTEX")]
+    Path(result).write_text("".join(poses))
+    return stated(program, done)
 
 
 def main(kind, problem, result):
-    if not shutil.which(PROGRAMS[kind]):
-        return finish(result, status="declined", why=PROGRAMS[kind] + " is not installed")
-    is_g2o = kind != "se_sync"
-    folder = Path(os.environ.get("TMPDIR", "/tmp"))
-    graph = folder / "graph.g2o"
-    lines = list(Path(problem, "graph.g2o").open())
-    if not is_g2o:
-        lines = [of_angles(line) for line in lines if not line.startswith("FIX")]
-    graph.write_text("".join(lines))
-    command = g2o_command(kind) + ["-o", result, str(graph)] if is_g2o else ["SE-Sync", str(graph)]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-    written = Path(result) if is_g2o else folder / "poses.txt"
-    if done.returncode != 0 or not written.exists():
-        sys.exit(command[0] + ": " + (done.stderr or done.stdout)[-500:])
-    if is_g2o:
-        return finish(result, **g2o_time(done.stderr))
-    rows = [[float(x) for x in line.split()] for line in written.open()]
-    Path(result).write_text(vertices(rows))
-    total = re.search(r"Total elapsed computation time: ([\d.e+-]+)", done.stdout)
-    return finish(result, seconds=float(total.group(1)))
+    try:
+        said = run(kind, problem, result)
+    except Declined as reason:
+        said = {"status": "declined", "why": str(reason)}
+    Path(result + ".json").write_text(json.dumps(said) + "\n")
 
 
 if __name__ == "__main__":
