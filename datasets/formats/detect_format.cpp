@@ -19,9 +19,9 @@ bool is_tag(std::string_view word) {
   return word.starts_with("VERTEX") || word.starts_with("EDGE") || word == "FIX";
 }
 
-/// EuRoC stamps are nanoseconds since 1970: at least 16 digits and no decimal point.
+/// EuRoC stamps are nanoseconds since 1970: no decimal point, and more digits than microseconds.
 bool is_nanoseconds(std::string_view word) {
-  constexpr std::size_t kMinDigits = 16;
+  constexpr std::size_t kMinDigits = 17;
   return word.size() >= kMinDigits &&
          std::all_of(word.begin(), word.end(), [](char c) { return '0' <= c && c <= '9'; });
 }
@@ -58,14 +58,15 @@ bool has_node_id(const TextFile& file, const Line& line) {
 }
 
 bool has_small_nanoseconds(const TextFile& file) {
-  constexpr std::int64_t kMinStep = 100'000;  // [ns]
+  constexpr std::int64_t kMinStep = 100'000;             // [ns]
+  constexpr std::int64_t kMost = 1'000'000'000'000'000;  // [ns]; microseconds since 1970 are above
   TextFile reopened = file.reopened();
   std::optional<std::int64_t> previous;
   for (int i = 0; i < 2; ++i) {
     Line line;
     if (!reopened.next(line)) return false;
     const auto stamp = exact_nanoseconds(Columns(reopened, line).word(), -9);
-    if (!stamp || *stamp < 0) return false;
+    if (!stamp || *stamp < 0 || *stamp > kMost) return false;
     if (previous) return *stamp - *previous >= kMinStep;
     previous = stamp;
   }

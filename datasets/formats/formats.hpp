@@ -16,7 +16,8 @@ namespace loopbench {
 
 /// `automatic` detects the format from the content, not from the file extension. Stamps of tum are
 /// seconds, or nanoseconds if they are 1e16 or more or if the first two are whole numbers at least
-/// 1e5 apart (clocks of simulators start at 0). A header row is skipped; csv is a table whose
+/// 1e5 apart and below 1e15 (clocks of simulators start at 0; microseconds since 1970 are above). A
+/// header row is skipped; csv is a table whose
 /// header names time, position and quaternion, in any order. bag is a ROS bag (datasets/bags).
 enum class Format { automatic, tum, kitti, euroc, g2o, csv, bag };
 inline auto choices(Format) {

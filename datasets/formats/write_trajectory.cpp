@@ -14,9 +14,33 @@
 namespace loopbench {
 namespace {
 
-std::int64_t rounded_nanoseconds(double stamp) {
-  const double seconds = std::floor(stamp);
-  return static_cast<std::int64_t>(seconds) * 1'000'000'000 + std::llround((stamp - seconds) * 1e9);
+/// Throws InputError for stamps that do not fit, or that are no longer different.
+std::vector<std::int64_t> rounded_nanoseconds(const TrajectoryFile& file,
+                                              const std::filesystem::path& path) {
+  constexpr double kMost = 9.2e9;  // [s]; int64_t holds 9.22e9
+  if (!file.nanoseconds.empty()) return file.nanoseconds;
+  std::vector<std::int64_t> out;
+  out.reserve(file.poses.size());
+  for (std::size_t i = 0; i < file.poses.size(); ++i) {
+    const double stamp = file.poses[i].stamp;
+    const double seconds = std::floor(stamp);
+    if (!(std::abs(stamp) < kMost)) {
+      throw InputError(fmt::format(
+          "{}: nanoseconds of stamp {} do not fit in 64 bits, expected seconds below {}",
+          path.string(),
+          stamp,
+          kMost));
+    }
+    const auto whole = static_cast<std::int64_t>(seconds) * 1'000'000'000;
+    out.push_back(whole + std::llround((stamp - seconds) * 1e9));
+    if (i > 0 && out[i] == out[i - 1] && stamp != file.poses[i - 1].stamp) {
+      throw InputError(fmt::format("{}: stamps {} and {} are one nanosecond",
+                                   path.string(),
+                                   file.poses[i - 1].stamp,
+                                   stamp));
+    }
+  }
+  return out;
 }
 
 void write_stamp(TextWriter& out, const TrajectoryFile& file, std::size_t i) {
@@ -73,12 +97,13 @@ TextWriter times_text(const TrajectoryFile& file) {
   return out;
 }
 
-TextWriter euroc_text(const TrajectoryFile& file) {
+TextWriter euroc_text(const TrajectoryFile& file, const std::filesystem::path& path) {
+  const std::vector<std::int64_t> stamps = rounded_nanoseconds(file, path);
   TextWriter out(',');
   out.comment("timestamp [ns],p_x [m],p_y [m],p_z [m],q_w [],q_x [],q_y [],q_z []");
   for (std::size_t i = 0; i < file.poses.size(); ++i) {
-    const auto& [stamp, pose] = file.poses[i];
-    out.integer(file.nanoseconds.empty() ? rounded_nanoseconds(stamp) : file.nanoseconds[i]);
+    const Pose& pose = file.poses[i].world_from_body;
+    out.integer(stamps[i]);
     write_position(out, pose);
     const Rotation& q = pose.rotation;
     out.number(q.w()).number(q.x()).number(q.y()).number(q.z());
@@ -172,7 +197,7 @@ void write_trajectory(const std::filesystem::path& file,
       kitti_text(trajectory).save(file);
       break;
     case Format::euroc:
-      euroc_text(trajectory).save(file);
+      euroc_text(trajectory, file).save(file);
       break;
     case Format::csv:
       csv_text(trajectory).save(file);
@@ -181,14 +206,10 @@ void write_trajectory(const std::filesystem::path& file,
       write_g2o(file, graph_of(trajectory.poses));
       break;
     case Format::bag: {
-      std::vector<std::int64_t> stamps = trajectory.nanoseconds;
-      if (stamps.empty()) {
-        for (const StampedPose& pose : trajectory.poses) {
-          stamps.push_back(rounded_nanoseconds(pose.stamp));
-        }
-      }
-      const std::string bytes =
-          mcap_of(trajectory.poses, stamps, topic_of(file), trajectory.covariances);
+      const std::string bytes = mcap_of(trajectory.poses,
+                                        rounded_nanoseconds(trajectory, file),
+                                        topic_of(file),
+                                        trajectory.covariances);
       replace_file(file == "-" ? "/dev/stdout" : file, bytes, Target::named);
       break;
     }

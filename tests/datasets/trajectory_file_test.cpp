@@ -51,6 +51,40 @@ TEST(TrajectoryFile, StampsWithMoreThanNineDecimalsRemainDoubles) {
   EXPECT_EQ(content(scratch.path() / "b.txt"), "0.12345678901 1 2 3 0 0 0 1\n");
 }
 
+TEST(TrajectoryFile, StampsThatAreNoNanosecondsAreNotWritten) {
+  const TemporaryFolder scratch;
+  const auto why = [&](double first, double second, Format format) -> std::string {
+    TrajectoryFile file;
+    file.poses = {{first, Pose{}}, {second, Pose{}}};
+    try {
+      write_trajectory(scratch.path() / "out", file, format);
+      return "";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  for (const Format format : {Format::euroc, Format::bag}) {
+    EXPECT_THAT(why(1.7e12, 1.7e12 + 100.0, format),
+                HasSubstr("out: nanoseconds of stamp 1700000000000 do not fit in 64 bits"));
+    EXPECT_THAT(why(1e300, 2e300, format), HasSubstr("do not fit"));
+    EXPECT_THAT(why(0.0, 1e-10, format), HasSubstr("stamps 0 and 1e-10 are one nanosecond"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "out"));
+  EXPECT_EQ(why(1.0, 2.0, Format::euroc), "");
+}
+
+TEST(TrajectoryFile, MicrosecondsAreNoNanoseconds) {
+  const TemporaryFolder scratch;
+  for (const std::int64_t step : {50'000, 100'000}) {
+    std::string text;
+    for (std::int64_t i = 0; i < 3; ++i) {
+      text += std::to_string(1'700'000'000'000'000 + i * step) + " 0 0 0 0 0 0 1\n";
+    }
+    const auto file = read_trajectory_file(scratch.file("us.txt", text));
+    EXPECT_EQ(file.poses[1].stamp - file.poses[0].stamp, static_cast<double>(step));
+  }
+}
+
 TEST(TrajectoryFile, StampsAreExactDecimals) {
   EXPECT_EQ(exact_nanoseconds("1.305031102175304e+09"), 1305031102175304000);
   EXPECT_EQ(exact_nanoseconds("-0.5"), -500'000'000);
