@@ -59,12 +59,14 @@ std::vector<std::size_t> by_motion(const Trajectory& poses, const MotionStep& st
   if (step.degrees && lacks_rotations(poses)) {
     throw InputError("downsample: --degrees needs rotations, expected --metres for positions");
   }
+  constexpr double kRounding = 1e-6;  // of stamp differences [s], as for keyframes
   std::vector<std::size_t> out;
   double metres = 0.0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (i > 0) metres += metres_between(poses[i - 1], poses[i]);
     const bool is_reached =
-        i == 0 || (step.seconds && poses[i].stamp - poses[out.back()].stamp >= *step.seconds) ||
+        i == 0 ||
+        (step.seconds && poses[i].stamp - poses[out.back()].stamp >= *step.seconds - kRounding) ||
         (step.metres && metres >= *step.metres) ||
         (step.degrees && radians_between(poses[out.back()], poses[i]) >= *step.degrees * kDegree);
     if (!is_reached) continue;

@@ -134,6 +134,11 @@ TEST(Traj, MotionFilterKeepsAPoseWhenAThresholdIsReached) {
               ElementsAre(0, 3, 6));
   EXPECT_THAT(by_motion(line(8), {.seconds = {}, .metres = 100.0, .degrees = 22.0}),
               ElementsAre(0, 4));
+  // Differences of decimal stamps are rounded.
+  Trajectory tenths;
+  for (int i = 0; i < 30; ++i) tenths.push_back({0.1 * i, Pose{}});
+  EXPECT_EQ(by_motion(tenths, {.seconds = 0.1, .metres = {}, .degrees = {}}).size(), 30u);
+  EXPECT_EQ(by_motion(tenths, {.seconds = 0.3, .metres = {}, .degrees = {}}).size(), 10u);
   // The angle counts from the last kept pose to this one: rotating to and fro reaches nothing.
   Trajectory nodding = line(8);
   for (std::size_t i = 0; i < nodding.size(); ++i) {
