@@ -94,6 +94,40 @@ const CLI::Option& option_of(const CLI::App& command, const YamlEntry& entry) {
       unknown_name("option of " + command.get_name() + " that a file can set", entry.key, known));
 }
 
+/// As YAML; empty: not given.
+std::string given_values(const CLI::Option& option, const std::vector<std::string>& words) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (!is_given(option, {words[i]})) continue;
+    const std::size_t equals = words[i].find('=');
+    if (!has_value(option)) {
+      out = {"true"};
+    } else if (equals != std::string::npos) {
+      out.push_back(words[i].substr(equals + 1));
+    } else {
+      const int least = option.get_items_expected_min();
+      for (int k = 0; k < std::max(1, least) && i + 1 < words.size(); ++k) {
+        if (k >= least && words[i + 1].starts_with('-')) break;  // its value can be left out
+        out.push_back(words[++i]);
+      }
+    }
+  }
+  const std::string text = fmt::format("{}", fmt::join(out, ", "));
+  return out.size() > 1 ? "[" + text + "]" : text;
+}
+
+/// Rejects sections of no command: their options would have no effect.
+void check_sections(const CLI::App& app, const YamlNode& root) {
+  std::vector<std::string> known;
+  for (const CLI::App* each : app.get_subcommands([](auto) { return true; })) {
+    known.push_back(each->get_name());
+  }
+  for (const YamlEntry& entry : root.map) {
+    if (std::ranges::count(known, entry.key) > 0) continue;
+    throw entry.value.error(unknown_name("command", entry.key, known));
+  }
+}
+
 std::vector<std::string> words_of(const CLI::Option& option, const YamlNode& value) {
   const std::string name = names_of(option).back();
   if (!has_value(option)) {
@@ -120,8 +154,11 @@ std::vector<std::string> with_defaults(const CLI::App& app, std::vector<std::str
   const fs::path file = command != nullptr ? defaults_file(words) : fs::path();
   if (file.empty()) return words;
   constexpr std::size_t kLargest = std::size_t{1} << 20;  // [bytes]
-  const YamlNode root = parse_yaml(read_regular_file(file, kLargest, "file"), file.string());
+  const std::string text = read_regular_file(file, kLargest, "file");
+  if (text.empty()) return words;  // as in `eval --show-defaults > loopbench.yaml`
+  const YamlNode root = parse_yaml(text, file.string());
   require_map(root, kDefaultsName, "commands with their options");
+  check_sections(app, root);
   const YamlNode* section = root.find(command->get_name());
   if (section == nullptr || section->type == YamlNode::Type::null) return words;
   require_map(*section, command->get_name(), "options and their values");
@@ -154,12 +191,7 @@ std::optional<std::string> shown_defaults(const CLI::App& app,
   std::string out = command->get_name() + ":\n";
   for (const CLI::Option* option : settable(*command)) {
     const std::string& value = option->get_default_str();
-    std::string given;
-    for (const std::string& word : words) {
-      const std::size_t equals = word.find('=');
-      const bool is_its = equals != word.npos && is_given(*option, {word});
-      if (is_its) given += (given.empty() ? "" : ", ") + word.substr(equals + 1);
-    }
+    const std::string given = given_values(*option, words);
     out += !given.empty() ? fmt::format("  {}: {}\n", key_of(*option), given)
            : value.empty()
                ? fmt::format("  # {}:  # {}\n", key_of(*option), option->get_description())

@@ -52,6 +52,8 @@ TEST_F(Defaults, ChooseNoFiles) {
     EXPECT_THAT(result.err, HasSubstr("loopbench.yaml:2: no option of eval that a file can set"));
   }
   EXPECT_THAT(run("eval:\n  algin: se3\n").err, HasSubstr("did you mean 'align'?"));
+  EXPECT_THAT(run("evall:\n  align: se3\n").err, HasSubstr("did you mean 'eval'?"));
+  EXPECT_EQ(run("protocol: evo\n").exit_code, 2) << "without a command";
 }
 
 TEST_F(Defaults, AreShownAsAFile) {
@@ -60,6 +62,11 @@ TEST_F(Defaults, AreShownAsAFile) {
   EXPECT_THAT(shown.out, HasSubstr("eval:\n"));
   EXPECT_THAT(shown.out, HasSubstr("\n  align: sim3\n"));
   EXPECT_THAT(shown.out, HasSubstr("\n  # protocol: [loopbench]\n"));
+  const CommandResult given =
+      run("", "--align sim3 --motion_filter 0.5 5 --all_pairs --show-defaults");
+  for (const char* line : {"align: sim3", "motion_filter: [0.5, 5]", "all_pairs: true"}) {
+    EXPECT_THAT(given.out, HasSubstr(std::string("\n  ") + line + "\n")) << given.err;
+  }
   const CommandResult again = run(shown.out);
   EXPECT_EQ(again.exit_code, 0) << again.err;
 }
