@@ -148,25 +148,19 @@ std::vector<Record> all_records(const std::vector<EvaluationResult>& results) {
 }
 
 void change_unit(std::vector<EvaluationResult>& results, const std::string& unit) {
-  struct Change {
-    const char* from;
-    double factor;
-  };
-  static const std::map<std::string, Change> kChanges{{"mm", {"m", 1e3}},
-                                                      {"cm", {"m", 1e2}},
-                                                      {"m", {"m", 1.0}},
-                                                      {"km", {"m", 1e-3}},
-                                                      {"deg", {"deg", 1.0}},
-                                                      {"rad", {"deg", 1.0 / metrics::kDegrees}}};
-  const auto change = kChanges.find(unit);
-  if (change == kChanges.end()) {
+  static const std::map<std::string, double> kLengths{
+      {"mm", 1e3}, {"cm", 1e2}, {"m", 1.0}, {"km", 1e-3}};
+  static const std::map<std::string, double> kAngles{{"deg", metrics::kDegrees}, {"rad", 1.0}};
+  const auto& units = kLengths.contains(unit) ? kLengths : kAngles;
+  if (!units.contains(unit)) {
     throw InputError("--unit: found '" + unit + "', expected mm, cm, m, km, deg or rad");
   }
-  const auto [from, factor] = change->second;
   bool is_used = false;
   for (EvaluationResult& result : results) {
     for (Record& record : result.records) {
-      if (record.unit != from) continue;
+      const auto from = units.find(record.unit);
+      if (from == units.end()) continue;
+      const double factor = units.at(unit) / from->second;
       is_used = true;
       record.unit = unit;
       metrics::Statistics& s = record.statistics;
@@ -176,7 +170,9 @@ void change_unit(std::vector<EvaluationResult>& results, const std::string& unit
       s.sse *= factor * factor;
     }
   }
-  if (!is_used) throw InputError("--unit " + unit + ": no score is in " + from);
+  if (is_used) return;
+  throw InputError("--unit " + unit + ": no score is " +
+                   (&units == &kLengths ? "a length" : "an angle"));
 }
 
 std::string json(const std::vector<EvaluationResult>& results) {

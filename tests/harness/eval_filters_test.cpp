@@ -51,11 +51,13 @@ TEST(EvalFilters, UnitsChange) {
   const Json& ape = result["metrics"][0];
   EXPECT_EQ(ape["unit"], "rad");
   EXPECT_NEAR(ape["rmse"], 0.11910329954688206, 1e-12);
+  const Json degrees = evaluated({"--unit=deg", "-r", "angle_rad"});
+  EXPECT_NEAR(degrees["metrics"][0]["rmse"], 0.11910329954688206 * 180.0 / M_PI, 1e-9);
   EXPECT_EQ(refusal<InputError>({golden("gt.txt"), golden("gt.txt"), "--unit=inch"}),
             "--unit: found 'inch', expected mm, cm, m, km, deg or rad");
   EXPECT_EQ(
       refusal<InputError>({golden("gt.txt"), golden("gt.txt"), "--unit=km", "--metric=coverage"}),
-      "--unit km: no score is in m");
+      "--unit km: no score is a length");
 }
 
 TEST(EvalFilters, PrintsTheTransformThatTrajReads) {
