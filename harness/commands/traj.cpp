@@ -73,6 +73,12 @@ int merge_files(const TrajArguments& a) {
   }
   std::vector<std::size_t> dropped;
   const NamedTrajectory out{"merged", merged(files, repeats, dropped), {}};
+  const bool had_covariances = std::ranges::any_of(
+      files, [](const TrajectoryFile& file) { return !file.covariances.empty(); });
+  if (had_covariances && out.file.covariances.empty()) {
+    fmt::print(stderr,
+               "loopbench: merge: covariances are removed, because not all files have them\n");
+  }
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (dropped[i] == 0) continue;
     fmt::print(stderr,
@@ -108,6 +114,12 @@ int split_laps(const TrajArguments& a) {
       // With an ending, which is replaced by that of the format.
       const std::string name = fmt::format("{}_{}.txt", output_stem(each.name), lap);
       out.push_back({name, selected(each.file, indices), each.findings});
+    }
+    if (const std::size_t left = each.file.poses.size() - starts.back(); left > 1) {
+      fmt::print(stderr,
+                 "loopbench: {}: the last {} poses are no complete lap and are left out\n",
+                 printable(each.name),
+                 left);
     }
   }
   return write_all(a, out);

@@ -119,7 +119,10 @@ const std::vector<VerbInfo>& verb_infos() {
       {"sync",
        "Write the paired poses of each file and of the reference to a folder",
        {declare_pairing, declare_output}},
-      {"merge", "Merge files into one trajectory, sorted by stamp", {declare_output}},
+      {"merge",
+       "Merge files into one trajectory, sorted by stamp; of equal stamps the first pose is kept, "
+       "or see --repeats",
+       {declare_output}},
       {"crop", "Keep the poses in a time range", {declare_crop, declare_output}},
       {"laps",
        "Split a path into the laps that return to its first position",

@@ -57,7 +57,7 @@ std::vector<std::size_t> evenly_spaced(std::size_t poses, std::size_t count) {
 
 std::vector<std::size_t> by_motion(const Trajectory& poses, const MotionStep& step) {
   if (step.degrees && lacks_rotations(poses)) {
-    throw InputError("downsample: --degrees needs rotations, expected --metres for positions");
+    throw InputError("a step in degrees needs rotations, the file has only positions");
   }
   constexpr double kRounding = 1e-6;  // of stamp differences [s], as for keyframes
   std::vector<std::size_t> out;

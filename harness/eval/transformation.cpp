@@ -159,6 +159,9 @@ TrajectoryFile corrected(TrajectoryFile file, const Conventions& conventions) {
   }
   check_factor("--scale", conventions.scale);
   check_factor("--stamp-scale", conventions.stamp_scale);
+  if (conventions.invert_poses && lacks_rotations(file.poses)) {
+    throw InputError("--invert-poses needs rotations, the file has only positions");
+  }
   const Matrix3 axes =
       conventions.axes.empty() ? Matrix3::Identity() : signed_permutation(conventions.axes);
   for (auto& [stamp, pose] : file.poses) {
@@ -168,7 +171,9 @@ TrajectoryFile corrected(TrajectoryFile file, const Conventions& conventions) {
     stamp *= conventions.stamp_scale;
     if (conventions.invert_poses) pose = normalized(pose.inverse());
   }
-  file.covariances.clear();
+  Conventions of_poses = conventions;
+  of_poses.stamp_scale = 1.0;
+  if (of_poses.any()) file.covariances.clear();
   if (conventions.stamp_scale != 1.0) file.nanoseconds.clear();
   return file;
 }

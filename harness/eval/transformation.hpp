@@ -43,8 +43,9 @@ struct Conventions {
   bool any() const;
 };
 
-/// Applies all corrections in the order of their declaration. Covariances are removed; exact stamps
-/// too, if stamps are scaled. Throws InputError for an invalid order, list of axes or factor. O(n).
+/// Applies all corrections in the order of their declaration. Covariances are removed if poses
+/// change; exact stamps too, if stamps are scaled. Throws InputError for an invalid order, list of
+/// axes or factor. O(n).
 TrajectoryFile corrected(TrajectoryFile file, const Conventions& conventions);
 
 }  // namespace loopbench::harness

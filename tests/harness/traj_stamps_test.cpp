@@ -101,6 +101,29 @@ TEST_F(TrajStamps, ADashIsStandardOutputBesideAFolderOfThatName) {
   std::filesystem::current_path(before);
 }
 
+TEST_F(TrajStamps, WhatMergingAndScalingLoseIsSaid) {
+  const std::string plain = tum("a.txt", {"0", "1"});
+  std::string rows = "#%TANGENT_CONVENTION fixed_axes\n";
+  for (const char* stamp : {"2000", "3000"}) {
+    rows += std::string(stamp) + " 0 0 0 0 0 0 1";
+    rows += " 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1";
+    rows += "\n";
+  }
+  std::ofstream(path("b.txt")) << rows;
+  EXPECT_THAT(traj({"merge", plain, path("b.txt"), "-o", path("out.txt")}).errors,
+              HasSubstr("merge: covariances are removed"));
+  EXPECT_EQ(
+      traj({"transform", path("b.txt"), "--stamp-scale", "0.001", "-o", path("out.txt")}).errors,
+      "");
+  const TrajectoryFile scaled = read_trajectory_file(path("out.txt"));
+  EXPECT_EQ(scaled.covariances.size(), 2u);
+  EXPECT_EQ(scaled.poses[1].stamp, 3.0);
+  std::ofstream(path("points.txt")) << "0 1 2 3 0 0 0 0\n1 1 2 3 0 0 0 0\n";
+  EXPECT_THAT(
+      traj_refusal({"transform", path("points.txt"), "--invert-poses", "-o", path("x.txt")}),
+      HasSubstr("--invert-poses needs rotations"));
+}
+
 TEST_F(TrajStamps, RepeatsAcrossMergedFilesFollowTheOption) {
   const std::string a = tum("a.txt", {"0", "1", "2"}, "1");
   const std::string b = tum("b.txt", {"1", "2", "3"}, "5");
