@@ -67,8 +67,15 @@ def problem_of(
     >>> problem_of(keyframes, [(0, 5, [3, 0, 0, 0, 0, 0, 1])])
     Traceback (most recent call last):
     ValueError: closures: row 0: found keyframes 0 and 5, expected two different ones of 0 to 4
+    >>> problem_of(keyframes, [(0, 4, [3, 0, 0, 0, 0, 0])])
+    Traceback (most recent call last):
+    ValueError: closures: row 0: found a pose of shape (6,), expected (7,)
     """
     information = np.diag([sigma_t**-2.0] * 3 + [sigma_r**-2.0] * 3).ravel()
+    closures = list(closures)
+    for row, (_, _, pose) in enumerate(closures):
+        if np.shape(pose) != (7,):
+            raise ValueError(f"closures: row {row}: found a pose of shape {np.shape(pose)}, expected (7,)")
     rows = [np.r_[begin, end, np.asarray(pose), 1.0, information] for begin, end, pose in closures]
     rows.sort(key=lambda row: (row[1], row[0]))
     poses = np.ascontiguousarray(keyframes, dtype=float)
