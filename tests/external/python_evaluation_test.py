@@ -282,7 +282,8 @@ class Evaluation(unittest.TestCase):
                 names, *lines = Path(folder + "/e.csv").read_text().splitlines()
             self.assertEqual(names.split(",")[4:], list(errors))
             expected = np.array([line.split(",")[-10:] for line in lines], float)
-            self.assertEqual(np.column_stack(list(errors.values())).tolist(), expected.tolist())
+            columns = [errors[name] for name in errors]  # a dictionary, or a data frame of pandas
+            self.assertEqual(np.column_stack(columns).tolist(), expected.tolist())
 
     def test_errors_are_a_data_frame_where_pandas_exists(self):
         class Frame(dict):
