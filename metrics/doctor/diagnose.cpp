@@ -146,7 +146,8 @@ class PairDiagnosis {
                                               : position > kPositionAlone;
     const SpeedMatch match(reference_, estimate_);
     const double correlation = std::max(0.0, match.at(0.0));
-    if (!disagrees || correlation > kCorrelation) return;
+    const double confidence = std::min(1.0, position) * (1.0 - correlation);
+    if (!disagrees || correlation > kCorrelation || confidence < kLeastConfidence) return;
     out_.findings = {
         {Fault::wrong_recording,
          fmt::format("no repair makes the files agree: after alignment with scale, the position "
@@ -156,7 +157,7 @@ class PairDiagnosis {
                      100.0 * position,
                      correlation),
          "give files of the same recording",
-         std::min(1.0, position) * (1.0 - correlation),
+         confidence,
          position}};
   }
 

@@ -147,6 +147,21 @@ TEST(Doctor, AnotherRecording) {
   EXPECT_THAT(faults(truth(), other), ElementsAre(Fault::wrong_recording));
 }
 
+/// The rotations of another recording, and positions that drift by half their spread.
+TEST(Doctor, AWeakFindingReplacesNoOther) {
+  for (const double drift : {2.0, 2.2}) {
+    Trajectory estimate = sampled(20);
+    for (auto& [t, pose] : estimate) {
+      pose.rotation =
+          exp_so3({0, 0, 0.9 * std::sin(0.37 * t + 1)}) * exp_so3({0.2 * std::cos(2.1 * t), 0, 0});
+      pose.translation += drift * Vector3(std::sin(0.5 * t), std::cos(0.5 * t), 0);
+    }
+    const auto found = diagnosis(truth(), estimate, "run.txt", "groundtruth.txt").findings;
+    ASSERT_EQ(found.size(), 1u) << drift;
+    EXPECT_EQ(found[0].fault, Fault::swapped);
+  }
+}
+
 /// Total stations measure positions at a low rate.
 TEST(Doctor, AReferenceWithoutRotationsIsNotExchanged) {
   Trajectory reference;
