@@ -49,11 +49,21 @@ TEST(Doctor, NamesWhatCannotBeChecked) {
   EXPECT_FALSE(good.offset) << "no offset is printed unless it is a finding";
 }
 
-TEST(Doctor, ExchangedFilesByNameOrRate) {
+TEST(Doctor, ExchangedFilesByName) {
   const auto all = diagnosis(sampled(20), truth(), "run.txt", "groundtruth.txt").findings;
   ASSERT_FALSE(all.empty());
   EXPECT_EQ(all[0].fault, Fault::swapped);
   EXPECT_THAT(diagnosis(truth(), sampled(20), "gt.txt", "gt_odometry.txt").findings, IsEmpty());
+}
+
+/// References from surveys and lidar scans have a lower rate than inertial odometry.
+TEST(Doctor, AReferenceOfALowerRateIsNotExchanged) {
+  for (const std::size_t step : {20u, 100u}) {
+    Trajectory reference;
+    for (std::size_t i = 100; i + 200 < truth().size(); i += step) reference.push_back(truth()[i]);
+    EXPECT_THAT(diagnosis(reference, sampled(20), "lidar.txt", "run.txt").findings, IsEmpty())
+        << step;
+  }
 }
 
 TEST(CommonMotion, FindsThePoseAtOrAfterAStampFromAnyHint) {
