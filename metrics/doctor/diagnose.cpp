@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "metrics/doctor/agreement.hpp"
+#include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/pair_checks.hpp"
 #include "metrics/doctor/repairs.hpp"
 #include "metrics/doctor/speed_match.hpp"
@@ -100,6 +101,15 @@ class PairDiagnosis {
                         poses.stamps.size(),
                         kFewestCommonPoses));
       }
+      return;
+    }
+    for (const bool is_reference : {true, false}) {
+      if (!is_at_rest(is_reference ? reference_ : estimate_)) continue;
+      out_.unchecked.push_back(
+          fmt::format("units, scale, quaternion order, inverted poses, axes, files of the same "
+                      "recording: the {} moves by less than {:g} times its noise",
+                      is_reference ? "reference" : "estimate",
+                      kLeastOfNoise));
       return;
     }
     out_.has_checked = true;

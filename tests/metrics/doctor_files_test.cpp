@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/diagnose.hpp"
@@ -63,6 +64,29 @@ TEST(Doctor, AReferenceOfALowerRateIsNotExchanged) {
     for (std::size_t i = 100; i + 200 < truth().size(); i += step) reference.push_back(truth()[i]);
     EXPECT_THAT(diagnosis(reference, sampled(20), "lidar.txt", "run.txt").findings, IsEmpty())
         << step;
+  }
+}
+
+/// Noise has no common motion that could be compared.
+TEST(Doctor, ARecordingAtRestCannotBeCompared) {
+  std::mt19937 random(3);
+  for (const double of_reference : {0.0, 1e-4}) {
+    for (const double motion : {0.0, 0.01}) {
+      std::normal_distribution<double> small(0.0, of_reference), large(0.0, 0.02);
+      Trajectory reference, estimate;
+      for (int i = 0; i < 500; ++i) {
+        const double t = 1000.0 + 0.05 * i;
+        const Vector3 at(1.0 + motion * std::sin(0.3 * t), 2.0, 3.0 + motion * std::cos(0.2 * t));
+        const auto noise = [&](auto& normal) {
+          return Vector3(normal(random), normal(random), normal(random));
+        };
+        reference.push_back({t, {Rotation::Identity(), at + noise(small)}});
+        estimate.push_back({t, {Rotation::Identity(), at + noise(large)}});
+      }
+      const Diagnosis out = diagnosis(reference, estimate, "reference.txt", "run.txt");
+      EXPECT_THAT(out.findings, IsEmpty()) << of_reference << " " << motion;
+      EXPECT_THAT(out.unchecked, testing::Contains(HasSubstr("same recording: ")));
+    }
   }
 }
 
