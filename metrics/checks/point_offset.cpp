@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "datasets/core/interpolate.hpp"
 #include "metrics/alignment/alignment.hpp"
+#include "metrics/evaluation/evaluation.hpp"
 #include "metrics/numerics/autocorrelation.hpp"
 #include "metrics/pairing/association.hpp"
 
@@ -127,9 +127,9 @@ PointOffset fit_point_offset(const Trajectory& reference,
   constexpr std::size_t kFewest = 5;
   const Paired start = interpolate_estimate(reference, estimate, longest, 0.0);
   if (start.reference.size() < kFewest) {
-    throw std::runtime_error("lever arm: " + std::to_string(start.reference.size()) +
-                             " positions of the reference lie between poses of the estimate, "
-                             "expected at least 5");
+    throw Undefined("lever arm: " + std::to_string(start.reference.size()) +
+                    " positions of the reference lie between poses of the estimate, "
+                    "expected at least 5");
   }
   const Alignment fit =
       align(start.reference, start.estimate, with_scale ? Align::sim3 : Align::se3);

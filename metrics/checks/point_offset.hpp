@@ -47,8 +47,8 @@ struct PointOffsetProblem {
 /// Least squares (Levenberg-Marquardt) of alignment, lever arm and offset. The estimate is
 /// interpolated between poses at most `longest` [s] apart. The covariance assumes residuals of one
 /// variance, correlated in time as they are; drift over the whole path is not in it. Throws
-/// std::runtime_error if fewer than five positions of the reference lie between poses of the
-/// estimate, or if the alignment alone is not unique. O(points * rounds).
+/// Undefined if fewer than five positions of the reference lie between poses of the estimate, and
+/// std::runtime_error if the alignment alone is not unique. O(points * rounds).
 PointOffset fit_point_offset(const Trajectory& reference,
                              const Trajectory& estimate,
                              bool with_scale,

@@ -1,7 +1,6 @@
 #include "metrics/correction/graph_cost.hpp"
 
 #include <cmath>
-#include <stdexcept>
 
 #include "metrics/correction/chordal_weights.hpp"
 
@@ -48,8 +47,8 @@ std::vector<Score> graph_cost(const Evaluation& evaluation, const GraphCostOptio
     double out = 0.0;
     for (const Edge& edge : edges) {
       if (edge.scale != 1.0) {
-        throw std::runtime_error("graph_cost: an edge changes the scale (factor " +
-                                 to_text(edge.scale) + "), but the keyframes are rigid");
+        throw Undefined("graph_cost: an edge changes the scale (factor " + to_text(edge.scale) +
+                        "), but the keyframes are rigid");
       }
       out += cost_of(edge, poses, problem.planar, options.error);
     }

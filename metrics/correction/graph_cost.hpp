@@ -29,7 +29,7 @@ void fields(GraphCostOptions& o, Visit visit) {
 
 /// Sums over edges, without the factor 1/2 of GTSAM and Ceres: chi2 of all edges and anchors, of
 /// odometry, of closures, and of anchors if there are any [1]. For chordal, weights as in
-/// chordal_weights.hpp. Needs no reference. Throws std::runtime_error if an edge changes the scale:
+/// chordal_weights.hpp. Needs no reference. Throws Undefined if an edge changes the scale:
 /// rigid keyframes do not define its residual. O(keyframes + edges).
 std::vector<Score> graph_cost(const Evaluation& evaluation, const GraphCostOptions& options);
 

@@ -23,6 +23,38 @@ double usual_interval(const Trajectory& poses) {
   return median_value(std::move(intervals));
 }
 
+namespace {
+
+/// Standard deviation of the white noise of positions [m], over all three axes: from the median
+/// distance of a position from the line between the ones before and after. Acceleration adds to it.
+double position_noise(const Trajectory& poses) {
+  constexpr double kMeanOverMedian = 3.0 / 2.366;  // of chi-squared with 3 degrees of freedom
+  std::vector<double> squares;
+  for (std::size_t i = 1; i + 1 < poses.size(); ++i) {
+    const auto& [t0, before] = poses[i - 1];
+    const auto& [t1, after] = poses[i + 1];
+    const double u = t1 > t0 ? (poses[i].stamp - t0) / (t1 - t0) : 0.5;
+    const Vector3 between = (1.0 - u) * before.translation + u * after.translation;
+    squares.push_back((poses[i].world_from_body.translation - between).squaredNorm() /
+                      (1.0 + (1.0 - u) * (1.0 - u) + u * u));
+  }
+  return std::sqrt(kMeanOverMedian * median_value(std::move(squares)));
+}
+
+}  // namespace
+
+bool is_at_rest(const Trajectory& poses) {
+  constexpr double kRounding = 1e-9;
+  const auto n = static_cast<double>(poses.size());
+  Vector3 mean = Vector3::Zero();
+  for (const StampedPose& pose : poses) mean += pose.world_from_body.translation / n;
+  double variance = 0.0;
+  for (const StampedPose& pose : poses) {
+    variance += (pose.world_from_body.translation - mean).squaredNorm() / n;
+  }
+  return std::sqrt(variance) <= kLeastOfNoise * position_noise(poses) + kRounding * mean.norm();
+}
+
 std::size_t first_from(const Trajectory& poses, double stamp, std::size_t hint) {
   const auto is_before = [&](std::size_t i) { return poses[i].stamp < stamp; };
   std::size_t low = std::min(hint, poses.size());  // all before `low` are before the stamp

@@ -40,6 +40,12 @@ std::size_t first_from(const Trajectory& poses, double stamp, std::size_t hint);
 /// Pearson's correlation; 0 for fewer than five values or a constant.
 double correlation(const std::vector<double>& a, const std::vector<double>& b);
 
+inline constexpr double kLeastOfNoise = 3.0;  ///< standard deviation of positions over their noise
+
+/// Whether noise explains the positions: their standard deviation is at most kLeastOfNoise times
+/// the one of white noise that the deviations from straight lines between neighbours have. O(n).
+bool is_at_rest(const Trajectory& poses);
+
 /// Median; 0 for an empty list.
 double median_value(std::vector<double> values);
 

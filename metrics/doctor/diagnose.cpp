@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "metrics/doctor/agreement.hpp"
+#include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/pair_checks.hpp"
 #include "metrics/doctor/repairs.hpp"
 #include "metrics/doctor/speed_match.hpp"
@@ -32,7 +33,7 @@ class PairDiagnosis {
   Diagnosis run(const std::string& reference_name,
                 const std::string& estimate_name,
                 bool has_stamps) {
-    add(check_swapped(reference_, estimate_, reference_name, estimate_name));
+    add(check_swapped(reference_name, estimate_name));
     if (has_stamps) {
       check_stamps();
     } else {
@@ -102,6 +103,15 @@ class PairDiagnosis {
       }
       return;
     }
+    for (const bool is_reference : {true, false}) {
+      if (!is_at_rest(is_reference ? reference_ : estimate_)) continue;
+      out_.unchecked.push_back(
+          fmt::format("units, scale, quaternion order, inverted poses, axes, files of the same "
+                      "recording: the {} moves by less than {:g} times its noise",
+                      is_reference ? "reference" : "estimate",
+                      kLeastOfNoise));
+      return;
+    }
     out_.has_checked = true;
     if (auto found = check_angle_unit(poses)) {
       add(std::move(found));
@@ -146,7 +156,8 @@ class PairDiagnosis {
                                               : position > kPositionAlone;
     const SpeedMatch match(reference_, estimate_);
     const double correlation = std::max(0.0, match.at(0.0));
-    if (!disagrees || correlation > kCorrelation) return;
+    const double confidence = std::min(1.0, position) * (1.0 - correlation);
+    if (!disagrees || correlation > kCorrelation || confidence < kLeastConfidence) return;
     out_.findings = {
         {Fault::wrong_recording,
          fmt::format("no repair makes the files agree: after alignment with scale, the position "
@@ -156,7 +167,7 @@ class PairDiagnosis {
                      100.0 * position,
                      correlation),
          "give files of the same recording",
-         std::min(1.0, position) * (1.0 - correlation),
+         confidence,
          position}};
   }
 
@@ -178,7 +189,7 @@ Diagnosis diagnosis(const Trajectory& reference,
   Diagnosis out = PairDiagnosis(with_rotations(reference), with_rotations(estimate))
                       .run(reference_name, estimate_name, has_stamps);
   std::erase_if(out.findings, [](const InputFinding& finding) {
-    return finding.fault == Fault::constant_rotation || finding.fault == Fault::swapped;
+    return finding.fault == Fault::constant_rotation;
   });
   return out;
 }

@@ -33,11 +33,6 @@ bool names_truth(const std::string& name) {
   return false;
 }
 
-double rate(const Trajectory& poses) {
-  const double duration = poses.back().stamp - poses.front().stamp;
-  return duration > 0.0 ? static_cast<double>(poses.size() - 1) / duration : 0.0;
-}
-
 /// Largest distance [m] and rotation angle [rad] from the first pose.
 std::pair<double, double> largest_motion(const Trajectory& poses) {
   std::pair<double, double> out;
@@ -114,34 +109,13 @@ std::vector<Jump> jumps_of(const CommonPoses& poses) {
 
 }  // namespace
 
-std::optional<InputFinding> check_swapped(const Trajectory& reference,
-                                          const Trajectory& estimate,
-                                          const std::string& reference_name,
+std::optional<InputFinding> check_swapped(const std::string& reference_name,
                                           const std::string& estimate_name) {
-  constexpr double kRates = 2.0;
-  if (reference.size() < 2 || estimate.size() < 2) return std::nullopt;
-  const bool reference_is_named = names_truth(reference_name);
-  const bool estimate_is_named = names_truth(estimate_name);
-  if (reference_is_named) return std::nullopt;
-  const double rates = rate(estimate) / rate(reference);
-  const bool covers = estimate.front().stamp <= reference.front().stamp &&
-                      estimate.back().stamp >= reference.back().stamp;
-  const bool rotate =
-      largest_motion(reference).second > kConstant && largest_motion(estimate).second > kConstant;
-  const bool is_denser = rates >= kRates && covers && rotate;
-  if (!estimate_is_named && !is_denser) return std::nullopt;
-  return InputFinding{
-      Fault::swapped,
-      fmt::format("the estimate {}",
-                  estimate_is_named ? "is named like a reference: " + estimate_name
-                                    : fmt::format("has {:.1f} times the rate of the reference and "
-                                                  "covers it in time",
-                                                  rates)),
-      "exchange REF and EST",
-      estimate_is_named && is_denser ? 0.98
-      : estimate_is_named            ? 0.9
-                                     : 0.7,
-      rates};
+  if (names_truth(reference_name) || !names_truth(estimate_name)) return std::nullopt;
+  return InputFinding{Fault::swapped,
+                      "the estimate is named like a reference: " + estimate_name,
+                      "exchange REF and EST",
+                      0.9};
 }
 
 std::optional<InputFinding> check_constant_rotation(const Trajectory& reference,

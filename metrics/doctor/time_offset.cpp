@@ -18,9 +18,14 @@ struct Best {
   double score = -1.0;
 };
 
+/// Steps are longer if the range is: files may cover any time, and a stray stamp covers decades.
 Best search(const SpeedMatch& match, double low, double high, double step) {
+  constexpr double kMostSteps = 20'000.0;
+  step = std::max(step, (high - low) / kMostSteps);
+  const auto steps = static_cast<int>(std::floor((high - low) / step + 1e-6));
   Best best;
-  for (double offset = low; offset <= high + 1e-9; offset += step) {
+  for (int i = 0; i <= steps; ++i) {
+    const double offset = low + i * step;
     const double score = match.at(offset);
     if (score > best.score) best = {offset, score};
   }

@@ -22,7 +22,8 @@ struct TimeOffset {
 /// over all overlaps if the trajectories have no common time; refined to a fraction of a sample. An
 /// offset below 1 s is preferred to a larger one that fits equally well, as periodic motion has.
 /// The deviation follows from the residuals of the speeds and their slopes. nullopt without enough
-/// motion, or if no offset explains the speeds (correlation below 0.6). O(1e6).
+/// motion, or if no offset explains the speeds (correlation below 0.6). Compares at most 20 000
+/// offsets of a range. O(1e7).
 std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
                                                const Trajectory& estimate,
                                                double searched = 10.0);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/diagnose.hpp"
@@ -49,11 +50,44 @@ TEST(Doctor, NamesWhatCannotBeChecked) {
   EXPECT_FALSE(good.offset) << "no offset is printed unless it is a finding";
 }
 
-TEST(Doctor, ExchangedFilesByNameOrRate) {
+TEST(Doctor, ExchangedFilesByName) {
   const auto all = diagnosis(sampled(20), truth(), "run.txt", "groundtruth.txt").findings;
   ASSERT_FALSE(all.empty());
   EXPECT_EQ(all[0].fault, Fault::swapped);
   EXPECT_THAT(diagnosis(truth(), sampled(20), "gt.txt", "gt_odometry.txt").findings, IsEmpty());
+}
+
+/// References from surveys and lidar scans have a lower rate than inertial odometry.
+TEST(Doctor, AReferenceOfALowerRateIsNotExchanged) {
+  for (const std::size_t step : {20u, 100u}) {
+    Trajectory reference;
+    for (std::size_t i = 100; i + 200 < truth().size(); i += step) reference.push_back(truth()[i]);
+    EXPECT_THAT(diagnosis(reference, sampled(20), "lidar.txt", "run.txt").findings, IsEmpty())
+        << step;
+  }
+}
+
+/// Noise has no common motion that could be compared.
+TEST(Doctor, ARecordingAtRestCannotBeCompared) {
+  std::mt19937 random(3);
+  for (const double of_reference : {0.0, 1e-4}) {
+    for (const double motion : {0.0, 0.01}) {
+      std::normal_distribution<double> small(0.0, of_reference), large(0.0, 0.02);
+      Trajectory reference, estimate;
+      for (int i = 0; i < 500; ++i) {
+        const double t = 1000.0 + 0.05 * i;
+        const Vector3 at(1.0 + motion * std::sin(0.3 * t), 2.0, 3.0 + motion * std::cos(0.2 * t));
+        const auto noise = [&](auto& normal) {
+          return Vector3(normal(random), normal(random), normal(random));
+        };
+        reference.push_back({t, {Rotation::Identity(), at + noise(small)}});
+        estimate.push_back({t, {Rotation::Identity(), at + noise(large)}});
+      }
+      const Diagnosis out = diagnosis(reference, estimate, "reference.txt", "run.txt");
+      EXPECT_THAT(out.findings, IsEmpty()) << of_reference << " " << motion;
+      EXPECT_THAT(out.unchecked, testing::Contains(HasSubstr("same recording: ")));
+    }
+  }
 }
 
 TEST(CommonMotion, FindsThePoseAtOrAfterAStampFromAnyHint) {
@@ -145,6 +179,21 @@ TEST(Doctor, AnotherRecording) {
           {3 * std::sin(0.23 * t), 2 * std::cos(0.71 * t), std::sin(1.1 * t)}}});
   }
   EXPECT_THAT(faults(truth(), other), ElementsAre(Fault::wrong_recording));
+}
+
+/// The rotations of another recording, and positions that drift by half their spread.
+TEST(Doctor, AWeakFindingReplacesNoOther) {
+  for (const double drift : {2.0, 2.2}) {
+    Trajectory estimate = sampled(20);
+    for (auto& [t, pose] : estimate) {
+      pose.rotation =
+          exp_so3({0, 0, 0.9 * std::sin(0.37 * t + 1)}) * exp_so3({0.2 * std::cos(2.1 * t), 0, 0});
+      pose.translation += drift * Vector3(std::sin(0.5 * t), std::cos(0.5 * t), 0);
+    }
+    const auto found = diagnosis(truth(), estimate, "run.txt", "groundtruth.txt").findings;
+    ASSERT_EQ(found.size(), 1u) << drift;
+    EXPECT_EQ(found[0].fault, Fault::swapped);
+  }
 }
 
 /// Total stations measure positions at a low rate.

@@ -1,9 +1,11 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
 #include "metrics/doctor/diagnose.hpp"
+#include "tests/metrics/doctor_pairs.hpp"
 
 namespace loopbench::doctor_time_offset_test {
 namespace {
@@ -29,6 +31,28 @@ TEST(TimeOffset, IsNotFoundAtAConstantRateOfRotation) {
       EXPECT_NE(found.fault, Fault::time_offset) << seed << ": " << text(found);
     }
   }
+}
+
+/// Clocks that were set after the first pose, or two sessions: a search with a constant step over
+/// all that time takes days.
+TEST(TimeOffset, StampsFarApartNeedABoundedSearch) {
+  constexpr double kEpoch = 1.7e9, kMonth = 30.0 * 86'400.0;
+  Trajectory reference = test::truth(), estimate = test::sampled(20);
+  for (Trajectory* poses : {&reference, &estimate}) {
+    for (StampedPose& pose : *poses) pose.stamp += kEpoch;
+  }
+  EXPECT_THAT(test::faults(reference, estimate), testing::IsEmpty());
+  Trajectory stray_reference = reference, stray_estimate = estimate;
+  stray_reference.front().stamp = stray_estimate.front().stamp = 0.0;
+  EXPECT_THAT(test::faults(reference, stray_estimate), testing::IsEmpty());
+  EXPECT_THAT(test::faults(stray_reference, estimate), testing::IsEmpty());
+  EXPECT_THAT(test::faults(stray_reference, stray_estimate), testing::IsEmpty());
+  for (Trajectory* poses : {&reference, &estimate}) {
+    for (StampedPose& pose : *poses) {
+      if (pose.stamp > kEpoch + 20.0) pose.stamp += kMonth;
+    }
+  }
+  EXPECT_THAT(test::faults(reference, estimate), testing::IsEmpty());
 }
 
 }  // namespace

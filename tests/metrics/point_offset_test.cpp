@@ -140,7 +140,7 @@ TEST(PointOffset, APlanarPathDoesNotDetermineTheHeight) {
 TEST(PointOffset, TooFewPointsAndMissingRotationsAreStated) {
   std::mt19937_64 random(5);
   EXPECT_THROW(fit_point_offset(points(random, 4, 20.0, 0.0, 0.0), path(20.0, 0.1), false, 1.0),
-               std::runtime_error);
+               Undefined);
 }
 
 }  // namespace
