@@ -93,10 +93,12 @@ Group group_of(const Problem& problem, Poses requested) {
 
 std::vector<ScaledPose> initial(const Problem& problem, Start start, double scale_sigma) {
   if (start == Start::chordal) return chordal_values(problem, scale_sigma);
-  std::vector<ScaledPose> out = tree_values(problem);
-  if (start == Start::keyframes) {  // keyframes have no scale: keep the scales of the tree
-    for (std::size_t i = 0; i < out.size(); ++i) out[i].pose = problem.keyframes[i].world_from_body;
-  }
+  if (start == Start::odometry) return tree_values(problem);
+  // Keyframes have no scale: it is that of the tree.
+  std::vector<ScaledPose> out = has_scale_drift(problem)
+                                    ? tree_values(problem)
+                                    : std::vector<ScaledPose>(problem.keyframes.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].pose = problem.keyframes[i].world_from_body;
   return out;
 }
 
@@ -234,7 +236,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     annealed_from =
         report.time("anneal", [&] { return anneal(problem.closures, settings, poses, solve); });
   }
-  const std::vector<ScaledPose> start = poses;
+  const std::vector<ScaledPose> start = annealed_from ? poses : std::vector<ScaledPose>{};
   const PoseGraphSummary summary = report.time("solve", [&] { return solve(settings); });
   if (annealed_from) {
     // Under a robust loss the last steps are short and inexact. To converge, the same minimum is

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace loopbench::methods {
 namespace {
@@ -61,8 +62,11 @@ void solve_backward(const double* L,
 }  // namespace
 
 template <int D>
-BlockCholesky<D>::BlockCholesky(const EliminationStructure& structure)
-    : structure_(structure), children_(structure.supernodes().size()) {
+BlockCholesky<D>::BlockCholesky(const EliminationStructure& structure, Eigen::VectorXd storage)
+    : structure_(structure),
+      values_(std::move(storage)),
+      cleared_for_(structure.supernodes().size(), -1),
+      children_(structure.supernodes().size()) {
   std::size_t size = 0;
   std::size_t top = 0;
   std::size_t highest = 0;
@@ -85,7 +89,11 @@ BlockCholesky<D>::BlockCholesky(const EliminationStructure& structure)
           structure.row_in(structure.supernodes()[parent], structure.rows_below(node)[r]));
     }
   }
-  values_.resize(size);
+  panel_.push_back(size);
+  if (const auto needed = static_cast<Eigen::Index>(size); values_.size() < needed) {
+    values_.resize(values_.size() == 0 ? needed
+                                       : needed + needed / 4);  // it grows: some in advance
+  }
   stack_.resize(highest);
   gathered_.resize(most_rows * D);
   ordered_.resize(structure.blocks() * D);
@@ -97,39 +105,29 @@ typename BlockCholesky<D>::Place BlockCholesky<D>::place(int i, int j) const {
   const int column = std::min(structure_.position(i), structure_.position(j));
   const int s = structure_.supernode_of(column);
   const Supernode& node = structure_.supernodes()[static_cast<std::size_t>(s)];
-  const Eigen::Index stride = node.rows() * D;
-  const Eigen::Index offset = (column - node.first) * D * stride + structure_.row_in(node, row) * D;
+  const int stride = node.rows() * D;
+  const int offset = (column - node.first) * D * stride + structure_.row_in(node, row) * D;
   return {panel_[static_cast<std::size_t>(s)] + static_cast<std::size_t>(offset),
           stride,
+          s,
           structure_.position(i) < structure_.position(j)};
 }
 
 template <int D>
-void BlockCholesky<D>::set_zero() {
-  std::ranges::fill(values_, 0.0);
+void BlockCholesky<D>::clear(std::size_t supernode) {
+  if (std::exchange(cleared_for_[supernode], matrix_) == matrix_) return;
+  std::fill(values_.data() + panel_[supernode], values_.data() + panel_[supernode + 1], 0.0);
 }
 
 template <int D>
 void BlockCholesky<D>::add(const Place& at, const Block& block) {
+  clear(static_cast<std::size_t>(at.supernode));
   Eigen::Map<Block, 0, Eigen::OuterStride<>> to(values_.data() + at.offset,
                                                 Eigen::OuterStride<>(at.stride));
   if (at.is_transposed) {
     to += block.transpose();
   } else {
     to += block;
-  }
-}
-
-template <int D>
-void BlockCholesky<D>::scale_diagonal(double factor, Eigen::VectorXd& diagonal) {
-  diagonal.resize(structure_.blocks() * D);
-  for (int i = 0; i < structure_.blocks(); ++i) {
-    const Place at = place(i, i);
-    for (int d = 0; d < D; ++d) {
-      double& entry = values_[at.offset + static_cast<std::size_t>(d * (at.stride + 1))];
-      diagonal[i * D + d] = entry;
-      entry *= 1.0 + factor;
-    }
   }
 }
 
@@ -218,8 +216,11 @@ void BlockCholesky<D>::add_update(const double* from,
 }
 
 template <int D>
-bool BlockCholesky<D>::factorise() {
+template <class Before, class After>
+bool BlockCholesky<D>::eliminate(Before before, After after) {
   for (std::size_t s = 0; s < children_.size(); ++s) {
+    clear(s);
+    before(s);
     const Supernode& node = structure_.supernodes()[s];
     const auto side = static_cast<std::size_t>(node.below * D);
     double* panel = values_.data() + panel_[s];
@@ -235,6 +236,7 @@ bool BlockCholesky<D>::factorise() {
       add_update(stack_.data() + update_[child], child, panel, update);
     }
     if (!eliminate_panel(panel, node.columns(), node.rows())) return false;
+    after(s);
     if (side == 0) continue;
     subtract_products(update, panel, node.columns(), node.rows());
     if (top != update_[s]) std::copy(update, update + side * side, stack_.data() + update_[s]);
@@ -243,40 +245,79 @@ bool BlockCholesky<D>::factorise() {
 }
 
 template <int D>
+void BlockCholesky<D>::order(const double* right) {
+  for (int i = 0; i < structure_.blocks(); ++i) {
+    std::copy(right + i * D, right + (i + 1) * D, ordered_.data() + structure_.position(i) * D);
+  }
+}
+
+template <int D>
+void BlockCholesky<D>::forward(std::size_t supernode) {
+  const Supernode& node = structure_.supernodes()[supernode];
+  gathered_.head(node.below * D).setZero();
+  solve_forward(values_.data() + panel_[supernode],
+                node.columns() * D,
+                node.rows() * D,
+                ordered_.data() + node.first * D,
+                gathered_.data());
+  const int* rows = structure_.rows_below(node);
+  for (int r = 0; r < node.below; ++r) {
+    ordered_.segment<D>(rows[r] * D) += gathered_.segment<D>(r * D);
+  }
+}
+
+template <int D>
+void BlockCholesky<D>::backward(double* right) {
+  for (std::size_t s = children_.size(); s-- > 0;) {
+    const Supernode& node = structure_.supernodes()[s];
+    const int* rows = structure_.rows_below(node);
+    for (int r = 0; r < node.below; ++r) {
+      gathered_.segment<D>(r * D) = ordered_.segment<D>(rows[r] * D);
+    }
+    solve_backward(values_.data() + panel_[s],
+                   node.columns() * D,
+                   node.rows() * D,
+                   ordered_.data() + node.first * D,
+                   gathered_.data());
+  }
+  for (int i = 0; i < structure_.blocks(); ++i) {
+    const double* from = ordered_.data() + structure_.position(i) * D;
+    std::copy(from, from + D, right + i * D);
+  }
+}
+
+template <int D>
+bool BlockCholesky<D>::factorise() {
+  const auto nothing = [](std::size_t) {};
+  return eliminate(nothing, nothing);
+}
+
+template <int D>
 void BlockCholesky<D>::solve(Eigen::MatrixXd& right) {
   for (Eigen::Index column = 0; column < right.cols(); ++column) {
-    for (int i = 0; i < structure_.blocks(); ++i) {
-      ordered_.segment<D>(structure_.position(i) * D) = right.col(column).segment<D>(i * D);
-    }
-    const auto for_rows = [&](const Supernode& node, auto visit) {
-      const int* rows = structure_.rows_below(node);
-      for (int r = 0; r < node.below; ++r) {
-        visit(gathered_.segment<D>(r * D), ordered_.segment<D>(rows[r] * D));
-      }
-    };
-    for (std::size_t s = 0; s < children_.size(); ++s) {
-      const Supernode& node = structure_.supernodes()[s];
-      gathered_.head(node.below * D).setZero();
-      solve_forward(values_.data() + panel_[s],
-                    node.columns() * D,
-                    node.rows() * D,
-                    ordered_.data() + node.first * D,
-                    gathered_.data());
-      for_rows(node, [](auto gathered, auto ordered) { ordered += gathered; });
-    }
-    for (std::size_t s = children_.size(); s-- > 0;) {
-      const Supernode& node = structure_.supernodes()[s];
-      for_rows(node, [](auto gathered, auto ordered) { gathered = ordered; });
-      solve_backward(values_.data() + panel_[s],
-                     node.columns() * D,
-                     node.rows() * D,
-                     ordered_.data() + node.first * D,
-                     gathered_.data());
-    }
-    for (int i = 0; i < structure_.blocks(); ++i) {
-      right.col(column).segment<D>(i * D) = ordered_.segment<D>(structure_.position(i) * D);
-    }
+    order(right.col(column).data());
+    for (std::size_t s = 0; s < children_.size(); ++s) forward(s);
+    backward(right.col(column).data());
   }
+}
+
+template <int D>
+bool BlockCholesky<D>::solve_damped(double damping,
+                                    Eigen::VectorXd& diagonal,
+                                    Eigen::VectorXd& right) {
+  diagonal.resize(structure_.blocks() * D);
+  const auto scale = [&](std::size_t s) {
+    const Supernode& node = structure_.supernodes()[s];
+    double* entry = values_.data() + panel_[s];
+    for (int i = node.first * D; i < node.end * D; ++i, entry += node.rows() * D + 1) {
+      diagonal[i] = *entry;
+      *entry *= 1.0 + damping;
+    }
+  };
+  order(right.data());
+  if (!eliminate(scale, [&](std::size_t s) { forward(s); })) return false;
+  backward(right.data());
+  return true;
 }
 
 template class BlockCholesky<1>;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "methods/solvers/elimination_structure.hpp"
@@ -12,8 +13,10 @@ namespace loopbench::methods {
 /// Multifrontal factorisation: the panel of a supernode is assembled from the matrix and from the
 /// updates of its children in the elimination tree, and its own update goes to its parent. The
 /// matrix is assembled directly into the panels of the factor, so that nothing is allocated after
-/// construction. Implemented for D = 1, 2, 3, 4, 6, 7. Deterministic, one thread. Source: Liu, The
-/// multifrontal method for sparse matrix solution: theory and practice, SIAM Review 34(1), 1992.
+/// construction. A panel is cleared when it is first added to, and the forward substitution visits
+/// it when it is eliminated: on long chains the time goes into memory traffic. Implemented for D =
+/// 1, 2, 3, 4, 6, 7. Deterministic, one thread. Source: Liu, The multifrontal method for sparse
+/// matrix solution: theory and practice, SIAM Review 34(1), 1992.
 template <int D>
 class BlockCholesky {
  public:
@@ -22,19 +25,21 @@ class BlockCholesky {
   /// transpose.
   struct Place {
     std::size_t offset = 0;
-    Eigen::Index stride = 0;
+    int stride = 0;
+    int supernode = 0;
     bool is_transposed = false;
   };
 
-  /// `structure` must outlive this object.
-  explicit BlockCholesky(const EliminationStructure& structure);
+  /// `structure` must outlive this object. `storage`: of an earlier factor, used again.
+  explicit BlockCholesky(const EliminationStructure& structure, Eigen::VectorXd storage = {});
+
+  /// The storage, for another factor; this one can no longer be used.
+  Eigen::VectorXd take_storage() { return std::move(values_); }
 
   /// The pair (i, j) is on the diagonal or in the pairs of the structure.
   Place place(int i, int j) const;
-  void set_zero();
+  void set_zero() { ++matrix_; }
   void add(const Place& at, const Block& block);
-  /// Multiplies the diagonal, whose values before are written to `diagonal`, by 1 + `factor`.
-  void scale_diagonal(double factor, Eigen::VectorXd& diagonal);
 
   /// Replaces the matrix by its factor; false: it is not positive definite to rounding.
   bool factorise();
@@ -42,16 +47,29 @@ class BlockCholesky {
   /// Replaces the columns of `right`, with D rows per block, by the solutions.
   void solve(Eigen::MatrixXd& right);
 
+  /// factorise() with the diagonal multiplied by 1 + `damping`, and solve() of one column.
+  /// `diagonal`: its values before, in the order of elimination.
+  bool solve_damped(double damping, Eigen::VectorXd& diagonal, Eigen::VectorXd& right);
+
  private:
   using Supernode = EliminationStructure::Supernode;
 
+  /// Calls `before` and `after` with the index of each supernode, before and after its elimination.
+  template <class Before, class After>
+  bool eliminate(Before before, After after);
+  void clear(std::size_t supernode);
+  void order(const double* right);
+  void forward(std::size_t supernode);
+  void backward(double* right);
   bool eliminate_panel(double* panel, int columns, int rows);
   void subtract_products(double* update, const double* panel, int columns, int rows);
   void add_update(const double* from, std::size_t child, double* panel, double* update);
 
   const EliminationStructure& structure_;
-  std::vector<std::size_t> panel_;  ///< offset of the panel of each supernode in values_
-  std::vector<double> values_;      ///< panels, column-major, rows() D x columns() D
+  std::vector<std::size_t> panel_;  ///< offset of the panel of each supernode in values_, and end
+  Eigen::VectorXd values_;          ///< panels, column-major, rows() D x columns() D
+  std::vector<int> cleared_for_;    ///< matrix of each panel
+  int matrix_ = 0;                  ///< number of calls of set_zero()
   std::vector<std::vector<std::size_t>> children_;
   std::vector<int> row_in_parent_;   ///< of each row below of each supernode
   std::vector<double> stack_;        ///< updates that wait for their parent, lower triangles

@@ -80,7 +80,11 @@ std::vector<ScaledPose> tree_values(const Problem& problem) {
 }
 
 std::optional<std::size_t> first_unconnected(const Problem& problem) {
-  if (problem.keyframes.empty()) return std::nullopt;
+  const std::size_t count = problem.keyframes.size();
+  if (count == 0) return std::nullopt;
+  std::size_t end = 1;  // of the chain from keyframe 0
+  for (const Edge& edge : problem.odometry) end += edge.from + 1 == end && edge.to == end;
+  if (end >= count) return std::nullopt;
   const std::vector<bool> reached =
       walk_tree(problem, [](const Edge&, std::size_t, std::size_t) {});
   for (std::size_t i = 0; i < reached.size(); ++i) {

@@ -1,6 +1,7 @@
 /// Elimination order that is used again while a graph grows.
 #pragma once
 
+#include <Eigen/Core>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,9 @@ class KeptOrder {
     ++computed_;
     return out;
   }
+
+  /// Of the factor before (BlockCholesky): a new one costs page faults on long paths.
+  Eigen::VectorXd storage;
 
   /// Number of orders computed so far.
   int computed() const { return computed_; }

@@ -62,7 +62,7 @@ PoseGraphSummary minimise_least_squares(std::vector<typename G::Element>& x,
     }
     for (std::size_t i = equations.first(); i < x.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i - equations.first()) * G::kDof;
-      candidate[i] = G::compose(x[i], G::exp(step.values.template block<G::kDof, 1>(row, 0)));
+      candidate[i] = G::compose(x[i], G::exp(step.values.template segment<G::kDof>(row)));
     }
     // Near the minimum the decrease after this one is to it as it is to the one before.
     double expected = predicted;

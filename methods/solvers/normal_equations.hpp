@@ -26,8 +26,10 @@ class NormalEquations {
   NormalEquations(const WeightedGraph& graph, KeptOrder* order)
       : first_(graph.is_first_free ? 0 : 1),
         structure_(structure_of(graph, order)),
-        factor_(structure_) {
+        order_(order),
+        factor_(structure_, order ? std::move(order->storage) : Eigen::VectorXd()) {
     for (int i = 0; i < structure_.blocks(); ++i) diagonal_places_.push_back(factor_.place(i, i));
+    terms_.reserve(graph.odometry.size() + graph.closures.size());
     graph.for_each_edge([&](const Edge& edge, double weight, bool) {
       Term term{static_cast<int>(edge.from) - first_,
                 static_cast<int>(edge.to) - first_,
@@ -40,8 +42,14 @@ class NormalEquations {
     for (const Anchor& anchor : graph.anchors) {
       anchors_.push_back({anchor, anchor.covariance.inverse().llt().matrixU()});
     }
-    gradient_.resize(structure_.blocks() * G::kDof, 1);
+    gradient_.resize(structure_.blocks() * G::kDof);
   }
+
+  ~NormalEquations() {
+    if (order_) order_->storage = factor_.take_storage();
+  }
+  NormalEquations(const NormalEquations&) = delete;
+  NormalEquations& operator=(const NormalEquations&) = delete;
 
   /// Index of the first pose that is estimated: 0 or 1.
   std::size_t first() const { return static_cast<std::size_t>(first_); }
@@ -99,19 +107,23 @@ class NormalEquations {
   }
 
   struct Step {
-    Eigen::MatrixXd values;     ///< one column, kDof numbers per estimated pose
+    Eigen::VectorXd values;     ///< kDof numbers per estimated pose
     double predicted_decrease;  ///< of the cost
   };
 
   /// Solves (H + damping diag(H)) d = -g once per linearise(). False: not positive definite.
   bool solve(double damping, Step& step) {
-    factor_.scale_diagonal(damping, diagonal_);
-    if (!factor_.factorise()) return false;
     step.values = -gradient_;
-    factor_.solve(step.values);
-    const auto d = step.values.col(0).array();
-    step.predicted_decrease =
-        0.5 * ((damping * diagonal_.array() * d - gradient_.col(0).array()) * d).sum();
+    if (!factor_.solve_damped(damping, diagonal_, step.values)) return false;
+    double sum = 0.0;
+    for (int i = 0; i < structure_.blocks(); ++i) {
+      const auto d = step.values.template segment<G::kDof>(i * G::kDof).array();
+      const auto g = gradient_.template segment<G::kDof>(i * G::kDof).array();
+      const auto scale =
+          diagonal_.template segment<G::kDof>(structure_.position(i) * G::kDof).array();
+      sum += ((damping * scale * d - g) * d).sum();
+    }
+    step.predicted_decrease = 0.5 * sum;
     return true;
   }
 
@@ -131,6 +143,7 @@ class NormalEquations {
   static EliminationStructure structure_of(const WeightedGraph& graph, KeptOrder* order) {
     const int first = graph.is_first_free ? 0 : 1;
     std::vector<std::pair<int, int>> pairs;
+    pairs.reserve(graph.odometry.size() + graph.closures.size());
     graph.for_each_edge([&](const Edge& edge, double, bool) {
       const auto i = static_cast<int>(edge.from) - first;
       const auto j = static_cast<int>(edge.to) - first;
@@ -145,17 +158,18 @@ class NormalEquations {
   }
   void add(int block, const Square& H, const Tangent& g) {
     factor_.add(diagonal_places_[static_cast<std::size_t>(block)], H);
-    gradient_.middleRows<G::kDof>(block * G::kDof) += g;
+    gradient_.template segment<G::kDof>(block * G::kDof) += g;
   }
 
   int first_;
   EliminationStructure structure_;
+  KeptOrder* order_;
   BlockCholesky<G::kDof> factor_;
   std::vector<typename BlockCholesky<G::kDof>::Place> diagonal_places_;
   std::vector<Term> terms_;
   std::vector<WhitenedAnchor> anchors_;
-  Eigen::MatrixXd gradient_;
-  Eigen::VectorXd diagonal_;
+  Eigen::VectorXd gradient_;
+  Eigen::VectorXd diagonal_;  ///< in the order of elimination
 };
 
 }  // namespace loopbench::methods

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -28,17 +29,18 @@ class Random {
   std::mt19937_64 engine_{5};
 };
 
-/// A random positive definite matrix with the blocks of `pairs`, by BlockCholesky and dense.
+/// A random positive definite matrix with the blocks of `pairs`, by BlockCholesky and dense; then
+/// again with a larger diagonal.
 template <int D>
 void expect_solves(const EliminationStructure& structure,
                    const std::vector<std::pair<int, int>>& pairs) {
   Random random;
   const int blocks = structure.blocks();
-  BlockCholesky<D> factor(structure);
-  factor.set_zero();
+  BlockCholesky<D> factor(structure, Eigen::VectorXd::Constant(1000, std::nan("")));
+  std::vector<std::pair<typename BlockCholesky<D>::Place, Eigen::Matrix<double, D, D>>> added;
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(blocks * D, blocks * D);
   const auto add = [&](int i, int j, const Eigen::Matrix<double, D, D>& block) {
-    factor.add(factor.place(i, j), block);
+    added.emplace_back(factor.place(i, j), block);
     dense.block<D, D>(i * D, j * D) += block;
     if (i != j) dense.block<D, D>(j * D, i * D) += block.transpose();
   };
@@ -53,10 +55,27 @@ void expect_solves(const EliminationStructure& structure,
   for (int i = 0; i < blocks; ++i) add(i, i, Eigen::Matrix<double, D, D>::Identity());
   Eigen::MatrixXd right(blocks * D, 2);
   for (double& entry : right.reshaped()) entry = random(1.0);
+  const Eigen::VectorXd second = right.col(1);
+  Eigen::VectorXd other = second;
   const Eigen::MatrixXd expected = dense.llt().solve(right);
+  const auto assemble = [&] {
+    factor.set_zero();
+    for (const auto& [place, block] : added) factor.add(place, block);
+  };
+  assemble();
   ASSERT_TRUE(factor.factorise());
   factor.solve(right);
   EXPECT_LT((right - expected).cwiseAbs().maxCoeff(), 1e-11) << "D = " << D;
+
+  assemble();
+  Eigen::VectorXd diagonal;
+  ASSERT_TRUE(factor.solve_damped(0.5, diagonal, other));
+  for (int i = 0; i < blocks * D; ++i) {
+    const int place = structure.position(i / D) * D + i % D;
+    EXPECT_NEAR(diagonal[place], dense(i, i), 1e-12);
+  }
+  dense.diagonal() *= 1.5;
+  EXPECT_LT((other - dense.llt().solve(second)).cwiseAbs().maxCoeff(), 1e-11) << "D = " << D;
 }
 
 TEST(BlockCholesky, SolvesChainsWithLoopsAndCliques) {
