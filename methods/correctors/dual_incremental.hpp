@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/looped_chain.hpp"
@@ -48,7 +49,7 @@ void fields(DualIncremental::Options& o, Visit visit) {
   visit("max_iterations", o.max_iterations, "maximum number of steps per update", Between{1, 1000});
   visit("tolerance",
         o.tolerance,
-        "convergence threshold: relative change of the cost [-]",
+        "convergence threshold: expected relative change of the cost by another step [-]",
         Between{0.0, 1.0});
 }
 
@@ -94,7 +95,11 @@ class GrowingDual final : public Incremental {
   }
 
   void assemble() {
-    equations_ = chain_->equations();
+    LoopEquations last;  // a million numbers: their memory is used again
+    if (equations_) last = std::move(*equations_);
+    equations_ = chain_->equations(std::move(last.jacobian));
+    last.covariance.clear();
+    equations_->covariance = std::move(last.covariance);
     ++assemblies_;
   }
 
@@ -114,7 +119,9 @@ class GrowingDual final : public Incremental {
       if (!has_moved && is_new) return;
       iterations_ += has_moved ? 1 : 0;
       const double last = std::exchange(decrease, before - chain_->cost());
-      if (has_moved && decrease <= options_.tolerance * before) return;
+      // The decrease after this one is to it as it is to the one before.
+      const double expected = decrease < last ? decrease * (decrease / last) : decrease;
+      if (has_moved && expected <= options_.tolerance * before) return;
       const bool is_far = decrease > 0.5 * before || (last > 0.0 && decrease > kFast * last);
       is_new = !has_moved || is_far;
       if (is_new) assemble();

@@ -8,6 +8,7 @@ void LoopedChain::grow() {
     const Edge& edge = problem_.odometry[i];
     noise_model_.information.push_back(edge.information);
     noise_model_.covariance.push_back(edge.information.inverse());
+    motions_.push_back(edge.from_from_to);
     at_.errors.emplace_back(Twist::Zero());
     poses_.push_back(normalized(poses_.back() * edge.from_from_to));
   }
@@ -19,6 +20,18 @@ void LoopedChain::grow() {
   points_.resize(problem_.closures.size());
   sums_ = LoopSums(problem_.closures);
   cost_ = cost_of(at_, loop_errors(poses_));
+}
+
+void LoopedChain::extend(LoopEquations& equations) const {
+  LoopJacobian& jacobian = equations.jacobian;
+  for (std::size_t i = jacobian.edge.size(); i < at_.errors.size(); ++i) {
+    jacobian.edge.push_back(edge_jacobian(i));
+  }
+  const Eigen::VectorXd errors = loop_errors(poses_);
+  for (std::size_t k = jacobian.loop.size(); k < problem_.closures.size(); ++k) {
+    jacobian.loop.push_back(loop_jacobian(k, of_closure(errors, k)));
+  }
+  append_closures(equations, sums_, noise_model_);
 }
 
 void LoopedChain::remove_closure(std::size_t k) {

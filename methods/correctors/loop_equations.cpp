@@ -55,21 +55,20 @@ void LoopFactor::append(const Eigen::MatrixXd& rows) {
 }
 
 void append_closures(LoopEquations& equations,
-                     const LoopJacobian& now,
                      const LoopSums& sums,
                      const NoiseModel& noise_model) {
-  LoopJacobian& jacobian = equations.jacobian;
-  const std::size_t first = jacobian.loop.size();
-  const auto append = [](auto& to, const auto& from) {
-    to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(to.size()), from.end());
-  };
-  append(jacobian.edge, now.edge);
-  append(jacobian.loop, now.loop);
+  const LoopJacobian& jacobian = equations.jacobian;
+  const auto first = static_cast<std::size_t>(equations.factor.rows() / 6);
   const std::size_t added = jacobian.loop.size() - first;
   if (added == 0) return;
-  const std::vector<Matrix6> running = running_sum(sums, [&](std::size_t i) -> Matrix6 {
-    return jacobian.edge[i] * noise_model.covariance[i] * jacobian.edge[i].transpose();
-  });
+  std::vector<Matrix6>& covariance = equations.covariance;
+  if (covariance.empty()) covariance.emplace_back(Matrix6::Zero());
+  for (std::size_t i = covariance.size() - 1; i < jacobian.edge.size(); ++i) {
+    const Matrix6& edge = jacobian.edge[i];
+    covariance.push_back(covariance[i] + edge * noise_model.covariance[i] * edge.transpose());
+  }
+  std::vector<Matrix6> running;
+  for (const std::size_t cut : sums.cuts()) running.push_back(covariance[cut]);
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(6 * added),
                                                static_cast<Eigen::Index>(6 * (first + added)));
   for (std::size_t k = first; k < first + added; ++k) {
@@ -94,7 +93,8 @@ Corrections minimum_cost_corrections(const LoopEquations& equations,
     out.drift.push_back(-noise_model.drift[j].variance.cwiseProduct(
         Twist(equations.shapes[j].transpose() * lambda)));
   }
-  const std::vector<Twist> pull = constraint_force_increments(equations.jacobian, closures, lambda);
+  const std::vector<Twist> pull = constraint_force_increments(
+      equations.jacobian.loop, equations.jacobian.edge.size(), closures, lambda);
   out.errors.resize(equations.jacobian.edge.size());
   Twist sum = Twist::Zero();
   for (std::size_t i = 0; i < out.errors.size(); ++i) {
@@ -119,12 +119,13 @@ Eigen::VectorXd loop_error_change(const LoopJacobian& jacobian,
   return out;
 }
 
-std::vector<Twist> constraint_force_increments(const LoopJacobian& jacobian,
+std::vector<Twist> constraint_force_increments(const std::vector<Matrix6>& loop,
+                                               std::size_t edges,
                                                const std::vector<Edge>& closures,
                                                const Eigen::VectorXd& lambda) {
-  std::vector<Twist> out(jacobian.edge.size() + 1, Twist::Zero());
+  std::vector<Twist> out(edges + 1, Twist::Zero());
   for (std::size_t k = 0; k < closures.size(); ++k) {
-    const Twist pull = jacobian.loop[k].transpose() * of_closure(lambda, k);
+    const Twist pull = loop[k].transpose() * of_closure(lambda, k);
     out[closures[k].from] += pull;
     out[closures[k].to] -= pull;
   }

@@ -107,6 +107,8 @@ struct LoopEquations {
   LoopJacobian jacobian;
   std::vector<Eigen::MatrixXd> shapes;  ///< A f_j of each drift, 6 closures x 6
   LoopFactor factor;
+  /// Of append_closures(): the sum of edge[i] S_i edge[i]' over the edges before each keyframe.
+  std::vector<Matrix6> covariance = {};
 };
 
 /// Assembles and factorises the equations. Throws std::runtime_error when the matrix is not
@@ -115,13 +117,10 @@ LoopEquations loop_equations(LoopJacobian jacobian,
                              const LoopSums& sums,
                              const NoiseModel& noise_model);
 
-/// Adds the edges and closures by which `now` is larger than the equations, at the linearisation of
-/// `now`; the others keep theirs. `sums` and `noise_model` are of all closures; without drift.
-/// Throws as loop_equations(). O(edges + new (6 closures)^2).
-void append_closures(LoopEquations& equations,
-                     const LoopJacobian& now,
-                     const LoopSums& sums,
-                     const NoiseModel& noise_model);
+/// Adds to the factor the rows of the closures that the Jacobian has been extended by. `sums` and
+/// `noise_model` are of all closures; without drift. Throws as loop_equations(). O(new edges + new
+/// (6 closures)^2), O(edges) the first time.
+void append_closures(LoopEquations& equations, const LoopSums& sums, const NoiseModel& noise_model);
 
 /// Returns the corrections of minimum cost for loop errors `gap` + A e. O(edges + closures^2).
 Corrections minimum_cost_corrections(const LoopEquations& equations,
@@ -136,7 +135,8 @@ Eigen::VectorXd loop_error_change(const LoopJacobian& jacobian,
 
 /// Returns increments of A' lambda along the chain: A' lambda at edge i is edge[i]' times the sum
 /// of out[0] to out[i]. The size is the number of edges + 1. O(edges + closures).
-std::vector<Twist> constraint_force_increments(const LoopJacobian& jacobian,
+std::vector<Twist> constraint_force_increments(const std::vector<Matrix6>& loop,
+                                               std::size_t edges,
                                                const std::vector<Edge>& closures,
                                                const Eigen::VectorXd& lambda);
 

@@ -34,7 +34,7 @@ class NewtonSystem {
     for (std::size_t k = 0; k < closures.size(); ++k) {
       wrench_of_.push_back(jacobian_.loop[k].transpose() * of_closure(lambda, k));
     }
-    wrench_ = constraint_force_increments(jacobian_, closures, lambda);
+    wrench_ = constraint_force_increments(jacobian_.loop, edges_, closures, lambda);
     for (std::size_t i = 1; i < wrench_.size(); ++i) wrench_[i] += wrench_[i - 1];
   }
 
@@ -48,7 +48,7 @@ class NewtonSystem {
       gap += equations_.shapes[j] * out[edges_ + j];
     }
     const Eigen::VectorXd lambda = equations_.factor.solve(gap);
-    const Twists pull = constraint_force_increments(jacobian_, closures_, lambda);
+    const Twists pull = constraint_force_increments(jacobian_.loop, edges_, closures_, lambda);
     Twist sum = Twist::Zero();
     for (std::size_t i = 0; i < edges_; ++i) {
       sum += pull[i];

@@ -69,6 +69,7 @@ LoopedChain::LoopedChain(const Problem& problem,
     poses_[i].translation -= centre_;
   }
   for (const Edge& edge : problem.odometry) {
+    motions_.push_back(edge.from_from_to);
     at_.errors.push_back(edge_error(edge, poses_[edge.from], poses_[edge.to]));
   }
   set_noise_model(std::move(noise_model));
@@ -151,10 +152,37 @@ bool LoopedChain::step_towards(const Corrections& target,
   return false;
 }
 
+template <class EdgeJacobian>
+Corrections LoopedChain::gradient(EdgeJacobian edge, const std::vector<Matrix6>& loop) const {
+  Eigen::VectorXd weighted = loop_errors(poses_);
+  for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
+    auto each = of_closure(weighted, k);
+    each = (noise_model_.closure_information[k] * each).eval();
+  }
+  const std::vector<Twist> pull =
+      constraint_force_increments(loop, at_.errors.size(), problem_.closures, weighted);
+  Corrections out{at_.errors, at_.drift};
+  for (std::size_t j = 0; j < at_.drift.size(); ++j) {
+    const Twist& variance = noise_model_.drift[j].variance;
+    out.drift[j] = (variance.array() > 0.0).select(at_.drift[j].cwiseQuotient(variance), 0.0);
+  }
+  Twist sum = Twist::Zero();
+  for (std::size_t i = 0; i < at_.errors.size(); ++i) {
+    sum += pull[i];
+    const Twist by_error = edge(i).transpose() * sum;
+    out.errors[i] = noise_model_.information[i] * noise_of(at_, noise_model_, i) + by_error;
+    for (std::size_t j = 0; j < at_.drift.size(); ++j) {
+      out.drift[j] += noise_model_.drift[j].shape[i].cwiseProduct(by_error);
+    }
+  }
+  return out;
+}
+
 bool LoopedChain::step_at(const LoopEquations& equations) {
   if (is_near_minimum_) {
+    const auto edge = [&](std::size_t i) -> const Matrix6& { return equations.jacobian.edge[i]; };
     const Corrections direction = newton_direction(
-        equations, gradient(equations.jacobian), sums_, problem_.closures, noise_model_);
+        equations, gradient(edge, equations.jacobian.loop), sums_, problem_.closures, noise_model_);
     if (step_towards(add_scaled(at_, 1.0, direction), equations, 0.25)) return true;
   }
   const Eigen::VectorXd& gap = equations.jacobian.gap;
@@ -166,8 +194,14 @@ bool LoopedChain::step_with(LoopEquations& equations) {
   LoopJacobian& jacobian = equations.jacobian;
   jacobian.gap = loop_errors(poses_);
   jacobian.gap -= loop_error_change(jacobian, sums_, at_.errors);
+  std::vector<Matrix6> loop;
+  const Eigen::VectorXd errors = loop_errors(poses_);
+  for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
+    loop.push_back(loop_jacobian(k, of_closure(errors, k)));
+  }
+  const auto edge = [&](std::size_t i) { return edge_jacobian(i); };  // storing them takes longer
   const Corrections direction =
-      newton_direction(equations, gradient(linearise()), sums_, problem_.closures, noise_model_);
+      newton_direction(equations, gradient(edge, loop), sums_, problem_.closures, noise_model_);
   return step_towards(add_scaled(at_, 1.0, direction), equations, 0.25);
 }
 
@@ -200,53 +234,30 @@ Eigen::VectorXd LoopedChain::loop_errors(const std::vector<Pose>& poses) const {
   return out;
 }
 
-LoopJacobian LoopedChain::linearise() const {
-  LoopJacobian out;
-  out.edge.resize(at_.errors.size());
-  for (std::size_t i = 0; i < at_.errors.size(); ++i) {
-    out.edge[i] = adjoint(poses_[i + 1]) * right_jacobian_se3(at_.errors[i]);
+Matrix6 LoopedChain::loop_jacobian(std::size_t closure, const Twist& error) const {
+  const Edge& loop = problem_.closures[closure];
+  const Pose& to = poses_[loop.to];
+  if (!measures_position(closure)) {
+    return inverse_right_jacobian_se3(error) * adjoint(to.inverse());
   }
-  out.gap = loop_errors(poses_);
-  for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
-    const Edge& loop = problem_.closures[k];
-    const Pose& to = poses_[loop.to];
-    if (measures_position(k)) {  // the point moves by rho + phi x point
-      const Matrix3 back = poses_[loop.from].rotation.conjugate().toRotationMatrix();
-      Matrix6 by_twist = Matrix6::Zero();
-      by_twist.topLeftCorner<3, 3>() = back;
-      by_twist.topRightCorner<3, 3>() = -back * hat(to.rotation * *points_[k] + to.translation);
-      out.loop.push_back(by_twist);
-    } else {
-      const Twist eta = of_closure(out.gap, k);
-      out.loop.push_back(inverse_right_jacobian_se3(eta) * adjoint(to.inverse()));
-    }
-  }
-  out.gap -= loop_error_change(out, sums_, at_.errors);
+  // The point moves by rho + phi x point.
+  const Matrix3 back = poses_[loop.from].rotation.conjugate().toRotationMatrix();
+  Matrix6 out = Matrix6::Zero();
+  out.topLeftCorner<3, 3>() = back;
+  out.topRightCorner<3, 3>() = -back * hat(to.rotation * *points_[closure] + to.translation);
   return out;
 }
 
-Corrections LoopedChain::gradient(const LoopJacobian& jacobian) const {
-  Eigen::VectorXd weighted = loop_errors(poses_);
+LoopJacobian LoopedChain::linearise(LoopJacobian storage) const {
+  LoopJacobian out = std::move(storage);
+  out.loop.clear();
+  out.edge.resize(at_.errors.size());
+  for (std::size_t i = 0; i < at_.errors.size(); ++i) out.edge[i] = edge_jacobian(i);
+  out.gap = loop_errors(poses_);
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
-    auto each = of_closure(weighted, k);
-    each = (noise_model_.closure_information[k] * each).eval();
+    out.loop.push_back(loop_jacobian(k, of_closure(out.gap, k)));
   }
-  const std::vector<Twist> pull =
-      constraint_force_increments(jacobian, problem_.closures, weighted);
-  Corrections out{at_.errors, at_.drift};
-  for (std::size_t j = 0; j < at_.drift.size(); ++j) {
-    const Twist& variance = noise_model_.drift[j].variance;
-    out.drift[j] = (variance.array() > 0.0).select(at_.drift[j].cwiseQuotient(variance), 0.0);
-  }
-  Twist sum = Twist::Zero();
-  for (std::size_t i = 0; i < at_.errors.size(); ++i) {
-    sum += pull[i];
-    const Twist by_error = jacobian.edge[i].transpose() * sum;
-    out.errors[i] = noise_model_.information[i] * noise_of(at_, noise_model_, i) + by_error;
-    for (std::size_t j = 0; j < at_.drift.size(); ++j) {
-      out.drift[j] += noise_model_.drift[j].shape[i].cwiseProduct(by_error);
-    }
-  }
+  out.gap -= loop_error_change(out, sums_, at_.errors);
   return out;
 }
 
@@ -254,7 +265,7 @@ std::vector<Pose> LoopedChain::integrate(const std::vector<Twist>& errors) const
   std::vector<Pose> out(poses_.size());
   out.front() = poses_.front();
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    out[i + 1] = normalized(out[i] * problem_.odometry[i].from_from_to * exp_se3(errors[i]));
+    out[i + 1] = normalized(out[i] * motions_[i] * exp_se3(errors[i]));
   }
   return out;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "datasets/core/problem.hpp"
@@ -54,14 +55,15 @@ class LoopedChain {
   /// Closure `k` is about to be erased from the problem; grow() follows.
   void remove_closure(std::size_t k);
 
-  /// The equations at the current poses. Throws std::runtime_error when they are not positive
-  /// definite.
-  LoopEquations equations() const { return loop_equations(linearise(), sums_, noise_model_); }
-
-  /// Extends equations of earlier poses to all edges and closures (append_closures()).
-  void extend(LoopEquations& equations) const {
-    append_closures(equations, linearise(), sums_, noise_model_);
+  /// The equations at the current poses, in the memory of others. Throws std::runtime_error when
+  /// they are not positive definite.
+  LoopEquations equations(LoopJacobian storage = {}) const {
+    return loop_equations(linearise(std::move(storage)), sums_, noise_model_);
   }
+
+  /// Extends equations of earlier poses to all edges and closures, the new ones at the current
+  /// poses (append_closures()).
+  void extend(LoopEquations& equations) const;
 
   /// As step(), by Newton's method with the exact gradient, but with equations of earlier poses: it
   /// converges linearly, without their factorisation. O(edges + closures^2).
@@ -71,7 +73,7 @@ class LoopedChain {
   /// steps. Throws as step().
   int minimise(int max_iterations, double tolerance);
 
-  LoopJacobian linearise() const;
+  LoopJacobian linearise(LoopJacobian storage = {}) const;
 
   const LoopSums& sums() const { return sums_; }
   const std::vector<Twist>& drift() const { return at_.drift; }
@@ -98,14 +100,22 @@ class LoopedChain {
   bool step_towards(const Corrections& target, const LoopEquations& equations, double min_length);
   Candidate candidate(Corrections at) const;
   void close_loops(Candidate& trial, const LoopEquations& equations) const;
-  /// Gradient of the cost with respect to the noise w_i of the edges and to the drift.
-  Corrections gradient(const LoopJacobian& jacobian) const;
+  /// The entries of LoopJacobian at the current poses.
+  Matrix6 edge_jacobian(std::size_t edge) const {
+    return adjoint(poses_[edge + 1]) * right_jacobian_se3(at_.errors[edge]);
+  }
+  Matrix6 loop_jacobian(std::size_t closure, const Twist& error) const;
+  /// Gradient of the cost with respect to the noise w_i of the edges and to the drift, at the
+  /// current poses: `edge(i)` and `loop` are entries of LoopJacobian.
+  template <class EdgeJacobian>
+  Corrections gradient(EdgeJacobian edge, const std::vector<Matrix6>& loop) const;
   std::vector<Pose> integrate(const std::vector<Twist>& errors) const;
   Eigen::VectorXd loop_errors(const std::vector<Pose>& poses) const;
   bool measures_position(std::size_t closure) const { return points_[closure].has_value(); }
   double cost_of(const Corrections& at, const Eigen::VectorXd& loop_errors) const;
 
   const Problem& problem_;
+  std::vector<Pose> motions_;  ///< measured by the odometry: an Edge has six times the size
   LoopSums sums_;
   NoiseModel noise_model_;
   std::vector<Pose> poses_;

@@ -81,7 +81,8 @@ std::vector<Eigen::VectorXd> mean_multipliers(const std::vector<MotionModel>& mo
 std::vector<Twist> edge_forces(const Eigen::VectorXd& multipliers,
                                const LoopJacobian& jacobian,
                                const std::vector<Edge>& closures) {
-  std::vector<Twist> out = constraint_force_increments(jacobian, closures, multipliers);
+  std::vector<Twist> out =
+      constraint_force_increments(jacobian.loop, jacobian.edge.size(), closures, multipliers);
   out.pop_back();
   Twist sum = Twist::Zero();
   for (std::size_t i = 0; i < out.size(); ++i) {
