@@ -16,6 +16,7 @@
 #include "methods/correctors/variance_components.hpp"
 #include "methods/solvers/graph_covariance.hpp"
 #include "methods/solvers/initial_values.hpp"
+#include "methods/solvers/kept_order.hpp"
 #include "methods/solvers/pose_graph_solver.hpp"
 
 namespace loopbench::methods {
@@ -91,8 +92,11 @@ Group group_of(const Problem& problem, Poses requested) {
   return problem.planar ? Group::se2 : Group::se3;
 }
 
-std::vector<ScaledPose> initial(const Problem& problem, Start start, double scale_sigma) {
-  if (start == Start::chordal) return chordal_values(problem, scale_sigma);
+std::vector<ScaledPose> initial(const Problem& problem,
+                                const PoseGraphOptimizer::Options& options,
+                                SharedStructure& structure) {
+  const Start start = options.start;
+  if (start == Start::chordal) return chordal_values(problem, options.scale_sigma, &structure);
   if (start == Start::odometry) return tree_values(problem);
   // Keyframes have no scale: it is that of the tree.
   std::vector<ScaledPose> out = has_scale_drift(problem)
@@ -193,10 +197,11 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
       options_.loss_width.value_or(is_bounded(options_.loss) ? chi2_quantile(group) : 1.0),
       options_.max_iterations,
       options_.tolerance};
+  SharedStructure structure;  // of the chordal start and the solves
+  settings.structure = &structure;
   std::vector<ScaledPose> poses;
   if (options_.gnc == Gnc::off) {
-    poses = report.time("initial values",
-                        [&] { return initial(problem, options_.start, options_.scale_sigma); });
+    poses = report.time("initial values", [&] { return initial(problem, options_, structure); });
   }
   const UsedAnchors used(problem);
   used.report_held_pose(report);
@@ -218,9 +223,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     before = report.time("loop equations", [&] { return solve_loops(problem, poses, iterations); });
   }
   if (options_.gnc != Gnc::off) {
-    const auto values = [&](const Problem& of) {
-      return initial(of, options_.start, options_.scale_sigma);
-    };
+    const auto values = [&](const Problem& of) { return initial(of, options_, structure); };
     GncSolution gnc =
         solve_gnc({problem, settings, options_.gnc, chi2_quantile(group), values}, report);
     poses = std::move(gnc.poses);

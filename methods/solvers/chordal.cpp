@@ -8,6 +8,7 @@
 
 #include "methods/solvers/block_cholesky.hpp"
 #include "methods/solvers/initial_values.hpp"
+#include "methods/solvers/kept_order.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -93,13 +94,13 @@ struct WeightedEdges {
   void for_each(Visit visit) const {
     for (const auto& [edge, weights] : all) visit(*edge, weights);
   }
-  EliminationStructure structure(std::size_t keyframes) const {
-    std::vector<std::pair<int, int>> pairs;
+  std::vector<std::pair<int, int>> pairs() const {
+    std::vector<std::pair<int, int>> out;
     for_each([&](const Edge& edge, const Weights&) {
       if (edge.from == 0) return;
-      pairs.emplace_back(static_cast<int>(edge.from) - 1, static_cast<int>(edge.to) - 1);
+      out.emplace_back(static_cast<int>(edge.from) - 1, static_cast<int>(edge.to) - 1);
     });
-    return {static_cast<int>(keyframes) - 1, pairs};
+    return out;
   }
 
   std::vector<std::pair<const Edge*, Weights>> all;
@@ -143,7 +144,9 @@ void spatial_rotations(const WeightedEdges& edges,
 
 }  // namespace
 
-std::vector<ScaledPose> chordal_values(const Problem& problem, double scale_sigma) {
+std::vector<ScaledPose> chordal_values(const Problem& problem,
+                                       double scale_sigma,
+                                       SharedStructure* structure) {
   const std::size_t n = problem.keyframes.size();
   std::vector<ScaledPose> out(n);
   if (n == 0) return out;
@@ -151,11 +154,13 @@ std::vector<ScaledPose> chordal_values(const Problem& problem, double scale_sigm
   if (n == 1) return out;
 
   const WeightedEdges edges(problem);
-  const EliminationStructure structure = edges.structure(n);
+  SharedStructure unshared;
+  const auto shared =
+      (structure ? *structure : unshared).of(static_cast<int>(n) - 1, edges.pairs());
   if (problem.planar) {
-    planar_rotations(edges, structure, out);
+    planar_rotations(edges, *shared, out);
   } else {
-    spatial_rotations(edges, structure, out);
+    spatial_rotations(edges, *shared, out);
   }
 
   using Row = Eigen::RowVector3d;
@@ -163,7 +168,7 @@ std::vector<ScaledPose> chordal_values(const Problem& problem, double scale_sigm
   bool has_scale = false;
   edges.for_each([&](const Edge& edge, const Weights&) { has_scale |= edge.scale != 1.0; });
   if (has_scale) {
-    System<1> scales(structure, 3);
+    System<1> scales(*shared, 3);
     edges.for_each([&](const Edge& edge, const Weights&) {
       const double weight = 1.0 / (scale_sigma * scale_sigma);
       scales.add<Row>(edge, weight, one, Row(std::log(edge.scale), 0.0, 0.0), Row::Zero());
@@ -174,7 +179,7 @@ std::vector<ScaledPose> chordal_values(const Problem& problem, double scale_sigm
     }
   }
 
-  System<1> translations(structure, 3);
+  System<1> translations(*shared, 3);
   edges.for_each([&](const Edge& edge, const Weights& w) {
     const ScaledPose& from = out[edge.from];
     const Vector3 step = from.scale * (from.pose.rotation * edge.from_from_to.translation);

@@ -1,7 +1,8 @@
-/// Elimination order that is used again while a graph grows.
+/// Elimination orders that are used again.
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -9,8 +10,26 @@
 
 namespace loopbench::methods {
 
-/// New blocks are eliminated after all earlier ones, until a factorisation takes more than `limit`
-/// times the work per block that it took under a new order; then the order is computed again.
+/// Computes a structure once for graphs of the same edges, in the same order.
+class SharedStructure {
+ public:
+  std::shared_ptr<const EliminationStructure> of(int blocks,
+                                                 std::vector<std::pair<int, int>> pairs) {
+    if (!last_ || last_->blocks() != blocks || pairs_ != pairs) {
+      last_ = std::make_shared<const EliminationStructure>(blocks, pairs);
+      pairs_ = std::move(pairs);
+    }
+    return last_;
+  }
+
+ private:
+  std::shared_ptr<const EliminationStructure> last_;
+  std::vector<std::pair<int, int>> pairs_;
+};
+
+/// For a graph that grows. New blocks are eliminated after all earlier ones, until a factorisation
+/// takes more than `limit` times the work per block that it took under a new order; then the order
+/// is computed again.
 class KeptOrder {
  public:
   explicit KeptOrder(double limit) : limit_(limit) {}

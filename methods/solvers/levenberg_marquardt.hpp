@@ -26,7 +26,7 @@ PoseGraphSummary minimise_least_squares(std::vector<typename G::Element>& x,
   constexpr double kCostRounding = 1e-10;  // relative; long chains have large lever arms
   constexpr double kPoseRounding = 1e-13;  // [rad], and relative to the extent [m]
   constexpr double kMostDamping = 1e16;
-  NormalEquations<G> equations(graph, settings.order);
+  NormalEquations<G> equations(graph, settings);
   typename NormalEquations<G>::Step step;
   std::vector<typename G::Element> candidate = x;
   double extent = 1.0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "methods/solvers/block_cholesky.hpp"
 #include "methods/solvers/edge_residual.hpp"
 #include "methods/solvers/kept_order.hpp"
+#include "methods/solvers/pose_graph_solver.hpp"
 #include "methods/solvers/weighted_graph.hpp"
 
 namespace loopbench::methods {
@@ -22,12 +24,13 @@ class NormalEquations {
   using Tangent = typename G::Tangent;
   using Square = typename G::Square;
 
-  /// `order` may be null: a new order.
-  NormalEquations(const WeightedGraph& graph, KeptOrder* order)
+  /// Of `settings`, the structure and the order are used.
+  NormalEquations(const WeightedGraph& graph, const PoseGraphSettings& settings)
       : first_(graph.is_first_free ? 0 : 1),
-        structure_(structure_of(graph, order)),
-        order_(order),
-        factor_(structure_, order ? std::move(order->storage) : Eigen::VectorXd()) {
+        shared_(structure_of(graph, settings)),
+        structure_(*shared_),
+        order_(settings.order),
+        factor_(structure_, order_ ? std::move(order_->storage) : Eigen::VectorXd()) {
     for (int i = 0; i < structure_.blocks(); ++i) diagonal_places_.push_back(factor_.place(i, i));
     terms_.reserve(graph.odometry.size() + graph.closures.size());
     graph.for_each_edge([&](const Edge& edge, double weight, bool) {
@@ -140,7 +143,8 @@ class NormalEquations {
     Matrix3 root;
   };
 
-  static EliminationStructure structure_of(const WeightedGraph& graph, KeptOrder* order) {
+  using Structure = std::shared_ptr<const EliminationStructure>;
+  static Structure structure_of(const WeightedGraph& graph, const PoseGraphSettings& settings) {
     const int first = graph.is_first_free ? 0 : 1;
     std::vector<std::pair<int, int>> pairs;
     pairs.reserve(graph.odometry.size() + graph.closures.size());
@@ -150,7 +154,11 @@ class NormalEquations {
       if (std::min(i, j) >= 0) pairs.emplace_back(i, j);
     });
     const int blocks = static_cast<int>(graph.poses) - first;
-    return order ? order->structure(blocks, pairs) : EliminationStructure(blocks, pairs);
+    if (settings.order) {
+      return std::make_shared<const EliminationStructure>(settings.order->structure(blocks, pairs));
+    }
+    SharedStructure unshared;
+    return (settings.structure ? *settings.structure : unshared).of(blocks, std::move(pairs));
   }
 
   const Element& pose(const std::vector<Element>& x, int block) const {
@@ -162,7 +170,8 @@ class NormalEquations {
   }
 
   int first_;
-  EliminationStructure structure_;
+  Structure shared_;
+  const EliminationStructure& structure_;
   KeptOrder* order_;
   BlockCholesky<G::kDof> factor_;
   std::vector<typename BlockCholesky<G::kDof>::Place> diagonal_places_;

@@ -11,6 +11,7 @@
 namespace loopbench::methods {
 
 class KeptOrder;
+class SharedStructure;
 
 /// Lie group of the poses.
 enum class Group { se2, se3, sim3 };
@@ -41,7 +42,9 @@ struct PoseGraphSettings {
   /// Not in Sim(3), in SE(2) in the plane of pose 0; the loss does not apply to them.
   std::vector<Anchor> anchors = {};
   bool is_first_free = false;  ///< pose 0 is estimated: anchors must determine the frame
-  KeptOrder* order = nullptr;  ///< of the elimination without a loss; null: a new one
+  /// Of the elimination without a loss; null: a new order or structure.
+  KeptOrder* order = nullptr;
+  SharedStructure* structure = nullptr;
 };
 
 struct PoseGraphSummary {

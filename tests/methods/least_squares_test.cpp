@@ -224,7 +224,7 @@ void expect_slope(Group group) {
   const Graph graph = random_graph(group);
   const WeightedGraph weighted{
       graph.poses.size(), graph.odometry, graph.closures, graph.weights, graph.anchors, true};
-  NormalEquations<G> equations(weighted, nullptr);
+  NormalEquations<G> equations(weighted, PoseGraphSettings{});
   std::vector<typename G::Element> x;
   for (const ScaledPose& pose : graph.poses) x.push_back(G::from(pose));
   const double cost = equations.linearise(x);
