@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cstddef>
+#include <cstdio>
 #include <cstring>
 #include <new>
 #include <optional>
@@ -28,7 +29,7 @@ class ResultArea {
   /// Before a cell is forked.
   void clear();
 
-  /// False if there are too many bytes.
+  /// False, with a message on standard error, if there are too many bytes.
   bool write(std::string_view bytes);
 
   /// nullopt unless `writer` wrote a complete result, which is unchanged. Valid until clear().
@@ -37,11 +38,11 @@ class ResultArea {
  private:
   struct Header;
 
+  /// A sequence of ten million poses with edges has 6 GiB. Used only as far as written.
+  std::size_t capacity_ = std::size_t{16} << 30;  // [bytes]
   Header* header_ = nullptr;
 };
 
-inline constexpr std::size_t kCapacity = std::size_t{256}
-                                         << 20;             // [bytes], used only as far as written
 inline constexpr std::size_t kKept = std::size_t{1} << 20;  // [bytes], not returned to the system
 
 struct ResultArea::Header {
@@ -54,22 +55,27 @@ struct ResultArea::Header {
 
 inline ResultArea::ResultArea() {
   constexpr int kFlags = MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE;
-  void* memory = mmap(nullptr, kCapacity, PROT_READ | PROT_WRITE, kFlags, -1, 0);
+  const auto map = [&] { return mmap(nullptr, capacity_, PROT_READ | PROT_WRITE, kFlags, -1, 0); };
+  void* memory = map();
+  for (; memory == MAP_FAILED && capacity_ > 2 * kKept; memory = map()) capacity_ /= 2;
   if (memory == MAP_FAILED) throw std::runtime_error("cannot map the memory for results");
   header_ = new (memory) Header;
 }
 
-inline ResultArea::~ResultArea() { munmap(header_, kCapacity); }
+inline ResultArea::~ResultArea() { munmap(header_, capacity_); }
 
 inline void ResultArea::clear() {
   if (header_->size == 0 || header_->size > kKept) {  // after a failure it can have been filled
-    madvise(reinterpret_cast<char*>(header_) + kKept, kCapacity - kKept, MADV_REMOVE);
+    madvise(reinterpret_cast<char*>(header_) + kKept, capacity_ - kKept, MADV_REMOVE);
   }
   *header_ = {};
 }
 
 inline bool ResultArea::write(std::string_view bytes) {
-  if (bytes.size() > kCapacity - sizeof(Header)) return false;
+  if (bytes.size() > capacity_ - sizeof(Header)) {
+    std::fprintf(stderr, "a result of %zu bytes exceeds %zu bytes\n", bytes.size(), capacity_);
+    return false;
+  }
   std::memcpy(header_->bytes(), bytes.data(), bytes.size());
   header_->hash = hash_of(bytes);
   header_->writer = getpid();
@@ -79,7 +85,7 @@ inline bool ResultArea::write(std::string_view bytes) {
 
 inline std::optional<std::string_view> ResultArea::read(pid_t writer) const {
   const std::size_t size = header_->size;
-  if (header_->writer != writer || size == 0 || size > kCapacity - sizeof(Header))
+  if (header_->writer != writer || size == 0 || size > capacity_ - sizeof(Header))
     return std::nullopt;
   const std::string_view bytes(header_->bytes(), size);
   if (hash_of(bytes) != header_->hash) return std::nullopt;

@@ -44,6 +44,11 @@ TEST(OwnProcess, ReturnsAnyBytesAndChangesNothingHere) {
   EXPECT_EQ(kept, "here");
 }
 
+TEST(OwnProcess, ReturnsAMillionPosesWithEdges) {
+  const std::size_t size = 600'000'000;
+  EXPECT_EQ(in_own_process([&] { return std::string(size, 'x'); }).size(), size);
+}
+
 TEST(OwnProcess, ExceptionsKeepTheirTypeAndMessage) {
   EXPECT_THROW(in_own_process([]() -> std::string { throw InputError("file:3: why"); }),
                InputError);
