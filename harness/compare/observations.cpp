@@ -45,11 +45,7 @@ std::string group_name(const Record& r) { return r.group.empty() ? run_name(r) :
 
 bool is_loss(const Record& r) { return r.status != Status::ok && r.status != Status::declined; }
 
-ObservationsBuilder::ObservationsBuilder(std::string statistic)
-    : value_(std::move(statistic)),
-      kinds_({"protocol", "times", "metric", "label", "relation", "axis"}, score_key),
-      methods_({"method"}, [](const Record& r) { return r.method.text(); }),
-      run_names_({"sequence", "repeat"}, run_name) {
+ObservationsBuilder::ObservationsBuilder(std::string statistic) : value_(std::move(statistic)) {
   value(Record{}, value_);  // rejects an unknown statistic
 }
 
@@ -61,7 +57,7 @@ void ObservationsBuilder::put(Observations& table, const Unscored& one) {
 }
 
 void ObservationsBuilder::add(const Record& r) {
-  const Unscored one{methods_.index(r), run_names_.index(r), observed(r, value_)};
+  const Unscored one{methods_.index(r.method), run_names_.index(run_name(r)), observed(r, value_)};
   if (one.run == runs_.size()) {
     runs_.push_back({run_name(r), r.sequence, group_name(r), r.content, r.oracle_closures});
   }
@@ -75,7 +71,7 @@ void ObservationsBuilder::add(const Record& r) {
     unscored_.push_back(one);
     return;
   }
-  const std::size_t kind = kinds_.index(r);
+  const std::size_t kind = kinds_.index(score_key(r));
   if (kind == tables_.size()) {
     Record& own = tables_.emplace_back().kind;
     own = r;
@@ -95,7 +91,7 @@ std::set<std::size_t> ObservationsBuilder::oracle_methods() const {
 }
 
 std::vector<Observations> ObservationsBuilder::build() {
-  const std::vector<std::string>& names = methods_.texts();
+  const std::vector<std::string>& names = methods_.names();
   const std::set<std::size_t> oracles = oracle_methods();
   for (Observations& table : tables_) {
     table.runs = runs_;

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "harness/model/name_order.hpp"
 #include "harness/model/record.hpp"
-#include "harness/model/text_index.hpp"
 
 namespace loopbench::harness {
 
@@ -77,9 +77,9 @@ class ObservationsBuilder {
   std::set<std::size_t> oracle_methods() const;
 
   std::string value_;
-  TextIndex kinds_;
-  TextIndex methods_;
-  TextIndex run_names_;
+  NameOrder kinds_;
+  NameOrder methods_;
+  NameOrder run_names_;
   std::vector<ObservedRun> runs_;
   std::vector<Observations> tables_;
   std::vector<Unscored> unscored_;  ///< records without a score, which count in every table

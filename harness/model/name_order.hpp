@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace loopbench::harness {
 
-/// Numbers names in the order they first appear. O(log n) each.
+/// Numbers names in the order they first appear. O(size) each.
 class NameOrder {
  public:
   std::size_t index(const std::string& name) {
@@ -18,7 +18,7 @@ class NameOrder {
   const std::vector<std::string>& names() const { return names_; }
 
  private:
-  std::map<std::string, std::size_t> index_;
+  std::unordered_map<std::string, std::size_t> index_;
   std::vector<std::string> names_;
 };
 

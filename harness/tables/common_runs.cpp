@@ -94,7 +94,7 @@ std::string common_runs_note(const std::map<std::string, std::set<std::size_t>>&
 }  // namespace
 
 std::string keep_common_runs(TableNumbers& table, bool along_columns) {
-  const std::vector<std::string>& names = (along_columns ? table.columns : table.rows).texts();
+  const std::vector<std::string>& names = (along_columns ? table.columns : table.rows).names();
   std::map<std::string, std::set<std::size_t>> counts;
   for (std::size_t l = 0; l < names.size(); ++l) {
     const std::vector<TablePosition> positions = entry_indices(table, l, along_columns);

@@ -12,6 +12,25 @@
 namespace loopbench::harness {
 namespace {
 
+/// With the unit of the statistic; counts have none that would tell translation and rotation apart.
+std::string column_name(const Record& r,
+                        const std::vector<std::string>& names,
+                        const std::string& statistic) {
+  std::string out = fields_joined(r, names, " ");
+  const std::string unit = unit_of(r, statistic);
+  if (!unit.empty()) return out + " [" + unit + "]";
+  const bool has_relation =
+      std::ranges::count(names, "relation") > 0 || std::ranges::count(names, "score") == 0;
+  if (statistic == "count" && !has_relation && r.relation == "rotation") out += " rotation";
+  return out;
+}
+
+/// Records of different kinds must not be averaged: all labels but sequence, repeat and method.
+std::string kind_of(const Record& r) {
+  return r.times + " / " + metric_label(r) + " / " + r.relation + " / " + r.axis + " [" + r.unit +
+         "]";
+}
+
 /// Ignores single values and scores with as many errors as evaluated poses.
 void add_error_count(TableNumbers& table, std::size_t column, const Record& record) {
   const std::size_t count = record.statistics.count;
@@ -26,27 +45,29 @@ std::string error_counts_text(const TableNumbers& table) {
   std::vector<std::string> out;
   for (const auto& [column, range] : table.error_counts) {
     const auto& [least, most] = range;
-    out.push_back(fmt::format("{}: {}", table.columns.texts()[column], least));
+    out.push_back(fmt::format("{}: {}", table.columns.names()[column], least));
     if (most != least) out.back() += fmt::format(" to {}", most);
   }
   return fmt::format("{}", fmt::join(out, "; "));
 }
 
 void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
-  const std::size_t row = table.rows.index(record);
+  const std::size_t row =
+      table.rows.index(fields_joined(record, spec.rows, ", ") + (record.oracle ? " (oracle)" : ""));
   if (record.oracle) table.note("oracle: the method uses the reference");
   if (record.oracle_closures) table.oracle_sequences.insert(record.sequence);
-  const std::size_t run = table.runs.index(record);
-  if (run == table.group_of_run.size()) table.group_of_run.push_back(table.groups.index(record));
+  const std::size_t run = table.runs.index(run_key(record));
+  if (run == table.group_of_run.size())
+    table.group_of_run.push_back(table.groups.index(group_name(record)));
   const bool is_ok = record.status == Status::ok;
   if (!is_ok) {
     // Low coverage concerns all metrics; an undefined score is listed by its name.
     const bool is_complete_cell = record.metric.empty() || record.status == Status::incomplete;
     const std::string what =
         is_complete_cell ? "" : fields_joined(record, {"label", "relation"}, " ");
-    table.missing.push_back({table.rows.texts()[row], what, to_text(record.status), record.why});
+    table.missing.push_back({table.rows.names()[row], what, to_text(record.status), record.why});
   } else if (record.metric.empty() && !record.why.empty()) {
-    table.note(table.rows.texts()[row] + ": " + record.why.text());
+    table.note(table.rows.names()[row] + ": " + record.why.text());
   }
   if (record.metric.empty()) {
     if (is_ok) return;
@@ -55,14 +76,14 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
     table.lost_by_method[record.method].insert(run);
     return;
   }
-  const std::size_t column = table.columns.index(record);
-  const std::size_t kind = table.kinds.index(record);
+  const std::size_t column = table.columns.index(column_name(record, spec.columns, spec.value));
+  const std::size_t kind = table.kinds.index(kind_of(record));
   const auto [place, is_new] = table.entries.try_emplace({row, column});
   EntryContents& entry = place->second;
   if (is_new) entry.kind = kind;
   if (entry.kind != kind) {
-    throw InputError("an entry of this table would average '" + table.kinds.texts()[entry.kind] +
-                     "' with '" + table.kinds.texts()[kind] +
+    throw InputError("an entry of this table would average '" + table.kinds.names()[entry.kind] +
+                     "' with '" + table.kinds.names()[kind] +
                      "'; add the column in which they differ");
   }
   entry.tried.insert(run);
@@ -85,7 +106,7 @@ void mark(Table& out,
           const TableNumbers& table,
           bool along_columns,
           const RankingOptions& options) {
-  const std::size_t lanes = (along_columns ? table.columns : table.rows).texts().size();
+  const std::size_t lanes = (along_columns ? table.columns : table.rows).names().size();
   bool is_marked = false;
   std::string why_none;
   for (std::size_t l = 0; l < lanes; ++l) {
@@ -158,7 +179,7 @@ Table finish(TableNumbers& table,
   // Only methods are compared: a best sequence is meaningless.
   const bool down_columns = std::ranges::count(spec.rows, "method") > 0;
   const bool along_rows = spec.columns == std::vector<std::string>{"method"};
-  const std::vector<std::string>& columns = table.columns.texts();
+  const std::vector<std::string>& columns = table.columns.names();
   Table out{title, {fmt::format("{}", fmt::join(spec.rows, ", "))}, {}, table.notes};
   out.headings.insert(out.headings.end(), columns.begin(), columns.end());
   const std::vector<std::string> missing = grouped(table.missing);
@@ -175,9 +196,9 @@ Table finish(TableNumbers& table,
     if (!text.empty()) out.notes.insert(out.notes.begin(), text);
   }
   explain_averages(out, table, spec);
-  for (std::size_t r = 0; r < table.rows.texts().size(); ++r) {
+  for (std::size_t r = 0; r < table.rows.names().size(); ++r) {
     std::vector<TableCell>& line = out.lines.emplace_back();
-    line.emplace_back(table.rows.texts()[r]);
+    line.emplace_back(table.rows.names()[r]);
     for (std::size_t c = 0; c < columns.size(); ++c) {
       line.emplace_back().mean = mean_at(table, {r, c}, spec.plus_minus);
     }
@@ -215,13 +236,13 @@ std::vector<Table> pivot(const std::vector<Record>& records,
 PivotedTables pivot_parts(const std::vector<Record>& records,
                           const TableSpec& spec,
                           const RankingOptions& options) {
-  TextIndex titles(spec.split, [&](const Record& r) { return fields_joined(r, spec.split, ", "); });
+  NameOrder titles;
   std::vector<TableNumbers> builders;
   std::vector<const Record*> first;  // of each table
   const auto builder = [&](const Record& record) -> TableNumbers& {
-    const std::size_t index = titles.index(record);
+    const std::size_t index = titles.index(fields_joined(record, spec.split, ", "));
     if (index == builders.size()) {
-      builders.emplace_back(spec);
+      builders.emplace_back();
       first.push_back(&record);
     }
     return builders[index];
@@ -253,7 +274,7 @@ PivotedTables pivot_parts(const std::vector<Record>& records,
     if (!placed) add(builder(record), record, spec);
   }
   for (std::size_t t = 0; t < builders.size(); ++t) {
-    out.tables.push_back(finish(builders[t], titles.texts()[t], spec, options));
+    out.tables.push_back(finish(builders[t], titles.names()[t], spec, options));
   }
   return out;
 }

@@ -12,41 +12,11 @@
 namespace loopbench::harness {
 namespace {
 
-std::vector<std::string> with(std::vector<std::string> fields, const char* more) {
-  fields.emplace_back(more);
-  return fields;
-}
-
-std::vector<std::string> column_fields(const TableSpec& spec) {
-  std::vector<std::string> out = with(spec.columns, "unit");
-  for (const char* name : {"metric", "relation"}) out.emplace_back(name);
-  return out;
-}
-
-/// With the unit of the statistic; counts have none that would tell translation and rotation apart.
-std::string column_name(const Record& r,
-                        const std::vector<std::string>& names,
-                        const std::string& statistic) {
-  std::string out = fields_joined(r, names, " ");
-  const std::string unit = unit_of(r, statistic);
-  if (!unit.empty()) return out + " [" + unit + "]";
-  const bool has_relation =
-      std::ranges::count(names, "relation") > 0 || std::ranges::count(names, "score") == 0;
-  if (statistic == "count" && !has_relation && r.relation == "rotation") out += " rotation";
-  return out;
-}
-
-/// Records of different kinds must not be averaged: all labels but sequence, repeat and method.
-std::string kind_of(const Record& r) {
-  return r.times + " / " + metric_label(r) + " / " + r.relation + " / " + r.axis + " [" + r.unit +
-         "]";
-}
-
 /// Runs of recorded files are independent; their sequence is the recording.
 void add_recordings(MarkInput& out, const TableNumbers& table) {
   std::map<std::string_view, std::size_t> numbers;
   std::vector<std::size_t> of_group;
-  for (const std::string& group : table.groups.texts()) {
+  for (const std::string& group : table.groups.names()) {
     const std::string_view recording = recording_of(group);
     if (recording.empty()) return;
     of_group.push_back(numbers.emplace(recording, numbers.size()).first->second);
@@ -56,19 +26,6 @@ void add_recordings(MarkInput& out, const TableNumbers& table) {
 }
 
 }  // namespace
-
-TableNumbers::TableNumbers(const TableSpec& spec)
-    : rows(with(spec.rows, "oracle"),
-           [names = spec.rows](const Record& r) {
-             return fields_joined(r, names, ", ") + (r.oracle ? " (oracle)" : "");
-           }),
-      columns(column_fields(spec),
-              [names = spec.columns, value = spec.value](const Record& r) {
-                return column_name(r, names, value);
-              }),
-      kinds({"times", "label", "relation", "axis", "unit"}, kind_of),
-      runs({"content", "sequence", "repeat"}, run_key),
-      groups({"group", "sequence", "repeat"}, group_name) {}
 
 std::string fields_joined(const Record& record,
                           const std::vector<std::string>& names,
@@ -84,7 +41,7 @@ std::string fields_joined(const Record& record,
 std::vector<TablePosition> entry_indices(const TableNumbers& table,
                                          std::size_t index,
                                          bool along_columns) {
-  const std::size_t entries = (along_columns ? table.rows : table.columns).texts().size();
+  const std::size_t entries = (along_columns ? table.rows : table.columns).names().size();
   std::vector<TablePosition> out;
   for (std::size_t i = 0; i < entries; ++i) {
     out.push_back(along_columns ? TablePosition{i, index} : TablePosition{index, i});

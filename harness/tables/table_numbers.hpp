@@ -12,8 +12,9 @@
 #include <vector>
 
 #include "datasets/core/hash.hpp"
+#include "harness/model/name_order.hpp"
+#include "harness/model/record.hpp"
 #include "harness/model/sweep.hpp"
-#include "harness/model/text_index.hpp"
 #include "harness/tables/mark_best.hpp"
 #include "harness/tables/notes.hpp"
 
@@ -91,8 +92,6 @@ struct EntryContents {
 
 /// Contents of a table under construction.
 struct TableNumbers {
-  explicit TableNumbers(const TableSpec& spec);
-
   /// nullptr if it has no record.
   const EntryContents* find(const TablePosition& position) const {
     const auto found = entries.find(position);
@@ -103,11 +102,11 @@ struct TableNumbers {
     if (std::ranges::count(notes, text) == 0) notes.push_back(text);
   }
 
-  TextIndex rows;
-  TextIndex columns;
-  TextIndex kinds;
-  TextIndex runs;
-  TextIndex groups;
+  NameOrder rows;
+  NameOrder columns;
+  NameOrder kinds;
+  NameOrder runs;
+  NameOrder groups;
   std::vector<std::size_t> group_of_run;
   std::unordered_map<TablePosition, EntryContents, TablePositionHash> entries;
   std::map<std::size_t, RunSet> lost_by_row;  // runs without any score
