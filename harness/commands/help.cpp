@@ -149,12 +149,12 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench report results/quickstart -o report.html --every 10\n"},
 };
 
-const std::string kUsualExitCodes = "0 success, 2 invalid input or output, 3 internal error.";
+const std::string kDefaultExitCodes = "0 success, 2 invalid input or output, 3 internal error.";
 const std::string kSweepExitCodes =
     "0 success, 1 failed cells, 2 invalid input or output, 3 internal error, 4 the build lacks a "
     "required part, 130 interrupted.";
 
-/// Of commands whose codes are not the usual ones; "" is the program.
+/// Of commands with other codes; "" is the program.
 const std::map<std::string, std::string> kExitCodes{
     {"",
      "0 success, 1 failed cells or regressions, 2 invalid input or output, 3 internal error, 4 the "
@@ -212,8 +212,8 @@ void add_footers(CLI::App& app) {
     std::string footer = examples == kExamples.end() ? "" : "Examples:\n" + examples->second + "\n";
     if (!command.get_footer().empty()) footer += command.get_footer() + "\n\n";
     const auto codes = kExitCodes.find(name);
-    command.footer(footer +
-                   "Exit codes: " + (codes == kExitCodes.end() ? kUsualExitCodes : codes->second));
+    command.footer(
+        footer + "Exit codes: " + (codes == kExitCodes.end() ? kDefaultExitCodes : codes->second));
   };
   add(app, "");
   const auto all = [](const CLI::App*) { return true; };

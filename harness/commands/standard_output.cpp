@@ -12,7 +12,7 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr std::size_t kUsualWidth = 80;
+constexpr std::size_t kDefaultWidth = 80;
 constexpr std::size_t kNarrowest = 40;
 
 std::string_view environment(const char* name) {
@@ -39,7 +39,7 @@ std::size_t terminal_width(int stream) {
     const std::string columns(environment("COLUMNS"));
     out = std::strtoul(columns.c_str(), nullptr, 10);
   }
-  return std::max(out == 0 ? kUsualWidth : out, kNarrowest);
+  return std::max(out == 0 ? kDefaultWidth : out, kNarrowest);
 }
 
 bool prints_to_terminal() { return isatty(STDOUT_FILENO) == 1; }

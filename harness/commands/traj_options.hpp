@@ -46,7 +46,7 @@ struct TrajArguments {
   std::string align = "se3";
   std::size_t align_first = 0;
   std::string plane;                                            ///< of `project`
-  std::vector<std::string> panels = usual_trajectory_panels();  ///< of `plot`
+  std::vector<std::string> panels = default_trajectory_panels();  ///< of `plot`
   FigureOptions figures;
 };
 

@@ -64,16 +64,16 @@ inline void require_used_limits(const Baseline& baseline) {
 
 /// A line for every limit that is not the default, because a wide limit lets changes pass.
 inline std::vector<std::string> notes_on_limits(const std::vector<Tolerance>& limits) {
-  const std::string usual = numbers_of({});
+  const std::string standard = numbers_of({});
   std::vector<std::string> out;
   for (const Tolerance& limit : limits) {
     const std::string own = numbers_of(limit);
-    if (own == usual) continue;
+    if (own == standard) continue;
     out.push_back(fmt::format(
         "limit of {}: {} (default: {})",
         limit.where.empty() ? "all scores" : fmt::format("{}", fmt::join(limit.where, ", ")),
         own,
-        usual));
+        standard));
   }
   return out;
 }

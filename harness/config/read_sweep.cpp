@@ -107,8 +107,8 @@ std::string baseline(const YamlNode* node, const std::vector<MethodChoice>& meth
   std::vector<std::string> labels;
   for (const MethodChoice& method : methods) labels.push_back(method.label);
   if (node == nullptr) {
-    for (const char* usual : {"raw", "raw + polyline", "polyline"}) {
-      if (std::ranges::count(labels, usual) > 0) return usual;
+    for (const char* each : {"raw", "raw + polyline", "polyline"}) {
+      if (std::ranges::count(labels, each) > 0) return each;
     }
     return "";
   }

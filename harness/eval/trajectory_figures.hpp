@@ -15,7 +15,7 @@ namespace loopbench::harness {
 
 /// The plane of the largest extent and space; x, y, z, roll, pitch, yaw and speed over time. Any
 /// panel can also be xy, xz or yz.
-inline std::vector<std::string> usual_trajectory_panels() {
+inline std::vector<std::string> default_trajectory_panels() {
   return {"plane", "xyz", "x", "y", "z", "roll", "pitch", "yaw", "speed"};
 }
 

@@ -18,11 +18,11 @@ double median_of(std::vector<double> values) { return upper_median(values); }
 
 /// Speeds above twenty times the median and ten times the 95 % quantile are jumps.
 void remark_jumps(TrajectorySummary& out, const std::vector<double>& speeds) {
-  constexpr double kOverMedian = 20.0, kOverUsual = 10.0;
+  constexpr double kOverMedian = 20.0, kOverMost = 10.0;
   std::vector<double> sorted = speeds;
   std::ranges::sort(sorted);
   const double limit = std::max(kOverMedian * sorted[sorted.size() / 2],
-                                kOverUsual * sorted[sorted.size() * 95 / 100]);
+                                kOverMost * sorted[sorted.size() * 95 / 100]);
   const auto jumps = std::ranges::count_if(speeds, [&](double v) { return v > limit; });
   if (jumps == 0 || limit <= 0.0) return;
   out.remarks.push_back(fmt::format("{} {} of up to {:.3g} m/s, the usual speed is {:.3g} m/s",
@@ -87,13 +87,14 @@ TrajectorySummary summarise(const std::string& name,
     out.largest_rotation_speed = std::max(out.largest_rotation_speed, angle / interval);
   }
   if (intervals.empty()) return out;
-  const double usual = median_of(intervals);
-  out.rate = 1.0 / usual;
+  const double interval_median = median_of(intervals);
+  out.rate = 1.0 / interval_median;
   out.mean_speed = out.length / out.duration;
   out.largest_speed = *std::ranges::max_element(speeds);
   out.longest_interval = *std::ranges::max_element(intervals);
-  out.gaps = static_cast<std::size_t>(std::ranges::count_if(
-      intervals, [&](double interval) { return interval > std::max(10.0 * usual, 0.5); }));
+  out.gaps = static_cast<std::size_t>(std::ranges::count_if(intervals, [&](double interval) {
+    return interval > std::max(10.0 * interval_median, 0.5);
+  }));
   if (file.has_stamps) remark_jumps(out, speeds);
   remark_constants(out, poses);
   return out;
