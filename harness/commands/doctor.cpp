@@ -107,7 +107,7 @@ std::string report_json(const std::vector<Diagnosed>& all) {
   for (const Diagnosed& each : all) {
     nlohmann::json findings = nlohmann::json::array();
     for (const metrics::InputFinding& finding : each.result.findings) {
-      findings.push_back({{"fault", metrics::fault_name(finding.fault)},
+      findings.push_back({{"fault", finding.fault},
                           {"evidence", finding.evidence},
                           {"fix", finding.fix},
                           {"confidence", finding.confidence},

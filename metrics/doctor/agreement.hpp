@@ -2,17 +2,13 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "metrics/doctor/common_motion.hpp"
 
 namespace loopbench::metrics {
 
-/// Twenty blocks of poses, alternately for fits and for tests.
-bool is_fitted(std::size_t index, std::size_t size);
-
-/// The poses that fits may use. O(n).
-CommonPoses fitted_part(const CommonPoses& poses);
+/// The poses that fits may use: alternate ones of twenty blocks. O(n).
+Paired fitted_part(const Paired& poses);
 
 /// Errors of the test poses [-], [m] or [rad]. Displacements and rotations over short distances are
 /// compared in body frames, up to a constant rotation of the body and a scale: drift hardly changes
@@ -33,7 +29,7 @@ struct Agreement {
 };
 
 /// Alignments and constant rotations are fitted to one half. All errors are 0 below 20 poses. O(n).
-Agreement agreement(const CommonPoses& poses);
+Agreement agreement(const Paired& poses);
 
 /// The measure that a change improves most.
 struct Improvement {
@@ -51,17 +47,19 @@ struct PositionFit {
 };
 
 /// Least-squares similarity of positions (Umeyama 1991). O(n).
-PositionFit fit_positions(const CommonPoses& poses);
+PositionFit fit_positions(const Paired& poses);
 
 /// The rotation of the body that maps the estimate's rotations, after alignment of the positions,
 /// to the reference's: body_from_reference. O(n).
-Rotation fit_body(const CommonPoses& poses);
+Rotation fit_body(const Paired& poses);
 
 inline constexpr std::size_t kFewestCommonPoses = 20;  ///< fewer cannot be checked
-inline constexpr std::size_t kMostCommonPoses = 1500;  ///< that are compared
 inline constexpr double kLeastRotation = 0.05;         ///< smaller ones cannot be checked [rad]
 
-/// Whether some rotation differs from the first one by more than kLeastRotation. O(n).
-bool has_rotations(const std::vector<Pose>& poses);
+/// Largest rotation angle from the first pose [rad]. O(n).
+double largest_rotation_angle(const Trajectory& poses);
+
+/// Whether both rotate by more than kLeastRotation. O(n).
+bool has_rotations(const Paired& poses);
 
 }  // namespace loopbench::metrics

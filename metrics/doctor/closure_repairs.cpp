@@ -21,7 +21,7 @@ namespace {
 using EdgeChange = std::function<Pose(const Pose&, const Rotation&)>;
 
 struct EdgeRepair {
-  Fault fault{};
+  Fault::Name fault;
   std::string what;
   std::string fix;
   EdgeChange change;

@@ -3,19 +3,44 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
-#include <string>
+#include <cmath>
 #include <utility>
 
 #include "metrics/doctor/agreement.hpp"
-#include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/pair_checks.hpp"
 #include "metrics/doctor/repairs.hpp"
-#include "metrics/doctor/speed_match.hpp"
-#include "metrics/doctor/time_offset.hpp"
 
 namespace loopbench::metrics {
 namespace {
+
+constexpr double kLeastOfNoise = 3.0;  // standard deviation of positions over their noise
+
+/// Whether noise explains the positions: their standard deviation is at most kLeastOfNoise times
+/// the one of white noise that the median distance of a position from the line between the ones
+/// before and after has. Acceleration adds to it. O(n).
+bool is_at_rest(const Trajectory& poses) {
+  constexpr double kRounding = 1e-9;
+  constexpr double kMeanOverMedian = 3.0 / 2.366;  // of chi-squared with 3 degrees of freedom
+  const auto n = static_cast<double>(poses.size());
+  const auto position = [&](std::size_t i) -> const Vector3& {
+    return poses[i].world_from_body.translation;
+  };
+  Vector3 mean = Vector3::Zero();
+  for (std::size_t i = 0; i < poses.size(); ++i) mean += position(i) / n;
+  double variance = 0.0;
+  std::vector<double> squares;  // of the deviations from lines
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    variance += (position(i) - mean).squaredNorm() / n;
+    if (i == 0 || i + 1 == poses.size()) continue;
+    const double begin = poses[i - 1].stamp, end = poses[i + 1].stamp;
+    const double u = end > begin ? (poses[i].stamp - begin) / (end - begin) : 0.5;
+    const Vector3 between = (1.0 - u) * position(i - 1) + u * position(i + 1);
+    squares.push_back((position(i) - between).squaredNorm() /
+                      (1.0 + (1.0 - u) * (1.0 - u) + u * u));
+  }
+  const double noise = std::sqrt(kMeanOverMedian * median_value(std::move(squares)));
+  return std::sqrt(variance) <= kLeastOfNoise * noise + kRounding * mean.norm();
+}
 
 /// Positions without rotations with constant ones.
 Trajectory with_rotations(Trajectory poses) {
@@ -27,8 +52,10 @@ Trajectory with_rotations(Trajectory poses) {
 /// The pair with the repairs of what was found.
 class PairDiagnosis {
  public:
-  PairDiagnosis(Trajectory reference, Trajectory estimate)
-      : reference_(std::move(reference)), estimate_(std::move(estimate)) {}
+  PairDiagnosis(const Trajectory& reference, const Trajectory& estimate)
+      : has_rotations_(!lacks_rotations(reference) && !lacks_rotations(estimate)),
+        reference_(with_rotations(reference)),
+        estimate_(with_rotations(estimate)) {}
 
   Diagnosis run(const std::string& reference_name,
                 const std::string& estimate_name,
@@ -46,106 +73,85 @@ class PairDiagnosis {
   }
 
  private:
-  void add(std::optional<InputFinding> found) {
+  bool add(std::optional<InputFinding> found) {
     if (found) out_.findings.push_back(std::move(*found));
+    return found.has_value();
   }
 
-  void add(std::optional<StampRepair> found) {
-    if (!found) return;
-    add(std::move(found->finding));
+  bool add(std::optional<StampRepair> found) {
+    if (!found) return false;
     out_.has_checked = true;
     Trajectory& poses = found->is_of_reference ? reference_ : estimate_;
     poses = restamped(std::move(poses), found->factor, found->offset);
+    return add(std::move(found->finding));
   }
 
   void check_stamps() {
     add(check_stamp_unit(reference_, estimate_));
-    auto clock = check_frame_indices(reference_, estimate_);
-    if (!clock) clock = check_clock_drift(reference_, estimate_);
-    const bool has_offset = !clock || clock->finding.fault == Fault::frame_indices;
-    add(std::move(clock));
-    if (has_offset && !estimate_.empty()) check_offset();
-  }
-
-  void check_offset() {
+    const bool has_indices = add(check_frame_indices(reference_, estimate_));
+    if (!has_indices && add(check_clock_drift(reference_, estimate_))) return;
     if (std::min(reference_.size(), estimate_.size()) < kFewestCommonPoses) {
       out_.unchecked.emplace_back("time offset: fewer than 20 poses");
     }
-    speeds_ = estimate_time_offset(reference_, estimate_);
-    auto found = speeds_ ? offset_finding(*speeds_, reference_, estimate_) : std::nullopt;
-    out_.has_checked |= speeds_.has_value();
-    if (!found) {
-      if (auto apart = check_overlap(reference_, estimate_)) {
-        add(std::move(apart));
-      } else {
-        add(check_missing(reference_, estimate_));
+    if (const auto speeds = estimate_time_offset(reference_, estimate_)) {
+      out_.has_checked = true;
+      if (add(offset_finding(*speeds, reference_, estimate_))) {
+        estimate_ = restamped(std::move(estimate_), 1.0, speeds->offset);
+        out_.offset = speeds;
       }
-      return;
     }
-    for (StampedPose& pose : estimate_) pose.stamp += speeds_->offset;
-    add(std::move(found));
-    out_.offset = speeds_;
-    add(check_missing(reference_, estimate_));
+    if (!add(check_overlap(reference_, estimate_))) add(check_missing(reference_, estimate_));
   }
 
   void check_poses() {
     constexpr int kMostRepairs = 3;
-    add(check_constant_rotation(reference_, estimate_));
-    CommonPoses poses = common_poses(reference_, estimate_, 0.0, kMostCommonPoses);
-    if (poses.stamps.size() < kFewestCommonPoses) {
+    Paired poses = common_poses(reference_, estimate_);
+    if (poses.estimate.size() < kFewestCommonPoses) {
       for (const char* checks : {"units, scale", "quaternion order, inverted poses, axes"}) {
         out_.unchecked.push_back(
             fmt::format("{}: {} poses of the estimate are in the reference's time, expected at "
                         "least {}",
                         checks,
-                        poses.stamps.size(),
+                        poses.estimate.size(),
                         kFewestCommonPoses));
       }
       return;
     }
-    for (const bool is_reference : {true, false}) {
-      if (!is_at_rest(is_reference ? reference_ : estimate_)) continue;
+    if (is_at_rest(reference_) || is_at_rest(estimate_)) {
       out_.unchecked.push_back(
           fmt::format("units, scale, quaternion order, inverted poses, axes, files of the same "
                       "recording: the {} moves by less than {:g} times its noise",
-                      is_reference ? "reference" : "estimate",
+                      is_at_rest(reference_) ? "reference" : "estimate",
                       kLeastOfNoise));
       return;
     }
     out_.has_checked = true;
-    if (auto found = check_angle_unit(poses)) {
-      add(std::move(found));
+    if (has_rotations_) add(check_constant_rotation(poses));
+    if (add(check_angle_unit(poses))) {
       for (auto* list : {&poses.reference, &poses.estimate}) {
-        for (Pose& pose : *list) pose.rotation = Rotation::Identity();
+        for (StampedPose& pose : *list) pose.world_from_body.rotation = Rotation::Identity();
       }
-    } else {
-      note_constant_rotations(poses);
-    }
-    add(remove_jumps(poses));
-    for (int i = 0; i < kMostRepairs; ++i) {
-      auto proven = best_repair(poses);
-      if (!proven) break;
-      proven->repair.apply(poses);
-      const Repair& repair = proven->repair;
-      add(InputFinding{repair.fault,
-                       repair.what + ": " + proven->improvement.text,
-                       repair.fix,
-                       1.0 - proven->improvement.ratio,
-                       repair.value});
-    }
-    check_recording(agreement(poses));
-  }
-
-  void note_constant_rotations(const CommonPoses& poses) {
-    for (const bool is_reference : {true, false}) {
-      if (has_rotations(is_reference ? poses.reference : poses.estimate)) continue;
+    } else if (!has_rotations(poses)) {
+      const bool is_reference = largest_rotation_angle(poses.reference) <= kLeastRotation;
       out_.unchecked.push_back(
           fmt::format("quaternion order, inverted poses, axes, unit of angles: the {} does not "
                       "rotate by {:g} rad",
                       is_reference ? "reference" : "estimate",
                       kLeastRotation));
-      return;
     }
+    add(remove_jumps(poses));
+    for (int i = 0; i < kMostRepairs; ++i) {
+      auto proven = best_repair(poses);
+      if (!proven) break;
+      const auto& [repair, improvement] = *proven;
+      repair.apply(poses);
+      add(InputFinding{repair.fault,
+                       repair.what + ": " + improvement.text,
+                       repair.fix,
+                       1.0 - improvement.ratio,
+                       repair.value});
+    }
+    check_recording(agreement(poses));
   }
 
   /// Nothing agrees, whatever is repaired: replaces all other findings.
@@ -154,10 +160,10 @@ class PairDiagnosis {
     const double position = left.similarity / left.spread;
     const bool disagrees = left.has_rotations ? left.turning > kTurning && position > kPosition
                                               : position > kPositionAlone;
-    const SpeedMatch match(reference_, estimate_);
-    const double correlation = std::max(0.0, match.at(0.0));
+    if (!disagrees) return;
+    const double correlation = speed_correlation(reference_, estimate_);
     const double confidence = std::min(1.0, position) * (1.0 - correlation);
-    if (!disagrees || correlation > kCorrelation || confidence < kLeastConfidence) return;
+    if (correlation > kCorrelation || confidence < kLeastConfidence) return;
     out_.findings = {
         {Fault::wrong_recording,
          fmt::format("no repair makes the files agree: after alignment with scale, the position "
@@ -171,8 +177,8 @@ class PairDiagnosis {
          position}};
   }
 
+  bool has_rotations_;  ///< false: a file has positions only
   Trajectory reference_, estimate_;
-  std::optional<TimeOffset> speeds_;
   Diagnosis out_;
 };
 
@@ -183,15 +189,7 @@ Diagnosis diagnosis(const Trajectory& reference,
                     const std::string& reference_name,
                     const std::string& estimate_name,
                     bool has_stamps) {
-  if (!lacks_rotations(reference) && !lacks_rotations(estimate)) {
-    return PairDiagnosis(reference, estimate).run(reference_name, estimate_name, has_stamps);
-  }
-  Diagnosis out = PairDiagnosis(with_rotations(reference), with_rotations(estimate))
-                      .run(reference_name, estimate_name, has_stamps);
-  std::erase_if(out.findings, [](const InputFinding& finding) {
-    return finding.fault == Fault::constant_rotation;
-  });
-  return out;
+  return PairDiagnosis(reference, estimate).run(reference_name, estimate_name, has_stamps);
 }
 
 }  // namespace loopbench::metrics

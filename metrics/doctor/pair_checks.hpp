@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "datasets/core/trajectory.hpp"
 #include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/finding.hpp"
 
@@ -13,12 +12,12 @@ namespace loopbench::metrics {
 /// The stamps of one file are replaced by factor * stamp + offset.
 struct StampRepair {
   InputFinding finding;
-  double factor = 1.0;  ///< 0: unknown
+  double factor = 1.0;
   double offset = 0.0;  ///< [s]
   bool is_of_reference = false;
 };
 
-/// Poses with stamps factor * stamp + offset; none if the factor is 0. O(n).
+/// Poses with stamps factor * stamp + offset. O(n).
 Trajectory restamped(Trajectory poses, double factor, double offset);
 
 /// The stamps of one file fit those of the other only after division by 10^3, 10^6 or 10^9. O(1).
@@ -36,7 +35,8 @@ std::optional<StampRepair> check_frame_indices(const Trajectory& reference,
 std::optional<StampRepair> check_clock_drift(const Trajectory& reference,
                                              const Trajectory& estimate);
 
-/// The time ranges do not overlap. O(1).
+/// The time ranges do not overlap; a finding of frame indices if only the estimate's stamps are
+/// whole numbers. O(n).
 std::optional<InputFinding> check_overlap(const Trajectory& reference, const Trajectory& estimate);
 
 /// The estimate has no poses in at least a quarter of the reference's path, in gaps above 2 s and
@@ -48,17 +48,15 @@ std::optional<InputFinding> check_missing(const Trajectory& reference, const Tra
 std::optional<InputFinding> check_swapped(const std::string& reference_name,
                                           const std::string& estimate_name);
 
-/// The rotation of one trajectory is constant while it moves by more than 0.2 m and the other one
-/// rotates by more than 0.1 rad. O(n).
-std::optional<InputFinding> check_constant_rotation(const Trajectory& reference,
-                                                    const Trajectory& estimate);
+/// The rotation of one trajectory is constant and the other one rotates by more than 0.1 rad. O(n).
+std::optional<InputFinding> check_constant_rotation(const Paired& poses);
 
 /// The estimate's rotations over short distances are 57.3 times those of the reference, or a 57th.
 /// O(n).
-std::optional<InputFinding> check_angle_unit(const CommonPoses& poses);
+std::optional<InputFinding> check_angle_unit(const Paired& poses);
 
 /// Removes up to five jumps of the estimate's positions from `poses`; a finding if that
 /// reduces the position error. Otherwise, `poses` are unchanged. O(n).
-std::optional<InputFinding> remove_jumps(CommonPoses& poses);
+std::optional<InputFinding> remove_jumps(Paired& poses);
 
 }  // namespace loopbench::metrics

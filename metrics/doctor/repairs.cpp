@@ -14,13 +14,12 @@ namespace {
 
 using Change = std::function<Pose(const Pose&)>;
 
-std::function<void(CommonPoses&)> to_each(bool of_reference, const Change& change) {
-  return [=](CommonPoses& poses) {
-    for (Pose& pose : of_reference ? poses.reference : poses.estimate) pose = change(pose);
+std::function<void(Paired&)> to_each(bool of_reference, const Change& change) {
+  return [=](Paired& poses) {
+    for (auto& [stamp, pose] : of_reference ? poses.reference : poses.estimate) pose = change(pose);
   };
 }
 
-const char* name_of(bool of_reference) { return of_reference ? "reference" : "estimate"; }
 const char* file_of(bool of_reference) { return of_reference ? "REF" : "EST"; }
 
 Pose read_as_wxyz(const Pose& p) {
@@ -37,23 +36,19 @@ Pose with_inverse_rotation(const Pose& p) { return {p.rotation.conjugate(), p.tr
 Pose inverted(const Pose& p) { return p.inverse(); }
 
 /// A repair without parameters, of either file.
-void add_convention(std::vector<Proposal>& to,
-                    Fault fault,
+void add_convention(std::vector<Repair>& to,
+                    Fault::Name fault,
                     const char* what,
                     const char* option,
                     double penalty,
                     const Change& change) {
   for (const bool of_reference : {false, true}) {
-    const Repair repair{fault,
-                        fmt::format(fmt::runtime(what), name_of(of_reference)),
-                        fmt::format("traj transform {} {}", file_of(of_reference), option),
-                        of_reference ? 1.0 : 0.0,
-                        penalty + (of_reference ? 0.02 : 0.0),
-                        to_each(of_reference, change)};
-    to.emplace_back([=](const CommonPoses& poses) -> std::optional<Repair> {
-      if (!has_rotations(poses.reference) || !has_rotations(poses.estimate)) return std::nullopt;
-      return repair;
-    });
+    to.push_back({fault,
+                  fmt::format(fmt::runtime(what), of_reference ? "reference" : "estimate"),
+                  fmt::format("traj transform {} {}", file_of(of_reference), option),
+                  of_reference ? 1.0 : 0.0,
+                  penalty + (of_reference ? 0.02 : 0.0),
+                  to_each(of_reference, change)});
   }
 }
 
@@ -67,27 +62,23 @@ std::string axes_text(const Matrix3& axes) {
 }
 
 /// The signed permutations of the estimate's positions.
-void add_axes(std::vector<Proposal>& to) {
+void add_axes(std::vector<Repair>& to) {
   constexpr double kPenalty = 0.05;  // of each axis that moves
   for (const Matrix3& axes : signed_axes()) {
     const double distance = (axes - Matrix3::Identity()).squaredNorm();
-    const Repair repair{Fault::axes,
-                        axes_text(axes) + " of the estimate's positions",
-                        "traj transform EST --axes=" + axes_option(axes),
-                        distance,
-                        kPenalty * distance,
-                        to_each(false, [axes](const Pose& p) -> Pose {
-                          return {p.rotation, axes * p.translation};
-                        })};
-    to.emplace_back([=](const CommonPoses& poses) -> std::optional<Repair> {
-      if (!has_rotations(poses.reference) || !has_rotations(poses.estimate)) return std::nullopt;
-      return repair;
-    });
+    to.push_back({Fault::axes,
+                  axes_text(axes) + " of the estimate's positions",
+                  "traj transform EST --axes=" + axes_option(axes),
+                  distance,
+                  kPenalty * distance,
+                  to_each(false, [axes](const Pose& p) -> Pose {
+                    return {p.rotation, axes * p.translation};
+                  })});
   }
 }
 
 /// Millimetres or centimetres, or an arbitrary scale.
-std::optional<Repair> scale_repair(const CommonPoses& poses) {
+std::optional<Repair> scale_repair(const Paired& poses) {
   constexpr double kUnitTolerance = 0.12, kLeastScale = 0.1, kPenalty = 0.2;
   const double scale = fit_positions(poses).scale;
   if (std::abs(std::log(scale)) < kLeastScale) return std::nullopt;
@@ -115,11 +106,11 @@ std::optional<Repair> scale_repair(const CommonPoses& poses) {
 }
 
 /// Axes of another body. Only where rotations vary: the alignment of a straight path is ambiguous.
-std::optional<Repair> body_rotation_repair(const CommonPoses& poses) {
+std::optional<Repair> body_rotation_repair(const Paired& poses) {
   constexpr double kLeast = 30.0 / kDegrees, kVaries = 20.0 / kDegrees, kPenalty = 0.7;
-  if (!has_rotations(poses.reference) || !has_rotations(poses.estimate)) return std::nullopt;
-  const auto varies = std::ranges::count_if(poses.reference, [&](const Pose& pose) {
-    return angle_between(pose.rotation, poses.reference.front().rotation) > kVaries;
+  const Rotation& first = poses.reference.front().world_from_body.rotation;
+  const auto varies = std::ranges::count_if(poses.reference, [&](const StampedPose& pose) {
+    return angle_between(pose.world_from_body.rotation, first) > kVaries;
   });
   if (10 * static_cast<std::size_t>(varies) < poses.reference.size()) return std::nullopt;
   const Rotation body = fit_body(poses);
@@ -135,15 +126,9 @@ std::optional<Repair> body_rotation_repair(const CommonPoses& poses) {
                 })};
 }
 
-std::optional<Repair> lever_arm_repair(const CommonPoses& poses) {
-  constexpr double kExplained = 0.5, kPenalty = 0.1;
-  if (!has_rotations(poses.reference) || !has_rotations(poses.estimate)) return std::nullopt;
-  Trajectory reference, estimate;
-  for (std::size_t i = 0; i < poses.stamps.size(); ++i) {
-    reference.push_back({poses.stamps[i], poses.reference[i]});
-    estimate.push_back({poses.stamps[i], poses.estimate[i]});
-  }
-  const auto found = extrinsic_offset(reference, estimate, ExtrinsicOffsetOptions{});
+std::optional<Repair> lever_arm_repair(const Paired& poses) {
+  constexpr double kExplained = 0.5, kPenalty = 0.1, kPenaltyOfRotation = 0.9;
+  const auto found = extrinsic_offset(poses.reference, poses.estimate, ExtrinsicOffsetOptions{});
   if (!found || found->fit.lever_arm_explained < kExplained) return std::nullopt;
   const Pose body = found->fit.body_from_reference;
   return Repair{
@@ -151,12 +136,26 @@ std::optional<Repair> lever_arm_repair(const CommonPoses& poses) {
       fmt::format("the reference is that of a body {:.3g} m away", body.translation.norm()),
       fmt::format("--ref-body={}", body_option(body)),
       body.translation.norm(),
-      kPenalty,
+      kPenalty + (found->fit.rotation_explained > 0.0 ? kPenaltyOfRotation : 0.0),
       to_each(false, [body](const Pose& p) { return p * body; })};
 }
 
-std::vector<Proposal> all_proposals() {
-  std::vector<Proposal> out;
+/// Repairs with parameters, which fit `poses`.
+std::vector<Repair> fitted_repairs(const Paired& poses) {
+  std::vector<Repair> out;
+  const auto add = [&](std::optional<Repair> repair) {
+    if (repair) out.push_back(std::move(*repair));
+  };
+  add(scale_repair(poses));
+  if (!has_rotations(poses)) return out;
+  add(body_rotation_repair(poses));
+  add(lever_arm_repair(poses));
+  return out;
+}
+
+/// Repairs without parameters.
+std::vector<Repair> conventions() {
+  std::vector<Repair> out;
   add_convention(out,
                  Fault::quaternion_order,
                  "quaternions of the {} in the order w x y z",
@@ -178,9 +177,6 @@ std::vector<Proposal> all_proposals() {
   add_convention(
       out, Fault::inverted_poses, "inverting the poses of the {}", "--invert-poses", 0.0, inverted);
   add_axes(out);
-  out.emplace_back(scale_repair);
-  out.emplace_back(body_rotation_repair);
-  out.emplace_back(lever_arm_repair);
   return out;
 }
 
@@ -191,58 +187,36 @@ bool agrees(const Agreement& a) {
          a.rotation < kSmallAngle;
 }
 
-CommonPoses thinned(const CommonPoses& poses, std::size_t most) {
-  CommonPoses out;
-  const std::size_t step = (poses.stamps.size() + most - 1) / most;
-  for (std::size_t i = 0; i < poses.stamps.size(); i += step) {
-    out.reference.push_back(poses.reference[i]);
-    out.estimate.push_back(poses.estimate[i]);
-    out.stamps.push_back(poses.stamps[i]);
-  }
-  return out;
-}
-
 }  // namespace
 
-const std::vector<Proposal>& proposals() {
-  static const std::vector<Proposal> all = all_proposals();
-  return all;
-}
-
-std::optional<Proven> best_repair(const CommonPoses& poses) {
+std::optional<Proven> best_repair(const Paired& poses) {
   constexpr double kLeastGain = 0.7;  // a factor of 2 in the errors
-  constexpr double kLeastOfLeverArm = 0.2;
+  constexpr double kLeastOfLeverArm = 0.2, kMostOfLeverArm = 0.6;  // drift resembles lever arms
   constexpr double kMostRatio = 0.75;
-  constexpr std::size_t kMostCompared = 300;  // for the choice among all
-  if (poses.stamps.size() < kFewestCommonPoses) return std::nullopt;
-  const CommonPoses few = thinned(poses, kMostCompared), fitted = fitted_part(poses);
-  const Agreement before = agreement(poses), before_of_few = agreement(few);
+  const Agreement before = agreement(poses);
   const bool is_good = agrees(before);
-  std::vector<std::pair<double, const Proposal*>> gains;
-  for (const Proposal& proposal : proposals()) {
-    const std::optional<Repair> repair = proposal(fitted);
-    if (!repair || (is_good && repair->fault != Fault::lever_arm)) continue;
-    CommonPoses changed = few;
-    repair->apply(changed);
-    const double gain = before_of_few.cost() - agreement(changed).cost() - repair->penalty;
-    if (gain > (repair->fault == Fault::lever_arm ? kLeastOfLeverArm : kLeastGain))
-      gains.emplace_back(-gain, &proposal);
-  }
-  std::ranges::sort(gains, {}, [](const auto& each) { return each.first; });
-  for (const auto& [gain, proposal] : gains) {
-    const std::optional<Repair> repair = (*proposal)(fitted);
-    CommonPoses changed = poses;
-    repair->apply(changed);
+  std::vector<Repair> candidates = fitted_repairs(fitted_part(poses));
+  if (before.has_rotations) std::ranges::move(conventions(), std::back_inserter(candidates));
+  std::optional<Proven> best;
+  double largest = 0.0;
+  for (Repair& repair : candidates) {
+    const bool is_lever_arm = repair.fault == Fault::lever_arm;
+    if (is_good && !is_lever_arm) continue;
+    Paired changed = poses;
+    repair.apply(changed);
     const Agreement after = agreement(changed);
-    const Improvement gained = improvement(before, after);
-    const bool is_lever_arm = repair->fault == Fault::lever_arm;
-    if (before.cost() - after.cost() < (is_lever_arm ? kLeastOfLeverArm : kLeastGain) ||
-        gained.ratio > kMostRatio) {
-      continue;
-    }
-    if (std::optional<Repair> final = (*proposal)(poses)) return Proven{std::move(*final), gained};
+    const double gain = before.cost() - after.cost() - repair.penalty;
+    if (gain < std::max(largest, is_lever_arm ? kLeastOfLeverArm : kLeastGain)) continue;
+    Improvement gained = improvement(before, after);
+    if (gained.ratio > (is_lever_arm ? kMostOfLeverArm : kMostRatio)) continue;
+    largest = gain;
+    best = Proven{std::move(repair), std::move(gained)};
   }
-  return std::nullopt;
+  if (!best) return std::nullopt;
+  for (Repair& repair : fitted_repairs(poses)) {
+    if (repair.fault == best->repair.fault) best->repair = std::move(repair);
+  }
+  return best;
 }
 
 }  // namespace loopbench::metrics

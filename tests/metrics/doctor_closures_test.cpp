@@ -47,8 +47,8 @@ Problem rounds() {
   return out;
 }
 
-std::vector<Fault> closure_faults(const Problem& problem) {
-  std::vector<Fault> out;
+std::vector<Fault::Name> closure_faults(const Problem& problem) {
+  std::vector<Fault::Name> out;
   for (const InputFinding& finding : check_closures(problem)) out.push_back(finding.fault);
   return out;
 }
