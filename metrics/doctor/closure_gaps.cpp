@@ -31,11 +31,13 @@ std::vector<Gap> gaps_of(const std::vector<const Edge*>& closures,
   std::vector<Gap> out;
   const std::size_t end = std::min(closures.size(), index + kCompared + 1);
   for (std::size_t j = index - std::min(index, kCompared); j < end; ++j) {
-    const Neighbours pair{&edge, closures[j]};
+    const Edge& other = *closures[j];
     const double length =
-        kClosureLength + chain.length(edge.from, pair.b->from) + chain.length(edge.to, pair.b->to);
+        kClosureLength + chain.length(edge.from, other.from) + chain.length(edge.to, other.to);
     if (j == index || length >= chain.length(edge.from, edge.to)) continue;
-    out.push_back({neighbour_residual(pair, chain).head<3>().norm(), length});
+    const Pose around = chain.between(edge.from, other.from) * other.from_from_to *
+                        chain.between(other.to, edge.to);
+    out.push_back({log_se3(edge.from_from_to.inverse() * around).head<3>().norm(), length});
   }
   std::ranges::sort(out, {}, &Gap::length);
   out.resize(std::min(kVotes, out.size()));

@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -101,66 +99,38 @@ std::vector<EdgeRepair> candidates() {
   return out;
 }
 
-/// Groups of up to five closures that follow each other, evenly chosen.
-std::vector<LoopGroup> groups_of(const Problem& problem, const Chain& chain) {
-  constexpr std::size_t kSize = 5, kMost = 14;
-  std::vector<const Edge*> sorted;
-  for (const Edge& edge : problem.closures) sorted.push_back(&edge);
-  std::ranges::stable_sort(sorted, {}, [](const Edge* e) { return std::max(e->from, e->to); });
-  const std::size_t n = sorted.size();
-  std::vector<LoopGroup> out;
-  const std::size_t count = std::clamp<std::size_t>((n + 1) / kSize, n < kSize + 1 ? 1 : 2, kMost);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t begin = i * n / count;
-    const std::size_t size = std::min({(i + 1) * n / count - begin, count == 1 ? n : kSize});
-    out.emplace_back(
-        std::vector<const Edge*>(sorted.begin() + static_cast<std::ptrdiff_t>(begin),
-                                 sorted.begin() + static_cast<std::ptrdiff_t>(begin + size)),
-        chain);
-  }
-  return out;
-}
+/// The loops of some groups together, as read or after a repair of their closures.
+struct Likelihood {
+  std::vector<double> of_groups;  ///< logarithms
+  PredictionError errors;
+};
 
-double log_likelihood(const LoopGroup& group,
+Likelihood likelihood(const std::vector<const LoopGroup*>& groups,
                       const Chain& chain,
-                      const EdgeRepair* repair,
-                      PredictionError* errors = nullptr) {
-  std::vector<Pose> measured;
-  Rotation previous = Rotation::Identity();  // of the gap
-  for (const Edge* edge : group.closures()) {
-    const Rotation odometry = chain.between(edge->from, edge->to).rotation;
-    const Pose& read = edge->from_from_to;
-    measured.push_back(repair == nullptr ? read
-                                         : repair->change(read, odometry * previous.conjugate()));
-    previous = measured.back().rotation.conjugate() * odometry;
-  }
-  double out = group.log_likelihood(measured, errors);
-  if (repair != nullptr) {
-    out -= static_cast<double>(measured.size()) * repair->penalty_of_closure;
+                      const EdgeRepair& repair) {
+  Likelihood out;
+  for (const LoopGroup* group : groups) {
+    std::vector<Pose> measured;
+    Rotation previous = Rotation::Identity();  // of the gap
+    for (const Edge* edge : group->closures()) {
+      const Rotation odometry = chain.between(edge->from, edge->to).rotation;
+      measured.push_back(repair.change(edge->from_from_to, odometry * previous.conjugate()));
+      previous = measured.back().rotation.conjugate() * odometry;
+    }
+    const LoopFit fit = group->fit(measured);
+    group->add_errors(measured, fit, out.errors);
+    out.of_groups.push_back(fit.log_likelihood -
+                            static_cast<double>(measured.size()) * repair.penalty_of_closure);
   }
   return out;
 }
 
-/// Choices and proofs use alternate groups; all, if there are few, which differ little by chance.
-std::size_t step_of(const std::vector<LoopGroup>& groups) {
-  constexpr std::size_t kFewestForHalves = 6;
-  return groups.size() < kFewestForHalves ? 1 : 2;
-}
-
-/// Sum over every other group; one group, whose closures may be false, counts up to a limit.
-double gain_of(const std::vector<LoopGroup>& groups,
-               const std::vector<double>& as_read,
-               const Chain& chain,
-               const EdgeRepair& repair,
-               std::size_t first,
-               PredictionError* errors = nullptr) {
+/// One group, whose closures may be false, counts up to a limit.
+double gain(const Likelihood& before, const Likelihood& after) {
   constexpr double kMostOfGroup = 20.0;
   double out = 0.0;
-  const std::size_t step = step_of(groups);
-  for (std::size_t i = first % step; i < groups.size(); i += step) {
-    out += std::clamp(log_likelihood(groups[i], chain, &repair, errors) - as_read[i],
-                      -kMostOfGroup,
-                      kMostOfGroup);
+  for (std::size_t i = 0; i < before.of_groups.size(); ++i) {
+    out += std::clamp(after.of_groups[i] - before.of_groups[i], -kMostOfGroup, kMostOfGroup);
   }
   return out;
 }
@@ -228,27 +198,31 @@ std::optional<InputFinding> find_odometry_repair(const Problem& problem) {
 std::optional<InputFinding> find_closure_repair(const Problem& problem, const Chain& chain) {
   constexpr double kLeastChosen = 5.0, kLeastProven = 3.0;  // in logarithms of the likelihood
   constexpr double kMostRatio = 0.9, kMostOfUnit = 0.3;     // shrinking removes noise, too
-  const std::vector<LoopGroup> groups = groups_of(problem, chain);
-  static const std::vector<EdgeRepair> all = candidates();
-  std::vector<double> as_read;
-  PredictionError before;
+  constexpr std::size_t kFewestForHalves = 6;               // fewer groups differ little by chance
+  const std::vector<LoopGroup> groups = loop_groups(problem.closures, chain);
+  std::vector<const LoopGroup*> chosen, tested;
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    const bool is_tested = i % 2 == 1 || step_of(groups) == 1;
-    as_read.push_back(log_likelihood(groups[i], chain, nullptr, is_tested ? &before : nullptr));
+    const bool is_half = groups.size() >= kFewestForHalves;
+    if (!is_half || i % 2 == 0) chosen.push_back(&groups[i]);
+    if (!is_half || i % 2 == 1) tested.push_back(&groups[i]);
   }
+  const EdgeRepair as_read{{}, "", "", unchanged_edge};
+  const Likelihood before = likelihood(chosen, chain, as_read);
+  static const std::vector<EdgeRepair> all = candidates();
   const EdgeRepair* best = nullptr;
   double largest = kLeastChosen;
   for (const EdgeRepair& repair : all) {
-    const double gain = gain_of(groups, as_read, chain, repair, 0) - repair.penalty;
-    if (!(gain > largest)) continue;
-    largest = gain;
+    const double gained = gain(before, likelihood(chosen, chain, repair)) - repair.penalty;
+    if (!(gained > largest)) continue;
+    largest = gained;
     best = &repair;
   }
   if (best == nullptr) return std::nullopt;
-  PredictionError after;
-  const double proven = gain_of(groups, as_read, chain, *best, 1, &after);
+  const Likelihood was = likelihood(tested, chain, as_read);
+  const Likelihood is = likelihood(tested, chain, *best);
+  const double proven = gain(was, is);
   const bool is_unit = best->fault == Fault::closure_unit;
-  const auto [ratio, text] = largest_change(before, after, is_unit);
+  const auto [ratio, text] = largest_change(was.errors, is.errors, is_unit);
   if (proven < kLeastProven || ratio > (is_unit ? kMostOfUnit : kMostRatio)) return std::nullopt;
   return InputFinding{
       best->fault,

@@ -39,8 +39,7 @@ GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain);
 /// their covariance. Only these pairs far from it: wrong scale of the closures. The factor of a
 /// wrong scale is fitted to every other gap, and has to bring the remaining ones closer to 1.
 /// O(closures).
-std::optional<InputFinding> check_information(const std::vector<Edge>& closures,
-                                              const Chain& chain);
+std::optional<InputFinding> check_information(const Problem& problem);
 
 /// A finding if the closures differ from the odometry, but no keyframe has moved by a hundredth of
 /// their median difference. `corrected`: the keyframes after the correction, as many as before.
@@ -69,11 +68,13 @@ inline std::vector<InputFinding> check_closures(const Problem& problem) {
   }
   if (gaps.finding) out.push_back(*gaps.finding);
   if (are_few_false) {  // false closures show nothing about the information
-    std::vector<Edge> plausible;
+    Problem plausible = problem;
+    plausible.closures.clear();
     for (std::size_t i = 0; i < problem.closures.size(); ++i) {
-      if (std::ranges::count(gaps.closures, i) == 0) plausible.push_back(problem.closures[i]);
+      if (std::ranges::count(gaps.closures, i) == 0)
+        plausible.closures.push_back(problem.closures[i]);
     }
-    if (auto found = check_information(plausible, chain)) out.push_back(*found);
+    if (auto found = check_information(plausible)) out.push_back(*found);
   }
   std::erase_if(out, [](const InputFinding& f) { return f.confidence < kLeastConfidence; });
   return out;

@@ -190,7 +190,7 @@ bool agrees(const Agreement& a) {
 }  // namespace
 
 std::optional<Proven> best_repair(const Paired& poses) {
-  constexpr double kLeastGain = 0.7;  // a factor of 2 in the errors
+  constexpr double kLeastGain = 0.7;                               // a factor of 2 in the errors
   constexpr double kLeastOfLeverArm = 0.2, kMostOfLeverArm = 0.6;  // drift resembles lever arms
   constexpr double kMostRatio = 0.75;
   const Agreement before = agreement(poses);

@@ -189,7 +189,8 @@ TEST(DoctorOfClosures, LoopsPredictEachOther) {
   const Chain chain = chain_of(problem);
   const std::vector<const Edge*> pair{&problem.closures[3], &problem.closures[4]};
   PredictionError errors;
-  LoopGroup(pair, chain).log_likelihood({pair[0]->from_from_to, pair[1]->from_from_to}, &errors);
+  const LoopGroup group(pair, chain);
+  group.add_errors(group.as_read(), group.fit(group.as_read()), errors);
   ASSERT_EQ(errors.metres.size(), 2u);
   EXPECT_GT(gap_of(*pair[0], chain), 5.0);
   EXPECT_LT(errors.metres[0], 0.5);
