@@ -6,9 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/pair_checks.hpp"
-#include "metrics/doctor/repairs.hpp"
+#include "metrics/doctor/time_offset.hpp"
 
 namespace loopbench::metrics {
 namespace {
@@ -78,26 +77,17 @@ class PairDiagnosis {
     return found.has_value();
   }
 
-  bool add(std::optional<StampRepair> found) {
-    if (!found) return false;
-    out_.has_checked = true;
-    Trajectory& poses = found->is_of_reference ? reference_ : estimate_;
-    poses = restamped(std::move(poses), found->factor, found->offset);
-    return add(std::move(found->finding));
-  }
-
   void check_stamps() {
-    add(check_stamp_unit(reference_, estimate_));
-    const bool has_indices = add(check_frame_indices(reference_, estimate_));
-    if (!has_indices && add(check_clock_drift(reference_, estimate_))) return;
+    out_.has_checked = add(repair_stamp_unit(reference_, estimate_));
+    const bool has_indices = add(repair_frame_indices(reference_, estimate_));
+    if (!has_indices && add(repair_clock_drift(reference_, estimate_))) return;
     if (std::min(reference_.size(), estimate_.size()) < kFewestCommonPoses) {
       out_.unchecked.emplace_back("time offset: fewer than 20 poses");
     }
-    if (const auto speeds = estimate_time_offset(reference_, estimate_)) {
+    if (const auto found = estimate_time_offset(reference_, estimate_)) {
       out_.has_checked = true;
-      if (add(offset_finding(*speeds, reference_, estimate_))) {
-        estimate_ = restamped(std::move(estimate_), 1.0, speeds->offset);
-        out_.offset = speeds;
+      if (add(offset_finding(*found, reference_, estimate_))) {
+        for (StampedPose& pose : estimate_) pose.stamp += found->offset;
       }
     }
     if (!add(check_overlap(reference_, estimate_))) add(check_missing(reference_, estimate_));
@@ -140,16 +130,7 @@ class PairDiagnosis {
                       kLeastRotation));
     }
     add(remove_jumps(poses));
-    for (int i = 0; i < kMostRepairs; ++i) {
-      auto proven = best_repair(poses);
-      if (!proven) break;
-      const auto& [repair, improvement] = *proven;
-      repair.apply(poses);
-      add(InputFinding{repair.fault,
-                       repair.what + ": " + improvement.text,
-                       repair.fix,
-                       1.0 - improvement.ratio,
-                       repair.value});
+    for (int i = 0; i < kMostRepairs && add(apply_best_repair(poses)); ++i) {
     }
     check_recording(agreement(poses));
   }

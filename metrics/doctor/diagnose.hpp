@@ -1,20 +1,17 @@
 /// All checks of a pair of trajectories, in an order in which one mistake does not hide another.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "datasets/core/trajectory.hpp"
 #include "metrics/doctor/finding.hpp"
-#include "metrics/doctor/time_offset.hpp"
 
 namespace loopbench::metrics {
 
 struct Diagnosis {
   std::vector<InputFinding> findings;
   std::vector<std::string> unchecked;  ///< "CHECKS: REASON"
-  std::optional<TimeOffset> offset;    ///< unset: no finding
   bool has_checked = false;            ///< at least one check of frames, units or time was possible
 };
 

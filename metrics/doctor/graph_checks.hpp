@@ -42,8 +42,8 @@ GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain);
 std::optional<InputFinding> check_information(const Problem& problem);
 
 /// A finding if the closures differ from the odometry, but no keyframe has moved by a hundredth of
-/// their median difference. `corrected`: the keyframes after the correction, as many as before.
-/// nullopt without closures or if their median difference is below 1 mm and 0.01 deg.
+/// their median distance or rotated by 0.01 deg. `corrected`: the keyframes after the correction,
+/// as many as before. nullopt without closures or if their median distance is below 1 mm.
 /// O(keyframes + closures).
 std::optional<InputFinding> check_movement(const Problem& problem, const Trajectory& corrected);
 

@@ -9,31 +9,18 @@
 
 namespace loopbench::metrics {
 
-/// The stamps of one file are replaced by factor * stamp + offset.
-struct StampRepair {
-  InputFinding finding;
-  double factor = 1.0;
-  double offset = 0.0;  ///< [s]
-  bool is_of_reference = false;
-};
+// Those with changeable poses correct what they find in them.
 
-/// Poses with stamps factor * stamp + offset. O(n).
-Trajectory restamped(Trajectory poses, double factor, double offset);
+/// The stamps of one file fit those of the other only after division by 10^3, 10^6 or 10^9. O(n).
+std::optional<InputFinding> repair_stamp_unit(Trajectory& reference, Trajectory& estimate);
 
-/// The stamps of one file fit those of the other only after division by 10^3, 10^6 or 10^9. O(1).
-std::optional<StampRepair> check_stamp_unit(const Trajectory& reference,
-                                            const Trajectory& estimate);
-
-/// The estimate's stamps are the integers from 0 or 1 on, at which few poses pair or speeds do not
-/// agree, but do at a usual frame rate or at the rate at which both files last equally long.
-/// O(1e7).
-std::optional<StampRepair> check_frame_indices(const Trajectory& reference,
-                                               const Trajectory& estimate);
+/// The estimate's stamps are whole numbers, at which speeds do not agree, but do at a usual frame
+/// rate or at the rate at which both files last equally long. O(1e7).
+std::optional<InputFinding> repair_frame_indices(const Trajectory& reference, Trajectory& estimate);
 
 /// The offset of the estimate grows from its first to its last third, that of the middle third is
 /// between, and relative rotations have smaller errors without this drift. O(1e6).
-std::optional<StampRepair> check_clock_drift(const Trajectory& reference,
-                                             const Trajectory& estimate);
+std::optional<InputFinding> repair_clock_drift(const Trajectory& reference, Trajectory& estimate);
 
 /// The time ranges do not overlap; a finding of frame indices if only the estimate's stamps are
 /// whole numbers. O(n).
@@ -55,8 +42,13 @@ std::optional<InputFinding> check_constant_rotation(const Paired& poses);
 /// O(n).
 std::optional<InputFinding> check_angle_unit(const Paired& poses);
 
-/// Removes up to five jumps of the estimate's positions from `poses`; a finding if that
-/// reduces the position error. Otherwise, `poses` are unchanged. O(n).
+/// Up to five jumps of the estimate's positions, without which the position error is smaller. O(n).
 std::optional<InputFinding> remove_jumps(Paired& poses);
+
+/// Of order and sign of quaternions, inverted poses, axes, units of lengths, scale, rotation and
+/// lever arm of the body, the repair with the largest gain. It has to reduce the sum of errors
+/// clearly and at least one error by a quarter, on poses that it was not fitted to. nullopt if
+/// there is none, or if the poses agree. O(n).
+std::optional<InputFinding> apply_best_repair(Paired& poses);
 
 }  // namespace loopbench::metrics

@@ -1,16 +1,28 @@
-#include "metrics/doctor/repairs.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 
 #include "metrics/checks/extrinsic_offset.hpp"
+#include "metrics/doctor/pair_checks.hpp"
 #include "metrics/doctor/signed_axes.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {
 namespace {
+
+struct Repair {
+  Fault::Name fault;
+  std::string what;    ///< "quaternions of the estimate in the order w x y z"
+  std::string fix;     ///< a command or an option
+  double value = 0.0;  ///< see InputFinding::value
+  /// Subtracted from the gain in Agreement::cost(): of two repairs that fit alike, the simpler one
+  /// is chosen.
+  double penalty = 0.0;
+  std::function<void(Paired&)> apply;
+};
 
 using Change = std::function<Pose(const Pose&)>;
 
@@ -189,15 +201,16 @@ bool agrees(const Agreement& a) {
 
 }  // namespace
 
-std::optional<Proven> best_repair(const Paired& poses) {
-  constexpr double kLeastGain = 0.7;                               // a factor of 2 in the errors
-  constexpr double kLeastOfLeverArm = 0.2, kMostOfLeverArm = 0.6;  // drift resembles lever arms
+std::optional<InputFinding> apply_best_repair(Paired& poses) {
+  constexpr double kLeastGain = 0.7;  // a factor of 2 in the errors
   constexpr double kMostRatio = 0.75;
+  constexpr double kLeastOfLeverArm = 0.2, kMostOfLeverArm = 0.6;  // drift resembles lever arms
   const Agreement before = agreement(poses);
   const bool is_good = agrees(before);
   std::vector<Repair> candidates = fitted_repairs(fitted_part(poses));
   if (before.has_rotations) std::ranges::move(conventions(), std::back_inserter(candidates));
-  std::optional<Proven> best;
+  Repair best;
+  Improvement gained;
   double largest = 0.0;
   for (Repair& repair : candidates) {
     const bool is_lever_arm = repair.fault == Fault::lever_arm;
@@ -207,16 +220,19 @@ std::optional<Proven> best_repair(const Paired& poses) {
     const Agreement after = agreement(changed);
     const double gain = before.cost() - after.cost() - repair.penalty;
     if (gain < std::max(largest, is_lever_arm ? kLeastOfLeverArm : kLeastGain)) continue;
-    Improvement gained = improvement(before, after);
-    if (gained.ratio > (is_lever_arm ? kMostOfLeverArm : kMostRatio)) continue;
+    Improvement change = improvement(before, after);
+    if (change.ratio > (is_lever_arm ? kMostOfLeverArm : kMostRatio)) continue;
     largest = gain;
-    best = Proven{std::move(repair), std::move(gained)};
+    best = std::move(repair);
+    gained = std::move(change);
   }
-  if (!best) return std::nullopt;
+  if (!best.apply) return std::nullopt;
   for (Repair& repair : fitted_repairs(poses)) {
-    if (repair.fault == best->repair.fault) best->repair = std::move(repair);
+    if (repair.fault == best.fault) best = std::move(repair);
   }
-  return best;
+  best.apply(poses);
+  return InputFinding{
+      best.fault, best.what + ": " + gained.text, best.fix, 1.0 - gained.ratio, best.value};
 }
 
 }  // namespace loopbench::metrics

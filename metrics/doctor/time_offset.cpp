@@ -143,21 +143,12 @@ Best nearest_of_equal(const SpeedMatch& match, const Best& best, double step) {
   return near.score > refined.score - least_gain ? near : refined;
 }
 
-/// Vertex of the parabola through three scores.
-double vertex(const SpeedMatch& match, double offset, double step) {
-  const double left = match.at(offset - step);
-  const double middle = match.at(offset);
-  const double right = match.at(offset + step);
-  const double curvature = left - 2.0 * middle + right;
-  if (!(curvature < 0.0)) return offset;
-  return offset + std::clamp(0.5 * step * (left - right) / curvature, -step, step);
-}
-
-/// Standard deviation of the offset in least squares of the angles and of the distances: from the
-/// part of both that is not explained, and the curvature of their correlations.
-double deviation_of(const SpeedMatch& match, double offset, double step) {
-  const SpeedMatch::Score left = match.score(offset - step), middle = match.score(offset),
-                          right = match.score(offset + step);
+/// The vertex of the parabola through three scores, and its standard deviation in least squares of
+/// the angles and of the distances: from the part of both that is not explained, and the curvature
+/// of their correlations.
+void refine(const SpeedMatch& match, double step, TimeOffset& out) {
+  const SpeedMatch::Score left = match.score(out.offset - step), middle = match.score(out.offset),
+                          right = match.score(out.offset + step);
   double information = 0.0;
   for (double SpeedMatch::Score::*part :
        {&SpeedMatch::Score::angle, &SpeedMatch::Score::distance}) {
@@ -165,8 +156,11 @@ double deviation_of(const SpeedMatch& match, double offset, double step) {
     const double residual = 1.0 - middle.*part * middle.*part;
     if (residual > 0.0 && curvature > 0.0) information += curvature / residual;
   }
-  return information > 0.0 ? 1.0 / std::sqrt(information * static_cast<double>(match.intervals()))
-                           : INFINITY;
+  const auto count = static_cast<double>(match.intervals());
+  out.deviation = information > 0.0 ? 1.0 / std::sqrt(information * count) : INFINITY;
+  const double curvature = left.best() - 2.0 * middle.best() + right.best();
+  if (!(curvature < 0.0)) return;
+  out.offset += std::clamp(0.5 * step * (left.best() - right.best()) / curvature, -step, step);
 }
 
 }  // namespace
@@ -201,10 +195,10 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
   if (before.best() > best.score) best = {0.0, before.best()};
   if (before.is_known) best = nearest_of_equal(match, best, fine);
   best = search(match, best.offset - coarse, best.offset + coarse, fine);
-  out.offset = vertex(match, best.offset, fine);
+  out.offset = best.offset;
+  refine(match, fine, out);
   out.correlation = match.at(out.offset);
   if (out.correlation < kLeastCorrelation) return std::nullopt;
-  out.deviation = deviation_of(match, out.offset, 0.5 * fine);
   return out;
 }
 
