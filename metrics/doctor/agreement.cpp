@@ -158,16 +158,6 @@ PositionFit fit_positions(const Paired& poses) {
   return out;
 }
 
-Rotation fit_body(const Paired& poses) {
-  const Rotation world(fit_positions(poses).rotation);
-  Matrix3 sum = Matrix3::Zero();
-  for (std::size_t i = 0; i < poses.estimate.size(); ++i) {
-    const Rotation estimate = world * poses.estimate[i].world_from_body.rotation;
-    sum += (estimate.conjugate() * poses.reference[i].world_from_body.rotation).toRotationMatrix();
-  }
-  return Rotation(closest_rotation(sum)).normalized();
-}
-
 Agreement agreement(const Paired& poses) {
   Agreement out;
   if (poses.estimate.size() < kFewestCommonPoses) return out;

@@ -49,10 +49,6 @@ struct PositionFit {
 /// Least-squares similarity of positions (Umeyama 1991). O(n).
 PositionFit fit_positions(const Paired& poses);
 
-/// The rotation of the body that maps the estimate's rotations, after alignment of the positions,
-/// to the reference's: body_from_reference. O(n).
-Rotation fit_body(const Paired& poses);
-
 inline constexpr std::size_t kFewestCommonPoses = 20;  ///< fewer cannot be checked
 inline constexpr double kLeastRotation = 0.05;         ///< smaller ones cannot be checked [rad]
 

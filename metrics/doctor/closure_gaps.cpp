@@ -16,15 +16,15 @@ constexpr double kLeastFalseGap = 2.0;  // [m]; smaller gaps are no false closur
 /// The end of one closure over another path between its keyframes.
 struct Gap {
   double distance = 0.0;  ///< [m]
-  double length = 0.0;    ///< of the odometry on the path, at least 2 m
+  double length = 0.0;    ///< of the odometry on the path, at least 1 m
 };
 
-/// Gaps over the odometry and over other closures: of these, over the three from which the sections
-/// of odometry are shortest, because drift is smaller along these. A false one among them is
-/// outvoted. `closures` are sorted by their ends; of these, the nearest are compared.
-std::vector<Gap> gaps_of(const std::vector<const Edge*>& closures,
-                         std::size_t index,
-                         const Chain& chain) {
+/// Gaps over other closures: over the three from which the sections of odometry are shortest,
+/// because drift is smaller along these. `closures` are sorted by their ends; of these, the nearest
+/// are compared.
+std::vector<Gap> gaps_over_closures(const std::vector<const Edge*>& closures,
+                                    std::size_t index,
+                                    const Chain& chain) {
   constexpr double kClosureLength = 2.0;  // [m]
   constexpr std::size_t kCompared = 20;   // before and after
   const Edge& edge = *closures[index];
@@ -41,7 +41,6 @@ std::vector<Gap> gaps_of(const std::vector<const Edge*>& closures,
   }
   std::ranges::sort(out, {}, &Gap::length);
   out.resize(std::min(kVotes, out.size()));
-  out.push_back({gap_of(edge, chain), std::max(1.0, chain.length(edge.from, edge.to))});
   return out;
 }
 
@@ -67,39 +66,36 @@ GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain) {
   std::vector<const Edge*> sorted;
   for (const Edge& edge : closures) sorted.push_back(&edge);
   std::ranges::stable_sort(sorted, {}, [](const Edge* e) { return std::max(e->from, e->to); });
-  std::vector<std::vector<Gap>> all;
   std::vector<Gap> of_odometry, of_closures;
+  std::vector<std::vector<Gap>> votes;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
-    all.push_back(gaps_of(sorted, i, chain));
-    of_odometry.push_back(all[i].back());
-    of_closures.push_back(all[i].front());
+    of_odometry.push_back(
+        {gap_of(*sorted[i], chain), std::max(1.0, chain.length(sorted[i]->from, sorted[i]->to))});
+    votes.push_back(gaps_over_closures(sorted, i, chain));
+    of_closures.push_back(votes[i].empty() ? of_odometry[i] : votes[i].front());
   }
-  const double drift = most_drift(of_odometry), drift_of_closures = most_drift(of_closures);
   const auto over = [](const Gap& gap, double limit) {
     return gap.distance > kLeastFalseGap ? gap.distance / (kLeastFalseGap + limit * gap.length)
                                          : 0.0;
   };
+  const double drift = most_drift(of_odometry), drift_of_closures = most_drift(of_closures);
   GapCheck out;
   FalseClosure worst;
   double squares = 0.0, squares_of_false = 0.0;  // of gaps [m^2]
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    Gap gap = all[i].back();
-    double size = over(gap, drift);
-    all[i].pop_back();
-    double distance = gap.distance;
-    if (all[i].size() == kVotes && closures.size() >= kFewestForVotes) {
-      const auto by_size = [&](const Gap& g) { return over(g, drift_of_closures); };
-      std::ranges::sort(all[i], {}, by_size);
-      const Gap& middle = all[i][kVotes / 2];
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    FalseClosure each{sorted[i], of_odometry[i], over(of_odometry[i], drift)};
+    double distance = each.gap.distance;
+    if (votes[i].size() == kVotes && sorted.size() >= kFewestForVotes) {
+      const auto size = [&](const Gap& gap) { return over(gap, drift_of_closures); };
+      std::ranges::sort(votes[i], {}, size);
+      const Gap& middle = votes[i][kVotes / 2];  // a false one among them is outvoted
       distance = middle.distance;
-      if (by_size(middle) > size) {
-        gap = middle;
-        size = by_size(gap);
-      }
+      if (size(middle) > each.over) each = {sorted[i], middle, size(middle)};
     }
-    (size > 1.0 ? squares_of_false : squares) += distance * distance;
-    if (size > 1.0) out.closures.push_back(static_cast<std::size_t>(sorted[i] - closures.data()));
-    if (size > worst.over) worst = {sorted[i], gap, size};
+    const bool is_false = each.over > 1.0;
+    (is_false ? squares_of_false : squares) += distance * distance;
+    if (is_false) out.closures.push_back(static_cast<std::size_t>(sorted[i] - closures.data()));
+    if (each.over > worst.over) worst = each;
   }
   const auto rms = [](double sum, std::size_t count) {
     return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)));

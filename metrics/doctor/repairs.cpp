@@ -39,11 +39,6 @@ Pose read_as_wxyz(const Pose& p) {
   return {Rotation(q.x(), q.y(), q.z(), q.w()), p.translation};
 }
 
-Pose read_as_xyzw(const Pose& p) {
-  const Rotation& q = p.rotation;
-  return {Rotation(q.z(), q.w(), q.x(), q.y()), p.translation};
-}
-
 Pose with_inverse_rotation(const Pose& p) { return {p.rotation.conjugate(), p.translation}; }
 Pose inverted(const Pose& p) { return p.inverse(); }
 
@@ -90,78 +85,68 @@ void add_axes(std::vector<Repair>& to) {
 }
 
 /// Millimetres or centimetres, or an arbitrary scale.
-std::optional<Repair> scale_repair(const Paired& poses) {
+void add_scale(std::vector<Repair>& to, const Paired& poses) {
   constexpr double kUnitTolerance = 0.12, kLeastScale = 0.1, kPenalty = 0.2;
   const double scale = fit_positions(poses).scale;
-  if (std::abs(std::log(scale)) < kLeastScale) return std::nullopt;
+  if (std::abs(std::log(scale)) < kLeastScale) return;
   Repair out{Fault::scale,
-             fmt::format("the estimate has scale {:.3f}", 1.0 / scale),
+             fmt::format("the estimate has scale {:.4g}", 1.0 / scale),
              "--align sim3",
              scale,
              kPenalty,
              to_each(false, [scale](const Pose& p) -> Pose {
                return {p.rotation, scale * p.translation};
              })};
-  for (const double unit : {1000.0, 100.0, 0.01, 0.001}) {
-    if (std::abs(std::log(scale * unit)) > kUnitTolerance) continue;
-    const bool is_millimetre = unit == 1000.0 || unit == 0.001;
+  for (const auto& [factor, unit] : {std::pair{0.001, "millimetres"}, {0.01, "centimetres"}}) {
+    const bool of_reference = scale > 1.0;
+    if (std::abs(std::log(of_reference ? scale * factor : scale / factor)) > kUnitTolerance)
+      continue;
     out.fault = Fault::length_unit;
-    out.what = fmt::format("distances in the estimate are {:.4g} times those of the reference",
-                           1.0 / scale);
-    out.fix = fmt::format("traj transform {} --scale {} ({} to metres)",
-                          file_of(unit < 1.0),
-                          is_millimetre ? "0.001" : "0.01",
-                          is_millimetre ? "millimetres" : "centimetres");
+    out.fix = fmt::format(
+        "traj transform {} --scale {} ({} to metres)", file_of(of_reference), factor, unit);
     out.value = 1.0 / scale;
   }
-  return out;
+  to.push_back(std::move(out));
 }
 
-/// Axes of another body. Only where rotations vary: the alignment of a straight path is ambiguous.
-std::optional<Repair> body_rotation_repair(const Paired& poses) {
-  constexpr double kLeast = 30.0 / kDegrees, kVaries = 20.0 / kDegrees, kPenalty = 0.7;
-  const Rotation& first = poses.reference.front().world_from_body.rotation;
-  const auto varies = std::ranges::count_if(poses.reference, [&](const StampedPose& pose) {
-    return angle_between(pose.world_from_body.rotation, first) > kVaries;
-  });
-  if (10 * static_cast<std::size_t>(varies) < poses.reference.size()) return std::nullopt;
-  const Rotation body = fit_body(poses);
-  const double angle = angle_between(body, Rotation::Identity());
-  if (angle < kLeast) return std::nullopt;
-  return Repair{Fault::body_rotation,
-                fmt::format("the reference's body is rotated by {:.1f} deg", kDegrees * angle),
-                fmt::format("--ref-body={}", body_option({body, Vector3::Zero()})),
-                angle,
-                kPenalty,
-                to_each(false, [body](const Pose& p) -> Pose {
-                  return {p.rotation * body, p.translation};
-                })};
-}
-
-std::optional<Repair> lever_arm_repair(const Paired& poses) {
-  constexpr double kExplained = 0.5, kPenalty = 0.1, kPenaltyOfRotation = 0.9;
+/// Axes and lever arm of another body.
+void add_bodies(std::vector<Repair>& to, const Paired& poses) {
+  constexpr double kLeastAngle = 30.0 / kDegrees, kExplained = 0.5;
+  constexpr double kPenaltyOfAxes = 0.7, kPenaltyOfLeverArm = 0.1, kPenaltyOfBoth = 1.2;
   const auto found = extrinsic_offset(poses.reference, poses.estimate, ExtrinsicOffsetOptions{});
-  if (!found || found->fit.lever_arm_explained < kExplained) return std::nullopt;
-  const Pose body = found->fit.body_from_reference;
-  return Repair{
-      Fault::lever_arm,
-      fmt::format("the reference is that of a body {:.3g} m away", body.translation.norm()),
-      fmt::format("--ref-body={}", body_option(body)),
-      body.translation.norm(),
-      kPenalty + (found->fit.rotation_explained > 0.0 ? kPenaltyOfRotation : 0.0),
-      to_each(false, [body](const Pose& p) { return p * body; })};
+  if (!found) return;
+  const Pose& body = found->fit.body_from_reference;
+  const double angle = angle_between(body.rotation, Rotation::Identity());
+  const auto add =
+      [&](Fault::Name fault, Pose by, double value, double penalty, const std::string& what) {
+        to.push_back({fault,
+                      "the reference is that of a body " + what,
+                      "--ref-body=" + body_option(by),
+                      value,
+                      penalty,
+                      to_each(false, [by](const Pose& p) { return p * by; })});
+      };
+  if (angle > kLeastAngle) {
+    add(Fault::body_rotation,
+        {body.rotation, Vector3::Zero()},
+        angle,
+        kPenaltyOfAxes,
+        fmt::format("with axes rotated by {:.1f} deg", kDegrees * angle));
+  }
+  if (found->fit.lever_arm_explained > kExplained) {
+    add(Fault::lever_arm,
+        body,
+        body.translation.norm(),
+        angle > 0.0 ? kPenaltyOfBoth : kPenaltyOfLeverArm,
+        fmt::format("{:.3g} m away", body.translation.norm()));
+  }
 }
 
 /// Repairs with parameters, which fit `poses`.
 std::vector<Repair> fitted_repairs(const Paired& poses) {
   std::vector<Repair> out;
-  const auto add = [&](std::optional<Repair> repair) {
-    if (repair) out.push_back(std::move(*repair));
-  };
-  add(scale_repair(poses));
-  if (!has_rotations(poses)) return out;
-  add(body_rotation_repair(poses));
-  add(lever_arm_repair(poses));
+  add_scale(out, poses);
+  if (has_rotations(poses)) add_bodies(out, poses);
   return out;
 }
 
@@ -174,12 +159,6 @@ std::vector<Repair> conventions() {
                  "--quaternion-order wxyz",
                  0.0,
                  read_as_wxyz);
-  add_convention(out,
-                 Fault::quaternion_order,
-                 "quaternions of the {} in the order x y z w",
-                 "--quaternion-order xyzw",
-                 0.05,
-                 read_as_xyzw);
   add_convention(out,
                  Fault::conjugated,
                  "inverting the rotations of the {}, but not the positions",

@@ -170,19 +170,17 @@ std::optional<InputFinding> check_overlap(const Trajectory& reference, const Tra
   const double distance = -overlap(reference, estimate);
   if (!(distance > 0.0)) return std::nullopt;
   const bool has_indices = has_frame_indices(estimate) && !has_frame_indices(reference);
-  return InputFinding{
-      has_indices ? Fault::frame_indices : Fault::no_overlap,
-      fmt::format("the estimate's stamps ({:.3f} to {:.3f} s{}) and the reference's ({:.3f} to "
-                  "{:.3f} s) have no common time",
-                  estimate.front().stamp,
-                  estimate.back().stamp,
-                  has_indices ? ", whole numbers as of frames" : "",
-                  reference.front().stamp,
-                  reference.back().stamp),
-      has_indices ? "write the estimate's stamps in seconds"
-                  : "give files of the same recording, or the offset of their clocks (--offset)",
-      1.0,
-      distance};
+  return InputFinding{has_indices ? Fault::frame_indices : Fault::no_overlap,
+                      fmt::format("the estimate's stamps ({:.3f} to {:.3f}) and the reference's "
+                                  "({:.3f} to {:.3f}) have no common time",
+                                  estimate.front().stamp,
+                                  estimate.back().stamp,
+                                  reference.front().stamp,
+                                  reference.back().stamp),
+                      has_indices ? "write the estimate's stamps in seconds"
+                                  : "give files of the same recording, or the offset (--offset)",
+                      1.0,
+                      distance};
 }
 
 std::optional<InputFinding> check_missing(const Trajectory& reference, const Trajectory& estimate) {

@@ -119,28 +119,20 @@ struct Best {
 };
 
 /// Steps are longer if the range is: files may cover any time, and a stray stamp covers decades.
+/// Periodic speeds fit equally well at several offsets; of these, the one near zero is the likely
+/// one.
 Best search(const SpeedMatch& match, double low, double high, double step) {
-  constexpr double kMostSteps = 20'000.0;
+  constexpr double kMostSteps = 20'000.0, kNear = 1.0;  // [s]
   step = std::max(step, (high - low) / kMostSteps);
   const auto steps = static_cast<int>(std::floor((high - low) / step + 1e-6));
   Best best;
   for (int i = 0; i <= steps; ++i) {
     const double offset = low + i * step;
     const double score = match.at(offset);
-    if (score > best.score) best = {offset, score};
+    const double less = std::abs(offset) > kNear ? std::max(0.003, 0.1 * (1.0 - score)) : 0.0;
+    if (score - less > best.score) best = {offset, score - less};
   }
   return best;
-}
-
-/// Periodic speeds fit equally well at several offsets; of these, the one near zero is the likely
-/// one.
-Best nearest_of_equal(const SpeedMatch& match, const Best& best, double step) {
-  constexpr double kNear = 1.0;  // [s]
-  if (std::abs(best.offset) <= kNear) return best;
-  const Best refined = search(match, best.offset - 5.0 * step, best.offset + 5.0 * step, step);
-  const Best near = search(match, -kNear, kNear, step);
-  const double least_gain = std::max(0.003, 0.1 * (1.0 - refined.score));
-  return near.score > refined.score - least_gain ? near : refined;
 }
 
 /// The vertex of the parabola through three scores, and its standard deviation in least squares of
@@ -193,7 +185,6 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
     best = search(match, best.offset - step, best.offset + step, fine);
   }
   if (before.best() > best.score) best = {0.0, before.best()};
-  if (before.is_known) best = nearest_of_equal(match, best, fine);
   best = search(match, best.offset - coarse, best.offset + coarse, fine);
   out.offset = best.offset;
   refine(match, fine, out);
