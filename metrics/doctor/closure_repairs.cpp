@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -99,16 +100,10 @@ std::vector<EdgeRepair> candidates() {
   return out;
 }
 
-/// The loops of some groups together, as read or after a repair of their closures.
-struct Likelihood {
-  std::vector<double> of_groups;  ///< logarithms
-  PredictionError errors;
-};
-
-Likelihood likelihood(const std::vector<const LoopGroup*>& groups,
-                      const Chain& chain,
-                      const EdgeRepair& repair) {
-  Likelihood out;
+std::vector<LoopFit> fits(const std::vector<const LoopGroup*>& groups,
+                          const Chain& chain,
+                          const EdgeRepair& repair) {
+  std::vector<LoopFit> out;
   for (const LoopGroup* group : groups) {
     std::vector<Pose> measured;
     Rotation previous = Rotation::Identity();  // of the gap
@@ -117,41 +112,34 @@ Likelihood likelihood(const std::vector<const LoopGroup*>& groups,
       measured.push_back(repair.change(edge->from_from_to, odometry * previous.conjugate()));
       previous = measured.back().rotation.conjugate() * odometry;
     }
-    const LoopFit fit = group->fit(measured);
-    group->add_errors(measured, fit, out.errors);
-    out.of_groups.push_back(fit.log_likelihood -
-                            static_cast<double>(measured.size()) * repair.penalty_of_closure);
-  }
-  return out;
-}
-
-/// One group, whose closures may be false, counts up to a limit.
-double gain(const Likelihood& before, const Likelihood& after) {
-  constexpr double kMostOfGroup = 20.0;
-  double out = 0.0;
-  for (std::size_t i = 0; i < before.of_groups.size(); ++i) {
-    out += std::clamp(after.of_groups[i] - before.of_groups[i], -kMostOfGroup, kMostOfGroup);
+    out.push_back(group->fit(measured));
+    out.back().log_likelihood -= static_cast<double>(measured.size()) * repair.penalty_of_closure;
   }
   return out;
 }
 
 /// The error of predictions that a repair reduces most, as a ratio and as a text; that of positions
 /// for units of translations.
-std::pair<double, std::string> largest_change(const PredictionError& before,
-                                              const PredictionError& after,
+std::pair<double, std::string> largest_change(const std::vector<LoopFit>& before,
+                                              const std::vector<LoopFit>& after,
                                               bool is_unit) {
-  const double metres = median_value(before.metres), radians = median_value(before.radians);
-  const double metres_after = median_value(after.metres);
-  const double radians_after = median_value(after.radians);
-  const double of_metres = (metres_after + 1e-6) / (metres + 1e-6);
-  const double of_radians = (radians_after + 1e-6) / (radians + 1e-6);
-  const bool is_rotation = !is_unit && of_radians < of_metres;
-  return {is_rotation ? of_radians : of_metres,
-          fmt::format("error with which odometry and other closures predict a closure {:.3g} -> "
-                      "{:.3g} {}",
-                      is_rotation ? kDegrees * radians : metres,
-                      is_rotation ? kDegrees * radians_after : metres_after,
-                      is_rotation ? "deg" : "m")};
+  constexpr double kRounding = 1e-6;
+  const auto change = [&](std::vector<double> LoopFit::*errors, double factor, const char* unit) {
+    const auto median_of = [&](const std::vector<LoopFit>& all) {
+      std::vector<double> out;
+      for (const LoopFit& fit : all) std::ranges::copy(fit.*errors, std::back_inserter(out));
+      return median_value(std::move(out));
+    };
+    const double was = median_of(before), is = median_of(after);
+    return std::pair{(is + kRounding) / (was + kRounding),
+                     fmt::format("error with which odometry and other closures predict a closure "
+                                 "{:.3g} -> {:.3g} {}",
+                                 factor * was,
+                                 factor * is,
+                                 unit)};
+  };
+  auto of_metres = change(&LoopFit::metres, 1.0, "m");
+  return is_unit ? of_metres : std::min(of_metres, change(&LoopFit::radians, kDegrees, "deg"));
 }
 
 /// Median difference of the odometry and the keyframes, over the keyframes' median step [-].
@@ -207,22 +195,22 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
     if (!is_half || i % 2 == 1) tested.push_back(&groups[i]);
   }
   const EdgeRepair as_read{{}, "", "", unchanged_edge};
-  const Likelihood before = likelihood(chosen, chain, as_read);
+  const std::vector<LoopFit> before = fits(chosen, chain, as_read);
   static const std::vector<EdgeRepair> all = candidates();
   const EdgeRepair* best = nullptr;
   double largest = kLeastChosen;
   for (const EdgeRepair& repair : all) {
-    const double gained = gain(before, likelihood(chosen, chain, repair)) - repair.penalty;
+    const double gained = gain(before, fits(chosen, chain, repair)) - repair.penalty;
     if (!(gained > largest)) continue;
     largest = gained;
     best = &repair;
   }
   if (best == nullptr) return std::nullopt;
-  const Likelihood was = likelihood(tested, chain, as_read);
-  const Likelihood is = likelihood(tested, chain, *best);
+  const std::vector<LoopFit> was = fits(tested, chain, as_read);
+  const std::vector<LoopFit> is = fits(tested, chain, *best);
   const double proven = gain(was, is);
   const bool is_unit = best->fault == Fault::closure_unit;
-  const auto [ratio, text] = largest_change(was.errors, is.errors, is_unit);
+  const auto [ratio, text] = largest_change(was, is, is_unit);
   if (proven < kLeastProven || ratio > (is_unit ? kMostOfUnit : kMostRatio)) return std::nullopt;
   return InputFinding{
       best->fault,

@@ -11,20 +11,45 @@
 #include <utility>
 #include <vector>
 
-#include "metrics/doctor/closure_chain.hpp"
+#include "datasets/core/problem.hpp"
 
 namespace loopbench::metrics {
 
-/// Errors with which the odometry and the other closures of a group predict each closure.
-struct PredictionError {
-  std::vector<double> metres;
-  std::vector<double> radians;
+/// Composed odometry, its length and its covariance to first order.
+struct Chain {
+  std::vector<Pose> poses;           ///< first_from_keyframe
+  std::vector<double> lengths;       ///< up to each keyframe [m]
+  std::vector<Matrix6> covariances;  ///< of each pose, as a twist in the frame of the first
+
+  Pose between(std::size_t i, std::size_t j) const { return poses[i].inverse() * poses[j]; }
+  double length(std::size_t i, std::size_t j) const { return std::abs(lengths[j] - lengths[i]); }
 };
 
-/// Factors of the stated variances of odometry and closures that fit best, as logarithms.
+/// The odometry edges have to be complete. O(keyframes).
+inline Chain chain_of(const Problem& problem) {
+  Chain out{{Pose{}}, {0.0}, {Matrix6::Zero()}};
+  for (const Edge& step : problem.odometry) {
+    out.poses.push_back(normalized(out.poses.back() * step.from_from_to));
+    out.lengths.push_back(out.lengths.back() + step.from_from_to.translation.norm());
+    const Matrix6 to_first = adjoint(out.poses.back());
+    out.covariances.push_back(out.covariances.back() +
+                              to_first * step.information.inverse() * to_first.transpose());
+  }
+  return out;
+}
+
+/// Distance between the end of the odometry along a loop and the closure [m].
+inline double gap_of(const Edge& closure, const Chain& chain) {
+  const Pose gap = closure.from_from_to.inverse() * chain.between(closure.from, closure.to);
+  return gap.translation.norm();
+}
+
+/// Noise with which the gaps of a group are likeliest.
 struct LoopFit {
-  std::array<double, 2> factors{};
+  std::array<double, 2> factors{};  ///< of the variances of odometry and closures, as logarithms
   double log_likelihood = -std::numeric_limits<double>::infinity();
+  /// Errors with which the odometry and the other closures of the group predict each closure.
+  std::vector<double> metres = {}, radians = {};
 };
 
 /// A few closures with the odometry that their loops share, which explains a part of their gaps
@@ -67,30 +92,25 @@ class LoopGroup {
   /// fit best. O(closures^3).
   LoopFit fit(const std::vector<Pose>& measured) const {
     const Eigen::VectorXd values = gaps(measured);
-    const LoopFit near = pattern_search(values, {0.0, 0.0});
-    const LoopFit of_closures = pattern_search(values, {0.0, 4.0});
-    const LoopFit of_odometry = pattern_search(values, {12.0, 0.0});
-    return std::max({near, of_closures, of_odometry}, [](const LoopFit& a, const LoopFit& b) {
-      return a.log_likelihood < b.log_likelihood;
-    });
+    LoopFit out;
+    // Each kind of edges can explain large gaps.
+    for (const Logarithms& start : {Logarithms{0.0, 0.0}, {0.0, 4.0}, {12.0, 0.0}}) {
+      LoopFit found = pattern_search(values, start);
+      if (found.log_likelihood > out.log_likelihood) out = std::move(found);
+    }
+    const Eigen::MatrixXd inverse = covariance(out.factors).inverse();
+    const Eigen::VectorXd weighted = inverse * values;
+    for (Eigen::Index i = 0; i < values.size(); i += 6) {
+      const Twist error = inverse.block<6, 6>(i, i).ldlt().solve(weighted.segment<6>(i));
+      out.metres.push_back(error.head<3>().norm());
+      out.radians.push_back(error.tail<3>().norm());
+    }
+    return out;
   }
 
   /// The same as read, with given factors.
   double log_likelihood(const std::array<double, 2>& factors) const {
     return log_likelihood_of(gaps(as_read()), factors);
-  }
-
-  /// Appends the part of each gap that the others do not explain.
-  void add_errors(const std::vector<Pose>& measured,
-                  const LoopFit& fit,
-                  PredictionError& errors) const {
-    const Eigen::MatrixXd inverse = covariance(fit.factors).inverse();
-    const Eigen::VectorXd weighted = inverse * gaps(measured);
-    for (Eigen::Index i = 0; i < weighted.size(); i += 6) {
-      const Twist error = inverse.block<6, 6>(i, i).ldlt().solve(weighted.segment<6>(i));
-      errors.metres.push_back(error.head<3>().norm());
-      errors.radians.push_back(error.tail<3>().norm());
-    }
   }
 
  private:
@@ -174,6 +194,17 @@ inline std::vector<LoopGroup> loop_groups(const std::vector<Edge>& closures,
     out.emplace_back(
         std::vector<const Edge*>(begin, std::min(end, begin + static_cast<std::ptrdiff_t>(most))),
         chain);
+  }
+  return out;
+}
+
+/// Gain in log likelihood. One group, whose closures may be false, counts up to a limit.
+inline double gain(const std::vector<LoopFit>& before, const std::vector<LoopFit>& after) {
+  constexpr double kMostOfGroup = 20.0;
+  double out = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const double of_group = after[i].log_likelihood - before[i].log_likelihood;
+    out += std::clamp(of_group, -kMostOfGroup, kMostOfGroup);
   }
   return out;
 }

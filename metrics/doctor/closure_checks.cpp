@@ -1,0 +1,262 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "metrics/doctor/common_motion.hpp"
+#include "metrics/doctor/graph_checks.hpp"
+#include "metrics/doctor/loop_likelihood.hpp"
+
+namespace loopbench::metrics {
+namespace {
+
+constexpr std::size_t kVotes = 3, kFewestForVotes = 10;
+constexpr double kLeastFalseGap = 2.0;  // [m]; smaller gaps are no false closures
+
+/// The end of one closure over another path between its keyframes.
+struct Gap {
+  double distance = 0.0;  ///< [m]
+  double length = 0.0;    ///< of the odometry on the path, at least 1 m
+};
+
+/// Gaps over other closures: over the three from which the sections of odometry are shortest,
+/// because drift is smaller along these. `closures` are sorted by their ends; of these, the nearest
+/// are compared.
+std::vector<Gap> gaps_over_closures(const std::vector<const Edge*>& closures,
+                                    std::size_t index,
+                                    const Chain& chain) {
+  constexpr double kClosureLength = 2.0;  // [m]
+  constexpr std::size_t kCompared = 20;   // before and after
+  const Edge& edge = *closures[index];
+  std::vector<Gap> out;
+  const std::size_t end = std::min(closures.size(), index + kCompared + 1);
+  for (std::size_t j = index - std::min(index, kCompared); j < end; ++j) {
+    const Edge& other = *closures[j];
+    const double length =
+        kClosureLength + chain.length(edge.from, other.from) + chain.length(edge.to, other.to);
+    if (j == index || length >= chain.length(edge.from, edge.to)) continue;
+    const Pose around = chain.between(edge.from, other.from) * other.from_from_to *
+                        chain.between(other.to, edge.to);
+    out.push_back({log_se3(edge.from_from_to.inverse() * around).head<3>().norm(), length});
+  }
+  std::ranges::sort(out, {}, &Gap::length);
+  out.resize(std::min(kVotes, out.size()));
+  return out;
+}
+
+/// Eight times the drift of most gaps, over their lengths.
+double most_drift(const std::vector<Gap>& gaps) {
+  constexpr double kMost = 0.35, kOverUsual = 8.0;
+  constexpr std::size_t kFewest = 4;
+  std::vector<double> drifts;
+  for (const Gap& gap : gaps) drifts.push_back(gap.distance / gap.length);
+  return drifts.size() < kFewest ? kMost : std::min(kMost, kOverUsual * median_value(drifts));
+}
+
+/// A gap over its limit.
+struct FalseClosure {
+  const Edge* closure = nullptr;
+  Gap gap;
+  double over = 0.0;
+};
+
+struct GapCheck {
+  std::optional<InputFinding> finding;
+  std::vector<std::size_t> closures;  ///< indices of the false ones
+};
+
+/// Closures that end more than 2 m from the odometry along their loop and more than eight times the
+/// drift per distance of the median loop (at most 35 % of the loop's length). With at least ten
+/// closures, the same for the paths over odometry and one other closure: two of the three shortest
+/// have to contradict. A finding if the gaps are smaller by 10 % without them. O(closures log).
+GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain) {
+  std::vector<const Edge*> sorted;
+  for (const Edge& edge : closures) sorted.push_back(&edge);
+  std::ranges::stable_sort(sorted, {}, [](const Edge* e) { return std::max(e->from, e->to); });
+  std::vector<Gap> of_odometry, of_closures;
+  std::vector<std::vector<Gap>> votes;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    of_odometry.push_back(
+        {gap_of(*sorted[i], chain), std::max(1.0, chain.length(sorted[i]->from, sorted[i]->to))});
+    votes.push_back(gaps_over_closures(sorted, i, chain));
+    of_closures.push_back(votes[i].empty() ? of_odometry[i] : votes[i].front());
+  }
+  const auto over = [](const Gap& gap, double limit) {
+    return gap.distance > kLeastFalseGap ? gap.distance / (kLeastFalseGap + limit * gap.length)
+                                         : 0.0;
+  };
+  const double drift = most_drift(of_odometry), drift_of_closures = most_drift(of_closures);
+  GapCheck out;
+  FalseClosure worst;
+  double squares = 0.0, squares_of_false = 0.0;  // of gaps [m^2]
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    FalseClosure each{sorted[i], of_odometry[i], over(of_odometry[i], drift)};
+    double distance = each.gap.distance;
+    if (votes[i].size() == kVotes && sorted.size() >= kFewestForVotes) {
+      const auto size = [&](const Gap& gap) { return over(gap, drift_of_closures); };
+      std::ranges::sort(votes[i], {}, size);
+      const Gap& middle = votes[i][kVotes / 2];  // a false one among them is outvoted
+      distance = middle.distance;
+      if (size(middle) > each.over) each = {sorted[i], middle, size(middle)};
+    }
+    const bool is_false = each.over > 1.0;
+    (is_false ? squares_of_false : squares) += distance * distance;
+    if (is_false) out.closures.push_back(static_cast<std::size_t>(sorted[i] - closures.data()));
+    if (each.over > worst.over) worst = each;
+  }
+  const auto rms = [](double sum, std::size_t count) {
+    return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)));
+  };
+  constexpr double kMostLeft = 0.9;
+  const double before = rms(squares + squares_of_false, closures.size());
+  const double after = rms(squares, closures.size() - out.closures.size());
+  if (out.closures.empty() || after > kMostLeft * before) return {};
+  out.finding = InputFinding{
+      Fault::closure_gap,
+      fmt::format("{} of {} closures contradict the odometry or other closures, most of all {} -> "
+                  "{}: the gap is {:.3g} m after {:.3g} m; without them, rms of the gaps {:.3g} -> "
+                  "{:.3g} m",
+                  out.closures.size(),
+                  closures.size(),
+                  worst.closure->from,
+                  worst.closure->to,
+                  worst.gap.distance,
+                  worst.gap.length,
+                  before,
+                  after),
+      "check them; robust methods are made for false closures",
+      std::max(1.0 - after / before, 1.0 - 1.0 / worst.over),
+      static_cast<double>(out.closures.size())};
+  return out;
+}
+
+void exchange_blocks(std::vector<Edge>& edges) {
+  for (Edge& edge : edges) {
+    const Matrix6 given = edge.information;
+    edge.information.topLeftCorner<3, 3>() = given.bottomRightCorner<3, 3>();
+    edge.information.bottomRightCorner<3, 3>() = given.topLeftCorner<3, 3>();
+  }
+}
+
+/// The loops of a problem in groups, and the noise that fits each; loops alone if there are few, so
+/// that a false one among them is outvoted.
+struct GroupFits {
+  explicit GroupFits(const Problem& problem)
+      : chain(chain_of(problem)),
+        groups(loop_groups(problem.closures, chain, problem.closures.size() < 6 ? 1 : 5)) {
+    for (const LoopGroup& group : groups) fits.push_back(group.fit(group.as_read()));
+  }
+
+  /// Median factor of the variances [-].
+  double factor(std::size_t kind) const {
+    std::vector<double> logarithms;
+    for (const LoopFit& fit : fits) logarithms.push_back(fit.factors[kind]);
+    return std::exp(median_value(std::move(logarithms)));
+  }
+
+  Chain chain;
+  std::vector<LoopGroup> groups;
+  std::vector<LoopFit> fits;
+};
+
+/// Edges whose variances are wrong.
+struct WrongScale {
+  const char* edges;
+  const char* options;
+  double factor;
+};
+
+std::optional<WrongScale> wrong_scale(const GroupFits& loops) {
+  constexpr double kTooSmall = 100.0, kTooLarge = 1e-5;  // fitted over stated variance
+  constexpr double kExact = 1e-8;  // smaller ones are those of closures without noise
+  constexpr double kSmallLoss = 15.0;
+  const double odometry = loops.factor(0), closures = loops.factor(1);
+  if (odometry < kTooLarge || odometry > kTooSmall) {
+    const double f = std::log(odometry);
+    double loss = 0.0;  // if the closures have the same factor
+    for (const LoopGroup& group : loops.groups) {
+      loss += group.log_likelihood({f, 0.0}) - group.log_likelihood({f, f});
+    }
+    if (loss > kSmallLoss * static_cast<double>(loops.groups.size()))
+      return WrongScale{"the odometry", "odometry.sigma_*", odometry};
+    return WrongScale{"all edges", "odometry.sigma_*, closures.sigma_*", odometry};
+  }
+  if (closures > kTooSmall || (closures < kTooLarge && closures > kExact)) {
+    return WrongScale{"the closures", "closures.sigma_*", closures};
+  }
+  return std::nullopt;
+}
+
+/// Exchanged blocks of all information, or information that differs from the noise which makes the
+/// loops likeliest by more than 100 (too large) or 10^5 (too small).
+std::optional<InputFinding> check_information(const Problem& problem) {
+  constexpr std::size_t kFewest = 2;
+  constexpr double kLeastOfOrder = 8.0;
+  constexpr double kExactGap = 1e-4;  // [m]; of measurements without noise
+  if (problem.closures.size() < kFewest) return std::nullopt;
+  const GroupFits as_read(problem);
+  std::vector<double> gaps;
+  for (const Edge& closure : problem.closures) gaps.push_back(gap_of(closure, as_read.chain));
+  if (median_value(std::move(gaps)) < kExactGap) return std::nullopt;
+  Problem other = problem;
+  exchange_blocks(other.odometry);
+  exchange_blocks(other.closures);
+  const GroupFits exchanged(other);
+  const double gained = gain(as_read.fits, exchanged.fits);
+  if (gained > kLeastOfOrder * static_cast<double>(as_read.groups.size())) {
+    return InputFinding{
+        Fault::information_order,
+        fmt::format("exchanging the blocks of translation and rotation: logarithm of the ratio of "
+                    "likelihoods of {} groups of loops {:.1f}",
+                    as_read.groups.size(),
+                    gained),
+        "check the order of the blocks: g2o has those of x y z first",
+        1.0 - std::exp(-0.25 * gained),
+        gained};
+  }
+  const auto wrong = wrong_scale(as_read);
+  if (!wrong) return std::nullopt;
+  return InputFinding{
+      Fault::information_scale,
+      fmt::format("the gaps of the loops fit best with the stated variances of {} times {:.1g} "
+                  "(median of {} groups of loops)",
+                  wrong->edges,
+                  wrong->factor,
+                  as_read.groups.size()),
+      fmt::format("check the information of {}; for a trajectory: options {}",
+                  wrong->edges,
+                  wrong->options),
+      0.8,
+      wrong->factor};
+}
+
+}  // namespace
+
+std::vector<InputFinding> check_closures(const Problem& problem) {
+  std::vector<InputFinding> out;
+  const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
+  if (problem.closures.empty() || !is_chain) return out;
+  const Chain chain = chain_of(problem);
+  if (auto repair = find_odometry_repair(problem)) return {*repair};
+  const GapCheck gaps = check_gaps(problem.closures, chain);
+  const bool are_few_false = 5 * gaps.closures.size() < problem.closures.size();
+  if (auto repair = find_closure_repair(problem, chain)) {
+    // Smaller translations of all closures also shrink the gaps of a few false ones.
+    const bool is_unit = repair->fault == Fault::closure_unit;
+    if (!(is_unit && gaps.finding && are_few_false)) return {*repair};
+  }
+  if (gaps.finding) out.push_back(*gaps.finding);
+  if (are_few_false) {  // false closures show nothing about the information
+    Problem plausible = problem;
+    plausible.closures.clear();
+    for (std::size_t i = 0; i < problem.closures.size(); ++i) {
+      if (std::ranges::count(gaps.closures, i) == 0)
+        plausible.closures.push_back(problem.closures[i]);
+    }
+    if (auto found = check_information(plausible)) out.push_back(*found);
+  }
+  std::erase_if(out, [](const InputFinding& f) { return f.confidence < kLeastConfidence; });
+  return out;
+}
+
+}  // namespace loopbench::metrics
