@@ -6,7 +6,6 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "metrics/alignment/hand_eye.hpp"
@@ -104,10 +103,6 @@ void compare_motions(const Paired& poses, Agreement& out) {
     squares += rotated.squaredNorm();
   }
   out.turning = squares > 0.0 ? std::sqrt(error_squares / squares) : 0.0;
-  constexpr double kAngle = 6.0 / kDegrees, kLongest = 10.0;  // [s]
-  const Paired part = part_of(poses, false);
-  const auto swings = rotating_intervals(part.reference, part.estimate, kAngle, kLongest);
-  if (swings.size() > 5) std::tie(out.swing, out.swing_length) = compare_displacements(swings);
 }
 
 }  // namespace
@@ -120,7 +115,6 @@ double Agreement::cost() const {
   if (has_rotations) {
     out += std::log(displacement + kFloor) + std::log(turning + kFloor) +
            std::log(rotation + kFloorOfAngle);
-    if (swing_length > 0.0) out += std::log(swing / swing_length + kFloor);
   }
   return out;
 }
@@ -205,11 +199,6 @@ Improvement improvement(const Agreement& before, const Agreement& after) {
   if (out.ratio < 0.5) return out;
   compare("error of displacements in body frames", &Agreement::displacement, kSmall, 100.0, "%");
   compare("error of relative rotations", &Agreement::turning, kSmall, 100.0, "%");
-  compare("error of displacements over rotations",
-          &Agreement::swing,
-          0.02 * before.swing_length,
-          1.0,
-          "m");
   return out;
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "metrics/doctor/common_motion.hpp"
+#include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/graph_checks.hpp"
 #include "metrics/doctor/loop_likelihood.hpp"
 #include "metrics/doctor/signed_axes.hpp"

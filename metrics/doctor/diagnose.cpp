@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "metrics/doctor/pair_checks.hpp"
-#include "metrics/doctor/time_offset.hpp"
 
 namespace loopbench::metrics {
 namespace {
 
+constexpr const char* kChecksOfPoses = "units, scale, quaternion order, inverted poses, axes";
 constexpr double kLeastOfNoise = 3.0;  // standard deviation of positions over their noise
 
 /// Whether noise explains the positions: their standard deviation is at most kLeastOfNoise times
@@ -97,20 +97,19 @@ class PairDiagnosis {
     constexpr int kMostRepairs = 3;
     Paired poses = common_poses(reference_, estimate_);
     if (poses.estimate.size() < kFewestCommonPoses) {
-      for (const char* checks : {"units, scale", "quaternion order, inverted poses, axes"}) {
-        out_.unchecked.push_back(
-            fmt::format("{}: {} poses of the estimate are in the reference's time, expected at "
-                        "least {}",
-                        checks,
-                        poses.estimate.size(),
-                        kFewestCommonPoses));
-      }
+      out_.unchecked.push_back(
+          fmt::format("{}, files of the same recording: {} poses of the estimate are in the "
+                      "reference's time, expected at least {}",
+                      kChecksOfPoses,
+                      poses.estimate.size(),
+                      kFewestCommonPoses));
       return;
     }
     if (is_at_rest(reference_) || is_at_rest(estimate_)) {
       out_.unchecked.push_back(
-          fmt::format("units, scale, quaternion order, inverted poses, axes, files of the same "
-                      "recording: the {} moves by less than {:g} times its noise",
+          fmt::format("{}, files of the same recording: the {} moves by less than {:g} times its "
+                      "noise",
+                      kChecksOfPoses,
                       is_at_rest(reference_) ? "reference" : "estimate",
                       kLeastOfNoise));
       return;

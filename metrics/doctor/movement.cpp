@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "metrics/doctor/common_motion.hpp"
+#include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/graph_checks.hpp"
 #include "metrics/numerics/angle.hpp"
 

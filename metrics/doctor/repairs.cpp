@@ -59,22 +59,13 @@ void add_convention(std::vector<Repair>& to,
   }
 }
 
-std::string axes_text(const Matrix3& axes) {
-  std::string option = axes_option(axes);
-  if (option == "y,x,z") return "exchanging x and y";
-  if (option == "z,y,x") return "exchanging x and z";
-  if (option == "x,z,y") return "exchanging y and z";
-  std::ranges::replace(option, ',', ' ');
-  return "taking " + option + " as x y z";
-}
-
 /// The signed permutations of the estimate's positions.
 void add_axes(std::vector<Repair>& to) {
   constexpr double kPenalty = 0.05;  // of each axis that moves
   for (const Matrix3& axes : signed_axes()) {
     const double distance = (axes - Matrix3::Identity()).squaredNorm();
     to.push_back({Fault::axes,
-                  axes_text(axes) + " of the estimate's positions",
+                  "taking " + axes_option(axes) + " of the estimate's positions as x,y,z",
                   "traj transform EST --axes=" + axes_option(axes),
                   distance,
                   kPenalty * distance,

@@ -6,9 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/pair_checks.hpp"
-#include "metrics/doctor/time_offset.hpp"
 #include "metrics/trajectory/tracking_gaps.hpp"
 
 namespace loopbench::metrics {

@@ -1,5 +1,3 @@
-#include "metrics/doctor/time_offset.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -7,7 +5,7 @@
 #include <cmath>
 
 #include "datasets/core/interpolate.hpp"
-#include "metrics/doctor/agreement.hpp"
+#include "metrics/doctor/pair_checks.hpp"
 
 namespace loopbench::metrics {
 namespace {
@@ -174,15 +172,12 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
   const double coarse = std::clamp(match.interval(), 0.1, 0.5), fine = 0.2 * coarse;
   Best best = search(match, -searched, searched, coarse);
   if (best.score < 0.0) {
-    constexpr double kMostSteps = 2000.0;
     // At least half of the shorter one must be common: a short overlap can fit by chance.
     const double duration = std::min(reference.back().stamp - reference.front().stamp,
                                      estimate.back().stamp - estimate.front().stamp);
     const double low = reference.front().stamp - estimate.back().stamp + 0.5 * duration;
     const double high = reference.back().stamp - estimate.front().stamp - 0.5 * duration;
-    const double step = std::max(coarse, (high - low) / kMostSteps);
-    best = search(match, low, high, step);
-    best = search(match, best.offset - step, best.offset + step, fine);
+    best = search(match, low, high, coarse);
   }
   if (before.best() > best.score) best = {0.0, before.best()};
   best = search(match, best.offset - coarse, best.offset + coarse, fine);

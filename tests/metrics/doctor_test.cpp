@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "metrics/doctor/diagnose.hpp"
-#include "metrics/doctor/time_offset.hpp"
+#include "metrics/doctor/pair_checks.hpp"
 #include "tests/metrics/doctor_pairs.hpp"
 #include "tests/support/problems.hpp"
 

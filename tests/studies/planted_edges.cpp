@@ -8,7 +8,7 @@
 
 #include "datasets/core/se3.hpp"
 #include "datasets/formats/g2o.hpp"
-#include "metrics/doctor/common_motion.hpp"
+#include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/graph_checks.hpp"
 #include "metrics/doctor/loop_likelihood.hpp"
 
