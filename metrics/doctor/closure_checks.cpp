@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "metrics/doctor/agreement.hpp"
@@ -53,16 +54,9 @@ double most_drift(const std::vector<Gap>& gaps) {
   return drifts.size() < kFewest ? kMost : std::min(kMost, kOverUsual * median_value(drifts));
 }
 
-/// A gap over its limit.
-struct FalseClosure {
-  const Edge* closure = nullptr;
-  Gap gap;
-  double over = 0.0;
-};
-
 struct GapCheck {
   std::optional<InputFinding> finding;
-  std::vector<std::size_t> closures;  ///< indices of the false ones
+  std::vector<Edge> plausible;  ///< closures without the false ones; all if there is no finding
 };
 
 /// Closures that end more than 2 m from the odometry along their loop and more than eight times the
@@ -87,46 +81,51 @@ GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain) {
   };
   const double drift = most_drift(of_odometry), drift_of_closures = most_drift(of_closures);
   GapCheck out;
-  FalseClosure worst;
-  double squares = 0.0, squares_of_false = 0.0;  // of gaps [m^2]
+  const Edge* worst = nullptr;
+  Gap of_worst;
+  double largest = 0.0, squares = 0.0, squares_of_false = 0.0;  // of gaps [m^2]
   for (std::size_t i = 0; i < sorted.size(); ++i) {
-    FalseClosure each{sorted[i], of_odometry[i], over(of_odometry[i], drift)};
-    double distance = each.gap.distance;
+    Gap gap = of_odometry[i];
+    double size = over(gap, drift), distance = gap.distance;
     if (votes[i].size() == kVotes && sorted.size() >= kFewestForVotes) {
-      const auto size = [&](const Gap& gap) { return over(gap, drift_of_closures); };
-      std::ranges::sort(votes[i], {}, size);
+      const auto by_size = [&](const Gap& each) { return over(each, drift_of_closures); };
+      std::ranges::sort(votes[i], {}, by_size);
       const Gap& middle = votes[i][kVotes / 2];  // a false one among them is outvoted
       distance = middle.distance;
-      if (size(middle) > each.over) each = {sorted[i], middle, size(middle)};
+      if (by_size(middle) > size) gap = middle;
+      size = std::max(size, by_size(middle));
     }
-    const bool is_false = each.over > 1.0;
-    (is_false ? squares_of_false : squares) += distance * distance;
-    if (is_false) out.closures.push_back(static_cast<std::size_t>(sorted[i] - closures.data()));
-    if (each.over > worst.over) worst = each;
+    (size > 1.0 ? squares_of_false : squares) += distance * distance;
+    if (size <= 1.0) out.plausible.push_back(*sorted[i]);
+    if (size <= largest) continue;
+    largest = size;
+    worst = sorted[i];
+    of_worst = gap;
   }
   const auto rms = [](double sum, std::size_t count) {
     return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)));
   };
   constexpr double kMostLeft = 0.9;
   const double before = rms(squares + squares_of_false, closures.size());
-  const double after = rms(squares, closures.size() - out.closures.size());
-  if (out.closures.empty() || after > kMostLeft * before) return {};
+  const double after = rms(squares, out.plausible.size());
+  const std::size_t count = closures.size() - out.plausible.size();
+  if (count == 0 || after > kMostLeft * before) return {std::nullopt, closures};
   out.finding = InputFinding{
       Fault::closure_gap,
       fmt::format("{} of {} closures contradict the odometry or other closures, most of all {} -> "
                   "{}: the gap is {:.3g} m after {:.3g} m; without them, rms of the gaps {:.3g} -> "
                   "{:.3g} m",
-                  out.closures.size(),
+                  count,
                   closures.size(),
-                  worst.closure->from,
-                  worst.closure->to,
-                  worst.gap.distance,
-                  worst.gap.length,
+                  worst->from,
+                  worst->to,
+                  of_worst.distance,
+                  of_worst.length,
                   before,
                   after),
       "check them; robust methods are made for false closures",
-      std::max(1.0 - after / before, 1.0 - 1.0 / worst.over),
-      static_cast<double>(out.closures.size())};
+      std::max(1.0 - after / before, 1.0 - 1.0 / largest),
+      static_cast<double>(count)};
   return out;
 }
 
@@ -147,44 +146,56 @@ struct GroupFits {
     for (const LoopGroup& group : groups) fits.push_back(group.fit(group.as_read()));
   }
 
-  /// Median factor of the variances [-].
-  double factor(std::size_t kind) const {
-    std::vector<double> logarithms;
-    for (const LoopFit& fit : fits) logarithms.push_back(fit.factors[kind]);
-    return std::exp(median_value(std::move(logarithms)));
-  }
-
   Chain chain;
   std::vector<LoopGroup> groups;
   std::vector<LoopFit> fits;
 };
 
-/// Edges whose variances are wrong.
-struct WrongScale {
-  const char* edges;
-  const char* options;
-  double factor;
-};
-
-std::optional<WrongScale> wrong_scale(const GroupFits& loops) {
+/// Edges whose variances are wrong by the median factors of every other group; these have to make
+/// the remaining groups likelier (all, if there are few).
+std::optional<InputFinding> wrong_scale(const GroupFits& loops) {
   constexpr double kTooSmall = 100.0, kTooLarge = 1e-5;  // fitted over stated variance
   constexpr double kExact = 1e-8;  // smaller ones are those of closures without noise
-  constexpr double kSmallLoss = 15.0;
-  const double odometry = loops.factor(0), closures = loops.factor(1);
-  if (odometry < kTooLarge || odometry > kTooSmall) {
-    const double f = std::log(odometry);
-    double loss = 0.0;  // if the closures have the same factor
-    for (const LoopGroup& group : loops.groups) {
-      loss += group.log_likelihood({f, 0.0}) - group.log_likelihood({f, f});
+  constexpr double kSmallLoss = 15.0, kLeastProven = 3.0;  // in logarithms of the likelihood
+  const std::size_t step = loops.groups.size() < 6 ? 1 : 2;
+  const auto factor = [&](std::size_t kind) {
+    std::vector<double> logarithms;
+    for (std::size_t i = 0; i < loops.fits.size(); i += step) {
+      logarithms.push_back(loops.fits[i].factors[kind]);
     }
-    if (loss > kSmallLoss * static_cast<double>(loops.groups.size()))
-      return WrongScale{"the odometry", "odometry.sigma_*", odometry};
-    return WrongScale{"all edges", "odometry.sigma_*, closures.sigma_*", odometry};
-  }
-  if (closures > kTooSmall || (closures < kTooLarge && closures > kExact)) {
-    return WrongScale{"the closures", "closures.sigma_*", closures};
-  }
-  return std::nullopt;
+    return median_value(std::move(logarithms));
+  };
+  const auto gain_by = [&](const std::array<double, 2>& factors) {
+    double out = 0.0;
+    for (std::size_t i = step - 1; i < loops.groups.size(); i += step) {
+      out += loops.groups[i].log_likelihood(factors) - loops.groups[i].log_likelihood({});
+    }
+    return out;
+  };
+  const double f = factor(0), c = factor(1);
+  const bool is_odometry = std::exp(f) < kTooLarge || std::exp(f) > kTooSmall;
+  const bool is_closures =
+      std::exp(c) > kTooSmall || (std::exp(c) < kTooLarge && std::exp(c) > kExact);
+  if (!is_odometry && !is_closures) return std::nullopt;
+  const double most_loss = kSmallLoss * static_cast<double>(loops.groups.size() / step);
+  const bool is_all = is_odometry && gain_by({f, 0.0}) - gain_by({f, f}) < most_loss;
+  const double proven = gain_by({is_odometry ? f : 0.0, is_all ? f : is_odometry ? 0.0 : c});
+  if (proven < kLeastProven) return std::nullopt;
+  const char* const edges = is_all ? "all edges" : is_odometry ? "the odometry" : "the closures";
+  return InputFinding{
+      Fault::information_scale,
+      fmt::format("the gaps of the loops are likelier with the stated variances of {} times {:.1g} "
+                  "(median of {} groups of loops; logarithm of the ratio of likelihoods {:.1f})",
+                  edges,
+                  std::exp(is_odometry ? f : c),
+                  loops.groups.size(),
+                  proven),
+      fmt::format("check the information of {}; for a trajectory: options {}{}",
+                  edges,
+                  is_odometry ? "odometry.sigma_*" : "closures.sigma_*",
+                  is_all ? ", closures.sigma_*" : ""),
+      0.8,
+      std::exp(is_odometry ? f : c)};
 }
 
 /// Exchanged blocks of all information, or information that differs from the noise which makes the
@@ -214,20 +225,7 @@ std::optional<InputFinding> check_information(const Problem& problem) {
         1.0 - std::exp(-0.25 * gained),
         gained};
   }
-  const auto wrong = wrong_scale(as_read);
-  if (!wrong) return std::nullopt;
-  return InputFinding{
-      Fault::information_scale,
-      fmt::format("the gaps of the loops fit best with the stated variances of {} times {:.1g} "
-                  "(median of {} groups of loops)",
-                  wrong->edges,
-                  wrong->factor,
-                  as_read.groups.size()),
-      fmt::format("check the information of {}; for a trajectory: options {}",
-                  wrong->edges,
-                  wrong->options),
-      0.8,
-      wrong->factor};
+  return wrong_scale(as_read);
 }
 
 }  // namespace
@@ -239,7 +237,8 @@ std::vector<InputFinding> check_closures(const Problem& problem) {
   const Chain chain = chain_of(problem);
   if (auto repair = find_odometry_repair(problem)) return {*repair};
   const GapCheck gaps = check_gaps(problem.closures, chain);
-  const bool are_few_false = 5 * gaps.closures.size() < problem.closures.size();
+  const std::size_t count = problem.closures.size();
+  const bool are_few_false = 5 * (count - gaps.plausible.size()) < count;
   if (auto repair = find_closure_repair(problem, chain)) {
     // Smaller translations of all closures also shrink the gaps of a few false ones.
     const bool is_unit = repair->fault == Fault::closure_unit;
@@ -248,11 +247,7 @@ std::vector<InputFinding> check_closures(const Problem& problem) {
   if (gaps.finding) out.push_back(*gaps.finding);
   if (are_few_false) {  // false closures show nothing about the information
     Problem plausible = problem;
-    plausible.closures.clear();
-    for (std::size_t i = 0; i < problem.closures.size(); ++i) {
-      if (std::ranges::count(gaps.closures, i) == 0)
-        plausible.closures.push_back(problem.closures[i]);
-    }
+    plausible.closures = gaps.plausible;
     if (auto found = check_information(plausible)) out.push_back(*found);
   }
   std::erase_if(out, [](const InputFinding& f) { return f.confidence < kLeastConfidence; });
