@@ -140,8 +140,10 @@ int doctor(const DoctorArguments& a) {
   if (!a.loops.empty()) {
     if (a.estimates.size() > 1) throw InputError("--loops: expected one trajectory");
     const std::string& owner = a.estimates.empty() ? a.reference : a.estimates.front();
-    all.push_back(
-        of_closures(a.loops, load_problem({.estimate = owner, .loops = a.loops}, catalogue({}))));
+    CorrectArguments input;
+    input.estimate = owner;
+    input.loops = a.loops;
+    all.push_back(of_closures(a.loops, load_problem(input, catalogue({}))));
   } else if (a.estimates.empty()) {
     if (!is_pose_graph(a.reference)) {
       throw InputError(

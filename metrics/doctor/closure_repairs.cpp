@@ -118,28 +118,11 @@ std::vector<LoopFit> fits(const std::vector<const LoopGroup*>& groups,
   return out;
 }
 
-/// The error of predictions that a repair reduces most, as a ratio and as a text; that of positions
-/// for units of translations.
-std::pair<double, std::string> largest_change(const std::vector<LoopFit>& before,
-                                              const std::vector<LoopFit>& after,
-                                              bool is_unit) {
-  constexpr double kRounding = 1e-6;
-  const auto change = [&](std::vector<double> LoopFit::*errors, double factor, const char* unit) {
-    const auto median_of = [&](const std::vector<LoopFit>& all) {
-      std::vector<double> out;
-      for (const LoopFit& fit : all) std::ranges::copy(fit.*errors, std::back_inserter(out));
-      return median_value(std::move(out));
-    };
-    const double was = median_of(before), is = median_of(after);
-    return std::pair{(is + kRounding) / (was + kRounding),
-                     fmt::format("error with which odometry and other closures predict a closure "
-                                 "{:.3g} -> {:.3g} {}",
-                                 factor * was,
-                                 factor * is,
-                                 unit)};
-  };
-  auto of_metres = change(&LoopFit::metres, 1.0, "m");
-  return is_unit ? of_metres : std::min(of_metres, change(&LoopFit::radians, kDegrees, "deg"));
+/// Median error with which odometry and other closures predict a closure.
+double median_error(const std::vector<LoopFit>& fits, std::vector<double> LoopFit::*errors) {
+  std::vector<double> all;
+  for (const LoopFit& fit : fits) std::ranges::copy(fit.*errors, std::back_inserter(all));
+  return median_value(std::move(all)) + 1e-6;  // rounding
 }
 
 /// Median difference of the odometry and the keyframes, over the keyframes' median step [-].
@@ -210,12 +193,23 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
   const std::vector<LoopFit> is = fits(tested, chain, *best);
   const double proven = gain(was, is);
   const bool is_unit = best->fault == Fault::closure_unit;
-  const auto [ratio, text] = largest_change(was, is, is_unit);
+  const double metres = median_error(was, &LoopFit::metres);
+  const double radians = median_error(was, &LoopFit::radians);
+  const double metres_after = median_error(is, &LoopFit::metres);
+  const double radians_after = median_error(is, &LoopFit::radians);
+  const double ratio =
+      is_unit ? metres_after / metres : std::min(metres_after / metres, radians_after / radians);
   if (proven < kLeastProven || ratio > (is_unit ? kMostOfUnit : kMostRatio)) return std::nullopt;
   return InputFinding{
       best->fault,
-      fmt::format(
-          "{}: {} (logarithm of the ratio of likelihoods {:.1f})", best->what, text, proven),
+      fmt::format("{}: error with which odometry and other closures predict a closure {:.3g} -> "
+                  "{:.3g} m, {:.3g} -> {:.3g} deg (logarithm of the ratio of likelihoods {:.1f})",
+                  best->what,
+                  metres,
+                  metres_after,
+                  kDegrees * radians,
+                  kDegrees * radians_after,
+                  proven),
       best->fix,
       1.0 - std::exp(-0.25 * proven),
       static_cast<double>(problem.closures.size())};

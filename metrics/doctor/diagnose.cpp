@@ -15,27 +15,23 @@ constexpr const char* kChecksOfPoses = "units, scale, quaternion order, inverted
 constexpr double kLeastOfNoise = 3.0;  // standard deviation of positions over their noise
 
 /// Whether noise explains the positions: their standard deviation is at most kLeastOfNoise times
-/// the one of white noise that the median distance of a position from the line between the ones
-/// before and after has. Acceleration adds to it. O(n).
+/// the one of white noise that the median distance of a position from the middle of the ones before
+/// and after has. Acceleration adds to it. O(n).
 bool is_at_rest(const Trajectory& poses) {
   constexpr double kRounding = 1e-9;
   constexpr double kMeanOverMedian = 3.0 / 2.366;  // of chi-squared with 3 degrees of freedom
   const auto n = static_cast<double>(poses.size());
-  const auto position = [&](std::size_t i) -> const Vector3& {
-    return poses[i].world_from_body.translation;
-  };
   Vector3 mean = Vector3::Zero();
-  for (std::size_t i = 0; i < poses.size(); ++i) mean += position(i) / n;
+  for (const StampedPose& pose : poses) mean += pose.world_from_body.translation / n;
   double variance = 0.0;
-  std::vector<double> squares;  // of the deviations from lines
+  std::vector<double> squares;  // of the distances from the middle
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    variance += (position(i) - mean).squaredNorm() / n;
+    const Vector3& position = poses[i].world_from_body.translation;
+    variance += (position - mean).squaredNorm() / n;
     if (i == 0 || i + 1 == poses.size()) continue;
-    const double begin = poses[i - 1].stamp, end = poses[i + 1].stamp;
-    const double u = end > begin ? (poses[i].stamp - begin) / (end - begin) : 0.5;
-    const Vector3 between = (1.0 - u) * position(i - 1) + u * position(i + 1);
-    squares.push_back((position(i) - between).squaredNorm() /
-                      (1.0 + (1.0 - u) * (1.0 - u) + u * u));
+    const Vector3 middle =
+        0.5 * (poses[i - 1].world_from_body.translation + poses[i + 1].world_from_body.translation);
+    squares.push_back((position - middle).squaredNorm() / 1.5);
   }
   const double noise = std::sqrt(kMeanOverMedian * median_value(std::move(squares)));
   return std::sqrt(variance) <= kLeastOfNoise * noise + kRounding * mean.norm();

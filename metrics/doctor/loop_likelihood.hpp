@@ -148,17 +148,15 @@ class LoopGroup {
     for (double step = 4.0; step > 0.4; step *= 0.5) {
       for (bool has_moved = true; has_moved;) {
         has_moved = false;
-        for (double& factor : at) {
-          for (const double change : {-step, step}) {
-            factor += change;
-            const double value = log_likelihood_of(values, at);
-            if (value > best) {
-              best = value;
-              has_moved = true;
-              break;
-            }
-            factor -= change;
-          }
+        for (const auto& [kind, change] :
+             {std::pair{0u, -step}, {0u, step}, {1u, -step}, {1u, step}}) {
+          Logarithms to = at;
+          to[kind] += change;
+          const double value = log_likelihood_of(values, to);
+          if (!(value > best)) continue;
+          best = value;
+          at = to;
+          has_moved = true;
         }
       }
     }

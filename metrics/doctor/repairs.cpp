@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iterator>
 
 #include "metrics/checks/extrinsic_offset.hpp"
 #include "metrics/doctor/pair_checks.hpp"
@@ -34,28 +33,43 @@ std::function<void(Paired&)> to_each(bool of_reference, const Change& change) {
 
 const char* file_of(bool of_reference) { return of_reference ? "REF" : "EST"; }
 
-Pose read_as_wxyz(const Pose& p) {
-  const Rotation& q = p.rotation;
-  return {Rotation(q.x(), q.y(), q.z(), q.w()), p.translation};
-}
-
-Pose with_inverse_rotation(const Pose& p) { return {p.rotation.conjugate(), p.translation}; }
-Pose inverted(const Pose& p) { return p.inverse(); }
-
-/// A repair without parameters, of either file.
-void add_convention(std::vector<Repair>& to,
-                    Fault::Name fault,
-                    const char* what,
-                    const char* option,
-                    double penalty,
-                    const Change& change) {
-  for (const bool of_reference : {false, true}) {
-    to.push_back({fault,
-                  fmt::format(fmt::runtime(what), of_reference ? "reference" : "estimate"),
-                  fmt::format("traj transform {} {}", file_of(of_reference), option),
-                  of_reference ? 1.0 : 0.0,
-                  penalty + (of_reference ? 0.02 : 0.0),
-                  to_each(of_reference, change)});
+/// Conventions of either file.
+void add_conventions(std::vector<Repair>& to) {
+  struct Convention {
+    Fault::Name fault;
+    const char* what;
+    const char* option;
+    double penalty;
+    Pose (*change)(const Pose&);
+  };
+  static constexpr Convention kAll[] = {
+      {Fault::quaternion_order,
+       "quaternions in the order w x y z",
+       "--quaternion-order wxyz",
+       0.0,
+       [](const Pose& p) -> Pose {
+         const Rotation& q = p.rotation;
+         return {Rotation(q.x(), q.y(), q.z(), q.w()), p.translation};
+       }},
+      {Fault::conjugated,
+       "inverting the rotations, but not the positions,",
+       "--conjugate",
+       0.1,
+       [](const Pose& p) -> Pose {
+         return {p.rotation.conjugate(), p.translation};
+       }},
+      {Fault::inverted_poses, "inverting the poses", "--invert-poses", 0.0, [](const Pose& p) {
+         return p.inverse();
+       }}};
+  for (const auto& [fault, what, option, penalty, change] : kAll) {
+    for (const bool of_reference : {false, true}) {
+      to.push_back({fault,
+                    fmt::format("{} of the {}", what, of_reference ? "reference" : "estimate"),
+                    fmt::format("traj transform {} {}", file_of(of_reference), option),
+                    of_reference ? 1.0 : 0.0,
+                    penalty + (of_reference ? 0.02 : 0.0),
+                    to_each(of_reference, change)});
+    }
   }
 }
 
@@ -141,27 +155,6 @@ std::vector<Repair> fitted_repairs(const Paired& poses) {
   return out;
 }
 
-/// Repairs without parameters.
-std::vector<Repair> conventions() {
-  std::vector<Repair> out;
-  add_convention(out,
-                 Fault::quaternion_order,
-                 "quaternions of the {} in the order w x y z",
-                 "--quaternion-order wxyz",
-                 0.0,
-                 read_as_wxyz);
-  add_convention(out,
-                 Fault::conjugated,
-                 "inverting the rotations of the {}, but not the positions",
-                 "--conjugate",
-                 0.1,
-                 with_inverse_rotation);
-  add_convention(
-      out, Fault::inverted_poses, "inverting the poses of the {}", "--invert-poses", 0.0, inverted);
-  add_axes(out);
-  return out;
-}
-
 /// Whether nothing is wrong but drift.
 bool agrees(const Agreement& a) {
   constexpr double kSmall = 0.08, kSmallAngle = 5.0 / kDegrees;
@@ -178,7 +171,10 @@ std::optional<InputFinding> apply_best_repair(Paired& poses) {
   const Agreement before = agreement(poses);
   const bool is_good = agrees(before);
   std::vector<Repair> candidates = fitted_repairs(fitted_part(poses));
-  if (before.has_rotations) std::ranges::move(conventions(), std::back_inserter(candidates));
+  if (before.has_rotations) {
+    add_conventions(candidates);
+    add_axes(candidates);
+  }
   Repair best;
   Improvement gained;
   double largest = 0.0;

@@ -48,7 +48,7 @@ class SpeedMatch {
   }
 
   double interval() const { return interval_; }
-  std::size_t intervals() const { return motions_.size(); }
+  auto intervals() const { return static_cast<double>(motions_.size()); }
 
   struct Score {
     double angle = 0.0;
@@ -146,8 +146,7 @@ void refine(const SpeedMatch& match, double step, TimeOffset& out) {
     const double residual = 1.0 - middle.*part * middle.*part;
     if (residual > 0.0 && curvature > 0.0) information += curvature / residual;
   }
-  const auto count = static_cast<double>(match.intervals());
-  out.deviation = information > 0.0 ? 1.0 / std::sqrt(information * count) : INFINITY;
+  out.deviation = information > 0.0 ? 1.0 / std::sqrt(information * match.intervals()) : INFINITY;
   const double curvature = left.best() - 2.0 * middle.best() + right.best();
   if (!(curvature < 0.0)) return;
   out.offset += std::clamp(0.5 * step * (left.best() - right.best()) / curvature, -step, step);
