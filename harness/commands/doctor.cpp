@@ -42,16 +42,6 @@ Diagnosed of_closures(const std::string& name, const Problem& problem) {
   return out;
 }
 
-/// What other commands refuse: `count` poses or edges.
-void add(Diagnosed& to,
-         metrics::Fault::Name fault,
-         std::size_t count,
-         const std::string& evidence,
-         const std::string& fix) {
-  if (count == 0) return;
-  to.result.findings.push_back({fault, evidence, fix, 1.0, static_cast<double>(count)});
-}
-
 Diagnosed of_graph(const std::string& file) {
   const PoseGraph graph = read_g2o(file, {.indefinite = IndefiniteInformation::project});
   GraphParts parts = split_graph(graph, file);
@@ -60,13 +50,16 @@ Diagnosed of_graph(const std::string& file) {
   problem.odometry = std::move(parts.odometry);
   problem.closures = std::move(parts.closures);
   Diagnosed out = of_closures(file, problem);
-  add(out,
-      metrics::Fault::information_indefinite,
-      graph.altered,
-      fmt::format("the information of {} of {} edges is not positive definite",
-                  graph.altered,
-                  graph.edges.size()),
-      "option indefinite of dataset pose_graph: repair, project or isotropic");
+  if (graph.altered > 0) {  // other commands refuse such a graph
+    out.result.findings.push_back(
+        {metrics::Fault::information_indefinite,
+         fmt::format("the information of {} of {} edges is not positive definite",
+                     graph.altered,
+                     graph.edges.size()),
+         "option indefinite of dataset pose_graph: repair, project or isotropic",
+         1.0,
+         static_cast<double>(graph.altered)});
+  }
   return out;
 }
 
@@ -79,14 +72,16 @@ Diagnosed of_pair(const NamedTrajectory& reference,
       metrics::diagnosis(
           reference.file.poses, estimate.file.poses, reference.name, estimate.name, has_stamps)};
   for (const NamedTrajectory* file : {&reference, &estimate}) {
-    const std::size_t count = is_repeat_handled ? 0 : file->findings.repeated;
-    add(out,
-        metrics::Fault::repeated_stamps,
-        count,
-        fmt::format("{}: {} with the stamp of the one before",
-                    file->name,
-                    count == 1 ? "one pose" : fmt::format("{} poses", count)),
-        "--repeats keep_first or keep_last");
+    const std::size_t count = file->findings.repeated;
+    if (count == 0 || is_repeat_handled) continue;
+    out.result.findings.push_back(
+        {metrics::Fault::repeated_stamps,
+         fmt::format("{}: {} with the stamp of the one before",
+                     file->name,
+                     count == 1 ? "one pose" : fmt::format("{} poses", count)),
+         "--repeats keep_first or keep_last",
+         1.0,
+         static_cast<double>(count)});
   }
   return out;
 }

@@ -31,6 +31,14 @@ Paired part_of(const Paired& poses, bool fitted) {
   return out;
 }
 
+Eigen::Matrix3Xd positions(const Trajectory& list) {
+  Eigen::Matrix3Xd out(3, list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    out.col(static_cast<Eigen::Index>(i)) = list[i].world_from_body.translation;
+  }
+  return out;
+}
+
 /// Rotation R that maximises trace(R^T M).
 Matrix3 closest_rotation(const Matrix3& m) {
   const Eigen::JacobiSVD<Matrix3> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -133,46 +141,32 @@ bool has_rotations(const Paired& poses) {
          kLeastRotation;
 }
 
-PositionFit fit_positions(const Paired& poses) {
-  PositionFit out;
-  const auto centred = [](const Trajectory& list, Vector3& mean) {
-    Eigen::Matrix3Xd points(3, list.size());
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      points.col(static_cast<Eigen::Index>(i)) = list[i].world_from_body.translation;
-    }
-    mean = points.rowwise().mean();
-    return Eigen::Matrix3Xd(points.colwise() - mean);
-  };
-  const Eigen::Matrix3Xd reference = centred(poses.reference, out.mean_reference);
-  const Eigen::Matrix3Xd estimate = centred(poses.estimate, out.mean_estimate);
-  const Matrix3 product = reference * estimate.transpose();
-  out.rotation = closest_rotation(product);
-  const double scale = (out.rotation.transpose() * product).trace() / estimate.squaredNorm();
-  if (std::isfinite(scale) && scale > 0.0) out.scale = scale;
-  return out;
+Eigen::Affine3d similarity(const Paired& poses) {
+  return Eigen::Affine3d(Eigen::umeyama(positions(poses.estimate), positions(poses.reference)));
 }
 
 Agreement agreement(const Paired& poses) {
   Agreement out;
   if (poses.estimate.size() < kFewestCommonPoses) return out;
-  const PositionFit fit = fit_positions(fitted_part(poses));
-  const Rotation world(fit.rotation);
-  const Paired tested = part_of(poses, false);
-  double rigid = 0.0, similar = 0.0, spread = 0.0;
+  const Paired fitted = fitted_part(poses), tested = part_of(poses, false);
+  const Eigen::Matrix3Xd reference = positions(fitted.reference);
+  const Eigen::Affine3d rigid(Eigen::umeyama(positions(fitted.estimate), reference, false));
+  const Eigen::Affine3d similar = similarity(fitted);
+  const Rotation world(rigid.linear());
+  const Vector3 mean = reference.rowwise().mean();
+  double of_rigid = 0.0, of_similar = 0.0, spread = 0.0;  // sums of squares [m^2]
   std::vector<double> angles;
   for (std::size_t i = 0; i < tested.estimate.size(); ++i) {
-    const Pose& reference = tested.reference[i].world_from_body;
-    const Pose& estimate = tested.estimate[i].world_from_body;
-    const Vector3 r = reference.translation - fit.mean_reference;
-    const Vector3 e = fit.rotation * (estimate.translation - fit.mean_estimate);
-    rigid += (r - e).squaredNorm();
-    similar += (r - fit.scale * e).squaredNorm();
-    spread += r.squaredNorm();
-    angles.push_back(angle_between(reference.rotation, world * estimate.rotation));
+    const Pose& r = tested.reference[i].world_from_body;
+    const Pose& e = tested.estimate[i].world_from_body;
+    of_rigid += (r.translation - rigid * e.translation).squaredNorm();
+    of_similar += (r.translation - similar * e.translation).squaredNorm();
+    spread += (r.translation - mean).squaredNorm();
+    angles.push_back(angle_between(r.rotation, world * e.rotation));
   }
   const auto count = static_cast<double>(tested.estimate.size());
-  out.position = std::sqrt(rigid / count);
-  out.similarity = std::sqrt(similar / count);
+  out.position = std::sqrt(of_rigid / count);
+  out.similarity = std::sqrt(of_similar / count);
   out.spread = std::sqrt(spread / count);
   out.rotation = median_value(std::move(angles));
   out.has_rotations = has_rotations(poses);
@@ -190,7 +184,7 @@ Improvement improvement(const Agreement& before, const Agreement& after) {
                            const char* unit) {
     const double was = before.*error, is = after.*error;
     const double ratio = (is + floor) / (was + floor);
-    if (ratio >= out.ratio) return;
+    if (!(ratio < out.ratio)) return;
     out = {fmt::format("{} {:.3g} -> {:.3g} {}", what, factor * was, factor * is, unit), ratio};
   };
   compare("position error", &Agreement::position, kSmall * before.spread, 1.0, "m");

@@ -72,15 +72,8 @@ struct Improvement {
 
 Improvement improvement(const Agreement& before, const Agreement& after);
 
-struct PositionFit {
-  Matrix3 rotation = Matrix3::Identity();  ///< reference_from_estimate
-  Vector3 mean_reference = Vector3::Zero();
-  Vector3 mean_estimate = Vector3::Zero();
-  double scale = 1.0;
-};
-
-/// Least-squares similarity of positions (Umeyama 1991). O(n).
-PositionFit fit_positions(const Paired& poses);
+/// reference_from_estimate of the positions in least squares (Umeyama 1991). O(n).
+Eigen::Affine3d similarity(const Paired& poses);
 
 inline constexpr std::size_t kFewestCommonPoses = 20;  ///< fewer cannot be checked
 inline constexpr double kLeastRotation = 0.05;         ///< smaller ones cannot be checked [rad]

@@ -131,11 +131,8 @@ GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain) {
 }
 
 void exchange_blocks(std::vector<Edge>& edges) {
-  for (Edge& edge : edges) {
-    const Matrix6 given = edge.information;
-    edge.information.topLeftCorner<3, 3>() = given.bottomRightCorner<3, 3>();
-    edge.information.bottomRightCorner<3, 3>() = given.topLeftCorner<3, 3>();
-  }
+  const std::array order{3, 4, 5, 0, 1, 2};
+  for (Edge& edge : edges) edge.information = Matrix6(edge.information(order, order));
 }
 
 /// The loops of a problem in groups, and the noise that fits each; loops alone if there are few, so

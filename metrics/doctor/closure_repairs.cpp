@@ -86,11 +86,11 @@ std::vector<EdgeRepair> candidates() {
         read_in_degrees,
         0.0,
         std::log(kDegrees)}});
-  for (const Matrix3& axes : signed_axes()) {
+  for (const auto& [axes, option] : signed_axes()) {
     if (axes.determinant() < 0.0) continue;
     const Rotation body(axes);
     out.push_back({Fault::closure_frame,
-                   "taking " + axes_option(axes) + " of the closures' body as x,y,z",
+                   "taking " + option + " of the closures' body as x,y,z",
                    "transform them into the odometry's body: C T C^-1 for each closure T",
                    [=](const Pose& p, const Rotation&) -> Pose {
                      return {body * p.rotation * body.conjugate(), body * p.translation};

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "metrics/doctor/pair_checks.hpp"
+#include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {
 namespace {
@@ -111,23 +112,39 @@ class PairDiagnosis {
       return;
     }
     out_.has_checked = true;
-    if (has_rotations_) add(check_constant_rotation(poses));
     if (add(check_angle_unit(poses))) {
       for (auto* list : {&poses.reference, &poses.estimate}) {
         for (StampedPose& pose : *list) pose.world_from_body.rotation = Rotation::Identity();
       }
     } else if (!has_rotations(poses)) {
-      const bool is_reference = largest_rotation_angle(poses.reference) <= kLeastRotation;
-      out_.unchecked.push_back(
-          fmt::format("quaternion order, inverted poses, axes, unit of angles: the {} does not "
-                      "rotate by {:g} rad",
-                      is_reference ? "reference" : "estimate",
-                      kLeastRotation));
+      note_constant_rotation(largest_rotation_angle(poses.reference),
+                             largest_rotation_angle(poses.estimate));
     }
     add(remove_jumps(poses));
     for (int i = 0; i < kMostRepairs && add(apply_best_repair(poses)); ++i) {
     }
     check_recording(agreement(poses));
+  }
+
+  /// A finding only if the other file rotates. Files of positions are meant to have no rotations.
+  void note_constant_rotation(double of_reference, double of_estimate) {
+    constexpr double kConstant = 1e-6, kOtherRotates = 0.1;  // [rad]
+    const auto [smaller, larger] = std::minmax(of_reference, of_estimate);
+    const char* const name = of_reference <= kLeastRotation ? "reference" : "estimate";
+    out_.unchecked.push_back(
+        fmt::format("quaternion order, inverted poses, axes, unit of angles: the {} does not "
+                    "rotate by {:g} rad",
+                    name,
+                    kLeastRotation));
+    if (!has_rotations_ || smaller > kConstant || larger < kOtherRotates) return;
+    out_.findings.push_back(
+        {Fault::constant_rotation,
+         fmt::format("the {}'s rotation is constant while the other file rotates by {:.0f} deg",
+                     name,
+                     kDegrees * larger),
+         "write the file with rotations, or use position errors only (eval -r trans_part)",
+         1.0,
+         larger});
   }
 
   /// Nothing agrees, whatever is repaired: replaces all other findings.

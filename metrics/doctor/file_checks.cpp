@@ -21,28 +21,6 @@ bool names_truth(const std::string& name) {
   return std::regex_search((path.parent_path().filename() / path.filename()).string(), known);
 }
 
-/// Median ratio of rotation angles over intervals in which the trajectory that rotates more does so
-/// by 20 to 120 deg, and the other one by less than 2.5 deg: larger angles times 57 are ambiguous.
-double angle_ratio(const Paired& poses) {
-  constexpr double kLeast = 20.0 / kDegrees, kMost = 120.0 / kDegrees,
-                   kMostOfOther = 2.5 / kDegrees;
-  std::vector<double> ratios;
-  std::size_t from = 0;
-  for (std::size_t to = 1; to < poses.estimate.size(); ++to) {
-    const auto angle = [&](const Trajectory& list) {
-      return angle_between(list[from].world_from_body.rotation, list[to].world_from_body.rotation);
-    };
-    const double reference = angle(poses.reference), estimate = angle(poses.estimate);
-    const auto [smaller, larger] = std::minmax(reference, estimate);
-    if (larger < kLeast) continue;
-    if (larger <= kMost && smaller > 0.0 && smaller < kMostOfOther) {
-      ratios.push_back(estimate / reference);
-    }
-    from = to;
-  }
-  return ratios.size() < 8 ? 1.0 : median_value(std::move(ratios));
-}
-
 std::vector<double> steps_of(const Trajectory& poses) {
   std::vector<double> out;
   for (std::size_t i = 1; i < poses.size(); ++i) {
@@ -63,27 +41,27 @@ std::optional<InputFinding> check_swapped(const std::string& reference_name,
                       0.9};
 }
 
-std::optional<InputFinding> check_constant_rotation(const Paired& poses) {
-  constexpr double kConstant = 1e-6, kOtherRotates = 0.1;  // [rad]
-  const double of_reference = largest_rotation_angle(poses.reference);
-  const double of_estimate = largest_rotation_angle(poses.estimate);
-  const auto [constant, other] = std::minmax(of_reference, of_estimate);
-  if (constant > kConstant || other < kOtherRotates) return std::nullopt;
-  const bool is_reference = of_reference < of_estimate;
-  return InputFinding{
-      Fault::constant_rotation,
-      fmt::format("the {}'s rotation is constant while the {} rotates by {:.0f} deg",
-                  is_reference ? "reference" : "estimate",
-                  is_reference ? "estimate" : "reference",
-                  kDegrees * other),
-      "write the file with rotations, or use position errors only (eval -r trans_part)",
-      1.0,
-      other};
-}
-
 std::optional<InputFinding> check_angle_unit(const Paired& poses) {
+  constexpr double kLeast = 20.0 / kDegrees, kMost = 120.0 / kDegrees;  // of the larger angle
+  constexpr double kMostOfOther = 2.5 / kDegrees;  // larger ones times 57 are ambiguous
   constexpr double kTolerance = 2.2;
-  const double ratio = angle_ratio(poses);
+  constexpr std::size_t kFewest = 8;
+  std::vector<double> ratios;
+  std::size_t from = 0;
+  for (std::size_t to = 1; to < poses.estimate.size(); ++to) {
+    const auto angle = [&](const Trajectory& list) {
+      return angle_between(list[from].world_from_body.rotation, list[to].world_from_body.rotation);
+    };
+    const double reference = angle(poses.reference), estimate = angle(poses.estimate);
+    const auto [smaller, larger] = std::minmax(reference, estimate);
+    if (larger < kLeast) continue;
+    if (larger <= kMost && smaller > 0.0 && smaller < kMostOfOther) {
+      ratios.push_back(estimate / reference);
+    }
+    from = to;
+  }
+  if (ratios.size() < kFewest) return std::nullopt;
+  const double ratio = median_value(std::move(ratios));
   const bool is_large = ratio > 1.0;
   const double factor = is_large ? ratio : 1.0 / ratio;
   if (factor < kDegrees / kTolerance || factor > kDegrees * kTolerance) return std::nullopt;

@@ -63,9 +63,6 @@ std::optional<InputFinding> check_missing(const Trajectory& reference, const Tra
 std::optional<InputFinding> check_swapped(const std::string& reference_name,
                                           const std::string& estimate_name);
 
-/// The rotation of one trajectory is constant and the other one rotates by more than 0.1 rad. O(n).
-std::optional<InputFinding> check_constant_rotation(const Paired& poses);
-
 /// The estimate's rotations over short distances are 57.3 times those of the reference, or a 57th.
 /// O(n).
 std::optional<InputFinding> check_angle_unit(const Paired& poses);

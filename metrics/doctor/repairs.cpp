@@ -76,15 +76,15 @@ void add_conventions(std::vector<Repair>& to) {
 /// The signed permutations of the estimate's positions.
 void add_axes(std::vector<Repair>& to) {
   constexpr double kPenalty = 0.05;  // of each axis that moves
-  for (const Matrix3& axes : signed_axes()) {
+  for (const auto& [axes, option] : signed_axes()) {
     const double distance = (axes - Matrix3::Identity()).squaredNorm();
     to.push_back({Fault::axes,
-                  "taking " + axes_option(axes) + " of the estimate's positions as x,y,z",
-                  "traj transform EST --axes=" + axes_option(axes),
+                  "taking " + option + " of the estimate's positions as x,y,z",
+                  "traj transform EST --axes=" + option,
                   distance,
                   kPenalty * distance,
-                  to_each(false, [axes](const Pose& p) -> Pose {
-                    return {p.rotation, axes * p.translation};
+                  to_each(false, [by = axes](const Pose& p) -> Pose {
+                    return {p.rotation, by * p.translation};
                   })});
   }
 }
@@ -92,7 +92,7 @@ void add_axes(std::vector<Repair>& to) {
 /// Millimetres or centimetres, or an arbitrary scale.
 void add_scale(std::vector<Repair>& to, const Paired& poses) {
   constexpr double kUnitTolerance = 0.12, kLeastScale = 0.1, kPenalty = 0.2;
-  const double scale = fit_positions(poses).scale;
+  const double scale = std::cbrt(similarity(poses).linear().determinant());
   if (std::abs(std::log(scale)) < kLeastScale) return;
   Repair out{Fault::scale,
              fmt::format("the estimate has scale {:.4g}", 1.0 / scale),

@@ -183,9 +183,7 @@ std::optional<InputFinding> check_overlap(const Trajectory& reference, const Tra
 
 std::optional<InputFinding> check_missing(const Trajectory& reference, const Trajectory& estimate) {
   constexpr double kLeastShare = 0.25, kLeastGap = 2.0;  // [-], [s]
-  if (reference.size() < kFewestCommonPoses || estimate.size() < kFewestCommonPoses) {
-    return std::nullopt;
-  }
+  if (std::min(reference.size(), estimate.size()) < kFewestCommonPoses) return std::nullopt;
   std::vector<double> covered = stamps(estimate);
   covered.insert(covered.end(), {reference.front().stamp, reference.back().stamp});
   std::ranges::sort(covered);
