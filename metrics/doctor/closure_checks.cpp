@@ -176,24 +176,27 @@ std::optional<InputFinding> wrong_scale(const GroupFits& loops) {
       std::exp(c) > kTooSmall || (std::exp(c) < kTooLarge && std::exp(c) > kExact);
   if (!is_odometry && !is_closures) return std::nullopt;
   const double most_loss = kSmallLoss * static_cast<double>(loops.groups.size() / step);
-  const bool is_all = is_odometry && gain_by({f, 0.0}) - gain_by({f, f}) < most_loss;
-  const double proven = gain_by({is_odometry ? f : 0.0, is_all ? f : is_odometry ? 0.0 : c});
+  const std::array<double, 2> of_all{f, f}, of_some{is_odometry ? f : 0.0, is_odometry ? 0.0 : c};
+  const bool is_all =
+      std::abs(f) > std::log(kTooSmall) && gain_by(of_some) - gain_by(of_all) < most_loss;
+  const double proven = gain_by(is_all ? of_all : of_some);
   if (proven < kLeastProven) return std::nullopt;
+  const double scale = std::exp(is_all || is_odometry ? f : c);
   const char* const edges = is_all ? "all edges" : is_odometry ? "the odometry" : "the closures";
   return InputFinding{
       Fault::information_scale,
       fmt::format("the gaps of the loops are likelier with the stated variances of {} times {:.1g} "
                   "(median of {} groups of loops; logarithm of the ratio of likelihoods {:.1f})",
                   edges,
-                  std::exp(is_odometry ? f : c),
+                  scale,
                   loops.groups.size(),
                   proven),
       fmt::format("check the information of {}; for a trajectory: options {}{}",
                   edges,
-                  is_odometry ? "odometry.sigma_*" : "closures.sigma_*",
+                  is_all || is_odometry ? "odometry.sigma_*" : "closures.sigma_*",
                   is_all ? ", closures.sigma_*" : ""),
       0.8,
-      std::exp(is_odometry ? f : c)};
+      scale};
 }
 
 /// Exchanged blocks of all information, or information that differs from the noise which makes the
