@@ -161,7 +161,8 @@ std::optional<InputFinding> wrong_scale(const GroupFits& loops) {
     for (std::size_t i = 0; i < loops.fits.size(); i += step) {
       logarithms.push_back(loops.fits[i].factors[kind]);
     }
-    return median_value(std::move(logarithms));
+    std::ranges::sort(logarithms, {}, [](double x) { return std::abs(x); });
+    return logarithms[(logarithms.size() - 1) / 2];  // of two, the one that accuses less
   };
   const auto gain_by = [&](const std::array<double, 2>& factors) {
     double out = 0.0;
@@ -203,8 +204,8 @@ std::optional<InputFinding> wrong_scale(const GroupFits& loops) {
 /// loops likeliest by more than 100 (too large) or 10^5 (too small).
 std::optional<InputFinding> check_information(const Problem& problem) {
   constexpr std::size_t kFewest = 2;
-  constexpr double kLeastOfOrder = 8.0;
-  constexpr double kExactGap = 1e-4;  // [m]; of measurements without noise
+  constexpr double kLeastOfOrder = 18.0;  // mean of the groups, in logarithms of the likelihood
+  constexpr double kExactGap = 1e-4;      // [m]; of measurements without noise
   if (problem.closures.size() < kFewest) return std::nullopt;
   const GroupFits as_read(problem);
   std::vector<double> gaps;
