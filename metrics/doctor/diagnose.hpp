@@ -17,10 +17,10 @@ struct Diagnosis {
 
 /// Names are used by check_swapped() only. Stamps are corrected first, then conventions, units and
 /// bodies are compared with the corrected stamps, one repair after the other. What is found is
-/// tested on poses or intervals that were not used to estimate it. If no repair makes the files
-/// agree, they are of different recordings. Constant rotations of files without
-/// rotations are no finding. `has_stamps`: false if the stamps of either are generated, so that
-/// there is no time offset. O(1e6).
+/// tested on poses that were not used to estimate it. If no repair makes the files agree, they are
+/// of different recordings. Constant rotations of files without rotations are no finding.
+/// `has_stamps`: false if the stamps of either are generated, so that there is no time offset.
+/// O(1e6).
 Diagnosis diagnosis(const Trajectory& reference,
                     const Trajectory& estimate,
                     const std::string& reference_name,

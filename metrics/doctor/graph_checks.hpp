@@ -31,8 +31,7 @@ std::optional<InputFinding> check_movement(const Problem& problem, const Traject
 /// - conventions of odometry and closures, see find_odometry_repair() and find_closure_repair();
 /// - gaps of closures that the odometry or most other closures contradict;
 /// - order and scale of the information, by the noise that fits the loops, without the closures
-/// found before, and only if these
-///   are less than a fifth.
+///   found before, and only if these are less than a fifth.
 /// Empty if the odometry is no chain. O((closures + keyframes) log).
 std::vector<InputFinding> check_closures(const Problem& problem);
 

@@ -170,7 +170,7 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
   out.has_common_time = before.is_known;
   const double coarse = std::clamp(match.interval(), 0.1, 0.5), fine = 0.2 * coarse;
   Best best = search(match, -searched, searched, coarse);
-  if (best.score < 0.0) {
+  if (!before.is_known && best.score < 0.0) {
     // At least half of the shorter one must be common: a short overlap can fit by chance.
     const double duration = std::min(reference.back().stamp - reference.front().stamp,
                                      estimate.back().stamp - estimate.front().stamp);
