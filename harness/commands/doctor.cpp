@@ -34,57 +34,56 @@ Diagnosed of_closures(const std::string& name, const Problem& problem) {
   out.result.findings = metrics::check_closures(problem);
   const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
   out.result.has_checked = is_chain && !problem.closures.empty();
-  if (problem.closures.empty()) {
-    out.result.unchecked.emplace_back("closures, information: there are no closures");
-  } else if (!is_chain) {
-    out.result.unchecked.emplace_back("closures, information: the odometry is no chain");
+  if (!out.result.has_checked) {
+    out.result.unchecked.emplace_back(problem.closures.empty()
+                                          ? "closures, information: there are no closures"
+                                          : "closures, information: the odometry is no chain");
   }
   return out;
 }
 
-Problem problem_of(const PoseGraph& graph, const std::string& file) {
+Diagnosed of_graph(const std::string& file) {
+  const PoseGraph graph = read_g2o(file, {.indefinite = IndefiniteInformation::project});
   GraphParts parts = split_graph(graph, file);
-  Problem out;
-  out.keyframes = initial_poses(graph, ReadOptions{}.period);
-  out.odometry = std::move(parts.odometry);
-  out.closures = std::move(parts.closures);
-  out.planar = graph.planar;
+  Problem problem;
+  problem.keyframes = initial_poses(graph, ReadOptions{}.period);
+  problem.odometry = std::move(parts.odometry);
+  problem.closures = std::move(parts.closures);
+  Diagnosed out = of_closures(file, problem);
+  if (graph.altered > 0) {  // other commands refuse such a graph
+    out.result.findings.push_back(
+        {metrics::Fault::information_indefinite,
+         fmt::format("the information of {} of {} edges is not positive definite",
+                     graph.altered,
+                     graph.edges.size()),
+         "option indefinite of dataset pose_graph: repair, project or isotropic",
+         1.0,
+         static_cast<double>(graph.altered)});
+  }
   return out;
 }
 
-Diagnosed of_pair(const NamedTrajectory& reference, const NamedTrajectory& estimate) {
-  const Trajectory& truth = reference.file.poses;
-  const Trajectory& poses = estimate.file.poses;
+Diagnosed of_pair(const NamedTrajectory& reference,
+                  const NamedTrajectory& estimate,
+                  bool is_repeat_handled) {
   const bool has_stamps = reference.file.has_stamps && estimate.file.has_stamps;
-  return {estimate.name,
-          metrics::diagnosis(truth, poses, reference.name, estimate.name, has_stamps)};
-}
-
-/// `eval` would refuse such a file.
-void add_repeated_stamps(const NamedTrajectory& file,
-                         std::vector<metrics::InputFinding>& findings) {
-  if (file.findings.repeated == 0) return;
-  findings.push_back(
-      {metrics::Fault::repeated_stamps,
-       fmt::format("{}: {} with the stamp of the one before",
-                   file.name,
-                   file.findings.repeated == 1 ? "one pose"
-                                               : fmt::format("{} poses", file.findings.repeated)),
-       "--repeats keep_first or keep_last",
-       1.0,
-       static_cast<double>(file.findings.repeated)});
-}
-
-/// Other commands refuse such a graph.
-void add_indefinite(const PoseGraph& graph, std::vector<metrics::InputFinding>& findings) {
-  if (graph.altered == 0) return;
-  findings.push_back({metrics::Fault::information_indefinite,
-                      fmt::format("the information of {} of {} edges is not positive definite",
-                                  graph.altered,
-                                  graph.edges.size()),
-                      "option indefinite of dataset pose_graph: repair, project or isotropic",
-                      1.0,
-                      static_cast<double>(graph.altered)});
+  Diagnosed out{
+      estimate.name,
+      metrics::diagnosis(
+          reference.file.poses, estimate.file.poses, reference.name, estimate.name, has_stamps)};
+  for (const NamedTrajectory* file : {&reference, &estimate}) {
+    const std::size_t count = file->findings.repeated;
+    if (count == 0 || is_repeat_handled) continue;
+    out.result.findings.push_back(
+        {metrics::Fault::repeated_stamps,
+         fmt::format("{}: {} with the stamp of the one before",
+                     file->name,
+                     count == 1 ? "one pose" : fmt::format("{} poses", count)),
+         "--repeats keep_first or keep_last",
+         1.0,
+         static_cast<double>(count)});
+  }
+  return out;
 }
 
 std::string report_text(const std::vector<Diagnosed>& all) {
@@ -107,7 +106,7 @@ std::string report_json(const std::vector<Diagnosed>& all) {
   for (const Diagnosed& each : all) {
     nlohmann::json findings = nlohmann::json::array();
     for (const metrics::InputFinding& finding : each.result.findings) {
-      findings.push_back({{"fault", metrics::fault_name(finding.fault)},
+      findings.push_back({{"fault", finding.fault},
                           {"evidence", finding.evidence},
                           {"fix", finding.fix},
                           {"confidence", finding.confidence},
@@ -117,10 +116,6 @@ std::string report_json(const std::vector<Diagnosed>& all) {
                    {"findings", findings},
                    {"unchecked", each.result.unchecked},
                    {"has_checked", each.result.has_checked}});
-    if (!each.result.offset) continue;
-    out.back()["time_offset"] = {{"offset", each.result.offset->offset},
-                                 {"deviation", each.result.offset->deviation},
-                                 {"correlation", each.result.offset->correlation}};
   }
   return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
@@ -134,11 +129,7 @@ int doctor(const DoctorArguments& a) {
     if (!a.reference_format.empty()) of_reference.format = a.reference_format;
     const NamedTrajectory reference = read_named(a.reference, of_reference);
     for (const NamedTrajectory& estimate : read_all_named(a.estimates, reading)) {
-      std::vector<metrics::InputFinding>& found =
-          all.emplace_back(of_pair(reference, estimate)).result.findings;
-      if (!a.reading.repeats.empty()) continue;
-      add_repeated_stamps(reference, found);
-      add_repeated_stamps(estimate, found);
+      all.push_back(of_pair(reference, estimate, !a.reading.repeats.empty()));
     }
   }
   if (!a.loops.empty()) {
@@ -154,9 +145,7 @@ int doctor(const DoctorArguments& a) {
           a.reference +
           ": expected REF and EST, a trajectory with --loops, or one pose graph (g2o)");
     }
-    const PoseGraph graph = read_g2o(a.reference, {.indefinite = IndefiniteInformation::project});
-    all.push_back(of_closures(a.reference, problem_of(graph, a.reference)));
-    add_indefinite(graph, all.back().result.findings);
+    all.push_back(of_graph(a.reference));
   }
   fmt::print("{}", a.json ? report_json(all) : printable(report_text(all)));
   const bool is_clean = std::ranges::all_of(all, [](const Diagnosed& each) {

@@ -11,38 +11,38 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr double kSureFinding = 0.5;  // `loopbench doctor` itself prints all findings
-
-bool aligns_scale(const metrics::NamedProtocol& protocol) {
-  const metrics::Align align = protocol.rules.align;
-  return align == metrics::Align::sim3 || align == metrics::Align::scale;
+/// Notes of findings with a confidence of at least 0.5; `loopbench doctor` itself prints all.
+std::vector<std::string> notes_of(const std::vector<metrics::InputFinding>& findings) {
+  constexpr double kSure = 0.5;
+  std::vector<std::string> out;
+  for (const metrics::InputFinding& finding : findings) {
+    if (finding.confidence >= kSure) out.push_back(kDoctorPrefix + text(finding));
+  }
+  return out;
 }
 
-std::vector<metrics::InputFinding> sure_findings(
+/// What the protocols leave.
+std::vector<metrics::InputFinding> findings_of(
     const ReadPair& pair, const std::vector<metrics::NamedProtocol>& protocols) {
   if (protocols.empty() || pair.reference.empty() || pair.estimate.empty()) return {};
   const double offset = protocols.front().rules.offset;
-  Trajectory shifted;
-  if (offset != 0.0) {
-    shifted = pair.estimate;
-    for (StampedPose& pose : shifted) pose.stamp += offset;
-  }
+  Trajectory shifted = pair.estimate;
+  for (StampedPose& pose : shifted) pose.stamp += offset;
   std::vector<metrics::InputFinding> out =
-      metrics::diagnosis(pair.reference,
-                         offset != 0.0 ? shifted : pair.estimate,
-                         pair.reference_name,
-                         pair.estimate_name,
-                         pair.has_stamps)
+      metrics::diagnosis(
+          pair.reference, shifted, pair.reference_name, pair.estimate_name, pair.has_stamps)
           .findings;
-  const bool is_aligned = std::ranges::all_of(protocols, aligns_scale);
+  const bool is_aligned = std::ranges::all_of(protocols, [](const metrics::NamedProtocol& each) {
+    const metrics::Align align = each.rules.align;
+    return align == metrics::Align::sim3 || align == metrics::Align::scale;
+  });
   std::erase_if(out, [&](metrics::InputFinding& finding) {
-    if (finding.fault == metrics::Fault::time_offset && offset != 0.0) {
+    if (finding.fault == metrics::Fault::time_offset) {
       // The option replaces the offset that is already applied.
       finding.value += offset;
       finding.fix = fmt::format("--offset {:.4f}", finding.value);
     }
-    return finding.confidence < kSureFinding ||
-           finding.fault == metrics::Fault::lever_arm ||  // the evaluation has a note of its own
+    return finding.fault == metrics::Fault::lever_arm ||  // the evaluation has a note of its own
            finding.fault == metrics::Fault::body_rotation ||
            (finding.fault == metrics::Fault::scale && is_aligned);
   });
@@ -56,45 +56,32 @@ bool has_own_stamps(const Trajectory& poses) { return poses.front().stamp != 0.0
 
 std::vector<std::string> doctor_notes(const ReadPair& pair,
                                       const std::vector<metrics::NamedProtocol>& protocols) {
-  std::vector<std::string> out;
-  for (const metrics::InputFinding& finding : sure_findings(pair, protocols)) {
-    out.push_back(kDoctorPrefix + text(finding));
-  }
-  return out;
+  return notes_of(findings_of(pair, protocols));
 }
 
 std::vector<std::string> doctor_notes(const Sequence& sequence, const Sweep& sweep) {
-  std::vector<std::string> out;
   const Provenance& source = sequence.provenance;
   const Problem& problem = sequence.problem;
-  if (source.inputs.empty() || !source.noise.empty() || problem.keyframes.empty()) return out;
-  const auto add = [&](const std::vector<metrics::InputFinding>& findings) {
-    for (metrics::InputFinding finding : findings) {
-      if (finding.confidence < kSureFinding) continue;
+  if (source.inputs.empty() || !source.noise.empty() || problem.keyframes.empty()) return {};
+  std::vector<metrics::InputFinding> found = metrics::check_closures(problem);
+  if (!sequence.reference.empty()) {
+    const bool has_stamps = has_own_stamps(sequence.reference) && has_own_stamps(problem.keyframes);
+    const ReadPair pair{
+        sequence.reference, problem.keyframes, source.reference.string(), "", has_stamps};
+    for (metrics::InputFinding& finding : findings_of(pair, sweep.protocols)) {
       if (finding.fault == metrics::Fault::time_offset) {
         finding.fix = fmt::format("protocol: {{offset: {:.4f}}}", finding.value);
       } else if (finding.fault == metrics::Fault::scale) {
         finding.fix = "protocol: {align: sim3}";
       }
-      out.push_back(kDoctorPrefix + text(finding));
+      found.push_back(std::move(finding));
     }
-  };
-  if (!sequence.reference.empty()) {
-    const bool has_stamps = has_own_stamps(sequence.reference) && has_own_stamps(problem.keyframes);
-    add(sure_findings(
-        {sequence.reference, problem.keyframes, source.reference.string(), "", has_stamps},
-        sweep.protocols));
   }
-  add(metrics::check_closures(problem));
-  return out;
+  return notes_of(found);
 }
 
 std::vector<std::string> closure_notes(const Problem& problem) {
-  std::vector<std::string> out;
-  for (const metrics::InputFinding& finding : metrics::check_closures(problem)) {
-    if (finding.confidence >= kSureFinding) out.push_back(kDoctorPrefix + text(finding));
-  }
-  return out;
+  return notes_of(metrics::check_closures(problem));
 }
 
 std::string movement_note(const Problem& problem,
@@ -122,25 +109,20 @@ bool uses_closures(const MethodChoice& choice, const Catalogue& catalogue) {
 void CellNotes::add(const std::string& method, const CellResult& result) {
   for (const std::string& note : result.report.notes) {
     if (!note.starts_with(kDoctorPrefix)) continue;
-    const auto known =
-        std::ranges::find(counts_, method, &std::pair<std::string, std::size_t>::first);
-    if (known == counts_.end()) {
-      counts_.emplace_back(method, 1);
-      examples_.push_back(note);
+    const auto known = std::ranges::find(all_, method, &Noted::method);
+    if (known == all_.end()) {
+      all_.push_back({method, note});
     } else {
-      ++known->second;
+      ++known->others;
     }
   }
 }
 
 std::vector<std::string> CellNotes::lines() const {
   std::vector<std::string> out;
-  for (std::size_t i = 0; i < counts_.size(); ++i) {
-    const std::size_t count = counts_[i].second;
-    out.push_back(fmt::format("{}: {}{}",
-                              counts_[i].first,
-                              examples_[i],
-                              count == 1 ? "" : fmt::format(" (and {} more cells)", count - 1)));
+  for (const auto& [method, note, others] : all_) {
+    const std::string more = others == 0 ? "" : fmt::format(" (and {} more cells)", others);
+    out.push_back(method + ": " + note + more);
   }
   return out;
 }

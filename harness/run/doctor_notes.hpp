@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "harness/catalogue/catalogue.hpp"
@@ -54,8 +53,11 @@ class CellNotes {
   std::vector<std::string> lines() const;
 
  private:
-  std::vector<std::pair<std::string, std::size_t>> counts_;  ///< of cells by method
-  std::vector<std::string> examples_;                        ///< the first note of each method
+  struct Noted {
+    std::string method, note;
+    std::size_t others = 0;  ///< cells
+  };
+  std::vector<Noted> all_;
 };
 
 }  // namespace loopbench::harness

@@ -1,18 +1,49 @@
 /// How well simultaneous poses of two trajectories agree, measured on poses that no fit has used.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
-#include "metrics/doctor/common_motion.hpp"
+#include "datasets/core/upper_median.hpp"
+#include "metrics/pairing/association.hpp"
 
 namespace loopbench::metrics {
 
-/// Twenty blocks of poses, alternately for fits and for tests.
-bool is_fitted(std::size_t index, std::size_t size);
+/// Median; 0 for an empty list.
+inline double median_value(std::vector<double> values) {
+  return values.empty() ? 0.0 : upper_median(values);
+}
 
-/// The poses that fits may use. O(n).
-CommonPoses fitted_part(const CommonPoses& poses);
+/// Median time between poses [s]; 0 below two poses. O(n).
+inline double usual_interval(const Trajectory& poses) {
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    intervals.push_back(poses[i].stamp - poses[i - 1].stamp);
+  }
+  return median_value(std::move(intervals));
+}
+
+/// Longest time between poses of the reference across which it is interpolated [s]. O(n).
+inline double longest_gap(const Trajectory& reference) {
+  return std::max(1.0, 10.0 * usual_interval(reference));
+}
+
+/// At most 1500 poses of the estimate, evenly chosen, with the reference interpolated at stamp +
+/// offset; without those outside the reference or in its gaps above 1 s (or ten times its median
+/// interval). O(n + m).
+inline Paired common_poses(const Trajectory& reference,
+                           const Trajectory& estimate,
+                           double offset = 0.0) {
+  constexpr std::size_t kMost = 1500;
+  Trajectory few;
+  const std::size_t step = estimate.size() / (kMost + 1) + 1;
+  for (std::size_t i = 0; i < estimate.size(); i += step) few.push_back(estimate[i]);
+  return interpolate_reference(reference, few, longest_gap(reference), offset);
+}
+
+/// The poses that fits may use: alternate ones of twenty blocks. O(n).
+Paired fitted_part(const Paired& poses);
 
 /// Errors of the test poses [-], [m] or [rad]. Displacements and rotations over short distances are
 /// compared in body frames, up to a constant rotation of the body and a scale: drift hardly changes
@@ -24,8 +55,6 @@ struct Agreement {
   double rotation = 0.0;      ///< median angle after the alignment of positions [rad]
   double displacement = 0.0;  ///< median error of displacements, over their median length [-]
   double turning = 0.0;       ///< rms error of relative rotations, over their rms [-]
-  double swing = 0.0;         ///< median error of displacements over rotations of 6 deg [m]
-  double swing_length = 0.0;  ///< median of these displacements [m]
   bool has_rotations = true;  ///< false: the rotation of one list is constant
 
   /// Sum of logarithms of all relative errors; smaller is better.
@@ -33,7 +62,7 @@ struct Agreement {
 };
 
 /// Alignments and constant rotations are fitted to one half. All errors are 0 below 20 poses. O(n).
-Agreement agreement(const CommonPoses& poses);
+Agreement agreement(const Paired& poses);
 
 /// The measure that a change improves most.
 struct Improvement {
@@ -43,25 +72,16 @@ struct Improvement {
 
 Improvement improvement(const Agreement& before, const Agreement& after);
 
-struct PositionFit {
-  Matrix3 rotation = Matrix3::Identity();  ///< reference_from_estimate
-  Vector3 mean_reference = Vector3::Zero();
-  Vector3 mean_estimate = Vector3::Zero();
-  double scale = 1.0;
-};
-
-/// Least-squares similarity of positions (Umeyama 1991). O(n).
-PositionFit fit_positions(const CommonPoses& poses);
-
-/// The rotation of the body that maps the estimate's rotations, after alignment of the positions,
-/// to the reference's: body_from_reference. O(n).
-Rotation fit_body(const CommonPoses& poses);
+/// reference_from_estimate of the positions in least squares (Umeyama 1991). O(n).
+Eigen::Affine3d similarity(const Paired& poses);
 
 inline constexpr std::size_t kFewestCommonPoses = 20;  ///< fewer cannot be checked
-inline constexpr std::size_t kMostCommonPoses = 1500;  ///< that are compared
 inline constexpr double kLeastRotation = 0.05;         ///< smaller ones cannot be checked [rad]
 
-/// Whether some rotation differs from the first one by more than kLeastRotation. O(n).
-bool has_rotations(const std::vector<Pose>& poses);
+/// Largest rotation angle from the first pose [rad]. O(n).
+double largest_rotation_angle(const Trajectory& poses);
+
+/// Whether both rotate by more than kLeastRotation. O(n).
+bool has_rotations(const Paired& poses);
 
 }  // namespace loopbench::metrics

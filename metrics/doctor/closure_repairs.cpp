@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
+#include <iterator>
 #include <string>
 #include <vector>
 
-#include "metrics/doctor/common_motion.hpp"
+#include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/graph_checks.hpp"
 #include "metrics/doctor/loop_likelihood.hpp"
 #include "metrics/doctor/signed_axes.hpp"
@@ -21,7 +20,7 @@ namespace {
 using EdgeChange = std::function<Pose(const Pose&, const Rotation&)>;
 
 struct EdgeRepair {
-  Fault fault{};
+  Fault::Name fault;
   std::string what;
   std::string fix;
   EdgeChange change;
@@ -87,11 +86,11 @@ std::vector<EdgeRepair> candidates() {
         read_in_degrees,
         0.0,
         std::log(kDegrees)}});
-  for (const Matrix3& axes : signed_axes()) {
+  for (const auto& [axes, option] : signed_axes()) {
     if (axes.determinant() < 0.0) continue;
     const Rotation body(axes);
     out.push_back({Fault::closure_frame,
-                   "taking " + axes_option(axes) + " of the closures' body as x,y,z",
+                   "taking " + option + " of the closures' body as x,y,z",
                    "transform them into the odometry's body: C T C^-1 for each closure T",
                    [=](const Pose& p, const Rotation&) -> Pose {
                      return {body * p.rotation * body.conjugate(), body * p.translation};
@@ -101,87 +100,29 @@ std::vector<EdgeRepair> candidates() {
   return out;
 }
 
-/// Groups of up to five closures that follow each other, evenly chosen.
-std::vector<LoopGroup> groups_of(const Problem& problem, const Chain& chain) {
-  constexpr std::size_t kSize = 5, kMost = 14;
-  std::vector<const Edge*> sorted;
-  for (const Edge& edge : problem.closures) sorted.push_back(&edge);
-  std::ranges::stable_sort(sorted, {}, [](const Edge* e) { return std::max(e->from, e->to); });
-  const std::size_t n = sorted.size();
-  std::vector<LoopGroup> out;
-  const std::size_t count = std::clamp<std::size_t>((n + 1) / kSize, n < kSize + 1 ? 1 : 2, kMost);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t begin = i * n / count;
-    const std::size_t size = std::min({(i + 1) * n / count - begin, count == 1 ? n : kSize});
-    out.emplace_back(
-        std::vector<const Edge*>(sorted.begin() + static_cast<std::ptrdiff_t>(begin),
-                                 sorted.begin() + static_cast<std::ptrdiff_t>(begin + size)),
-        chain);
+std::vector<LoopFit> fits(const std::vector<const LoopGroup*>& groups,
+                          const Chain& chain,
+                          const EdgeRepair& repair) {
+  std::vector<LoopFit> out;
+  for (const LoopGroup* group : groups) {
+    std::vector<Pose> measured;
+    Rotation previous = Rotation::Identity();  // of the gap
+    for (const Edge* edge : group->closures()) {
+      const Rotation odometry = chain.between(edge->from, edge->to).rotation;
+      measured.push_back(repair.change(edge->from_from_to, odometry * previous.conjugate()));
+      previous = measured.back().rotation.conjugate() * odometry;
+    }
+    out.push_back(group->fit(measured));
+    out.back().log_likelihood -= static_cast<double>(measured.size()) * repair.penalty_of_closure;
   }
   return out;
 }
 
-double log_likelihood(const LoopGroup& group,
-                      const Chain& chain,
-                      const EdgeRepair* repair,
-                      PredictionError* errors = nullptr) {
-  std::vector<Pose> measured;
-  Rotation previous = Rotation::Identity();  // of the gap
-  for (const Edge* edge : group.closures()) {
-    const Rotation odometry = chain.between(edge->from, edge->to).rotation;
-    const Pose& read = edge->from_from_to;
-    measured.push_back(repair == nullptr ? read
-                                         : repair->change(read, odometry * previous.conjugate()));
-    previous = measured.back().rotation.conjugate() * odometry;
-  }
-  double out = group.log_likelihood(measured, errors);
-  if (repair != nullptr) {
-    out -= static_cast<double>(measured.size()) * repair->penalty_of_closure;
-  }
-  return out;
-}
-
-/// Choices and proofs use alternate groups; all, if there are few, which differ little by chance.
-std::size_t step_of(const std::vector<LoopGroup>& groups) {
-  constexpr std::size_t kFewestForHalves = 6;
-  return groups.size() < kFewestForHalves ? 1 : 2;
-}
-
-/// Sum over every other group; one group, whose closures may be false, counts up to a limit.
-double gain_of(const std::vector<LoopGroup>& groups,
-               const std::vector<double>& as_read,
-               const Chain& chain,
-               const EdgeRepair& repair,
-               std::size_t first,
-               PredictionError* errors = nullptr) {
-  constexpr double kMostOfGroup = 20.0;
-  double out = 0.0;
-  const std::size_t step = step_of(groups);
-  for (std::size_t i = first % step; i < groups.size(); i += step) {
-    out += std::clamp(log_likelihood(groups[i], chain, &repair, errors) - as_read[i],
-                      -kMostOfGroup,
-                      kMostOfGroup);
-  }
-  return out;
-}
-
-/// The error of predictions that a repair reduces most, as a ratio and as a text; that of positions
-/// for units of translations.
-std::pair<double, std::string> largest_change(const PredictionError& before,
-                                              const PredictionError& after,
-                                              bool is_unit) {
-  const double metres = median_value(before.metres), radians = median_value(before.radians);
-  const double metres_after = median_value(after.metres);
-  const double radians_after = median_value(after.radians);
-  const double of_metres = (metres_after + 1e-6) / (metres + 1e-6);
-  const double of_radians = (radians_after + 1e-6) / (radians + 1e-6);
-  const bool is_rotation = !is_unit && of_radians < of_metres;
-  return {is_rotation ? of_radians : of_metres,
-          fmt::format("error with which odometry and other closures predict a closure {:.3g} -> "
-                      "{:.3g} {}",
-                      is_rotation ? kDegrees * radians : metres,
-                      is_rotation ? kDegrees * radians_after : metres_after,
-                      is_rotation ? "deg" : "m")};
+/// Median error with which odometry and other closures predict a closure.
+double median_error(const std::vector<LoopFit>& fits, std::vector<double> LoopFit::*errors) {
+  std::vector<double> all;
+  for (const LoopFit& fit : fits) std::ranges::copy(fit.*errors, std::back_inserter(all));
+  return median_value(std::move(all)) + 1e-6;  // rounding
 }
 
 /// Median difference of the odometry and the keyframes, over the keyframes' median step [-].
@@ -228,32 +169,47 @@ std::optional<InputFinding> find_odometry_repair(const Problem& problem) {
 std::optional<InputFinding> find_closure_repair(const Problem& problem, const Chain& chain) {
   constexpr double kLeastChosen = 5.0, kLeastProven = 3.0;  // in logarithms of the likelihood
   constexpr double kMostRatio = 0.9, kMostOfUnit = 0.3;     // shrinking removes noise, too
-  const std::vector<LoopGroup> groups = groups_of(problem, chain);
-  static const std::vector<EdgeRepair> all = candidates();
-  std::vector<double> as_read;
-  PredictionError before;
+  constexpr std::size_t kFewestForHalves = 6;               // fewer groups differ little by chance
+  const std::vector<LoopGroup> groups = loop_groups(problem.closures, chain);
+  std::vector<const LoopGroup*> chosen, tested;
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    const bool is_tested = i % 2 == 1 || step_of(groups) == 1;
-    as_read.push_back(log_likelihood(groups[i], chain, nullptr, is_tested ? &before : nullptr));
+    const bool is_half = groups.size() >= kFewestForHalves;
+    if (!is_half || i % 2 == 0) chosen.push_back(&groups[i]);
+    if (!is_half || i % 2 == 1) tested.push_back(&groups[i]);
   }
+  const EdgeRepair as_read{{}, "", "", unchanged_edge};
+  const std::vector<LoopFit> before = fits(chosen, chain, as_read);
+  static const std::vector<EdgeRepair> all = candidates();
   const EdgeRepair* best = nullptr;
   double largest = kLeastChosen;
   for (const EdgeRepair& repair : all) {
-    const double gain = gain_of(groups, as_read, chain, repair, 0) - repair.penalty;
-    if (!(gain > largest)) continue;
-    largest = gain;
+    const double gained = gain(before, fits(chosen, chain, repair)) - repair.penalty;
+    if (!(gained > largest)) continue;
+    largest = gained;
     best = &repair;
   }
   if (best == nullptr) return std::nullopt;
-  PredictionError after;
-  const double proven = gain_of(groups, as_read, chain, *best, 1, &after);
+  const std::vector<LoopFit> was = fits(tested, chain, as_read);
+  const std::vector<LoopFit> is = fits(tested, chain, *best);
+  const double proven = gain(was, is);
   const bool is_unit = best->fault == Fault::closure_unit;
-  const auto [ratio, text] = largest_change(before, after, is_unit);
+  const double metres = median_error(was, &LoopFit::metres);
+  const double radians = median_error(was, &LoopFit::radians);
+  const double metres_after = median_error(is, &LoopFit::metres);
+  const double radians_after = median_error(is, &LoopFit::radians);
+  const double ratio =
+      is_unit ? metres_after / metres : std::min(metres_after / metres, radians_after / radians);
   if (proven < kLeastProven || ratio > (is_unit ? kMostOfUnit : kMostRatio)) return std::nullopt;
   return InputFinding{
       best->fault,
-      fmt::format(
-          "{}: {} (logarithm of the ratio of likelihoods {:.1f})", best->what, text, proven),
+      fmt::format("{}: error with which odometry and other closures predict a closure {:.3g} -> "
+                  "{:.3g} m, {:.3g} -> {:.3g} deg (logarithm of the ratio of likelihoods {:.1f})",
+                  best->what,
+                  metres,
+                  metres_after,
+                  kDegrees * radians,
+                  kDegrees * radians_after,
+                  proven),
       best->fix,
       1.0 - std::exp(-0.25 * proven),
       static_cast<double>(problem.closures.size())};

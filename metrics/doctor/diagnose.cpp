@@ -3,19 +3,40 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
-#include <string>
+#include <cmath>
 #include <utility>
 
-#include "metrics/doctor/agreement.hpp"
-#include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/pair_checks.hpp"
-#include "metrics/doctor/repairs.hpp"
-#include "metrics/doctor/speed_match.hpp"
-#include "metrics/doctor/time_offset.hpp"
+#include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {
 namespace {
+
+constexpr const char* kChecksOfPoses = "units, scale, quaternion order, inverted poses, axes";
+constexpr double kLeastOfNoise = 3.0;  // standard deviation of positions over their noise
+
+/// Whether noise explains the positions: their standard deviation is at most kLeastOfNoise times
+/// the one of white noise that the median distance of a position from the middle of the ones before
+/// and after has. Acceleration adds to it. O(n).
+bool is_at_rest(const Trajectory& poses) {
+  constexpr double kRounding = 1e-9;
+  constexpr double kMeanOverMedian = 3.0 / 2.366;  // of chi-squared with 3 degrees of freedom
+  const auto n = static_cast<double>(poses.size());
+  Vector3 mean = Vector3::Zero();
+  for (const StampedPose& pose : poses) mean += pose.world_from_body.translation / n;
+  double variance = 0.0;
+  std::vector<double> squares;  // of the distances from the middle
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Vector3& position = poses[i].world_from_body.translation;
+    variance += (position - mean).squaredNorm() / n;
+    if (i == 0 || i + 1 == poses.size()) continue;
+    const Vector3 middle =
+        0.5 * (poses[i - 1].world_from_body.translation + poses[i + 1].world_from_body.translation);
+    squares.push_back((position - middle).squaredNorm() / 1.5);
+  }
+  const double noise = std::sqrt(kMeanOverMedian * median_value(std::move(squares)));
+  return std::sqrt(variance) <= kLeastOfNoise * noise + kRounding * mean.norm();
+}
 
 /// Positions without rotations with constant ones.
 Trajectory with_rotations(Trajectory poses) {
@@ -27,8 +48,10 @@ Trajectory with_rotations(Trajectory poses) {
 /// The pair with the repairs of what was found.
 class PairDiagnosis {
  public:
-  PairDiagnosis(Trajectory reference, Trajectory estimate)
-      : reference_(std::move(reference)), estimate_(std::move(estimate)) {}
+  PairDiagnosis(const Trajectory& reference, const Trajectory& estimate)
+      : has_rotations_(!lacks_rotations(reference) && !lacks_rotations(estimate)),
+        reference_(with_rotations(reference)),
+        estimate_(with_rotations(estimate)) {}
 
   Diagnosis run(const std::string& reference_name,
                 const std::string& estimate_name,
@@ -46,106 +69,82 @@ class PairDiagnosis {
   }
 
  private:
-  void add(std::optional<InputFinding> found) {
+  bool add(std::optional<InputFinding> found) {
     if (found) out_.findings.push_back(std::move(*found));
-  }
-
-  void add(std::optional<StampRepair> found) {
-    if (!found) return;
-    add(std::move(found->finding));
-    out_.has_checked = true;
-    Trajectory& poses = found->is_of_reference ? reference_ : estimate_;
-    poses = restamped(std::move(poses), found->factor, found->offset);
+    return found.has_value();
   }
 
   void check_stamps() {
-    add(check_stamp_unit(reference_, estimate_));
-    auto clock = check_frame_indices(reference_, estimate_);
-    if (!clock) clock = check_clock_drift(reference_, estimate_);
-    const bool has_offset = !clock || clock->finding.fault == Fault::frame_indices;
-    add(std::move(clock));
-    if (has_offset && !estimate_.empty()) check_offset();
-  }
-
-  void check_offset() {
+    out_.has_checked = add(repair_stamp_unit(reference_, estimate_));
+    const bool has_indices = add(repair_frame_indices(reference_, estimate_));
+    if (!has_indices && add(repair_clock_drift(reference_, estimate_))) return;
     if (std::min(reference_.size(), estimate_.size()) < kFewestCommonPoses) {
       out_.unchecked.emplace_back("time offset: fewer than 20 poses");
     }
-    speeds_ = estimate_time_offset(reference_, estimate_);
-    auto found = speeds_ ? offset_finding(*speeds_, reference_, estimate_) : std::nullopt;
-    out_.has_checked |= speeds_.has_value();
-    if (!found) {
-      if (auto apart = check_overlap(reference_, estimate_)) {
-        add(std::move(apart));
-      } else {
-        add(check_missing(reference_, estimate_));
+    if (const auto found = estimate_time_offset(reference_, estimate_)) {
+      out_.has_checked = true;
+      if (add(offset_finding(*found, reference_, estimate_))) {
+        for (StampedPose& pose : estimate_) pose.stamp += found->offset;
       }
-      return;
     }
-    for (StampedPose& pose : estimate_) pose.stamp += speeds_->offset;
-    add(std::move(found));
-    out_.offset = speeds_;
-    add(check_missing(reference_, estimate_));
+    if (!add(check_overlap(reference_, estimate_))) add(check_missing(reference_, estimate_));
   }
 
   void check_poses() {
     constexpr int kMostRepairs = 3;
-    add(check_constant_rotation(reference_, estimate_));
-    CommonPoses poses = common_poses(reference_, estimate_, 0.0, kMostCommonPoses);
-    if (poses.stamps.size() < kFewestCommonPoses) {
-      for (const char* checks : {"units, scale", "quaternion order, inverted poses, axes"}) {
-        out_.unchecked.push_back(
-            fmt::format("{}: {} poses of the estimate are in the reference's time, expected at "
-                        "least {}",
-                        checks,
-                        poses.stamps.size(),
-                        kFewestCommonPoses));
-      }
+    Paired poses = common_poses(reference_, estimate_);
+    if (poses.estimate.size() < kFewestCommonPoses) {
+      out_.unchecked.push_back(
+          fmt::format("{}, files of the same recording: {} poses of the estimate are in the "
+                      "reference's time, expected at least {}",
+                      kChecksOfPoses,
+                      poses.estimate.size(),
+                      kFewestCommonPoses));
       return;
     }
-    for (const bool is_reference : {true, false}) {
-      if (!is_at_rest(is_reference ? reference_ : estimate_)) continue;
+    if (is_at_rest(reference_) || is_at_rest(estimate_)) {
       out_.unchecked.push_back(
-          fmt::format("units, scale, quaternion order, inverted poses, axes, files of the same "
-                      "recording: the {} moves by less than {:g} times its noise",
-                      is_reference ? "reference" : "estimate",
+          fmt::format("{}, files of the same recording: the {} moves by less than {:g} times its "
+                      "noise",
+                      kChecksOfPoses,
+                      is_at_rest(reference_) ? "reference" : "estimate",
                       kLeastOfNoise));
       return;
     }
     out_.has_checked = true;
-    if (auto found = check_angle_unit(poses)) {
-      add(std::move(found));
+    if (add(check_angle_unit(poses))) {
       for (auto* list : {&poses.reference, &poses.estimate}) {
-        for (Pose& pose : *list) pose.rotation = Rotation::Identity();
+        for (StampedPose& pose : *list) pose.world_from_body.rotation = Rotation::Identity();
       }
-    } else {
-      note_constant_rotations(poses);
+    } else if (!has_rotations(poses)) {
+      note_constant_rotation(largest_rotation_angle(poses.reference),
+                             largest_rotation_angle(poses.estimate));
     }
     add(remove_jumps(poses));
-    for (int i = 0; i < kMostRepairs; ++i) {
-      auto proven = best_repair(poses);
-      if (!proven) break;
-      proven->repair.apply(poses);
-      const Repair& repair = proven->repair;
-      add(InputFinding{repair.fault,
-                       repair.what + ": " + proven->improvement.text,
-                       repair.fix,
-                       1.0 - proven->improvement.ratio,
-                       repair.value});
+    for (int i = 0; i < kMostRepairs && add(apply_best_repair(poses)); ++i) {
     }
     check_recording(agreement(poses));
   }
 
-  void note_constant_rotations(const CommonPoses& poses) {
-    for (const bool is_reference : {true, false}) {
-      if (has_rotations(is_reference ? poses.reference : poses.estimate)) continue;
-      out_.unchecked.push_back(
-          fmt::format("quaternion order, inverted poses, axes, unit of angles: the {} does not "
-                      "rotate by {:g} rad",
-                      is_reference ? "reference" : "estimate",
-                      kLeastRotation));
-      return;
-    }
+  /// A finding only if the other file rotates. Files of positions are meant to have no rotations.
+  void note_constant_rotation(double of_reference, double of_estimate) {
+    constexpr double kConstant = 1e-6, kOtherRotates = 0.1;  // [rad]
+    const auto [smaller, larger] = std::minmax(of_reference, of_estimate);
+    const char* const name = of_reference <= kLeastRotation ? "reference" : "estimate";
+    out_.unchecked.push_back(
+        fmt::format("quaternion order, inverted poses, axes, unit of angles: the {} does not "
+                    "rotate by {:g} rad",
+                    name,
+                    kLeastRotation));
+    if (!has_rotations_ || smaller > kConstant || larger < kOtherRotates) return;
+    out_.findings.push_back(
+        {Fault::constant_rotation,
+         fmt::format("the {}'s rotation is constant while the other file rotates by {:.0f} deg",
+                     name,
+                     kDegrees * larger),
+         "write the file with rotations, or use position errors only (eval -r trans_part)",
+         1.0,
+         larger});
   }
 
   /// Nothing agrees, whatever is repaired: replaces all other findings.
@@ -154,10 +153,10 @@ class PairDiagnosis {
     const double position = left.similarity / left.spread;
     const bool disagrees = left.has_rotations ? left.turning > kTurning && position > kPosition
                                               : position > kPositionAlone;
-    const SpeedMatch match(reference_, estimate_);
-    const double correlation = std::max(0.0, match.at(0.0));
+    if (!disagrees) return;
+    const double correlation = speed_correlation(reference_, estimate_);
     const double confidence = std::min(1.0, position) * (1.0 - correlation);
-    if (!disagrees || correlation > kCorrelation || confidence < kLeastConfidence) return;
+    if (correlation > kCorrelation || confidence < kLeastConfidence) return;
     out_.findings = {
         {Fault::wrong_recording,
          fmt::format("no repair makes the files agree: after alignment with scale, the position "
@@ -171,8 +170,8 @@ class PairDiagnosis {
          position}};
   }
 
+  bool has_rotations_;  ///< false: a file has positions only
   Trajectory reference_, estimate_;
-  std::optional<TimeOffset> speeds_;
   Diagnosis out_;
 };
 
@@ -183,15 +182,7 @@ Diagnosis diagnosis(const Trajectory& reference,
                     const std::string& reference_name,
                     const std::string& estimate_name,
                     bool has_stamps) {
-  if (!lacks_rotations(reference) && !lacks_rotations(estimate)) {
-    return PairDiagnosis(reference, estimate).run(reference_name, estimate_name, has_stamps);
-  }
-  Diagnosis out = PairDiagnosis(with_rotations(reference), with_rotations(estimate))
-                      .run(reference_name, estimate_name, has_stamps);
-  std::erase_if(out.findings, [](const InputFinding& finding) {
-    return finding.fault == Fault::constant_rotation;
-  });
-  return out;
+  return PairDiagnosis(reference, estimate).run(reference_name, estimate_name, has_stamps);
 }
 
 }  // namespace loopbench::metrics

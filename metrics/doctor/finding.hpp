@@ -3,49 +3,51 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <string>
+#include <string_view>
 
 namespace loopbench::metrics {
 
-enum class Fault {
-  time_offset,
-  stamp_unit,         ///< milliseconds, microseconds or nanoseconds for seconds
-  repeated_stamps,    ///< poses with the stamp of the one before
-  frame_indices,      ///< frame numbers instead of seconds
-  clock_drift,        ///< clocks of different rates
-  no_overlap,         ///< no common time
-  missing_poses,      ///< large gaps in the estimate
-  wrong_recording,    ///< files of different recordings
-  jumps,              ///< positions jump
-  constant_rotation,  ///< one file has no rotations
-  quaternion_order,
-  conjugated,              ///< rotations are inverted, positions are not
-  inverted_poses,          ///< world and body are exchanged
-  axes,                    ///< mirrored or permuted axes
-  angle_unit,              ///< degrees for radians, or radians for degrees
-  length_unit,             ///< millimetres or centimetres for metres
-  scale,                   ///< an estimate without metric scale, aligned without scale
-  swapped,                 ///< reference and estimate are exchanged
-  closure_direction,       ///< closures from `to` to `from`
-  odometry_direction,      ///< odometry from `to` to `from`
-  closure_rotation,        ///< quaternion order or unit of angles of closures
-  closure_unit,            ///< length units of closures and odometry differ
-  closure_frame,           ///< closures between other bodies than the odometry
-  closure_gap,             ///< closures that the odometry contradicts
-  information_order,       ///< blocks of rotation and translation exchanged
-  information_indefinite,  ///< matrices that are not positive definite
-  information_scale,       ///< stated covariances contradict the residuals
-  nothing_moved,           ///< a correction without effect
-  lever_arm,               ///< the reference is that of another body
-  body_rotation            ///< the axes of the reference's body differ from the estimate's
+/// Short names of mistakes, as they are printed.
+struct Fault {
+  using Name = std::string_view;
+  static constexpr Name time_offset = "time_offset";
+  static constexpr Name stamp_unit = "stamp_unit";  ///< milliseconds to nanoseconds for seconds
+  static constexpr Name repeated_stamps = "repeated_stamps";      ///< of the pose before
+  static constexpr Name frame_indices = "frame_indices";          ///< frame numbers for seconds
+  static constexpr Name clock_drift = "clock_drift";              ///< clocks of different rates
+  static constexpr Name no_overlap = "no_overlap";                ///< no common time
+  static constexpr Name missing_poses = "missing_poses";          ///< large gaps in the estimate
+  static constexpr Name wrong_recording = "wrong_recording";      ///< files of different recordings
+  static constexpr Name jumps = "jumps";                          ///< positions jump
+  static constexpr Name constant_rotation = "constant_rotation";  ///< one file has no rotations
+  static constexpr Name quaternion_order = "quaternion_order";
+  static constexpr Name conjugated = "conjugated";          ///< inverted rotations, not positions
+  static constexpr Name inverted_poses = "inverted_poses";  ///< world and body are exchanged
+  static constexpr Name axes = "axes";                      ///< mirrored or permuted axes
+  static constexpr Name angle_unit = "angle_unit";          ///< degrees for radians, or the reverse
+  static constexpr Name length_unit = "length_unit";  ///< millimetres or centimetres for metres
+  static constexpr Name scale = "scale";              ///< no metric scale, aligned without scale
+  static constexpr Name swapped = "swapped";          ///< reference and estimate are exchanged
+  static constexpr Name closure_direction = "closure_direction";    ///< from `to` to `from`
+  static constexpr Name odometry_direction = "odometry_direction";  ///< the same for odometry
+  static constexpr Name closure_rotation = "closure_rotation";    ///< quaternion order, angle unit
+  static constexpr Name closure_unit = "closure_unit";            ///< not the unit of the odometry
+  static constexpr Name closure_frame = "closure_frame";          ///< not the body of the odometry
+  static constexpr Name closure_gap = "closure_gap";              ///< contradicted by the odometry
+  static constexpr Name information_order = "information_order";  ///< blocks exchanged
+  static constexpr Name information_indefinite = "information_indefinite";
+  static constexpr Name information_scale = "information_scale";  ///< contradicts residuals
+  static constexpr Name nothing_moved = "nothing_moved";          ///< a correction without effect
+  static constexpr Name lever_arm = "lever_arm";          ///< the reference is of another body
+  static constexpr Name body_rotation = "body_rotation";  ///< other axes of the body
 };
 
 /// Findings with a smaller confidence are not reported.
 inline constexpr double kLeastConfidence = 0.25;
 
 struct InputFinding {
-  Fault fault{};
+  Fault::Name fault;
   std::string evidence;  ///< numbers that show the mistake
   std::string fix;       ///< what to do, as an option where there is one
   double confidence =
@@ -53,47 +55,10 @@ struct InputFinding {
   double value = 0.0;  ///< offset [s], ratio, or number of edges; see `evidence`
 };
 
-/// "time_offset": short name of a fault.
-inline std::string fault_name(Fault fault) {
-  // In the order of the enumerators.
-  static constexpr std::array kNames{"time_offset",
-                                     "stamp_unit",
-                                     "repeated_stamps",
-                                     "frame_indices",
-                                     "clock_drift",
-                                     "no_overlap",
-                                     "missing_poses",
-                                     "wrong_recording",
-                                     "jumps",
-                                     "constant_rotation",
-                                     "quaternion_order",
-                                     "conjugated",
-                                     "inverted_poses",
-                                     "axes",
-                                     "angle_unit",
-                                     "length_unit",
-                                     "scale",
-                                     "swapped",
-                                     "closure_direction",
-                                     "odometry_direction",
-                                     "closure_rotation",
-                                     "closure_unit",
-                                     "closure_frame",
-                                     "closure_gap",
-                                     "information_order",
-                                     "information_indefinite",
-                                     "information_scale",
-                                     "nothing_moved",
-                                     "lever_arm",
-                                     "body_rotation"};
-  static_assert(kNames.size() == std::size_t{1} + static_cast<std::size_t>(Fault::body_rotation));
-  return kNames.at(static_cast<std::size_t>(fault));
-}
-
 /// "time_offset: EVIDENCE; FIX (confidence 0.93)".
 inline std::string text(const InputFinding& finding) {
   return fmt::format("{}: {}; {} (confidence {:.2f})",
-                     fault_name(finding.fault),
+                     finding.fault,
                      finding.evidence,
                      finding.fix,
                      finding.confidence);

@@ -4,39 +4,54 @@
 #include <optional>
 #include <string>
 
-#include "datasets/core/trajectory.hpp"
 #include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/finding.hpp"
 
 namespace loopbench::metrics {
 
-/// The stamps of one file are replaced by factor * stamp + offset.
-struct StampRepair {
-  InputFinding finding;
-  double factor = 1.0;  ///< 0: unknown
-  double offset = 0.0;  ///< [s]
-  bool is_of_reference = false;
+struct TimeOffset {
+  double offset = 0.0;          ///< to add to the estimate's stamps [s]
+  double deviation = 0.0;       ///< standard deviation [s]
+  double correlation = 0.0;     ///< of the speeds at the offset, mean of linear and angular speed
+  double before = 0.0;          ///< the same at offset 0; 0 without common times
+  bool has_common_time = true;  ///< at offset 0
 };
 
-/// Poses with stamps factor * stamp + offset; none if the factor is 0. O(n).
-Trajectory restamped(Trajectory poses, double factor, double offset);
+/// Correlation of the speeds as read; 0 without common times. O(1e3 log n).
+double speed_correlation(const Trajectory& reference, const Trajectory& estimate);
 
-/// The stamps of one file fit those of the other only after division by 10^3, 10^6 or 10^9. O(1).
-std::optional<StampRepair> check_stamp_unit(const Trajectory& reference,
-                                            const Trajectory& estimate);
+/// The offset with the largest correlation of linear and angular speed: at most `searched` [s], or
+/// over all overlaps if the trajectories have no common time; refined to a fraction of a sample. An
+/// offset below 1 s is preferred to a larger one that fits equally well, as periodic motion has.
+/// The deviation follows from the residuals of the speeds and their slopes. nullopt without enough
+/// motion, or if no offset explains the speeds (correlation below 0.6). Compares at most 20 000
+/// offsets of a range. O(1e7).
+std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
+                                               const Trajectory& estimate,
+                                               double searched = 10.0);
 
-/// The estimate's stamps are the integers from 0 or 1 on, at which few poses pair or speeds do not
-/// agree, but do at a usual frame rate or at the rate at which both files last equally long.
-/// O(1e7).
-std::optional<StampRepair> check_frame_indices(const Trajectory& reference,
-                                               const Trajectory& estimate);
+/// A finding if the offset is significant (five standard deviations, above 20 ms and 35 % of the
+/// estimate's interval) and reduces the errors after an alignment. Files without common time need a
+/// correlation of 0.85 instead: those of different recordings reach 0.75.
+std::optional<InputFinding> offset_finding(const TimeOffset& found,
+                                           const Trajectory& reference,
+                                           const Trajectory& estimate);
+
+// Those with changeable poses correct what they find in them.
+
+/// The stamps of one file fit those of the other only after division by 10^3, 10^6 or 10^9. O(n).
+std::optional<InputFinding> repair_stamp_unit(Trajectory& reference, Trajectory& estimate);
+
+/// The estimate's stamps are whole numbers, at which speeds do not agree, but do at a usual frame
+/// rate or at the rate at which both files last equally long. O(1e7).
+std::optional<InputFinding> repair_frame_indices(const Trajectory& reference, Trajectory& estimate);
 
 /// The offset of the estimate grows from its first to its last third, that of the middle third is
 /// between, and relative rotations have smaller errors without this drift. O(1e6).
-std::optional<StampRepair> check_clock_drift(const Trajectory& reference,
-                                             const Trajectory& estimate);
+std::optional<InputFinding> repair_clock_drift(const Trajectory& reference, Trajectory& estimate);
 
-/// The time ranges do not overlap. O(1).
+/// The time ranges do not overlap; a finding of frame indices if only the estimate's stamps are
+/// whole numbers. O(n).
 std::optional<InputFinding> check_overlap(const Trajectory& reference, const Trajectory& estimate);
 
 /// The estimate has no poses in at least a quarter of the reference's path, in gaps above 2 s and
@@ -48,17 +63,17 @@ std::optional<InputFinding> check_missing(const Trajectory& reference, const Tra
 std::optional<InputFinding> check_swapped(const std::string& reference_name,
                                           const std::string& estimate_name);
 
-/// The rotation of one trajectory is constant while it moves by more than 0.2 m and the other one
-/// rotates by more than 0.1 rad. O(n).
-std::optional<InputFinding> check_constant_rotation(const Trajectory& reference,
-                                                    const Trajectory& estimate);
-
 /// The estimate's rotations over short distances are 57.3 times those of the reference, or a 57th.
 /// O(n).
-std::optional<InputFinding> check_angle_unit(const CommonPoses& poses);
+std::optional<InputFinding> check_angle_unit(const Paired& poses);
 
-/// Removes up to five jumps of the estimate's positions from `poses`; a finding if that
-/// reduces the position error. Otherwise, `poses` are unchanged. O(n).
-std::optional<InputFinding> remove_jumps(CommonPoses& poses);
+/// Up to five jumps of the estimate's positions, without which the position error is smaller. O(n).
+std::optional<InputFinding> remove_jumps(Paired& poses);
+
+/// Of order and sign of quaternions, inverted poses, axes, units of lengths, scale, rotation and
+/// lever arm of the body, the repair with the largest gain. It has to reduce the sum of errors
+/// clearly and at least one error by a quarter, on poses that it was not fitted to. nullopt if
+/// there is none, or if the poses agree. O(n).
+std::optional<InputFinding> apply_best_repair(Paired& poses);
 
 }  // namespace loopbench::metrics

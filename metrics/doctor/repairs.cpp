@@ -1,186 +1,157 @@
-#include "metrics/doctor/repairs.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "metrics/checks/extrinsic_offset.hpp"
+#include "metrics/doctor/pair_checks.hpp"
 #include "metrics/doctor/signed_axes.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {
 namespace {
 
+struct Repair {
+  Fault::Name fault;
+  std::string what;    ///< "quaternions of the estimate in the order w x y z"
+  std::string fix;     ///< a command or an option
+  double value = 0.0;  ///< see InputFinding::value
+  /// Subtracted from the gain in Agreement::cost(): of two repairs that fit alike, the simpler one
+  /// is chosen.
+  double penalty = 0.0;
+  std::function<void(Paired&)> apply;
+};
+
 using Change = std::function<Pose(const Pose&)>;
 
-std::function<void(CommonPoses&)> to_each(bool of_reference, const Change& change) {
-  return [=](CommonPoses& poses) {
-    for (Pose& pose : of_reference ? poses.reference : poses.estimate) pose = change(pose);
+std::function<void(Paired&)> to_each(bool of_reference, const Change& change) {
+  return [=](Paired& poses) {
+    for (auto& [stamp, pose] : of_reference ? poses.reference : poses.estimate) pose = change(pose);
   };
 }
 
-const char* name_of(bool of_reference) { return of_reference ? "reference" : "estimate"; }
 const char* file_of(bool of_reference) { return of_reference ? "REF" : "EST"; }
 
-Pose read_as_wxyz(const Pose& p) {
-  const Rotation& q = p.rotation;
-  return {Rotation(q.x(), q.y(), q.z(), q.w()), p.translation};
-}
-
-Pose read_as_xyzw(const Pose& p) {
-  const Rotation& q = p.rotation;
-  return {Rotation(q.z(), q.w(), q.x(), q.y()), p.translation};
-}
-
-Pose with_inverse_rotation(const Pose& p) { return {p.rotation.conjugate(), p.translation}; }
-Pose inverted(const Pose& p) { return p.inverse(); }
-
-/// A repair without parameters, of either file.
-void add_convention(std::vector<Proposal>& to,
-                    Fault fault,
-                    const char* what,
-                    const char* option,
-                    double penalty,
-                    const Change& change) {
-  for (const bool of_reference : {false, true}) {
-    const Repair repair{fault,
-                        fmt::format(fmt::runtime(what), name_of(of_reference)),
-                        fmt::format("traj transform {} {}", file_of(of_reference), option),
-                        of_reference ? 1.0 : 0.0,
-                        penalty + (of_reference ? 0.02 : 0.0),
-                        to_each(of_reference, change)};
-    to.emplace_back([=](const CommonPoses& poses) -> std::optional<Repair> {
-      if (!has_rotations(poses.reference) || !has_rotations(poses.estimate)) return std::nullopt;
-      return repair;
-    });
+/// Conventions of either file.
+void add_conventions(std::vector<Repair>& to) {
+  struct Convention {
+    Fault::Name fault;
+    const char* what;
+    const char* option;
+    double penalty;
+    Pose (*change)(const Pose&);
+  };
+  static constexpr Convention kAll[] = {
+      {Fault::quaternion_order,
+       "quaternions in the order w x y z",
+       "--quaternion-order wxyz",
+       0.0,
+       [](const Pose& p) -> Pose {
+         const Rotation& q = p.rotation;
+         return {Rotation(q.x(), q.y(), q.z(), q.w()), p.translation};
+       }},
+      {Fault::conjugated,
+       "inverting the rotations, but not the positions,",
+       "--conjugate",
+       0.1,
+       [](const Pose& p) -> Pose {
+         return {p.rotation.conjugate(), p.translation};
+       }},
+      {Fault::inverted_poses, "inverting the poses", "--invert-poses", 0.0, [](const Pose& p) {
+         return p.inverse();
+       }}};
+  for (const auto& [fault, what, option, penalty, change] : kAll) {
+    for (const bool of_reference : {false, true}) {
+      to.push_back({fault,
+                    fmt::format("{} of the {}", what, of_reference ? "reference" : "estimate"),
+                    fmt::format("traj transform {} {}", file_of(of_reference), option),
+                    of_reference ? 1.0 : 0.0,
+                    penalty + (of_reference ? 0.02 : 0.0),
+                    to_each(of_reference, change)});
+    }
   }
 }
 
-std::string axes_text(const Matrix3& axes) {
-  std::string option = axes_option(axes);
-  if (option == "y,x,z") return "exchanging x and y";
-  if (option == "z,y,x") return "exchanging x and z";
-  if (option == "x,z,y") return "exchanging y and z";
-  std::ranges::replace(option, ',', ' ');
-  return "taking " + option + " as x y z";
-}
-
 /// The signed permutations of the estimate's positions.
-void add_axes(std::vector<Proposal>& to) {
+void add_axes(std::vector<Repair>& to) {
   constexpr double kPenalty = 0.05;  // of each axis that moves
-  for (const Matrix3& axes : signed_axes()) {
+  for (const auto& [axes, option] : signed_axes()) {
     const double distance = (axes - Matrix3::Identity()).squaredNorm();
-    const Repair repair{Fault::axes,
-                        axes_text(axes) + " of the estimate's positions",
-                        "traj transform EST --axes=" + axes_option(axes),
-                        distance,
-                        kPenalty * distance,
-                        to_each(false, [axes](const Pose& p) -> Pose {
-                          return {p.rotation, axes * p.translation};
-                        })};
-    to.emplace_back([=](const CommonPoses& poses) -> std::optional<Repair> {
-      if (!has_rotations(poses.reference) || !has_rotations(poses.estimate)) return std::nullopt;
-      return repair;
-    });
+    to.push_back({Fault::axes,
+                  "taking " + option + " of the estimate's positions as x,y,z",
+                  "traj transform EST --axes=" + option,
+                  distance,
+                  kPenalty * distance,
+                  to_each(false, [by = axes](const Pose& p) -> Pose {
+                    return {p.rotation, by * p.translation};
+                  })});
   }
 }
 
 /// Millimetres or centimetres, or an arbitrary scale.
-std::optional<Repair> scale_repair(const CommonPoses& poses) {
+void add_scale(std::vector<Repair>& to, const Paired& poses) {
   constexpr double kUnitTolerance = 0.12, kLeastScale = 0.1, kPenalty = 0.2;
-  const double scale = fit_positions(poses).scale;
-  if (std::abs(std::log(scale)) < kLeastScale) return std::nullopt;
+  const double scale = std::cbrt(similarity(poses).linear().determinant());
+  if (std::abs(std::log(scale)) < kLeastScale) return;
   Repair out{Fault::scale,
-             fmt::format("the estimate has scale {:.3f}", 1.0 / scale),
+             fmt::format("the estimate has scale {:.4g}", 1.0 / scale),
              "--align sim3",
              scale,
              kPenalty,
              to_each(false, [scale](const Pose& p) -> Pose {
                return {p.rotation, scale * p.translation};
              })};
-  for (const double unit : {1000.0, 100.0, 0.01, 0.001}) {
-    if (std::abs(std::log(scale * unit)) > kUnitTolerance) continue;
-    const bool is_millimetre = unit == 1000.0 || unit == 0.001;
+  for (const auto& [factor, unit] : {std::pair{0.001, "millimetres"}, {0.01, "centimetres"}}) {
+    const bool of_reference = scale > 1.0;
+    if (std::abs(std::log(of_reference ? scale * factor : scale / factor)) > kUnitTolerance)
+      continue;
     out.fault = Fault::length_unit;
-    out.what = fmt::format("distances in the estimate are {:.4g} times those of the reference",
-                           1.0 / scale);
-    out.fix = fmt::format("traj transform {} --scale {} ({} to metres)",
-                          file_of(unit < 1.0),
-                          is_millimetre ? "0.001" : "0.01",
-                          is_millimetre ? "millimetres" : "centimetres");
+    out.fix = fmt::format(
+        "traj transform {} --scale {} ({} to metres)", file_of(of_reference), factor, unit);
     out.value = 1.0 / scale;
   }
-  return out;
+  to.push_back(std::move(out));
 }
 
-/// Axes of another body. Only where rotations vary: the alignment of a straight path is ambiguous.
-std::optional<Repair> body_rotation_repair(const CommonPoses& poses) {
-  constexpr double kLeast = 30.0 / kDegrees, kVaries = 20.0 / kDegrees, kPenalty = 0.7;
-  if (!has_rotations(poses.reference) || !has_rotations(poses.estimate)) return std::nullopt;
-  const auto varies = std::ranges::count_if(poses.reference, [&](const Pose& pose) {
-    return angle_between(pose.rotation, poses.reference.front().rotation) > kVaries;
-  });
-  if (10 * static_cast<std::size_t>(varies) < poses.reference.size()) return std::nullopt;
-  const Rotation body = fit_body(poses);
-  const double angle = angle_between(body, Rotation::Identity());
-  if (angle < kLeast) return std::nullopt;
-  return Repair{Fault::body_rotation,
-                fmt::format("the reference's body is rotated by {:.1f} deg", kDegrees * angle),
-                fmt::format("--ref-body={}", body_option({body, Vector3::Zero()})),
-                angle,
-                kPenalty,
-                to_each(false, [body](const Pose& p) -> Pose {
-                  return {p.rotation * body, p.translation};
-                })};
-}
-
-std::optional<Repair> lever_arm_repair(const CommonPoses& poses) {
-  constexpr double kExplained = 0.5, kPenalty = 0.1;
-  if (!has_rotations(poses.reference) || !has_rotations(poses.estimate)) return std::nullopt;
-  Trajectory reference, estimate;
-  for (std::size_t i = 0; i < poses.stamps.size(); ++i) {
-    reference.push_back({poses.stamps[i], poses.reference[i]});
-    estimate.push_back({poses.stamps[i], poses.estimate[i]});
+/// Axes and lever arm of another body.
+void add_bodies(std::vector<Repair>& to, const Paired& poses) {
+  constexpr double kLeastAngle = 30.0 / kDegrees, kExplained = 0.5;
+  constexpr double kPenaltyOfAxes = 0.7, kPenaltyOfLeverArm = 0.1, kPenaltyOfBoth = 1.2;
+  const auto found = extrinsic_offset(poses.reference, poses.estimate, ExtrinsicOffsetOptions{});
+  if (!found) return;
+  const Pose& body = found->fit.body_from_reference;
+  const double angle = angle_between(body.rotation, Rotation::Identity());
+  const auto add =
+      [&](Fault::Name fault, Pose by, double value, double penalty, const std::string& what) {
+        to.push_back({fault,
+                      "the reference is that of a body " + what,
+                      "--ref-body=" + body_option(by),
+                      value,
+                      penalty,
+                      to_each(false, [by](const Pose& p) { return p * by; })});
+      };
+  if (angle > kLeastAngle) {
+    add(Fault::body_rotation,
+        {body.rotation, Vector3::Zero()},
+        angle,
+        kPenaltyOfAxes,
+        fmt::format("with axes rotated by {:.1f} deg", kDegrees * angle));
   }
-  const auto found = extrinsic_offset(reference, estimate, ExtrinsicOffsetOptions{});
-  if (!found || found->fit.lever_arm_explained < kExplained) return std::nullopt;
-  const Pose body = found->fit.body_from_reference;
-  return Repair{
-      Fault::lever_arm,
-      fmt::format("the reference is that of a body {:.3g} m away", body.translation.norm()),
-      fmt::format("--ref-body={}", body_option(body)),
-      body.translation.norm(),
-      kPenalty,
-      to_each(false, [body](const Pose& p) { return p * body; })};
+  if (found->fit.lever_arm_explained > kExplained) {
+    add(Fault::lever_arm,
+        body,
+        body.translation.norm(),
+        angle > 0.0 ? kPenaltyOfBoth : kPenaltyOfLeverArm,
+        fmt::format("{:.3g} m away", body.translation.norm()));
+  }
 }
 
-std::vector<Proposal> all_proposals() {
-  std::vector<Proposal> out;
-  add_convention(out,
-                 Fault::quaternion_order,
-                 "quaternions of the {} in the order w x y z",
-                 "--quaternion-order wxyz",
-                 0.0,
-                 read_as_wxyz);
-  add_convention(out,
-                 Fault::quaternion_order,
-                 "quaternions of the {} in the order x y z w",
-                 "--quaternion-order xyzw",
-                 0.05,
-                 read_as_xyzw);
-  add_convention(out,
-                 Fault::conjugated,
-                 "inverting the rotations of the {}, but not the positions",
-                 "--conjugate",
-                 0.1,
-                 with_inverse_rotation);
-  add_convention(
-      out, Fault::inverted_poses, "inverting the poses of the {}", "--invert-poses", 0.0, inverted);
-  add_axes(out);
-  out.emplace_back(scale_repair);
-  out.emplace_back(body_rotation_repair);
-  out.emplace_back(lever_arm_repair);
+/// Repairs with parameters, which fit `poses`.
+std::vector<Repair> fitted_repairs(const Paired& poses) {
+  std::vector<Repair> out;
+  add_scale(out, poses);
+  if (has_rotations(poses)) add_bodies(out, poses);
   return out;
 }
 
@@ -191,58 +162,43 @@ bool agrees(const Agreement& a) {
          a.rotation < kSmallAngle;
 }
 
-CommonPoses thinned(const CommonPoses& poses, std::size_t most) {
-  CommonPoses out;
-  const std::size_t step = (poses.stamps.size() + most - 1) / most;
-  for (std::size_t i = 0; i < poses.stamps.size(); i += step) {
-    out.reference.push_back(poses.reference[i]);
-    out.estimate.push_back(poses.estimate[i]);
-    out.stamps.push_back(poses.stamps[i]);
-  }
-  return out;
-}
-
 }  // namespace
 
-const std::vector<Proposal>& proposals() {
-  static const std::vector<Proposal> all = all_proposals();
-  return all;
-}
-
-std::optional<Proven> best_repair(const CommonPoses& poses) {
+std::optional<InputFinding> apply_best_repair(Paired& poses) {
   constexpr double kLeastGain = 0.7;  // a factor of 2 in the errors
-  constexpr double kLeastOfLeverArm = 0.2;
   constexpr double kMostRatio = 0.75;
-  constexpr std::size_t kMostCompared = 300;  // for the choice among all
-  if (poses.stamps.size() < kFewestCommonPoses) return std::nullopt;
-  const CommonPoses few = thinned(poses, kMostCompared), fitted = fitted_part(poses);
-  const Agreement before = agreement(poses), before_of_few = agreement(few);
+  constexpr double kLeastOfLeverArm = 0.2, kMostOfLeverArm = 0.6;  // drift resembles lever arms
+  const Agreement before = agreement(poses);
   const bool is_good = agrees(before);
-  std::vector<std::pair<double, const Proposal*>> gains;
-  for (const Proposal& proposal : proposals()) {
-    const std::optional<Repair> repair = proposal(fitted);
-    if (!repair || (is_good && repair->fault != Fault::lever_arm)) continue;
-    CommonPoses changed = few;
-    repair->apply(changed);
-    const double gain = before_of_few.cost() - agreement(changed).cost() - repair->penalty;
-    if (gain > (repair->fault == Fault::lever_arm ? kLeastOfLeverArm : kLeastGain))
-      gains.emplace_back(-gain, &proposal);
+  std::vector<Repair> candidates = fitted_repairs(fitted_part(poses));
+  if (before.has_rotations) {
+    add_conventions(candidates);
+    add_axes(candidates);
   }
-  std::ranges::sort(gains, {}, [](const auto& each) { return each.first; });
-  for (const auto& [gain, proposal] : gains) {
-    const std::optional<Repair> repair = (*proposal)(fitted);
-    CommonPoses changed = poses;
-    repair->apply(changed);
+  Repair best;
+  Improvement gained;
+  double largest = 0.0;
+  for (Repair& repair : candidates) {
+    const bool is_lever_arm = repair.fault == Fault::lever_arm;
+    if (is_good && !is_lever_arm) continue;
+    Paired changed = poses;
+    repair.apply(changed);
     const Agreement after = agreement(changed);
-    const Improvement gained = improvement(before, after);
-    const bool is_lever_arm = repair->fault == Fault::lever_arm;
-    if (before.cost() - after.cost() < (is_lever_arm ? kLeastOfLeverArm : kLeastGain) ||
-        gained.ratio > kMostRatio) {
-      continue;
-    }
-    if (std::optional<Repair> final = (*proposal)(poses)) return Proven{std::move(*final), gained};
+    const double gain = before.cost() - after.cost() - repair.penalty;
+    if (gain < std::max(largest, is_lever_arm ? kLeastOfLeverArm : kLeastGain)) continue;
+    Improvement change = improvement(before, after);
+    if (change.ratio > (is_lever_arm ? kMostOfLeverArm : kMostRatio)) continue;
+    largest = gain;
+    best = std::move(repair);
+    gained = std::move(change);
   }
-  return std::nullopt;
+  if (!best.apply) return std::nullopt;
+  for (Repair& repair : fitted_repairs(poses)) {
+    if (repair.fault == best.fault) best = std::move(repair);
+  }
+  best.apply(poses);
+  return InputFinding{
+      best.fault, best.what + ": " + gained.text, best.fix, 1.0 - gained.ratio, best.value};
 }
 
 }  // namespace loopbench::metrics

@@ -231,7 +231,7 @@ TEST_F(DoctorNotes, ASinglePoseIsNoCleanFile) {
   folder_.file("one.txt", "101 0 0 0 0 0 0 1\n");
   const CommandResult one = loopbench_command("doctor gt.txt one.txt", folder_);
   EXPECT_EQ(one.exit_code, 1);
-  EXPECT_THAT(one.out, HasSubstr("not checked: units, scale: "));
+  EXPECT_THAT(one.out, HasSubstr("not checked: units, scale, "));
   EXPECT_THAT(one.out, HasSubstr("nothing could be checked"));
   EXPECT_THAT(loopbench_command("doctor gt.txt est.txt", folder_).out, Not(HasSubstr("offset")));
   EXPECT_EQ(loopbench_command("eval gt.txt est.txt -a --align_origin", folder_).exit_code, 2);

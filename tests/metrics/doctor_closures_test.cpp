@@ -47,8 +47,8 @@ Problem rounds() {
   return out;
 }
 
-std::vector<Fault> closure_faults(const Problem& problem) {
-  std::vector<Fault> out;
+std::vector<Fault::Name> closure_faults(const Problem& problem) {
+  std::vector<Fault::Name> out;
   for (const InputFinding& finding : check_closures(problem)) out.push_back(finding.fault);
   return out;
 }
@@ -188,12 +188,12 @@ TEST(DoctorOfClosures, LoopsPredictEachOther) {
       problem.odometry[58].from_from_to * Pose{exp_so3({0, 0, 0.05}), {6, -3, 0}};
   const Chain chain = chain_of(problem);
   const std::vector<const Edge*> pair{&problem.closures[3], &problem.closures[4]};
-  PredictionError errors;
-  LoopGroup(pair, chain).log_likelihood({pair[0]->from_from_to, pair[1]->from_from_to}, &errors);
-  ASSERT_EQ(errors.metres.size(), 2u);
+  const LoopGroup group(pair, chain);
+  const std::vector<double> errors = group.fit(group.as_read()).metres;
+  ASSERT_EQ(errors.size(), 2u);
   EXPECT_GT(gap_of(*pair[0], chain), 5.0);
-  EXPECT_LT(errors.metres[0], 0.5);
-  EXPECT_LT(errors.metres[1], 0.5);
+  EXPECT_LT(errors[0], 0.5);
+  EXPECT_LT(errors[1], 0.5);
 }
 
 TEST(DoctorOfClosures, AFalseClosureWithinTheUsualDriftContradictsItsCovariance) {

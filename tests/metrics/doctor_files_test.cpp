@@ -6,7 +6,6 @@
 #include <cmath>
 #include <random>
 
-#include "metrics/doctor/common_motion.hpp"
 #include "metrics/doctor/diagnose.hpp"
 #include "tests/metrics/doctor_pairs.hpp"
 
@@ -42,12 +41,10 @@ TEST(Doctor, NamesWhatCannotBeChecked) {
   EXPECT_FALSE(single.has_checked);
   EXPECT_THAT(single.unchecked,
               ElementsAre(testing::HasSubstr("time offset: "),
-                          testing::HasSubstr("units, scale: 1 poses of the estimate"),
-                          testing::HasSubstr("quaternion order, inverted poses, axes: 1 poses")));
+                          testing::HasSubstr("same recording: 1 poses of the estimate")));
   const Diagnosis good = diagnosis(truth(), sampled(20), "gt.txt", "run.txt");
   EXPECT_TRUE(good.has_checked);
   EXPECT_THAT(good.unchecked, IsEmpty());
-  EXPECT_FALSE(good.offset) << "no offset is printed unless it is a finding";
 }
 
 TEST(Doctor, ExchangedFilesByName) {
@@ -90,20 +87,6 @@ TEST(Doctor, ARecordingAtRestCannotBeCompared) {
   }
 }
 
-TEST(CommonMotion, FindsThePoseAtOrAfterAStampFromAnyHint) {
-  Trajectory poses;
-  for (const double stamp : {0.0, 1.0, 1.5, 1.6, 4.0, 9.0, 9.5}) poses.push_back({stamp, {}});
-  for (const double stamp : {-1.0, 0.0, 0.5, 1.0, 1.55, 4.0, 8.0, 9.5, 10.0}) {
-    const auto expected = std::ranges::lower_bound(poses, stamp, {}, &StampedPose::stamp);
-    for (std::size_t hint = 0; hint <= poses.size() + 1; ++hint) {
-      EXPECT_EQ(first_from(poses, stamp, hint), static_cast<std::size_t>(expected - poses.begin()))
-          << stamp << " from " << hint;
-    }
-  }
-  EXPECT_EQ(first_from({}, 1.0, 0), 0u);
-  EXPECT_DOUBLE_EQ(usual_interval(poses), 1.0);
-}
-
 /// Every fifth pose of the truth, so that errors hide no small offset.
 Trajectory without_errors() {
   Trajectory out;
@@ -127,7 +110,7 @@ TEST(Doctor, ClockDriftBesideAReferenceWithoutRotations) {
   for (StampedPose& pose : reference) pose.world_from_body.rotation = Rotation::Identity();
   Trajectory estimate = without_errors();
   for (StampedPose& pose : estimate) pose.stamp = 1.0 + 1.005 * (pose.stamp - 1.0);
-  std::vector<Fault> found;
+  std::vector<Fault::Name> found;
   for (const auto& each : diagnosis(reference, estimate, "reference.txt", "run.txt").findings) {
     found.push_back(each.fault);
   }
@@ -183,12 +166,12 @@ TEST(Doctor, AnotherRecording) {
 
 /// The rotations of another recording, and positions that drift by half their spread.
 TEST(Doctor, AWeakFindingReplacesNoOther) {
-  for (const double drift : {2.0, 2.2}) {
+  for (const double drift : {2.2, 2.4, 2.6}) {
     Trajectory estimate = sampled(20);
     for (auto& [t, pose] : estimate) {
       pose.rotation =
           exp_so3({0, 0, 0.9 * std::sin(0.37 * t + 1)}) * exp_so3({0.2 * std::cos(2.1 * t), 0, 0});
-      pose.translation += drift * Vector3(std::sin(0.5 * t), std::cos(0.5 * t), 0);
+      pose.translation += drift * Vector3(std::sin(0.2 * t), std::cos(0.2 * t), 0);
     }
     const auto found = diagnosis(truth(), estimate, "run.txt", "groundtruth.txt").findings;
     ASSERT_EQ(found.size(), 1u) << drift;
@@ -212,7 +195,7 @@ TEST(Doctor, PrintsWhatARepairChanges) {
   });
   const auto found = diagnosis(truth(), exchanged, "reference.txt", "run.txt").findings;
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_THAT(found[0].evidence, HasSubstr("exchanging x and y of the estimate's positions: "));
+  EXPECT_THAT(found[0].evidence, HasSubstr("taking y,x,z of the estimate's positions as x,y,z: "));
   EXPECT_THAT(found[0].evidence, HasSubstr(" -> "));
 }
 

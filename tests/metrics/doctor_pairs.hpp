@@ -49,8 +49,8 @@ Trajectory each(Trajectory poses, Change change) {
   return poses;
 }
 
-inline std::vector<Fault> faults(const Trajectory& reference, const Trajectory& estimate) {
-  std::vector<Fault> out;
+inline std::vector<Fault::Name> faults(const Trajectory& reference, const Trajectory& estimate) {
+  std::vector<Fault::Name> out;
   for (const InputFinding& finding :
        metrics::diagnosis(reference, estimate, "reference.txt", "run.txt").findings) {
     EXPECT_GT(finding.confidence, 0.0) << text(finding);

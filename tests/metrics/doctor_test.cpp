@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "metrics/doctor/diagnose.hpp"
-#include "metrics/doctor/time_offset.hpp"
+#include "metrics/doctor/pair_checks.hpp"
 #include "tests/metrics/doctor_pairs.hpp"
 #include "tests/support/problems.hpp"
 
@@ -209,7 +209,7 @@ TEST(Doctor, DriftIsNoFaultOfAxesAndHidesNone) {
     return {p.rotation, {-p.translation.x(), p.translation.y(), p.translation.z()}};
   };
   const auto has_axes = [](const Trajectory& estimate) {
-    const std::vector<Fault> all = faults(driven(0.0), estimate);
+    const std::vector<Fault::Name> all = faults(driven(0.0), estimate);
     return std::ranges::find(all, Fault::axes) != all.end();
   };
   for (const double drift : {0.1, 0.5, 1.5, 3.0}) {

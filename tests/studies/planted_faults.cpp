@@ -129,7 +129,7 @@ class Study {
     ++tally.all;
     bool is_named = false, is_wrong = false;
     for (const InputFinding& each : found) {
-      const bool is_expected = std::ranges::count(expected, fault_name(each.fault)) > 0;
+      const bool is_expected = std::ranges::count(expected, each.fault) > 0;
       const bool is_known = std::ranges::any_of(
           as_read, [&](const InputFinding& other) { return other.fault == each.fault; });
       is_named |= is_expected;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "datasets/core/se3.hpp"
-#include "metrics/doctor/common_motion.hpp"
+#include "metrics/doctor/agreement.hpp"
 #include "metrics/numerics/euler.hpp"
 
 namespace loopbench {

@@ -1,0 +1,292 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "metrics/doctor/agreement.hpp"
+#include "metrics/doctor/graph_checks.hpp"
+#include "metrics/doctor/loop_likelihood.hpp"
+#include "metrics/numerics/angle.hpp"
+
+namespace loopbench::metrics {
+namespace {
+
+constexpr std::size_t kVotes = 3, kFewestForVotes = 10;
+constexpr double kLeastFalseGap = 2.0;  // [m]; smaller gaps are no false closures
+
+/// The end of one closure over another path between its keyframes.
+struct Gap {
+  double distance = 0.0;  ///< [m]
+  double length = 0.0;    ///< of the odometry on the path, at least 1 m
+};
+
+/// Gaps over other closures: over the three from which the sections of odometry are shortest,
+/// because drift is smaller along these. `closures` are sorted by their ends; of these, the nearest
+/// are compared.
+std::vector<Gap> gaps_over_closures(const std::vector<const Edge*>& closures,
+                                    std::size_t index,
+                                    const Chain& chain) {
+  constexpr double kClosureLength = 2.0;  // [m]
+  constexpr std::size_t kCompared = 20;   // before and after
+  const Edge& edge = *closures[index];
+  std::vector<Gap> out;
+  const std::size_t end = std::min(closures.size(), index + kCompared + 1);
+  for (std::size_t j = index - std::min(index, kCompared); j < end; ++j) {
+    const Edge& other = *closures[j];
+    const double length =
+        kClosureLength + chain.length(edge.from, other.from) + chain.length(edge.to, other.to);
+    if (j == index || length >= chain.length(edge.from, edge.to)) continue;
+    const Pose around = chain.between(edge.from, other.from) * other.from_from_to *
+                        chain.between(other.to, edge.to);
+    out.push_back({log_se3(edge.from_from_to.inverse() * around).head<3>().norm(), length});
+  }
+  std::ranges::sort(out, {}, &Gap::length);
+  out.resize(std::min(kVotes, out.size()));
+  return out;
+}
+
+/// Eight times the drift of most gaps, over their lengths.
+double most_drift(const std::vector<Gap>& gaps) {
+  constexpr double kMost = 0.35, kOverUsual = 8.0;
+  constexpr std::size_t kFewest = 4;
+  std::vector<double> drifts;
+  for (const Gap& gap : gaps) drifts.push_back(gap.distance / gap.length);
+  return drifts.size() < kFewest ? kMost : std::min(kMost, kOverUsual * median_value(drifts));
+}
+
+struct GapCheck {
+  std::optional<InputFinding> finding;
+  std::vector<Edge> plausible;  ///< closures without the false ones; all if there is no finding
+};
+
+/// Closures that end more than 2 m from the odometry along their loop and more than eight times the
+/// drift per distance of the median loop (at most 35 % of the loop's length). With at least ten
+/// closures, the same for the paths over odometry and one other closure: two of the three shortest
+/// have to contradict. A finding if the gaps are smaller by 10 % without them. O(closures log).
+GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain) {
+  std::vector<const Edge*> sorted;
+  for (const Edge& edge : closures) sorted.push_back(&edge);
+  std::ranges::stable_sort(sorted, {}, [](const Edge* e) { return std::max(e->from, e->to); });
+  std::vector<Gap> of_odometry, of_closures;
+  std::vector<std::vector<Gap>> votes;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    of_odometry.push_back(
+        {gap_of(*sorted[i], chain), std::max(1.0, chain.length(sorted[i]->from, sorted[i]->to))});
+    votes.push_back(gaps_over_closures(sorted, i, chain));
+    of_closures.push_back(votes[i].empty() ? of_odometry[i] : votes[i].front());
+  }
+  const auto over = [](const Gap& gap, double limit) {
+    return gap.distance > kLeastFalseGap ? gap.distance / (kLeastFalseGap + limit * gap.length)
+                                         : 0.0;
+  };
+  const double drift = most_drift(of_odometry), drift_of_closures = most_drift(of_closures);
+  GapCheck out;
+  const Edge* worst = nullptr;
+  Gap of_worst;
+  double largest = 0.0, squares = 0.0, squares_of_false = 0.0;  // of gaps [m^2]
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    Gap gap = of_odometry[i];
+    double size = over(gap, drift), distance = gap.distance;
+    if (votes[i].size() == kVotes && sorted.size() >= kFewestForVotes) {
+      const auto by_size = [&](const Gap& each) { return over(each, drift_of_closures); };
+      std::ranges::sort(votes[i], {}, by_size);
+      const Gap& middle = votes[i][kVotes / 2];  // a false one among them is outvoted
+      distance = middle.distance;
+      if (by_size(middle) > size) gap = middle;
+      size = std::max(size, by_size(middle));
+    }
+    (size > 1.0 ? squares_of_false : squares) += distance * distance;
+    if (size <= 1.0) out.plausible.push_back(*sorted[i]);
+    if (size <= largest) continue;
+    largest = size;
+    worst = sorted[i];
+    of_worst = gap;
+  }
+  const auto rms = [](double sum, std::size_t count) {
+    return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)));
+  };
+  constexpr double kMostLeft = 0.9;
+  const double before = rms(squares + squares_of_false, closures.size());
+  const double after = rms(squares, out.plausible.size());
+  const std::size_t count = closures.size() - out.plausible.size();
+  if (count == 0 || after > kMostLeft * before) return {std::nullopt, closures};
+  out.finding = InputFinding{
+      Fault::closure_gap,
+      fmt::format("{} of {} closures contradict the odometry or other closures, most of all {} -> "
+                  "{}: the gap is {:.3g} m after {:.3g} m; without them, rms of the gaps {:.3g} -> "
+                  "{:.3g} m",
+                  count,
+                  closures.size(),
+                  worst->from,
+                  worst->to,
+                  of_worst.distance,
+                  of_worst.length,
+                  before,
+                  after),
+      "check them; robust methods are made for false closures",
+      std::max(1.0 - after / before, 1.0 - 1.0 / largest),
+      static_cast<double>(count)};
+  return out;
+}
+
+void exchange_blocks(std::vector<Edge>& edges) {
+  const std::array order{3, 4, 5, 0, 1, 2};
+  for (Edge& edge : edges) edge.information = Matrix6(edge.information(order, order));
+}
+
+/// The loops of a problem in groups, and the noise that fits each; loops alone if there are few, so
+/// that a false one among them is outvoted.
+struct GroupFits {
+  explicit GroupFits(const Problem& problem)
+      : chain(chain_of(problem)),
+        groups(loop_groups(problem.closures, chain, problem.closures.size() < 6 ? 1 : 5)) {
+    for (const LoopGroup& group : groups) fits.push_back(group.fit(group.as_read()));
+  }
+
+  Chain chain;
+  std::vector<LoopGroup> groups;
+  std::vector<LoopFit> fits;
+};
+
+/// Edges whose variances are wrong by the median factors of every other group; these have to make
+/// the remaining groups likelier (all, if there are few).
+std::optional<InputFinding> wrong_scale(const GroupFits& loops) {
+  constexpr double kTooSmall = 100.0, kTooLarge = 1e-5;  // fitted over stated variance
+  constexpr double kExact = 1e-8;  // smaller ones are those of closures without noise
+  constexpr double kSmallLoss = 15.0, kLeastProven = 3.0;  // in logarithms of the likelihood
+  const std::size_t step = loops.groups.size() < 6 ? 1 : 2;
+  const auto factor = [&](std::size_t kind) {
+    std::vector<double> logarithms;
+    for (std::size_t i = 0; i < loops.fits.size(); i += step) {
+      logarithms.push_back(loops.fits[i].factors[kind]);
+    }
+    std::ranges::sort(logarithms, {}, [](double x) { return std::abs(x); });
+    return logarithms[(logarithms.size() - 1) / 2];  // of two, the one that accuses less
+  };
+  const auto gain_by = [&](const std::array<double, 2>& factors) {
+    double out = 0.0;
+    for (std::size_t i = step - 1; i < loops.groups.size(); i += step) {
+      out += loops.groups[i].log_likelihood(factors) - loops.groups[i].log_likelihood({});
+    }
+    return out;
+  };
+  const double f = factor(0), c = factor(1);
+  const bool is_odometry = std::exp(f) < kTooLarge || std::exp(f) > kTooSmall;
+  const bool is_closures =
+      std::exp(c) > kTooSmall || (std::exp(c) < kTooLarge && std::exp(c) > kExact);
+  if (!is_odometry && !is_closures) return std::nullopt;
+  const double most_loss = kSmallLoss * static_cast<double>(loops.groups.size() / step);
+  const std::array<double, 2> of_all{f, f}, of_some{is_odometry ? f : 0.0, is_odometry ? 0.0 : c};
+  const bool is_all =
+      std::abs(f) > std::log(kTooSmall) && gain_by(of_some) - gain_by(of_all) < most_loss;
+  const double proven = gain_by(is_all ? of_all : of_some);
+  if (proven < kLeastProven) return std::nullopt;
+  const double scale = std::exp(is_all || is_odometry ? f : c);
+  const char* const edges = is_all ? "all edges" : is_odometry ? "the odometry" : "the closures";
+  return InputFinding{
+      Fault::information_scale,
+      fmt::format("the gaps of the loops are likelier with the stated variances of {} times {:.1g} "
+                  "(median of {} groups of loops; logarithm of the ratio of likelihoods {:.1f})",
+                  edges,
+                  scale,
+                  loops.groups.size(),
+                  proven),
+      fmt::format("check the information of {}; for a trajectory: options {}{}",
+                  edges,
+                  is_all || is_odometry ? "odometry.sigma_*" : "closures.sigma_*",
+                  is_all ? ", closures.sigma_*" : ""),
+      0.8,
+      scale};
+}
+
+/// Exchanged blocks of all information, or information that differs from the noise which makes the
+/// loops likeliest by more than 100 (too large) or 10^5 (too small).
+std::optional<InputFinding> check_information(const Problem& problem) {
+  constexpr std::size_t kFewest = 2;
+  constexpr double kLeastOfOrder = 18.0;  // mean of the groups, in logarithms of the likelihood
+  constexpr double kExactGap = 1e-4;      // [m]; of measurements without noise
+  if (problem.closures.size() < kFewest) return std::nullopt;
+  const GroupFits as_read(problem);
+  std::vector<double> gaps;
+  for (const Edge& closure : problem.closures) gaps.push_back(gap_of(closure, as_read.chain));
+  if (median_value(std::move(gaps)) < kExactGap) return std::nullopt;
+  Problem other = problem;
+  exchange_blocks(other.odometry);
+  exchange_blocks(other.closures);
+  const GroupFits exchanged(other);
+  const double gained = gain(as_read.fits, exchanged.fits);
+  if (gained > kLeastOfOrder * static_cast<double>(as_read.groups.size())) {
+    return InputFinding{
+        Fault::information_order,
+        fmt::format("exchanging the blocks of translation and rotation: logarithm of the ratio of "
+                    "likelihoods of {} groups of loops {:.1f}",
+                    as_read.groups.size(),
+                    gained),
+        "check the order of the blocks: g2o has those of x y z first",
+        1.0 - std::exp(-0.25 * gained),
+        gained};
+  }
+  return wrong_scale(as_read);
+}
+
+}  // namespace
+
+std::vector<InputFinding> check_closures(const Problem& problem) {
+  std::vector<InputFinding> out;
+  const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
+  if (problem.closures.empty() || !is_chain) return out;
+  const Chain chain = chain_of(problem);
+  if (auto repair = find_odometry_repair(problem)) return {*repair};
+  const GapCheck gaps = check_gaps(problem.closures, chain);
+  const std::size_t count = problem.closures.size();
+  const bool are_few_false = 5 * (count - gaps.plausible.size()) < count;
+  if (auto repair = find_closure_repair(problem, chain)) {
+    // Smaller translations of all closures also shrink the gaps of a few false ones.
+    const bool is_unit = repair->fault == Fault::closure_unit;
+    if (!(is_unit && gaps.finding && are_few_false)) return {*repair};
+  }
+  if (gaps.finding) out.push_back(*gaps.finding);
+  if (are_few_false) {  // false closures show nothing about the information
+    Problem plausible = problem;
+    plausible.closures = gaps.plausible;
+    if (auto found = check_information(plausible)) out.push_back(*found);
+  }
+  std::erase_if(out, [](const InputFinding& f) { return f.confidence < kLeastConfidence; });
+  return out;
+}
+
+std::optional<InputFinding> check_movement(const Problem& problem, const Trajectory& corrected) {
+  constexpr double kShare = 0.01, kLeastGap = 1e-3;  // [m]
+  constexpr double kLeastAngle = 0.01 / kDegrees;
+  const Trajectory& before = problem.keyframes;
+  if (corrected.size() != before.size()) return std::nullopt;
+  std::vector<double> gaps;
+  for (const Edge& edge : problem.closures) {
+    const Vector3 measured = before[edge.from].world_from_body * edge.from_from_to.translation;
+    gaps.push_back((measured - before[edge.to].world_from_body.translation).norm());
+  }
+  const double gap = median_value(std::move(gaps));
+  if (gap < kLeastGap) return std::nullopt;
+  double moved = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const Pose& from = before[i].world_from_body;
+    const Pose& to = corrected[i].world_from_body;
+    moved = std::max(moved, (to.translation - from.translation).norm());
+    if (angle_between(from.rotation, to.rotation) > kLeastAngle) return std::nullopt;
+  }
+  if (moved >= kShare * gap) return std::nullopt;
+  return InputFinding{
+      Fault::nothing_moved,
+      fmt::format("no keyframe moved by more than {:.2g} m, although the closures differ from the "
+                  "odometry by {:.3g} m (median of {})",
+                  moved,
+                  gap,
+                  problem.closures.size()),
+      "search the closures and their information with doctor (GRAPH, or EST --loops FILE), or "
+      "estimate the noise: --method motion_drift",
+      1.0 - moved / gap,
+      moved};
+}
+
+}  // namespace loopbench::metrics
