@@ -45,7 +45,7 @@ struct TrajArguments {
   double offset = 0.0;     ///< added to the stamps of the files [s]
   std::string align = "se3";
   std::size_t align_first = 0;
-  std::string plane;                                            ///< of `project`
+  std::string plane;                                              ///< of `project`
   std::vector<std::string> panels = default_trajectory_panels();  ///< of `plot`
   FigureOptions figures;
 };

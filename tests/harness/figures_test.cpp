@@ -65,7 +65,9 @@ TEST(Figures, OfATrajectoryHaveNoSpeedOfOnePose) {
   one.file.poses = {{1.0, {exp_so3({0.0, 0.0, 0.5}), Vector3::Zero()}},
                     {2.0, {exp_so3({0.0, 0.0, 1.0}), Vector3::UnitX()}}};
   const auto columns = [&] {
-    return trajectory_figure({one}, std::nullopt, default_trajectory_panels(), {}).curves[0].columns;
+    return trajectory_figure({one}, std::nullopt, default_trajectory_panels(), {})
+        .curves[0]
+        .columns;
   };
   EXPECT_THAT(columns().at("speed"), ElementsAre(1.0, 1.0));
   one.file.poses.resize(1);
