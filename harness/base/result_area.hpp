@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "harness/base/hash.hpp"
+#include "harness/base/system_file.hpp"
 
 namespace loopbench::harness {
 
@@ -38,8 +39,7 @@ class ResultArea {
  private:
   struct Header;
 
-  /// A sequence of ten million poses with edges has 6 GiB. Used only as far as written.
-  std::size_t capacity_ = std::size_t{16} << 30;  // [bytes]
+  std::size_t capacity_;  ///< [bytes], used only as far as written
   Header* header_ = nullptr;
 };
 
@@ -53,7 +53,14 @@ struct ResultArea::Header {
   char* bytes() { return reinterpret_cast<char*>(this + 1); }
 };
 
-inline ResultArea::ResultArea() {
+/// A sequence of ten million poses with edges has 6 GiB. A system that grants no memory on credit
+/// would reserve it for each worker.
+inline std::size_t most_bytes() {
+  const bool has_credit = !read_system_file("/proc/sys/vm/overcommit_memory").starts_with('2');
+  return std::size_t{has_credit ? 16384u : 256u} << 20;
+}
+
+inline ResultArea::ResultArea() : capacity_(most_bytes()) {
   constexpr int kFlags = MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE;
   const auto map = [&] { return mmap(nullptr, capacity_, PROT_READ | PROT_WRITE, kFlags, -1, 0); };
   void* memory = map();

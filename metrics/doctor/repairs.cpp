@@ -122,15 +122,18 @@ void add_bodies(std::vector<Repair>& to, const Paired& poses) {
   if (!found) return;
   const Pose& body = found->fit.body_from_reference;
   const double angle = angle_between(body.rotation, Rotation::Identity());
-  const auto add =
-      [&](Fault::Name fault, Pose by, double value, double penalty, const std::string& what) {
-        to.push_back({fault,
-                      "the reference is that of a body " + what,
-                      "--ref-body=" + body_option(by),
-                      value,
-                      penalty,
-                      to_each(false, [by](const Pose& p) { return p * by; })});
-      };
+  const auto add = [&](Fault::Name fault,
+                       const Pose& by,
+                       double value,
+                       double penalty,
+                       const std::string& what) {
+    to.push_back({fault,
+                  "the reference is that of a body " + what,
+                  "--ref-body=" + body_option(by),
+                  value,
+                  penalty,
+                  to_each(false, [by](const Pose& p) { return p * by; })});
+  };
   if (angle > kLeastAngle) {
     add(Fault::body_rotation,
         {body.rotation, Vector3::Zero()},
