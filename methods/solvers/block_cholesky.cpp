@@ -1,65 +1,11 @@
 #include "methods/solvers/block_cholesky.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include "methods/solvers/panel_kernels.hpp"
+
 namespace loopbench::methods {
-namespace {
-
-using ConstDense = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
-using Dense = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
-
-Dense dense(double* begin, Eigen::Index rows, Eigen::Index columns, Eigen::Index stride) {
-  return {begin, rows, columns, Eigen::OuterStride<>(stride)};
-}
-/// Subtracts from entries begin .. end of a column the product of D columns of L with row `begin`
-/// of these columns.
-template <int D>
-void subtract(double* __restrict column,
-              const double* __restrict L,
-              Eigen::Index stride,
-              Eigen::Index begin,
-              Eigen::Index end) {
-  double weights[D];
-  for (int d = 0; d < D; ++d) weights[d] = L[begin + d * stride];
-  for (Eigen::Index r = begin; r < end; ++r) {
-    double sum = L[r] * weights[0];
-    for (int d = 1; d < D; ++d) sum += L[r + d * stride] * weights[d];
-    column[r] -= sum;
-  }
-}
-
-/// Solves L y = x of a panel in place, and subtracts its rows below from `below`.
-void solve_forward(const double* L,
-                   Eigen::Index width,
-                   Eigen::Index height,
-                   double* __restrict x,
-                   double* __restrict below) {
-  for (Eigen::Index c = 0; c < width; ++c, L += height) {
-    const double value = x[c] /= L[c];
-    for (Eigen::Index r = c + 1; r < width; ++r) x[r] -= L[r] * value;
-    for (Eigen::Index r = width; r < height; ++r) below[r - width] -= L[r] * value;
-  }
-}
-
-/// Solves L' x = y - B' below of a panel in place, where B are its rows below.
-void solve_backward(const double* L,
-                    Eigen::Index width,
-                    Eigen::Index height,
-                    double* __restrict x,
-                    const double* __restrict below) {
-  using Vector = Eigen::Map<const Eigen::VectorXd>;
-  for (Eigen::Index c = width; c-- > 0;) {
-    const double* column = L + c * height;
-    const double sum = Vector(column + width, height - width).dot(Vector(below, height - width)) +
-                       Vector(column + c + 1, width - c - 1).dot(Vector(x + c + 1, width - c - 1));
-    x[c] = (x[c] - sum) / column[c];
-  }
-}
-
-}  // namespace
 
 template <int D>
 BlockCholesky<D>::BlockCholesky(const EliminationStructure& structure, Eigen::VectorXd storage)
@@ -90,9 +36,10 @@ BlockCholesky<D>::BlockCholesky(const EliminationStructure& structure, Eigen::Ve
     }
   }
   panel_.push_back(size);
-  if (const auto needed = static_cast<Eigen::Index>(size); values_.size() < needed) {
-    values_.resize(values_.size() == 0 ? needed
-                                       : needed + needed / 4);  // it grows: some in advance
+  const auto needed = static_cast<Eigen::Index>(size);
+  if (values_.size() < needed) {
+    const bool is_growing = values_.size() > 0;
+    values_.resize(is_growing ? needed + needed / 4 : needed);
   }
   stack_.resize(highest);
   gathered_.resize(most_rows * D);
@@ -106,7 +53,8 @@ typename BlockCholesky<D>::Place BlockCholesky<D>::place(int i, int j) const {
   const int s = structure_.supernode_of(column);
   const Supernode& node = structure_.supernodes()[static_cast<std::size_t>(s)];
   const int stride = node.rows() * D;
-  const int offset = (column - node.first) * D * stride + structure_.row_in(node, row) * D;
+  const Eigen::Index offset =
+      Eigen::Index{column - node.first} * D * stride + structure_.row_in(node, row) * D;
   return {panel_[static_cast<std::size_t>(s)] + static_cast<std::size_t>(offset),
           stride,
           s,
@@ -128,62 +76,6 @@ void BlockCholesky<D>::add(const Place& at, const Block& block) {
     to += block.transpose();
   } else {
     to += block;
-  }
-}
-
-template <int D>
-bool BlockCholesky<D>::eliminate_panel(double* panel, int columns, int rows) {
-  constexpr Eigen::Index kWide = 48;  // from here on Eigen's blocked kernels are faster
-  const Eigen::Index height = rows * D;
-  const Eigen::Index width = columns * D;
-  if (width >= kWide) {
-    Dense top = dense(panel, width, width, height);
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(top);
-    if (factor.info() != Eigen::Success) return false;
-    Dense below = dense(panel + width, height - width, width, height);
-    top.triangularView<Eigen::Lower>().transpose().template solveInPlace<Eigen::OnTheRight>(below);
-    return true;
-  }
-  for (Eigen::Index begin = 0; begin < width; begin += D) {
-    double* block = panel + begin * height;
-    for (Eigen::Index c = begin; c < begin + D; ++c) {
-      double* column = panel + c * height;
-      const double pivot = column[c];
-      if (!(pivot > 0.0)) return false;
-      const double root = std::sqrt(pivot);
-      const double inverse = 1.0 / root;
-      column[c] = root;
-      for (Eigen::Index r = c + 1; r < height; ++r) column[r] *= inverse;
-      for (Eigen::Index next = c + 1; next < begin + D; ++next) {
-        subtract<1>(panel + next * height, column, height, next, height);
-      }
-    }
-    for (Eigen::Index next = begin + D; next < width; ++next) {
-      subtract<D>(panel + next * height, block, height, next, height);
-    }
-  }
-  return true;
-}
-
-template <int D>
-void BlockCholesky<D>::subtract_products(double* update,
-                                         const double* panel,
-                                         int columns,
-                                         int rows) {
-  constexpr Eigen::Index kLarge = 96;  // from here on Eigen's blocked kernel is faster
-  const Eigen::Index height = rows * D;
-  const Eigen::Index width = columns * D;
-  const Eigen::Index side = height - width;
-  if (side + width >= kLarge) {
-    dense(update, side, side, side)
-        .template selfadjointView<Eigen::Lower>()
-        .rankUpdate(ConstDense(panel + width, side, width, Eigen::OuterStride<>(height)), -1.0);
-    return;
-  }
-  for (Eigen::Index column = 0; column < side; ++column) {
-    for (Eigen::Index c = 0; c < width; c += D) {
-      subtract<D>(update + column * side, panel + width + c * height, height, column, side);
-    }
   }
 }
 
@@ -235,10 +127,10 @@ bool BlockCholesky<D>::eliminate(Before before, After after) {
     for (const std::size_t child : children_[s]) {
       add_update(stack_.data() + update_[child], child, panel, update);
     }
-    if (!eliminate_panel(panel, node.columns(), node.rows())) return false;
+    if (!eliminate_panel<D>(panel, node.columns(), node.rows())) return false;
     after(s);
     if (side == 0) continue;
-    subtract_products(update, panel, node.columns(), node.rows());
+    subtract_products<D>(update, panel, node.columns(), node.rows());
     if (top != update_[s]) std::copy(update, update + side * side, stack_.data() + update_[s]);
   }
   return true;

@@ -58,11 +58,10 @@ class BlockCholesky {
   template <class Before, class After>
   bool eliminate(Before before, After after);
   void clear(std::size_t supernode);
+  /// One column of `right` goes to ordered_, in the order of elimination, and back.
   void order(const double* right);
   void forward(std::size_t supernode);
   void backward(double* right);
-  bool eliminate_panel(double* panel, int columns, int rows);
-  void subtract_products(double* update, const double* panel, int columns, int rows);
   void add_update(const double* from, std::size_t child, double* panel, double* update);
 
   const EliminationStructure& structure_;
