@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <thread>
 
 #include "harness/base/print_error.hpp"
@@ -20,9 +21,9 @@
 #include "harness/commands/standard_output.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/run/build.hpp"
-#include "harness/run/doctor_notes.hpp"
 #include "harness/run/estimate_files.hpp"
 #include "harness/run/isolated_sweep.hpp"
+#include "harness/run/run_cell.hpp"
 #include "harness/store/shard.hpp"
 #include "harness/store/store.hpp"
 #include "harness/tables/all_records.hpp"
@@ -128,7 +129,7 @@ int run_config(const RunArguments& arguments, const Source& source) {
   if (!missing.empty()) {
     Progress progress(missing.size());
     const std::vector<InputFile> no_inputs;
-    CellNotes notes;
+    std::map<std::string, std::pair<std::string, int>> unsteady;  // first note of a method, count
     const auto finished = [&](const CellResult& r) {
       if (r.status == Status::interrupted) {
         ++abandoned;
@@ -139,12 +140,20 @@ int run_config(const RunArguments& arguments, const Source& source) {
       ++done;
       if (has_failure(r)) ++failed;
       if (r.status == Status::incomplete) ++incomplete;
-      notes.add(sweep.methods[r.cell.method].label, r);
+      for (const std::string& note : r.report.notes) {
+        if (!note.starts_with(kNondeterministic)) continue;
+        auto& [first, count] = unsteady[sweep.methods[r.cell.method].label];
+        if (count++ == 0) first = note;
+      }
       progress.step(sweep.datasets[r.cell.dataset].label + " / " +
                     sweep.methods[r.cell.method].label);
     };
     run_isolated(sweep, missing, known, root, arguments.jobs, sandbox, interrupted, finished);
-    for (const std::string& line : notes.lines()) print_error("{}\n", printable(line));
+    for (const auto& [method, note] : unsteady) {
+      const int others = note.second - 1;
+      const std::string more = others == 0 ? "" : fmt::format(" (and {} more cells)", others);
+      print_error("{}\n", printable(method + ": " + note.first + more));
+    }
   }
   if (done + resumed.there == 0) return kExitInterrupted;
 

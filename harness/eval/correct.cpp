@@ -11,6 +11,7 @@
 #include "datasets/derive/problem_graph.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 #include "harness/base/write_file.hpp"
+#include "harness/catalogue/external_methods.hpp"
 #include "harness/config/choices.hpp"
 #include "harness/run/check_output.hpp"
 #include "harness/run/doctor_notes.hpp"
@@ -22,6 +23,16 @@ namespace loopbench::harness {
 namespace {
 
 bool is_graph(const CorrectArguments& a) { return is_pose_graph(a.estimate); }
+
+/// Whether a stage of the method corrects keyframes by closures.
+bool uses_closures(const MethodChoice& choice, const Catalogue& catalogue) {
+  return std::ranges::any_of(choice.stages, [&](const Choice& stage) {
+    if (stage.name == "raw" || is_oracle(catalogue, stage.name)) return false;
+    if (is_program(stage)) return true;
+    const methods::Kind kind = find_method(catalogue, stage.name).kind;
+    return kind == methods::Kind::corrector || kind == methods::Kind::joint;
+  });
+}
 
 std::optional<Residuals> residuals(const Problem& problem, const Trajectory& keyframes) {
   metrics::Evaluation evaluation;
@@ -150,9 +161,6 @@ Correction correct(Problem problem,
   out.before = residuals(out.problem, out.problem.keyframes);
   out.after = residuals(out.problem, out.keyframes);
   out.rejected = rejected_closures(out);
-  const std::string unmoved =
-      movement_note(out.problem, out.keyframes, out.report, uses_closures(choice, catalogue));
-  if (!unmoved.empty()) out.report.notes.push_back(unmoved);
   for (std::string& note : closure_notes(out.problem)) out.report.notes.push_back(std::move(note));
   return out;
 }

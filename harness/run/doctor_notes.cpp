@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "harness/catalogue/external_methods.hpp"
 #include "metrics/doctor/diagnose.hpp"
 #include "metrics/doctor/graph_checks.hpp"
 
@@ -16,7 +15,7 @@ std::vector<std::string> notes_of(const std::vector<metrics::InputFinding>& find
   constexpr double kSure = 0.5;
   std::vector<std::string> out;
   for (const metrics::InputFinding& finding : findings) {
-    if (finding.confidence >= kSure) out.push_back(kDoctorPrefix + text(finding));
+    if (finding.confidence >= kSure) out.push_back("doctor: " + text(finding));
   }
   return out;
 }
@@ -82,49 +81,6 @@ std::vector<std::string> doctor_notes(const Sequence& sequence, const Sweep& swe
 
 std::vector<std::string> closure_notes(const Problem& problem) {
   return notes_of(metrics::check_closures(problem));
-}
-
-std::string movement_note(const Problem& problem,
-                          const Trajectory& corrected,
-                          const methods::Report& report,
-                          bool uses_closures) {
-  if (!uses_closures) return "";
-  for (const methods::Count& count : report.counts) {
-    const bool is_accepted = count.name == "closures_kept" || count.name == "closures_consistent";
-    if (is_accepted && count.value == 0.0) return "";
-  }
-  const auto found = metrics::check_movement(problem, corrected);
-  return found ? kDoctorPrefix + text(*found) : "";
-}
-
-bool uses_closures(const MethodChoice& choice, const Catalogue& catalogue) {
-  return std::ranges::any_of(choice.stages, [&](const Choice& stage) {
-    if (stage.name == "raw" || is_oracle(catalogue, stage.name)) return false;
-    if (is_program(stage)) return true;
-    const methods::Kind kind = find_method(catalogue, stage.name).kind;
-    return kind == methods::Kind::corrector || kind == methods::Kind::joint;
-  });
-}
-
-void CellNotes::add(const std::string& method, const CellResult& result) {
-  for (const std::string& note : result.report.notes) {
-    if (!note.starts_with(kDoctorPrefix)) continue;
-    const auto known = std::ranges::find(all_, method, &Noted::method);
-    if (known == all_.end()) {
-      all_.push_back({method, note});
-    } else {
-      ++known->others;
-    }
-  }
-}
-
-std::vector<std::string> CellNotes::lines() const {
-  std::vector<std::string> out;
-  for (const auto& [method, note, others] : all_) {
-    const std::string more = others == 0 ? "" : fmt::format(" (and {} more cells)", others);
-    out.push_back(method + ": " + note + more);
-  }
-  return out;
 }
 
 }  // namespace loopbench::harness

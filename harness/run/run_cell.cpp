@@ -16,7 +16,6 @@
 #include "harness/run/add_scores.hpp"
 #include "harness/run/catch_errors.hpp"
 #include "harness/run/check_output.hpp"
-#include "harness/run/doctor_notes.hpp"
 #include "harness/run/estimate_files.hpp"
 #include "harness/run/sequence_identity.hpp"
 #include "metrics/trajectory/tracking_gaps.hpp"
@@ -158,8 +157,8 @@ std::unique_ptr<const Curve> timed(CellResult& result,
   result.report = std::move(last.report);
   if (results.size() > 1) {
     result.report.notes.push_back(
-        fmt::format("{}nondeterministic: {} runs on the same input gave {} different trajectories",
-                    kDoctorPrefix,
+        fmt::format("{}{} runs on the same input gave {} different trajectories",
+                    kNondeterministic,
                     runs,
                     results.size()));
   }
@@ -257,11 +256,6 @@ CellResult run_cell(const Cell& cell,
     const std::vector<Matrix6> covariances = std::exchange(result.report.covariances, {});
     check_covariances(covariances, sequence.problem.keyframes.size());
     const Estimate estimate{checked, covariances};
-    const std::string unmoved = movement_note(sequence.problem,
-                                              checked.sample(stamps(sequence.problem.keyframes)),
-                                              result.report,
-                                              uses_closures(choice, catalogue));
-    if (!unmoved.empty()) result.report.notes.push_back(unmoved);
     save_estimate(cell, sweep, sequence, checked);
     if (sequence.reference.empty()) {
       result.why = "no reference to evaluate against";

@@ -1,6 +1,8 @@
 /// Runs one cell; only the method is timed, and its exceptions are stored in its row.
 #pragma once
 
+#include <string_view>
+
 #include "datasets/core/sequence.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/catalogue/command.hpp"
@@ -8,6 +10,9 @@
 #include "harness/model/sweep.hpp"
 
 namespace loopbench::harness {
+
+/// Begins the note of a cell whose timed runs gave different trajectories.
+inline constexpr std::string_view kNondeterministic = "nondeterministic: ";
 
 /// Combines the stages of a choice into one method; only an oracle has access to `reference`, and
 /// only a program uses `setting`. Throws InputError, OptionError.

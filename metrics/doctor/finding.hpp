@@ -38,7 +38,6 @@ struct Fault {
   static constexpr Name information_order = "information_order";  ///< blocks exchanged
   static constexpr Name information_indefinite = "information_indefinite";
   static constexpr Name information_scale = "information_scale";  ///< contradicts residuals
-  static constexpr Name nothing_moved = "nothing_moved";          ///< a correction without effect
   static constexpr Name lever_arm = "lever_arm";          ///< the reference is of another body
   static constexpr Name body_rotation = "body_rotation";  ///< other axes of the body
 };

@@ -1,4 +1,4 @@
-/// Checks of the edges of a pose graph: conventions, false closures, information, effect.
+/// Checks of the edges of a pose graph: conventions, false closures, information.
 #pragma once
 
 #include <optional>
@@ -20,12 +20,6 @@ std::optional<InputFinding> find_odometry_repair(const Problem& problem);
 /// make the remaining ones likelier too (all, if there are less than six). nullopt if there is
 /// none. O(keyframes + closures log).
 std::optional<InputFinding> find_closure_repair(const Problem& problem, const Chain& chain);
-
-/// A finding if the closures differ from the odometry, but no keyframe has moved by a hundredth of
-/// their median distance or rotated by 0.01 deg. `corrected`: the keyframes after the correction,
-/// as many as before. nullopt without closures or if their median distance is below 1 mm.
-/// O(keyframes + closures).
-std::optional<InputFinding> check_movement(const Problem& problem, const Trajectory& corrected);
 
 /// Compares closures with the odometry, without a reference:
 /// - conventions of odometry and closures, see find_odometry_repair() and find_closure_repair();

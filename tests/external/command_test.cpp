@@ -114,6 +114,19 @@ TEST_F(Command, AStatedTimeIsMarkedWithTheWallTimeBesideIt) {
   EXPECT_THAT(table, testing::Not(HasSubstr("(s)")));
 }
 
+TEST_F(Command, RunNamesMethodsWhoseTimedRunsDiffer) {
+  folder_.file("unsteady.sh",
+               "awk -v x=\"$(od -An -N2 -tu2 /dev/urandom)\" 'NR == 5 {$2 += 1e-6 * x} 1' "
+               "$1/keyframes.txt >$2\n");
+  const auto done =
+      cells(entry("unsteady", "'sh unsteady.sh {problem} {result}'"), "timing: 3\nrepeats: 2\n");
+  ASSERT_EQ(done.size(), 4u) << ran_.err;
+  EXPECT_THAT(ran_.err,
+              testing::ContainsRegex("unsteady: nondeterministic: 3 runs on the same input gave "
+                                     "[23] different trajectories \\(and 1 more cells\\)\n"));
+  EXPECT_THAT(ran_.err, testing::Not(HasSubstr("raw: ")));
+}
+
 TEST_F(Command, CpuTimeAndMemoryAreThoseOfTheProgram) {
   folder_.file("burn.py",
                "import sys, time\n"

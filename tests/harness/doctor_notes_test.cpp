@@ -145,21 +145,6 @@ TEST_F(DoctorNotes, RunPrintsThemForMeasuredSequences) {
               Not(HasSubstr("doctor: scale")));
 }
 
-TEST_F(DoctorNotes, ClosuresThatMoveNothingAreNoted) {
-  const Problem problem =
-      test::drifting(truth_, twist({0.004, 0, 0.001}, {0, 0.001, 0.002}), {{0, 90}, {1, 91}});
-  loops(problem, "1e5 1e5");  // no weight
-  const CommandResult ran = run("est.txt", "loopbench", "[raw, dual, cubic_spline, uniform]");
-  EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_THAT(ran.err, HasSubstr("dual: doctor: nothing_moved: no keyframe moved by more than "));
-  EXPECT_THAT(ran.err, Not(HasSubstr("raw: doctor")));
-  EXPECT_THAT(ran.err, Not(HasSubstr("uniform: doctor")));
-  EXPECT_THAT(ran.err, Not(HasSubstr("cubic_spline: doctor")));
-  EXPECT_THAT(
-      loopbench_command("correct est.txt --loops loops.txt --method dual -o c.txt", folder_).out,
-      HasSubstr("note: doctor: nothing_moved: "));
-}
-
 TEST_F(DoctorNotes, ClosuresOfATrajectoryAreChecked) {
   Problem problem = test::drifting(truth_,
                                    twist({0.004, 0, 0.001}, {0, 0.001, 0.002}),

@@ -38,7 +38,7 @@ class Nondeterminism : public TinyStore {
 
 TEST_F(Nondeterminism, OfTimedRunsIsNoted) {
   EXPECT_THAT(notes(1e-13, "timing: 3\n"),
-              testing::Contains("doctor: nondeterministic: 3 runs on the same input gave 3 "
+              testing::Contains("nondeterministic: 3 runs on the same input gave 3 "
                                 "different trajectories"));
 }
 

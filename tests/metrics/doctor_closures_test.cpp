@@ -269,23 +269,5 @@ TEST(DoctorOfClosures, ARepeatedClosure) {
   EXPECT_THAT(closure_faults(problem), IsEmpty());
 }
 
-TEST(DoctorOfCorrections, ClosuresThatMoveNothing) {
-  Problem problem = rounds();
-  Trajectory chained{{0.0, problem.keyframes[0].world_from_body}};
-  for (const Edge& step : problem.odometry) {
-    chained.push_back({static_cast<double>(step.to),
-                       normalized(chained.back().world_from_body * step.from_from_to)});
-  }
-  problem.keyframes = chained;
-  const auto found = check_movement(problem, chained);
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->fault, Fault::nothing_moved);
-  Trajectory moved = chained;
-  moved.back().world_from_body.translation.x() += 0.5;
-  EXPECT_FALSE(check_movement(problem, moved));
-  problem.closures.clear();
-  EXPECT_FALSE(check_movement(problem, chained));
-}
-
 }  // namespace
 }  // namespace loopbench::doctor_closures_test
