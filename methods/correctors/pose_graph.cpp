@@ -85,23 +85,23 @@ double anneal(const std::vector<Edge>& closures,
 using Poses = PoseGraphOptimizer::Poses;
 using Start = PoseGraphOptimizer::Start;
 
-Group group_of(const Problem& problem, Poses requested) {
+Group group_of(const Problem& problem, Poses requested, bool has_drift) {
   if (requested == Poses::se2) return Group::se2;
   if (requested == Poses::se3) return Group::se3;
-  if (requested == Poses::sim3 || has_scale_drift(problem)) return Group::sim3;
+  if (requested == Poses::sim3 || has_drift) return Group::sim3;
   return problem.planar ? Group::se2 : Group::se3;
 }
 
 std::vector<ScaledPose> initial(const Problem& problem,
                                 const PoseGraphOptimizer::Options& options,
+                                bool has_drift,
                                 SharedStructure& structure) {
   const Start start = options.start;
   if (start == Start::chordal) return chordal_values(problem, options.scale_sigma, &structure);
   if (start == Start::odometry) return tree_values(problem);
   // Keyframes have no scale: it is that of the tree.
-  std::vector<ScaledPose> out = has_scale_drift(problem)
-                                    ? tree_values(problem)
-                                    : std::vector<ScaledPose>(problem.keyframes.size());
+  std::vector<ScaledPose> out =
+      has_drift ? tree_values(problem) : std::vector<ScaledPose>(problem.keyframes.size());
   for (std::size_t i = 0; i < out.size(); ++i) out[i].pose = problem.keyframes[i].world_from_body;
   return out;
 }
@@ -189,7 +189,8 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     return PoseGraphOptimizer(stated, order_)
         .correct(with_estimated_factors(problem, report), report);
   }
-  const Group group = group_of(problem, options_.group);
+  const bool has_drift = has_scale_drift(problem);
+  const Group group = group_of(problem, options_.group, has_drift);
   PoseGraphSettings settings{
       group,
       options_.scale_sigma,
@@ -201,7 +202,8 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   settings.structure = &structure;
   std::vector<ScaledPose> poses;
   if (options_.gnc == Gnc::off) {
-    poses = report.time("initial values", [&] { return initial(problem, options_, structure); });
+    poses = report.time("initial values",
+                        [&] { return initial(problem, options_, has_drift, structure); });
   }
   const UsedAnchors used(problem);
   used.report_held_pose(report);
@@ -223,7 +225,9 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     before = report.time("loop equations", [&] { return solve_loops(problem, poses, iterations); });
   }
   if (options_.gnc != Gnc::off) {
-    const auto values = [&](const Problem& of) { return initial(of, options_, structure); };
+    const auto values = [&](const Problem& of) {
+      return initial(of, options_, has_scale_drift(of), structure);
+    };
     GncSolution gnc =
         solve_gnc({problem, settings, options_.gnc, chi2_quantile(group), values}, report);
     poses = std::move(gnc.poses);
