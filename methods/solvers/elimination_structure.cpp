@@ -122,8 +122,8 @@ std::vector<int> postorder(const Lists& columns) {
 
 /// Whether a supernode of so many columns and rows is stored with so many of its blocks zero.
 bool is_dense_enough(int columns, double zeros) {
-  if (columns <= 4) return zeros < 0.5;
-  return zeros < (columns <= 16 ? 0.2 : 0.05);
+  if (columns <= 4) return zeros < 0.15;
+  return zeros < (columns <= 16 ? 0.1 : 0.05);
 }
 
 }  // namespace

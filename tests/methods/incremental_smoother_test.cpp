@@ -71,7 +71,7 @@ TEST(DualIncremental, ReachesTheMinimumOfDualInParts) {
 TEST(PoseGraph, KeepsItsOrderInPartsAndReachesTheSameMinimum) {
   const Problem problem = test::walk(2, 80, 0.02);
   Report report;
-  const PoseGraphOptimizer method({.keep_order = 2.0});
+  const PoseGraphOptimizer method({.keep_order = 3.0});
   const Trajectory expected = test::corrected<PoseGraphOptimizer>(problem);
   test::expect_close(in_parts(problem, method, report), expected, 1e-6);
   // The first update has no closure yet: it is declined.
@@ -79,6 +79,18 @@ TEST(PoseGraph, KeepsItsOrderInPartsAndReachesTheSameMinimum) {
   EXPECT_EQ(report.counts[report.counts.size() - 2].name, "orders");
   EXPECT_EQ(report.counts[report.counts.size() - 2].value, 1.0);
   EXPECT_EQ(report.counts.back().name, "updates_declined");
+}
+
+TEST(PoseGraph, RescalesInPartsAsAtOnce) {
+  const Problem problem = test::walk(2, 80, 0.02);
+  const auto options = [](std::optional<double> keep_order) {
+    return PoseGraphOptimizer::Options{.rescale = true, .keep_order = keep_order};
+  };
+  const PoseGraphOptimizer method(options(2.0));
+  Report report;
+  test::expect_close(in_parts(problem, method, report),
+                     PoseGraphOptimizer(options({})).correct(problem, report),
+                     1e-6);
 }
 
 TEST(PoseGraph, KeepsAnOrderOnlyWithoutALoss) {

@@ -101,7 +101,7 @@ TEST(BlockCholesky, SolvesChainsWithLoopsAndCliques) {
 }
 
 TEST(KeptOrder, IsReplacedWhenItsWorkHasGrown) {
-  KeptOrder order(2.0);
+  KeptOrder order(3.0);
   std::vector<std::pair<int, int>> pairs;
   const auto chain = [&](int begin, int end) {
     for (int i = std::max(begin, 1); i < end; ++i) pairs.emplace_back(i - 1, i);
