@@ -186,6 +186,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   if (options_.rescale) {
     Options stated = options_;
     stated.rescale = false;
+    if (order_) order_->odometry.reset();  // its factors change
     return PoseGraphOptimizer(stated, order_)
         .correct(with_estimated_factors(problem, report), report);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <any>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -53,6 +54,9 @@ class KeptOrder {
 
   /// Of the factor before (BlockCholesky): a new one costs page faults on long paths.
   Eigen::VectorXd storage;
+
+  /// Whitened odometry of the solve before (NormalEquations). Reset it if known edges change.
+  std::any odometry;
 
   /// Number of orders computed so far.
   int computed() const { return computed_; }

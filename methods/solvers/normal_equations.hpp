@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <any>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -27,21 +28,18 @@ class NormalEquations {
   /// Of `settings`, the structure and the order are used.
   NormalEquations(const WeightedGraph& graph, const PoseGraphSettings& settings)
       : first_(graph.is_first_free ? 0 : 1),
+        odometry_(graph.odometry.size()),
+        order_(settings.order),
+        terms_(terms_of(graph, order_)),
         shared_(structure_of(graph, settings)),
         structure_(*shared_),
-        order_(settings.order),
         factor_(structure_, order_ ? std::move(order_->storage) : Eigen::VectorXd()) {
+    diagonal_places_.reserve(static_cast<std::size_t>(structure_.blocks()));
     for (int i = 0; i < structure_.blocks(); ++i) diagonal_places_.push_back(factor_.place(i, i));
-    terms_.reserve(graph.odometry.size() + graph.closures.size());
-    graph.for_each_edge([&](const Edge& edge, double weight, bool) {
-      Term term{static_cast<int>(edge.from) - first_,
-                static_cast<int>(edge.to) - first_,
-                G::inverse(G::from(measured(edge))),
-                information_root<G>(edge, weight, graph.scale_sigma),
-                {}};
-      if (std::min(term.from, term.to) >= 0) term.between = factor_.place(term.from, term.to);
-      terms_.push_back(term);
-    });
+    for (Term& term : terms_) {
+      const int from = block(term.from), to = block(term.to);
+      if (std::min(from, to) >= 0) term.between = factor_.place(from, to);
+    }
     for (const Anchor& anchor : graph.anchors) {
       anchors_.push_back({anchor, anchor.covariance.inverse().llt().matrixU()});
     }
@@ -49,7 +47,10 @@ class NormalEquations {
   }
 
   ~NormalEquations() {
-    if (order_) order_->storage = factor_.take_storage();
+    if (!order_) return;
+    order_->storage = factor_.take_storage();
+    terms_.resize(odometry_);
+    order_->odometry = std::move(terms_);
   }
   NormalEquations(const NormalEquations&) = delete;
   NormalEquations& operator=(const NormalEquations&) = delete;
@@ -61,7 +62,7 @@ class NormalEquations {
   double cost(const std::vector<Element>& x) const {
     double sum = 0.0;
     for (const Term& term : terms_) {
-      const Element from_from_to = G::compose(G::inverse(pose(x, term.from)), pose(x, term.to));
+      const Element from_from_to = G::compose(G::inverse(x[term.from]), x[term.to]);
       sum += (term.root * group_edge_error<G>(term.back, from_from_to)).squaredNorm();
     }
     for (const WhitenedAnchor& each : anchors_) {
@@ -77,34 +78,35 @@ class NormalEquations {
     gradient_.setZero();
     double sum = 0.0;
     for (const Term& term : terms_) {
-      const Element from_from_to = G::compose(G::inverse(pose(x, term.from)), pose(x, term.to));
+      const Element from_from_to = G::compose(G::inverse(x[term.from]), x[term.to]);
       const Tangent error = group_edge_error<G>(term.back, from_from_to);
       const Tangent whitened = term.root * error;
       sum += whitened.squaredNorm();
       const Square J = term.root * G::inverse_right_jacobian(error);  // by the second pose
       const Square H = J.transpose() * J;
       const Tangent g = J.transpose() * whitened;
-      if (term.to >= 0) add(term.to, H, g);
-      if (term.from < 0) continue;
+      const int from = block(term.from), to = block(term.to);
+      if (to >= 0) add(to, H, g);
+      if (from < 0) continue;
       // The derivative by the first pose is -J M; see edge_residual().
       const Square M = G::adjoint(G::inverse(from_from_to));
       const Square MH = M.transpose() * H;
-      add(term.from, MH * M, -(M.transpose() * g));
-      if (term.to >= 0) factor_.add(term.between, -MH);
+      add(from, MH * M, -(M.transpose() * g));
+      if (to >= 0) factor_.add(term.between, -MH);
     }
     for (const WhitenedAnchor& each : anchors_) {
       const Pose at = G::to_scaled_pose(x[each.anchor.keyframe]).pose;
       const AnchorResidual residual = anchor_residual(each.anchor, at);
       const Vector3 whitened = each.root * residual.error;
       sum += whitened.squaredNorm();
-      const auto block = static_cast<int>(each.anchor.keyframe) - first_;
-      if (block < 0) continue;
+      const int anchored = block(each.anchor.keyframe);
+      if (anchored < 0) continue;
       Eigen::Matrix<double, 3, G::kDof> J = Eigen::Matrix<double, 3, G::kDof>::Zero();
       constexpr int kPlane[] = {0, 1, 5};
       for (int i = 0; i < std::min(G::kDof, 6); ++i) {
         J.col(i) = each.root * residual.by_pose.col(G::kDof == 3 ? kPlane[i] : i);
       }
-      add(block, J.transpose() * J, J.transpose() * whitened);
+      add(anchored, J.transpose() * J, J.transpose() * whitened);
     }
     return 0.5 * sum;
   }
@@ -132,8 +134,8 @@ class NormalEquations {
 
  private:
   struct Term {
-    int from;  ///< block, -1: the fixed pose
-    int to;
+    std::size_t from;
+    std::size_t to;
     Element back;  ///< inverse of the measurement
     Square root;
     typename BlockCholesky<G::kDof>::Place between;
@@ -143,17 +145,36 @@ class NormalEquations {
     Matrix3 root;
   };
 
+  /// Those of the odometry of the solve before are used again: they are a third of the memory of
+  /// the edges.
+  static std::vector<Term> terms_of(const WeightedGraph& graph, KeptOrder* order) {
+    std::vector<Term> out;
+    if (order) {
+      if (auto* kept = std::any_cast<std::vector<Term>>(&order->odometry)) out = std::move(*kept);
+    }
+    const std::size_t count = graph.odometry.size() + graph.closures.size();
+    if (out.capacity() < count) out.reserve(out.empty() ? count : count + count / 4);
+    graph.for_each_edge(
+        [&](const Edge& edge, double weight, bool) {
+          out.push_back({edge.from,
+                         edge.to,
+                         G::inverse(G::from(measured(edge))),
+                         information_root<G>(edge, weight, graph.scale_sigma),
+                         {}});
+        },
+        out.size());
+    return out;
+  }
+
   using Structure = std::shared_ptr<const EliminationStructure>;
-  static Structure structure_of(const WeightedGraph& graph, const PoseGraphSettings& settings) {
-    const int first = graph.is_first_free ? 0 : 1;
+  Structure structure_of(const WeightedGraph& graph, const PoseGraphSettings& settings) const {
     std::vector<std::pair<int, int>> pairs;
-    pairs.reserve(graph.odometry.size() + graph.closures.size());
-    graph.for_each_edge([&](const Edge& edge, double, bool) {
-      const auto i = static_cast<int>(edge.from) - first;
-      const auto j = static_cast<int>(edge.to) - first;
+    pairs.reserve(terms_.size());
+    for (const Term& term : terms_) {
+      const int i = block(term.from), j = block(term.to);
       if (std::min(i, j) >= 0) pairs.emplace_back(i, j);
-    });
-    const int blocks = static_cast<int>(graph.poses) - first;
+    }
+    const int blocks = static_cast<int>(graph.poses) - first_;
     if (settings.order) {
       return std::make_shared<const EliminationStructure>(settings.order->structure(blocks, pairs));
     }
@@ -161,21 +182,21 @@ class NormalEquations {
     return (settings.structure ? *settings.structure : unshared).of(blocks, std::move(pairs));
   }
 
-  const Element& pose(const std::vector<Element>& x, int block) const {
-    return x[static_cast<std::size_t>(block + first_)];
-  }
+  /// -1: the fixed pose.
+  int block(std::size_t pose) const { return static_cast<int>(pose) - first_; }
   void add(int block, const Square& H, const Tangent& g) {
     factor_.add(diagonal_places_[static_cast<std::size_t>(block)], H);
     gradient_.template segment<G::kDof>(block * G::kDof) += g;
   }
 
   int first_;
+  std::size_t odometry_;  ///< number of its terms, which are the first
+  KeptOrder* order_;
+  std::vector<Term> terms_;
   Structure shared_;
   const EliminationStructure& structure_;
-  KeptOrder* order_;
   BlockCholesky<G::kDof> factor_;
   std::vector<typename BlockCholesky<G::kDof>::Place> diagonal_places_;
-  std::vector<Term> terms_;
   std::vector<WhitenedAnchor> anchors_;
   Eigen::VectorXd gradient_;
   Eigen::VectorXd diagonal_;  ///< in the order of elimination
