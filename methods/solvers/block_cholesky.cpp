@@ -7,32 +7,28 @@
 
 namespace loopbench::methods {
 
+constexpr std::size_t kPanelsAhead = 8;  // loaded before they are visited
+
 template <int D>
 BlockCholesky<D>::BlockCholesky(const EliminationStructure& structure, Eigen::VectorXd storage)
     : structure_(structure),
       values_(std::move(storage)),
-      cleared_for_(structure.supernodes().size(), -1),
-      children_(structure.supernodes().size()) {
+      cleared_for_(structure.supernodes().size(), -1) {
   std::size_t size = 0;
-  std::size_t top = 0;
   std::size_t highest = 0;
   int most_rows = 0;
-  for (std::size_t s = 0; s < children_.size(); ++s) {
+  for (std::size_t s = 0; s < count(); ++s) {
     const Supernode& node = structure.supernodes()[s];
     panel_.push_back(size);
     size +=
         static_cast<std::size_t>(node.rows() * D) * static_cast<std::size_t>(node.columns() * D);
-    const auto side = static_cast<std::size_t>(node.below * D);
-    highest = std::max(highest, top + side * side);
-    update_.push_back(children_[s].empty() ? top : update_[children_[s].front()]);
-    top = update_[s] + side * side;
+    highest = std::max(highest, top() + update_size(node));
+    replace_children(s);
     most_rows = std::max(most_rows, node.below);
     if (node.parent < 0) continue;
-    const auto parent = static_cast<std::size_t>(node.parent);
-    children_[parent].push_back(s);
+    const Supernode& parent = structure.supernodes()[static_cast<std::size_t>(node.parent)];
     for (int r = 0; r < node.below; ++r) {
-      row_in_parent_.push_back(
-          structure.row_in(structure.supernodes()[parent], structure.rows_below(node)[r]));
+      row_in_parent_.push_back(structure.row_in(parent, structure.rows_below(node)[r]));
     }
   }
   panel_.push_back(size);
@@ -88,12 +84,23 @@ void BlockCholesky<D>::add_update(const double* from,
   const Supernode& parent = structure_.supernodes()[static_cast<std::size_t>(node.parent)];
   const int* rows = row_in_parent_.data() + node.offset;
   const Eigen::Index side = node.below * D;
+  constexpr int kFewRows = 4;
   for (int column = 0; column < node.below; ++column) {
     const int to = rows[column];
     const bool is_pivot = to < parent.columns();
     const Eigen::Index stride = (is_pivot ? parent.rows() : parent.below) * D;
     const int shift = is_pivot ? 0 : parent.columns();
     double* target = (is_pivot ? panel : update) + (to - shift) * D * stride - shift * D;
+    if (node.below <= kFewRows) {  // most nodes of a chain
+      for (int r = column; r < node.below; ++r) {
+        const double* source = from + column * D * side + r * D;
+        double* sum = target + rows[r] * D;
+        for (int d = 0; d < D; ++d) {
+          for (int k = 0; k < D; ++k) sum[d * stride + k] += source[d * side + k];
+        }
+      }
+      continue;
+    }
     for (int begin = column, end = column; begin < node.below; begin = end) {
       do ++end;
       while (end < node.below && rows[end] == rows[end - 1] + 1);
@@ -107,31 +114,59 @@ void BlockCholesky<D>::add_update(const double* from,
   }
 }
 
+/// Loads a panel into the cache: on long chains the panels are in main memory. Without effect
+/// beyond both ends.
+template <int D>
+void BlockCholesky<D>::prefetch(std::size_t supernode) const {
+  constexpr std::size_t kLine = 64 / sizeof(double), kMost = 16 * kLine;
+  if (supernode >= count()) return;
+  const std::size_t end = std::min(panel_[supernode + 1], panel_[supernode] + kMost);
+  for (std::size_t i = panel_[supernode]; i < end; i += kLine) {
+    __builtin_prefetch(values_.data() + i, 1);
+  }
+}
+
+template <int D>
+std::size_t BlockCholesky<D>::first_child(std::size_t supernode) const {
+  std::size_t i = waiting_.size();
+  while (i > 0 &&
+         structure_.supernodes()[waiting_[i - 1].supernode].parent == static_cast<int>(supernode)) {
+    --i;
+  }
+  return i;
+}
+
+template <int D>
+std::size_t BlockCholesky<D>::replace_children(std::size_t supernode) {
+  const std::size_t first = first_child(supernode);
+  const std::size_t begin = first < waiting_.size() ? waiting_[first].begin : top();
+  waiting_.resize(first);
+  const std::size_t size = update_size(structure_.supernodes()[supernode]);
+  if (size > 0) waiting_.push_back({supernode, begin, begin + size});
+  return begin;
+}
+
 template <int D>
 template <class Before, class After>
 bool BlockCholesky<D>::eliminate(Before before, After after) {
-  for (std::size_t s = 0; s < children_.size(); ++s) {
+  waiting_.clear();
+  for (std::size_t s = 0; s < count(); ++s) {
+    prefetch(s + kPanelsAhead);
     clear(s);
     before(s);
     const Supernode& node = structure_.supernodes()[s];
-    const auto side = static_cast<std::size_t>(node.below * D);
+    const std::size_t size = update_size(node);
     double* panel = values_.data() + panel_[s];
-    std::size_t top = update_[s];  // above the updates of the children
-    if (!children_[s].empty()) {
-      const std::size_t last = children_[s].back();
-      const auto last_side = static_cast<std::size_t>(structure_.supernodes()[last].below * D);
-      top = update_[last] + last_side * last_side;
-    }
-    double* update = stack_.data() + top;
-    std::fill(update, update + side * side, 0.0);
-    for (const std::size_t child : children_[s]) {
-      add_update(stack_.data() + update_[child], child, panel, update);
+    double* update = stack_.data() + top();
+    std::fill(update, update + size, 0.0);
+    for (std::size_t i = first_child(s); i < waiting_.size(); ++i) {
+      add_update(stack_.data() + waiting_[i].begin, waiting_[i].supernode, panel, update);
     }
     if (!eliminate_panel<D>(panel, node.columns(), node.rows())) return false;
     after(s);
-    if (side == 0) continue;
-    subtract_products<D>(update, panel, node.columns(), node.rows());
-    if (top != update_[s]) std::copy(update, update + side * side, stack_.data() + update_[s]);
+    if (size > 0) subtract_products<D>(update, panel, node.columns(), node.rows());
+    double* begin = stack_.data() + replace_children(s);
+    if (begin != update) std::copy(update, update + size, begin);
   }
   return true;
 }
@@ -160,7 +195,8 @@ void BlockCholesky<D>::forward(std::size_t supernode) {
 
 template <int D>
 void BlockCholesky<D>::backward(double* right) {
-  for (std::size_t s = children_.size(); s-- > 0;) {
+  for (std::size_t s = count(); s-- > 0;) {
+    prefetch(s - kPanelsAhead);
     const Supernode& node = structure_.supernodes()[s];
     const int* rows = structure_.rows_below(node);
     for (int r = 0; r < node.below; ++r) {
@@ -188,7 +224,7 @@ template <int D>
 void BlockCholesky<D>::solve(Eigen::MatrixXd& right) {
   for (Eigen::Index column = 0; column < right.cols(); ++column) {
     order(right.col(column).data());
-    for (std::size_t s = 0; s < children_.size(); ++s) forward(s);
+    for (std::size_t s = 0; s < count(); ++s) forward(s);
     backward(right.col(column).data());
   }
 }

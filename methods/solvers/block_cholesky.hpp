@@ -57,7 +57,17 @@ class BlockCholesky {
   /// Calls `before` and `after` with the index of each supernode, before and after its elimination.
   template <class Before, class After>
   bool eliminate(Before before, After after);
+  std::size_t count() const { return cleared_for_.size(); }
+  static std::size_t update_size(const Supernode& of) {
+    return static_cast<std::size_t>(of.below * D) * static_cast<std::size_t>(of.below * D);
+  }
+  std::size_t top() const { return waiting_.empty() ? 0 : waiting_.back().end; }
+  /// Index in waiting_, whose last ones are the children.
+  std::size_t first_child(std::size_t supernode) const;
+  /// Takes the updates of the children off the stack; returns where that of the supernode begins.
+  std::size_t replace_children(std::size_t supernode);
   void clear(std::size_t supernode);
+  void prefetch(std::size_t supernode) const;
   /// One column of `right` goes to ordered_, in the order of elimination, and back.
   void order(const double* right);
   void forward(std::size_t supernode);
@@ -69,10 +79,13 @@ class BlockCholesky {
   Eigen::VectorXd values_;          ///< panels, column-major, rows() D x columns() D
   std::vector<int> cleared_for_;    ///< matrix of each panel
   int matrix_ = 0;                  ///< number of calls of set_zero()
-  std::vector<std::vector<std::size_t>> children_;
-  std::vector<int> row_in_parent_;   ///< of each row below of each supernode
-  std::vector<double> stack_;        ///< updates that wait for their parent, lower triangles
-  std::vector<std::size_t> update_;  ///< offset of the update of each supernode in stack_
+  std::vector<int> row_in_parent_;  ///< of each row below of each supernode
+  /// Update that waits for the parent of its supernode, in stack_.
+  struct Waiting {
+    std::size_t supernode, begin, end;
+  };
+  std::vector<Waiting> waiting_;
+  std::vector<double> stack_;  ///< lower triangles
   Eigen::VectorXd ordered_;
   Eigen::VectorXd gathered_;
 };
