@@ -120,6 +120,24 @@ TEST(KeptOrder, IsReplacedWhenItsWorkHasGrown) {
   expect_solves<3>(dense, pairs);
 }
 
+/// A path with a closure after each tenth of it, to the pose half as far.
+TEST(KeptOrder, WorkGrowsInProportionToThePath) {
+  const auto work = [](int poses) {
+    KeptOrder order(2.0);
+    std::vector<std::pair<int, int>> pairs;
+    double sum = 0.0;
+    for (int i = 1; i <= poses; ++i) {
+      pairs.emplace_back(i - 1, i);
+      if (i % (poses / 10) != 0) continue;
+      pairs.emplace_back(i / 2, i);
+      sum += order.structure(i + 1, pairs).work();
+    }
+    return sum;
+  };
+  EXPECT_NEAR(work(10000) / work(1000), 10.0, 0.2);
+  EXPECT_NEAR(work(100000) / work(10000), 10.0, 0.2);
+}
+
 TEST(BlockCholesky, ReportsThatAMatrixIsNotPositiveDefinite) {
   const EliminationStructure structure(2, {{0, 1}});
   BlockCholesky<1> factor(structure);
