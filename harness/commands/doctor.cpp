@@ -7,6 +7,7 @@
 #include "datasets/formats/g2o.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/standard_output.hpp"
 #include "harness/eval/correct.hpp"
 #include "harness/eval/named_trajectory.hpp"
 #include "metrics/doctor/diagnose.hpp"
@@ -45,10 +46,9 @@ Diagnosed of_closures(const std::string& name, const Problem& problem) {
 Diagnosed of_graph(const std::string& file) {
   const PoseGraph graph = read_g2o(file, {.indefinite = IndefiniteInformation::project});
   GraphParts parts = split_graph(graph, file);
-  Problem problem;
-  problem.keyframes = initial_poses(graph, ReadOptions{}.period);
-  problem.odometry = std::move(parts.odometry);
-  problem.closures = std::move(parts.closures);
+  const Problem problem{.keyframes = initial_poses(graph, ReadOptions{}.period),
+                        .odometry = std::move(parts.odometry),
+                        .closures = std::move(parts.closures)};
   Diagnosed out = of_closures(file, problem);
   if (graph.altered > 0) {  // other commands refuse such a graph
     out.result.findings.push_back(
@@ -76,9 +76,7 @@ Diagnosed of_pair(const NamedTrajectory& reference,
     if (count == 0 || is_repeat_handled) continue;
     out.result.findings.push_back(
         {metrics::Fault::repeated_stamps,
-         fmt::format("{}: {} with the stamp of the one before",
-                     file->name,
-                     count == 1 ? "one pose" : fmt::format("{} poses", count)),
+         fmt::format("{}: {} with the stamp of the pose before", file->name, count),
          "--repeats keep_first or keep_last",
          1.0,
          static_cast<double>(count)});
@@ -90,10 +88,9 @@ std::string report_text(const std::vector<Diagnosed>& all) {
   std::string out;
   for (const Diagnosed& each : all) {
     out += each.name + "\n";
-    for (const metrics::InputFinding& finding : each.result.findings) {
-      out += "  " + text(finding) + "\n";
-    }
-    for (const std::string& part : each.result.unchecked) out += "  not checked: " + part + "\n";
+    for (const auto& found : each.result.findings) out += "  " + fitted(text(found)) + "\n";
+    for (const std::string& part : each.result.unchecked)
+      out += "  " + fitted("not checked: " + part) + "\n";
     if (each.result.findings.empty()) {
       out += each.result.has_checked ? "  nothing found\n" : "  nothing could be checked\n";
     }
@@ -135,15 +132,12 @@ int doctor(const DoctorArguments& a) {
   if (!a.loops.empty()) {
     if (a.estimates.size() > 1) throw InputError("--loops: expected one trajectory");
     const std::string& owner = a.estimates.empty() ? a.reference : a.estimates.front();
-    CorrectArguments input;
-    input.estimate = owner;
-    input.loops = a.loops;
+    const CorrectArguments input{.estimate = owner, .loops = a.loops};
     all.push_back(of_closures(a.loops, load_problem(input, catalogue({}))));
   } else if (a.estimates.empty()) {
     if (!is_pose_graph(a.reference)) {
-      throw InputError(
-          a.reference +
-          ": expected REF and EST, a trajectory with --loops, or one pose graph (g2o)");
+      throw InputError(a.reference +
+                       ": expected REF EST, a trajectory with --loops, or a g2o graph");
     }
     all.push_back(of_graph(a.reference));
   }
@@ -162,8 +156,7 @@ void add_doctor(CLI::App& app, int& exit_code) {
       "doctor",
       "Search trajectories or a pose graph for mistakes: clocks, quaternion order, units, axes, "
       "inverted poses, lever arm, exchanged or wrong files, jumps, closures, information (exit 1 "
-      "if "
-      "there are any, or if nothing could be checked)");
+      "if there are any, or if nothing could be checked)");
   command->add_option("reference", a->reference, "Reference trajectory, or a pose graph")
       ->required()
       ->type_name("REF");

@@ -111,20 +111,22 @@ GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain) {
   const double after = rms(squares, out.plausible.size());
   const std::size_t count = closures.size() - out.plausible.size();
   if (count == 0 || after > kMostLeft * before) return {std::nullopt, closures};
+  const bool is_all = out.plausible.empty();
   out.finding = InputFinding{
       Fault::closure_gap,
       fmt::format("{} of {} closures contradict the odometry or other closures, most of all {} -> "
-                  "{}: the gap is {:.3g} m after {:.3g} m; without them, rms of the gaps {:.3g} -> "
-                  "{:.3g} m",
+                  "{}: the gap is {:.3g} m after {:.3g} m",
                   count,
                   closures.size(),
                   worst->from,
                   worst->to,
                   of_worst.distance,
-                  of_worst.length,
-                  before,
-                  after),
-      "check them; robust methods are made for false closures",
+                  of_worst.length) +
+          (is_all
+               ? ""
+               : fmt::format("; without them, rms of the gaps {:.3g} -> {:.3g} m", before, after)),
+      is_all ? "check units, frames and order of quaternions of all edges"
+             : "check them; robust methods are made for false closures",
       std::max(1.0 - after / before, 1.0 - 1.0 / largest),
       static_cast<double>(count)};
   return out;

@@ -178,14 +178,15 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
     if (!is_half || i % 2 == 1) tested.push_back(&groups[i]);
   }
   const EdgeRepair as_read{{}, "", "", unchanged_edge};
-  const std::vector<LoopFit> before = fits(chosen, chain, as_read);
   static const std::vector<EdgeRepair> all = candidates();
+  // Several can be so much better than as read that the limit of each group hides their difference.
   const EdgeRepair* best = nullptr;
-  double largest = kLeastChosen;
+  std::vector<LoopFit> best_fits = fits(chosen, chain, as_read);
   for (const EdgeRepair& repair : all) {
-    const double gained = gain(before, fits(chosen, chain, repair)) - repair.penalty;
-    if (!(gained > largest)) continue;
-    largest = gained;
+    std::vector<LoopFit> found = fits(chosen, chain, repair);
+    const double least = best == nullptr ? kLeastChosen : -best->penalty;
+    if (!(gain(best_fits, found) - repair.penalty > least)) continue;
+    best_fits = std::move(found);
     best = &repair;
   }
   if (best == nullptr) return std::nullopt;

@@ -12,7 +12,8 @@
 namespace loopbench::metrics {
 namespace {
 
-constexpr const char* kChecksOfPoses = "units, scale, quaternion order, inverted poses, axes";
+constexpr const char* kChecksOfPoses =
+    "units, scale, quaternion order, inverted poses, axes, files of the same recording";
 constexpr double kLeastOfNoise = 3.0;  // standard deviation of positions over their noise
 
 /// Whether noise explains the positions: their standard deviation is at most kLeastOfNoise times
@@ -95,20 +96,19 @@ class PairDiagnosis {
     Paired poses = common_poses(reference_, estimate_);
     if (poses.estimate.size() < kFewestCommonPoses) {
       out_.unchecked.push_back(
-          fmt::format("{}, files of the same recording: {} poses of the estimate are in the "
-                      "reference's time, expected at least {}",
+          fmt::format("{}: {} poses of the estimate are in the reference's time, expected at least "
+                      "{}",
                       kChecksOfPoses,
                       poses.estimate.size(),
                       kFewestCommonPoses));
       return;
     }
-    if (is_at_rest(reference_) || is_at_rest(estimate_)) {
-      out_.unchecked.push_back(
-          fmt::format("{}, files of the same recording: the {} moves by less than {:g} times its "
-                      "noise",
-                      kChecksOfPoses,
-                      is_at_rest(reference_) ? "reference" : "estimate",
-                      kLeastOfNoise));
+    const bool is_reference = is_at_rest(reference_);
+    if (is_reference || is_at_rest(estimate_)) {
+      out_.unchecked.push_back(fmt::format("{}: the {} moves by less than {:g} times its noise",
+                                           kChecksOfPoses,
+                                           is_reference ? "reference" : "estimate",
+                                           kLeastOfNoise));
       return;
     }
     out_.has_checked = true;

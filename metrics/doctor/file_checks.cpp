@@ -13,12 +13,15 @@
 namespace loopbench::metrics {
 namespace {
 
-/// Whether a word of the last two parts of a path names a reference.
+/// Whether a word of the last two parts of a path names a reference, not one that it is aligned to.
 bool names_truth(const std::string& name) {
   static const std::regex known(
-      "(^|[^a-z])(groundtruth|truth|gt|reference|vicon|leica|mocap)([^a-z]|$)", std::regex::icase);
+      "(^|[^a-z])(groundtruth|truth|gt|reference|vicon0|leica0|mocap)([^a-z]|$)",
+      std::regex::icase);
+  static const std::regex other("(^|[^a-z])(to|vs|with)[^a-z]", std::regex::icase);
   const std::filesystem::path path(name);
-  return std::regex_search((path.parent_path().filename() / path.filename()).string(), known);
+  const std::string parts = (path.parent_path().filename() / path.filename()).string();
+  return std::regex_search(parts, known) && !std::regex_search(parts, other);
 }
 
 std::vector<double> steps_of(const Trajectory& poses) {
@@ -79,7 +82,7 @@ std::optional<InputFinding> check_angle_unit(const Paired& poses) {
 
 std::optional<InputFinding> remove_jumps(Paired& poses) {
   constexpr double kOverUsual = 8.0, kOverReference = 2.0, kOfSpread = 0.01, kNearlyAll = 0.95;
-  constexpr std::size_t kMost = 5;
+  constexpr std::size_t kMost = 20, kListed = 5;
   constexpr double kBetter = 0.97;
   const Agreement before = agreement(poses);
   const std::vector<double> of_reference = steps_of(poses.reference);
@@ -105,6 +108,7 @@ std::optional<InputFinding> remove_jumps(Paired& poses) {
     for (std::size_t j = i + 1; j < without.estimate.size(); ++j) {
       without.estimate[j].world_from_body.translation -= jump;
     }
+    if (count > kListed) continue;
     list += fmt::format("{}{:.3f} s ({:.3g} m, the reference moves by {:.3g} m)",
                         list.empty() ? "" : ", ",
                         poses.estimate[i + 1].stamp,
@@ -112,6 +116,7 @@ std::optional<InputFinding> remove_jumps(Paired& poses) {
                         of_reference[i]);
   }
   if (count == 0) return std::nullopt;
+  if (count > kListed) list += fmt::format(" and {} more times", count - kListed);
   const Agreement after = agreement(without);
   const double ratio = after.similarity / before.similarity;
   if (!(ratio < kBetter)) return std::nullopt;

@@ -47,11 +47,10 @@ inline constexpr double kLeastConfidence = 0.25;
 
 struct InputFinding {
   Fault::Name fault;
-  std::string evidence;  ///< numbers that show the mistake
-  std::string fix;       ///< what to do, as an option where there is one
-  double confidence =
-      0.0;             ///< 0..1: 1 - error after / error before the fix, where that is measured
-  double value = 0.0;  ///< offset [s], ratio, or number of edges; see `evidence`
+  std::string evidence;     ///< numbers that show the mistake
+  std::string fix;          ///< what to do, as an option where there is one
+  double confidence = 0.0;  ///< 0..1: where measured, 1 - error after / error before the fix
+  double value = 0.0;       ///< offset [s], ratio, or number of edges; see `evidence`
 };
 
 /// "time_offset: EVIDENCE; FIX (confidence 0.93)".

@@ -20,19 +20,20 @@ struct TimeOffset {
 /// Correlation of the speeds as read; 0 without common times. O(1e3 log n).
 double speed_correlation(const Trajectory& reference, const Trajectory& estimate);
 
-/// The offset with the largest correlation of linear and angular speed: at most `searched` [s], or
-/// over all overlaps if the trajectories have no common time; refined to a fraction of a sample. An
+/// The offset with the largest correlation of linear and angular speed: at most `searched` [s], by
+/// default 10; over all overlaps if the trajectories have no common time or, by default, if no such
+/// offset explains the speeds (GPS time is 18 s ahead). Refined to a fraction of a sample. An
 /// offset below 1 s is preferred to a larger one that fits equally well, as periodic motion has.
 /// The deviation follows from the residuals of the speeds and their slopes. nullopt without enough
 /// motion, or if no offset explains the speeds (correlation below 0.6). Compares at most 20 000
 /// offsets of a range. O(1e7).
 std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
                                                const Trajectory& estimate,
-                                               double searched = 10.0);
+                                               std::optional<double> searched = {});
 
 /// A finding if the offset is significant (five standard deviations, above 20 ms and 35 % of the
-/// estimate's interval) and reduces the errors after an alignment. Files without common time need a
-/// correlation of 0.85 instead: those of different recordings reach 0.75.
+/// estimate's interval) and reduces the errors after an alignment. Files without common time, and
+/// offsets above 10 s, need a correlation of 0.85: those of different recordings reach 0.75.
 std::optional<InputFinding> offset_finding(const TimeOffset& found,
                                            const Trajectory& reference,
                                            const Trajectory& estimate);
@@ -67,7 +68,8 @@ std::optional<InputFinding> check_swapped(const std::string& reference_name,
 /// O(n).
 std::optional<InputFinding> check_angle_unit(const Paired& poses);
 
-/// Up to five jumps of the estimate's positions, without which the position error is smaller. O(n).
+/// Up to twenty jumps of the estimate's positions, without which the position error is smaller.
+/// O(n).
 std::optional<InputFinding> remove_jumps(Paired& poses);
 
 /// Of order and sign of quaternions, inverted poses, axes, units of lengths, scale, rotation and

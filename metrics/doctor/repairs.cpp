@@ -14,12 +14,10 @@ namespace {
 
 struct Repair {
   Fault::Name fault;
-  std::string what;    ///< "quaternions of the estimate in the order w x y z"
-  std::string fix;     ///< a command or an option
-  double value = 0.0;  ///< see InputFinding::value
-  /// Subtracted from the gain in Agreement::cost(): of two repairs that fit alike, the simpler one
-  /// is chosen.
-  double penalty = 0.0;
+  std::string what;      ///< "quaternions of the estimate in the order w x y z"
+  std::string fix;       ///< a command or an option
+  double value = 0.0;    ///< see InputFinding::value
+  double penalty = 0.0;  ///< of the gain: of two that fit alike, the simpler one is chosen
   std::function<void(Paired&)> apply;
 };
 
@@ -91,7 +89,7 @@ void add_axes(std::vector<Repair>& to) {
 
 /// Millimetres or centimetres, or an arbitrary scale.
 void add_scale(std::vector<Repair>& to, const Paired& poses) {
-  constexpr double kUnitTolerance = 0.12, kLeastScale = 0.1, kPenalty = 0.2;
+  constexpr double kUnitTolerance = 0.12, kLeastScale = 0.05, kPenalty = 0.2;
   const double scale = std::cbrt(similarity(poses).linear().determinant());
   if (std::abs(std::log(scale)) < kLeastScale) return;
   Repair out{Fault::scale,
@@ -116,7 +114,7 @@ void add_scale(std::vector<Repair>& to, const Paired& poses) {
 
 /// Axes and lever arm of another body.
 void add_bodies(std::vector<Repair>& to, const Paired& poses) {
-  constexpr double kLeastAngle = 30.0 / kDegrees, kExplained = 0.5;
+  constexpr double kLeastAngle = 10.0 / kDegrees, kExplained = 0.5;
   constexpr double kPenaltyOfAxes = 0.7, kPenaltyOfLeverArm = 0.1, kPenaltyOfBoth = 1.2;
   const auto found = extrinsic_offset(poses.reference, poses.estimate, ExtrinsicOffsetOptions{});
   if (!found) return;

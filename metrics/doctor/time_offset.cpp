@@ -10,6 +10,8 @@
 namespace loopbench::metrics {
 namespace {
 
+constexpr double kUsuallySearched = 10.0;  // [s]
+
 /// Pearson's correlation; 0 for a constant.
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   const auto centred = [](const std::vector<double>& values) {
@@ -160,7 +162,7 @@ double speed_correlation(const Trajectory& reference, const Trajectory& estimate
 
 std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
                                                const Trajectory& estimate,
-                                               double searched) {
+                                               std::optional<double> searched) {
   constexpr double kLeastCorrelation = 0.6;
   if (std::min(reference.size(), estimate.size()) < kFewestCommonPoses) return std::nullopt;
   const SpeedMatch match(reference, estimate);
@@ -169,8 +171,9 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
   out.before = std::max(0.0, before.best());
   out.has_common_time = before.is_known;
   const double coarse = std::clamp(match.interval(), 0.1, 0.5), fine = 0.2 * coarse;
-  Best best = search(match, -searched, searched, coarse);
-  if (!before.is_known && best.score < 0.0) {
+  const double nearest = searched.value_or(kUsuallySearched);
+  Best best = search(match, -nearest, nearest, coarse);
+  if (best.score < (searched && before.is_known ? -1.0 : kLeastCorrelation)) {
     // At least half of the shorter one must be common: a short overlap can fit by chance.
     const double duration = std::min(reference.back().stamp - reference.front().stamp,
                                      estimate.back().stamp - estimate.front().stamp);
@@ -192,7 +195,7 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
                                            const Trajectory& estimate) {
   constexpr double kSmallest = 0.02, kOfInterval = 0.35, kDeviations = 5.0;  // [s]
   constexpr double kLeastGain = 0.1, kMostRatio = 0.9, kLeastConfident = 0.3;
-  constexpr double kLeastAlone = 0.85;  // correlation of files without common time
+  constexpr double kLeastAlone = 0.85;  // correlation at large offsets
   const double size = std::abs(found.offset);
   const double interval = std::min(0.2, usual_interval(estimate));
   if (size < std::max({kSmallest, kOfInterval * interval, kDeviations * found.deviation})) {
@@ -208,9 +211,9 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
     if (after.cost() > before.cost() - kLeastGain || gained.ratio > kMostRatio) return std::nullopt;
     change += ", " + gained.text;
     confidence = std::max(kLeastConfident, 1.0 - gained.ratio);
-  } else if (found.correlation < kLeastAlone) {
-    return std::nullopt;
   }
+  const bool is_near = found.has_common_time && size <= kUsuallySearched;
+  if (!is_near && found.correlation < kLeastAlone) return std::nullopt;
   return InputFinding{Fault::time_offset,
                       fmt::format("the estimate's stamps are {:.3f} +- {:.3f} s {} the "
                                   "reference's: {}",

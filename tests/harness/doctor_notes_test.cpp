@@ -94,7 +94,7 @@ TEST_F(DoctorNotes, RepeatedStampsAreFoundAndDoNotHideOtherMistakes) {
   const CommandResult found = loopbench_command("doctor gt.txt twice.txt", folder_);
   EXPECT_EQ(found.exit_code, 1) << found.err;
   EXPECT_THAT(found.out,
-              HasSubstr("  repeated_stamps: twice.txt: one pose with the stamp of the one before; "
+              HasSubstr("  repeated_stamps: twice.txt: 1 with the stamp of the pose before; "
                         "--repeats keep_first or keep_last"));
   EXPECT_THAT(found.out, HasSubstr("  scale: "));
   const CommandResult given =

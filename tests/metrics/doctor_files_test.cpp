@@ -52,6 +52,9 @@ TEST(Doctor, ExchangedFilesByName) {
   ASSERT_FALSE(all.empty());
   EXPECT_EQ(all[0].fault, Fault::swapped);
   EXPECT_THAT(diagnosis(truth(), sampled(20), "gt.txt", "gt_odometry.txt").findings, IsEmpty());
+  for (const char* name : {"vo_aligned_to_gt.txt", "vicon_room1/orbslam3.txt"}) {
+    EXPECT_THAT(diagnosis(truth(), sampled(20), "data.csv", name).findings, IsEmpty());
+  }
 }
 
 /// References from surveys and lidar scans have a lower rate than inertial odometry.
@@ -150,6 +153,18 @@ TEST(Doctor, Jumps) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].fault, Fault::jumps);
   EXPECT_THAT(found[0].evidence, HasSubstr(" 16.000 s"));
+}
+
+TEST(Doctor, OutliersOfPositions) {
+  Trajectory estimate = sampled(20);
+  for (std::size_t i = 100; i < 700; i += 100) {
+    estimate[i].world_from_body.translation.x() += 2.0;
+  }
+  const auto found = diagnosis(truth(), estimate, "reference.txt", "run.txt").findings;
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].fault, Fault::jumps);
+  EXPECT_EQ(found[0].value, 12.0);  // there and back
+  EXPECT_THAT(found[0].evidence, HasSubstr(" and 7 more times: without"));
 }
 
 /// The path of another day, with other curves at other times.

@@ -24,7 +24,7 @@ inline Pose at(double t) {
 inline Trajectory sampled(double rate, double offset = 0.0) {
   // Small errors that a tracker makes; in another world and body frame.
   const Pose world{exp_so3({0.1, -0.2, 1.0}), {5, 6, 7}};
-  const Pose body{exp_so3({0.2, 0.1, -0.3}), Vector3::Zero()};
+  const Pose body{exp_so3({0.1, 0.05, -0.1}), Vector3::Zero()};
   Trajectory out;
   for (double t = 1.0; t < 40.0; t += 1.0 / rate) {
     const Pose error{exp_so3(0.004 * Vector3(std::sin(31 * t), std::cos(47 * t), std::sin(23 * t))),

@@ -79,6 +79,10 @@ TEST(Doctor, AxesOfAnotherBody) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].value, 2.0 * M_PI / 3.0, 1e-6);
   EXPECT_THAT(found[0].fix, testing::StartsWith("--ref-body=0.0,0.0,0.0,"));
+  const auto mounted = [](const Pose& p) -> Pose {
+    return {p.rotation * exp_so3({0.1, 0.25, 0}), p.translation};
+  };
+  EXPECT_THAT(faults(each(truth(), mounted), truth()), ElementsAre(Fault::body_rotation));
   // The alignment of a straight path leaves the rotation about it open.
   Trajectory straight, rolled;
   for (int i = 0; i < 200; ++i) {
@@ -224,6 +228,7 @@ TEST(Doctor, UnitsAndScale) {
   };
   EXPECT_THAT(faults(truth(), each(sampled(20), times(1000.0))), ElementsAre(Fault::length_unit));
   EXPECT_THAT(faults(truth(), each(sampled(20), times(0.4))), ElementsAre(Fault::scale));
+  EXPECT_THAT(faults(truth(), each(sampled(20), times(1.08))), ElementsAre(Fault::scale));
   EXPECT_THAT(faults(truth(), each(sampled(20), times(1.03))), IsEmpty());
 }
 

@@ -33,6 +33,23 @@ TEST(TimeOffset, IsNotFoundAtAConstantRateOfRotation) {
   }
 }
 
+/// GPS time is 18 s ahead of UTC: the files still have common times.
+TEST(TimeOffset, LargerThanTheNearestOnes) {
+  Trajectory reference, estimate;
+  Pose pose;
+  for (int i = 0; i < 2000; ++i) {
+    const double t = 0.05 * i;
+    reference.push_back({t, pose});
+    if (i % 2 == 0) estimate.push_back({t + 18.0, pose});
+    const double speed = 1.0 + 0.8 * std::sin(0.01 * t * t), rate = 0.5 * std::sin(0.007 * t * t);
+    pose = normalized(pose * exp_se3(0.05 * twist({speed, 0, 0}, {0, 0.3 * rate, rate})));
+  }
+  const auto found = diagnosis(reference, estimate, "reference.txt", "run.txt").findings;
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].fault, Fault::time_offset);
+  EXPECT_NEAR(found[0].value, -18.0, 0.02);
+}
+
 /// Clocks that were set after the first pose, or two sessions: a search with a constant step over
 /// all that time takes days.
 TEST(TimeOffset, StampsFarApartNeedABoundedSearch) {
