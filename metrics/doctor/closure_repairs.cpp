@@ -180,16 +180,16 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
   const EdgeRepair as_read{{}, "", "", unchanged_edge};
   static const std::vector<EdgeRepair> all = candidates();
   // Several can be so much better than as read that the limit of each group hides their difference.
-  const EdgeRepair* best = nullptr;
+  const EdgeRepair* best = &as_read;
   std::vector<LoopFit> best_fits = fits(chosen, chain, as_read);
   for (const EdgeRepair& repair : all) {
     std::vector<LoopFit> found = fits(chosen, chain, repair);
-    const double least = best == nullptr ? kLeastChosen : -best->penalty;
+    const double least = (best->fault == repair.fault ? 0.0 : kLeastChosen) - best->penalty;
     if (!(gain(best_fits, found) - repair.penalty > least)) continue;
     best_fits = std::move(found);
     best = &repair;
   }
-  if (best == nullptr) return std::nullopt;
+  if (best == &as_read) return std::nullopt;
   const std::vector<LoopFit> was = fits(tested, chain, as_read);
   const std::vector<LoopFit> is = fits(tested, chain, *best);
   const double proven = gain(was, is);
