@@ -46,10 +46,14 @@ int update(const CheckArguments& arguments) {
     baseline.limits = read_limits(arguments.baseline);
   }
   if (arguments.time) {
-    std::erase_if(baseline.limits, [](const Tolerance& limit) { return limits_time({limit}); });
-    baseline.limits.insert(baseline.limits.begin(), time_limit(*arguments.time));
+    std::erase_if(baseline.limits, [](const Tolerance& limit) { return limits_time(limit); });
+    const std::vector<Tolerance> times = time_limits(*arguments.time);
+    baseline.limits.insert(baseline.limits.begin(), times.begin(), times.end());
   }
   baseline.snapshot = snapshot(arguments.store, baseline.limits);
+  if (arguments.time && !selects_a_score(baseline.limits[1], baseline.snapshot)) {
+    baseline.limits.erase(baseline.limits.begin() + 1);  // no update_time in this sweep
+  }
   try {
     require_used_limits(baseline);
   } catch (const InputError& error) {
@@ -131,7 +135,8 @@ void add_check(CLI::App& app, int& exit_code) {
       ->add_option(
           "--time",
           arguments->time,
-          "With --update: also check times, with this maximum relative increase (plus 1 ms)")
+          "With --update: also check times of cells and updates, with this maximum relative "
+          "increase (plus 1 ms)")
       ->check(finite_number())
       ->check(CLI::NonNegativeNumber)
       ->type_name("SHARE");

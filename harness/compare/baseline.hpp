@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,6 +13,7 @@
 
 #include "harness/compare/observations.hpp"
 #include "harness/model/record.hpp"
+#include "harness/model/where.hpp"
 
 namespace loopbench::harness {
 
@@ -68,21 +71,48 @@ inline GateScore gate_score(const Record& r, const std::set<std::string>& statis
   return out;
 }
 
-/// Limit for times: a cell's median wall time [ms], compared between runs on the same CPU, with a
-/// test for methods that are slower by a tenth or more.
-inline Tolerance time_limit(double relative) {
-  return {.where = {"metric=time"},
-          .values = {"rmse"},
-          .relative = relative,
-          .absolute = 1.0,
-          .tie = 0.1};
+/// Metrics of measured times, which differ between runs of one build.
+inline constexpr std::array kMeasuredTimes{"time", "update_time"};
+
+/// Limits for times, compared between runs on the same CPU, with a test for methods that are slower
+/// by a tenth or more: a cell's median wall time [ms], and the times of its updates [s] (neither
+/// their growth nor missed deadlines).
+inline std::vector<Tolerance> time_limits(double relative) {
+  const Tolerance of_cells{.where = {"metric=time"},
+                           .values = {"rmse"},
+                           .relative = relative,
+                           .absolute = 1.0,
+                           .tie = 0.1};
+  Tolerance of_updates = of_cells;
+  of_updates.where = {"metric=update_time", "unit=s"};
+  of_updates.absolute = 0.001;
+  return {of_cells, of_updates};
 }
 
-/// Whether a limit is about times (its `where` has metric=time); otherwise times are not checked.
-inline bool limits_time(const std::vector<Tolerance>& limits) {
-  return std::ranges::any_of(limits, [](const Tolerance& limit) {
-    return std::ranges::count(limit.where, "metric=time") > 0;
+/// Whether a limit is about times: its `where` names one of their metrics. Scores of these metrics
+/// that no such limit selects are not checked.
+inline bool limits_time(const Tolerance& limit) {
+  return std::ranges::any_of(kMeasuredTimes, [&](const std::string metric) {
+    return std::ranges::count(limit.where, "metric=" + metric) > 0;
   });
+}
+
+inline bool limits_time(const std::vector<Tolerance>& limits) {
+  return std::ranges::any_of(limits, [](const Tolerance& limit) { return limits_time(limit); });
+}
+
+/// A function that returns whether a score is checked: every score except a measured time without a
+/// limit about times.
+inline std::function<bool(const Record&)> is_checked(const std::vector<Tolerance>& limits) {
+  std::vector<std::function<bool(const Record&)>> of_times;
+  for (const Tolerance& limit : limits) {
+    if (limits_time(limit)) of_times.push_back(where(limit.where));
+  }
+  return [of_times](const Record& score) {
+    const bool is_time = std::ranges::count(kMeasuredTimes, score.metric.text()) > 0;
+    return !is_time ||
+           std::ranges::any_of(of_times, [&](const auto& selects) { return selects(score); });
+  };
 }
 
 /// Whether some of its cells were computed by a build with uncommitted changes.
@@ -103,8 +133,8 @@ inline std::string name(const GateScore& score) {
   return out + ", " + score.times + ", " + score.protocol;
 }
 
-/// The cells of a store's records (without derived ones), with the statistics in `limits`. Throws
-/// InputError for an unknown statistic. O(n log n).
+/// The cells of a store's records (without derived ones) with their checked scores and the
+/// statistics in `limits`. Throws InputError for an unknown statistic. O(n log n).
 inline std::vector<GateCell> gate_cells(const std::vector<Record>& records,
                                         const std::vector<Tolerance>& limits) {
   std::set<std::string> statistics;
@@ -114,6 +144,7 @@ inline std::vector<GateCell> gate_cells(const std::vector<Record>& records,
       statistics.insert(statistic);
     }
   }
+  const auto is_kept = is_checked(limits);
   std::vector<GateCell> out;
   std::map<std::int64_t, std::size_t> positions;
   for (const Record& r : records) {
@@ -122,7 +153,8 @@ inline std::vector<GateCell> gate_cells(const std::vector<Record>& records,
       out.push_back({r, {}});
       if (!r.metric.empty()) out.back().status = Status::ok;  // a cell with scores has no failure
     }
-    if (!r.metric.empty()) out[found->second].scores.push_back(gate_score(r, statistics));
+    if (r.metric.empty() || !is_kept(r)) continue;
+    out[found->second].scores.push_back(gate_score(r, statistics));
   }
   return out;
 }

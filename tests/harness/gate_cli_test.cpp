@@ -1,6 +1,8 @@
 /// `check` on real stores: equal labels must have equal definitions.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "harness/compare/baseline_file.hpp"
 #include "tests/support/command.hpp"
 
@@ -49,6 +51,44 @@ TEST_F(GateCli, PassesTheSameSweepRunAgain) {
   EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
   EXPECT_NE(result.out.find("no test for small consistent losses of 2 methods"), std::string::npos)
       << result.out;
+}
+
+// Times of updates differ between runs, as the times of cells do.
+TEST_F(GateCli, ComparesTimesOfUpdatesOnlyOnRequest) {
+  const auto replay = [&] {
+    folder_.file("replay.yaml",
+                 "datasets: [{dataset: simulated, label: room, keyframes: 40}]\n"
+                 "methods: [{method: online + uniform}, {method: online + dual}]\n"
+                 "metrics: [ate, {metric: update_time, label: latency}]\nrepeats: 2\n");
+    const CommandResult ran = call("run replay.yaml --out replay --fresh");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  };
+  const auto limited = [&] {
+    std::vector<std::string> out;
+    const Baseline written = read_baseline(folder_.path() / "r.json");
+    for (const GateScore& score : written.snapshot.cells.at(0).scores) {
+      const bool is_new = std::ranges::count(out, score.unit.text()) == 0;
+      if (score.metric != "ate" && is_new) out.push_back(score.unit.text());
+    }
+    return out;
+  };
+  replay();
+  ASSERT_EQ(call("check replay --baseline r.json --update --allow-dirty").exit_code, 0);
+  EXPECT_TRUE(limited().empty());
+  replay();
+  const CommandResult again = call("check replay --baseline r.json --allow-dirty");
+  EXPECT_EQ(again.exit_code, 0) << again.out;
+  const std::string timed = "check replay --baseline r.json --update --allow-dirty --time ";
+  ASSERT_EQ(call(timed + "0.5").exit_code, 0);
+  EXPECT_EQ(limited(), (std::vector<std::string>{"s", "ms"}));  // neither misses nor growth
+  ASSERT_EQ(call(timed + "1000").exit_code, 0);
+  EXPECT_EQ(read_limits(folder_.path() / "r.json").size(), 3u);
+  replay();
+  const CommandResult loose = call("check replay --baseline r.json --allow-dirty");
+  EXPECT_EQ(loose.exit_code, 0) << loose.out;
+  // A sweep without replays has no such limit.
+  ASSERT_EQ(call("check out --baseline b.json --update --allow-dirty --time 1").exit_code, 0);
+  EXPECT_EQ(read_limits(folder_.path() / "b.json").size(), 2u);
 }
 
 TEST_F(GateCli, NamesAMethodThatIsAnotherUnderItsLabel) {

@@ -164,7 +164,7 @@ TEST(Gate, MissesNoCellOfAPart) {
 TEST(Gate, LooksAtTimesOnlyWhenALimitIsAboutThem) {
   EXPECT_FALSE(limits_time({Tolerance{}}));
   Baseline timed = baseline();
-  timed.limits.insert(timed.limits.begin(), time_limit(0.5));
+  timed.limits.insert(timed.limits.begin(), time_limits(0.5).front());
   EXPECT_TRUE(limits_time(timed.limits));
   const auto add_times = [](Snapshot& to, double ms) {
     for (GateCell& cell : to.cells) {
