@@ -67,7 +67,7 @@ int print_evo_results(const TableArguments& arguments) {
   }
   const std::vector<Record> records = read_evo_results(arguments.files);
   const ExportFormat format = arguments.output.format();
-  const std::vector<Table> tables = evo_result_tables(records);
+  const std::vector<Table> tables = evo_result_tables(records, arguments.files);
   write_plain(format == ExportFormat::csv    ? csv(records)
               : format == ExportFormat::json ? json(tables)
                                              : text(tables, arguments.output),

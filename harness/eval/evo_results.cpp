@@ -126,6 +126,23 @@ std::vector<double> alignment_matrix(const metrics::Alignment& alignment) {
   return out;
 }
 
+/// Name of a result file, or its path if another file has that name, without ".zip".
+std::string name_of_result(const std::string& file, const std::vector<std::string>& files) {
+  const auto stem = [](const std::string& of) { return std::filesystem::path(of).stem(); };
+  const bool is_unique = std::ranges::count(files, stem(file), stem) == 1;
+  return is_unique ? stem(file).string() : std::filesystem::path(file).replace_extension().string();
+}
+
+/// Whether the runs have one method, and some of them the same sequence.
+bool are_runs_of_one_method(const std::vector<RecordedRun>& runs) {
+  std::set<std::string> methods, sequences;
+  for (const RecordedRun& run : runs) {
+    methods.insert(run.method);
+    sequences.insert(run.sequence);
+  }
+  return methods.size() == 1 && sequences.size() < runs.size();
+}
+
 /// The records of each title, in the order of the first ones.
 std::vector<std::vector<Record>> by_title(const std::vector<Record>& records) {
   std::vector<std::vector<Record>> out;
@@ -161,7 +178,12 @@ std::vector<Record> read_evo_results(const std::vector<std::string>& files) {
     for (const std::size_t i : places) {
       pairs.push_back({out[i].sequence.text(), are_different ? out[i].method.text() : files[i]});
     }
-    const std::vector<RecordedRun> runs = labelled_runs(pairs, "");
+    std::vector<RecordedRun> runs = labelled_runs(pairs, "");
+    if (are_runs_of_one_method(runs)) {
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        runs[k].method = name_of_result(files[places[k]], files);
+      }
+    }
     std::map<std::pair<std::string, std::string>, std::int64_t> repeats;
     for (std::size_t k = 0; k < places.size(); ++k) {
       Record& record = out[places[k]];
@@ -174,7 +196,8 @@ std::vector<Record> read_evo_results(const std::vector<std::string>& files) {
   return out;
 }
 
-std::vector<Table> evo_result_tables(const std::vector<Record>& records) {
+std::vector<Table> evo_result_tables(const std::vector<Record>& records,
+                                     const std::vector<std::string>& files) {
   std::vector<Table> out;
   for (const std::vector<Record>& group : by_title(records)) {
     Table& table =
@@ -182,9 +205,12 @@ std::vector<Table> evo_result_tables(const std::vector<Record>& records) {
                                {"estimate", "rmse", "mean", "median", "std", "min", "max", "count"},
                                {},
                                {}});
+    const auto name = [](const Record& r) { return r.sequence + " / " + r.method; };
     for (const Record& r : group) {
       std::vector<TableCell>& line = table.lines.emplace_back();
-      line.push_back({r.sequence + " / " + r.method});
+      const std::string& file = files[static_cast<std::size_t>(r.cell)];
+      const bool is_unique = std::ranges::count(group, name(r), name) == 1;
+      line.push_back({is_unique ? name(r) : name(r) + " (" + name_of_result(file, files) + ")"});
       const metrics::Statistics& s = r.statistics;
       for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max}) {
         line.push_back({fixed(value, decimals(s.rmse))});

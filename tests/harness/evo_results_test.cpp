@@ -91,5 +91,37 @@ TEST(EvoResults, AreTabulatedAndCompared) {
   EXPECT_THAT(two.err, HasSubstr("expected one store"));
 }
 
+TEST(EvoResults, OfRunsAreNamedByTheirFiles) {
+  const TemporaryFolder folder;
+  const auto write = [&](const char* source, const std::string& estimate, const char* name) {
+    folder.file(estimate, read_all(golden(source)));
+    eval({golden("gt.txt"),
+          (folder.path() / estimate).string(),
+          "--protocol=evo",
+          "-a",
+          "--save_results",
+          (folder.path() / name).string()});
+  };
+  const auto output = [&](const std::string& words) {
+    return loopbench_command(words, folder).out;
+  };
+  write("est_drift.txt", "est_1.txt", "s.zip");
+  write("est_corrected.txt", "est_2.txt", "s1.zip");
+  const std::string text = output("table s.zip s1.zip");
+  EXPECT_THAT(text, HasSubstr("/ s  | 0.6762 |"));
+  EXPECT_THAT(text, HasSubstr("/ s1 | 0.0406 |"));
+  const std::string compared = output("compare s.zip s1.zip");
+  EXPECT_THAT(compared, HasSubstr("s1 is "));
+  EXPECT_THAT(compared, Not(HasSubstr("one method alone")));
+  // Beside another method they stay its runs.
+  write("est_corrected.txt", "other_1.txt", "t1.zip");
+  write("est_corrected.txt", "other_2.txt", "t2.zip");
+  const std::string runs = output("table s.zip s1.zip t1.zip t2.zip");
+  for (const char* row : {"/ est (s)    |", "/ est (s1)   |", "/ other (t1) |", "/ other (t2) |"}) {
+    EXPECT_THAT(runs, HasSubstr(row));
+  }
+  EXPECT_THAT(output("compare s.zip s1.zip t1.zip t2.zip"), HasSubstr("2 runs of 1 sequence"));
+}
+
 }  // namespace
 }  // namespace loopbench::evo_results_test
