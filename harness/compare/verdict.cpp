@@ -144,10 +144,12 @@ std::string leaders_text(const Comparison& c) {
 
 std::string best_text(const Comparison& c, const std::vector<std::string>& leaders) {
   const MethodVerdict& baseline = *find(c, c.options.baseline);
-  const std::string better = c.methods.size() - leaders.size() == 1
-                                 ? "significantly better than the other method"
-                                 : "significantly better than each of the other methods";
-  const std::string tail = "; " + better + next_text(c);
+  const std::size_t others = c.methods.size() - leaders.size();
+  const std::string better = others == 0 ? ""
+                             : others == 1
+                                 ? "; significantly better than the other method"
+                                 : "; significantly better than each of the other methods";
+  const std::string tail = better + next_text(c);
   const std::string names = joined_names(leaders);
   if (leaders.size() == 1) {
     return baseline.standing == Standing::leader

@@ -191,6 +191,7 @@ TEST(Defect13, TheMarginToTheNextIsInTheSentence) {
   for (int run = 0; run < 40; ++run) ratios.push_back(1.0 - 1e-5 * (1.0 + 0.01 * run));
   const std::string same = verdict(compared(pairs(ratios), kAgainstRaw));
   EXPECT_TRUE(same.starts_with("dual and raw are best, within 1 % of one another: ")) << same;
+  EXPECT_FALSE(has(same, "other method")) << same;  // there is none
 }
 
 TEST(Defect14, AFilterNeedsNoMetricBesideIt) {
