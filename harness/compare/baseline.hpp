@@ -74,6 +74,10 @@ inline GateScore gate_score(const Record& r, const std::set<std::string>& statis
 /// Metrics of measured times, which differ between runs of one build.
 inline constexpr std::array kMeasuredTimes{"time", "update_time"};
 
+inline bool is_measured_time(const Record& score) {
+  return std::ranges::count(kMeasuredTimes, score.metric.text()) > 0;
+}
+
 /// Limits for times, compared between runs on the same CPU, with a test for methods that are slower
 /// by a tenth or more: a cell's median wall time [ms], and the times of its updates [s] (neither
 /// their growth nor missed deadlines).
@@ -92,7 +96,7 @@ inline std::vector<Tolerance> time_limits(double relative) {
 /// Whether a limit is about times: its `where` names one of their metrics. Scores of these metrics
 /// that no such limit selects are not checked.
 inline bool limits_time(const Tolerance& limit) {
-  return std::ranges::any_of(kMeasuredTimes, [&](const std::string metric) {
+  return std::ranges::any_of(kMeasuredTimes, [&](const std::string& metric) {
     return std::ranges::count(limit.where, "metric=" + metric) > 0;
   });
 }
@@ -109,8 +113,7 @@ inline std::function<bool(const Record&)> is_checked(const std::vector<Tolerance
     if (limits_time(limit)) of_times.push_back(where(limit.where));
   }
   return [of_times](const Record& score) {
-    const bool is_time = std::ranges::count(kMeasuredTimes, score.metric.text()) > 0;
-    return !is_time ||
+    return !is_measured_time(score) ||
            std::ranges::any_of(of_times, [&](const auto& selects) { return selects(score); });
   };
 }

@@ -37,8 +37,9 @@ double loss(const GateScore& score, double before, double now) {
   return 0.0;
 }
 
-/// Whether at most a hundredth of an error is left.
+/// Whether at most a hundredth of an error is left. Times can shrink that much.
 bool has_vanished(const GateScore& score, double before, double now) {
+  if (is_measured_time(score)) return false;
   if (score.better != metrics::Better::lower && score.better != metrics::Better::target)
     return false;
   const double best = score.better == metrics::Better::target ? score.target : 0.0;

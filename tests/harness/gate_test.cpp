@@ -180,6 +180,13 @@ TEST(Gate, LooksAtTimesOnlyWhenALimitIsAboutThem) {
   const GateReport slow = check(timed, now);
   ASSERT_EQ(slow.findings.size(), 1u);
   EXPECT_EQ(slow.findings[0].what, "rmse 16.1 m, was 10 (+61 %, limit 6)");
+  now.cells[1].scores.back().values["rmse"] = 0.01;  // fast, not implausible
+  const GateReport fast = check(timed, now);
+  EXPECT_EQ(fast.count(Finding::Kind::improvement), 1u);
+  EXPECT_EQ(
+      std::ranges::count_if(
+          fast.notes, [](const std::string& note) { return note.starts_with("implausible"); }),
+      0);
   now = sweep();
   add_times(now, 12.0);  // a fifth on all runs
   EXPECT_FALSE(check(timed, now).passes());
