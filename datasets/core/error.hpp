@@ -19,6 +19,12 @@ class MissingPart : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// No error: a program that declines a problem, a metric that a sequence does not define.
+class Declined : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Message `file: what`, or `file:line: what` if line > 0.
 inline InputError input_error(const std::string& file, std::size_t line, const std::string& what) {
   std::string text = file;

@@ -106,18 +106,22 @@ CellTrace cell_trace(const metrics::Evaluation& evaluation,
   } catch (
       const metrics::Undefined&) {  // cannot be paired or aligned: only the snapshots are drawn
   }
-  for (std::size_t i = 0; i < replay->snapshots.size(); ++i) {
-    const ReplaySnapshot& snapshot = replay->snapshots[i];
-    const bool is_last = i + 1 == replay->snapshots.size();
-    const double end =
-        is_last ? std::numeric_limits<double>::infinity() : replay->snapshots[i + 1].time;
-    Trajectory known = snapshot.poses;
-    for (const StampedPose& pose : thinned(replay->causal)) {
-      if (pose.stamp > snapshot.time && pose.stamp <= end) known.push_back(pose);
+  if (replay->snapshots.empty() || replay->causal.empty()) return out;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Trajectory causal = thinned(replay->causal);
+  const auto add = [&](double time, Trajectory known, double after, double end) {
+    for (const StampedPose& pose : causal) {
+      if (pose.stamp > after && pose.stamp <= end) known.push_back(pose);
     }
     known = metrics::moved(evaluation.alignment, known);
     metrics::project(known, evaluation.protocol.project);
-    out.snapshots.push_back({snapshot.time - origin.stamp, poses(known, origin)});
+    out.snapshots.push_back({time - origin.stamp, poses(known, origin)});
+  };
+  const std::vector<ReplaySnapshot>& kept = replay->snapshots;
+  add(causal.front().stamp, {}, -kInfinity, kept.front().time);  // no update so far
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const double end = i + 1 == kept.size() ? kInfinity : kept[i + 1].time;
+    add(kept[i].time, kept[i].poses, kept[i].time, end);
   }
   return out;
 }

@@ -45,11 +45,18 @@ Trajectory BatchUpdates::update(const Increment& added, Report& report) {
 }
 
 bool BatchUpdates::solve(Report& report) {
+  refusal_.reset();
   if (!method_.why_declined(known_).empty()) {
     ++declined_;
     return false;
   }
-  curve_ = method_.estimate(known_, report);
+  try {
+    curve_ = method_.estimate(known_, report);
+  } catch (const Declined& reason) {  // of a program
+    refusal_ = reason;
+    ++declined_;
+    return false;
+  }
   report.covariances.clear();  // of the keyframes known now
   chain_.replace(curve_->sample(stamps(known_.keyframes)));
   return true;

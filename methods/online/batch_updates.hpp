@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "datasets/core/error.hpp"
 #include "methods/method.hpp"
 #include "methods/online/extended_chain.hpp"
 
@@ -25,6 +27,9 @@ class BatchUpdates final : public Incremental {
   /// Number of updates that the method declined.
   int declined() const { return declined_; }
 
+  /// Why the method declined the last update while it ran; empty: it did not.
+  const std::optional<Declined>& refusal() const { return refusal_; }
+
   /// The curve of the last update; null if the method declined it.
   std::unique_ptr<const Curve> take_curve() { return std::move(curve_); }
 
@@ -36,6 +41,7 @@ class BatchUpdates final : public Incremental {
   Problem known_;
   ExtendedChain chain_;
   std::unique_ptr<const Curve> curve_;
+  std::optional<Declined> refusal_;
   int declined_ = 0;
 };
 

@@ -105,6 +105,7 @@ class ReplayedMethod final : public Estimator {
     }
     ReplayRun replay(problem, is_batch ? batch : *incremental, every, report);
     replay.run(arrivals);
+    if (batch.refusal()) throw Declined(*batch.refusal());  // with all data
     Replay record = replay.take_replay();
     std::unique_ptr<const Curve> curve = batch.take_curve();
     if (options_.result == Online::Result::causal) {

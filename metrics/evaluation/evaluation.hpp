@@ -2,11 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "datasets/core/curve.hpp"
+#include "datasets/core/error.hpp"
 #include "datasets/core/pose.hpp"
 #include "datasets/core/sequence.hpp"
 #include "metrics/alignment/alignment.hpp"
@@ -17,9 +17,9 @@ namespace loopbench::metrics {
 
 /// Thrown by a metric if the sequence, not the method, makes it undefined: no closures, no curve, a
 /// reference that does not move. Recorded as a `declined` row with this reason, not as a failure.
-class Undefined final : public std::runtime_error {
+class Undefined final : public Declined {
  public:
-  using std::runtime_error::runtime_error;
+  using Declined::Declined;
 };
 
 /// Poses of both files with the digits as printed, in file order; set if both files hold matrices.

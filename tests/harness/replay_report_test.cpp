@@ -37,6 +37,14 @@ TEST(ReplayReport, DrawsWhatWasKnownAtEachTime) {
   ASSERT_TRUE(replayed);
   ASSERT_GE(replayed->snapshots.size(), 2u);
   EXPECT_EQ(replayed->causal.size(), replayed->samples.size());
+  // Nothing of the first update is known before it.
+  const auto& begin = replayed->snapshots.front();
+  EXPECT_EQ(begin.time, 0.0);
+  ASSERT_FALSE(begin.poses.empty());
+  EXPECT_LE(begin.poses.back().stamp, replayed->snapshots[1].time);
+  for (std::size_t i = 0; i < begin.poses.size(); ++i) {
+    EXPECT_FLOAT_EQ(begin.poses[i].x, replayed->causal[i].estimate.x);
+  }
   // At the end, what is known is the result.
   const TracePose& known = replayed->snapshots.back().poses.back();
   const TracePose& result = replayed->samples.back().estimate;

@@ -263,6 +263,26 @@ TEST(Online, ExtendsByOdometryWhereTheMethodDeclines) {
   EXPECT_EQ(out.record().causal.size(), problem.keyframes.size());
 }
 
+/// As a program, which declines while it runs.
+struct NeedsClosures final : Corrector {
+  struct Options {
+    std::size_t fewest = 2;
+  };
+  explicit NeedsClosures(const Options& given) : options(given) {}
+  Trajectory correct(const Problem& problem, Report&) const override {
+    if (problem.closures.size() < options.fewest) throw Declined("needs more closures");
+    return problem.keyframes;
+  }
+  Options options;
+};
+
+TEST(Online, ExtendsByOdometryWhereAProgramDeclines) {
+  Problem problem = shortened();
+  problem.closures.push_back({0, 4, at_x(2.5)});
+  EXPECT_EQ(test::count(replayed<NeedsClosures>(problem).report, "updates_declined"), 1.0);
+  EXPECT_THROW(replayed<NeedsClosures>(problem, {}, {.fewest = 3}), Declined);
+}
+
 TEST(Online, KeepsTheTimeOfTheMethodAndSumsPhases) {
   const Replayed out = replayed<PoseGraphOptimizer>(test::hand_held());
   std::size_t solves = 0;
