@@ -5,7 +5,6 @@
 
 #include "metrics/doctor/graph_checks.hpp"
 #include "metrics/doctor/loop_likelihood.hpp"
-#include "tests/support/random_chain.hpp"
 
 namespace loopbench::doctor_closures_test {
 namespace {
@@ -109,23 +108,6 @@ TEST(DoctorOfClosures, ConventionsOfClosures) {
                 return camera.inverse() * p * camera;
               }),
               ElementsAre(Fault::closure_frame));
-}
-
-TEST(DoctorOfClosures, NamesTheAxesOfAnotherBody) {
-  Problem problem = test::walk(5, 120, 0.01);
-  problem.closures.clear();
-  const Pose body{Rotation(Matrix3{{0, 0, 1}, {-1, 0, 0}, {0, -1, 0}}), Vector3::Zero()};
-  const Matrix6 information = problem.odometry[0].information;
-  for (std::size_t i = 0; i + 40 < 120; i += 4) {
-    const Pose loop = problem.keyframes[i].world_from_body.inverse() *
-                      problem.keyframes[i + 40].world_from_body *
-                      exp_se3(0.01 * twist({std::sin(7.0 * double(i)), 0, 1}, {0, 1, 0}));
-    problem.closures.push_back({i, i + 40, body.inverse() * loop * body, information});
-  }
-  const auto found = check_closures(problem);
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].fault, Fault::closure_frame);
-  EXPECT_THAT(found[0].evidence, HasSubstr("taking z,-x,-y of the closures' body"));
 }
 
 /// Then another mistake is likelier than false closures.

@@ -1,0 +1,33 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "metrics/doctor/graph_checks.hpp"
+#include "tests/support/random_chain.hpp"
+
+namespace loopbench::doctor_closure_frames_test {
+namespace {
+
+using namespace metrics;
+using testing::HasSubstr;
+
+TEST(DoctorOfClosures, NamesTheAxesOfAnotherBody) {
+  Problem problem = test::walk(5, 120, 0.01);
+  problem.closures.clear();
+  const Pose body{Rotation(Matrix3{{0, 0, 1}, {-1, 0, 0}, {0, -1, 0}}), Vector3::Zero()};
+  const Matrix6 information = problem.odometry[0].information;
+  for (std::size_t i = 0; i + 40 < 120; i += 4) {
+    const Pose loop = problem.keyframes[i].world_from_body.inverse() *
+                      problem.keyframes[i + 40].world_from_body *
+                      exp_se3(0.01 * twist({std::sin(7.0 * double(i)), 0, 1}, {0, 1, 0}));
+    problem.closures.push_back({i, i + 40, body.inverse() * loop * body, information});
+  }
+  const auto found = check_closures(problem);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].fault, Fault::closure_frame);
+  EXPECT_THAT(found[0].evidence, HasSubstr("taking z,-x,-y of the closures' body"));
+}
+
+}  // namespace
+}  // namespace loopbench::doctor_closure_frames_test
