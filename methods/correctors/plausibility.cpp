@@ -72,7 +72,8 @@ bool is_stiff(const Problem& problem) {
       return (closure.information.diagonal().array() > kStiffSlack * bound.array()).any();
     });
   };
-  // The bound of one edge is below that of all, and mostly enough: long odometry is read slowly.
+  // The bound by one edge is at most that by all. If no closure exceeds it, the rest of the
+  // odometry, which can be long, need not be read.
   return exceeds(bound_of(odometry.first(1))) && exceeds(bound_of(odometry));
 }
 

@@ -45,15 +45,15 @@ Trajectory BatchUpdates::update(const Increment& added, Report& report) {
 }
 
 bool BatchUpdates::solve(Report& report) {
-  refusal_.reset();
+  declined_by_.reset();
   if (!method_.why_declined(known_).empty()) {
     ++declined_;
     return false;
   }
   try {
     curve_ = method_.estimate(known_, report);
-  } catch (const Declined& reason) {  // of a program
-    refusal_ = reason;
+  } catch (const Declined& reason) {  // a program answers only while it runs
+    declined_by_ = reason;
     ++declined_;
     return false;
   }

@@ -20,15 +20,15 @@ class BatchUpdates final : public Incremental {
   BatchUpdates& operator=(const BatchUpdates&) = delete;
 
   /// Returns the poses of the method's curve at the keyframes. Where the method declines the data
-  /// so far, these are the last solution extended by odometry, or odometry alone if that solution
-  /// has a closure that is withdrawn now.
+  /// so far, by why_declined() or by throwing Declined, these are the last solution extended by
+  /// odometry, or odometry alone if that solution has a closure that is withdrawn now.
   Trajectory update(const Increment& added, Report& report) override;
 
   /// Number of updates that the method declined.
   int declined() const { return declined_; }
 
-  /// Why the method declined the last update while it ran; empty: it did not.
-  const std::optional<Declined>& refusal() const { return refusal_; }
+  /// The exception by which the method declined the last update; nullopt if it threw none.
+  const std::optional<Declined>& declined_by() const { return declined_by_; }
 
   /// The curve of the last update; null if the method declined it.
   std::unique_ptr<const Curve> take_curve() { return std::move(curve_); }
@@ -41,7 +41,7 @@ class BatchUpdates final : public Incremental {
   Problem known_;
   ExtendedChain chain_;
   std::unique_ptr<const Curve> curve_;
-  std::optional<Declined> refusal_;
+  std::optional<Declined> declined_by_;
   int declined_ = 0;
 };
 

@@ -105,7 +105,8 @@ class ReplayedMethod final : public Estimator {
     }
     ReplayRun replay(problem, is_batch ? batch : *incremental, every, report);
     replay.run(arrivals);
-    if (batch.refusal()) throw Declined(*batch.refusal());  // with all data
+    // The last update has all data: the method declines the complete problem.
+    if (batch.declined_by()) throw Declined(*batch.declined_by());
     Replay record = replay.take_replay();
     std::unique_ptr<const Curve> curve = batch.take_curve();
     if (options_.result == Online::Result::causal) {

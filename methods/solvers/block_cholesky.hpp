@@ -62,7 +62,7 @@ class BlockCholesky {
     return static_cast<std::size_t>(of.below * D) * static_cast<std::size_t>(of.below * D);
   }
   std::size_t top() const { return waiting_.empty() ? 0 : waiting_.back().end; }
-  /// Index in waiting_, whose last ones are the children.
+  /// Index of the first child of the supernode in waiting_; its children are the last ones there.
   std::size_t first_child(std::size_t supernode) const;
   /// Takes the updates of the children off the stack; returns where that of the supernode begins.
   std::size_t replace_children(std::size_t supernode);

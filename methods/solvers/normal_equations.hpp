@@ -145,8 +145,8 @@ class NormalEquations {
     Matrix3 root;
   };
 
-  /// Those of the odometry of the solve before are used again: they are a third of the memory of
-  /// the edges.
+  /// The terms of the odometry are taken over from the solve before: they have a third of the
+  /// bytes of the edges.
   static std::vector<Term> terms_of(const WeightedGraph& graph, KeptOrder* order) {
     std::vector<Term> out;
     if (order) {

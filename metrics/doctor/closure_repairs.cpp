@@ -179,7 +179,7 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
   }
   const EdgeRepair as_read{{}, "", "", unchanged_edge};
   static const std::vector<EdgeRepair> all = candidates();
-  // Several can be so much better than as read that the limit of each group hides their difference.
+  // Compared with the best so far: against the file as read, several reach the limit of gain().
   const EdgeRepair* best = &as_read;
   std::vector<LoopFit> best_fits = fits(chosen, chain, as_read);
   for (const EdgeRepair& repair : all) {

@@ -46,7 +46,7 @@ TEST(ReplayReport, DrawsWhatWasKnownAtEachTime) {
   const auto distance = [](const TracePose& a, const TracePose& b) {
     return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
   };
-  for (std::size_t i = 0; i < begin.poses.size(); ++i) {  // in another alignment
+  for (std::size_t i = 0; i < begin.poses.size(); ++i) {  // each has its own alignment
     EXPECT_NEAR(distance(begin.poses[0], begin.poses[i]),
                 distance(replayed->causal[0].estimate, replayed->causal[i].estimate),
                 1e-4);
