@@ -26,11 +26,13 @@ class DualIncremental final : public Corrector {
   struct Options {
     int max_iterations = 100;
     double tolerance = 1e-12;
+    int max_closures = 1000;
   };
   explicit DualIncremental(const Options& options) : options_(options) {}
 
   std::string why_declined(const Problem& problem) const override {
-    return rigid_loops_fault(problem);
+    if (std::string fault = rigid_loops_fault(problem); !fault.empty()) return fault;
+    return loops_fault(problem, options_.max_closures);
   }
 
   /// Counts: `iterations`, and `assemblies` of the equations from nothing.
@@ -51,6 +53,10 @@ void fields(DualIncremental::Options& o, Visit visit) {
         o.tolerance,
         "convergence threshold: expected relative change of the cost by another step [-]",
         Between{0.0, 1.0});
+  visit("max_closures",
+        o.max_closures,
+        "maximum number of closures; the memory of their equations grows with its square",
+        Between{1, 4000});
 }
 
 class GrowingDual final : public Incremental {
