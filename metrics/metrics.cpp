@@ -26,6 +26,7 @@
 #include "metrics/errors/segments.hpp"
 #include "metrics/metric.hpp"
 #include "metrics/online/causal_errors.hpp"
+#include "metrics/online/causal_lapse.hpp"
 #include "metrics/online/closure_jumps.hpp"
 #include "metrics/online/settling.hpp"
 #include "metrics/online/update_time.hpp"
@@ -102,6 +103,10 @@ std::vector<MetricEntry> metrics() {
       metric("closure_errors",
              "error of the current pose before and after each closure, in a replay",
              closure_errors),
+      metric<CausalLapseOptions>(
+          "causal_lapse",
+          "time for which the error of the current pose exceeds a limit, in a replay",
+          causal_lapse),
       metric_without_reference<NoOptions>(
           "closure_jumps", "jump of the current pose at each closure, in a replay", closure_jumps),
       metric_without_reference<NoOptions>(

@@ -4,6 +4,7 @@
 #include "evaluated_cell.hpp"
 #include "metrics/metric.hpp"
 #include "metrics/online/causal_errors.hpp"
+#include "metrics/online/causal_lapse.hpp"
 #include "metrics/online/closure_jumps.hpp"
 #include "metrics/online/settling.hpp"
 #include "metrics/online/update_time.hpp"
@@ -52,6 +53,14 @@ TEST(Causal, IsAlignedByTheProtocol) {
   const EvaluatedCell cell = drive({.align = Align::origin});
   // The first poses are equal.
   EXPECT_DOUBLE_EQ(find(causal_ate(cell.evaluation), "translation", "3d").mean, 0.2);
+}
+
+TEST(CausalLapse, LastsFromTheFirstPoseAboveTheLimitToTheNextBelow) {
+  const EvaluatedCell cell = drive();  // errors 0, 0.5, 0, 0.5, 0 m at 0, 1, 2, 3, 4 s
+  const std::vector<Score> scores = causal_lapse(cell.evaluation, {.limit = 0.4});
+  EXPECT_DOUBLE_EQ(find(scores, "longest", "").mean, 1.0);
+  EXPECT_DOUBLE_EQ(find(scores, "share", "").mean, 50.0);
+  EXPECT_DOUBLE_EQ(find(causal_lapse(cell.evaluation, {.limit = 0.6}), "longest", "").mean, 0.0);
 }
 
 TEST(ClosureErrors, AreThoseOfTheCurrentPose) {
