@@ -114,6 +114,9 @@ class ReplayedMethod final : public Estimator {
     } else if (curve == nullptr) {
       curve = std::make_unique<Polyline>(replay.poses());
     }
+    if (!is_batch && options_.warm) {
+      report.notes.emplace_back("warm has no effect: the method extends its last solution itself");
+    }
     report.count("updates", static_cast<double>(record.updates.size()));
     if (batch.declined() > 0) report.count("updates_declined", batch.declined());
     return std::make_unique<ReplayedCurve>(std::move(curve), std::move(record));
