@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <set>
 #include <utility>
 
 #include "methods/solvers/edge_residual.hpp"
 #include "methods/solvers/elimination_tree.hpp"
+#include "methods/solvers/graduated_loss.hpp"
 #include "methods/solvers/groups/se2.hpp"
 #include "methods/solvers/groups/se3.hpp"
 
@@ -23,11 +24,11 @@ class IncrementalSmoother final : public Incremental {
     for (const Edge& edge : added.odometry) add_edge(edge, true);
     const std::size_t before = tree_.eliminations();
     iterations_ = 0;
-    const std::size_t first_new = constraints_.size();
+    moved_.clear();
     for (const Edge& edge : added.closures) add_closure(edge);
     for (const Edge& edge : added.withdrawn) remove_edge(edge);
     optimise();
-    if (is(IncrementalRobustness::graduated)) harden(first_new);
+    if (is(IncrementalRobustness::graduated) && !added.closures.empty()) harden();
     report.count("iterations", iterations_);
     if (is(IncrementalRobustness::gate)) report.count("closures_kept", static_cast<double>(kept_));
     report.count("eliminations", static_cast<double>(tree_.eliminations() - before));
@@ -46,6 +47,7 @@ class IncrementalSmoother final : public Incremental {
     double cost = 0.0;    ///< its part of cost_
     double chi2 = 0.0;    ///< its part of chi2_
     double mu = 0.0;      ///< `graduated`: 0, the loss is convex, to 1
+    double start = 0.0;   ///< mu at the next decision
     double weight = 1.0;  ///< of the information
   };
   static constexpr double kQuantile = G::kDof == 3 ? 11.345 : 16.812;  // of chi2, 99 %
@@ -86,13 +88,15 @@ class IncrementalSmoother final : public Incremental {
       for (const std::size_t pose : solved) {
         set_estimate(pose, G::compose(at_[pose], G::exp(tree_.correction(pose))));
       }
+      if (!is(IncrementalRobustness::none)) {
+        moved_.insert(moved_.end(), solved.begin(), solved.end());
+      }
       if (is(IncrementalRobustness::graduated)) {
         for (const std::size_t pose : solved) {
           for (const std::size_t edge : graph_.edges_of[pose]) reweigh(edge);
         }
       }
       if (is(IncrementalRobustness::gate)) {
-        moved_.insert(moved_.end(), solved.begin(), solved.end());
         for (const std::vector<std::size_t>* moved : {&touched, &solved}) {
           for (const std::size_t pose : *moved) {
             for (const std::size_t edge : graph_.edges_of[pose]) update_chi2(edge);
@@ -109,15 +113,27 @@ class IncrementalSmoother final : public Incremental {
     }
   }
 
-  /// Raises mu of the constraints from index `first` on from 0 to 1.
-  void harden(std::size_t first) {
-    constexpr int kSteps = 5;
-    for (int step = 1; step <= kSteps && first < constraints_.size(); ++step) {
-      for (std::size_t i = first; i < constraints_.size(); ++i) {
-        constraints_[i].mu = static_cast<double>(step) / kSteps;
-        reweigh(i);
+  /// Decides about the new closures, and again about those of all poses that these moved: their
+  /// loss is convex at first, except for those that were rejected before, which start nearer to 1.
+  void harden() {
+    constexpr int kSteps = 5;  // of next_mu() from 0 to 1
+    std::set<std::size_t> open;
+    for (const std::size_t pose : moved_) {
+      for (const std::size_t edge : graph_.edges_of[pose]) {
+        if (!constraints_[edge].is_odometry) open.insert(edge);
       }
+    }
+    for (const std::size_t edge : open) constraints_[edge].mu = constraints_[edge].start;
+    for (int step = 0; step < kSteps; ++step) {
+      for (const std::size_t edge : open) reweigh(edge);
       optimise();
+      for (const std::size_t edge : open) constraints_[edge].mu = next_mu(constraints_[edge].mu);
+    }
+    for (const std::size_t edge : open) {
+      Constraint& of = constraints_[edge];
+      const double chi2 = chi2_of(of);
+      if (chi2 > kQuantile) of.start = next_mu(of.start);
+      if (chi2 < G::kDof) of.start = std::max(0.0, of.start - 0.1);
     }
   }
 
@@ -125,9 +141,7 @@ class IncrementalSmoother final : public Incremental {
     constexpr double kSame = 1e-3;  // change of a weight that is not worth an elimination
     Constraint& of = constraints_[index];
     if (of.is_odometry || of.is_removed) return;
-    const double s = std::pow(chi2_of(of), of.mu);
-    const double sum = kQuantile + s;
-    const double weight = kQuantile * (kQuantile + s * (1.0 - of.mu)) / (sum * sum);
+    const double weight = graduated_weight(chi2_of(of), kQuantile, of.mu);
     if (std::abs(weight - of.weight) <= kSame * of.weight) return;
     of.weight = weight;
     linearise(index);
@@ -156,15 +170,20 @@ class IncrementalSmoother final : public Incremental {
     tree_.add_pose();
   }
 
-  void add_edge(const Edge& edge, bool is_odometry) {
+  static Constraint constraint(const Edge& edge, bool is_odometry) {
     const Element measured = G::from(ScaledPose{edge.from_from_to, 1.0});
+    return {edge, G::inverse(measured), G::information(edge, 1.0), is_odometry};
+  }
+
+  void add_edge(const Edge& edge, bool is_odometry) {
     if (is_odometry) {
+      const Element measured = G::from(ScaledPose{edge.from_from_to, 1.0});
       set_estimate(edge.to, G::compose(now_[edge.from], measured));
       at_[edge.to] = now_[edge.to];
     }
     if (!is_odometry) ++kept_;
     const std::size_t index = constraints_.size();
-    constraints_.push_back({edge, G::inverse(measured), G::information(edge, 1.0), is_odometry});
+    constraints_.push_back(constraint(edge, is_odometry));
     graph_.equations.push_back({edge.from, edge.to, {}});
     is_linearised_.push_back(0);
     has_new_edges_ = true;
@@ -250,7 +269,7 @@ class IncrementalSmoother final : public Incremental {
   int iterations_ = 0;               ///< of the current update
   double cost_ = 0.0;                ///< at the points of linearisation
   double chi2_ = 0.0;                ///< at the estimate, kept up to date for `gate`
-  std::vector<std::size_t> moved_;   ///< by the closure that is tested
+  std::vector<std::size_t> moved_;   ///< poses, by the closures that are tested
   std::size_t kept_ = 0;             ///< closures
 };
 

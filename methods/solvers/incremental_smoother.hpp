@@ -42,18 +42,18 @@ struct IncrementalSettings {
 ///
 /// With `gate`, closures are added one by one, and a closure is removed again if it raises chi2,
 /// the minimum of the cost, by more than the 99 % quantile of its distribution: for a true closure
-/// and correct covariances, the increase is chi-squared with the dimensions of a pose. It is the
-/// test of IPC without its limitation to the loops that overlap: Olivastri and Pretto, IPC:
-/// incremental probabilistic consensus-based consistent set maximization, IROS 2024 (arXiv
-/// 2405.08503).
+/// and correct covariances, the increase is chi-squared with the dimensions of a pose. Closures
+/// that cost less than that where the poses are need no solution of their own. It is the test of
+/// IPC without its limitation to the loops that overlap: Olivastri and Pretto, IPC: incremental
+/// probabilistic consensus-based consistent set maximization, IROS 2024 (arXiv 2405.08503).
 ///
-/// With `graduated`, a closure with squared residual r2 has the weight c2 (c2 + s (1 - mu)) / (c2 +
-/// s)^2 with s = r2^mu, where c2 is that quantile: all weights are equal for mu = 0, and those of
-/// Geman and McClure for mu = 1. In an update mu rises from 0 to 1 in steps of 0.2 for the new
-/// closures, and remains 1 for the others, whose weights follow their residuals; so a closure that
-/// was rejected can return, and the other way round. After McGann, Rogers, Kaess, Robust
-/// incremental smoothing and mapping (riSAM), ICRA 2023, with constant steps, without the trust
-/// region.
+/// With `graduated`, closures have the weights of graduated_loss.hpp, with that quantile as scale.
+/// When closures arrive, these and all closures of the poses that they move begin convex (mu = 0)
+/// and are hardened to mu = 1, so a closure that was accepted can be rejected later, and the other
+/// way round. Next time, a closure that is outside the quantile at the end begins at the next mu,
+/// and one that fits 0.1 lower, so that old decisions become firm. After McGann, Rogers, Kaess,
+/// Robust incremental smoothing and mapping (riSAM), ICRA 2023 (arXiv 2209.14359), without its line
+/// search.
 ///
 /// Source: Kaess, Johannsson, Roberts, Ila, Leonard, Dellaert, iSAM2: incremental smoothing and
 /// mapping using the Bayes tree, IJRR 31(2), 2012; here with single poses instead of cliques, and
