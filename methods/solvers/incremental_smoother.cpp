@@ -28,6 +28,7 @@ class IncrementalSmoother final : public Incremental {
     for (const Edge& edge : added.closures) add_closure(edge);
     for (const Edge& edge : added.withdrawn) remove_edge(edge);
     optimise();
+    unsolved_ = 0.0;
     if (is(IncrementalRobustness::graduated) && !added.closures.empty()) harden();
     report.count("iterations", iterations_);
     if (is(IncrementalRobustness::gate)) report.count("closures_kept", static_cast<double>(kept_));
@@ -56,7 +57,10 @@ class IncrementalSmoother final : public Incremental {
 
   void add_closure(const Edge& edge) {
     if (!is(IncrementalRobustness::gate)) return add_edge(edge, false);
+    if (add_if_harmless(edge)) return;
     optimise();
+    unsolved_ = 0.0;
+    if (add_if_harmless(edge)) return;
     const double before = chi2_;
     const std::vector<Element> at = at_;
     const std::vector<Element> now = now_;
@@ -74,6 +78,17 @@ class IncrementalSmoother final : public Incremental {
     for (const std::size_t pose : moved_) {
       for (const std::size_t each : graph_.edges_of[pose]) update_chi2(each);
     }
+  }
+
+  /// Adds the closure if the gate accepts it in any case: the minimum of chi2 is at most its value
+  /// at the present poses, so that it rises by at most what the closures since the last solution
+  /// cost there.
+  bool add_if_harmless(const Edge& edge) {
+    const double chi2 = chi2_of(constraint(edge, false));
+    if (unsolved_ + chi2 > kQuantile) return false;
+    unsolved_ += chi2;
+    add_edge(edge, false);
+    return true;
   }
 
   /// Updates the factorisation until no correction exceeds the tolerance, or another linearisation
@@ -269,6 +284,7 @@ class IncrementalSmoother final : public Incremental {
   int iterations_ = 0;               ///< of the current update
   double cost_ = 0.0;                ///< at the points of linearisation
   double chi2_ = 0.0;                ///< at the estimate, kept up to date for `gate`
+  double unsolved_ = 0.0;            ///< chi2 of closures since the last solution, for `gate`
   std::vector<std::size_t> moved_;   ///< poses, by the closures that are tested
   std::size_t kept_ = 0;             ///< closures
 };
