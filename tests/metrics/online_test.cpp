@@ -63,6 +63,21 @@ TEST(CausalLapse, LastsFromTheFirstPoseAboveTheLimitToTheNextBelow) {
   EXPECT_DOUBLE_EQ(find(causal_lapse(cell.evaluation, {.limit = 0.6}), "longest", "").mean, 0.0);
 }
 
+TEST(CausalLapse, IsAlignedAsTheLastTrajectory) {
+  // The last trajectory is 1 m ahead. The first pose was 2 m ahead when the robot was there.
+  const Replay replay{
+      poses_along_x({2.0, 2.5, 3.0, 4.5, 5.0}), {test::closure_at(4, 5.0, 5.0)}, {}};
+  const EvaluatedCell cell{
+      poses_along_x({0, 1, 2, 3, 4}),
+      test::along_x({1, 2, 3, 4, 5}),
+      std::make_unique<test::ReplayedPolyline>(poses_along_x({1, 2, 3, 4, 5}), replay),
+      Times::keyframes,
+      {.align = Align::origin}};
+  const std::vector<Score> scores = causal_lapse(cell.evaluation, {.limit = 0.4});
+  EXPECT_DOUBLE_EQ(find(scores, "longest", "").mean, 2.0);  // errors 1, 0.5, 0, 0.5, 0 m
+  EXPECT_DOUBLE_EQ(find(scores, "share", "").mean, 75.0);
+}
+
 TEST(ClosureErrors, AreThoseOfTheCurrentPose) {
   const std::vector<Score> scores = closure_errors(drive().evaluation);
   EXPECT_DOUBLE_EQ(find(scores, "translation", "before").mean, 0.75);  // 0.5 and 1
