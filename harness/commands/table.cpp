@@ -1,10 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <set>
 
 #include "datasets/core/error.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
+#include "harness/compare/derived.hpp"
 #include "harness/eval/evo_results.hpp"
 #include "harness/model/where.hpp"
 #include "harness/store/read.hpp"
@@ -24,8 +26,10 @@ struct TableArguments {
   std::optional<double> success;  ///< limit of the error of a successful run
   RankingOptions ranking;
   OutputOptions output;
-  bool has_default_layout = true;  ///< no --rows, --columns, --split, --show, --where
+  bool has_default_layout = true;  ///< no --rows, --columns, --split
   bool is_for_paper = false;       ///< --format latex or markdown
+
+  bool is_selected() const { return !where.empty() || !spec.show.empty() || success; }
 };
 
 std::string tables_text(const TableArguments& arguments) {
@@ -43,24 +47,67 @@ std::string tables_text(const TableArguments& arguments) {
   return text(tables, arguments.output);
 }
 
-/// Four columns for a paper: translation and rotation of the first score, gain and time.
-void choose_columns(const std::string& store, TableSpec& spec) {
+/// The first record of a score with a direction; empty if there is none.
+Record first_score(const std::string& store) {
   RecordReader reader(store);
-  std::string first;
+  Record out;
   reader.for_each_chunk([&](std::vector<Record>& records) {
     const auto found = std::ranges::find_if(records, [](const Record& r) {
       return !r.metric.empty() && r.better != metrics::Better::neither;
     });
-    if (found != records.end()) first = field(*found, "score");
-    return first.empty();
+    if (found != records.end()) out = *found;
+    return found == records.end();
   });
-  if (first.empty()) return;
-  spec.show = {first, "gain", "time"};
-  spec.split = {"sequence"};
+  return out;
+}
+
+/// If the records that are shown have one score and several sequences: a column for each sequence,
+/// or a row for each of many. Returns whether that is so.
+bool choose_sequences(TableArguments& arguments) {
+  constexpr std::size_t kMostColumns = 12;  // as in the summary of `run`
+  TableSpec& spec = arguments.spec;
+  const std::string baseline = read_run(arguments.store).at("baseline");
+  const auto is_kept = where(arguments.where);
+  std::set<std::string> scores;
+  std::set<SharedText> sequences;
+  RecordReader reader(arguments.store);
+  reader.for_each_chunk([&](std::vector<Record>& records) {
+    add_derived(records, baseline);
+    for (const Record& r : records) {
+      if (!is_kept(r)) continue;
+      sequences.insert(r.sequence);
+      if (r.metric.empty()) continue;
+      const std::string score = field(r, "score");
+      if (spec.show.empty() || std::ranges::count(spec.show, score) > 0) scores.insert(score);
+    }
+    return scores.size() < 2;
+  });
+  if (scores.size() != 1 || sequences.size() < 2) return false;
+  spec.columns = {"sequence"};
+  if (sequences.size() > kMostColumns) std::swap(spec.rows, spec.columns);
+  spec.split = {"score", "relation", "times"};
+  return true;
+}
+
+/// For a paper: the first score of each sequence; of one sequence its translation and rotation,
+/// gain and time.
+void choose_for_paper(TableArguments& arguments) {
+  const Record first = first_score(arguments.store);
+  if (first.metric.empty()) return;
+  const std::string score = field(first, "score");
+  arguments.spec.show = {score};
+  arguments.where = {"relation=\"" + first.relation.text() + "\""};
+  if (choose_sequences(arguments)) {
+    arguments.spec.split = {"score", "relation"};
+    return;
+  }
+  arguments.where.clear();
+  arguments.spec.show = {score, "gain", "time"};
+  arguments.spec.split = {"sequence"};
 }
 
 int print_evo_results(const TableArguments& arguments) {
-  if (!arguments.has_default_layout) {
+  if (!arguments.has_default_layout || arguments.is_selected()) {
     throw InputError(arguments.files.front() +
                      ": a result file of evo has one layout, expected no --rows, --columns, "
                      "--split, --show, --where and --success");
@@ -84,8 +131,12 @@ int print_table(TableArguments arguments) {
     for (std::string& score : split_list(word)) show.push_back(std::move(score));
   }
   arguments.spec.show = std::move(show);
-  if (arguments.has_default_layout && arguments.is_for_paper) {
-    choose_columns(arguments.store, arguments.spec);
+  if (arguments.has_default_layout && !arguments.success) {
+    if (arguments.is_selected()) {  // otherwise there are several scores
+      choose_sequences(arguments);
+    } else if (arguments.is_for_paper) {
+      choose_for_paper(arguments);
+    }
   }
   write_output(tables_text(arguments), arguments.output, "tables", arguments.store);
   return kExitOk;
@@ -114,7 +165,11 @@ void add_table(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option(
-          "--split", arguments->spec.split, "One table for each: " + columns + "; '': one table")
+          "--split",
+          arguments->spec.split,
+          "One table for each: " + columns +
+              "; '': one table; without layout, one score of several sequences is one table of "
+              "methods by sequences")
       ->delimiter(',')
       ->capture_default_str();
   command
@@ -129,7 +184,7 @@ void add_table(CLI::App& app, int& exit_code) {
       "--show",
       arguments->spec.show,
       "Scores to show: ate,error x,gain,time; default: all, with --format latex or markdown the "
-      "first, gain and time");
+      "first (of a single sequence with gain and time)");
   command
       ->add_option("--success",
                    arguments->success,
@@ -155,7 +210,7 @@ void add_table(CLI::App& app, int& exit_code) {
            ExportFormat::csv,
            ExportFormat::json});
   command->callback([arguments, command, &exit_code] {
-    for (const char* name : {"--rows", "--columns", "--split", "--show", "--where", "--success"}) {
+    for (const char* name : {"--rows", "--columns", "--split"}) {
       if (command->count(name) > 0) arguments->has_default_layout = false;
     }
     const ExportFormat format = arguments->output.format();

@@ -56,10 +56,11 @@ std::string text(const std::vector<Table>& tables, const OutputOptions& output) 
   std::string out;
   for (const Table& table : tables) {
     out += out.empty() ? "" : "\n";
-    out += format == ExportFormat::csv        ? text_csv(table)
-           : format == ExportFormat::latex    ? latex(table)
-           : format == ExportFormat::terminal ? terminal(table, style)
-                                              : markdown(table);
+    out += format == ExportFormat::csv     ? text_csv(table)
+           : format == ExportFormat::latex ? latex(table)
+           : format == ExportFormat::terminal
+               ? terminal(with_common_unit(without_empty_columns(table)), style)
+               : markdown(table);
   }
   return out;
 }

@@ -73,7 +73,7 @@ void format_means(Table& table);
 Table without_empty_columns(Table table);
 
 /// With a unit that all of at least two columns share in the title, or in the first heading if
-/// there is no title, instead of in every heading. The formats for papers and pages use it.
+/// there is no title, instead of in every heading.
 Table with_common_unit(Table table);
 
 /// Keeps the first column and those with the given names, in this order. A name is a heading with
