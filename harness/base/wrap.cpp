@@ -50,6 +50,21 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
   return out;
 }
 
+std::string beside(const std::string& name,
+                   const std::string& text,
+                   std::size_t begin,
+                   std::size_t columns) {
+  const std::string margin(begin, ' ');
+  const bool fits = width(name) + 2 <= begin;
+  std::string out = name + (fits ? margin.substr(width(name)) : "\n" + margin);
+  std::size_t count = 0;
+  for (const std::string& line : wrapped(text, columns == 0 ? 0 : columns - begin)) {
+    out += (count++ == 0 ? "" : "\n" + margin) + line;
+  }
+  out.erase(out.find_last_not_of(" \n") + 1);
+  return out + "\n";
+}
+
 std::string shortened(const std::string& text, std::size_t columns) {
   if (width(text) <= columns) return text;
   constexpr const char* kEllipsis = "\u2026";

@@ -21,8 +21,9 @@ struct GetArguments {
 void print_catalogue(const std::vector<PublicFile>& known) {
   const std::size_t columns = standard_output_style().width;
   const auto print = [&](const std::string& name, const std::string& what) {
-    const std::string line = fmt::format("{:<20} {}", name, what);
-    fmt::print("{}\n", columns == 0 ? line : cut(line, columns));
+    fmt::print(
+        "{}",
+        columns == 0 ? fmt::format("{:<20} {}\n", name, what) : beside(name, what, 22, columns));
   };
   for (const PublicFile& each : known) {
     print(each.name, fmt::format("{} [{}]", each.summary, each.licence));

@@ -64,19 +64,9 @@ constexpr std::size_t kTextColumn = 26;     ///< of the descriptions
 /// 0: unlimited.
 std::size_t help_width() { return std::min(kWidest, standard_output_style().width); }
 
-/// `name` indented, and `text` beside it in lines of its own column; below it if the name is long.
+/// `name` indented, and `text` beside or below it.
 std::string entry(const std::string& name, const std::string& text) {
-  const std::size_t columns = help_width();
-  const std::string left = "  " + name;
-  const std::string margin(kTextColumn, ' ');
-  const bool fits = width(left) + 2 <= kTextColumn;
-  std::string out = fits ? padded(left, kTextColumn, true) : left + "\n" + margin;
-  std::size_t count = 0;
-  for (const std::string& line : wrapped(text, columns == 0 ? 0 : columns - kTextColumn)) {
-    out += (count++ == 0 ? "" : "\n" + margin) + line;
-  }
-  out.erase(out.find_last_not_of(" \n") + 1);
-  return out + "\n";
+  return beside("  " + name, text, kTextColumn, help_width());
 }
 
 /// Lines that begin with a space are examples and keep their form.

@@ -70,17 +70,15 @@ Json to_json(const Item& item, bool is_protocol) {
   return out;
 }
 
-/// Name, kind and summary.
-std::string summary_line(const Item& item) {
+/// Name, kind and summary; on a terminal in lines that fit, otherwise in one.
+void print_summary(const Item& item) {
   const std::string kind =
       item.kind.empty() ? "" : fmt::format("[{}{}] ", item.kind, item.is_oracle ? ", oracle" : "");
-  return fmt::format("{:<22} {}{}", item.name, kind, item.summary);
-}
-
-/// On a terminal, cut to its width.
-void print_line(const std::string& line) {
+  const std::string text = kind + item.summary;
   const std::size_t columns = standard_output_style().width;
-  fmt::print("{}\n", columns == 0 ? line : cut(line, columns));
+  fmt::print("{}",
+             columns == 0 ? fmt::format("{:<22} {}\n", item.name, text)
+                          : beside(item.name, text, 24, columns));
 }
 
 void print_options(const Item& item) {
@@ -95,16 +93,12 @@ void print_options(const Item& item) {
   }
 }
 
-/// One line for each entry; if `with_options`, all of its text and options. Protocols share theirs.
+/// The summary of each entry; if `with_options`, its options, too. Protocols share theirs.
 void print(const std::string& subject, const std::vector<Item>& all, bool with_options) {
   const bool is_shared = subject == "protocols";
   for (const Item& item : all) {
-    if (with_options) {
-      fmt::print("{}\n", fitted(summary_line(item)));
-      if (!is_shared) print_options(item);
-    } else {
-      print_line(summary_line(item));
-    }
+    print_summary(item);
+    if (with_options && !is_shared) print_options(item);
   }
   if (!with_options || !is_shared) return;
   fmt::print("settings with the defaults of {} (usage: protocol: {{base: NAME, SETTING: VALUE}})\n",
@@ -172,9 +166,10 @@ int list(const ListArguments& arguments) {
     print(lists[i].subject, lists[i].items, lists[i].is_selected || arguments.options);
   }
   if (!lists.front().is_selected && !arguments.options) {
-    fmt::print("\noptions: {} list NAME, or a pattern: {} list methods 'dm*'\n",
-               program_name(),
-               program_name());
+    const std::string name = program_name();
+    fmt::print("\n{}\n",
+               fitted(fmt::format(
+                   "options: {} list NAME, or a pattern: {} list methods 'dm*'", name, name)));
   }
   return kExitOk;
 }
