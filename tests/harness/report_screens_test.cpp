@@ -17,6 +17,11 @@ const char* const kProbe = R"probe(
     const box = chart.getBoundingClientRect();
     if (box.width > 0 && (box.right > wide || box.left < 0)) said.push("chart outside: " + chart.getAttribute("aria-label"));
   }
+  for (const box of document.querySelectorAll(".scroll")) {
+    const style = getComputedStyle(box);
+    const isShown = style.overflowX === "auto" && style.backgroundImage.includes("gradient");
+    if (box.scrollWidth > box.clientWidth && !isShown) said.push("no sign of more columns: " + box.getAttribute("aria-label"));
+  }
   if (wide >= 1200) {
     for (const heading of document.querySelectorAll("#scores figure:not([hidden]) thead th")) {
       const isWanted = /^(gain|time)/.test(heading.textContent);
