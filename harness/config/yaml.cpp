@@ -54,7 +54,11 @@ void merge_keys(YamlNode& node) {
 /// Builds the tree of the only document, with all aliases expanded.
 class TreeBuilder final : public YAML::EventHandler {
  public:
-  explicit TreeBuilder(const std::string& file) : file_(file), root_(file_) {}
+  TreeBuilder(const std::string& text, const std::string& file) : file_(file), root_(file_) {
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) lines_.push_back(line);
+    bytes_ = text.size();
+  }
 
   bool is_empty() const { return documents_ == 0; }
   YamlNode take() { return std::move(root_); }
@@ -65,6 +69,9 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     YamlNode node(at(mark));
+    if (!open_.empty() && open_.back().node.type == YamlNode::Type::list) {
+      node.line = line_before(mark);
+    }
     spend(node, node);
     add(std::move(node), anchor);
   }
@@ -112,6 +119,21 @@ class TreeBuilder final : public YAML::EventHandler {
     Place out = file_;
     out.line = static_cast<std::size_t>(mark.line + 1);
     return out;
+  }
+
+  /// The line of an empty item of a list: that of the last text before `mark`, which is the next
+  /// token or the end.
+  std::size_t line_before(const YAML::Mark& mark) const {
+    const bool is_end = static_cast<std::size_t>(mark.pos) >= bytes_;  // its column is 0
+    auto number = is_end ? lines_.size() : static_cast<std::size_t>(mark.line) + 1;
+    auto columns = is_end ? std::string::npos : static_cast<std::size_t>(mark.column);
+    for (; number > 1; --number, columns = std::string::npos) {
+      if (number > lines_.size()) continue;
+      const std::string text = lines_[number - 1].substr(0, columns);
+      const std::size_t begin = text.find_first_not_of(" \t\r");
+      if (begin != std::string::npos && text[begin] != '#') break;
+    }
+    return number;
   }
 
   void open(YamlNode node, YAML::anchor_t anchor) {
@@ -167,6 +189,8 @@ class TreeBuilder final : public YAML::EventHandler {
     for (const YamlEntry& entry : node.map) spend(entry.value, place);
   }
 
+  std::vector<std::string> lines_;
+  std::size_t bytes_ = 0;  // of all lines
   Place file_;
   YamlNode root_;
   std::size_t documents_ = 0;
@@ -223,7 +247,7 @@ YamlNode parse_yaml(const std::string& text, const std::string& file) {
   try {
     std::istringstream in(text);
     YAML::Parser parser(in);
-    TreeBuilder tree(file);
+    TreeBuilder tree(text, file);
     while (parser.HandleNextDocument(tree)) {
     }
     if (tree.is_empty()) throw InputError(file + ": is empty, expected a map of settings");

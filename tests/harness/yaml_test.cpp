@@ -28,6 +28,14 @@ TEST(Yaml, KeepsTypesAndLines) {
   EXPECT_EQ(root.find("z"), nullptr);
 }
 
+TEST(Yaml, KeepsTheLinesOfEmptyItems) {
+  const YamlNode root = parse_yaml("a:\n  - x\n  -\n\n  # c\n  - y\n  - # d\nb:\n  - ~\n  -", "c");
+  EXPECT_EQ(root.find("a")->list.at(1).line, 3u);
+  EXPECT_EQ(root.find("a")->list.at(3).line, 7u);
+  EXPECT_EQ(root.find("b")->list.at(0).line, 9u);
+  EXPECT_EQ(root.find("b")->list.at(1).line, 10u);
+}
+
 TEST(Yaml, RefusesWhatWouldBeLostSilently) {
   EXPECT_EQ(why("a: 1\nb: 2\na: 3\n"), "c.yaml:3: 'a' is set twice");
   EXPECT_EQ(why(""), "c.yaml: is empty, expected a map of settings");
