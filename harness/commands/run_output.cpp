@@ -119,7 +119,12 @@ void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
                repeat,
                printable(sweep.methods[cell.method].label));
   }
-  fmt::print("{} cells, {} metrics each\n", planned.size(), sweep.metrics.size());
+  const std::size_t metrics = sweep.metrics.size();
+  fmt::print("{} cell{}, {} metric{} each\n",
+             planned.size(),
+             planned.size() == 1 ? "" : "s",
+             metrics,
+             metrics == 1 ? "" : "s");
 }
 
 void require_parts(const Sweep& sweep, const std::vector<Cell>& cells, const Catalogue& catalogue) {

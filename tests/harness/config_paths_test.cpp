@@ -58,7 +58,7 @@ TEST_F(ConfigPaths, APatternIsOneDatasetPerFile) {
       "'truth/*.txt', closures: {source: none}}\n" +
       rest);
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.out, "    0  my (a) / raw\n    1  my (b) / raw\n2 cells, 1 metrics each\n");
+  EXPECT_EQ(result.out, "    0  my (a) / raw\n    1  my (b) / raw\n2 cells, 1 metric each\n");
   EXPECT_EQ(dry_run("datasets: [{dataset: trajectory, estimate: 'no/*.txt'}]\n" + rest).err,
             "loopbench: c.yaml:1: estimate: no file matches no/*.txt\n");
   EXPECT_EQ(dry_run("datasets:\n  - dataset: trajectory\n    estimate: 'est/*.txt'\n"
