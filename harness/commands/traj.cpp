@@ -186,7 +186,7 @@ int transform(const TrajArguments& a) {
 int sync(const TrajArguments& a) {
   if (is_dash(a.out)) throw InputError("sync: expected -o FOLDER, it writes two files per input");
   const NamedTrajectory reference = read_named(a.reference, a.reading);
-  const NamedTrajectories all = read_all_named(a.files, a.reading);
+  const NamedTrajectories all = read_all_named(a.files, a.reading, &reference);
   const Format format = written_format(a);
   const std::string folder = a.out.ends_with('/') ? a.out : a.out + "/";
   const auto files = output_files(names_of(all), folder, format);
@@ -213,7 +213,7 @@ int align_files(const TrajArguments& a) {
   const NamedTrajectory reference = read_named(a.reference, a.reading);
   metrics::Align type{};
   FieldType<metrics::Align>::assign("align", type, a.align);
-  return write_changed(a, [&](NamedTrajectory& each) {
+  const auto change = [&](NamedTrajectory& each) {
     const auto pairs = paired_indices(a, reference, each);
     const Trajectory of_reference =
         paired_part(reference.file, pairs, &metrics::IndexPair::reference).poses;
@@ -235,7 +235,8 @@ int align_files(const TrajArguments& a) {
       throw InputError(each.name + ": " + error.what());
     }
     shift_stamps(each.file, a.offset);
-  });
+  };
+  return write_changed(a, change, &reference);
 }
 
 int project_files(const TrajArguments& a) {
@@ -248,9 +249,10 @@ int project_files(const TrajArguments& a) {
 }
 
 int plot_files(const TrajArguments& a) {
-  const NamedTrajectories all = read_all_named(a.files, a.reading);
   std::optional<NamedTrajectory> reference;
   if (!a.reference.empty()) reference = read_named(a.reference, a.reading);
+  const NamedTrajectories all =
+      read_all_named(a.files, a.reading, reference ? &*reference : nullptr);
   protect_inputs(a, {a.out});
   reject_standard_output("-o", a.out);
   if (!is_figure_name(a.out)) {

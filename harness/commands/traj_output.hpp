@@ -71,8 +71,9 @@ inline int write_all(const TrajArguments& a, const NamedTrajectories& all) {
 
 /// Reads, changes and writes the files; exact stamps stay valid only if no stamp has changed.
 inline int write_changed(const TrajArguments& a,
-                         const std::function<void(NamedTrajectory&)>& change) {
-  NamedTrajectories all = read_all_named(a.files, a.reading);
+                         const std::function<void(NamedTrajectory&)>& change,
+                         const NamedTrajectory* reference = nullptr) {
+  NamedTrajectories all = read_all_named(a.files, a.reading, reference);
   for (NamedTrajectory& each : all) {
     const bool is_uncertain = !each.file.covariances.empty();
     change(each);

@@ -74,10 +74,17 @@ NamedTrajectory read_named(const std::string& name, const ReadArguments& argumen
 }
 
 std::vector<NamedTrajectory> read_all_named(const std::vector<std::string>& names,
-                                            const ReadArguments& arguments) {
+                                            const ReadArguments& arguments,
+                                            const NamedTrajectory* reference) {
   std::vector<NamedTrajectory> out;
+  bool has_unstamped = reference != nullptr && !reference->file.has_stamps;
   for (const std::string& name : expanded_names(names, arguments)) {
     out.push_back(read_named(name, arguments));
+    has_unstamped = has_unstamped || !out.back().file.has_stamps;
+  }
+  if (arguments.period && !has_unstamped) {
+    throw InputError("--period " + to_text(*arguments.period) +
+                     ": all files have stamps, expected KITTI poses without --times, or g2o");
   }
   return out;
 }

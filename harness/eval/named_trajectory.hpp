@@ -33,8 +33,10 @@ std::vector<std::string> expanded_names(const std::vector<std::string>& names,
 /// Reads one file. Damage of a bag is printed to standard error, too. Throws InputError.
 NamedTrajectory read_named(const std::string& name, const ReadArguments& arguments);
 
+/// Throws InputError, too, for a period if all files and the reference (if any) have stamps.
 std::vector<NamedTrajectory> read_all_named(const std::vector<std::string>& names,
-                                            const ReadArguments& arguments);
+                                            const ReadArguments& arguments,
+                                            const NamedTrajectory* reference = nullptr);
 
 /// Adds `offset` [s] to all stamps; exact ones are shifted by whole nanoseconds.
 void shift_stamps(TrajectoryFile& file, double offset);

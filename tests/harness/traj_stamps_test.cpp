@@ -92,6 +92,17 @@ TEST_F(TrajStamps, AssumedStampsArePrinted) {
   EXPECT_THAT(traj({"convert", est, "--to", "kitti", "-o", path("a.txt")}).errors, IsEmpty());
 }
 
+TEST_F(TrajStamps, APeriodNeedsPosesWithoutStamps) {
+  const std::string ref = tum("ref.txt", {"0", "0.1"}), est = tum("est.txt", {"0", "0.1"});
+  const std::string why =
+      "--period 0.2: all files have stamps, expected KITTI poses without --times, or g2o";
+  EXPECT_EQ(traj_refusal({"convert", est, "--period", "0.2", "-o", path("a.txt")}), why);
+  EXPECT_FALSE(std::filesystem::exists(path("a.txt")));
+  EXPECT_EQ(traj_refusal({"info", est, "--period", "0.2"}), why);
+  EXPECT_EQ(traj_refusal({"align", est, "--ref", ref, "--period", "0.2"}), why);
+  traj({"align", est, "--ref", kitti("k.txt", 2), "--period", "0.1", "--align", "none"});
+}
+
 TEST_F(TrajStamps, ADashIsStandardOutputBesideAFolderOfThatName) {
   const std::string est = tum("est.txt", {"0", "1"});
   const std::filesystem::path before = std::filesystem::current_path();
