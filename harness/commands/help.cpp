@@ -125,7 +125,7 @@ const std::map<std::string, std::string> kExamples{
     {"traj align",
      "  loopbench traj align estimate.txt --ref reference.txt -o aligned.txt\n"
      "  loopbench traj align mono.txt --ref reference.txt --align sim3 -o aligned.txt\n"
-     "  loopbench traj align estimate.txt --ref reference.txt --align origin -o aligned.txt\n"},
+     "  loopbench traj align estimate.txt --ref reference.txt --json\n"},
     {"traj project",
      "  loopbench traj project run.txt --plane xy -o flat.txt\n"
      "  loopbench traj project kitti.txt --plane xz -o flat.txt\n"

@@ -9,6 +9,7 @@
 #include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/traj_output.hpp"
+#include "harness/eval/evaluation_result.hpp"
 #include "harness/eval/trajectory_figures.hpp"
 #include "harness/eval/trajectory_selection.hpp"
 #include "harness/eval/trajectory_summary.hpp"
@@ -213,6 +214,7 @@ int align_files(const TrajArguments& a) {
   const NamedTrajectory reference = read_named(a.reference, a.reading);
   metrics::Align type{};
   FieldType<metrics::Align>::assign("align", type, a.align);
+  std::vector<AlignedFile> aligned;
   const auto change = [&](NamedTrajectory& each) {
     const auto pairs = paired_indices(a, reference, each);
     const Trajectory of_reference =
@@ -224,19 +226,24 @@ int align_files(const TrajArguments& a) {
       each.file.poses = metrics::moved(fit, std::move(each.file.poses));
       rotate(each.file.covariances, fit.reference_from_estimate, fit.scale);
       const auto& [rotation, position] = fit.reference_from_estimate;
-      fmt::print(stderr,
-                 "{}: aligned with {} pairs, scale {:.9g}, x,y,z,qx,qy,qz,qw = {:.9g}, {:.9g}\n",
-                 printable(each.name),
-                 pairs.size(),
-                 fit.scale,
-                 fmt::join(position, ", "),
-                 fmt::join(rotation.coeffs(), ", "));
+      aligned.push_back({a.reference, each.name, pairs.size(), fit});
+      if (!a.json) {
+        fmt::print(stderr,
+                   "{}: aligned with {} pairs, scale {:.9g}, x,y,z,qx,qy,qz,qw = {:.9g}, {:.9g}\n",
+                   printable(each.name),
+                   pairs.size(),
+                   fit.scale,
+                   fmt::join(position, ", "),
+                   fmt::join(rotation.coeffs(), ", "));
+      }
     } catch (const std::runtime_error& error) {
       throw InputError(each.name + ": " + error.what());
     }
     shift_stamps(each.file, a.offset);
   };
-  return write_changed(a, change, &reference);
+  const int exit_code = write_changed(a, change, &reference);
+  if (a.json) fmt::print("{}", json(aligned));
+  return exit_code;
 }
 
 int project_files(const TrajArguments& a) {

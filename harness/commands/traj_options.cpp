@@ -102,6 +102,8 @@ void declare_transform(CLI::App& verb, TrajArguments& a) {
 void declare_alignment(CLI::App& verb, TrajArguments& a) {
   verb.add_option("--align", a.align, "Alignment")->type_name(choice_type<metrics::Align>());
   verb.add_option("--align-first,--n_to_align", a.align_first, "Number of first pairs, 0 for all");
+  verb.add_flag(
+      "--json", a.json, "Print the transforms as JSON, as eval does, and poses only to -o FILE");
 }
 
 struct VerbInfo {

@@ -31,9 +31,11 @@ inline void protect_inputs(const TrajArguments& a, const std::vector<std::string
   }
 }
 
-/// Writes them to the files of the arguments, and says what a format loses. Returns the exit code.
+/// Writes them to the files of the arguments (with --json none without -o), and says what a format
+/// loses. Returns the exit code.
 inline int write_all(const TrajArguments& a, const NamedTrajectories& all) {
   const Format format = written_format(a);
+  if (a.json && is_dash(a.out)) return kExitOk;  // standard output is for JSON
   const std::vector<std::string> files = output_files(names_of(all), a.out, format);
   protect_inputs(a, files);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -62,7 +64,7 @@ inline int write_all(const TrajArguments& a, const NamedTrajectories& all) {
     if (!a.times_out.empty()) times = a.times_out;
     if (times && all.size() > 1) throw InputError("--times-out: expected one trajectory");
     write_trajectory(files[i], all[i].file, format, times);
-    if (!is_dash(files[i])) {
+    if (!is_dash(files[i]) && !a.json) {
       fmt::print("{}: {} poses\n", printable(files[i]), all[i].file.poses.size());
     }
   }

@@ -60,6 +60,21 @@ Json to_json(const Record& record) {
   return out;
 }
 
+Json to_json(const metrics::Alignment& alignment) {
+  const auto& [rotation, position] = alignment.reference_from_estimate;
+  return {{"type", to_text(alignment.type)},
+          {"scale", alignment.scale},
+          {"rank", alignment.rank},
+          {"condition", alignment.condition},
+          {"x", position.x()},
+          {"y", position.y()},
+          {"z", position.z()},
+          {"qx", rotation.x()},
+          {"qy", rotation.y()},
+          {"qz", rotation.z()},
+          {"qw", rotation.w()}};
+}
+
 Json to_json(const EvaluationResult& result) {
   Json scores = Json::array();
   Json undefined = Json::array();
@@ -90,18 +105,7 @@ Json to_json(const EvaluationResult& result) {
     out["possible"] = result.coverage.possible;
     out["coverage"] = result.coverage.share();
     out["span"] = result.coverage.span;
-    const auto& [rotation, position] = result.alignment.reference_from_estimate;
-    out["alignment"] = {{"type", to_text(result.alignment.type)},
-                        {"scale", result.alignment.scale},
-                        {"rank", result.alignment.rank},
-                        {"condition", result.alignment.condition},
-                        {"x", position.x()},
-                        {"y", position.y()},
-                        {"z", position.z()},
-                        {"qx", rotation.x()},
-                        {"qy", rotation.y()},
-                        {"qz", rotation.z()},
-                        {"qw", rotation.w()}};
+    out["alignment"] = to_json(result.alignment);
     out["diagnosis"] = std::move(diagnosis);
     out["notes"] = result.notes;
   }
@@ -109,6 +113,10 @@ Json to_json(const EvaluationResult& result) {
   out["undefined"] = std::move(undefined);
   out["failed"] = std::move(failed);
   return out;
+}
+
+std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names can be any bytes
 }
 
 /// Each once.
@@ -178,7 +186,18 @@ void change_unit(std::vector<EvaluationResult>& results, const std::string& unit
 std::string json(const std::vector<EvaluationResult>& results) {
   Json all = Json::array();
   for (const EvaluationResult& result : results) all.push_back(to_json(result));
-  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names can be any bytes
+  return json_text(all);
+}
+
+std::string json(const std::vector<AlignedFile>& files) {
+  Json all = Json::array();
+  for (const AlignedFile& file : files) {
+    all.push_back({{"reference", file.reference},
+                   {"estimate", file.estimate},
+                   {"pairs", file.pairs},
+                   {"alignment", to_json(file.alignment)}});
+  }
+  return json_text(all);
 }
 
 std::string pose_csv(const std::vector<EvaluationResult>& results) {

@@ -80,6 +80,17 @@ std::vector<Table> comparison(const std::vector<EvaluationResult>& results,
 /// metric are. Failed evaluations have empty metrics, undefined and failed.
 std::string json(const std::vector<EvaluationResult>& results);
 
+/// An estimate that was aligned without an evaluation.
+struct AlignedFile {
+  std::string reference;
+  std::string estimate;
+  std::size_t pairs = 0;
+  metrics::Alignment alignment;
+};
+
+/// Array of objects with the keys of the members, as those of an evaluation.
+std::string json(const std::vector<AlignedFile>& files);
+
 /// Column of pose_csv(): "height_m".
 std::string column_name(const PoseValues& values);
 

@@ -105,6 +105,27 @@ TEST(Traj, AlignMovesThePosesAsEvo) {
   }
 }
 
+TEST(Traj, AlignPrintsTheTransformAsEval) {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "aligned.txt").string();
+  const std::string file = golden("est_drift.txt"), reference = golden("gt.txt");
+  const auto json = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"align", file, "--ref", reference, "--align", "sim3"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const test::Printed printed = test::traj(arguments);
+    EXPECT_EQ(printed.errors, "");
+    return test::Json::parse(printed.output);
+  };
+  const test::Json fit = json({"--json"}).at(0);
+  const test::Json evaluated =
+      test::eval_json({reference, file, "--protocol", "evo", "--align", "sim3"});
+  for (const char* key : {"reference", "estimate", "pairs", "alignment"}) {
+    EXPECT_EQ(fit.at(key), evaluated.at(key)) << key;
+  }
+  EXPECT_EQ(json({"--json", "-o", out}).at(0), fit);
+  EXPECT_EQ(read_trajectory(out).size(), 657u);
+}
+
 TEST(Traj, DownsampleTakesTheIndicesOfNumpyLinspace) {
   EXPECT_THAT(evenly_spaced(10, 4), ElementsAre(0, 3, 6, 9));
   EXPECT_THAT(evenly_spaced(11, 4), ElementsAre(0, 3, 6, 10));  // floor(3.33), floor(6.67)
