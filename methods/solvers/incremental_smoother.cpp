@@ -10,6 +10,7 @@
 #include "methods/solvers/graduated_loss.hpp"
 #include "methods/solvers/groups/se2.hpp"
 #include "methods/solvers/groups/se3.hpp"
+#include "methods/solvers/index_set.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -24,7 +25,6 @@ class IncrementalSmoother final : public Incremental {
     for (const Edge& edge : added.odometry) add_edge(edge, true);
     const std::size_t before = tree_.eliminations();
     iterations_ = 0;
-    moved_.clear();
     for (const Edge& edge : added.closures) add_closure(edge);
     for (const Edge& edge : added.withdrawn) remove_edge(edge);
     optimise();
@@ -58,26 +58,25 @@ class IncrementalSmoother final : public Incremental {
   void add_closure(const Edge& edge) {
     if (!is(IncrementalRobustness::gate)) return add_edge(edge, false);
     if (add_if_harmless(edge)) return;
-    optimise();
-    unsolved_ = 0.0;
-    if (add_if_harmless(edge)) return;
+    if (unsolved_ > 0.0) {  // otherwise the poses are a solution: new odometry does not change them
+      optimise();
+      unsolved_ = 0.0;
+      if (add_if_harmless(edge)) return;
+    }
     const double before = chi2_;
     const std::vector<Element> at = at_;
     const std::vector<Element> now = now_;
-    moved_.clear();
     add_edge(edge, false);
     optimise();
     if (chi2_ - before <= kQuantile) return;
     // Back to the former solution: a false closure can lead to another minimum.
     remove_edge(edge);
-    for (const std::size_t pose : moved_) {
+    for (const std::size_t pose : moved_.list()) {
       at_[pose] = at[pose];
       set_estimate(pose, now[pose]);
     }
-    relinearise_edges(moved_);
-    for (const std::size_t pose : moved_) {
-      for (const std::size_t each : graph_.edges_of[pose]) update_chi2(each);
-    }
+    relinearise_edges(moved_.list());
+    update_chi2_of_moved();
   }
 
   /// Adds the closure if the gate accepts it in any case: the minimum of chi2 is at most its value
@@ -94,6 +93,7 @@ class IncrementalSmoother final : public Incremental {
   /// Updates the factorisation until no correction exceeds the tolerance, or another linearisation
   /// is not worth its time.
   void optimise() {
+    moved_.clear();
     double last_decrease = 0.0;
     for (int i = 0; i < settings_.max_iterations && !touched_.empty(); ++i) {
       ++iterations_;
@@ -104,18 +104,12 @@ class IncrementalSmoother final : public Incremental {
         set_estimate(pose, G::compose(at_[pose], G::exp(tree_.correction(pose))));
       }
       if (!is(IncrementalRobustness::none)) {
-        moved_.insert(moved_.end(), solved.begin(), solved.end());
+        for (const std::size_t pose : touched) moved_.insert(pose);
+        for (const std::size_t pose : solved) moved_.insert(pose);
       }
       if (is(IncrementalRobustness::graduated)) {
         for (const std::size_t pose : solved) {
           for (const std::size_t edge : graph_.edges_of[pose]) reweigh(edge);
-        }
-      }
-      if (is(IncrementalRobustness::gate)) {
-        for (const std::vector<std::size_t>* moved : {&touched, &solved}) {
-          for (const std::size_t pose : *moved) {
-            for (const std::size_t edge : graph_.edges_of[pose]) update_chi2(edge);
-          }
         }
       }
       // Gauss-Newton converges linearly: the next decrease is to this one as this one to the last.
@@ -126,6 +120,7 @@ class IncrementalSmoother final : public Incremental {
       last_decrease = decrease;
       relinearise(solved);
     }
+    if (is(IncrementalRobustness::gate)) update_chi2_of_moved();
   }
 
   /// Decides about the new closures, and again about those of all poses that these moved: their
@@ -133,7 +128,7 @@ class IncrementalSmoother final : public Incremental {
   void harden() {
     constexpr int kSteps = 5;  // of next_mu() from 0 to 1
     std::set<std::size_t> open;
-    for (const std::size_t pose : moved_) {
+    for (const std::size_t pose : moved_.list()) {
       for (const std::size_t edge : graph_.edges_of[pose]) {
         if (!constraints_[edge].is_odometry) open.insert(edge);
       }
@@ -170,10 +165,15 @@ class IncrementalSmoother final : public Incremental {
     return e.dot(of.information * e);
   }
 
-  void update_chi2(std::size_t index) {
-    Constraint& of = constraints_[index];
-    const double chi2 = chi2_of(of);
-    chi2_ += chi2 - std::exchange(of.chi2, chi2);
+  void update_chi2_of_moved() {
+    for (const std::size_t pose : moved_.list()) {
+      for (const std::size_t edge : graph_.edges_of[pose]) {
+        Constraint& of = constraints_[edge];
+        if (pose == of.edge.to && moved_.contains(of.edge.from)) continue;  // from there
+        const double chi2 = chi2_of(of);
+        chi2_ += chi2 - std::exchange(of.chi2, chi2);
+      }
+    }
   }
 
   void add_keyframe(const StampedPose& keyframe) {
@@ -182,6 +182,7 @@ class IncrementalSmoother final : public Incremental {
     at_.push_back(Element{});
     now_.push_back(Element{});
     graph_.edges_of.emplace_back();
+    moved_.add_index();
     tree_.add_pose();
   }
 
@@ -200,7 +201,7 @@ class IncrementalSmoother final : public Incremental {
     const std::size_t index = constraints_.size();
     constraints_.push_back(constraint(edge, is_odometry));
     graph_.equations.push_back({edge.from, edge.to, {}});
-    is_linearised_.push_back(0);
+    linearised_.add_index();
     has_new_edges_ = true;
     linearise(index);
     for (const std::size_t end : {edge.from, edge.to}) {
@@ -256,14 +257,11 @@ class IncrementalSmoother final : public Incremental {
 
   /// Linearises the edges at these poses and touches their ends.
   void relinearise_edges(const std::vector<std::size_t>& poses) {
-    std::vector<std::size_t> edges;
+    linearised_.clear();
     for (const std::size_t i : poses) {
-      for (const std::size_t edge : graph_.edges_of[i]) {
-        if (std::exchange(is_linearised_[edge], 1) == 0) edges.push_back(edge);
-      }
+      for (const std::size_t edge : graph_.edges_of[i]) linearised_.insert(edge);
     }
-    for (const std::size_t edge : edges) {
-      is_linearised_[edge] = 0;
+    for (const std::size_t edge : linearised_.list()) {
       linearise(edge);
       touched_.push_back(constraints_[edge].edge.from);
       touched_.push_back(constraints_[edge].edge.to);
@@ -279,14 +277,14 @@ class IncrementalSmoother final : public Incremental {
   std::vector<Constraint> constraints_;
   typename EliminationTree<G::kDof>::Graph graph_;  ///< edge k: constraint k
   EliminationTree<G::kDof> tree_;
-  std::vector<char> is_linearised_;  ///< edges: already in this relinearisation
-  bool has_new_edges_ = false;       ///< since the last elimination
-  int iterations_ = 0;               ///< of the current update
-  double cost_ = 0.0;                ///< at the points of linearisation
-  double chi2_ = 0.0;                ///< at the estimate, kept up to date for `gate`
-  double unsolved_ = 0.0;            ///< chi2 of closures since the last solution, for `gate`
-  std::vector<std::size_t> moved_;   ///< poses, by the closures that are tested
-  std::size_t kept_ = 0;             ///< closures
+  IndexSet linearised_;         ///< edges, by the last relinearisation
+  bool has_new_edges_ = false;  ///< since the last elimination
+  int iterations_ = 0;          ///< of the current update
+  double cost_ = 0.0;           ///< at the points of linearisation
+  double chi2_ = 0.0;           ///< at the estimate, kept up to date for `gate`
+  double unsolved_ = 0.0;       ///< chi2 of closures since the last solution, for `gate`
+  IndexSet moved_;              ///< poses, by the last optimise()
+  std::size_t kept_ = 0;        ///< closures
 };
 
 }  // namespace
