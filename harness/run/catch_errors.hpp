@@ -4,9 +4,9 @@
 #include <exception>
 #include <new>
 
+#include "datasets/core/error.hpp"
 #include "harness/model/status.hpp"
 #include "harness/run/check_output.hpp"
-#include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench::harness {
 
@@ -16,13 +16,13 @@ inline const char* message_of(const std::exception& error) {
   return out != nullptr && *out != '\0' ? out : "threw an exception without a message";
 }
 
-/// Runs `work` and sets status and why of `result` for any exception: declined for Undefined
-/// metrics, otherwise failed.
+/// Runs `work` and sets status and why of `result` for any exception: declined for Declined,
+/// otherwise failed.
 template <class Result, class Work>
 void catch_errors(Result& result, Work work) {
   try {
     work();
-  } catch (const metrics::Undefined& reason) {
+  } catch (const Declined& reason) {
     result.status = Status::declined;
     result.why = stored_reason(message_of(reason));
   } catch (const std::bad_alloc&) {

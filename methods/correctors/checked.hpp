@@ -1,6 +1,7 @@
 /// Runs any corrector on the pairwise consistent loop closures only.
 #pragma once
 
+#include "datasets/core/error.hpp"
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/consistency.hpp"
 #include "methods/method.hpp"
@@ -42,8 +43,8 @@ class PairwiseConsistent final : public Corrector {
 
   bool accepts_anchors() const override { return base_.accepts_anchors(); }
 
-  /// Counts: those of `Base`, and `closures_consistent`. Throws std::runtime_error when `Base`
-  /// throws or declines the remaining closures.
+  /// Counts: those of `Base`, and `closures_consistent`. Throws Declined when `Base` declines
+  /// the remaining closures, and what it throws.
   Trajectory correct(const Problem& problem, Report& report) const override {
     Problem reduced{problem.keyframes, problem.odometry, {}, {}, problem.planar};
     reduced.anchors = problem.anchors;
@@ -64,7 +65,7 @@ class PairwiseConsistent final : public Corrector {
       return problem.keyframes;
     }
     if (const std::string why = base_.why_declined(reduced); !why.empty()) {
-      throw std::runtime_error(why);
+      throw Declined(why);
     }
     return base_.correct(reduced, report);
   }

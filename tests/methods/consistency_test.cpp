@@ -127,6 +127,14 @@ TEST(Consistency, CheckedCorrectorDeclinesWhatItsBaseDeclines) {
       << "how many closures are left is known after the check";
 }
 
+TEST(Consistency, CheckedCorrectorDeclinesMoreConsistentClosuresThanItsBaseTakes) {
+  PairwiseConsistentOptions<Dual> few;
+  few.base.max_closures = 1;
+  const Problem problem = line({{0, 5, 5.0}, {2, 8, 6.0}});
+  EXPECT_EQ(PairwiseConsistent<Dual>(few).why_declined(problem), "");  // known after the check
+  EXPECT_THROW(test::corrected<PairwiseConsistent<Dual>>(problem, few), Declined);
+}
+
 TEST(MaxClique, FindsAPlantedOneAndProvesIt) {
   std::mt19937_64 random(2);
   std::bernoulli_distribution joined(0.5);
