@@ -26,7 +26,7 @@ class DualIncremental final : public Corrector {
   struct Options {
     int max_iterations = 100;
     double tolerance = 1e-12;
-    int max_closures = 1000;
+    int max_closures = 300;
   };
   explicit DualIncremental(const Options& options) : options_(options) {}
 
