@@ -33,10 +33,11 @@ inline GridPose compose(const GridPose& pose, const GridPose& step) {
           (pose.turns + step.turns) % 4};
 }
 
-/// The pose of every vertex, from the odometry with every step rounded. All other edges, rounded,
-/// must lead to the same poses: that many measurements agree only if the world is such a grid and
-/// the noise is below half a step. Throws InputError `file:line: what` if the graph is not planar,
-/// an edge disagrees, or consecutive vertices have no edge. O(vertices + edges).
+/// The pose of every vertex, from the odometry with every step rounded. Every step must move, and
+/// all other edges, rounded, must lead to the same poses: that many measurements agree only if the
+/// world is such a grid and the noise is below half a step. Throws InputError `file:line: what` if
+/// the graph is not planar, a step or an edge breaks these rules, or consecutive vertices have no
+/// edge. O(vertices + edges).
 inline std::vector<Pose> grid_truth(const PoseGraph& graph, const std::filesystem::path& file) {
   if (!graph.planar) throw input_error(file.string(), 0, "is not planar, as truth_grid needs");
   const auto rounded = [](const Edge& edge) {
@@ -60,6 +61,13 @@ inline std::vector<Pose> grid_truth(const PoseGraph& graph, const std::filesyste
   }
   for (std::size_t i = 0; i < graph.edges.size(); ++i) {
     const Edge& edge = graph.edges[i];
+    if (edge.to == edge.from + 1 && rounded(edge) == GridPose{}) {
+      throw input_error(
+          file.string(),
+          graph.lines[i],
+          "a step of less than half a metre and an eighth of a turn: not the graph of "
+          "a grid (truth_grid)");
+    }
     if (compose(poses[edge.from], rounded(edge)) == poses[edge.to]) continue;
     throw input_error(file.string(),
                       graph.lines[i],

@@ -43,7 +43,19 @@ TEST(GridTruth, AnEdgeThatDisagreesIsAnError) {
   };
   EXPECT_THAT(refusal("EDGE_SE2 3 0 -1.98 2.03 -1.56 1 0 0 1 0 1\n"),
               HasSubstr("grid.g2o:4: this edge and the odometry"));
-  EXPECT_THAT(refusal("EDGE_SE2 4 5 1 0 0 1 0 0 1 0 1\n"), HasSubstr("no edge between vertices 3 and 4"));
+  EXPECT_THAT(refusal("EDGE_SE2 4 5 1 0 0 1 0 0 1 0 1\n"),
+              HasSubstr("no edge between vertices 3 and 4"));
+}
+
+TEST(GridTruth, ARealGraphWithShortStepsIsAnError) {
+  // All rounds to standing still, which would agree.
+  EXPECT_THAT(refusal_of([] {
+                load(
+                    "EDGE_SE2 0 1 0.3 0.02 0.1 1 0 0 1 0 1\n"
+                    "EDGE_SE2 1 2 0.3 0.01 0.2 1 0 0 1 0 1\n"
+                    "EDGE_SE2 0 2 0.4 0.05 0.3 1 0 0 1 0 1\n");
+              }),
+              HasSubstr("grid.g2o:1: a step of less than half a metre"));
 }
 
 TEST(GridTruth, NeedsAPlanarGraphAndNoOtherTruth) {
