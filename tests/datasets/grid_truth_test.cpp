@@ -42,9 +42,24 @@ TEST(GridTruth, AnEdgeThatDisagreesIsAnError) {
     return refusal_of([&] { load(kSteps + edge); });
   };
   EXPECT_THAT(refusal("EDGE_SE2 3 0 -1.98 2.03 -1.56 1 0 0 1 0 1\n"),
-              HasSubstr("grid.g2o:4: this edge and the odometry"));
-  EXPECT_THAT(refusal("EDGE_SE2 4 5 1 0 0 1 0 0 1 0 1\n"),
-              HasSubstr("no edge between vertices 3 and 4"));
+              HasSubstr("grid.g2o:4: truth_grid: not simulated in a grid: this edge"));
+  EXPECT_THAT(refusal(""), HasSubstr("no closures confirm it"));
+  const std::string vertices =
+      "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nVERTEX_SE2 2 2 0 0\nVERTEX_SE2 3 2 1 0\n"
+      "VERTEX_SE2 4 2 2 0\n";
+  EXPECT_THAT(refusal(vertices), HasSubstr("no edge from 3 to 4"));
+}
+
+TEST(GridTruth, StepsOfAnotherLengthAreAnError) {
+  // Out and back in steps of 1.3 m: whole metres would agree with each other.
+  EXPECT_THAT(refusal_of([] {
+                load(
+                    "EDGE_SE2 0 1 1.3 0 0 1 0 0 1 0 1\n"
+                    "EDGE_SE2 1 2 1.3 0 3.14 1 0 0 1 0 1\n"
+                    "EDGE_SE2 2 3 1.3 0 0 1 0 0 1 0 1\n"
+                    "EDGE_SE2 1 3 0 0 3.14 1 0 0 1 0 1\n");
+              }),
+              HasSubstr("rounding changes its steps by 0.3 m on average"));
 }
 
 TEST(GridTruth, ARealGraphWithShortStepsIsAnError) {
@@ -55,7 +70,7 @@ TEST(GridTruth, ARealGraphWithShortStepsIsAnError) {
                     "EDGE_SE2 1 2 0.3 0.01 0.2 1 0 0 1 0 1\n"
                     "EDGE_SE2 0 2 0.4 0.05 0.3 1 0 0 1 0 1\n");
               }),
-              HasSubstr("grid.g2o:1: a step of less than half a metre"));
+              HasSubstr("grid.g2o:1: truth_grid: not simulated in a grid: a step that rounds"));
 }
 
 TEST(GridTruth, NeedsAPlanarGraphAndNoOtherTruth) {
@@ -64,7 +79,7 @@ TEST(GridTruth, NeedsAPlanarGraphAndNoOtherTruth) {
                     "EDGE_SE3:QUAT 0 1 1 0 0 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 "
                     "0 0 1 0 1\n");
               }),
-              HasSubstr("is not planar"));
+              HasSubstr("the graph is not planar"));
   EXPECT_THAT(refusal_of([] {
                 load(kSteps, {{"truth", "truth.g2o"}});
               }),
