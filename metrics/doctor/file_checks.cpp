@@ -40,7 +40,7 @@ std::optional<InputFinding> check_swapped(const std::string& reference_name,
   if (names_truth(reference_name) || !names_truth(estimate_name)) return std::nullopt;
   return InputFinding{Fault::swapped,
                       "the estimate is named like a reference: " + estimate_name,
-                      "exchange REF and EST",
+                      "exchange REF and EST if the name is right: nothing else was compared",
                       0.9};
 }
 
