@@ -99,7 +99,7 @@ void check_combination(const PoseGraphOptions& o, const Params& given) {
   if (o.path.empty()) throw OptionError("path", "path: is empty, expected a g2o file");
   pose_of(o.reference_body);  // throws if it is not a valid pose
   if (o.truth_grid && !o.truth.empty())
-    throw OptionError("truth_grid", "truth_grid: there is a truth already, expected one of them");
+    throw OptionError("truth_grid", "truth_grid: truth is given too, expected one of the two");
   if (o.truth.empty()) {
     reject_disabled_by_missing(given, "reference_body.", "truth");
     reject_disabled_by_missing(given, "truth_axes", "truth");

@@ -83,7 +83,7 @@ TEST(GridTruth, NeedsAPlanarGraphAndNoOtherTruth) {
   EXPECT_THAT(refusal_of([] {
                 load(kSteps, {{"truth", "truth.g2o"}});
               }),
-              HasSubstr("there is a truth already"));
+              HasSubstr("truth is given too"));
 }
 
 }  // namespace
