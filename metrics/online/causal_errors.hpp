@@ -17,16 +17,22 @@ namespace loopbench::metrics {
 /// like any other estimate, with an alignment of its own. The replay must outlive the result.
 /// Throws Undefined if the method was not replayed; `metric` is named in the reason. O(n log n).
 inline Evaluation causal_evaluation(const Evaluation& evaluation,
-                                    const std::string& metric = "causal") {
+                                    const Protocol& protocol,
+                                    const std::string& metric) {
   const Replay& replay = replay_of(evaluation, metric);
   const Trajectory& reference = needed(evaluation.context.reference, metric, "a reference");
-  Evaluation out = evaluate(reference, replay.causal, evaluation.protocol);
+  Evaluation out = evaluate(reference, replay.causal, protocol);
   out.context = {.reference = &reference,
                  .estimate = &replay.causal,
                  .problem = evaluation.context.problem,
                  .times = Times::keyframes,
-                 .protocol = evaluation.protocol};
+                 .protocol = protocol};
   return out;
+}
+
+inline Evaluation causal_evaluation(const Evaluation& evaluation,
+                                    const std::string& metric = "causal") {
+  return causal_evaluation(evaluation, evaluation.protocol, metric);
 }
 
 /// Scores of ate() and rpe() for the causal trajectory. Throws as causal_evaluation().

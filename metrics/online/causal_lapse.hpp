@@ -1,4 +1,4 @@
-/// For how long a robot is lost: time for which the pose that it has exceeds an error.
+/// For how long the pose that a robot has is wrong.
 #pragma once
 
 #include <algorithm>
@@ -22,15 +22,18 @@ void fields(CausalLapseOptions& o, Visit visit) {
 /// causal_evaluation(). O(n log n).
 inline std::vector<Score> causal_lapse(const Evaluation& evaluation,
                                        const CausalLapseOptions& options) {
-  Evaluation unaligned = evaluation;
-  unaligned.protocol.align = Align::none;
-  const Evaluation causal = causal_evaluation(unaligned, "causal_lapse");
+  Protocol unaligned = evaluation.protocol;
+  unaligned.align = Align::none;
+  unaligned.project = ProjectionPlane::none;  // comes after the alignment
+  const Evaluation causal = causal_evaluation(evaluation, unaligned, "causal_lapse");
   Trajectory poses = moved(evaluation.alignment, causal.estimate);
+  Trajectory reference = causal.reference;
   project(poses, evaluation.protocol.project);
+  project(reference, evaluation.protocol.project);
   double longest = 0.0, total = 0.0, stretch = 0.0;
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    const Vector3 error = poses[i - 1].world_from_body.translation -
-                          causal.reference[i - 1].world_from_body.translation;
+    const Vector3 error =
+        poses[i - 1].world_from_body.translation - reference[i - 1].world_from_body.translation;
     const double step = poses[i].stamp - poses[i - 1].stamp;
     stretch = error.norm() > options.limit ? stretch + step : 0.0;
     longest = std::max(longest, stretch);

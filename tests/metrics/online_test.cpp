@@ -78,6 +78,12 @@ TEST(CausalLapse, IsAlignedAsTheLastTrajectory) {
   EXPECT_DOUBLE_EQ(find(scores, "share", "").mean, 75.0);
 }
 
+TEST(CausalLapse, IsProjectedByTheProtocol) {
+  // All errors are along x.
+  EvaluatedCell cell = drive({.align = Align::none, .project = ProjectionPlane::yz});
+  EXPECT_DOUBLE_EQ(find(causal_lapse(cell.evaluation, {.limit = 0.4}), "longest", "").mean, 0.0);
+}
+
 TEST(ClosureErrors, AreThoseOfTheCurrentPose) {
   const std::vector<Score> scores = closure_errors(drive().evaluation);
   EXPECT_DOUBLE_EQ(find(scores, "translation", "before").mean, 0.75);  // 0.5 and 1
