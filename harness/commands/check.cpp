@@ -51,8 +51,10 @@ int update(const CheckArguments& arguments) {
     baseline.limits.insert(baseline.limits.begin(), times.begin(), times.end());
   }
   baseline.snapshot = snapshot(arguments.store, baseline.limits);
-  if (arguments.time && !selects_a_score(baseline.limits[1], baseline.snapshot)) {
-    baseline.limits.erase(baseline.limits.begin() + 1);  // no update_time in this sweep
+  if (arguments.time) {  // a sweep without replays has no times of updates
+    std::erase_if(baseline.limits, [&](const Tolerance& limit) {
+      return limits_time(limit) && !selects_a_score(limit, baseline.snapshot);
+    });
   }
   try {
     require_used_limits(baseline);
