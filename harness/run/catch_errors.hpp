@@ -16,8 +16,8 @@ inline const char* message_of(const std::exception& error) {
   return out != nullptr && *out != '\0' ? out : "threw an exception without a message";
 }
 
-/// Runs `work` and sets status and why of `result` for any exception: declined for Declined,
-/// otherwise failed.
+/// Runs `work` and sets status and why of `result` for any exception: declined for an exception
+/// Declined, otherwise failed.
 template <class Result, class Work>
 void catch_errors(Result& result, Work work) {
   try {

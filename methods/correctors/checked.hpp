@@ -43,8 +43,8 @@ class PairwiseConsistent final : public Corrector {
 
   bool accepts_anchors() const override { return base_.accepts_anchors(); }
 
-  /// Counts: those of `Base`, and `closures_consistent`. Throws Declined when `Base` declines
-  /// the remaining closures, and what it throws.
+  /// Counts: those of `Base`, and `closures_consistent`. Throws Declined if `Base` declines the
+  /// remaining closures, and what `Base` throws.
   Trajectory correct(const Problem& problem, Report& report) const override {
     Problem reduced{problem.keyframes, problem.odometry, {}, {}, problem.planar};
     reduced.anchors = problem.anchors;

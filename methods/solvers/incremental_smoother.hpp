@@ -42,10 +42,11 @@ struct IncrementalSettings {
 ///
 /// With `gate`, closures are added one by one, and a closure is removed again if it raises chi2,
 /// the minimum of the cost, by more than the 99 % quantile of its distribution: for a true closure
-/// and correct covariances, the increase is chi-squared with the dimensions of a pose. Closures
-/// that cost less than that where the poses are need no solution of their own. It is the test of
-/// IPC without its limitation to the loops that overlap: Olivastri and Pretto, IPC: incremental
-/// probabilistic consensus-based consistent set maximization, IROS 2024 (arXiv 2405.08503).
+/// and correct covariances, the increase is chi-squared with the dimensions of a pose. A closure
+/// whose chi2 at the present poses is below that is accepted without a solution of its own. It is
+/// the test of IPC without its limitation to the loops that overlap: Olivastri and Pretto, IPC:
+/// incremental probabilistic consensus-based consistent set maximization, IROS 2024 (arXiv
+/// 2405.08503).
 ///
 /// With `graduated`, closures have the weights of graduated_loss.hpp, with that quantile as scale.
 /// When closures arrive, these and all closures of the poses that they move begin convex (mu = 0)
