@@ -2,13 +2,19 @@
 
 # Precompiled headers: parsed once, and clang instantiates the templates that they use once. Sources still
 # include what they use: clang-tidy and header verification build without precompiled headers.
-file(GLOB loopbench_core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/datasets/core/*.hpp)
+# In a header of our own: CMake gives its own list of them an old time, so that a new one would build nothing again.
+file(GLOB loopbench_core_headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
+  ${PROJECT_SOURCE_DIR}/datasets/core/*.hpp)
+list(TRANSFORM loopbench_core_headers REPLACE "(.+)" "<\\1>")
 set(loopbench_slow_headers
   <Eigen/Cholesky> <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <algorithm> <filesystem> <fstream> <functional> <map>
   <memory> <optional> <set> <sstream> <string> <vector> <fmt/format.h> ${loopbench_core_headers})
 if(LOOPBENCH_PROGRAM)
   list(APPEND loopbench_slow_headers <nlohmann/json.hpp>)
 endif()
+list(TRANSFORM loopbench_slow_headers REPLACE "(.+)" "#include \\1\n")
+list(JOIN loopbench_slow_headers "" loopbench_slow_headers)
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/slow_headers.hpp CONTENT "${loopbench_slow_headers}" @ONLY)
 file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/empty.cpp CONTENT "")
 add_library(loopbench_headers OBJECT ${PROJECT_BINARY_DIR}/empty.cpp)
 set_target_properties(loopbench_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
@@ -16,7 +22,7 @@ target_compile_features(loopbench_headers PRIVATE cxx_std_20)
 target_link_libraries(loopbench_headers PRIVATE
   loopbench_warnings Eigen3::Eigen fmt::fmt $<TARGET_NAME_IF_EXISTS:nlohmann_json::nlohmann_json>)
 target_include_directories(loopbench_headers PRIVATE ${PROJECT_SOURCE_DIR})
-target_precompile_headers(loopbench_headers PRIVATE ${loopbench_slow_headers})
+target_precompile_headers(loopbench_headers PRIVATE ${PROJECT_BINARY_DIR}/slow_headers.hpp)
 
 # loopbench_library(<name> FOLDER <dir> [ONLY <regex>] [EXCEPT <regex>] [LINK <public>...] [PRIVATE <hidden>...])
 # Contains every .hpp and .cpp below FOLDER; new files are added automatically.
