@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "datasets/core/knot_curve.hpp"
+#include "datasets/core/median_interval.hpp"
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/gp/posterior.hpp"
 #include "methods/smoothers/penalised/reinsch.hpp"

@@ -1,11 +1,11 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "datasets/core/closest_rotation.hpp"
 #include "methods/solvers/block_cholesky.hpp"
 #include "methods/solvers/initial_values.hpp"
 #include "methods/solvers/kept_order.hpp"
@@ -73,17 +73,6 @@ class System {
   Eigen::MatrixXd right_;
 };
 
-Rotation nearest_rotation(const Matrix3& M) {
-  const Eigen::JacobiSVD<Matrix3> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Matrix3 R = svd.matrixU() * svd.matrixV().transpose();
-  if (R.determinant() < 0.0) {
-    Matrix3 U = svd.matrixU();
-    U.col(2) = -U.col(2);
-    R = U * svd.matrixV().transpose();
-  }
-  return Rotation(R).normalized();
-}
-
 struct WeightedEdges {
   explicit WeightedEdges(const Problem& problem) {
     for (const std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
@@ -138,7 +127,7 @@ void spatial_rotations(const WeightedEdges& edges,
   const Eigen::MatrixXd& transposed = rotations.solve("rotations");
   for (std::size_t i = 1; i < out.size(); ++i) {
     const Matrix3 M = transposed.middleRows<3>(3 * static_cast<Eigen::Index>(i - 1)).transpose();
-    out[i].pose.rotation = nearest_rotation(M);
+    out[i].pose.rotation = Rotation(closest_rotation(M)).normalized();
   }
 }
 

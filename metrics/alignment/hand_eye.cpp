@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "datasets/core/closest_rotation.hpp"
 #include "datasets/core/so3.hpp"
 #include "datasets/core/upper_median.hpp"
 
@@ -54,12 +55,10 @@ double difference(const std::vector<RelativePosePair>& pairs,
   return out;
 }
 
-/// The rotation by Kabsch's method.
-Rotation rotation_of(const Eigen::JacobiSVD<Matrix3>& svd) {
-  Matrix3 flip = Matrix3::Identity();
-  flip(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  Rotation rotation(Matrix3(svd.matrixU() * flip * svd.matrixV().transpose()));
-  if (rotation.w() < 0.0) rotation.coeffs() *= -1.0;  // the same rotation with w >= 0, as in files
+/// The closest rotation, with w >= 0 as in files.
+Rotation rotation_of(const Matrix3& m) {
+  Rotation rotation(closest_rotation(m));
+  if (rotation.w() < 0.0) rotation.coeffs() *= -1.0;
   return rotation.normalized();
 }
 
@@ -75,13 +74,11 @@ RotationFit fit_rotation(const std::vector<RelativePosePair>& pairs) {
     if (sizes.translations > 0.0)
       translations += z.translation * q.translation.transpose() / sizes.translations;
   }
-  constexpr unsigned kFullMatrices = Eigen::ComputeFullU | Eigen::ComputeFullV;
-  Eigen::JacobiSVD<Matrix3> svd(rotations, kFullMatrices);
   // Displacements also depend on the unknown lever arm: use them only if all rotations share an
   // axis.
-  const bool about_one_axis = svd.singularValues()[1] <= kSecondAxis * svd.singularValues()[0];
-  if (about_one_axis) svd.compute(rotations + translations, kFullMatrices);
-  const Rotation rotation = rotation_of(svd);
+  const Vector3 sizes_of_axes = Eigen::JacobiSVD<Matrix3>(rotations).singularValues();
+  const bool about_one_axis = sizes_of_axes[1] <= kSecondAxis * sizes_of_axes[0];
+  const Rotation rotation = rotation_of(about_one_axis ? rotations + translations : rotations);
   const double before = difference(pairs, sizes, Rotation::Identity());
   if (before <= kNothing || log_so3(rotation).norm() < kMinRotation) return {};
   const double explained = 1.0 - difference(pairs, sizes, rotation) / before;

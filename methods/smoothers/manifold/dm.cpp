@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "datasets/core/median_interval.hpp"
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/manifold/dm_report.hpp"
 #include "methods/smoothers/manifold/planar.hpp"

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "datasets/core/knot_span.hpp"
+#include "datasets/core/median_interval.hpp"
 #include "datasets/core/polyline.hpp"
-#include "datasets/core/upper_median.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -75,14 +75,6 @@ void add_rotations(const Trajectory& poses,
 }
 
 }  // namespace
-
-double median_interval(const Trajectory& poses) {
-  std::vector<double> intervals;
-  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
-    intervals.push_back(poses[i + 1].stamp - poses[i].stamp);
-  }
-  return upper_median(intervals);
-}
 
 std::vector<PoseRun> runs_without_breaks(std::size_t poses,
                                          const std::function<bool(std::size_t)>& cut) {

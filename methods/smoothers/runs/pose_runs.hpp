@@ -17,9 +17,6 @@ struct PoseRun {
   bool operator==(const PoseRun&) const = default;
 };
 
-/// Returns the median time between consecutive poses [s]. Requires at least two poses. O(n).
-double median_interval(const Trajectory& poses);
-
 /// Splits at least one pose into segments at the intervals (i, i + 1) for which `cut(i)` holds.
 /// O(n).
 std::vector<PoseRun> runs_without_breaks(std::size_t poses,
