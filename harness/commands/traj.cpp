@@ -164,7 +164,7 @@ int transform(const TrajArguments& a) {
   if (given.empty() && (a.invert || !a.conventions.any())) {
     throw InputError(
         "transform: expected --left or --right (also for --invert), or any of --quaternion-order, "
-        "--conjugate, --axes, --scale, --stamp-scale, --invert-poses");
+        "--conjugate, --axes, --mirror, --scale, --stamp-scale, --invert-poses");
   }
   std::optional<Similarity> similarity;
   if (!given.empty()) similarity = read_similarity(given);

@@ -91,6 +91,8 @@ void declare_transform(CLI::App& verb, TrajArguments& a) {
   verb.add_flag("--conjugate", c.conjugate, "Invert the rotations, but not the positions");
   verb.add_option("--axes", c.axes, "Source axis of x, y and z of the positions: --axes=-y,x,z")
       ->type_name("AXES");
+  verb.add_option("--mirror", c.mirror, "Axis to reverse in positions and rotations (left-handed)")
+      ->type_name("WORD:x|y|z");
   verb.add_option("--scale", c.scale, "Factor of the positions: 0.001 for millimetres")
       ->check(finite_number());
   verb.add_option("--stamp-scale", c.stamp_scale, "Factor of the stamps: 0.001 for milliseconds")

@@ -8,7 +8,10 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <vector>
+
+#include "datasets/core/mirrored.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -147,8 +150,8 @@ Trajectory transformed(Trajectory poses, const Similarity& similarity, Transform
 }
 
 bool Conventions::any() const {
-  return !quaternion_order.empty() || conjugate || !axes.empty() || scale != 1.0 ||
-         stamp_scale != 1.0 || invert_poses;
+  return !quaternion_order.empty() || conjugate || !axes.empty() || !mirror.empty() ||
+         scale != 1.0 || stamp_scale != 1.0 || invert_poses;
 }
 
 TrajectoryFile corrected(TrajectoryFile file, const Conventions& conventions) {
@@ -156,6 +159,10 @@ TrajectoryFile corrected(TrajectoryFile file, const Conventions& conventions) {
   const std::string& order = conventions.quaternion_order;
   if (!order.empty() && order != "wxyz" && order != "xyzw") {
     throw InputError("--quaternion-order = " + order + ", expected wxyz or xyzw");
+  }
+  const std::size_t mirrored_axis = std::string_view("xyz").find(conventions.mirror);
+  if (conventions.mirror.size() > 1 || mirrored_axis == std::string_view::npos) {
+    throw InputError("--mirror = " + conventions.mirror + ", expected x, y or z");
   }
   check_factor("--scale", conventions.scale);
   check_factor("--stamp-scale", conventions.stamp_scale);
@@ -168,6 +175,7 @@ TrajectoryFile corrected(TrajectoryFile file, const Conventions& conventions) {
     if (!order.empty()) pose.rotation = reordered(pose.rotation, order);
     if (conventions.conjugate) pose.rotation = pose.rotation.conjugate();
     pose.translation = conventions.scale * (axes * pose.translation);
+    if (!conventions.mirror.empty()) pose = mirrored(pose, static_cast<int>(mirrored_axis));
     stamp *= conventions.stamp_scale;
     if (conventions.invert_poses) pose = normalized(pose.inverse());
   }

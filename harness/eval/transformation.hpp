@@ -36,6 +36,7 @@ struct Conventions {
   std::string quaternion_order;  ///< of the file: wxyz | xyzw, if read in the other; empty: as read
   bool conjugate = false;        ///< invert rotations, not positions
   std::string axes;           ///< source axis of x, y, z of the positions, "-y,x,z"; empty: as read
+  std::string mirror;         ///< x, y or z: reversed in positions and rotations; empty: as read
   double scale = 1.0;         ///< factor of the positions
   double stamp_scale = 1.0;   ///< factor of the stamps
   bool invert_poses = false;  ///< body_from_world -> world_from_body
@@ -44,8 +45,8 @@ struct Conventions {
 };
 
 /// Applies all corrections in the order of their declaration. Covariances are removed if poses
-/// change; exact stamps too, if stamps are scaled. Throws InputError for an invalid order, list of
-/// axes or factor. O(n).
+/// change; exact stamps too, if stamps are scaled. Throws InputError for an invalid order, axis,
+/// list of axes or factor. O(n).
 TrajectoryFile corrected(TrajectoryFile file, const Conventions& conventions);
 
 }  // namespace loopbench::harness
