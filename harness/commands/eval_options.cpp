@@ -200,7 +200,10 @@ void declare(CLI::App& command, EvalArguments& a) {
           "--save_results",
           a.save_results,
           "Zip file for the APE of the only EST, as evo writes it, for `table` and `compare`")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->excludes("--delta")
+      ->excludes("--unit")
+      ->excludes("--metric");
   command
       .add_option("--per-pose",
                   a.per_pose,
