@@ -26,8 +26,7 @@ void read_scores(const std::string& baseline, std::size_t bytes, ReportContent& 
   std::set<SharedText> taken;
   reader.for_each([&](const Record& r) {
     if (!baseline.empty()) observed.add(r);
-    const bool has_value = has_numbers(r.status);
-    if (!r.metric.empty() && !has_value) out.undefined.push_back(r);
+    if (!r.metric.empty() && r.status != Status::ok) out.undefined.push_back(r);
     const bool has_room = out.records.size() < bytes / kLeastBytesOfAScore;
     if (taken.empty() || has_room) taken.insert(r.sequence);
     if (taken.contains(r.sequence)) out.records.push_back(r);

@@ -74,8 +74,9 @@ std::map<Reason, Affected> reasons_of_scores(const ReportContent& content) {
 }  // namespace
 
 std::string failures_html(const ReportContent& content) {
-  const std::string out = reasons_table("cells without results", reasons_of_cells(content), false) +
-                          reasons_table("undefined scores", reasons_of_scores(content), true);
+  const std::string out =
+      reasons_table("cells without results", reasons_of_cells(content), false) +
+      reasons_table("undefined or incomplete scores", reasons_of_scores(content), true);
   return out.empty() ? "<p>Every cell finished and every score has a value.</p>\n" : out;
 }
 

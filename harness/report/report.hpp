@@ -23,7 +23,7 @@ struct ReportContent {
   std::map<std::string, std::vector<InputFile>> inputs;
   std::vector<CellRecord> cells;
   std::vector<Comparison> comparisons;  ///< one for each score; empty without a baseline
-  std::vector<Record> undefined;        ///< scores without a value
+  std::vector<Record> undefined;        ///< scores without a value, or of incomplete estimates
   std::vector<std::string> sequences;   ///< labels in the order of the sweep
   std::vector<std::string> methods;     ///< likewise
 

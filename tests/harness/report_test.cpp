@@ -98,7 +98,7 @@ TEST_F(OfASweep, TellsWithoutScripts) {
   for (const char* part : {"<h1>c</h1>",
                            "set to fail",
                            "set to decline",
-                           "undefined scores",
+                           "undefined or incomplete scores",
                            "set to be undefined",
                            "verdict for every score",
                            "Protocol of every number",
