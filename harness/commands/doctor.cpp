@@ -51,6 +51,9 @@ Diagnosed of_graph(const std::string& file) {
                         .closures = std::move(parts.closures)};
   Diagnosed out = of_closures(file, problem);
   if (graph.altered > 0) {  // other commands refuse such a graph
+    std::erase_if(out.result.findings, [](const metrics::InputFinding& finding) {
+      return finding.fault == metrics::Fault::information_scale;  // of what is left of it
+    });
     out.result.findings.push_back(
         {metrics::Fault::information_indefinite,
          fmt::format("the information of {} of {} edges is not positive definite",

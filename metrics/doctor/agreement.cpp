@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "datasets/core/closest_rotation.hpp"
 #include "metrics/alignment/hand_eye.hpp"
 #include "metrics/numerics/angle.hpp"
 #include "metrics/pairing/motion.hpp"
@@ -37,14 +37,6 @@ Eigen::Matrix3Xd positions(const Trajectory& list) {
     out.col(static_cast<Eigen::Index>(i)) = list[i].world_from_body.translation;
   }
   return out;
-}
-
-/// Rotation R that maximises trace(R^T M).
-Matrix3 closest_rotation(const Matrix3& m) {
-  const Eigen::JacobiSVD<Matrix3> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Matrix3 product = svd.matrixU() * svd.matrixV().transpose();
-  const double sign = product.determinant() < 0.0 ? -1.0 : 1.0;
-  return svd.matrixU() * Vector3(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
 }
 
 /// Motions in body frames over short intervals that begin in the part for fits, or for tests.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "datasets/core/median_interval.hpp"
 #include "datasets/core/upper_median.hpp"
 #include "metrics/pairing/association.hpp"
 
@@ -15,18 +16,9 @@ inline double median_value(std::vector<double> values) {
   return values.empty() ? 0.0 : upper_median(values);
 }
 
-/// Median time between poses [s]; 0 below two poses. O(n).
-inline double usual_interval(const Trajectory& poses) {
-  std::vector<double> intervals;
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    intervals.push_back(poses[i].stamp - poses[i - 1].stamp);
-  }
-  return median_value(std::move(intervals));
-}
-
 /// Longest time between poses of the reference across which it is interpolated [s]. O(n).
 inline double longest_gap(const Trajectory& reference) {
-  return std::max(1.0, 10.0 * usual_interval(reference));
+  return std::max(1.0, 10.0 * median_interval(reference));
 }
 
 /// At most 1500 poses of the estimate, evenly chosen, with the reference interpolated at stamp +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/graph_checks.hpp"
@@ -13,7 +14,6 @@ namespace loopbench::metrics {
 namespace {
 
 constexpr std::size_t kVotes = 3, kFewestForVotes = 10;
-constexpr double kLeastFalseGap = 2.0;  // [m]; smaller gaps are no false closures
 
 /// The end of one closure over another path between its keyframes.
 struct Gap {
@@ -69,22 +69,33 @@ GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain) {
   for (const Edge& edge : closures) sorted.push_back(&edge);
   std::ranges::stable_sort(sorted, {}, [](const Edge* e) { return std::max(e->from, e->to); });
   std::vector<Gap> of_odometry, of_closures;
+  std::vector<double> distances, angles;
   std::vector<std::vector<Gap>> votes;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const Pose gap = gap_of(*sorted[i], chain);
     of_odometry.push_back(
-        {gap_of(*sorted[i], chain), std::max(1.0, chain.length(sorted[i]->from, sorted[i]->to))});
+        {gap.translation.norm(), std::max(1.0, chain.length(sorted[i]->from, sorted[i]->to))});
+    distances.push_back(gap.translation.norm());
+    angles.push_back(log_so3(gap.rotation).norm());
     votes.push_back(gaps_over_closures(sorted, i, chain));
     of_closures.push_back(votes[i].empty() ? of_odometry[i] : votes[i].front());
   }
-  const auto over = [](const Gap& gap, double limit) {
-    return gap.distance > kLeastFalseGap ? gap.distance / (kLeastFalseGap + limit * gap.length)
-                                         : 0.0;
+  constexpr double kMostAngle = 1.3;  // [rad]; odometry is nearer to true closures
+  const bool are_all_false = median_value(std::move(angles)) > kMostAngle;
+  // Smaller gaps are no false closures [m].
+  const double least = std::clamp(20.0 * median_value(std::move(distances)), 0.3, 2.0);
+  const auto over = [&](const Gap& gap, double limit) {
+    return gap.distance > least ? gap.distance / (least + limit * gap.length) : 0.0;
   };
   const double drift = most_drift(of_odometry), drift_of_closures = most_drift(of_closures);
+  struct Contradicted {
+    double size = 0.0;  ///< of the gap, over its limit
+    const Edge* edge = nullptr;
+    Gap gap;
+  };
   GapCheck out;
-  const Edge* worst = nullptr;
-  Gap of_worst;
-  double largest = 0.0, squares = 0.0, squares_of_false = 0.0;  // of gaps [m^2]
+  std::vector<Contradicted> contradicted;
+  double squares = 0.0, squares_of_false = 0.0;  // of gaps [m^2]
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     Gap gap = of_odometry[i];
     double size = over(gap, drift), distance = gap.distance;
@@ -96,45 +107,48 @@ GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain) {
       if (by_size(middle) > size) gap = middle;
       size = std::max(size, by_size(middle));
     }
-    (size > 1.0 ? squares_of_false : squares) += distance * distance;
-    if (size <= 1.0) out.plausible.push_back(*sorted[i]);
-    if (size <= largest) continue;
-    largest = size;
-    worst = sorted[i];
-    of_worst = gap;
+    const bool is_false = size > 1.0 || are_all_false;
+    if (is_false) {
+      contradicted.push_back({size, sorted[i], gap});
+    } else {
+      out.plausible.push_back(*sorted[i]);
+    }
+    (is_false ? squares_of_false : squares) += distance * distance;
   }
   const auto rms = [](double sum, std::size_t count) {
     return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)));
   };
   constexpr double kMostLeft = 0.9;
+  constexpr std::size_t kListed = 5;
   const double before = rms(squares + squares_of_false, closures.size());
   const double after = rms(squares, out.plausible.size());
-  const std::size_t count = closures.size() - out.plausible.size();
-  if (count == 0 || after > kMostLeft * before) return {std::nullopt, closures};
+  if (contradicted.empty() || after > kMostLeft * before) return {std::nullopt, closures};
+  std::ranges::stable_sort(contradicted, std::greater{}, &Contradicted::size);
+  std::string list;
+  for (std::size_t i = 0; i < std::min(kListed, contradicted.size()); ++i) {
+    const auto& [size, edge, gap] = contradicted[i];
+    list += fmt::format("{}{} -> {} (gap of {:.3g} m after {:.3g} m)",
+                        list.empty() ? "" : ", ",
+                        edge->from,
+                        edge->to,
+                        gap.distance,
+                        gap.length);
+  }
   const bool is_all = out.plausible.empty();
   out.finding = InputFinding{
       Fault::closure_gap,
-      fmt::format("{} of {} closures contradict the odometry or other closures, most of all {} -> "
-                  "{}: the gap is {:.3g} m after {:.3g} m",
-                  count,
+      fmt::format("{} of {} closures contradict the odometry or other closures, most of all {}",
+                  contradicted.size(),
                   closures.size(),
-                  worst->from,
-                  worst->to,
-                  of_worst.distance,
-                  of_worst.length) +
+                  list) +
           (is_all
                ? ""
                : fmt::format("; without them, rms of the gaps {:.3g} -> {:.3g} m", before, after)),
       is_all ? "check units, frames and order of quaternions of all edges"
              : "check them; robust methods are made for false closures",
-      std::max(1.0 - after / before, 1.0 - 1.0 / largest),
-      static_cast<double>(count)};
+      std::max(1.0 - after / before, 1.0 - 1.0 / contradicted.front().size),
+      static_cast<double>(contradicted.size())};
   return out;
-}
-
-void exchange_blocks(std::vector<Edge>& edges) {
-  const std::array order{3, 4, 5, 0, 1, 2};
-  for (Edge& edge : edges) edge.information = Matrix6(edge.information(order, order));
 }
 
 /// The loops of a problem in groups, and the noise that fits each; loops alone if there are few, so
@@ -211,21 +225,34 @@ std::optional<InputFinding> check_information(const Problem& problem) {
   if (problem.closures.size() < kFewest) return std::nullopt;
   const GroupFits as_read(problem);
   std::vector<double> gaps;
-  for (const Edge& closure : problem.closures) gaps.push_back(gap_of(closure, as_read.chain));
+  for (const Edge& closure : problem.closures)
+    gaps.push_back(gap_of(closure, as_read.chain).translation.norm());
   if (median_value(std::move(gaps)) < kExactGap) return std::nullopt;
-  Problem other = problem;
-  exchange_blocks(other.odometry);
-  exchange_blocks(other.closures);
-  const GroupFits exchanged(other);
-  const double gained = gain(as_read.fits, exchanged.fits);
+  const auto gained_by = [&](auto change) {
+    Problem other = problem;
+    for (auto* edges : {&other.odometry, &other.closures}) {
+      for (Edge& edge : *edges) edge.information = change(edge.information);
+    }
+    return gain(as_read.fits, GroupFits(other).fits);
+  };
+  const double exchanged = gained_by([](const Matrix6& information) -> Matrix6 {
+    const std::array order{3, 4, 5, 0, 1, 2};
+    return information(order, order);
+  });
+  const double inverted =
+      gained_by([](const Matrix6& information) -> Matrix6 { return information.inverse(); });
+  const double gained = std::max(exchanged, inverted);
   if (gained > kLeastOfOrder * static_cast<double>(as_read.groups.size())) {
+    const bool is_order = exchanged >= inverted;
     return InputFinding{
-        Fault::information_order,
-        fmt::format("exchanging the blocks of translation and rotation: logarithm of the ratio of "
-                    "likelihoods of {} groups of loops {:.1f}",
+        is_order ? Fault::information_order : Fault::information_scale,
+        fmt::format("{}: logarithm of the ratio of likelihoods of {} groups of loops {:.1f}",
+                    is_order ? "exchanging the blocks of translation and rotation"
+                             : "inverting the information",
                     as_read.groups.size(),
                     gained),
-        "check the order of the blocks: g2o has those of x y z first",
+        is_order ? "check the order of the blocks: g2o has those of x y z first"
+                 : "write information, the inverse of covariances",
         1.0 - std::exp(-0.25 * gained),
         gained};
   }
@@ -237,9 +264,10 @@ std::optional<InputFinding> check_information(const Problem& problem) {
 std::vector<InputFinding> check_closures(const Problem& problem) {
   std::vector<InputFinding> out;
   const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
-  if (problem.closures.empty() || !is_chain) return out;
+  if (problem.closures.empty()) return out;
+  if (auto repair = find_repair_by_keyframes(problem)) return {*repair};
+  if (!is_chain) return out;
   const Chain chain = chain_of(problem);
-  if (auto repair = find_odometry_repair(problem)) return {*repair};
   const GapCheck gaps = check_gaps(problem.closures, chain);
   const std::size_t count = problem.closures.size();
   const bool are_few_false = 5 * (count - gaps.plausible.size()) < count;

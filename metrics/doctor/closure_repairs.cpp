@@ -26,6 +26,7 @@ struct EdgeRepair {
   EdgeChange change;
   double penalty = 0.0;             ///< logarithm of the number of alternatives
   double penalty_of_closure = 0.0;  ///< the same for each closure
+  bool is_of_vertices = false;      ///< changes them as well as the edges
 };
 
 Pose read_in_degrees(const Pose& p, const Rotation& predicted) {
@@ -41,6 +42,12 @@ Pose read_in_degrees(const Pose& p, const Rotation& predicted) {
 
 Pose unchanged_edge(const Pose& p, const Rotation&) { return p; }
 Pose inverted_edge(const Pose& p, const Rotation&) { return p.inverse(); }
+Pose reordered_edge(const Pose& p, const Rotation&) {
+  const Rotation& q = p.rotation;
+  return {Rotation(q.x(), q.y(), q.z(), q.w()), p.translation};
+}
+
+const EdgeRepair kAsRead{{}, "", "", unchanged_edge};
 
 /// Translations of `edges` in millimetres or centimetres, or those of the other edges: what has to
 /// be written in metres in these cases.
@@ -70,10 +77,7 @@ std::vector<EdgeRepair> candidates() {
        {Fault::closure_rotation,
         "quaternions of the closures in the order w x y z",
         "write their quaternions as x y z w",
-        [](const Pose& p, const Rotation&) -> Pose {
-          const Rotation& q = p.rotation;
-          return {Rotation(q.x(), q.y(), q.z(), q.w()), p.translation};
-        }},
+        reordered_edge},
        {Fault::closure_rotation,
         "multiplying the closures' angles by 57.3",
         "write their angles in radians, converted once",
@@ -125,50 +129,74 @@ double median_error(const std::vector<LoopFit>& fits, std::vector<double> LoopFi
   return median_value(std::move(all)) + 1e-6;  // rounding
 }
 
-/// Median difference of the odometry and the keyframes, over the keyframes' median step [-].
-double odometry_error(const Problem& problem, const EdgeChange& change) {
-  std::vector<double> errors, steps;
-  for (const Edge& edge : problem.odometry) {
-    const Pose step = problem.keyframes[edge.from].world_from_body.inverse() *
-                      problem.keyframes[edge.to].world_from_body;
-    errors.push_back(
-        (change(edge.from_from_to, step.rotation).translation - step.translation).norm());
+/// Median differences of edges and keyframes: of translations over the keyframes' median, plus of
+/// rotations [rad].
+double error_to_keyframes(const std::vector<Edge>& edges,
+                          const Trajectory& keyframes,
+                          const EdgeRepair& repair) {
+  std::vector<double> errors, angles, steps;
+  const auto keyframe = [&](std::size_t index) {
+    const Pose& as_read = keyframes[index].world_from_body;
+    return repair.is_of_vertices ? repair.change(as_read, as_read.rotation) : as_read;
+  };
+  for (const Edge& edge : edges) {
+    const Pose step = keyframe(edge.from).inverse() * keyframe(edge.to);
+    const Pose changed = repair.change(edge.from_from_to, step.rotation);
+    errors.push_back((changed.translation - step.translation).norm());
+    angles.push_back(angle_between(changed.rotation, step.rotation));
     steps.push_back(step.translation.norm());
   }
-  const double step = median_value(std::move(steps));
-  return step > 0.0 ? median_value(std::move(errors)) / step : 0.0;
+  const double step = median_value(std::move(steps)), angle = median_value(std::move(angles));
+  return step > 0.0 ? median_value(std::move(errors)) / step + angle : 0.0;
+}
+
+/// The first repair with which `edges` agree with the keyframes, if they do not as read.
+std::optional<InputFinding> repair_by_keyframes(const std::vector<Edge>& edges,
+                                                const Trajectory& keyframes,
+                                                const std::vector<EdgeRepair>& repairs) {
+  constexpr double kBad = 0.3, kBetter = 0.2;
+  const double before = error_to_keyframes(edges, keyframes, kAsRead);
+  if (before < kBad) return std::nullopt;
+  for (const EdgeRepair& repair : repairs) {
+    const double after = error_to_keyframes(edges, keyframes, repair);
+    if (after > kBetter * before) continue;
+    return InputFinding{repair.fault,
+                        fmt::format("{}: difference to the vertices {:.3g} -> {:.3g} (of a step, "
+                                    "and rad)",
+                                    repair.what,
+                                    before,
+                                    after),
+                        repair.fix,
+                        1.0 - after / before,
+                        static_cast<double>(edges.size())};
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<InputFinding> find_odometry_repair(const Problem& problem) {
-  constexpr double kBad = 0.3, kBetter = 0.2;
+std::optional<InputFinding> find_repair_by_keyframes(const Problem& problem) {
   std::vector<EdgeRepair> all =
       unit_repairs("the odometry", "all edges and vertices", "all edges and vertices");
   all.push_back({Fault::odometry_direction,
                  "inverting the odometry",
                  "exchange the two vertices of each odometry edge",
                  inverted_edge});
-  const double before = odometry_error(problem, unchanged_edge);
-  if (before < kBad) return std::nullopt;
-  for (const EdgeRepair& repair : all) {
-    const double after = odometry_error(problem, repair.change);
-    if (after > kBetter * before) continue;
-    return InputFinding{repair.fault,
-                        fmt::format("{}: difference to the vertices {:.3g} -> {:.3g} % of a step",
-                                    repair.what,
-                                    100.0 * before,
-                                    100.0 * after),
-                        repair.fix,
-                        1.0 - after / before,
-                        static_cast<double>(problem.odometry.size())};
-  }
-  return std::nullopt;
+  all.push_back({Fault::quaternion_order,
+                 "all quaternions in the order w x y z",
+                 "write the quaternions of all edges and vertices as x y z w",
+                 reordered_edge,
+                 0.0,
+                 0.0,
+                 true});
+  if (auto found = repair_by_keyframes(problem.odometry, problem.keyframes, all)) return found;
+  return repair_by_keyframes(problem.closures, problem.keyframes, candidates());
 }
 
 std::optional<InputFinding> find_closure_repair(const Problem& problem, const Chain& chain) {
   constexpr double kLeastChosen = 5.0, kLeastProven = 3.0;  // in logarithms of the likelihood
   constexpr double kMostRatio = 0.9, kMostOfUnit = 0.3;     // shrinking removes noise, too
+  constexpr double kMostGrowth = 1.1, kMostLeft = 0.9;      // [-], [rad]
   constexpr std::size_t kFewestForHalves = 6;               // fewer groups differ little by chance
   const std::vector<LoopGroup> groups = loop_groups(problem.closures, chain);
   std::vector<const LoopGroup*> chosen, tested;
@@ -177,11 +205,10 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
     if (!is_half || i % 2 == 0) chosen.push_back(&groups[i]);
     if (!is_half || i % 2 == 1) tested.push_back(&groups[i]);
   }
-  const EdgeRepair as_read{{}, "", "", unchanged_edge};
   static const std::vector<EdgeRepair> all = candidates();
   // Compared with the best so far: against the file as read, several reach the limit of gain().
-  const EdgeRepair* best = &as_read;
-  std::vector<LoopFit> best_fits = fits(chosen, chain, as_read);
+  const EdgeRepair* best = &kAsRead;
+  std::vector<LoopFit> best_fits = fits(chosen, chain, kAsRead);
   for (const EdgeRepair& repair : all) {
     std::vector<LoopFit> found = fits(chosen, chain, repair);
     const double least = (best->fault == repair.fault ? 0.0 : kLeastChosen) - best->penalty;
@@ -189,8 +216,8 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
     best_fits = std::move(found);
     best = &repair;
   }
-  if (best == &as_read) return std::nullopt;
-  const std::vector<LoopFit> was = fits(tested, chain, as_read);
+  if (best == &kAsRead) return std::nullopt;
+  const std::vector<LoopFit> was = fits(tested, chain, kAsRead);
   const std::vector<LoopFit> is = fits(tested, chain, *best);
   const double proven = gain(was, is);
   const bool is_unit = best->fault == Fault::closure_unit;
@@ -198,9 +225,12 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
   const double radians = median_error(was, &LoopFit::radians);
   const double metres_after = median_error(is, &LoopFit::metres);
   const double radians_after = median_error(is, &LoopFit::radians);
-  const double ratio =
-      is_unit ? metres_after / metres : std::min(metres_after / metres, radians_after / radians);
-  if (proven < kLeastProven || ratio > (is_unit ? kMostOfUnit : kMostRatio)) return std::nullopt;
+  const auto [smaller, larger] = std::minmax(metres_after / metres, radians_after / radians);
+  const double ratio = is_unit ? metres_after / metres : smaller;
+  if (proven < kLeastProven || ratio > (is_unit ? kMostOfUnit : kMostRatio) ||
+      larger > kMostGrowth || radians_after > kMostLeft) {
+    return std::nullopt;
+  }
   return InputFinding{
       best->fault,
       fmt::format("{}: error with which odometry and other closures predict a closure {:.3g} -> "

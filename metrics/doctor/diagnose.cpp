@@ -14,6 +14,7 @@ namespace {
 
 constexpr const char* kChecksOfPoses =
     "units, scale, quaternion order, inverted poses, axes, files of the same recording";
+constexpr double kConstant = 1e-6;     // of rotations [rad]
 constexpr double kLeastOfNoise = 3.0;  // standard deviation of positions over their noise
 
 /// Whether noise explains the positions: their standard deviation is at most kLeastOfNoise times
@@ -58,11 +59,8 @@ class PairDiagnosis {
                 const std::string& estimate_name,
                 bool has_stamps) {
     add(check_swapped(reference_name, estimate_name));
-    if (has_stamps) {
-      check_stamps();
-    } else {
-      out_.unchecked.emplace_back("time offset: a file has no stamps");
-    }
+    if (!has_stamps) out_.unchecked.emplace_back("stamps: a file has none, but rows at a rate");
+    if (has_stamps || reference_.size() != estimate_.size()) check_stamps(has_stamps);
     check_poses();
     std::erase_if(out_.findings,
                   [](const InputFinding& f) { return f.confidence < kLeastConfidence; });
@@ -75,10 +73,10 @@ class PairDiagnosis {
     return found.has_value();
   }
 
-  void check_stamps() {
+  void check_stamps(bool has_stamps) {
     out_.has_checked = add(repair_stamp_unit(reference_, estimate_));
-    const bool has_indices = add(repair_frame_indices(reference_, estimate_));
-    if (!has_indices && add(repair_clock_drift(reference_, estimate_))) return;
+    const bool has_rate = add(repair_rate(reference_, estimate_, has_stamps));
+    if (!has_rate && add(repair_clock(reference_, estimate_, has_stamps))) return;
     if (std::min(reference_.size(), estimate_.size()) < kFewestCommonPoses) {
       out_.unchecked.emplace_back("time offset: fewer than 20 poses");
     }
@@ -120,15 +118,18 @@ class PairDiagnosis {
       note_constant_rotation(largest_rotation_angle(poses.reference),
                              largest_rotation_angle(poses.estimate));
     }
+    const bool is_of_points = largest_rotation_angle(poses.reference) < kConstant &&
+                              largest_rotation_angle(poses.estimate) > kLeastRotation;
+    if (is_of_points) add(remove_lever_arm(poses));
     add(remove_jumps(poses));
-    for (int i = 0; i < kMostRepairs && add(apply_best_repair(poses)); ++i) {
+    for (int i = 0; i < kMostRepairs && add(apply_best_repair(poses, out_.findings)); ++i) {
     }
     check_recording(agreement(poses));
   }
 
   /// A finding only if the other file rotates. Files of positions are meant to have no rotations.
   void note_constant_rotation(double of_reference, double of_estimate) {
-    constexpr double kConstant = 1e-6, kOtherRotates = 0.1;  // [rad]
+    constexpr double kOtherRotates = 0.1;  // [rad]
     const auto [smaller, larger] = std::minmax(of_reference, of_estimate);
     const char* const name = of_reference <= kLeastRotation ? "reference" : "estimate";
     out_.unchecked.push_back(

@@ -49,41 +49,52 @@ std::optional<InputFinding> check_angle_unit(const Paired& poses) {
   constexpr double kMostOfOther = 2.5 / kDegrees;  // larger ones times 57 are ambiguous
   constexpr double kTolerance = 2.2;
   constexpr std::size_t kFewest = 8;
-  std::vector<double> ratios;
+  std::vector<std::pair<double, double>> angles;  // of the reference, of the estimate [rad]
   std::size_t from = 0;
   for (std::size_t to = 1; to < poses.estimate.size(); ++to) {
     const auto angle = [&](const Trajectory& list) {
       return angle_between(list[from].world_from_body.rotation, list[to].world_from_body.rotation);
     };
-    const double reference = angle(poses.reference), estimate = angle(poses.estimate);
-    const auto [smaller, larger] = std::minmax(reference, estimate);
+    const std::pair both{angle(poses.reference), angle(poses.estimate)};
+    const auto [smaller, larger] = std::minmax(both.first, both.second);
     if (larger < kLeast) continue;
-    if (larger <= kMost && smaller > 0.0 && smaller < kMostOfOther) {
-      ratios.push_back(estimate / reference);
-    }
+    if (larger <= kMost && smaller > 0.0 && smaller < kMostOfOther) angles.push_back(both);
     from = to;
   }
-  if (ratios.size() < kFewest) return std::nullopt;
-  const double ratio = median_value(std::move(ratios));
+  if (angles.size() < kFewest) return std::nullopt;
+  const auto median_of = [&](auto measure) {
+    std::vector<double> values;
+    for (const auto& [reference, estimate] : angles) {
+      values.push_back(measure(reference, estimate));
+    }
+    return median_value(std::move(values));
+  };
+  const double ratio = median_of([](double r, double e) { return e / r; });
   const bool is_large = ratio > 1.0;
-  const double factor = is_large ? ratio : 1.0 / ratio;
-  if (factor < kDegrees / kTolerance || factor > kDegrees * kTolerance) return std::nullopt;
+  const double size = is_large ? ratio : 1.0 / ratio, factor = is_large ? 1.0 / kDegrees : kDegrees;
+  if (size < kDegrees / kTolerance || size > kDegrees * kTolerance) return std::nullopt;
+  const double before = median_of([](double r, double e) { return std::abs(e - r); });
+  const double after = median_of([&](double r, double e) { return std::abs(factor * e - r); });
   return InputFinding{
       Fault::angle_unit,
-      fmt::format("the estimate rotates {:.3g} times as much as the reference", ratio),
+      fmt::format("multiplying the estimate's angles by {:.3g}: rotation between poses {:.3g} -> "
+                  "{:.3g} deg from the reference's",
+                  factor,
+                  kDegrees * before,
+                  kDegrees * after),
       fmt::format(
           "{} were used as {} in the estimate, or the reverse in the reference: convert that "
           "file's source again, or use position errors only (eval -r trans_part)",
           is_large ? "degrees" : "radians",
           is_large ? "radians" : "degrees"),
-      0.9,
+      1.0 - after / before,
       ratio};
 }
 
 std::optional<InputFinding> remove_jumps(Paired& poses) {
-  constexpr double kOverUsual = 8.0, kOverReference = 2.0, kOfSpread = 0.01, kNearlyAll = 0.95;
-  constexpr std::size_t kMost = 20, kListed = 5;
-  constexpr double kBetter = 0.97;
+  constexpr double kOverUsual = 12.0, kOverReference = 2.0, kOfSpread = 0.01, kMost = 0.9;
+  constexpr std::size_t kListed = 5;
+  constexpr double kBetter = 0.97, kLeastAngle = 0.3;  // [-], [rad]
   const Agreement before = agreement(poses);
   const std::vector<double> of_reference = steps_of(poses.reference);
   const std::vector<double> of_estimate = steps_of(poses.estimate);
@@ -95,18 +106,27 @@ std::optional<InputFinding> remove_jumps(Paired& poses) {
   }
   std::ranges::sort(sorted);
   const double least =
-      std::max(kOverUsual * percentile(sorted, kNearlyAll), kOfSpread * scale * before.spread);
+      std::max(kOverUsual * percentile(sorted, kMost), kOfSpread * scale * before.spread);
+  const std::size_t most = of_reference.size() / 10;  // two of each outlier
   Paired without = poses;
   std::string list;
   std::size_t count = 0;
   for (std::size_t i = 0; i < of_reference.size(); ++i) {
     const double expected = scale * of_reference[i];
     if (of_estimate[i] - expected < std::max(least, kOverReference * expected)) continue;
-    if (++count > kMost) return std::nullopt;
-    const Vector3 jump = poses.estimate[i + 1].world_from_body.translation -
-                         poses.estimate[i].world_from_body.translation;
+    if (++count > most) return std::nullopt;
+    const Pose& from = without.estimate[i].world_from_body;
+    const Pose& to = without.estimate[i + 1].world_from_body;
+    const auto angle = [&](const Trajectory& list) {
+      return angle_between(list[i].world_from_body.rotation, list[i + 1].world_from_body.rotation);
+    };
+    const bool has_other_axes =  // as a new map
+        std::abs(angle(poses.estimate) - angle(poses.reference)) > kLeastAngle;
+    const Rotation turn =
+        has_other_axes ? from.rotation * to.rotation.conjugate() : Rotation::Identity();
+    const Pose back{turn, from.translation - turn * to.translation};
     for (std::size_t j = i + 1; j < without.estimate.size(); ++j) {
-      without.estimate[j].world_from_body.translation -= jump;
+      without.estimate[j].world_from_body = back * without.estimate[j].world_from_body;
     }
     if (count > kListed) continue;
     list += fmt::format("{}{:.3f} s ({:.3g} m, the reference moves by {:.3g} m)",

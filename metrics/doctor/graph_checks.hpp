@@ -10,9 +10,10 @@
 
 namespace loopbench::metrics {
 
-/// The correction of direction or unit of the odometry that makes it agree with the keyframes,
-/// whose poses a file can state on their own. nullopt if there is none. O(keyframes).
-std::optional<InputFinding> find_odometry_repair(const Problem& problem);
+/// The correction of direction, unit, order of quaternions or frame of the odometry, or else of the
+/// closures, that makes them agree with the keyframes, whose poses a file can state on their own.
+/// nullopt if there is none. O(edges).
+std::optional<InputFinding> find_repair_by_keyframes(const Problem& problem);
 
 /// The correction of direction, order of quaternions, units or frame of the closures that makes
 /// them likelier: see LoopGroup. Groups of neighbouring closures are compared one by one, so that
@@ -22,11 +23,12 @@ std::optional<InputFinding> find_odometry_repair(const Problem& problem);
 std::optional<InputFinding> find_closure_repair(const Problem& problem, const Chain& chain);
 
 /// Compares closures with the odometry, without a reference:
-/// - conventions of odometry and closures, see find_odometry_repair() and find_closure_repair();
+/// - conventions of odometry and closures, see find_repair_by_keyframes() and
+/// find_closure_repair();
 /// - gaps of closures that the odometry or most other closures contradict;
 /// - order and scale of the information, by the noise that fits the loops, without the closures
 ///   found before, and only if these are less than a fifth.
-/// Empty if the odometry is no chain. O((closures + keyframes) log).
+/// If the odometry is no chain, only the first. O((closures + keyframes) log).
 std::vector<InputFinding> check_closures(const Problem& problem);
 
 }  // namespace loopbench::metrics

@@ -38,10 +38,9 @@ inline Chain chain_of(const Problem& problem) {
   return out;
 }
 
-/// Distance between the end of the odometry along a loop and the closure [m].
-inline double gap_of(const Edge& closure, const Chain& chain) {
-  const Pose gap = closure.from_from_to.inverse() * chain.between(closure.from, closure.to);
-  return gap.translation.norm();
+/// The end of the odometry along a loop, in the frame where the closure ends.
+inline Pose gap_of(const Edge& closure, const Chain& chain) {
+  return closure.from_from_to.inverse() * chain.between(closure.from, closure.to);
 }
 
 /// Noise with which the gaps of a group are likeliest.

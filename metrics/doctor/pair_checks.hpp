@@ -43,20 +43,24 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
 /// The stamps of one file fit those of the other only after division by 10^3, 10^6 or 10^9. O(n).
 std::optional<InputFinding> repair_stamp_unit(Trajectory& reference, Trajectory& estimate);
 
-/// The estimate's stamps are whole numbers, at which speeds do not agree, but do at a usual frame
-/// rate or at the rate at which both files last equally long. O(1e7).
-std::optional<InputFinding> repair_frame_indices(const Trajectory& reference, Trajectory& estimate);
+/// The estimate's stamps grow at another rate, with which speeds agree: whole numbers or rows at a
+/// usual frame rate, a recording that was played at another speed, every k-th row. O(1e8).
+std::optional<InputFinding> repair_rate(const Trajectory& reference,
+                                        Trajectory& estimate,
+                                        bool has_stamps);
 
-/// The offset of the estimate grows from its first to its last third, that of the middle third is
-/// between, and relative rotations have smaller errors without this drift. O(1e6).
-std::optional<InputFinding> repair_clock_drift(const Trajectory& reference, Trajectory& estimate);
+/// The offset of the estimate grows steadily over its five parts, or changes between them, and
+/// relative rotations have smaller errors with these offsets. O(1e7).
+std::optional<InputFinding> repair_clock(const Trajectory& reference,
+                                         Trajectory& estimate,
+                                         bool has_stamps);
 
 /// The time ranges do not overlap; a finding of frame indices if only the estimate's stamps are
 /// whole numbers. O(n).
 std::optional<InputFinding> check_overlap(const Trajectory& reference, const Trajectory& estimate);
 
-/// The estimate has no poses in at least a quarter of the reference's path, in gaps above 2 s and
-/// ten of its usual intervals. O(n).
+/// The estimate has no poses in at least a quarter of the reference's path, or in a tenth between
+/// its poses, in gaps above 2 s and ten of its usual intervals. O(n).
 std::optional<InputFinding> check_missing(const Trajectory& reference, const Trajectory& estimate);
 
 /// Only the estimate's name contains a word like "groundtruth". Rates are no evidence: correct
@@ -68,14 +72,19 @@ std::optional<InputFinding> check_swapped(const std::string& reference_name,
 /// O(n).
 std::optional<InputFinding> check_angle_unit(const Paired& poses);
 
-/// Up to twenty jumps of the estimate's positions, without which the position error is smaller.
-/// O(n).
+/// Up to a tenth of all steps are jumps of the estimate's positions, without which the position
+/// error is smaller. O(n).
 std::optional<InputFinding> remove_jumps(Paired& poses);
+
+/// A reference of positions is that of a point with a lever arm that halves the position error: a
+/// prism or an antenna. O(n).
+std::optional<InputFinding> remove_lever_arm(Paired& poses);
 
 /// Of order and sign of quaternions, inverted poses, axes, units of lengths, scale, rotation and
 /// lever arm of the body, the repair with the largest gain. It has to reduce the sum of errors
 /// clearly and at least one error by a quarter, on poses that it was not fitted to. nullopt if
-/// there is none, or if the poses agree. O(n).
-std::optional<InputFinding> apply_best_repair(Paired& poses);
+/// there is none with another fault than `found`, or if the poses agree. O(n).
+std::optional<InputFinding> apply_best_repair(Paired& poses,
+                                              const std::vector<InputFinding>& found);
 
 }  // namespace loopbench::metrics

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 
+#include "datasets/core/mirrored.hpp"
 #include "metrics/checks/extrinsic_offset.hpp"
+#include "metrics/checks/point_offset.hpp"
 #include "metrics/doctor/pair_checks.hpp"
 #include "metrics/doctor/signed_axes.hpp"
 #include "metrics/numerics/angle.hpp"
@@ -87,27 +90,50 @@ void add_axes(std::vector<Repair>& to) {
   }
 }
 
+/// Left-handed coordinates.
+void add_mirrors(std::vector<Repair>& to) {
+  constexpr double kPenalty = 0.25;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string name(1, "xyz"[axis]);
+    to.push_back({Fault::axes,
+                  "mirroring " + name + " of the estimate's positions and rotations",
+                  "traj transform EST --mirror " + name,
+                  4.0,
+                  kPenalty,
+                  to_each(false, [axis](const Pose& p) { return mirrored(p, axis); })});
+  }
+}
+
 /// Millimetres or centimetres, or an arbitrary scale.
 void add_scale(std::vector<Repair>& to, const Paired& poses) {
   constexpr double kUnitTolerance = 0.12, kLeastScale = 0.05, kPenalty = 0.2;
   const double scale = std::cbrt(similarity(poses).linear().determinant());
   if (std::abs(std::log(scale)) < kLeastScale) return;
+  const auto scaled = [](bool of_reference, double by) {
+    return to_each(of_reference, [by](const Pose& p) -> Pose {
+      return {p.rotation, by * p.translation};
+    });
+  };
   Repair out{Fault::scale,
              fmt::format("the estimate has scale {:.4g}", 1.0 / scale),
              "--align sim3",
              scale,
              kPenalty,
-             to_each(false, [scale](const Pose& p) -> Pose {
-               return {p.rotation, scale * p.translation};
-             })};
+             scaled(false, scale)};
   for (const auto& [factor, unit] : {std::pair{0.001, "millimetres"}, {0.01, "centimetres"}}) {
     const bool of_reference = scale > 1.0;
     if (std::abs(std::log(of_reference ? scale * factor : scale / factor)) > kUnitTolerance)
       continue;
-    out.fault = Fault::length_unit;
-    out.fix = fmt::format(
-        "traj transform {} --scale {} ({} to metres)", file_of(of_reference), factor, unit);
-    out.value = 1.0 / scale;
+    out = {Fault::length_unit,
+           out.what,
+           fmt::format("traj transform {} --scale {} ({} to metres){}",
+                       file_of(of_reference),
+                       factor,
+                       unit,
+                       of_reference && factor < 0.01 ? ", or EST --scale 1000 (kilometres)" : ""),
+           1.0 / scale,
+           kPenalty,
+           scaled(of_reference, of_reference ? 1.0 / scale : scale)};
   }
   to.push_back(std::move(out));
 }
@@ -165,7 +191,30 @@ bool agrees(const Agreement& a) {
 
 }  // namespace
 
-std::optional<InputFinding> apply_best_repair(Paired& poses) {
+std::optional<InputFinding> remove_lever_arm(Paired& poses) {
+  constexpr double kMostRatio = 0.5;
+  PointOffset fit;
+  try {
+    fit = fit_point_offset(poses.reference, poses.estimate, true, longest_gap(poses.estimate));
+  } catch (const std::runtime_error&) {
+    return std::nullopt;  // points on a line
+  }
+  const double ratio = fit.rmse / fit.rmse_before;
+  if (!(ratio < kMostRatio)) return std::nullopt;
+  for (auto& [stamp, pose] : poses.estimate) pose.translation += pose.rotation * fit.lever_arm;
+  return InputFinding{Fault::lever_arm,
+                      fmt::format("the reference is that of a point {:.3g} m away: position error "
+                                  "{:.3g} -> {:.3g} m",
+                                  fit.lever_arm.norm(),
+                                  fit.rmse_before,
+                                  fit.rmse),
+                      "--ref-body=" + body_option({Rotation::Identity(), fit.lever_arm}),
+                      1.0 - ratio,
+                      fit.lever_arm.norm()};
+}
+
+std::optional<InputFinding> apply_best_repair(Paired& poses,
+                                              const std::vector<InputFinding>& found) {
   constexpr double kLeastGain = 0.7;  // a factor of 2 in the errors
   constexpr double kMostRatio = 0.75;
   constexpr double kLeastOfLeverArm = 0.2, kMostOfLeverArm = 0.6;  // drift resembles lever arms
@@ -175,13 +224,16 @@ std::optional<InputFinding> apply_best_repair(Paired& poses) {
   if (before.has_rotations) {
     add_conventions(candidates);
     add_axes(candidates);
+    add_mirrors(candidates);
   }
   Repair best;
   Improvement gained;
   double largest = 0.0;
   for (Repair& repair : candidates) {
     const bool is_lever_arm = repair.fault == Fault::lever_arm;
-    if (is_good && !is_lever_arm) continue;
+    const bool is_known = std::ranges::any_of(
+        found, [&](const InputFinding& each) { return each.fault == repair.fault; });
+    if (is_known || (is_good && !is_lever_arm)) continue;
     Paired changed = poses;
     repair.apply(changed);
     const Agreement after = agreement(changed);

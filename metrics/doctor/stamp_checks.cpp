@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -23,10 +22,17 @@ bool has_frame_indices(const Trajectory& poses) {
   constexpr double kRounding = 1e-6, kMostFirst = 1000.0;
   constexpr double kMostStep = 20.0;  // keyframes skip frames
   const double first = poses.front().stamp;
-  if (first < 0.0 || first > kMostFirst || usual_interval(poses) > kMostStep) return false;
+  if (first < 0.0 || first > kMostFirst || median_interval(poses) > kMostStep) return false;
   return std::ranges::all_of(poses, [&](const StampedPose& pose) {
     return std::abs(pose.stamp - std::round(pose.stamp)) < kRounding;
   });
+}
+
+/// All digits: stamps are seconds since 1970.
+std::string stamps_command(double factor, double offset) {
+  return fmt::format("traj transform EST --stamp-scale {:.15g} -o FILE; FILE needs --offset {:.4f}",
+                     factor,
+                     offset);
 }
 
 Trajectory restamped(Trajectory poses, double factor, double offset) {
@@ -66,101 +72,166 @@ std::optional<InputFinding> repair_stamp_unit(Trajectory& reference, Trajectory&
   return std::nullopt;
 }
 
-std::optional<InputFinding> repair_frame_indices(const Trajectory& reference,
-                                                 Trajectory& estimate) {
-  constexpr double kAgrees = 0.7;  // correlation of speeds
-  if (reference.size() < kFewestCommonPoses || estimate.size() < kFewestCommonPoses ||
-      !has_frame_indices(estimate) || has_frame_indices(reference)) {
-    return std::nullopt;
-  }
+std::optional<InputFinding> repair_rate(const Trajectory& reference,
+                                        Trajectory& estimate,
+                                        bool has_stamps) {
+  constexpr double kAgrees = 0.7, kAgreesOfClocks = 0.85;  // correlation of speeds
+  constexpr double kGain = 0.05, kFits = 0.4;  // over the same rate; of the reference's spread
+  if (std::min(reference.size(), estimate.size()) < kFewestCommonPoses) return std::nullopt;
+  const bool has_indices =
+      !has_stamps || (has_frame_indices(estimate) && !has_frame_indices(reference));
   const double as_read = speed_correlation(reference, estimate);
-  if (as_read > kAgrees) return std::nullopt;
-  double best = kAgrees, factor = 0.0, offset = 0.0;
-  const double longest = duration(reference);
-  std::vector<double> intervals{longest / duration(estimate)};
+  const bool has_other_clock = !has_indices && overlap(reference, estimate) <= 0.0;
+  if (as_read > kAgrees || has_other_clock) return std::nullopt;
+  const double longest = duration(reference), ratio = longest / duration(estimate);
+  const double searched = std::min(0.5 * longest, 60.0);  // [s]
+  std::vector<double> factors{std::round(ratio)};
+  if (has_stamps) factors.push_back(ratio);
   for (const double rate : {5, 10, 15, 20, 25, 30, 50, 60, 100, 200}) {
-    const double length = duration(estimate) / rate;
-    if (length > 0.3 * longest && length < 1.5 * longest) intervals.push_back(1.0 / rate);
+    if (has_stamps && has_indices) factors.push_back(1.0 / rate);
   }
-  for (const double interval : intervals) {
-    const double begin = reference.front().stamp - interval * estimate.front().stamp;
-    const auto found =
-        estimate_time_offset(reference, restamped(estimate, interval, begin), 0.5 * longest);
+  if (has_stamps && !has_indices) factors.insert(factors.end(), {0.1, 0.2, 0.25, 0.5, 2, 4, 5});
+  const auto same = estimate_time_offset(reference, estimate);
+  double best =
+      std::max(has_indices ? kAgrees : kAgreesOfClocks, same ? same->correlation + kGain : 0.0);
+  double factor = 0.0, offset = 0.0;
+  for (const double each : factors) {
+    if (each * duration(estimate) < 0.3 * longest || each * duration(estimate) > 1.5 * longest) {
+      continue;
+    }
+    const double begin = reference.front().stamp - each * estimate.front().stamp;
+    const auto found = estimate_time_offset(reference, restamped(estimate, each, begin), searched);
     if (!found || !(found->correlation > best)) continue;
     best = found->correlation;
-    factor = interval;
+    factor = each;
     offset = begin + found->offset;
   }
   if (factor == 0.0) return std::nullopt;
-  estimate = restamped(std::move(estimate), factor, offset);
+  Trajectory corrected = restamped(estimate, factor, offset);
+  const Agreement after = agreement(common_poses(reference, corrected));
+  if (after.similarity > kFits * after.spread) return std::nullopt;
+  estimate = std::move(corrected);
   return InputFinding{
-      Fault::frame_indices,
-      fmt::format("the estimate's stamps are frame indices: with {:.4g} s per frame, correlation "
-                  "of speeds {:.2f} -> {:.2f}",
+      has_indices ? Fault::frame_indices : Fault::clock_drift,
+      fmt::format("the estimate's stamps {}: with {:.4g} s per {}, correlation of speeds {:.2f} -> "
+                  "{:.2f}",
+                  has_indices ? "are frame indices" : "grow at another rate",
                   factor,
+                  has_indices ? "frame" : "second",
                   as_read,
                   best),
-      fmt::format("traj transform EST --stamp-scale {:.6g}, then --offset {:.4f}", factor, offset),
+      stamps_command(factor, offset),
       best,
       factor};
 }
 
-std::optional<InputFinding> repair_clock_drift(const Trajectory& reference, Trajectory& estimate) {
+namespace {
+
+/// A drift that three parts of the estimate show, or jumps between five.
+std::optional<InputFinding> repair_clock_of_parts(std::size_t count,
+                                                  const Trajectory& reference,
+                                                  Trajectory& estimate,
+                                                  bool has_stamps) {
   constexpr double kLeast = 0.015, kOfInterval = 0.1, kDeviations = 3.0;  // of the change [s]
-  constexpr double kLeastRate = 5e-4;  // clocks of computers differ by 1e-4 at most
-  constexpr double kMostRate = 0.01, kOfChange = 0.3;
+  constexpr double kLeastJump = 0.2, kUsual = 3.0, kSearched = 12.0;      // [s]
+  constexpr double kAgrees = 0.9, kFits = 0.4;  // correlation; of the reference's spread
+  constexpr double kLeastRate = 5e-4;           // clocks of computers differ by 1e-4 at most
+  constexpr double kSmallRate = 0.01, kMostRate = 0.06, kOfChange = 0.3;
   constexpr double kMostOfRotation = 0.98, kMostOfPosition = 0.5;  // of the error before
-  constexpr std::size_t kParts = 3;
+  constexpr double kMostOfLargeChange = 0.8;
+  constexpr std::size_t kPartsOfDrift = 3;
   const std::size_t n = estimate.size();
-  if (n < kParts * kFewestCommonPoses) return std::nullopt;
-  const double origin = estimate.front().stamp;
-  const double searched = std::max(1.0, kMostRate * duration(estimate));
-  std::array<TimeOffset, kParts> found;
-  std::array<double, kParts> centres{};
-  for (std::size_t i = 0; i < kParts; ++i) {
+  if (n < count * kFewestCommonPoses || overlap(reference, estimate) <= 0.0) return std::nullopt;
+  const double missing = has_stamps ? 0.0 : duration(reference) - duration(estimate);
+  const double searched = std::max({kSearched, kMostRate * duration(estimate), missing});
+  std::vector<double> centres, offsets;
+  double deviation = 0.0;
+  Trajectory jumped;  // each part with its own offset
+  for (std::size_t i = 0; i < count; ++i) {
     const auto at = [&](std::size_t part) {
-      return estimate.begin() + static_cast<std::ptrdiff_t>(part * n / kParts);
+      return estimate.begin() + static_cast<std::ptrdiff_t>(part * n / count);
     };
-    const Trajectory third(at(i), at(i + 1));
-    const auto offset = estimate_time_offset(reference, third, searched);
-    if (!offset || !offset->has_common_time) return std::nullopt;
-    found[i] = *offset;
-    centres[i] = 0.5 * (third.front().stamp + third.back().stamp);
+    const Trajectory part(at(i), at(i + 1));
+    auto found = estimate_time_offset(reference, part, kUsual);
+    if (!found || found->correlation < kAgrees) {
+      found = estimate_time_offset(reference, part, searched);
+    }
+    if (!found || !found->has_common_time) continue;
+    centres.push_back(0.5 * (part.front().stamp + part.back().stamp));
+    offsets.push_back(found->offset);
+    deviation = std::max(deviation, found->deviation);
+    for (const StampedPose& pose : restamped(part, 1.0, found->offset)) {
+      if (jumped.empty() || pose.stamp > jumped.back().stamp) jumped.push_back(pose);
+    }
   }
-  const double change = found[2].offset - found[0].offset;
-  const double rate = change / (centres[2] - centres[0]);
-  const auto drifted = [&](double stamp) { return found[0].offset + rate * (stamp - centres[0]); };
-  const double error = std::abs(found[1].offset - drifted(centres[1]));
-  const double deviation = std::hypot(found[0].deviation, found[2].deviation);
-  if (std::abs(change) <
-          std::max({kLeast, kOfInterval * usual_interval(estimate), kDeviations * deviation}) ||
-      std::abs(rate) < kLeastRate || std::abs(rate) > kMostRate ||
-      error > kOfChange * std::abs(change)) {
+  if (offsets.size() < kPartsOfDrift) return std::nullopt;
+  const double change = offsets.back() - offsets.front();
+  const double rate = change / (centres.back() - centres.front());
+  const auto drifted = [&](double stamp) { return offsets[0] + rate * (stamp - centres[0]); };
+  double error = 0.0;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    error = std::max(error, std::abs(offsets[i] - drifted(centres[i])));
+  }
+  const bool is_drift = error <= kOfChange * std::abs(change) && std::abs(rate) <= kMostRate;
+  const auto [smallest, largest] = std::ranges::minmax(offsets);
+  if (is_drift ? std::abs(change) < std::max({kLeast,
+                                              kOfInterval * median_interval(estimate),
+                                              kDeviations * deviation}) ||
+                     std::abs(rate) < kLeastRate
+               : largest - smallest < kLeastJump) {
     return std::nullopt;
   }
-  Trajectory corrected = restamped(estimate, 1.0 + rate, drifted(0.0));
-  const Agreement before = agreement(common_poses(reference, estimate, found[1].offset));
+  Trajectory corrected = is_drift ? restamped(estimate, 1.0 + rate, drifted(0.0)) : jumped;
+  const double offset = median_value(offsets);
+  const Agreement before = agreement(common_poses(reference, estimate, offset));
   const Agreement after = agreement(common_poses(reference, corrected));
   const bool by_rotation = before.has_rotations;
   const double was = by_rotation ? 100.0 * before.turning : before.similarity;
   const double is = by_rotation ? 100.0 * after.turning : after.similarity;
-  if (!(is < (by_rotation ? kMostOfRotation : kMostOfPosition) * was)) return std::nullopt;
+  const bool is_small = is_drift && std::abs(rate) < kSmallRate;
+  const double most = !by_rotation ? kMostOfPosition
+                      : is_small   ? kMostOfRotation
+                                   : kMostOfLargeChange;
+  const bool is_other_count = count == kPartsOfDrift ? !is_drift : is_small;
+  if (!(is < most * was) || is_other_count) return std::nullopt;
+  if (!is_drift && after.similarity > kFits * after.spread) return std::nullopt;
   estimate = std::move(corrected);
-  return InputFinding{
-      Fault::clock_drift,
-      fmt::format("the estimate's clock drifts by {:.3f} %: its offset grows from {:.3f} to "
-                  "{:.3f} s; {} {:.3g} -> {:.3g} {}",
-                  100.0 * rate,
-                  found[0].offset,
-                  found[2].offset,
+  const std::string change_of_error =
+      fmt::format("{} {:.3g} -> {:.3g} {}",
                   by_rotation ? "error of relative rotations" : "position error",
                   was,
                   is,
-                  by_rotation ? "%" : "m"),
-      fmt::format(
-          "correct its stamps t: t + {:.4f} + {:.6f} (t - {:.3f})", drifted(origin), rate, origin),
+                  by_rotation ? "%" : "m");
+  if (!is_drift) {
+    return InputFinding{Fault::clock_drift,
+                        fmt::format("the estimate's clock jumps, or poses are missing: the offsets "
+                                    "of its parts are {:.3f} s; {}",
+                                    fmt::join(offsets, ", "),
+                                    change_of_error),
+                        "add its offset to the stamps of each part, or write all poses",
+                        1.0 - is / was,
+                        largest - smallest};
+  }
+  return InputFinding{
+      Fault::clock_drift,
+      fmt::format("the estimate's clock drifts by {:.3f} %: its offset grows from {:.3f} to "
+                  "{:.3f} s; {}",
+                  100.0 * rate,
+                  offsets.front(),
+                  offsets.back(),
+                  change_of_error),
+      stamps_command(1.0 + rate, drifted(0.0)),
       1.0 - error / std::abs(change),
       rate};
+}
+
+}  // namespace
+
+std::optional<InputFinding> repair_clock(const Trajectory& reference,
+                                         Trajectory& estimate,
+                                         bool has_stamps) {
+  auto found = repair_clock_of_parts(3, reference, estimate, has_stamps);
+  return found ? found : repair_clock_of_parts(5, reference, estimate, has_stamps);
 }
 
 std::optional<InputFinding> check_overlap(const Trajectory& reference, const Trajectory& estimate) {
@@ -182,24 +253,26 @@ std::optional<InputFinding> check_overlap(const Trajectory& reference, const Tra
 }
 
 std::optional<InputFinding> check_missing(const Trajectory& reference, const Trajectory& estimate) {
-  constexpr double kLeastShare = 0.25, kLeastGap = 2.0;  // [-], [s]
+  constexpr double kLeastShare = 0.25, kLeastLost = 0.12, kLeastGap = 2.0;  // [-], [s]
   if (std::min(reference.size(), estimate.size()) < kFewestCommonPoses) return std::nullopt;
   std::vector<double> covered = stamps(estimate);
   covered.insert(covered.end(), {reference.front().stamp, reference.back().stamp});
   std::ranges::sort(covered);
   TrackingGap longest;
-  double missing = 0.0;  // [m]
+  double missing = 0.0, lost = 0.0;  // [m]; lost: between poses
   for (const TrackingGap& gap : tracking_gaps(reference, covered, 0.0, kLeastGap)) {
     Trajectory inside;
     std::ranges::copy_if(reference, std::back_inserter(inside), [&](const StampedPose& pose) {
       return pose.stamp >= gap.begin && pose.stamp <= gap.end;
     });
-    missing += path_length(inside);
+    const double length = path_length(inside);
+    missing += length;
+    if (gap.begin > reference.front().stamp && gap.end < reference.back().stamp) lost += length;
     if (gap.end - gap.begin > longest.end - longest.begin) longest = gap;
   }
   const double all = path_length(reference);
   const double share = all > 0.0 ? missing / all : 0.0;
-  if (share < kLeastShare) return std::nullopt;
+  if (share < kLeastShare && lost <= kLeastLost * all) return std::nullopt;
   return InputFinding{
       Fault::missing_poses,
       fmt::format("the estimate has no poses for {:.0f} % of the reference's path; the longest "

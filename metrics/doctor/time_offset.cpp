@@ -31,7 +31,7 @@ class SpeedMatch {
   SpeedMatch(const Trajectory& reference, const Trajectory& estimate) : reference_(reference) {
     constexpr std::size_t kMostPairs = 600;
     constexpr double kShortest = 0.1, kLongest = 10.0;  // [s]; of intervals
-    interval_ = std::max({kShortest, usual_interval(reference), 0.99 * usual_interval(estimate)});
+    interval_ = std::max({kShortest, median_interval(reference), 0.99 * median_interval(estimate)});
     longest_gap_ = longest_gap(reference);
     const std::size_t step = std::max<std::size_t>(1, estimate.size() / kMostPairs);
     std::size_t j = 0;
@@ -185,6 +185,8 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
   best = search(match, best.offset - coarse, best.offset + coarse, fine);
   out.offset = best.offset;
   refine(match, fine, out);
+  // Where stamps are equal, interpolation smooths neighbouring offsets.
+  if (std::isinf(out.deviation)) refine(match, coarse, out);
   out.correlation = match.at(out.offset);
   if (out.correlation < kLeastCorrelation) return std::nullopt;
   return out;
@@ -197,7 +199,7 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
   constexpr double kLeastGain = 0.1, kMostRatio = 0.9, kLeastConfident = 0.3;
   constexpr double kLeastAlone = 0.85;  // correlation at large offsets
   const double size = std::abs(found.offset);
-  const double interval = std::min(0.2, usual_interval(estimate));
+  const double interval = std::min(0.2, median_interval(estimate));
   if (size < std::max({kSmallest, kOfInterval * interval, kDeviations * found.deviation})) {
     return std::nullopt;
   }

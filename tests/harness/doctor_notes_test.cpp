@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "datasets/core/mirrored.hpp"
 #include "datasets/core/params.hpp"
 #include "datasets/formats/formats.hpp"
 #include "datasets/formats/g2o.hpp"
@@ -129,6 +130,7 @@ TEST_F(DoctorNotes, TheNamedCommandRemovesTheFinding) {
     const Vector3 t = p.world_from_body.translation;
     p.world_from_body.translation = {-t.y(), t.z(), t.x()};
   });
+  check("axes", [](StampedPose& p) { p.world_from_body = mirrored(p.world_from_body, 2); });
   check("conjugated", [](StampedPose& p) {
     p.world_from_body.rotation = p.world_from_body.rotation.conjugate();
   });

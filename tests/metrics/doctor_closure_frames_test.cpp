@@ -29,5 +29,32 @@ TEST(DoctorOfClosures, NamesTheAxesOfAnotherBody) {
   EXPECT_THAT(found[0].evidence, HasSubstr("taking z,-x,-y of the closures' body"));
 }
 
+/// Vertices and edges were written in the same wrong order.
+TEST(DoctorOfClosures, OrderOfAllQuaternions) {
+  Problem problem = test::walk(5, 120, 0.01);
+  const auto misread = [](Pose& pose) {
+    const Rotation q = pose.rotation;
+    pose.rotation = Rotation(q.z(), q.w(), q.x(), q.y());
+  };
+  for (auto& [stamp, pose] : problem.keyframes) misread(pose);
+  for (auto* edges : {&problem.odometry, &problem.closures}) {
+    for (Edge& edge : *edges) misread(edge.from_from_to);
+  }
+  const auto found = check_closures(problem);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].fault, Fault::quaternion_order);
+}
+
+/// The vertices decide where the odometry is no chain.
+TEST(DoctorOfClosures, AreComparedWithTheVertices) {
+  Problem problem = test::walk(5, 120, 0.01);
+  problem.odometry.erase(problem.odometry.begin() + 60);
+  EXPECT_THAT(check_closures(problem), testing::IsEmpty());
+  for (Edge& edge : problem.closures) edge.from_from_to = edge.from_from_to.inverse();
+  const auto found = check_closures(problem);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].fault, Fault::closure_direction);
+}
+
 }  // namespace
 }  // namespace loopbench::doctor_closure_frames_test

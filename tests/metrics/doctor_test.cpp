@@ -232,6 +232,23 @@ TEST(Doctor, UnitsAndScale) {
   EXPECT_THAT(faults(truth(), each(sampled(20), times(1.03))), IsEmpty());
 }
 
+/// Angles in degrees that were used as radians, or converted twice.
+TEST(Doctor, UnitOfAnglesIsProvenOnTheData) {
+  for (const double factor : {180.0 / M_PI, M_PI / 180.0}) {
+    const Trajectory changed = each(sampled(20), [&](const Pose& p) -> Pose {
+      return {exp_so3(factor * log_so3(p.rotation)), p.translation};
+    });
+    const auto found = diagnosis(truth(), changed, "reference.txt", "run.txt").findings;
+    ASSERT_FALSE(found.empty()) << factor;
+    EXPECT_EQ(found[0].fault, Fault::angle_unit);
+    EXPECT_THAT(found[0].evidence,
+                testing::StartsWith(factor > 1.0 ? "multiplying the estimate's angles by 0.0175: "
+                                                 : "multiplying the estimate's angles by 57.3: "));
+    EXPECT_THAT(found[0].evidence, testing::HasSubstr(" -> "));
+    EXPECT_GT(found[0].confidence, 0.5);
+  }
+}
+
 TEST(Doctor, LeverArm) {
   const Pose other{Rotation::Identity(), {0.5, -0.3, 0.2}};
   const Trajectory estimate = each(sampled(20), [&](const Pose& p) { return p * other; });

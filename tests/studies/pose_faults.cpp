@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datasets/core/median_interval.hpp"
 #include "datasets/core/se3.hpp"
-#include "metrics/doctor/agreement.hpp"
 #include "metrics/numerics/euler.hpp"
 
 namespace loopbench {
 namespace {
 
-using metrics::usual_interval;
 using Others = std::vector<Recording>;
 
 double uniform(std::mt19937& random, double low, double high) {
@@ -42,7 +41,7 @@ Trajectory& either(Recording& r, std::mt19937& random) {
 
 bool has_regular_stamps(const Recording& r) {
   if (!r.has_stamps || r.estimate.size() < 100) return false;
-  const double usual = usual_interval(r.estimate);
+  const double usual = median_interval(r.estimate);
   const auto is_usual = [&](std::size_t i) {
     return std::abs(r.estimate[i].stamp - r.estimate[i - 1].stamp - usual) < 0.2 * usual;
   };
@@ -168,7 +167,7 @@ std::vector<PlantedFault> times() {
            {"time_offset"},
            [](Recording& r, std::mt19937& random, const Others&) {
              return has_regular_stamps(r) &&
-                    delay(r, (flip(random) ? 0.5 : -0.5) * usual_interval(r.estimate));
+                    delay(r, (flip(random) ? 0.5 : -0.5) * median_interval(r.estimate));
            }},
           {"clock drift 0.1 %",
            {"clock_drift"},
@@ -195,7 +194,7 @@ std::vector<PlantedFault> times() {
            {"frame_indices"},
            [](Recording& r, std::mt19937&, const Others&) {
              if (!has_regular_stamps(r)) return false;
-             const double start = r.estimate.front().stamp, usual = usual_interval(r.estimate);
+             const double start = r.estimate.front().stamp, usual = median_interval(r.estimate);
              for (StampedPose& p : r.estimate) p.stamp = std::round((p.stamp - start) / usual);
              const auto same = [](const StampedPose& a, const StampedPose& b) {
                return a.stamp == b.stamp;
