@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "datasets/core/interpolate.hpp"
+#include "datasets/core/median_interval.hpp"
 #include "methods/smoothers/gaussian_process.hpp"
 #include "methods/smoothers/interpolating_splines.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
