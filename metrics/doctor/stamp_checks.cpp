@@ -141,7 +141,9 @@ std::optional<InputFinding> repair_clock_of_parts(std::size_t count,
   constexpr double kMostOfLargeChange = 0.8;
   constexpr std::size_t kPartsOfDrift = 3;
   const std::size_t n = estimate.size();
-  if (n < count * kFewestCommonPoses || overlap(reference, estimate) <= 0.0) return std::nullopt;
+  if (n < count * kFewestCommonPoses || reference.empty() || overlap(reference, estimate) <= 0.0) {
+    return std::nullopt;
+  }
   const double missing = has_stamps ? 0.0 : duration(reference) - duration(estimate);
   const double searched = std::max({kSearched, kMostRate * duration(estimate), missing});
   std::vector<double> centres, offsets;

@@ -64,6 +64,8 @@ TEST(DoctorOfClocks, NothingIsFoundInAReferenceAtRest) {
   }
 }
 
+TEST(DoctorOfClocks, AnEmptyReference) { EXPECT_THAT(faults({}, sampled(20)), testing::IsEmpty()); }
+
 TEST(DoctorOfClocks, ALeftHandedWorldIsOneFinding) {
   const auto mirror = [](const Pose& p) { return mirrored(p, 1); };
   const auto found =
