@@ -59,7 +59,8 @@ class PairDiagnosis {
                 const std::string& estimate_name,
                 bool has_stamps) {
     add(check_swapped(reference_name, estimate_name));
-    if (!has_stamps) out_.unchecked.emplace_back("stamps: a file has none, but rows at a rate");
+    if (!has_stamps)
+      out_.unchecked.emplace_back("stamps: a file has none, its rows count as equally spaced");
     if (has_stamps || reference_.size() != estimate_.size()) check_stamps(has_stamps);
     check_poses();
     std::erase_if(out_.findings,

@@ -49,8 +49,9 @@ std::optional<InputFinding> repair_rate(const Trajectory& reference,
                                         Trajectory& estimate,
                                         bool has_stamps);
 
-/// The offset of the estimate grows steadily over its five parts, or changes between them, and
-/// relative rotations have smaller errors with these offsets. O(1e7).
+/// The offset of the estimate grows steadily over its three thirds, or jumps between its five
+/// fifths, and relative rotations (without rotations: positions) have smaller errors with these
+/// offsets. O(1e7).
 std::optional<InputFinding> repair_clock(const Trajectory& reference,
                                          Trajectory& estimate,
                                          bool has_stamps);
@@ -59,8 +60,8 @@ std::optional<InputFinding> repair_clock(const Trajectory& reference,
 /// whole numbers. O(n).
 std::optional<InputFinding> check_overlap(const Trajectory& reference, const Trajectory& estimate);
 
-/// The estimate has no poses in at least a quarter of the reference's path, or in a tenth between
-/// its poses, in gaps above 2 s and ten of its usual intervals. O(n).
+/// The estimate has no poses in at least a quarter of the reference's path, or in 12 % between its
+/// first and last pose, in gaps above 2 s and ten of its usual intervals. O(n).
 std::optional<InputFinding> check_missing(const Trajectory& reference, const Trajectory& estimate);
 
 /// Only the estimate's name contains a word like "groundtruth". Rates are no evidence: correct

@@ -30,9 +30,10 @@ bool has_frame_indices(const Trajectory& poses) {
 
 /// All digits: stamps are seconds since 1970.
 std::string stamps_command(double factor, double offset) {
-  return fmt::format("traj transform EST --stamp-scale {:.15g} -o FILE; FILE needs --offset {:.4f}",
-                     factor,
-                     offset);
+  return fmt::format(
+      "traj transform EST --stamp-scale {:.15g} -o NEW, then --offset {:.4f} for NEW",
+      factor,
+      offset);
 }
 
 Trajectory restamped(Trajectory poses, double factor, double offset) {
