@@ -225,7 +225,7 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
   const double radians = median_error(was, &LoopFit::radians);
   const double metres_after = median_error(is, &LoopFit::metres);
   const double radians_after = median_error(is, &LoopFit::radians);
-  const auto [smaller, larger] = std::minmax(metres_after / metres, radians_after / radians);
+  const auto [smaller, larger] = std::minmax({metres_after / metres, radians_after / radians});
   const double ratio = is_unit ? metres_after / metres : smaller;
   if (proven < kLeastProven || ratio > (is_unit ? kMostOfUnit : kMostRatio) ||
       larger > kMostGrowth || radians_after > kMostLeft) {
