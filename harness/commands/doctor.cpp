@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "datasets/derive/closures.hpp"
 #include "datasets/derive/graph_parts.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "harness/base/printable.hpp"
@@ -41,6 +43,20 @@ Diagnosed of_closures(const std::string& name, const Problem& problem) {
                                           : "closures, information: the odometry is no chain");
   }
   return out;
+}
+
+/// Closures of a trajectory.
+Diagnosed of_loops(const std::string& trajectory, const std::string& loops) {
+  if (std::filesystem::path(loops).extension() != ".g2o") {
+    std::vector<double> stamps;
+    for (const StampedClosure& closure : read_closure_file(loops, {})) {
+      stamps.insert(stamps.end(), {closure.stamp_from, closure.stamp_to});
+    }
+    if (auto found = metrics::check_loop_stamps(stamps, read_named(trajectory, {}).file.poses)) {
+      return {loops, {.findings = {std::move(*found)}}};
+    }
+  }
+  return of_closures(loops, load_problem({.estimate = trajectory, .loops = loops}, catalogue({})));
 }
 
 Diagnosed of_graph(const std::string& file) {
@@ -135,8 +151,7 @@ int doctor(const DoctorArguments& a) {
   if (!a.loops.empty()) {
     if (a.estimates.size() > 1) throw InputError("--loops: expected one trajectory");
     const std::string& owner = a.estimates.empty() ? a.reference : a.estimates.front();
-    const CorrectArguments input{.estimate = owner, .loops = a.loops};
-    all.push_back(of_closures(a.loops, load_problem(input, catalogue({}))));
+    all.push_back(of_loops(owner, a.loops));
   } else if (a.estimates.empty()) {
     if (!is_pose_graph(a.reference)) {
       throw InputError(a.reference +

@@ -96,6 +96,7 @@ void compare_motions(const Paired& poses, Agreement& out) {
   const std::vector<RelativePosePair> tested = motions_of(poses, false);
   const auto [error, length] = compare_displacements(tested);
   out.displacement = length > 0.0 ? error / length : 0.0;
+  out.scale = scale;
   double error_squares = 0.0, squares = 0.0;
   for (const auto& [reference, estimate] : tested) {
     const Vector3 rotated = log_so3(reference.rotation);
@@ -110,11 +111,13 @@ void compare_motions(const Paired& poses, Agreement& out) {
 Paired fitted_part(const Paired& poses) { return part_of(poses, true); }
 
 double Agreement::cost() const {
-  constexpr double kFloor = 0.02, kFloorOfAngle = 0.05;
+  constexpr double kFloor = 0.02, kFloorOfAngle = 0.05, kWeightOfScale = 0.5, kMostScale = 20.0;
   double out = std::log(position / std::max(1e-9, spread) + kFloor);
   if (has_rotations) {
     out += std::log(displacement + kFloor) + std::log(turning + kFloor) +
            std::log(rotation + kFloorOfAngle);
+    const double size = std::clamp(scale, 1.0 / kMostScale, kMostScale);
+    out += kWeightOfScale * std::log(std::abs(std::log(size)) + kFloor);
   }
   return out;
 }

@@ -46,6 +46,7 @@ struct Agreement {
   double spread = 0.0;        ///< standard deviation of the reference's positions [m]
   double rotation = 0.0;      ///< median angle after the alignment of positions [rad]
   double displacement = 0.0;  ///< median error of displacements, over their median length [-]
+  double scale = 1.0;         ///< of these displacements, reference over estimate [-]
   double turning = 0.0;       ///< rms error of relative rotations, over their rms [-]
   bool has_rotations = true;  ///< false: the rotation of one list is constant
 

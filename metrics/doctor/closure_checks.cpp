@@ -263,24 +263,27 @@ std::optional<InputFinding> check_information(const Problem& problem) {
 
 std::vector<InputFinding> check_closures(const Problem& problem) {
   std::vector<InputFinding> out;
-  const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
   if (problem.closures.empty()) return out;
   if (auto repair = find_repair_by_keyframes(problem)) return {*repair};
-  if (!is_chain) return out;
+  if (problem.odometry.size() + 1 != problem.keyframes.size()) return out;
+  Problem measured = problem;
   const Chain chain = chain_of(problem);
-  const GapCheck gaps = check_gaps(problem.closures, chain);
-  const std::size_t count = problem.closures.size();
+  if (auto found = remove_unmeasured(measured.closures, chain)) out.push_back(*found);
+  if (measured.closures.empty()) return out;
+  const GapCheck gaps = check_gaps(measured.closures, chain);
+  const std::size_t count = measured.closures.size();
   const bool are_few_false = 5 * (count - gaps.plausible.size()) < count;
-  if (auto repair = find_closure_repair(problem, chain)) {
-    // Smaller translations of all closures also shrink the gaps of a few false ones.
-    const bool is_unit = repair->fault == Fault::closure_unit;
-    if (!(is_unit && gaps.finding && are_few_false)) return {*repair};
+  auto repair = find_closure_repair(measured, chain);
+  // Smaller translations of all closures also shrink the gaps of a few false ones.
+  const bool is_unit = repair && repair->fault == Fault::closure_unit;
+  if (repair && !(is_unit && gaps.finding && are_few_false)) {
+    out.push_back(std::move(*repair));
+    return out;
   }
   if (gaps.finding) out.push_back(*gaps.finding);
   if (are_few_false) {  // false closures show nothing about the information
-    Problem plausible = problem;
-    plausible.closures = gaps.plausible;
-    if (auto found = check_information(plausible)) out.push_back(*found);
+    measured.closures = gaps.plausible;
+    if (auto found = check_information(measured)) out.push_back(*found);
   }
   std::erase_if(out, [](const InputFinding& f) { return f.confidence < kLeastConfidence; });
   return out;

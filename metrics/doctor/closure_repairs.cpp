@@ -55,7 +55,7 @@ std::vector<EdgeRepair> unit_repairs(const std::string& edges,
                                      const std::string& if_larger,
                                      const std::string& if_smaller) {
   std::vector<EdgeRepair> out;
-  for (const double factor : {0.001, 0.01, 100.0, 1000.0}) {
+  for (const double factor : {0.001, 0.01, 0.3048, 1.0 / 0.3048, 100.0, 1000.0}) {
     out.push_back({Fault::closure_unit,
                    fmt::format("multiplying the translations of {} by {:g}", edges, factor),
                    fmt::format("write {} in metres", factor < 1.0 ? if_larger : if_smaller),
@@ -74,6 +74,12 @@ std::vector<EdgeRepair> candidates() {
         "inverting the closures (or all odometry)",
         "exchange the two vertices of each closure; in a file of loops the first two columns",
         inverted_edge},
+       {Fault::closure_rotation,
+        "inverting the closures' rotations, but not their translations,",
+        "write the rotations that map vectors from the second vertex's body to the first one's",
+        [](const Pose& p, const Rotation&) -> Pose {
+          return {p.rotation.conjugate(), p.translation};
+        }},
        {Fault::closure_rotation,
         "quaternions of the closures in the order w x y z",
         "write their quaternions as x y z w",
@@ -150,27 +156,31 @@ double error_to_keyframes(const std::vector<Edge>& edges,
   return step > 0.0 ? median_value(std::move(errors)) / step + angle : 0.0;
 }
 
-/// The first repair with which `edges` agree with the keyframes, if they do not as read.
+/// The repair with which `edges` agree best with the keyframes, if they do not as read.
 std::optional<InputFinding> repair_by_keyframes(const std::vector<Edge>& edges,
                                                 const Trajectory& keyframes,
                                                 const std::vector<EdgeRepair>& repairs) {
-  constexpr double kBad = 0.3, kBetter = 0.2;
+  constexpr double kBad = 0.3, kBetter = 0.3;
   const double before = error_to_keyframes(edges, keyframes, kAsRead);
   if (before < kBad) return std::nullopt;
+  double after = kBetter * before;
+  const EdgeRepair* best = nullptr;
   for (const EdgeRepair& repair : repairs) {
-    const double after = error_to_keyframes(edges, keyframes, repair);
-    if (after > kBetter * before) continue;
-    return InputFinding{repair.fault,
-                        fmt::format("{}: difference to the vertices {:.3g} -> {:.3g} (of a step, "
-                                    "and rad)",
-                                    repair.what,
-                                    before,
-                                    after),
-                        repair.fix,
-                        1.0 - after / before,
-                        static_cast<double>(edges.size())};
+    const double error = error_to_keyframes(edges, keyframes, repair);
+    if (error >= after) continue;
+    after = error;
+    best = &repair;
   }
-  return std::nullopt;
+  if (best == nullptr) return std::nullopt;
+  return InputFinding{best->fault,
+                      fmt::format("{}: difference to the vertices {:.3g} -> {:.3g} (of a step, and "
+                                  "rad)",
+                                  best->what,
+                                  before,
+                                  after),
+                      best->fix,
+                      1.0 - after / before,
+                      static_cast<double>(edges.size())};
 }
 
 }  // namespace
@@ -191,6 +201,36 @@ std::optional<InputFinding> find_repair_by_keyframes(const Problem& problem) {
                  true});
   if (auto found = repair_by_keyframes(problem.odometry, problem.keyframes, all)) return found;
   return repair_by_keyframes(problem.closures, problem.keyframes, candidates());
+}
+
+std::optional<InputFinding> remove_unmeasured(std::vector<Edge>& closures, const Chain& chain) {
+  constexpr double kExact = 1e-9, kLeastPart = 0.2, kLeastGap = 0.05;  // [m], [-], [m]
+  constexpr std::size_t kFewest = 2;
+  const std::size_t all = closures.size();
+  std::vector<Edge> measured;
+  std::vector<double> gaps;
+  for (const Edge& edge : closures) {
+    if (is_close(edge.from_from_to, Pose{}, kExact, kExact)) {
+      gaps.push_back(gap_of(edge, chain).translation.norm());
+    } else {
+      measured.push_back(edge);
+    }
+  }
+  const std::size_t count = gaps.size();
+  const double gap = median_value(std::move(gaps));
+  const bool are_few = static_cast<double>(count) < kLeastPart * static_cast<double>(all);
+  if (count < kFewest || are_few || gap < kLeastGap) return std::nullopt;
+  closures = std::move(measured);
+  return InputFinding{
+      Fault::closure_gap,
+      fmt::format("{} of {} closures state exactly the same pose at both ends, where the odometry "
+                  "has a median distance of {:.3g} m: the poses were not measured",
+                  count,
+                  all,
+                  gap),
+      "measure the relative poses (registration), or state their information for positions only",
+      0.7,
+      static_cast<double>(count)};
 }
 
 std::optional<InputFinding> find_closure_repair(const Problem& problem, const Chain& chain) {

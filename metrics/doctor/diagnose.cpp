@@ -59,9 +59,11 @@ class PairDiagnosis {
                 const std::string& estimate_name,
                 bool has_stamps) {
     add(check_swapped(reference_name, estimate_name));
+    const bool has_jumps = repair_rows_first();
     if (!has_stamps)
       out_.unchecked.emplace_back("stamps: a file has none, its rows count as equally spaced");
     if (has_stamps || reference_.size() != estimate_.size()) check_stamps(has_stamps);
+    if (!has_jumps) repair_rows();
     check_poses();
     std::erase_if(out_.findings,
                   [](const InputFinding& f) { return f.confidence < kLeastConfidence; });
@@ -72,6 +74,27 @@ class PairDiagnosis {
   bool add(std::optional<InputFinding> found) {
     if (found) out_.findings.push_back(std::move(*found));
     return found.has_value();
+  }
+
+  /// Rows that repeat the one before, and jumps, of the estimate or else of the reference.
+  bool repair_rows() {
+    for (const bool is_reference : {false, true}) {
+      Trajectory& file = is_reference ? reference_ : estimate_;
+      const Trajectory& other = is_reference ? estimate_ : reference_;
+      const std::string name = is_reference ? "reference" : "estimate";
+      const bool stands_still = add(remove_standstill(file, other, name));
+      if (add(remove_jumps(file, other, name)) || stands_still) return true;
+    }
+    return false;
+  }
+
+  /// They hide clocks, but only if all else fits: clocks also look like jumps.
+  bool repair_rows_first() {
+    constexpr double kAgrees = 0.8;  // correlation of speeds
+    const PairDiagnosis before = *this;
+    if (repair_rows() && speed_correlation(reference_, estimate_) > kAgrees) return true;
+    *this = before;
+    return false;
   }
 
   void check_stamps(bool has_stamps) {
@@ -87,7 +110,11 @@ class PairDiagnosis {
         for (StampedPose& pose : estimate_) pose.stamp += found->offset;
       }
     }
-    if (!add(check_overlap(reference_, estimate_))) add(check_missing(reference_, estimate_));
+    const bool has_missing = std::ranges::any_of(
+        out_.findings, [](const InputFinding& f) { return f.fault == Fault::missing_poses; });
+    if (!add(check_overlap(reference_, estimate_)) && !has_missing) {
+      add(check_missing(reference_, estimate_));
+    }
   }
 
   void check_poses() {
@@ -122,7 +149,6 @@ class PairDiagnosis {
     const bool is_of_points = largest_rotation_angle(poses.reference) < kConstant &&
                               largest_rotation_angle(poses.estimate) > kLeastRotation;
     if (is_of_points) add(remove_lever_arm(poses));
-    add(remove_jumps(poses));
     for (int i = 0; i < kMostRepairs && add(apply_best_repair(poses, out_.findings)); ++i) {
     }
     check_recording(agreement(poses));
@@ -159,6 +185,14 @@ class PairDiagnosis {
     const double correlation = speed_correlation(reference_, estimate_);
     const double confidence = std::min(1.0, position) * (1.0 - correlation);
     if (correlation > kCorrelation || confidence < kLeastConfidence) return;
+    if (auto order = repair_order(estimate_, reference_, "estimate")) {
+      out_.findings = {*order};
+      return;
+    }
+    if (auto order = repair_order(reference_, estimate_, "reference")) {
+      out_.findings = {*order};
+      return;
+    }
     out_.findings = {
         {Fault::wrong_recording,
          fmt::format("no repair makes the files agree: after alignment with scale, the position "

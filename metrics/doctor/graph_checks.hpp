@@ -22,6 +22,15 @@ std::optional<InputFinding> find_repair_by_keyframes(const Problem& problem);
 /// none. O(keyframes + closures log).
 std::optional<InputFinding> find_closure_repair(const Problem& problem, const Chain& chain);
 
+/// Less than half of the stamps of loops are at most 20 ms from a pose: other units, frame numbers,
+/// another clock or another recording. O(loops poses log).
+std::optional<InputFinding> check_loop_stamps(const std::vector<double>& loops,
+                                              const Trajectory& poses);
+
+/// Removes closures that state the identity, as if a place recogniser had measured no relative
+/// poses, if they are at least a fifth. O(closures).
+std::optional<InputFinding> remove_unmeasured(std::vector<Edge>& closures, const Chain& chain);
+
 /// Compares closures with the odometry, without a reference:
 /// - conventions of odometry and closures, see find_repair_by_keyframes() and
 /// find_closure_repair();

@@ -73,9 +73,24 @@ std::optional<InputFinding> check_swapped(const std::string& reference_name,
 /// O(n).
 std::optional<InputFinding> check_angle_unit(const Paired& poses);
 
-/// Up to a tenth of all steps are jumps of the estimate's positions, without which the position
-/// error is smaller. O(n).
-std::optional<InputFinding> remove_jumps(Paired& poses);
+// The first file is changed, the other one shows how far it should move.
+
+/// Rows that repeat the position before while the other file moves: tracking was lost. They are
+/// removed if that reduces the position error. O(n + m).
+std::optional<InputFinding> remove_standstill(Trajectory& file,
+                                              const Trajectory& other,
+                                              const std::string& name);
+
+/// Up to an eighth of all steps are jumps. Outliers are removed, and other jumps undone, if that
+/// reduces the position error. O(n + m).
+std::optional<InputFinding> remove_jumps(Trajectory& file,
+                                         const Trajectory& other,
+                                         const std::string& name);
+
+/// Rows in the order of names: "10" before "2". O(n log n + m).
+std::optional<InputFinding> repair_order(Trajectory& file,
+                                         const Trajectory& other,
+                                         const std::string& name);
 
 /// A reference of positions is that of a point with a lever arm that halves the position error: a
 /// prism or an antenna. O(n).

@@ -91,7 +91,8 @@ std::optional<InputFinding> repair_rate(const Trajectory& reference,
   for (const double rate : {5, 10, 15, 20, 25, 30, 50, 60, 100, 200}) {
     if (has_stamps && has_indices) factors.push_back(1.0 / rate);
   }
-  if (has_stamps && !has_indices) factors.insert(factors.end(), {0.1, 0.2, 0.25, 0.5, 2, 4, 5});
+  if (has_stamps && !has_indices)
+    factors.insert(factors.end(), {0.1, 0.2, 0.25, 0.5, 0.75, 0.8, 0.9, 1.1, 1.25, 1.5, 2, 4, 5});
   const auto same = estimate_time_offset(reference, estimate);
   double best =
       std::max(has_indices ? kAgrees : kAgreesOfClocks, same ? same->correlation + kGain : 0.0);

@@ -56,5 +56,35 @@ TEST(DoctorOfClosures, AreComparedWithTheVertices) {
   EXPECT_EQ(found[0].fault, Fault::closure_direction);
 }
 
+/// A place recogniser without registration states the identity.
+TEST(DoctorOfClosures, WithoutMeasuredPoses) {
+  Problem problem = test::walk(5, 120, 0.01);
+  problem.closures.clear();
+  for (std::size_t i = 0; i + 60 < 120; i += 6) {
+    problem.closures.push_back({i, i + 60, Pose{}, problem.odometry[0].information});
+  }
+  const auto found = check_closures(problem);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].fault, Fault::closure_gap);
+  EXPECT_THAT(found[0].evidence, HasSubstr("10 of 10 closures state exactly the same pose"));
+}
+
+TEST(DoctorOfClosures, InvertedRotationsOrFeet) {
+  const Problem good = test::walk(5, 120, 0.01);
+  EXPECT_THAT(check_closures(good), testing::IsEmpty());
+  Problem rotated = good, in_feet = good;
+  for (Edge& edge : rotated.closures) {
+    edge.from_from_to.rotation = edge.from_from_to.rotation.conjugate();
+  }
+  for (Edge& edge : in_feet.closures) edge.from_from_to.translation /= 0.3048;
+  const auto found = check_closures(rotated);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].fault, Fault::closure_rotation);
+  const auto unit = check_closures(in_feet);
+  ASSERT_EQ(unit.size(), 1u);
+  EXPECT_EQ(unit[0].fault, Fault::closure_unit);
+  EXPECT_THAT(unit[0].evidence, HasSubstr("by 0.3048"));
+}
+
 }  // namespace
 }  // namespace loopbench::doctor_closure_frames_test
