@@ -58,12 +58,18 @@ class PairDiagnosis {
   Diagnosis run(const std::string& reference_name,
                 const std::string& estimate_name,
                 bool has_stamps) {
+    constexpr double kAgrees = 0.8;  // correlation of speeds
     add(check_swapped(reference_name, estimate_name));
-    const bool has_jumps = repair_rows_first();
+    const PairDiagnosis as_read = *this;
+    const bool has_jumps = repair_rows();
+    // They hide clocks, but only if all else fits: clocks also look like jumps.
+    const bool are_clocks = has_jumps && speed_correlation(reference_, estimate_) <= kAgrees;
+    if (are_clocks) *this = as_read;
+    const std::size_t count = out_.findings.size();
     if (!has_stamps)
       out_.unchecked.emplace_back("stamps: a file has none, its rows count as equally spaced");
     if (has_stamps || reference_.size() != estimate_.size()) check_stamps(has_stamps);
-    if (!has_jumps) repair_rows();
+    if (are_clocks || (!has_jumps && out_.findings.size() > count)) repair_rows();
     check_poses();
     std::erase_if(out_.findings,
                   [](const InputFinding& f) { return f.confidence < kLeastConfidence; });
@@ -85,15 +91,6 @@ class PairDiagnosis {
       const bool stands_still = add(remove_standstill(file, other, name));
       if (add(remove_jumps(file, other, name)) || stands_still) return true;
     }
-    return false;
-  }
-
-  /// They hide clocks, but only if all else fits: clocks also look like jumps.
-  bool repair_rows_first() {
-    constexpr double kAgrees = 0.8;  // correlation of speeds
-    const PairDiagnosis before = *this;
-    if (repair_rows() && speed_correlation(reference_, estimate_) > kAgrees) return true;
-    *this = before;
     return false;
   }
 
