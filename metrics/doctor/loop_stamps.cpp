@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "datasets/derive/poses_at.hpp"
 #include "metrics/doctor/graph_checks.hpp"
 
 namespace loopbench::metrics {
@@ -14,8 +13,11 @@ double found_part(const std::vector<double>& loops,
                   const Trajectory& poses,
                   double factor,
                   double offset) {
+  constexpr double kMaxDiff = 0.02;  // [s]
   const auto count = std::ranges::count_if(loops, [&](double stamp) {
-    return nearest_pose(poses, factor * stamp + offset, InterpolationLimits{}.max_diff).has_value();
+    const double at = factor * stamp + offset;
+    const auto next = std::ranges::lower_bound(poses, at - kMaxDiff, {}, &StampedPose::stamp);
+    return next != poses.end() && next->stamp <= at + kMaxDiff;
   });
   return static_cast<double>(count) / static_cast<double>(loops.size());
 }

@@ -135,12 +135,15 @@ std::optional<InputFinding> remove_jumps(Trajectory& file,
                                          const std::string& name) {
   constexpr std::size_t kListed = 5, kReturnsWithin = 20;  // jumps
   constexpr std::size_t kLongest = 20;                     // outlier, as a part of the poses
-  constexpr double kMostRatio = 0.95, kLeastAngle = 0.3;   // [-], [rad]
+  constexpr double kLongestPause = 100.0;
+  constexpr double kMostRatio = 0.95, kLeastAngle = 0.3;  // [-], [rad]
   const Steps steps(file, other);
   const Trajectory& poses = steps.poses.estimate;
-  std::vector<std::size_t> jumps;  // begins of steps
+  const double longest = kLongestPause * longest_gap(poses);  // [s]; after a stray stamp
+  std::vector<std::size_t> jumps;                             // begins of steps
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
-    if (steps.is_jump(i, i + 1)) jumps.push_back(i);
+    const bool is_other_time = poses[i + 1].stamp - poses[i].stamp > longest;
+    if (!is_other_time && steps.is_jump(i, i + 1)) jumps.push_back(i);
   }
   if (jumps.empty() || jumps.size() > poses.size() / 8) return std::nullopt;
   /// Whether a jump after pose j undoes the one after pose i.
