@@ -196,7 +196,7 @@ std::optional<InputFinding> remove_jumps(Trajectory& file,
   if (count > kListed) list += fmt::format(" and {} more times", count - kListed);
   return InputFinding{
       Fault::jumps,
-      fmt::format("the {}'s position jumps at {}: without, {}", name, list, *change),
+      fmt::format("the {}'s position jumps at {}: without them, {}", name, list, *change),
       "evaluate the parts on their own (traj crop), or repair the source",
       1.0,
       static_cast<double>(count)};
