@@ -1,6 +1,8 @@
 #include "harness/base/suggest.hpp"
 
 #include <algorithm>
+#include <sstream>
+#include <string_view>
 
 namespace loopbench::harness {
 namespace {
@@ -25,7 +27,7 @@ std::size_t distance(const std::string& a, const std::string& b) {
 
 std::string closest(const std::string& given, const std::vector<std::string>& known) {
   std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, given.size() / 3) + 1;
+  std::size_t best_distance = std::max<std::size_t>(given.size() < 5 ? 1 : 2, given.size() / 3) + 1;
   for (const std::string& name : known) {
     // Each surplus character is an edit, so much longer names need no comparison.
     if (given.size() >= name.size() + best_distance) continue;
@@ -47,6 +49,25 @@ std::string unknown_name(const std::string& kind,
   std::string all;
   for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
   return all.empty() ? what : what + " (known: " + all + ")";
+}
+
+std::string with_guess(const OptionError& error) {
+  std::string why = error.what();
+  constexpr std::string_view kOptions = " (has: ", kValues = ": expected one of ";
+  const std::size_t options = why.rfind(kOptions), values = why.rfind(kValues);
+  const std::size_t begin = error.option().size() + 3;  // of VALUE after "NAME = "
+  const bool has_options = options != std::string::npos;
+  if (!has_options && (values == std::string::npos || values < begin)) return why;
+  std::vector<std::string> known;
+  std::istringstream list(
+      why.substr(has_options ? options + kOptions.size() : values + kValues.size()));
+  for (std::string word; list >> word;) {
+    if (word != "|") known.push_back(word.substr(0, word.find_first_of(",)")));
+  }
+  const std::string best =
+      closest(has_options ? error.option() : why.substr(begin, values - begin), known);
+  if (best.empty()) return why;
+  return why.insert(std::min(options, why.size()), "; did you mean '" + best + "'?");
 }
 
 }  // namespace loopbench::harness

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "datasets/core/params.hpp"
+
 namespace loopbench::harness {
 
 /// The closest known name if it is similar enough for a typing error, otherwise empty.
@@ -15,5 +17,8 @@ std::string closest(const std::string& given, const std::vector<std::string>& kn
 std::string unknown_name(const std::string& kind,
                          const std::string& given,
                          const std::vector<std::string>& known);
+
+/// The message, with the closest of the options or words that it lists ("did you mean 'y'?").
+std::string with_guess(const OptionError& error);
 
 }  // namespace loopbench::harness

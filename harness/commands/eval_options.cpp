@@ -252,8 +252,7 @@ void declare(CLI::App& command, EvalArguments& a) {
                   a.common,
                   "Evaluate only the times that all estimates of REF cover: yes or no (default: "
                   "yes with --store)")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, bool>{{"yes", true}, {"no", false}}))
+      ->transform(one_of<bool>("answer", {{"yes", true}, {"no", false}}))
       ->type_name("WORD");
   auto* together = command.add_flag(
       "--align-together",

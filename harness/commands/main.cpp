@@ -54,8 +54,10 @@ std::string with_hyphens(std::string text) {
 
 /// The most similar of the options: by spelling, or those that begin with or contain the word.
 std::vector<std::string> nearest(const std::string& word, const std::vector<std::string>& known) {
-  if (const std::string best = closest(word, known); !best.empty()) return {best};
-  const std::string core = word.substr(word.find_first_not_of('-'));
+  const std::string core = word.substr(std::min(word.find_first_not_of('-'), word.size()));
+  std::vector<std::string> cores;
+  for (const std::string& each : known) cores.push_back(each.substr(2));
+  if (const std::string best = closest(core, cores); !best.empty()) return {"--" + best};
   std::vector<std::string> out;
   for (const std::string& each : known) {
     const std::string its_core = each.substr(2);
@@ -190,7 +192,7 @@ int run(CLI::App& app,
   } catch (const InputError& error) {
     return fail(error.what(), kExitBadInput);
   } catch (const OptionError& error) {
-    return fail(error.what(), kExitBadInput);
+    return fail(with_guess(error), kExitBadInput);
   } catch (const MissingPart& error) {
     return fail(error.what(), kExitMissingPart);
   } catch (const std::filesystem::filesystem_error& error) {

@@ -68,7 +68,7 @@ bool choose_sequences(TableArguments& arguments) {
   TableSpec& spec = arguments.spec;
   const std::string baseline = read_run(arguments.store).at("baseline");
   const auto is_kept = where(arguments.where);
-  std::set<std::string> scores;
+  std::set<std::string> scores, known;
   std::set<SharedText> sequences;
   RecordReader reader(arguments.store);
   reader.for_each_chunk([&](std::vector<Record>& records) {
@@ -78,10 +78,15 @@ bool choose_sequences(TableArguments& arguments) {
       sequences.insert(r.sequence);
       if (r.metric.empty()) continue;
       const std::string score = field(r, "score");
+      known.insert(score);
       if (spec.show.empty() || std::ranges::count(spec.show, score) > 0) scores.insert(score);
     }
     return scores.size() < 2;
   });
+  if (scores.empty() && !known.empty()) {
+    throw InputError("--show: " +
+                     unknown_name("score", spec.show.front(), {known.begin(), known.end()}));
+  }
   if (scores.size() != 1 || sequences.size() < 2) return false;
   spec.columns = {"sequence"};
   if (sequences.size() > kMostColumns) std::swap(spec.rows, spec.columns);

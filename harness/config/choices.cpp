@@ -13,22 +13,13 @@ template <class Check>
 void located(const ConfigEntry& entry,
              const std::string& name,
              const std::vector<Setting>& settings,
-             const std::vector<OptionInfo>& options,
              Check check) {
   try {
     check();
   } catch (const OptionError& error) {
     const auto setting = std::ranges::find(settings, error.option(), &Setting::name);
     const Place& place = setting == settings.end() ? entry.place : setting->place;
-    std::vector<std::string> known;
-    for (const OptionInfo& option : options) known.push_back(option.name);
-    const bool is_known = std::ranges::count(known, error.option()) > 0;
-    const std::string guess = is_known ? "" : closest(error.option(), known);
-    std::string why = error.what();  // the guess precedes the list of all options
-    if (!guess.empty()) {
-      why.insert(std::min(why.find(" (has: "), why.size()), "; did you mean '" + guess + "'?");
-    }
-    throw place.error(name + ": " + why);
+    throw place.error(name + ": " + with_guess(error));
   }
 }
 
@@ -120,7 +111,7 @@ std::vector<DatasetChoice> dataset_choices(const ConfigEntry& entry,
   for (GridPoint& point : points) {
     restore_text_options(point.settings, known.options);
     const Params options = to_params(point.settings);
-    located(entry, entry.name, point.settings, known.options, [&] { known.check(options); });
+    located(entry, entry.name, point.settings, [&] { known.check(options); });
     out.push_back({label_of(entry, point), {entry.name, options}});
   }
   return out;
@@ -155,7 +146,7 @@ std::vector<MetricChoice> metric_choices(const ConfigEntry& entry,
   for (GridPoint point : entry.points) {
     restore_text_options(point.settings, known.options);
     const Params options = to_params(point.settings);
-    located(entry, entry.name, point.settings, known.options, [&] {
+    located(entry, entry.name, point.settings, [&] {
       known.check(options);
       if (!known.check_protocol) return;
       for (const metrics::NamedProtocol& protocol : protocols)
@@ -189,7 +180,7 @@ std::vector<MethodChoice> method_choices(const ConfigEntry& entry, const Catalog
       const methods::MethodEntry& stage = *stages[i];
       const Params options = to_params(by_stage[i]);
       choice.stages.push_back({stage.name, options});
-      located(entry, stage.name, by_stage[i], stage.options, [&] {
+      located(entry, stage.name, by_stage[i], [&] {
         if (is_joint(catalogue, stage, options) && stages.size() > 1 + replays_in_front(stages))
           throw OptionError("output",
                             "with these options it is a joint method and has no smoother");
@@ -235,7 +226,7 @@ metrics::NamedProtocol protocol_choice(const YamlNode& node) {
   } catch (const OptionError& error) {
     const auto found = std::ranges::find(settings, error.option(), &Setting::name);
     const Place place = found == settings.end() ? Place(node) : found->place;
-    throw place.error(std::string("protocol: ") + error.what());
+    throw place.error("protocol: " + with_guess(error));
   }
 }
 

@@ -1,7 +1,6 @@
 #include "harness/tables/table.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/base/printable.hpp"
+#include "harness/base/suggest.hpp"
 #include "harness/base/wrap.hpp"
 #include "metrics/correction/optimality.hpp"
 
@@ -127,8 +127,12 @@ std::vector<Table> with_columns(std::vector<Table> tables, const std::vector<std
   for (const std::string& name : names) {
     const auto is_named = [&](const std::string& heading) { return is_column_name(heading, name); };
     if (std::ranges::any_of(known, is_named)) continue;
-    throw InputError(fmt::format(
-        "--columns: no column is named '{}', expected {}", name, fmt::join(known, ", ")));
+    std::vector<std::string> plain;  // without units
+    for (const std::string& heading : known) {
+      const std::string each = heading.substr(0, heading.rfind(" ["));
+      if (std::ranges::count(plain, each) == 0) plain.push_back(each);
+    }
+    throw InputError("--columns: " + unknown_name("column", name, plain));
   }
   for (Table& table : tables) {
     std::vector<std::size_t> places{0};

@@ -86,7 +86,13 @@ TEST_F(EvalOnATerminal, ColumnsAreChosen) {
     return result.err;
   };
   EXPECT_THAT(error("--metric ate --columns ate"),
-              HasSubstr("--columns: no column is named 'ate', expected rmse, mean, median"));
+              HasSubstr("--columns: no column is named 'ate' (known: rmse, mean, median"));
+  EXPECT_THAT(error("--columns atee"), HasSubstr("did you mean 'ate'?"));
+  EXPECT_THAT(error("--align simm3"), HasSubstr("; did you mean 'sim3'?"));
+  EXPECT_THAT(error("--set statistc=rmse"), HasSubstr("; did you mean 'statistic'? (has: "));
+  EXPECT_THAT(error("--common ye"), HasSubstr("did you mean 'yes'?"));
+  EXPECT_THAT(error("--verbose"), testing::Not(HasSubstr("did you mean")));
+  EXPECT_THAT(error("--ref x"), HasSubstr("'--ref' (known: --ref-format, --ref-body, "));
   EXPECT_THAT(error("--csv --columns metricc"), HasSubstr("did you mean 'metric'?"));
   EXPECT_THAT(error("--json --columns ate"), HasSubstr("--columns excludes --json"));
 }

@@ -91,7 +91,7 @@ TEST(ReadSweep, RefusesUnknownAndBrokenSettings) {
   EXPECT_EQ(
       why(config("- line", "- shift", "- ate", "protocol:\n  align: se4\n")),
       "c.yaml:8: protocol: align = se4: expected one of se3 | sim3 | scale | posyaw | origin | "
-      "posyaw_origin | none");
+      "posyaw_origin | none; did you mean 'se3'?");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "baseline: shifd\n")),
             "c.yaml:7: baseline: no method is named 'shifd'; did you mean 'shift'?");
   EXPECT_EQ(why(config("- line", "- shift", "- ate", "exclude: [{method: '('}]\n")),

@@ -75,6 +75,8 @@ TEST_F(TableLayout, IsForPapersTheFirstScoreGainAndTimeOfOneSequence) {
   EXPECT_THAT(table("--format latex"),
               HasSubstr("\nmethod & ate {[}m] & ate {[}deg] & gain {[}\\%] & time {[}ms] \\\\\n"));
   EXPECT_THAT(table("--show ate"), StartsWith("### s1, keyframes\n"));
+  const CommandResult slip = loopbench_command("table results/c --show atte", folder_);
+  EXPECT_EQ(slip.err, "loopbench: --show: no score is named 'atte'; did you mean 'ate'?\n");
 }
 
 TEST_F(TableLayout, HasARowForEachOfManySequences) {
