@@ -139,8 +139,7 @@ void add_check(CLI::App& app, int& exit_code) {
           arguments->time,
           "With --update: also check times of cells and updates, with this maximum relative "
           "increase (plus 1 ms)")
-      ->check(finite_number())
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_between(0.0, 1e9))
       ->type_name("SHARE");
   CLI::Option* history =
       command

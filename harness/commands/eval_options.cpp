@@ -42,8 +42,7 @@ void declare_files(CLI::App& command, EvalArguments& a) {
           "Standard deviation of REF's positions, per axis [m]: errors and differences below "
           "it are reported as such, and nees adds it to stated covariances")
       ->type_name("M")
-      ->check(finite_number())
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_between(0.0, 1e9));
   const auto file = [&](const char* name, std::string& value, const char* whose) {
     const std::string help = std::string("Covariances of ") + whose +
                              ": rows of a stamp and 6, 9, 21 or 36 numbers, one for each pose";
@@ -79,8 +78,7 @@ void declare_files(CLI::App& command, EvalArguments& a) {
       ->type_name("M DEG")
       ->expected(2)
       ->allow_extra_args(false)
-      ->check(finite_number())
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_between(0.0, 1e9));
 }
 
 void declare_rules(CLI::App& command, EvalArguments& a) {

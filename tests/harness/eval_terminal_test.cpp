@@ -94,6 +94,9 @@ TEST_F(EvalOnATerminal, ColumnsAreChosen) {
   EXPECT_THAT(error("--verbose"), testing::Not(HasSubstr("did you mean")));
   EXPECT_THAT(error("--ref x"), HasSubstr("'--ref' (known: --ref-format, --ref-body, "));
   EXPECT_THAT(error("--csv --columns metricc"), HasSubstr("did you mean 'metric'?"));
+  EXPECT_EQ(error("--motion_filter -1 2"),
+            "loopbench: eval: --motion_filter: -1 is not a number from 0 to 1000000000\n"
+            "Run with --help for more information.\n");
   EXPECT_THAT(error("--json --columns ate"), HasSubstr("--columns excludes --json"));
 }
 
