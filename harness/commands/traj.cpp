@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <numeric>
 
 #include "datasets/core/covariance.hpp"
@@ -226,12 +227,14 @@ int align_files(const TrajArguments& a) {
       each.file.poses = metrics::moved(fit, std::move(each.file.poses));
       rotate(each.file.covariances, fit.reference_from_estimate, fit.scale);
       const auto& [rotation, position] = fit.reference_from_estimate;
-      aligned.push_back({a.reference, each.name, pairs.size(), fit});
+      const std::size_t used =
+          a.align_first > 0 ? std::min(a.align_first, pairs.size()) : pairs.size();
+      aligned.push_back({a.reference, each.name, used, fit});
       if (!a.json) {
         fmt::print(stderr,
                    "{}: aligned with {} pairs, scale {:.9g}, x,y,z,qx,qy,qz,qw = {:.9g}, {:.9g}\n",
                    printable(each.name),
-                   pairs.size(),
+                   used,
                    fit.scale,
                    fmt::join(position, ", "),
                    fmt::join(rotation.coeffs(), ", "));

@@ -123,6 +123,7 @@ TEST(Traj, AlignPrintsTheTransformAsEval) {
     EXPECT_EQ(fit.at(key), evaluated.at(key)) << key;
   }
   EXPECT_EQ(json({"--json", "-o", out}).at(0), fit);
+  EXPECT_EQ(json({"--json", "--n_to_align", "100"}).at(0).at("pairs"), 100);
   EXPECT_EQ(read_trajectory(out).size(), 657u);
 }
 
