@@ -160,7 +160,12 @@ std::string report_of(const std::vector<Record>& records,
     if (is_failed_run || is_score(r, score)) scores.push_back(r);
   }
   CompareOptions options;
-  options.baseline = records.front().method;
+  // The first method with a value.
+  options.baseline = std::ranges::find_if(all, [&](const CountedRuns& each) {
+                       return std::ranges::any_of(all, [&](const CountedRuns& other) {
+                         return other.method == each.method && !other.values.empty();
+                       });
+                     })->method;
   options.paired = paired;
   for (const Comparison& comparison : compare(scores, options)) {
     out += "\n" + lines_of("verdict: " + statement(comparison), style);

@@ -81,6 +81,10 @@ TEST(EvalFailures, OneBadEstimateIsARowAndTheOthersStand) {
   EXPECT_NE(text.find("\n- " + bad + ": failed: " + bad + ":1: column 4 (tz): ' [31m' is not"),
             std::string::npos)
       << text;  // no terminal escape sequences
+  const std::string three =
+      eval({files[0], bad, files[2], golden("est_drift.txt")}, kExitSomeCellsFailed);
+  EXPECT_NE(three.find("the baseline est_corrected ranks first: est_drift is"), std::string::npos)
+      << three;
 }
 
 TEST(EvalFailures, AProtocolThatDoesNotFitIsARowAndABadReferenceAnError) {
