@@ -163,6 +163,9 @@ const std::map<std::string, std::string> kExitCodes{
     {"eval",
      "0 success, 1 an estimate failed or covers too little, 2 invalid input or output, 3 internal "
      "error."},
+    {"table",
+     "0 success, 1 a result file of evo cannot be used, 2 invalid input or output, 3 internal "
+     "error."},
     {"claim",
      "0 every answer is the expected one, 1 another answer, 2 invalid input or output, 3 internal "
      "error, 4 the build lacks a required part, 130 interrupted."},

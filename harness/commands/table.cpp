@@ -3,6 +3,8 @@
 #include <set>
 
 #include "datasets/core/error.hpp"
+#include "harness/base/print_error.hpp"
+#include "harness/base/printable.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
@@ -117,15 +119,26 @@ int print_evo_results(const TableArguments& arguments) {
                      ": a result file of evo has one layout, expected no --rows, --columns, "
                      "--split, --show, --where and --success");
   }
-  const std::vector<Record> records = read_evo_results(arguments.files);
+  std::vector<std::string> files;
+  for (const std::string& file : arguments.files) {
+    try {
+      read_evo_results({file});
+      files.push_back(file);
+    } catch (const InputError& error) {
+      if (arguments.files.size() == 1) throw;
+      print_error("{}\n", printable(std::string("loopbench: ") + error.what()));
+    }
+  }
+  if (files.empty()) return kExitBadInput;
+  const std::vector<Record> records = read_evo_results(files);
   const ExportFormat format = arguments.output.format();
-  const std::vector<Table> tables = evo_result_tables(records, arguments.files);
+  const std::vector<Table> tables = evo_result_tables(records, files);
   write_plain(format == ExportFormat::csv    ? csv(records)
               : format == ExportFormat::json ? json(tables)
                                              : text(tables, arguments.output),
               arguments.output,
               {arguments.files.begin(), arguments.files.end()});
-  return kExitOk;
+  return files.size() == arguments.files.size() ? kExitOk : kExitSomeCellsFailed;
 }
 
 int print_table(TableArguments arguments) {

@@ -89,6 +89,13 @@ TEST(EvoResults, AreTabulatedAndCompared) {
                 HasSubstr("is a result of evo, expected trajectories; `loopbench table"));
   }
   EXPECT_THAT(two.err, HasSubstr("expected one store"));
+  folder.file("c.zip",
+              zip_of({{"info.json", "{\"title\": \"APE\"}"}, {"stats.json", "{\"mean\": 1.0}"}}));
+  const CommandResult others = loopbench_command("table a.zip c.zip b.zip", folder);
+  EXPECT_EQ(others.exit_code, 1);
+  EXPECT_EQ(others.err, "loopbench: c.zip: stats.json has no number 'rmse'\n");
+  EXPECT_EQ(others.out, loopbench_command("table a.zip b.zip", folder).out);
+  EXPECT_EQ(loopbench_command("table c.zip", folder).exit_code, 2);
 }
 
 TEST(EvoResults, OfRunsAreNamedByTheirFiles) {
