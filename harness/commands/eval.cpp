@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <set>
 
-#include "datasets/bags/bag_trajectory.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/wrap.hpp"
 #include "harness/base/write_file.hpp"
@@ -162,8 +161,6 @@ void write_evaluation_page(RecordedSweep files,
                            const Source& source) {
   const EvalArguments& a = files.arguments;
   Sweep& sweep = files.sweep;
-  sweep.name = "Evaluation against " +
-               std::filesystem::path(file_of(files.runs.front().reference)).filename().string();
   if (a.figures.labels.size() == sweep.methods.size()) {
     for (std::size_t i = 0; i < sweep.methods.size(); ++i) {
       sweep.methods[i].label = a.figures.labels[i];

@@ -9,6 +9,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/base/hash.hpp"
+#include "harness/model/recorded_run.hpp"
 #include "harness/report/assets.hpp"
 #include "harness/report/data.hpp"
 #include "harness/report/html.hpp"
@@ -77,9 +78,16 @@ std::string data_text(const nlohmann::json& data) {
   return data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+/// Name of the sweep; of evaluated files their sequence, or the number of sequences.
+std::string title_of(const std::vector<std::string>& sequences,
+                     std::map<std::string, std::string> run) {
+  if (!is_recorded(run["config"])) return run.emplace("sweep", "sweep").first->second;
+  return sequences.size() == 1 ? "Evaluation on " + sequences.front()
+                               : fmt::format("Evaluation on {} sequences", sequences.size());
+}
+
 /// The smallest page, or the first that is smaller than `bytes`.
 std::string thinned_html(const ReportContent& content, std::size_t bytes) {
-  const auto sweep = content.run.find("sweep");
   nlohmann::json data{{"plane", content.plane},
                       {"scores", scores_json(content)},
                       {"comparisons", nlohmann::json::parse(json(content.comparisons, -1))}};
@@ -87,7 +95,7 @@ std::string thinned_html(const ReportContent& content, std::size_t bytes) {
   // sweep can contain the nonce, a hash of all of them.
   const std::string nonce = hex(hash_of(data_text(data)));
   Placeholders values{
-      {"title", html_text(sweep == content.run.end() ? "sweep" : sweep->second)},
+      {"title", html_text(title_of(content.sequences, content.run))},
       {"nonce", nonce},
       {"refresh",
        content.refresh == 0

@@ -74,6 +74,7 @@ TEST(Session, FromABagToTheGate) {
   run("table results --format latex -o table.tex");
   EXPECT_THAT(read_all(path("table.tex")), HasSubstr("tabular"));
   run("report results -o report.html");
+  EXPECT_THAT(read_all(path("report.html")), HasSubstr("<h1>Evaluation on day</h1>"));
   run("check results --baseline baseline.json --update --allow-dirty");
   // The next versions of the systems: their new outputs are checked against the old ones.
   for (const auto& [version, factor] : {std::pair{"same", 1.0}, {"better", 0.8}, {"worse", 1.3}}) {
@@ -89,7 +90,7 @@ TEST(Session, FromABagToTheGate) {
   run("eval groundtruth.txt fixed/good_run0.txt fixed/good_run1.txt --report two.html --labels "
       "ours");
   const std::string page = read_all(path("two.html"));
-  EXPECT_THAT(page, HasSubstr("<h1>Evaluation against groundtruth.txt</h1>"));
+  EXPECT_THAT(page, HasSubstr("<h1>Evaluation on " + folder.path().filename().string() + "</h1>"));
   EXPECT_THAT(page, HasSubstr("<th scope=\"row\">ours</th>"));
   EXPECT_THAT(page, HasSubstr("prefers-color-scheme: dark"));
   if (!has_matplotlib()) GTEST_SKIP() << "needs python3-matplotlib";
