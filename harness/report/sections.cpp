@@ -129,6 +129,7 @@ std::string verdicts_html(const ReportContent& content) {
     if (c.methods.size() < 2) continue;
     out.lines.push_back({score_name(c), c.kind.times, c.kind.protocol, verdict(c)});
   }
+  if (out.lines.empty()) return "<p>A single method, so no verdicts.</p>\n";
   out.notes.push_back(
       "each score is tested separately; with many scores, some claims are false by chance");
   return html_text_table(out);

@@ -112,7 +112,7 @@ void mark(Table& out,
   for (std::size_t l = 0; l < lanes; ++l) {
     const std::vector<TablePosition> entries = entry_indices(table, l, along_columns);
     const MarkInput all = mark_input(table, entries, along_columns);
-    const Marks marks = all.better == metrics::Better::neither
+    const Marks marks = all.better == metrics::Better::neither || entries.size() < 2
                             ? Marks{std::vector<Mark>(entries.size(), Mark::none), ""}
                             : mark_best(all, options);
     if (!marks.why_none.empty()) why_none = marks.why_none;

@@ -91,6 +91,10 @@ TEST(Session, FromABagToTheGate) {
       "ours");
   const std::string page = read_all(path("two.html"));
   EXPECT_THAT(page, HasSubstr("<h1>Evaluation on " + folder.path().filename().string() + "</h1>"));
+  run("eval groundtruth.txt fixed/good_run0.txt --report single.html");
+  const std::string single = read_all(path("single.html"));
+  EXPECT_THAT(single, HasSubstr("<p>A single method, so no verdicts.</p>"));
+  EXPECT_THAT(single, testing::Not(HasSubstr("cannot show a difference")));
   EXPECT_THAT(page, HasSubstr("<th scope=\"row\">ours</th>"));
   EXPECT_THAT(page, HasSubstr("prefers-color-scheme: dark"));
   if (!has_matplotlib()) GTEST_SKIP() << "needs python3-matplotlib";
