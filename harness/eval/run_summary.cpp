@@ -78,7 +78,7 @@ std::vector<CountedRuns> counted_runs(const std::vector<Record>& records, const 
 }
 
 std::vector<TableCell> row(const CountedRuns& runs) {
-  const auto number = [](double value) { return fmt::format("{:.4f}", value); };
+  const auto number = [](double value) { return fixed(value, std::max(4, decimals(value))); };
   const auto range = [&](double low, double high) { return number(low) + " to " + number(high); };
   std::vector<TableCell> out{{runs.sequence + " / " + runs.method},
                              {fmt::format("{} of {}", runs.values.size(), runs.contents.size())}};

@@ -60,6 +60,8 @@ bool has_content(const TableMean& mean) {
 int decimals(double largest) {
   if (!(largest > 0.0) || !std::isfinite(largest)) return 4;
   const int whole_digits = static_cast<int>(std::floor(std::log10(largest))) + 1;
+  constexpr double kRounding = 1e-7;  // values below are rounding errors
+  if (largest < 1e-3 && largest > kRounding) return 3 - whole_digits;
   return std::clamp(4 - whole_digits, 1, 4);
 }
 

@@ -58,7 +58,8 @@ inline constexpr const char* kNoCommonRun = "no common run";
 inline constexpr const char* kStatedNote =
     "(s): as the program states it, without its start; `report` has the wall time, too";
 
-/// Number of decimals of a column: four significant digits for its largest value.
+/// Number of decimals of a column: four significant digits for its largest value, at most four
+/// decimals, but three significant digits below 0.001.
 int decimals(double largest);
 
 /// `value` with that many decimals; -0.00 is printed as 0.00.

@@ -53,6 +53,9 @@ TEST(EvalFilters, UnitsChange) {
   EXPECT_NEAR(ape["rmse"], 0.11910329954688206, 1e-12);
   const Json degrees = evaluated({"--unit=deg", "-r", "angle_rad"});
   EXPECT_NEAR(degrees["metrics"][0]["rmse"], 0.11910329954688206 * 180.0 / M_PI, 1e-9);
+  const std::string runs =
+      eval({golden("gt.txt"), golden("est_drift.txt"), golden("est_corrected.txt"), "--unit=km"});
+  EXPECT_NE(runs.find("| 0.000676 |"), std::string::npos) << runs;
   EXPECT_EQ(refusal<InputError>({golden("gt.txt"), golden("gt.txt"), "--unit=inch"}),
             "--unit: found 'inch', expected mm, cm, m, km, deg or rad");
   EXPECT_EQ(

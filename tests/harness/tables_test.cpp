@@ -259,6 +259,9 @@ TEST(Decimals, KeepFourSignificantDigitsOfTheLargest) {
   EXPECT_EQ(decimals(31.5), 2);
   EXPECT_EQ(decimals(31500.0), 1);
   EXPECT_EQ(decimals(0.0), 4);
+  EXPECT_EQ(decimals(0.00123), 4);
+  EXPECT_EQ(fixed(0.00017612, decimals(0.00017612)), "0.000176");
+  EXPECT_EQ(decimals(1e-8), 4) << "rounding errors";
   EXPECT_EQ(fixed(-1e-9, 4), "0.0000");
 }
 
