@@ -1,7 +1,9 @@
 #include "harness/base/wrap.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
+#include <string_view>
 
 namespace loopbench::harness {
 namespace {
@@ -29,6 +31,12 @@ std::string last_characters(const std::string& text, std::size_t count) {
   return text.substr(begin);
 }
 
+bool is_unit(const std::string& word) {
+  constexpr std::string_view kUnits = " % m km cm mm s min ms us ns deg rad Hz MB deg/m m/s ";
+  const std::string plain = word.substr(0, word.find_last_not_of(".,;:)") + 1);
+  return !plain.empty() && kUnits.find(" " + plain + " ") != std::string_view::npos;
+}
+
 }  // namespace
 
 std::size_t width(const std::string& text) {
@@ -43,6 +51,13 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
   for (std::string word; words >> word;) {
     if (!out.empty() && width(out.back()) + 1 + width(word) <= columns) {
       out.back() += " " + word;
+    } else if (!out.empty() && is_unit(word) &&
+               std::isdigit(static_cast<unsigned char>(out.back().back())) != 0 &&
+               out.back().find(' ') != std::string::npos) {
+      const std::size_t space = out.back().rfind(' ');
+      const std::string number = out.back().substr(space + 1);
+      out.back().resize(space);
+      out.push_back(number + " " + word);
     } else {
       out.push_back(word);
     }

@@ -9,8 +9,8 @@ namespace loopbench::harness {
 /// Width on a terminal: code points, not bytes.
 std::size_t width(const std::string& text);
 
-/// `text` broken at spaces into lines of at most `columns` characters; a longer word has a line of
-/// its own. 0 columns: one line.
+/// `text` broken at spaces, but not between a number and its unit, into lines of at most `columns`
+/// characters; a longer word has a line of its own. 0 columns: one line.
 std::vector<std::string> wrapped(const std::string& text, std::size_t columns);
 
 /// `name`, and `text` from column `begin` on, broken at spaces into the width of `columns` (0: one

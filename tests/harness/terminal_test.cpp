@@ -68,6 +68,7 @@ TEST(Wrap, ShortensPathsAtTheirStartAndNamesInTheMiddle) {
   EXPECT_EQ(shortened("motion_drift + smoothing", 11), "motio\u2026thing");
   EXPECT_EQ(shortened("short", 11), "short");
   EXPECT_EQ(wrapped("one two three", 7), (std::vector<std::string>{"one two", "three"}));
+  EXPECT_EQ(wrapped("moves 2.5 m, then", 9), (std::vector<std::string>{"moves", "2.5 m,", "then"}));
   EXPECT_EQ(cut("one two", 5), "one \u2026");
 }
 
