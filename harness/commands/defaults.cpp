@@ -13,6 +13,7 @@
 #include "harness/base/printable.hpp"
 #include "harness/base/suggest.hpp"
 #include "harness/commands/config_path.hpp"
+#include "harness/commands/help.hpp"
 #include "harness/commands/help_format.hpp"
 #include "harness/config/values.hpp"
 
@@ -24,15 +25,15 @@ namespace fs = std::filesystem;
 constexpr const char* kDefaultsName = "loopbench.yaml";
 constexpr const char* kShowDefaults = "--show-defaults";
 
-/// Null for words that begin with no command, or with one that has subcommands.
+bool has_subcommands(const CLI::App& command) { return !commands_of(command).empty(); }
+
+/// Null for words that begin with no command.
 const CLI::App* command_of(const CLI::App& app, const std::vector<std::string>& words) {
   const auto is_given = [&](const CLI::App* each) {
     return !words.empty() && each->get_name() == words[0];
   };
   const std::vector<const CLI::App*> given = app.get_subcommands(is_given);
-  const bool is_plain =
-      !given.empty() && given.front()->get_subcommands([](auto) { return true; }).empty();
-  return is_plain ? given.front() : nullptr;
+  return given.empty() ? nullptr : given.front();
 }
 
 /// The file to use; empty: none.
@@ -116,15 +117,15 @@ std::string given_values(const CLI::Option& option, const std::vector<std::strin
   return out.size() > 1 ? "[" + text + "]" : text;
 }
 
-/// Rejects sections of no command: their options would have no effect.
+/// Rejects sections of no command, or of one with subcommands: their options would have no effect.
 void check_sections(const CLI::App& app, const YamlNode& root) {
   std::vector<std::string> known;
-  for (const CLI::App* each : app.get_subcommands([](auto) { return true; })) {
-    known.push_back(each->get_name());
+  for (const CLI::App* each : commands_of(app)) {
+    if (!has_subcommands(*each)) known.push_back(each->get_name());
   }
   for (const YamlEntry& entry : root.map) {
     if (std::ranges::count(known, entry.key) > 0) continue;
-    throw entry.value.error(unknown_name("command", entry.key, known));
+    throw entry.value.error(unknown_name("command with options in a file", entry.key, known));
   }
 }
 
@@ -187,7 +188,9 @@ std::vector<std::string> with_defaults(const CLI::App& app, std::vector<std::str
 std::optional<std::string> shown_defaults(const CLI::App& app,
                                           const std::vector<std::string>& words) {
   const CLI::App* command = command_of(app, words);
-  if (command == nullptr || std::ranges::count(words, kShowDefaults) == 0) return std::nullopt;
+  if (command == nullptr || has_subcommands(*command) ||
+      std::ranges::count(words, kShowDefaults) == 0)
+    return std::nullopt;
   std::string out = command->get_name() + ":\n";
   for (const CLI::Option* option : settable(*command)) {
     const std::string& value = option->get_default_str();

@@ -53,6 +53,10 @@ TEST_F(Defaults, ChooseNoFiles) {
   }
   EXPECT_THAT(run("eval:\n  algin: se3\n").err, HasSubstr("did you mean 'align'?"));
   EXPECT_THAT(run("evall:\n  align: se3\n").err, HasSubstr("did you mean 'eval'?"));
+  const std::string why =
+      "loopbench: loopbench.yaml:1: no command with options in a file is named 'traj' (known: ";
+  EXPECT_THAT(run("traj:\n  to: kitti\n").err, testing::StartsWith(why));
+  EXPECT_THAT(loopbench_command("traj convert a.txt", folder_).err, testing::StartsWith(why));
   EXPECT_EQ(run("protocol: evo\n").exit_code, 2) << "without a command";
 }
 
