@@ -161,6 +161,8 @@ Correction correct(Problem problem,
   out.before = residuals(out.problem, out.problem.keyframes);
   out.after = residuals(out.problem, out.keyframes);
   out.rejected = rejected_closures(out);
+  // Of the solver's start, not of the input.
+  std::erase_if(out.report.counts, [](const auto& c) { return c.name.ends_with("chi2_before"); });
   for (std::string& note : closure_notes(out.problem)) out.report.notes.push_back(std::move(note));
   return out;
 }

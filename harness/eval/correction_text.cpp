@@ -73,10 +73,11 @@ std::string text(const Correction& c) {
   } else {
     out += "no residuals: an edge changes the scale\n";
   }
+  std::string counts;
   for (const methods::Count& count : c.report.counts) {
-    if (count.name == "chi2_before") continue;  // of the solver's start, not of the input
-    out += fmt::format("{:<28}{:>14.6g}\n", count.name, count.value);
+    counts += fmt::format("{}{} {:.6g}", counts.empty() ? "" : ", ", count.name, count.value);
   }
+  if (!counts.empty()) out += "counts: " + counts + "\n";
   for (const std::string& note : c.report.notes) out += "note: " + note + "\n";
   if (!c.out.empty() && !is_dash(c.out)) {
     out += fmt::format("\n{} poses in {}\n", c.output.size(), c.out);

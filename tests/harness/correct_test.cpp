@@ -167,6 +167,11 @@ TEST_F(Correct, JsonStatesResidualsBeforeAndAfter) {
   EXPECT_EQ(json["closures"], 2);
   EXPECT_EQ(json["rejected"], nullptr);
   EXPECT_GT(json["counts"]["iterations"], 0.0);
+  for (const auto& [name, value] : json["counts"].items()) {
+    EXPECT_THAT(name, testing::Not(HasSubstr("before"))) << "is that of the input elsewhere";
+  }
+  EXPECT_THAT(loopbench_command("correct est.txt --loops loops.txt", folder_).out,
+              HasSubstr("\ncounts: iterations "));
   EXPECT_LT(json["after"]["translation_rms"], json["before"]["translation_rms"]);
   EXPECT_NEAR(json["before"]["chi2_odometry"], 0.0, 1e-12) << "a trajectory agrees with itself";
 }
