@@ -228,7 +228,11 @@ Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   Correction out = correct(std::move(problem), a.estimate, choice, at, catalogue);
   out.outside = outside;
   out.report.notes.insert(out.report.notes.begin(), notes.begin(), notes.end());
+  const bool loses_stamps = a.format == Format::kitti || a.format == Format::g2o;
   if (!a.out.empty()) write(a, out);
+  if (!a.out.empty() && loses_stamps && !is_graph(a)) {
+    out.report.notes.push_back(to_text(a.format) + " does not contain stamps");
+  }
   out.out = a.out;
   return out;
 }

@@ -235,6 +235,8 @@ TEST_F(Correct, WritesOtherFormatsAndStandardOutput) {
         loopbench_command(correct + "-o " + name + " --to " + format, folder_);
     ASSERT_EQ(done.exit_code, 0) << done.err;
     EXPECT_EQ(read_trajectory(folder_.path() / name).size(), 40u) << format;
+    const bool is_noted = done.out.find("note: kitti does not contain stamps\n") < done.out.size();
+    EXPECT_EQ(is_noted, name == "out.kitti");
   }
 }
 
