@@ -134,6 +134,7 @@ bool is_in_summary(const Record& record, const metrics::Protocol& protocol) {
 
 /// Rows of the comparison: the estimate is the method, and no score is ranked.
 std::vector<Record> compared_records(const EvaluationResult& result,
+                                     const std::string& name,
                                      Detail detail,
                                      bool has_totals) {
   std::vector<Record> out;
@@ -146,7 +147,7 @@ std::vector<Record> compared_records(const EvaluationResult& result,
   if (result.why_failed.empty()) out.push_back(coverage_record(result));
   for (Record& record : out) {
     record.sequence = result.reference;
-    record.method = result.estimate;
+    record.method = name;
     record.repeat = 0;
     record.content = "";
     record.group = "";
@@ -159,6 +160,10 @@ std::string body_text(const EvaluationResult& result) {
   return result.reference_body.empty() ? "" : ", body offset " + result.reference_body;
 }
 
+std::string file_name(const EvaluationResult* result) {
+  return std::filesystem::path(result->estimate).filename().string();
+}
+
 /// Results with one reference and one protocol.
 Table comparison_of(const std::vector<const EvaluationResult*>& results,
                     Detail detail,
@@ -167,12 +172,12 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results,
   std::vector<Record> records;
   std::vector<Missing> notes;
   for (const EvaluationResult* result : results) {
-    const std::vector<Record> own = compared_records(*result, detail, has_totals);
+    const bool is_unique = std::ranges::count(results, file_name(result), file_name) == 1;
+    const std::string name = is_unique ? file_name(result) : result->estimate;
+    const std::vector<Record> own = compared_records(*result, name, detail, has_totals);
     records.insert(records.end(), own.begin(), own.end());
-    if (!result->other_body.empty())
-      notes.push_back({result->estimate, "", "other body", result->other_body});
-    for (const std::string& note : result->notes)
-      notes.push_back({result->estimate, "", "note", note});
+    if (!result->other_body.empty()) notes.push_back({name, "", "other body", result->other_body});
+    for (const std::string& note : result->notes) notes.push_back({name, "", "note", note});
   }
   const EvaluationResult& first = *results.front();
   TableSpec spec;
@@ -225,7 +230,6 @@ std::string text(const EvaluationResult& result,
   for (const std::string& note : result.notes) out += line("note", note);
   if (detail == Detail::summary) {
     EvaluationResult row = result;
-    row.estimate = std::filesystem::path(result.estimate).filename().string();
     std::erase_if(row.records, [&](const Record& record) {
       const bool is_wanted = !chosen.empty() || is_in_summary(record, result.protocol.rules);
       return !is_total(record) || !is_wanted;

@@ -58,7 +58,7 @@ TEST_F(EvalCoverage, FivePosesOfAThousandAreIncompleteBesideOthers) {
       "% of another estimate (--min-coverage 0 accepts it)");
   const std::string table = eval(both, kExitSomeCellsFailed);
   EXPECT_THAT(table, HasSubstr("| coverage [%] |"));
-  EXPECT_THAT(table, HasSubstr(short_ + ": incomplete: evaluated 5 of 5 poses over 0.4 %"));
+  EXPECT_THAT(table, HasSubstr("\n- short.txt: incomplete: evaluated 5 of 5 poses over 0.4 %"));
 
   std::vector<std::string> accepted = both;
   accepted.push_back("--min-coverage=0");
