@@ -192,6 +192,9 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results,
                           first.reference,
                           body_text(first));
   for (std::string& note : grouped(notes)) out.notes.push_back(std::move(note));
+  if (detail == Detail::all && show.empty()) {
+    out.notes.push_back("other statistics: --set statistic=max, --csv, or one estimate at a time");
+  }
   return out;
 }
 

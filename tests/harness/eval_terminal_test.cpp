@@ -79,6 +79,7 @@ TEST_F(EvalOnATerminal, ColumnsAreChosen) {
   EXPECT_THAT(last("b.txt --columns ate"), testing::Not(HasSubstr(counts)));
   EXPECT_THAT(last("--metric ate --columns max,rmse"),
               HasSubstr("\nscore           max      rmse\n"));
+  EXPECT_THAT(last("b.txt --full"), HasSubstr("\n- other statistics: --set statistic=max, --csv"));
   EXPECT_THAT(last("--csv --columns metric,unit"), testing::StartsWith("metric,unit\nate,m\n"));
   const auto error = [&](const std::string& arguments) {
     const CommandResult result = loopbench_command("eval gt.txt a.txt " + arguments, folder_);
