@@ -164,10 +164,12 @@ void add_compare(CLI::App& app, int& exit_code, const Source& source) {
       ->add_option(
           "--baseline", arguments->options.baseline, "Method that others are compared with")
       ->type_name("METHOD");
-  command->add_option(
-      "--metric",
-      arguments->metric,
-      "Label or name of a metric, or a score: ate, error x; ate unless --where selects one");
+  command
+      ->add_option(
+          "--metric",
+          arguments->metric,
+          "Label or name of a metric, or a score: ate, error x; ate unless --where selects one")
+      ->type_name("METRIC");
   command
       ->add_option("--as-claim",
                    arguments->as_claim,

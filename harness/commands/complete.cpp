@@ -42,6 +42,8 @@ Words candidates(const CLI::App& app, const std::vector<std::string>& words) {
   const std::string before = words.size() < 2 ? "" : words[words.size() - 2];
   for (const CLI::Option* option : options) {
     if (std::ranges::count(names_of(*option), before) == 0 || !has_value(*option)) continue;
+    const bool is_list = option->get_delimiter() != '\0';
+    if (!is_list && words.back().find(',') != std::string::npos) return {};
     for (const std::string& choice : choices_of(*option)) out.emplace_back(choice, "");
     return out.empty() ? known_names(option->get_type_name()) : out;
   }
@@ -70,14 +72,24 @@ void add_complete(CLI::App& app, int& exit_code) {
   command->group("");         // only for shells, see cmake/package/completions
   command->prefix_command();  // the words are no options of this command
   command->callback([&app, command, &exit_code] {
-    const std::vector<std::string> words = command->remaining();
+    std::vector<std::string> words = command->remaining();
     exit_code = kExitOk;
     if (words.empty()) return;
+    // --option=value, which bash passes as three words.
+    std::string option;
+    if (words.back() == "=") words.back().clear();
+    std::erase(words, "=");
+    const std::size_t equals = words.back().find('=');
+    if (words.back().starts_with("--") && equals != std::string::npos) {
+      option = words.back().substr(0, equals + 1);
+      words.push_back(words.back().substr(equals + 1));
+      words[words.size() - 2].resize(equals);
+    }
     // The last element of a list, such as evo,tum.
     const std::string before = words.back().substr(0, words.back().rfind(',') + 1);
     for (const auto& [word, meaning] : candidates(app, words)) {
       if ((before + word).starts_with(words.back()))
-        fmt::print("{}{}\t{}\n", before, word, meaning);
+        fmt::print("{}{}{}\t{}\n", option, before, word, meaning);
     }
   });
 }

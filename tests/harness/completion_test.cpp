@@ -40,6 +40,11 @@ TEST(Completion, BashCompletesCommandsOptionsAndChoices) {
   EXPECT_EQ(completed("eval gt.txt a.txt --protocol kitti-"), "kitti-double\n");
   EXPECT_EQ(completed("eval gt.txt a.txt --protocol evo,ov"), "evo,ov_eval\n");
   EXPECT_EQ(completed("eval gt.txt a.txt --metric path"), "path_length\n");
+  EXPECT_EQ(completed("eval gt.txt a.txt --metric ate,path"), "\n") << "is no list";
+  EXPECT_EQ(completed("eval gt.txt a.txt --protocol = kitti-"), "kitti-double\n");
+  EXPECT_EQ(completed("eval gt.txt a.txt --protocol=kitti-"), "--protocol=kitti-double\n");
+  EXPECT_EQ(completed("eval gt.txt a.txt --plane ="), "xy xz yz\n");
+  EXPECT_EQ(completed("compare x --metric path"), "path_length\n");
   EXPECT_EQ(completed("correct a.g2o --method motion_d"), "motion_drift motion_drift_pcm\n");
   EXPECT_EQ(completed("eval gt.txt a.txt --align posy"), "posyaw posyaw_origin\n");
   EXPECT_EQ(completed("eval gt.txt a.txt --ref-format eu"), "euroc\n");
