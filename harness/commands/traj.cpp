@@ -84,9 +84,9 @@ int merge_files(const TrajArguments& a) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (dropped[i] == 0) continue;
     fmt::print(stderr,
-               "loopbench: {}: dropped {} poses with the stamp of a pose of another file\n",
+               "loopbench: {}: dropped {} with the stamp of a pose of another file\n",
                printable(all[i].name),
-               dropped[i]);
+               counted(dropped[i], "pose"));
   }
   return write_all(a, {out});
 }
@@ -232,9 +232,9 @@ int align_files(const TrajArguments& a) {
       aligned.push_back({a.reference, each.name, used, fit});
       if (!a.json) {
         fmt::print(stderr,
-                   "{}: aligned with {} pairs, scale {:.9g}, x,y,z,qx,qy,qz,qw = {:.9g}, {:.9g}\n",
+                   "{}: aligned with {}, scale {:.9g}, x,y,z,qx,qy,qz,qw = {:.9g}, {:.9g}\n",
                    printable(each.name),
-                   used,
+                   counted(used, "pair"),
                    fit.scale,
                    fmt::join(position, ", "),
                    fmt::join(rotation.coeffs(), ", "));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/counted.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
@@ -65,7 +66,7 @@ inline int write_all(const TrajArguments& a, const NamedTrajectories& all) {
     if (times && all.size() > 1) throw InputError("--times-out: expected one trajectory");
     write_trajectory(files[i], all[i].file, format, times);
     if (!is_dash(files[i]) && !a.json) {
-      fmt::print("{}: {} poses\n", printable(files[i]), all[i].file.poses.size());
+      fmt::print("{}: {}\n", printable(files[i]), counted(all[i].file.poses.size(), "pose"));
     }
   }
   return kExitOk;

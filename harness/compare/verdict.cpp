@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "harness/base/counted.hpp"
 #include "harness/compare/ratio_text.hpp"
 
 namespace loopbench::harness {
@@ -204,18 +205,15 @@ std::string needed_text(const Comparison& c) {
 }
 
 std::string unit_text(const Comparison& c) {
-  const auto plural = [](std::size_t n, const std::string& one) {
-    return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s");
-  };
   if (c.options.over == Over::sequences && c.groups == c.sequences && c.groups < c.runs) {
-    return plural(c.groups, "sequence") + " (" + plural(c.runs, "run") + ")";
+    return counted(c.groups, "sequence") + " (" + counted(c.runs, "run") + ")";
   }
-  if (c.groups < c.runs) return plural(c.groups, "group") + " (" + plural(c.runs, "run") + ")";
+  if (c.groups < c.runs) return counted(c.groups, "group") + " (" + counted(c.runs, "run") + ")";
   // Two runs of one sequence, of which one counts, are not "1 sequence of 2 possible".
   const bool has_one_run_each =
       c.sequences == c.runs && (c.runs == c.possible || c.possible_sequences == c.possible);
-  if (has_one_run_each) return plural(c.runs, "sequence");
-  return plural(c.runs, "run") + (c.runs > 1 ? " of " + plural(c.sequences, "sequence") : "");
+  if (has_one_run_each) return counted(c.runs, "sequence");
+  return counted(c.runs, "run") + (c.runs > 1 ? " of " + counted(c.sequences, "sequence") : "");
 }
 
 std::vector<std::string> methods_with_less_coverage(const Comparison& c) {

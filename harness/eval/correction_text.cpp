@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "harness/base/counted.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/eval/correct.hpp"
 
@@ -43,13 +44,13 @@ nlohmann::json residuals_json(const std::optional<Residuals>& residuals) {
 }  // namespace
 
 std::string text(const Correction& c) {
-  std::string out = fmt::format("{} corrected by {}: {} keyframes, {} odometry edges, {} closures",
+  std::string out = fmt::format("{} corrected by {}: {} keyframes, {}, {}",
                                 c.estimate,
                                 c.method,
                                 c.keyframes.size(),
-                                c.problem.odometry.size(),
-                                c.problem.closures.size());
-  if (!c.problem.anchors.empty()) out += fmt::format(", {} anchors", c.problem.anchors.size());
+                                counted(c.problem.odometry.size(), "odometry edge"),
+                                counted(c.problem.closures.size(), "closure"));
+  if (!c.problem.anchors.empty()) out += ", " + counted(c.problem.anchors.size(), "anchor");
   if (c.rejected) out += fmt::format(" ({} rejected)", *c.rejected);
   out += fmt::format(", {:.1f} ms\n\n", 1e3 * c.seconds);
   if (c.before && c.after) {
@@ -80,7 +81,7 @@ std::string text(const Correction& c) {
   if (!counts.empty()) out += "counts: " + counts + "\n";
   for (const std::string& note : c.report.notes) out += "note: " + note + "\n";
   if (!c.out.empty() && !is_dash(c.out)) {
-    out += fmt::format("\n{} poses in {}\n", c.output.size(), c.out);
+    out += fmt::format("\n{} in {}\n", counted(c.output.size(), "pose"), c.out);
   }
   if (c.outside > 0) {
     out +=

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "harness/base/counted.hpp"
 #include "harness/base/wrap.hpp"
 #include "harness/eval/evaluation_result.hpp"
 #include "harness/tables/notes.hpp"
@@ -208,7 +209,7 @@ std::string text(const EvaluationResult& result,
   const auto line = [&](const char* name, const std::string& value) {
     return property(name, value, columns);
   };
-  const auto poses = [](std::size_t count) { return fmt::format(" ({} poses)", count); };
+  const auto poses = [](std::size_t count) { return " (" + counted(count, "pose") + ")"; };
   const metrics::Coverage& covered = result.coverage;
   std::string out =
       line(

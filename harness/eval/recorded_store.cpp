@@ -11,6 +11,7 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/parallel.hpp"
+#include "harness/base/counted.hpp"
 #include "harness/eval/common_parts.hpp"
 #include "harness/eval/recorded_evaluation.hpp"
 #include "harness/model/same_recording.hpp"
@@ -186,8 +187,8 @@ std::string summary(std::size_t cells,
                     const RecordedSweep& files) {
   constexpr std::size_t kMost = 5;
   const std::string& store = files.arguments.store;
-  std::string out =
-      fmt::format("{} runs in {}", cells, (std::filesystem::path(store) / kStoreFile).string());
+  std::string out = fmt::format(
+      "{} in {}", counted(cells, "run"), (std::filesystem::path(store) / kStoreFile).string());
   if (stored > 0) out += fmt::format(" ({} stored before)", stored);
   if (o.failed > 0) out += fmt::format(", {} failed", o.failed);
   if (o.incomplete > 0) {

@@ -222,6 +222,12 @@ TEST(Traj, CropMergeAndProject) {
   }
 }
 
+TEST(Traj, CountsOnePose) {
+  const TemporaryFolder folder;
+  folder.file("a.txt", "1 0 0 0 0 0 0 1\n");
+  EXPECT_EQ(loopbench_command("traj convert a.txt -o b.txt", folder).out, "b.txt: 1 pose\n");
+}
+
 TEST(Traj, InfoPrintsSizeSpeedAndGaps) {
   const test::Json info = test::Json::parse(traj({"info", golden("gt.txt"), "--json"}))[0];
   EXPECT_EQ(info["poses"], 1995);
