@@ -37,10 +37,10 @@ std::optional<InputFinding> check_swapped(const std::string& reference_name,
 std::optional<InputFinding> check_angle_unit(const Paired& poses) {
   constexpr double kLeast = 20.0 / kDegrees, kMost = 120.0 / kDegrees;  // of the larger angle
   constexpr double kMostOfOther = 2.5 / kDegrees;  // larger ones times 57 are ambiguous
-  constexpr double kTolerance = 2.2;
+  constexpr double kTolerance = 2.2, kLeastPart = 0.3, kMostLeft = 0.3;
   constexpr std::size_t kFewest = 8;
   std::vector<std::pair<double, double>> angles;  // of the reference, of the estimate [rad]
-  std::size_t from = 0;
+  std::size_t from = 0, large = 0;
   for (std::size_t to = 1; to < poses.estimate.size(); ++to) {
     const auto angle = [&](const Trajectory& list) {
       return angle_between(list[from].world_from_body.rotation, list[to].world_from_body.rotation);
@@ -48,10 +48,12 @@ std::optional<InputFinding> check_angle_unit(const Paired& poses) {
     const std::pair both{angle(poses.reference), angle(poses.estimate)};
     const auto [smaller, larger] = std::minmax(both.first, both.second);
     if (larger < kLeast) continue;
+    ++large;
     if (larger <= kMost && smaller > 0.0 && smaller < kMostOfOther) angles.push_back(both);
     from = to;
   }
-  if (angles.size() < kFewest) return std::nullopt;
+  const double part = static_cast<double>(angles.size()) / static_cast<double>(large);
+  if (angles.size() < kFewest || part < kLeastPart) return std::nullopt;
   const auto median_of = [&](auto measure) {
     std::vector<double> values;
     for (const auto& [reference, estimate] : angles) {
@@ -65,6 +67,7 @@ std::optional<InputFinding> check_angle_unit(const Paired& poses) {
   if (size < kDegrees / kTolerance || size > kDegrees * kTolerance) return std::nullopt;
   const double before = median_of([](double r, double e) { return std::abs(e - r); });
   const double after = median_of([&](double r, double e) { return std::abs(factor * e - r); });
+  if (after > kMostLeft * before) return std::nullopt;
   return InputFinding{
       Fault::angle_unit,
       fmt::format("multiplying the estimate's angles by {:.3g}: rotation between poses {:.3g} -> "

@@ -5,43 +5,11 @@
 #include <iterator>
 #include <utility>
 
+#include "metrics/doctor/clock.hpp"
 #include "metrics/doctor/pair_checks.hpp"
 #include "metrics/trajectory/tracking_gaps.hpp"
 
 namespace loopbench::metrics {
-namespace {
-
-double duration(const Trajectory& poses) { return poses.back().stamp - poses.front().stamp; }
-
-/// Length of the common range [s]; negative: the distance between the ranges.
-double overlap(const Trajectory& a, const Trajectory& b) {
-  return std::min(a.back().stamp, b.back().stamp) - std::max(a.front().stamp, b.front().stamp);
-}
-
-bool has_frame_indices(const Trajectory& poses) {
-  constexpr double kRounding = 1e-6, kMostFirst = 1000.0;
-  constexpr double kMostStep = 20.0;  // keyframes skip frames
-  const double first = poses.front().stamp;
-  if (first < 0.0 || first > kMostFirst || median_interval(poses) > kMostStep) return false;
-  return std::ranges::all_of(poses, [&](const StampedPose& pose) {
-    return std::abs(pose.stamp - std::round(pose.stamp)) < kRounding;
-  });
-}
-
-/// All digits: stamps are seconds since 1970.
-std::string stamps_command(double factor, double offset) {
-  return fmt::format(
-      "traj transform EST --stamp-scale {:.15g} -o NEW, then --offset {:.4f} for NEW",
-      factor,
-      offset);
-}
-
-Trajectory restamped(Trajectory poses, double factor, double offset) {
-  for (StampedPose& pose : poses) pose.stamp = factor * pose.stamp + offset;
-  return poses;
-}
-
-}  // namespace
 
 std::optional<InputFinding> repair_stamp_unit(Trajectory& reference, Trajectory& estimate) {
   constexpr double kHardly = 0.01, kMostly = 0.5, kLeastPart = 0.05;
@@ -71,60 +39,6 @@ std::optional<InputFinding> repair_stamp_unit(Trajectory& reference, Trajectory&
     }
   }
   return std::nullopt;
-}
-
-std::optional<InputFinding> repair_rate(const Trajectory& reference,
-                                        Trajectory& estimate,
-                                        bool has_stamps) {
-  constexpr double kAgrees = 0.7, kAgreesOfClocks = 0.85;  // correlation of speeds
-  constexpr double kGain = 0.05, kFits = 0.4;  // over the same rate; of the reference's spread
-  if (std::min(reference.size(), estimate.size()) < kFewestCommonPoses) return std::nullopt;
-  const bool has_indices =
-      !has_stamps || (has_frame_indices(estimate) && !has_frame_indices(reference));
-  const double as_read = speed_correlation(reference, estimate);
-  const bool has_other_clock = !has_indices && overlap(reference, estimate) <= 0.0;
-  if (as_read > kAgrees || has_other_clock) return std::nullopt;
-  const double longest = duration(reference), ratio = longest / duration(estimate);
-  const double searched = std::min(0.5 * longest, 60.0);  // [s]
-  std::vector<double> factors{std::round(ratio)};
-  if (has_stamps) factors.push_back(ratio);
-  for (const double rate : {5, 10, 15, 20, 25, 30, 50, 60, 100, 200}) {
-    if (has_stamps && has_indices) factors.push_back(1.0 / rate);
-  }
-  if (has_stamps && !has_indices)
-    factors.insert(factors.end(), {0.1, 0.2, 0.25, 0.5, 0.75, 0.8, 0.9, 1.1, 1.25, 1.5, 2, 4, 5});
-  const auto same = estimate_time_offset(reference, estimate);
-  double best =
-      std::max(has_indices ? kAgrees : kAgreesOfClocks, same ? same->correlation + kGain : 0.0);
-  double factor = 0.0, offset = 0.0;
-  for (const double each : factors) {
-    if (each * duration(estimate) < 0.3 * longest || each * duration(estimate) > 1.5 * longest) {
-      continue;
-    }
-    const double begin = reference.front().stamp - each * estimate.front().stamp;
-    const auto found = estimate_time_offset(reference, restamped(estimate, each, begin), searched);
-    if (!found || !(found->correlation > best)) continue;
-    best = found->correlation;
-    factor = each;
-    offset = begin + found->offset;
-  }
-  if (factor == 0.0) return std::nullopt;
-  Trajectory corrected = restamped(estimate, factor, offset);
-  const Agreement after = agreement(common_poses(reference, corrected));
-  if (after.similarity > kFits * after.spread) return std::nullopt;
-  estimate = std::move(corrected);
-  return InputFinding{
-      has_indices ? Fault::frame_indices : Fault::clock_drift,
-      fmt::format("the estimate's stamps {}: with {:.4g} s per {}, correlation of speeds {:.2f} -> "
-                  "{:.2f}",
-                  has_indices ? "are frame indices" : "grow at another rate",
-                  factor,
-                  has_indices ? "frame" : "second",
-                  as_read,
-                  best),
-      stamps_command(factor, offset),
-      best,
-      factor};
 }
 
 namespace {

@@ -31,6 +31,23 @@ TEST(DoctorOfClocks, ARecordingThatWasPlayedFaster) {
   EXPECT_THAT(faults(truth(), estimate), ElementsAre(Fault::clock_drift));
 }
 
+TEST(DoctorOfClocks, ARecordingAtARateThatIsNotRound) {
+  Trajectory estimate = sampled(20);
+  for (StampedPose& pose : estimate) pose.stamp = 3.0 + 0.837 * (pose.stamp - 1.0);
+  const auto found = diagnosis(truth(), estimate, "reference.txt", "run.txt").findings;
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].fault, Fault::clock_drift);
+  EXPECT_NEAR(found[0].value, 1.0 / 0.837, 0.005);
+}
+
+TEST(DoctorOfClocks, NumbersOfImagesThatBeginLate) {
+  Trajectory estimate;
+  for (std::size_t i = 0; i < truth().size(); i += 10) {
+    estimate.push_back({5000.0 + static_cast<double>(estimate.size()), truth()[i].world_from_body});
+  }
+  EXPECT_THAT(faults(truth(), estimate), ElementsAre(Fault::frame_indices));
+}
+
 TEST(DoctorOfClocks, AJump) {
   Trajectory estimate = sampled(20);
   for (StampedPose& pose : estimate) pose.stamp += pose.stamp > 24.0 ? 1.5 : 0.0;
