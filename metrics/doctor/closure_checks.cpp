@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
 #include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/graph_checks.hpp"
@@ -46,13 +47,25 @@ std::vector<Gap> gaps_over_closures(const std::vector<const Edge*>& closures,
   return out;
 }
 
-/// Eight times the drift of most gaps, over their lengths.
+/// Six times the drift of most gaps, over their lengths.
 double most_drift(const std::vector<Gap>& gaps) {
-  constexpr double kMost = 0.35, kOverUsual = 8.0;
+  constexpr double kMost = 0.35, kOverUsual = 6.0;
   constexpr std::size_t kFewest = 4;
   std::vector<double> drifts;
   for (const Gap& gap : gaps) drifts.push_back(gap.distance / gap.length);
   return drifts.size() < kFewest ? kMost : std::min(kMost, kOverUsual * median_value(drifts));
+}
+
+/// Standard deviation of the positions [m].
+double spread_of(const Chain& chain) {
+  const auto n = static_cast<double>(chain.poses.size());
+  Vector3 mean = Vector3::Zero();
+  double squares = 0.0;
+  for (const Pose& pose : chain.poses) {
+    mean += pose.translation / n;
+    squares += pose.translation.squaredNorm() / n;
+  }
+  return std::sqrt(std::max(0.0, squares - mean.squaredNorm()));
 }
 
 struct GapCheck {
@@ -60,7 +73,7 @@ struct GapCheck {
   std::vector<Edge> plausible;  ///< closures without the false ones; all if there is no finding
 };
 
-/// Closures that end more than 2 m from the odometry along their loop and more than eight times the
+/// Closures that end more than 2 m from the odometry along their loop and more than six times the
 /// drift per distance of the median loop (at most 35 % of the loop's length). With at least ten
 /// closures, the same for the paths over odometry and one other closure: two of the three shortest
 /// have to contradict. A finding if the gaps are smaller by 10 % without them. O(closures log).
@@ -83,7 +96,8 @@ GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain) {
   constexpr double kMostAngle = 1.3;  // [rad]; odometry is nearer to true closures
   const bool are_all_false = median_value(std::move(angles)) > kMostAngle;
   // Smaller gaps are no false closures [m].
-  const double least = std::clamp(20.0 * median_value(std::move(distances)), 0.3, 2.0);
+  const double least = std::clamp(
+      20.0 * median_value(std::move(distances)), 0.3, std::clamp(0.3 * spread_of(chain), 0.3, 2.0));
   const auto over = [&](const Gap& gap, double limit) {
     return gap.distance > least ? gap.distance / (least + limit * gap.length) : 0.0;
   };
@@ -151,121 +165,16 @@ GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain) {
   return out;
 }
 
-/// The loops of a problem in groups, and the noise that fits each; loops alone if there are few, so
-/// that a false one among them is outvoted.
-struct GroupFits {
-  explicit GroupFits(const Problem& problem)
-      : chain(chain_of(problem)),
-        groups(loop_groups(problem.closures, chain, problem.closures.size() < 6 ? 1 : 5)) {
-    for (const LoopGroup& group : groups) fits.push_back(group.fit(group.as_read()));
-  }
-
-  Chain chain;
-  std::vector<LoopGroup> groups;
-  std::vector<LoopFit> fits;
-};
-
-/// Edges whose variances are wrong by the median factors of every other group; these have to make
-/// the remaining groups likelier (all, if there are few).
-std::optional<InputFinding> wrong_scale(const GroupFits& loops) {
-  constexpr double kTooSmall = 100.0, kTooLarge = 1e-5;  // fitted over stated variance
-  constexpr double kExact = 1e-8;  // smaller ones are those of closures without noise
-  constexpr double kSmallLoss = 15.0, kLeastProven = 3.0;  // in logarithms of the likelihood
-  const std::size_t step = loops.groups.size() < 6 ? 1 : 2;
-  const auto factor = [&](std::size_t kind) {
-    std::vector<double> logarithms;
-    for (std::size_t i = 0; i < loops.fits.size(); i += step) {
-      logarithms.push_back(loops.fits[i].factors[kind]);
-    }
-    std::ranges::sort(logarithms, {}, [](double x) { return std::abs(x); });
-    return logarithms[(logarithms.size() - 1) / 2];  // of two, the one that accuses less
-  };
-  const auto gain_by = [&](const std::array<double, 2>& factors) {
-    double out = 0.0;
-    for (std::size_t i = step - 1; i < loops.groups.size(); i += step) {
-      out += loops.groups[i].log_likelihood(factors) - loops.groups[i].log_likelihood({});
-    }
-    return out;
-  };
-  const double f = factor(0), c = factor(1);
-  const bool is_odometry = std::exp(f) < kTooLarge || std::exp(f) > kTooSmall;
-  const bool is_closures =
-      std::exp(c) > kTooSmall || (std::exp(c) < kTooLarge && std::exp(c) > kExact);
-  if (!is_odometry && !is_closures) return std::nullopt;
-  const double most_loss = kSmallLoss * static_cast<double>(loops.groups.size() / step);
-  const std::array<double, 2> of_all{f, f}, of_some{is_odometry ? f : 0.0, is_odometry ? 0.0 : c};
-  const bool is_all =
-      std::abs(f) > std::log(kTooSmall) && gain_by(of_some) - gain_by(of_all) < most_loss;
-  const double proven = gain_by(is_all ? of_all : of_some);
-  if (proven < kLeastProven) return std::nullopt;
-  const double scale = std::exp(is_all || is_odometry ? f : c);
-  const char* const edges = is_all ? "all edges" : is_odometry ? "the odometry" : "the closures";
-  return InputFinding{
-      Fault::information_scale,
-      fmt::format("the gaps of the loops are likelier with the stated variances of {} times {:.1g} "
-                  "(median of {} groups of loops; logarithm of the ratio of likelihoods {:.1f})",
-                  edges,
-                  scale,
-                  loops.groups.size(),
-                  proven),
-      fmt::format("check the information of {}; for a trajectory: options {}{}",
-                  edges,
-                  is_all || is_odometry ? "odometry.sigma_*" : "closures.sigma_*",
-                  is_all ? ", closures.sigma_*" : ""),
-      0.8,
-      scale};
-}
-
-/// Exchanged blocks of all information, or information that differs from the noise which makes the
-/// loops likeliest by more than 100 (too large) or 10^5 (too small).
-std::optional<InputFinding> check_information(const Problem& problem) {
-  constexpr std::size_t kFewest = 2;
-  constexpr double kLeastOfOrder = 18.0;  // mean of the groups, in logarithms of the likelihood
-  constexpr double kExactGap = 1e-4;      // [m]; of measurements without noise
-  if (problem.closures.size() < kFewest) return std::nullopt;
-  const GroupFits as_read(problem);
-  std::vector<double> gaps;
-  for (const Edge& closure : problem.closures)
-    gaps.push_back(gap_of(closure, as_read.chain).translation.norm());
-  if (median_value(std::move(gaps)) < kExactGap) return std::nullopt;
-  const auto gained_by = [&](auto change) {
-    Problem other = problem;
-    for (auto* edges : {&other.odometry, &other.closures}) {
-      for (Edge& edge : *edges) edge.information = change(edge.information);
-    }
-    return gain(as_read.fits, GroupFits(other).fits);
-  };
-  const double exchanged = gained_by([](const Matrix6& information) -> Matrix6 {
-    const std::array order{3, 4, 5, 0, 1, 2};
-    return information(order, order);
-  });
-  const double inverted =
-      gained_by([](const Matrix6& information) -> Matrix6 { return information.inverse(); });
-  const double gained = std::max(exchanged, inverted);
-  if (gained > kLeastOfOrder * static_cast<double>(as_read.groups.size())) {
-    const bool is_order = exchanged >= inverted;
-    return InputFinding{
-        is_order ? Fault::information_order : Fault::information_scale,
-        fmt::format("{}: logarithm of the ratio of likelihoods of {} groups of loops {:.1f}",
-                    is_order ? "exchanging the blocks of translation and rotation"
-                             : "inverting the information",
-                    as_read.groups.size(),
-                    gained),
-        is_order ? "check the order of the blocks: g2o has those of x y z first"
-                 : "write information, the inverse of covariances",
-        1.0 - std::exp(-0.25 * gained),
-        gained};
-  }
-  return wrong_scale(as_read);
-}
-
 }  // namespace
 
 std::vector<InputFinding> check_closures(const Problem& problem) {
   std::vector<InputFinding> out;
+  if (auto repair = find_odometry_repair(problem)) return {*repair};
   if (problem.closures.empty()) return out;
-  if (auto repair = find_repair_by_keyframes(problem)) return {*repair};
-  if (problem.odometry.size() + 1 != problem.keyframes.size()) return out;
+  if (problem.odometry.size() + 1 != problem.keyframes.size()) {
+    if (auto repair = find_closure_repair_by_keyframes(problem)) out.push_back(*repair);
+    return out;
+  }
   Problem measured = problem;
   const Chain chain = chain_of(problem);
   if (auto found = remove_unmeasured(measured.closures, chain)) out.push_back(*found);
@@ -274,6 +183,7 @@ std::vector<InputFinding> check_closures(const Problem& problem) {
   const std::size_t count = measured.closures.size();
   const bool are_few_false = 5 * (count - gaps.plausible.size()) < count;
   auto repair = find_closure_repair(measured, chain);
+  if (!repair) repair = find_closure_repair_by_keyframes(measured);
   // Smaller translations of all closures also shrink the gaps of a few false ones.
   const bool is_unit = repair && repair->fault == Fault::closure_unit;
   if (repair && !(is_unit && gaps.finding && are_few_false)) {

@@ -10,10 +10,13 @@
 
 namespace loopbench::metrics {
 
-/// The correction of direction, unit, order of quaternions or frame of the odometry, or else of the
-/// closures, that makes them agree with the keyframes, whose poses a file can state on their own.
-/// nullopt if there is none. O(edges).
-std::optional<InputFinding> find_repair_by_keyframes(const Problem& problem);
+/// The correction of direction, unit or order of quaternions of the odometry that makes it agree
+/// with the keyframes, whose poses a file can state on their own. nullopt if there is none.
+/// O(edges).
+std::optional<InputFinding> find_odometry_repair(const Problem& problem);
+
+/// The same for direction, unit, rotations or frame of the closures, where drift is small.
+std::optional<InputFinding> find_closure_repair_by_keyframes(const Problem& problem);
 
 /// The correction of direction, order of quaternions, units or frame of the closures that makes
 /// them likelier: see LoopGroup. Groups of neighbouring closures are compared one by one, so that
@@ -27,17 +30,20 @@ std::optional<InputFinding> find_closure_repair(const Problem& problem, const Ch
 std::optional<InputFinding> check_loop_stamps(const std::vector<double>& loops,
                                               const Trajectory& poses);
 
-/// Removes closures that state the identity, as if a place recogniser had measured no relative
-/// poses, if they are at least a fifth. O(closures).
+/// Removes closures that state the identity or no rotation, as if a place recogniser had measured
+/// no relative poses, if they are at least a fifth. O(closures).
 std::optional<InputFinding> remove_unmeasured(std::vector<Edge>& closures, const Chain& chain);
 
+/// Exchanged blocks of all information, or information that differs from the noise which makes the
+/// loops likeliest by more than 100 (too large) or 10^5 (too small). O(closures).
+std::optional<InputFinding> check_information(const Problem& problem);
+
 /// Compares closures with the odometry, without a reference:
-/// - conventions of odometry and closures, see find_repair_by_keyframes() and
-/// find_closure_repair();
+/// - conventions of odometry and closures, see the functions above;
 /// - gaps of closures that the odometry or most other closures contradict;
 /// - order and scale of the information, by the noise that fits the loops, without the closures
 ///   found before, and only if these are less than a fifth.
-/// If the odometry is no chain, only the first. O((closures + keyframes) log).
+/// If the odometry is no chain, only the first, by the keyframes. O((closures + keyframes) log).
 std::vector<InputFinding> check_closures(const Problem& problem);
 
 }  // namespace loopbench::metrics

@@ -20,6 +20,9 @@ struct Chain {
   std::vector<Pose> poses;           ///< first_from_keyframe
   std::vector<double> lengths;       ///< up to each keyframe [m]
   std::vector<Matrix6> covariances;  ///< of each pose, as a twist in the frame of the first
+  Pose world_from_first;
+
+  Pose in_world(std::size_t keyframe) const { return world_from_first * poses[keyframe]; }
 
   Pose between(std::size_t i, std::size_t j) const { return poses[i].inverse() * poses[j]; }
   double length(std::size_t i, std::size_t j) const { return std::abs(lengths[j] - lengths[i]); }
@@ -27,7 +30,7 @@ struct Chain {
 
 /// The odometry edges have to be complete. O(keyframes).
 inline Chain chain_of(const Problem& problem) {
-  Chain out{{Pose{}}, {0.0}, {Matrix6::Zero()}};
+  Chain out{{Pose{}}, {0.0}, {Matrix6::Zero()}, problem.keyframes.front().world_from_body};
   for (const Edge& step : problem.odometry) {
     out.poses.push_back(normalized(out.poses.back() * step.from_from_to));
     out.lengths.push_back(out.lengths.back() + step.from_from_to.translation.norm());

@@ -81,7 +81,7 @@ std::optional<InputFinding> remove_standstill(Trajectory& file,
                                               const Trajectory& other,
                                               const std::string& name);
 
-/// Up to an eighth of all steps are jumps. Outliers are removed, and other jumps undone, if that
+/// Up to a sixth of all steps are jumps. Outliers are removed, and other jumps undone, if that
 /// reduces the position error. O(n + m).
 std::optional<InputFinding> remove_jumps(Trajectory& file,
                                          const Trajectory& other,

@@ -145,7 +145,7 @@ std::optional<InputFinding> remove_jumps(Trajectory& file,
     const bool is_other_time = poses[i + 1].stamp - poses[i].stamp > longest;
     if (!is_other_time && steps.is_jump(i, i + 1)) jumps.push_back(i);
   }
-  if (jumps.empty() || jumps.size() > poses.size() / 8) return std::nullopt;
+  if (jumps.empty() || jumps.size() > poses.size() / 6) return std::nullopt;
   /// Whether a jump after pose j undoes the one after pose i.
   const auto is_return = [&](std::size_t i, std::size_t j) {
     const double ratio = distance(poses, j, j + 1) / distance(poses, i, i + 1);

@@ -52,6 +52,14 @@ void add_conventions(std::vector<Repair>& to) {
          const Rotation& q = p.rotation;
          return {Rotation(q.x(), q.y(), q.z(), q.w()), p.translation};
        }},
+      {Fault::quaternion_order,
+       "quaternions, once read as w x y z instead of x y z w,",
+       "--quaternion-order wxyz (three times, each moves them by one)",
+       0.1,
+       [](const Pose& p) -> Pose {
+         const Rotation& q = p.rotation;
+         return {Rotation(q.z(), q.w(), q.x(), q.y()), p.translation};
+       }},
       {Fault::conjugated,
        "inverting the rotations, but not the positions,",
        "--conjugate",

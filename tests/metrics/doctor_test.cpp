@@ -36,6 +36,11 @@ TEST(Doctor, QuaternionOrder) {
   };
   EXPECT_THAT(faults(truth(), each(sampled(20), wrong)), ElementsAre(Fault::quaternion_order));
   EXPECT_THAT(faults(each(truth(), wrong), sampled(20)), ElementsAre(Fault::quaternion_order));
+  const auto reverse = [](const Pose& p) -> Pose {
+    const Rotation& q = p.rotation;
+    return {Rotation(q.x(), q.y(), q.z(), q.w()), p.translation};
+  };
+  EXPECT_THAT(faults(truth(), each(sampled(20), reverse)), ElementsAre(Fault::quaternion_order));
 }
 
 /// A drive in camera axes: right, down, forward. The reference pitches and rolls by `tilt` [rad].
