@@ -25,7 +25,7 @@ struct KeptRuns {
 };
 
 /// "declined 1, failed 2": each reason with its count.
-std::string counted(const std::vector<std::string>& reasons) {
+std::string counted_reasons(const std::vector<std::string>& reasons) {
   std::map<std::string, std::size_t> counts;
   for (const std::string& why : reasons) ++counts[why];
   std::string out;
@@ -46,7 +46,7 @@ std::vector<std::size_t> ranked_methods(const Observations& all, Comparison& out
     const bool is_ranked = reasons.size() < all.runs.size();
     if (is_ranked) ranked.push_back(m);
     if (reasons.empty()) continue;
-    out.gaps.push_back({all.methods[m], reasons.size(), counted(reasons), is_ranked});
+    out.gaps.push_back({all.methods[m], reasons.size(), counted_reasons(reasons), is_ranked});
   }
   return ranked;
 }
@@ -210,7 +210,7 @@ MethodVerdict counts_of(const Observations& all, const KeptRuns& kept, std::size
   out.median = values.empty() ? std::nan("") : metrics::median(values);
   out.runs = values.size();
   out.fails = reasons.size();
-  out.why_fails = counted(reasons);
+  out.why_fails = counted_reasons(reasons);
   return out;
 }
 

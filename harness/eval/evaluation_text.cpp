@@ -161,7 +161,7 @@ std::string body_text(const EvaluationResult& result) {
   return result.reference_body.empty() ? "" : ", body offset " + result.reference_body;
 }
 
-std::string file_name(const EvaluationResult* result) {
+std::string estimate_name_of(const EvaluationResult* result) {
   return std::filesystem::path(result->estimate).filename().string();
 }
 
@@ -173,8 +173,9 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results,
   std::vector<Record> records;
   std::vector<Missing> notes;
   for (const EvaluationResult* result : results) {
-    const bool is_unique = std::ranges::count(results, file_name(result), file_name) == 1;
-    const std::string name = is_unique ? file_name(result) : result->estimate;
+    const bool is_unique =
+        std::ranges::count(results, estimate_name_of(result), estimate_name_of) == 1;
+    const std::string name = is_unique ? estimate_name_of(result) : result->estimate;
     const std::vector<Record> own = compared_records(*result, name, detail, has_totals);
     records.insert(records.end(), own.begin(), own.end());
     if (!result->other_body.empty()) notes.push_back({name, "", "other body", result->other_body});
