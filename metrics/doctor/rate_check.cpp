@@ -67,9 +67,9 @@ std::optional<InputFinding> repair_rate(const Trajectory& reference,
   double best = 0.0;
   double factor = 0.0, offset = 0.0;
   const auto attempt = [&](double each) {
-    const double compared_duration = each * duration(estimate);
-    const bool is_same = is_any_rate && std::abs(each - 1.0) < kLeastChange;
-    if (is_same || compared_duration < 0.3 * longest || compared_duration > 1.5 * longest) return;
+    const double length = each * duration(estimate);
+    const bool is_possible = length >= 0.3 * longest && length <= 1.5 * longest;  // and no NaN
+    if (!is_possible || (is_any_rate && std::abs(each - 1.0) < kLeastChange)) return;
     const double begin = reference.front().stamp - each * estimate.front().stamp;
     const auto found = estimate_time_offset(reference, restamped(compared, each, begin), searched);
     if (!found || !(found->correlation > best)) return;

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "datasets/core/mirrored.hpp"
 #include "tests/metrics/doctor_pairs.hpp"
 
@@ -38,6 +40,16 @@ TEST(DoctorOfClocks, ARecordingAtARateThatIsNotRound) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].fault, Fault::clock_drift);
   EXPECT_NEAR(found[0].value, 1.0 / 0.837, 0.005);
+}
+
+/// A reference of a fraction of a second has no mean speed.
+TEST(DoctorOfClocks, AReferenceOfAnInstant) {
+  Trajectory reference;
+  for (std::size_t i = 0; i < 30; ++i) {
+    reference.push_back({20.0 + 0.01 * static_cast<double>(i), truth()[i].world_from_body});
+  }
+  const auto found = diagnosis(reference, sampled(20), "reference.txt", "run.txt").findings;
+  for (const InputFinding& each : found) EXPECT_TRUE(std::isfinite(each.value)) << each.evidence;
 }
 
 TEST(DoctorOfClocks, NumbersOfImagesThatBeginLate) {
