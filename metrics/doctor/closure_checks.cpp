@@ -10,6 +10,7 @@
 #include "metrics/doctor/graph_checks.hpp"
 #include "metrics/doctor/loop_likelihood.hpp"
 #include "metrics/numerics/angle.hpp"
+#include "metrics/numerics/spread.hpp"
 
 namespace loopbench::metrics {
 namespace {
@@ -56,18 +57,6 @@ double most_drift(const std::vector<Gap>& gaps) {
   return drifts.size() < kFewest ? kMost : std::min(kMost, kOverUsual * median_value(drifts));
 }
 
-/// Standard deviation of the positions [m].
-double spread_of(const Chain& chain) {
-  const auto n = static_cast<double>(chain.poses.size());
-  Vector3 mean = Vector3::Zero();
-  double squares = 0.0;
-  for (const Pose& pose : chain.poses) {
-    mean += pose.translation / n;
-    squares += pose.translation.squaredNorm() / n;
-  }
-  return std::sqrt(std::max(0.0, squares - mean.squaredNorm()));
-}
-
 struct GapCheck {
   std::optional<InputFinding> finding;
   std::vector<Edge> plausible;  ///< closures without the false ones; all if there is no finding
@@ -95,9 +84,12 @@ GapCheck check_gaps(const std::vector<Edge>& closures, const Chain& chain) {
   }
   constexpr double kMostAngle = 1.3;  // [rad]; odometry is nearer to true closures
   const bool are_all_false = median_value(std::move(angles)) > kMostAngle;
+  const double spread = spread_of(chain.poses.size(), [&](std::size_t i) -> const Vector3& {
+    return chain.poses[i].translation;
+  });
   // Smaller gaps are no false closures [m].
   const double least = std::clamp(
-      20.0 * median_value(std::move(distances)), 0.3, std::clamp(0.3 * spread_of(chain), 0.3, 2.0));
+      20.0 * median_value(std::move(distances)), 0.3, std::clamp(0.3 * spread, 0.3, 2.0));
   const auto over = [&](const Gap& gap, double limit) {
     return gap.distance > least ? gap.distance / (least + limit * gap.length) : 0.0;
   };

@@ -8,24 +8,13 @@
 
 #include "metrics/doctor/pair_checks.hpp"
 #include "metrics/numerics/percentile.hpp"
+#include "metrics/numerics/spread.hpp"
 
 namespace loopbench::metrics {
 namespace {
 
 double distance(const Trajectory& poses, std::size_t i, std::size_t j) {
   return (poses[j].world_from_body.translation - poses[i].world_from_body.translation).norm();
-}
-
-/// Standard deviation of positions [m].
-double spread_of(const Trajectory& poses) {
-  const auto n = static_cast<double>(poses.size());
-  Vector3 mean = Vector3::Zero();
-  for (const StampedPose& pose : poses) mean += pose.world_from_body.translation / n;
-  double variance = 0.0;
-  for (const StampedPose& pose : poses) {
-    variance += (pose.world_from_body.translation - mean).squaredNorm() / n;
-  }
-  return std::sqrt(variance);
 }
 
 /// The poses of a file, those of the other file at the same time, and what steps of the file are.
@@ -49,7 +38,9 @@ struct Steps {
     for (std::size_t i = 0; i + 1 < n; ++i) differences.push_back(std::abs(excess(i, i + 1)));
     std::ranges::sort(differences);
     largest = std::max(kOverUsual * percentile(differences, kMost),
-                       kOfSpread * scale * spread_of(poses.reference));
+                       kOfSpread * scale * spread_of(n, [&](std::size_t i) -> const Vector3& {
+                         return poses.reference[i].world_from_body.translation;
+                       }));
   }
 
   double expected(std::size_t i, std::size_t j) const {
@@ -193,7 +184,10 @@ std::optional<InputFinding> remove_jumps(Trajectory& file,
   copy_until(poses.size());
   const auto change = accept(file, std::move(changed), other, kMostRatio);
   if (!change) return std::nullopt;
-  if (count > kListed) list += fmt::format(" and {} more times", count - kListed);
+  if (count > kListed) {
+    const std::size_t more = count - kListed;
+    list += fmt::format(" and {} more time{}", more, more == 1 ? "" : "s");
+  }
   return InputFinding{
       Fault::jumps,
       fmt::format("the {}'s position jumps at {}: without them, {}", name, list, *change),

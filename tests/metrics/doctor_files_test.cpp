@@ -164,7 +164,7 @@ TEST(Doctor, OutliersOfPositions) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].fault, Fault::jumps);
   EXPECT_EQ(found[0].value, 6.0);
-  EXPECT_THAT(found[0].evidence, HasSubstr(" and 1 more times: without"));
+  EXPECT_THAT(found[0].evidence, HasSubstr(" and 1 more time: without"));
 }
 
 /// The path of another day, with other curves at other times.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "metrics/numerics/median.hpp"
+#include "metrics/numerics/spread.hpp"
 
 namespace loopbench::statistics_test {
 
@@ -32,6 +33,11 @@ TEST(Statistics, OfFourNumbersByHand) {
   EXPECT_DOUBLE_EQ(s.p90, 3.7);
   EXPECT_DOUBLE_EQ(s.p95, 3.85);
   EXPECT_DOUBLE_EQ(s.p99, 3.97);
+}
+
+TEST(Spread, OfARectangleIsHalfItsDiagonal) {
+  const std::vector<Vector3> corners{{1, 1, 7}, {7, 1, 7}, {7, 9, 7}, {1, 9, 7}};
+  EXPECT_DOUBLE_EQ(spread_of(corners.size(), [&](std::size_t i) { return corners[i]; }), 5.0);
 }
 
 TEST(Statistics, PercentilesDoNotDependOnTheOrder) {
