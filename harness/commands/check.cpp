@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "datasets/core/error.hpp"
+#include "harness/base/counted.hpp"
 #include "harness/base/print_error.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
@@ -69,10 +70,10 @@ int update(const CheckArguments& arguments) {
   }
   reject_overwriting({store_file(arguments.store)}, arguments.baseline);
   write_file(arguments.baseline, json(baseline));
-  print_summary(
-      is_dash(arguments.baseline),
-      fmt::format(
-          "{}: {} cells written\n", printable(arguments.baseline), baseline.snapshot.cells.size()));
+  print_summary(is_dash(arguments.baseline),
+                fmt::format("{}: {} written\n",
+                            printable(arguments.baseline),
+                            counted(baseline.snapshot.cells.size(), "cell")));
   return kExitOk;
 }
 

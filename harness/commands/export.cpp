@@ -9,6 +9,7 @@
 
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/replace_file.hpp"
+#include "harness/base/counted.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
@@ -103,8 +104,8 @@ int export_trajectories(const std::filesystem::path& store, const std::filesyste
                      "CONFIG --save-trajectories --retry all`");
   }
   write_file(out / "index.csv", index);
-  fmt::print("{} files, their references and index.csv in {}\n", files, out.string());
-  if (without > 0) fmt::print("{} cells have no saved trajectory\n", without);
+  fmt::print("{} with references and index.csv in {}\n", counted(files, "file"), out.string());
+  if (without > 0) fmt::print("{} without a saved trajectory\n", counted(without, "cell"));
   return kExitOk;
 }
 

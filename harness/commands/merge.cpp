@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "harness/base/counted.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
@@ -61,9 +62,9 @@ void add_merge(CLI::App& app, int& exit_code) {
     std::filesystem::path out = arguments->out;
     if (out.extension() != ".sqlite") out /= "results.sqlite";
     const Merged merged = merge_stores(arguments->stores, out, arguments->options);
-    fmt::print("{} cells{} in {}\n{}{}",
-               merged.cells,
-               merged.duplicates == 0 ? "" : fmt::format(" ({} duplicates)", merged.duplicates),
+    fmt::print("{}{} in {}\n{}{}",
+               counted(merged.cells, "cell"),
+               merged.duplicates == 0 ? "" : " (" + counted(merged.duplicates, "duplicate") + ")",
                out.string(),
                missing_text(merged),
                mixed_text(merged));

@@ -8,6 +8,7 @@
 #include <map>
 #include <thread>
 
+#include "harness/base/counted.hpp"
 #include "harness/base/print_error.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/sandbox.hpp"
@@ -122,9 +123,9 @@ int run_config(const RunArguments& arguments, const Source& source) {
   const StopRequests& interrupted = install_interrupt_handler();
   if (arguments.save_trajectories && resumed.there > 0) {
     print_error(
-        "loopbench: {} cells of earlier runs keep the trajectories saved then, if any; "
+        "loopbench: {} of earlier runs: their trajectories stay as they were saved, if at all; "
         "--retry all recomputes them\n",
-        resumed.there);
+        counted(resumed.there, "cell"));
   }
   if (!missing.empty()) {
     Progress progress(missing.size());

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "datasets/core/covariance.hpp"
+#include "harness/base/counted.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
@@ -205,8 +206,10 @@ int sync(const TrajArguments& a) {
     // As in evo, a reference pose can be the nearest one of several poses.
     constexpr bool kMayRepeat = true;
     write_trajectory(references[i], partners, format, std::nullopt, kMayRepeat);
-    fmt::print(
-        "{} and {}: {} poses\n", printable(files[i]), printable(references[i]), pairs.size());
+    fmt::print("{} and {}: {}\n",
+               printable(files[i]),
+               printable(references[i]),
+               counted(pairs.size(), "pose"));
   }
   return kExitOk;
 }

@@ -84,8 +84,7 @@ std::string text(const Correction& c) {
     out += fmt::format("\n{} in {}\n", counted(c.output.size(), "pose"), c.out);
   }
   if (c.outside > 0) {
-    out +=
-        fmt::format("{} stamps outside the time span of the keyframes were skipped\n", c.outside);
+    out += counted(c.outside, "skipped stamp") + " outside the time span of the keyframes\n";
   }
   return out;
 }

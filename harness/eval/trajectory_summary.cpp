@@ -7,6 +7,7 @@
 
 #include "datasets/core/fields.hpp"
 #include "datasets/core/upper_median.hpp"
+#include "harness/base/counted.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::harness {
@@ -56,10 +57,10 @@ TrajectorySummary summarise(const std::string& name,
   if (!findings.damage.empty()) out.remarks.push_back(findings.damage);
   if (findings.origin) out.remarks.push_back(to_text(*findings.origin));
   if (findings.without_fix > 0) {
-    out.remarks.push_back(fmt::format("{} rows without a fix were dropped", findings.without_fix));
+    out.remarks.push_back(counted(findings.without_fix, "dropped row") + " without a fix");
   }
   if (findings.repeated > 0) {
-    out.remarks.push_back(fmt::format("{} repeated stamps were dropped", findings.repeated));
+    out.remarks.push_back(counted(findings.repeated, "repeated stamp") + " dropped");
   }
   if (findings.off_unit > 1e-3) {
     out.remarks.push_back(

@@ -119,8 +119,7 @@ class PairDiagnosis {
     Paired poses = common_poses(reference_, estimate_);
     if (poses.estimate.size() < kFewestCommonPoses) {
       out_.unchecked.push_back(
-          fmt::format("{}: {} poses of the estimate are in the reference's time, expected at least "
-                      "{}",
+          fmt::format("{}: poses of the estimate in the reference's time: {}, expected at least {}",
                       kChecksOfPoses,
                       poses.estimate.size(),
                       kFewestCommonPoses));

@@ -23,7 +23,7 @@ TEST(SaveTrajectories, EveryCellsEstimateIsKeptAtFullLength) {
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const CommandResult done = loopbench_command("export r --what trajectories -o out", folder);
   ASSERT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_THAT(done.out, HasSubstr("8 files, their references and index.csv in out"));
+  EXPECT_THAT(done.out, HasSubstr("8 files with references and index.csv in out"));
   std::size_t keyframes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out")) {
     if (entry.path().extension() == ".csv") continue;
