@@ -12,8 +12,8 @@ install_missing "${packages[@]}" "${sandbox_packages[@]}" "${compression_package
 [[ " $* " == *" gcc "* ]] && install_missing g++
 [[ " $* " == *" debug "* || " $* " == *" tsan "* ]] && install_missing "${sanitizer_packages[@]}"
 
-# Runs shellcheck for all scripts, clang-format for all files, and clang-tidy for all but programs that are run by hand;
-# each library and program as one source.
+# Runs shellcheck for all scripts, clang-format for all files, and clang-tidy for all but benchmarks, studies,
+# campaigns and fuzzing; each library and program as one source.
 lint() {
   install_missing "${lint_packages[@]}"
   shellcheck -x ./*.sh cmake/*.sh cmake/package/*.sh tests/*.sh tests/*/*.sh .ci/*

@@ -201,15 +201,12 @@ int sync(const TrajArguments& a) {
     TrajectoryFile paired = paired_part(all[i].file, pairs, &metrics::IndexPair::estimate);
     shift_stamps(paired, a.offset);
     write_trajectory(files[i], paired, format);
-    const TrajectoryFile partners =
-        paired_part(reference.file, pairs, &metrics::IndexPair::reference);
+    const auto partners = paired_part(reference.file, pairs, &metrics::IndexPair::reference);
     // As in evo, a reference pose can be the nearest one of several poses.
     constexpr bool kMayRepeat = true;
     write_trajectory(references[i], partners, format, std::nullopt, kMayRepeat);
-    fmt::print("{} and {}: {}\n",
-               printable(files[i]),
-               printable(references[i]),
-               counted(pairs.size(), "pose"));
+    const std::string poses = counted(pairs.size(), "pose");
+    fmt::print("{} and {}: {}\n", printable(files[i]), printable(references[i]), poses);
   }
   return kExitOk;
 }

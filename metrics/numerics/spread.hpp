@@ -1,4 +1,4 @@
-/// How far positions lie apart.
+/// Spread of positions.
 #pragma once
 
 #include <cmath>
