@@ -3,7 +3,6 @@
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/dual_incremental.hpp"
 #include "methods/correctors/elch.hpp"
-#include "methods/correctors/motion_drift/motion_drift.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/correctors/pose_graph_incremental.hpp"
 #include "methods/correctors/two_pass.hpp"
@@ -78,9 +77,6 @@ std::vector<MethodEntry> methods() {
       method<Dual>("dual", "maximum likelihood on a chain, solved for the loop multipliers"),
       method<DualIncremental>("dual_incremental",
                               "dual by loop equations that grow with each closure; for replays"),
-      method<MotionDrift>("motion_drift",
-                          "dual with noise that grows with the motion and drift, averaged over "
-                          "noise models drawn from their posterior"),
       method<PoseGraphOptimizer>("pose_graph",
                                  "maximum likelihood by sparse least squares",
                                  {.start = PoseGraphOptimizer::Start::chordal}),
@@ -117,8 +113,6 @@ std::vector<MethodEntry> methods() {
           "two_pass_pcm", "two_pass on the largest pairwise consistent set of closures"),
       method<PairwiseConsistent<Dual>>("dual_pcm",
                                        "dual on the largest pairwise consistent set of closures"),
-      method<PairwiseConsistent<MotionDrift>>(
-          "motion_drift_pcm", "motion_drift on the largest pairwise consistent set of closures"),
       method<PairwiseConsistent<PoseGraphOptimizer>>(
           "pose_graph_pcm",
           "pose_graph on the largest pairwise consistent set of closures",

@@ -28,7 +28,7 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench run mine.yaml --only 'my run / (raw|dual)' --data /data --jobs 4\n"},
     {"list",
      "  loopbench list\n"
-     "  loopbench list motion_drift\n"
+     "  loopbench list dual\n"
      "  loopbench list methods 'dm*'\n"},
     {"schema",
      "  loopbench schema\n"
@@ -72,7 +72,7 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench submit mine.yaml --array 4 --retry failed -- --only room\n"},
     {"correct",
      "  loopbench correct graph.g2o -o corrected.g2o --plot corrected.svg\n"
-     "  loopbench correct run.txt --loops loops.txt --method motion_drift -o corrected.txt\n"
+     "  loopbench correct run.txt --loops loops.txt --method dual_pcm -o corrected.txt\n"
      "  loopbench correct run.txt --anchors points.txt --method dual -o corrected.txt\n"},
     {"import",
      "  loopbench import results/quickstart scores.csv\n"

@@ -25,8 +25,7 @@ ROOT = RESULTS.parent
 sys.path[:0] = [str(RESULTS), str(RESULTS / "paper")]
 
 from article.verdicts import table  # noqa: E402
-from evidence_tables import (chain_parts, cost_part, geometric_mean, graph_part,  # noqa: E402
-                             outlier_parts, spacing_part)
+from evidence_tables import chain_parts, cost_part, graph_part, outlier_parts, spacing_part  # noqa: E402
 from pages import with_parts  # noqa: E402
 
 SWEEPS = ("configs/chains_real.yaml", "configs/outliers_real.yaml", "configs/pose_graphs.yaml",
@@ -74,21 +73,6 @@ class Program:
         return {row["method"]: row for row in csv.DictReader(io.StringIO(text))}
 
 
-def first_look_part(data):
-    """The tables of the first look as that build printed them."""
-    lines = []
-    for file, title in (("lidar_chains", "LiDAR"), ("held_out_chains", "KITTI 02, 05, 09, Pittsburgh")):
-        errors = defaultdict(dict)
-        with open(Path(data) / "first_look" / f"{file}.csv", encoding="utf-8") as text:
-            for row in csv.DictReader(text):
-                if row["column"] == "ate [m]" and row["table"].endswith(", keyframes") and row["status"] == "ok":
-                    errors[row["table"]][row["row"]] = float(row["value"])
-        ratios = [e["motion_drift"] / e["dual"] for e in errors.values() if {"motion_drift", "dual"} <= set(e)]
-        lines.append(f"{title}: {geometric_mean(ratios):.3f} of `dual` on {len(ratios)} chains, lower on"
-                     f" {sum(ratio < 1 for ratio in ratios)}")
-    return "; ".join(lines) + ".\n"
-
-
 def claim_part(program):
     files = defaultdict(list)
     for file in sorted(RESULTS.glob("claims/*.yaml")):
@@ -125,8 +109,7 @@ def time_part(program, stores):
 
 def parts_of(program):
     chains, outliers, graphs, *spacing = stores = [program.store(config) for config in SWEEPS]
-    return {**chain_parts(program, chains), "first look": first_look_part(program.data),
-            **outlier_parts(program, outliers), "graphs": graph_part(graphs),
+    return {**chain_parts(program, chains), **outlier_parts(program, outliers), "graphs": graph_part(graphs),
             "spacing": spacing_part(program, dict(zip(("cameras", "roads"), spacing))),
             "claims": claim_part(program), "costs": cost_part(stores), "times": time_part(program, stores)}
 

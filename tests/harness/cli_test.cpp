@@ -164,14 +164,15 @@ TEST_F(Cli, ListKnowsEverythingThatCanBeNamed) {
        {"loopbench ", "evo ", "tum ", "rpg ", "rpg-fixed ", "kitti ", "eth3d "}) {
     EXPECT_NE(("\n" + protocols.out).find(std::string("\n") + name), std::string::npos) << name;
   }
-  const CommandResult one = run("list motion_drift");
-  EXPECT_EQ(one.out.rfind("motion_drift ", 0), 0u) << one.out.substr(0, 80);
+  const CommandResult one = run("list smoothing_spline");
+  EXPECT_EQ(one.out.rfind("smoothing_spline ", 0), 0u) << one.out.substr(0, 80);
   EXPECT_EQ(one.out.find("\npose_graph"), std::string::npos);
-  EXPECT_NE(one.out.find("    prior.drift_reach = "), std::string::npos);
+  EXPECT_NE(one.out.find("    criterion = "), std::string::npos);
   const CommandResult slip = run("list method");
   EXPECT_EQ(slip.exit_code, 2);
   EXPECT_NE(slip.err.find("did you mean 'methods'?"), std::string::npos);
-  EXPECT_NE(run("list motion_drit").err.find("did you mean 'motion_drift'?"), std::string::npos);
+  EXPECT_NE(run("list smoothing_splin").err.find("did you mean 'smoothing_spline'?"),
+            std::string::npos);
 }
 
 }  // namespace

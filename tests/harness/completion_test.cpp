@@ -45,13 +45,13 @@ TEST(Completion, BashCompletesCommandsOptionsAndChoices) {
   EXPECT_EQ(completed("eval gt.txt a.txt --protocol=kitti-"), "--protocol=kitti-double\n");
   EXPECT_EQ(completed("eval gt.txt a.txt --plane ="), "xy xz yz\n");
   EXPECT_EQ(completed("compare x --metric path"), "path_length\n");
-  EXPECT_EQ(completed("correct a.g2o --method motion_d"), "motion_drift motion_drift_pcm\n");
+  EXPECT_EQ(completed("correct a.g2o --method uniform_"), "uniform_position uniform_open\n");
   EXPECT_EQ(completed("eval gt.txt a.txt --align posy"), "posyaw posyaw_origin\n");
   EXPECT_EQ(completed("eval gt.txt a.txt --ref-format eu"), "euroc\n");
   EXPECT_EQ(completed("eval gt.txt a.txt -r point_"),
             "point_distance point_distance_error_ratio\n");
   EXPECT_EQ(completed("eval gt.txt a.txt --plane x"), "xy xz\n");
-  EXPECT_EQ(completed("list motion_d"), "motion_drift motion_drift_pcm\n");
+  EXPECT_EQ(completed("list uniform_"), "uniform_position uniform_open\n");
   EXPECT_EQ(completed("run som"), "\n");  // files, by bash itself
 }
 

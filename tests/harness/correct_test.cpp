@@ -203,7 +203,7 @@ TEST_F(Correct, MeasuredPositionsAreAnchors) {
   EXPECT_THAT(json["notes"][0].get<std::string>(), HasSubstr("points.txt: 1 of 11 positions"));
   EXPECT_LT(evaluated("gt.txt", "out.txt"), 0.5 * evaluated("gt.txt", "est.txt"));
   const std::string anchored = "correct est.txt --anchors points.txt ";
-  const CommandResult declined = loopbench_command(anchored + "--method motion_drift", folder_);
+  const CommandResult declined = loopbench_command(anchored + "--method elch", folder_);
   EXPECT_EQ(declined.exit_code, 2);
   EXPECT_THAT(declined.err, HasSubstr("anchors (10), which the method does not use"));
   EXPECT_THAT(loopbench_command(anchored + "-o out.g2o", folder_).err, HasSubstr("no anchors"));

@@ -65,7 +65,7 @@ TEST(Terminal, ColoursTheBestOnly) {
 
 TEST(Wrap, ShortensPathsAtTheirStartAndNamesInTheMiddle) {
   EXPECT_EQ(shortened("/long/path/to/a.txt", 12), "\u2026/to/a.txt");
-  EXPECT_EQ(shortened("motion_drift + smoothing", 11), "motio\u2026thing");
+  EXPECT_EQ(shortened("cubic_spline + smoothing", 11), "cubic\u2026thing");
   EXPECT_EQ(shortened("short", 11), "short");
   EXPECT_EQ(wrapped("one two three", 7), (std::vector<std::string>{"one two", "three"}));
   EXPECT_EQ(wrapped("moves 2.5 m, then", 9), (std::vector<std::string>{"moves", "2.5 m,", "then"}));
@@ -175,7 +175,7 @@ TEST_F(OnATerminal, ListsNameAndDescribeEachEntry) {
   }
   const std::string all = run("list").out;
   EXPECT_EQ(all.find("\n    planar = "), std::string::npos) << all;
-  EXPECT_NE(all.find("\nmotion_drift "), std::string::npos);
+  EXPECT_NE(all.find("\nsmoothing_spline "), std::string::npos);
   const std::string some = piped("list methods 'dm_n*'").out;
   EXPECT_EQ(some.find("dm_n3 "), 0u) << some;
   EXPECT_NE(some.find("\ndm_n5 "), std::string::npos);
@@ -186,7 +186,7 @@ TEST_F(OnATerminal, ListsNameAndDescribeEachEntry) {
   EXPECT_NE(piped("list methods unifrom").err.find("did you mean 'uniform'?"), std::string::npos);
   EXPECT_EQ(piped("list methods 'zz*'").err, "loopbench: list: no name matches 'zz*'\n");
   EXPECT_EQ(piped("list zz raw").exit_code, 2);
-  const std::string one = run("list motion_drift").out;  // its summary is longer than a line
+  const std::string one = run("list uniform_open").out;  // its summary is longer than a line
   EXPECT_NE(one.find("\n" + std::string(24, ' ')), std::string::npos) << one;
 }
 

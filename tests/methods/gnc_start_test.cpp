@@ -104,12 +104,12 @@ TEST(GncStart, StiffnessIsBoundedRowByRow) {
   EXPECT_EQ(bounded.closures[1].information, problem.closures[1].information);
 }
 
-TEST(MotionDriftPcm, TwentyPercentFalseClosuresAddAtMostTenPercentError) {
+TEST(DualPcm, TwentyPercentFalseClosuresAddAtMostTenPercentError) {
   const Sequence clean = drive(0.0);
   const Sequence mixed = drive(0.2);
-  const double without = rmse(corrected("motion_drift", clean.problem).keyframes, clean);
-  EXPECT_GT(rmse(corrected("motion_drift", mixed.problem).keyframes, mixed), 3.0 * without);
-  EXPECT_LT(rmse(corrected("motion_drift_pcm", mixed.problem).keyframes, mixed), 1.1 * without);
+  const double without = rmse(corrected("dual", clean.problem).keyframes, clean);
+  EXPECT_GT(rmse(corrected("dual", mixed.problem).keyframes, mixed), 3.0 * without);
+  EXPECT_LT(rmse(corrected("dual_pcm", mixed.problem).keyframes, mixed), 1.1 * without);
 }
 
 }  // namespace

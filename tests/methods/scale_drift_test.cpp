@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "methods/correctors/dual.hpp"
-#include "methods/correctors/motion_drift/motion_drift.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/solvers/groups/sim3.hpp"
 #include "tests/support/corrected.hpp"
@@ -86,10 +85,8 @@ TEST(ScaleDrift, DualEqualsTheSim3PoseGraph) {
   const ScaleDrift square = scale_drift(0.01, 1e4);
   const Trajectory graph = corrected<PoseGraphOptimizer>(square.problem);
   const Trajectory dual = corrected<Dual>(square.problem);
-  const Trajectory drift = corrected<MotionDrift>(square.problem);
   const Trajectory rigid = corrected<Dual>(square.problem, {.scale = false});
   EXPECT_LT(rmse(dual, square.truth), 0.1 * rmse(rigid, square.truth));
-  EXPECT_LT(rmse(drift, square.truth), 0.1 * rmse(rigid, square.truth));
   EXPECT_LT(rmse(dual, graph), 1e-3 * rmse(rigid, graph));
 }
 
