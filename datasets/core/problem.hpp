@@ -3,7 +3,6 @@
 
 #include <Eigen/Cholesky>
 #include <cstddef>
-#include <memory>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -36,8 +35,6 @@ struct Problem {
   std::vector<std::size_t> shared_landmarks = {};
   /// Measured positions, sorted by keyframe. The keyframes may be in another world frame.
   std::vector<Anchor> anchors = {};
-  /// Other chains of the same odometer, with their closures; null: none are known.
-  std::shared_ptr<const std::vector<Problem>> related = {};
 };
 
 /// Throws InputError with `name` and the violated rule if edges or trajectories are invalid.

@@ -1,15 +1,11 @@
 #include "harness/catalogue/load_sequence.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <memory>
 #include <string_view>
-#include <utility>
 
 #include "datasets/core/error.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/catalogue/floating_point_guard.hpp"
-#include "harness/catalogue/oracle_closures.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -75,12 +71,10 @@ Params full_options(const DatasetChoice& choice, const DatasetEntry& entry, int 
   return out;
 }
 
-namespace {
-
-Sequence load_one(const Cell& cell,
-                  const Sweep& sweep,
-                  const Catalogue& catalogue,
-                  const DataRoot& root) {
+Sequence load_sequence(const Cell& cell,
+                       const Sweep& sweep,
+                       const Catalogue& catalogue,
+                       const DataRoot& root) {
   const DatasetChoice& choice = sweep.datasets[cell.dataset];
   const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
   Params options = choice.dataset.options;
@@ -92,49 +86,6 @@ Sequence load_one(const Cell& cell,
   check(sequence.problem, choice.label);
   check(sequence.reference, choice.label + ": reference", Rotations::optional);
   return sequence;
-}
-
-}  // namespace
-
-std::vector<std::size_t> related_datasets(const Sweep& sweep, std::size_t dataset) {
-  std::vector<std::size_t> out;
-  const std::string& odometer = sweep.datasets[dataset].odometer;
-  for (std::size_t i = 0; i < sweep.datasets.size() && !odometer.empty(); ++i) {
-    if (i != dataset && sweep.datasets[i].odometer == odometer) out.push_back(i);
-  }
-  return out;
-}
-
-Sequence load_sequence(const Cell& cell,
-                       const Sweep& sweep,
-                       const Catalogue& catalogue,
-                       const DataRoot& root) {
-  Sequence out = load_one(cell, sweep, catalogue, root);
-  const auto reads_same_file = [&](const Sequence& other) {
-    return std::ranges::any_of(other.provenance.inputs, [&](const InputPath& input) {
-      return std::ranges::count(out.provenance.inputs, input.path, &InputPath::path) > 0;
-    });
-  };
-  std::vector<InputPath> inputs;
-  std::vector<Problem> related;
-  for (const std::size_t other : related_datasets(sweep, cell.dataset)) {
-    Cell one = cell;
-    one.dataset = other;
-    Sequence sequence = load_one(one, sweep, catalogue, root);
-    for (const InputPath& input : sequence.provenance.inputs) {
-      inputs.push_back({input.path, sweep.datasets[other].label + ": " + input.option});
-    }
-    if (reads_same_file(sequence)) continue;  // the same drive with other options
-    out.provenance.oracle_closures |=
-        sequence.provenance.oracle_closures || undeclared_oracle_closures(sequence) > 0;
-    sequence.problem.frames.clear();
-    related.push_back(std::move(sequence.problem));
-  }
-  std::ranges::move(inputs, std::back_inserter(out.provenance.inputs));
-  if (!related.empty()) {
-    out.problem.related = std::make_shared<const std::vector<Problem>>(std::move(related));
-  }
-  return out;
 }
 
 }  // namespace loopbench::harness

@@ -13,11 +13,8 @@ namespace loopbench::harness {
 /// Whether each dataset of the sweep has a `seed` option, so that repeats mean something.
 std::vector<bool> seeded(const Sweep& sweep, const Catalogue& catalogue);
 
-/// Indices of the other datasets with the same odometer; empty if it has none.
-std::vector<std::size_t> related_datasets(const Sweep& sweep, std::size_t dataset);
-
-/// Loads the sequence of a cell, with its related chains, with the seed of its repeat. Throws
-/// InputError with the dataset's label when a file is missing or broken.
+/// Loads the sequence of a cell, with the seed of its repeat. Throws InputError with the dataset's
+/// label when a file is missing or broken.
 Sequence load_sequence(const Cell& cell,
                        const Sweep& sweep,
                        const Catalogue& catalogue,

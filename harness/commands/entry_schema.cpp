@@ -53,7 +53,7 @@ Json entry_schema(const std::string& kind, const Entry& entry) {
     references[option.name] = property_reference(id, option.name);
   }
   Json properties{{kind, true}, {"label", true}, {"sweep", true}, {"zip", true}};
-  if (kind == "dataset") properties.update(Json{{"group", true}, {"odometer", true}});
+  if (kind == "dataset") properties["group"] = true;
   Json nested = references;
   add_nested(nested);
   for (const auto& [name, schema] : nested.items()) {
@@ -73,8 +73,6 @@ Json list_schema(const std::string& kind, const Json& known, const Json& by_name
            {"allOf", by_name}};
   if (kind == "dataset") {
     map["properties"]["group"] = with_help("name of runs that are not independent", kText);
-    map["properties"]["odometer"] =
-        with_help("name of the odometer: methods in C++ can learn from its other chains", kText);
   }
   return {{"type", "array"},
           {"minItems", 1},

@@ -121,20 +121,10 @@ std::vector<DatasetChoice> read_datasets(const YamlNode& entry,
                                          const Catalogue& catalogue,
                                          const Folders& folders) {
   std::string group;
-  std::string odometer;
   read_key(entry, "group", group, as_text);
-  read_key(entry, "odometer", odometer, as_text);
-  const ConfigEntry known = read_entry(entry, "dataset", {"group", "odometer"});
-  std::vector<DatasetChoice> out = dataset_choices(known, catalogue, folders);
-  // Every sequence of an odometer loads the others: programs would run once for each.
-  if (!odometer.empty() && has_foreign_code(catalogue, out.front().dataset)) {
-    throw known.place.error("odometer: " + known.name +
-                            " runs a program or a plugin, expected a built-in dataset");
-  }
-  for (DatasetChoice& choice : out) {
-    choice.group = group;
-    choice.odometer = odometer;
-  }
+  std::vector<DatasetChoice> out =
+      dataset_choices(read_entry(entry, "dataset", {"group"}), catalogue, folders);
+  for (DatasetChoice& choice : out) choice.group = group;
   return out;
 }
 

@@ -117,16 +117,6 @@ std::string baseline(const YamlNode* node, const std::vector<MethodChoice>& meth
   throw node->error("baseline: " + unknown_name("method", name, labels));
 }
 
-/// A name that one dataset has is probably misspelt.
-void require_related(const YamlNode& node, const std::vector<DatasetChoice>& datasets) {
-  for (const DatasetChoice& choice : datasets) {
-    if (choice.odometer.empty()) continue;
-    if (std::ranges::count(datasets, choice.odometer, &DatasetChoice::odometer) > 1) continue;
-    throw node.error("only " + choice.label + " has the odometer '" + choice.odometer +
-                     "', expected at least two datasets with this name");
-  }
-}
-
 /// Throws one InputError with up to ten errors.
 Sweep read_root(const YamlNode& root, const Catalogue& catalogue, const Folders& folders) {
   if (root.type != YamlNode::Type::map) {
@@ -139,7 +129,6 @@ Sweep read_root(const YamlNode& root, const Catalogue& catalogue, const Folders&
     sweep.datasets = list<DatasetChoice>(root, "datasets", errors, [&](const YamlNode& entry) {
       return read_datasets(entry, catalogue, folders);
     });
-    if (const YamlNode* node = root.find("datasets")) require_related(*node, sweep.datasets);
   });
   errors.attempt([&] {
     sweep.methods = list<MethodChoice>(root, "methods", errors, [&](const YamlNode& entry) {

@@ -21,9 +21,6 @@ struct DatasetChoice {
   std::string label;  ///< name, plus the swept options
   Choice dataset;
   std::string group = {};  ///< name of a group of dependent runs; empty: see source_of()
-  /// Name of the odometer, a sensor or a program: methods get the other chains of the sweep that
-  /// have it (Problem::related), unless they read the same files. Empty: none.
-  std::string odometer = {};
 };
 
 struct MethodChoice {

@@ -1,7 +1,6 @@
 #include "harness/run/cell_keys.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "harness/base/hash.hpp"
 #include "harness/catalogue/external_methods.hpp"
@@ -91,14 +90,6 @@ const std::string& CellKeys::configuration_hash(const Cell& cell) {
   fields.add(choice.dataset.name).add(hashed(in_full(entry.options, options)));
   fields.add(plugin_version(catalogue_, "dataset", choice.dataset.name));
   if (!choice.group.empty()) fields.add(choice.group);  // stored with the sequence
-  std::set<std::string> related;                        // in any order
-  for (const std::size_t other : related_datasets(sweep_, cell.dataset)) {
-    const DatasetChoice& one = sweep_.datasets[other];
-    const DatasetEntry& of = find_dataset(catalogue_, one.dataset.name);
-    related.insert(one.dataset.name +
-                   hashed(in_full(of.options, full_options(one, of, cell.repeat))));
-  }
-  for (const std::string& one : related) fields.add(one);
   return found->second = fields.hashed();
 }
 
@@ -133,18 +124,9 @@ std::string CellKeys::method_definitions() const {
 
 std::vector<InputFile> CellKeys::current_inputs(const Cell& cell,
                                                 std::vector<InputFile> inputs) const {
-  // Options by the names in InputFile::option; those of related chains follow their label.
-  Params options;
-  const auto add = [&](const std::string& prefix, const DatasetChoice& choice) {
-    for (const auto& [name, value] :
-         in_full(find_dataset(catalogue_, choice.dataset.name).options, choice.dataset.options)) {
-      options.emplace(prefix + name, value);
-    }
-  };
-  add("", sweep_.datasets[cell.dataset]);
-  for (const std::size_t other : related_datasets(sweep_, cell.dataset)) {
-    add(sweep_.datasets[other].label + ": ", sweep_.datasets[other]);
-  }
+  const DatasetChoice& choice = sweep_.datasets[cell.dataset];
+  const Params options =
+      in_full(find_dataset(catalogue_, choice.dataset.name).options, choice.dataset.options);
   for (InputFile& input : inputs) {
     std::filesystem::path now = input.path;
     const auto named = options.find(input.option);

@@ -48,16 +48,10 @@ class LoadedSequences {
   std::list<Entry> entries_;  ///< most recently used first
 };
 
-inline std::size_t memory_of(const Problem& p) {
-  std::size_t out = sizeof(StampedPose) * (p.keyframes.size() + p.frames.size()) +
-                    sizeof(Edge) * (p.odometry.size() + p.closures.size());
-  if (!p.related) return out;
-  for (const Problem& related : *p.related) out += memory_of(related);
-  return out;
-}
-
 inline std::size_t memory_of(const Sequence& s) {
-  return sizeof(StampedPose) * s.reference.size() + memory_of(s.problem);
+  return sizeof(StampedPose) *
+             (s.reference.size() + s.problem.keyframes.size() + s.problem.frames.size()) +
+         sizeof(Edge) * (s.problem.odometry.size() + s.problem.closures.size());
 }
 
 /// The sequence and its metadata, or the reason why there is none.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 #include <string_view>
 
@@ -96,12 +95,6 @@ void walk(Archive& a, T& edge) {
 template <class Archive, Either<Problem> T>
 void walk(Archive& a, T& p) {
   a(p.keyframes)(p.odometry)(p.closures)(p.frames)(p.planar)(p.shared_landmarks)(p.anchors);
-  std::vector<Problem> related;
-  if (p.related) related = *p.related;
-  a(related);
-  if constexpr (!std::is_const_v<T>) {
-    if (!related.empty()) p.related = std::make_shared<const std::vector<Problem>>(related);
-  }
 }
 
 template <class Archive, Either<std::filesystem::path> T>

@@ -167,7 +167,7 @@ TEST(LoadPlugin, RefusesAnotherAbi) {
 }
 
 TEST(LoadPlugin, ReadsTheInterfaceNumberBeforeAllElse) {
-  expect_refused(kOutside / "outdated.so", "was built for plugin interface 1, this program has 10");
+  expect_refused(kOutside / "outdated.so", "was built for plugin interface 1, this program has 11");
 }
 
 TEST(LoadPlugin, RefusesAnObjectWithoutThePluginLine) {
