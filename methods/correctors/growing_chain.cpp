@@ -4,12 +4,12 @@
 namespace loopbench::methods {
 
 void LoopedChain::grow() {
-  for (std::size_t i = at_.errors.size(); i < problem_.odometry.size(); ++i) {
+  for (std::size_t i = errors_.size(); i < problem_.odometry.size(); ++i) {
     const Edge& edge = problem_.odometry[i];
     noise_model_.information.push_back(edge.information);
     noise_model_.covariance.push_back(edge.information.inverse());
     motions_.push_back(edge.from_from_to);
-    at_.errors.emplace_back(Twist::Zero());
+    errors_.emplace_back(Twist::Zero());
     poses_.push_back(normalized(poses_.back() * edge.from_from_to));
   }
   for (std::size_t k = noise_model_.closure_covariance.size(); k < problem_.closures.size(); ++k) {
@@ -19,12 +19,12 @@ void LoopedChain::grow() {
   }
   points_.resize(problem_.closures.size());
   sums_ = LoopSums(problem_.closures);
-  cost_ = cost_of(at_, loop_errors(poses_));
+  cost_ = cost_of(errors_, loop_errors(poses_));
 }
 
 void LoopedChain::extend(LoopEquations& equations) const {
   LoopJacobian& jacobian = equations.jacobian;
-  for (std::size_t i = jacobian.edge.size(); i < at_.errors.size(); ++i) {
+  for (std::size_t i = jacobian.edge.size(); i < errors_.size(); ++i) {
     jacobian.edge.push_back(edge_jacobian(i));
   }
   const Eigen::VectorXd errors = loop_errors(poses_);

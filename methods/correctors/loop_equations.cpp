@@ -4,15 +4,6 @@
 
 namespace loopbench::methods {
 
-std::vector<Eigen::Index> gap_rows(const std::vector<std::size_t>& closures, bool planar) {
-  const std::vector<int> axes = planar ? std::vector{0, 1, 5} : std::vector{0, 1, 2, 3, 4, 5};
-  std::vector<Eigen::Index> out;
-  for (const std::size_t k : closures) {
-    for (const int axis : axes) out.push_back(static_cast<Eigen::Index>(6 * k) + axis);
-  }
-  return out;
-}
-
 LoopEquations loop_equations(LoopJacobian jacobian,
                              const LoopSums& sums,
                              const NoiseModel& noise_model) {
@@ -25,14 +16,6 @@ LoopEquations loop_equations(LoopJacobian jacobian,
     matrix.block<6, 6>(row, row) += noise_model.closure_covariance[k];
   }
   LoopEquations out;
-  for (const NoiseModel::Drift& drift : noise_model.drift) {
-    out.shapes.push_back(
-        propagate_drift(jacobian, sums, running_sum(sums, [&](std::size_t i) -> Matrix6 {
-                          return jacobian.edge[i] * drift.shape[i].asDiagonal();
-                        })));
-    const Eigen::MatrixXd weighted = out.shapes.back() * drift.variance.asDiagonal();
-    matrix.triangularView<Eigen::Lower>() += weighted * out.shapes.back().transpose();
-  }
   out.factor.compute(matrix);
   if (out.factor.info() != Eigen::Success) {
     throw std::runtime_error("the loop equations are not positive definite");
@@ -83,26 +66,18 @@ void append_closures(LoopEquations& equations,
   equations.factor.append(rows);
 }
 
-Corrections minimum_cost_corrections(const LoopEquations& equations,
-                                     const Eigen::VectorXd& gap,
-                                     const std::vector<Edge>& closures,
-                                     const NoiseModel& noise_model) {
+std::vector<Twist> minimum_cost_corrections(const LoopEquations& equations,
+                                            const Eigen::VectorXd& gap,
+                                            const std::vector<Edge>& closures,
+                                            const NoiseModel& noise_model) {
   const Eigen::VectorXd lambda = equations.factor.solve(gap);
-  Corrections out;
-  for (std::size_t j = 0; j < noise_model.drift.size(); ++j) {
-    out.drift.push_back(-noise_model.drift[j].variance.cwiseProduct(
-        Twist(equations.shapes[j].transpose() * lambda)));
-  }
   const std::vector<Twist> pull = constraint_force_increments(
       equations.jacobian.loop, equations.jacobian.edge.size(), closures, lambda);
-  out.errors.resize(equations.jacobian.edge.size());
+  std::vector<Twist> out(equations.jacobian.edge.size());
   Twist sum = Twist::Zero();
-  for (std::size_t i = 0; i < out.errors.size(); ++i) {
+  for (std::size_t i = 0; i < out.size(); ++i) {
     sum += pull[i];
-    out.errors[i] = -noise_model.covariance[i] * (equations.jacobian.edge[i].transpose() * sum);
-    for (std::size_t j = 0; j < out.drift.size(); ++j) {
-      out.errors[i] += noise_model.drift[j].shape[i].cwiseProduct(out.drift[j]);
-    }
+    out[i] = -noise_model.covariance[i] * (equations.jacobian.edge[i].transpose() * sum);
   }
   return out;
 }
@@ -143,16 +118,6 @@ Eigen::MatrixXd propagate_covariance(const LoopJacobian& jacobian,
       out.block<6, 6>(static_cast<Eigen::Index>(6 * k), static_cast<Eigen::Index>(6 * l)) =
           jacobian.loop[k] * sums.over_both(running, k, l) * jacobian.loop[l].transpose();
     }
-  }
-  return out;
-}
-
-Eigen::MatrixXd propagate_drift(const LoopJacobian& jacobian,
-                                const LoopSums& sums,
-                                const std::vector<Matrix6>& running) {
-  Eigen::MatrixXd out(static_cast<Eigen::Index>(6 * sums.loops()), 6);
-  for (std::size_t k = 0; k < sums.loops(); ++k) {
-    out.middleRows<6>(static_cast<Eigen::Index>(6 * k)) = jacobian.loop[k] * sums.over(running, k);
   }
   return out;
 }

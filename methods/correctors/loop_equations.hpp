@@ -54,20 +54,13 @@ class LoopSums {
   std::vector<std::size_t> end_;
 };
 
-/// Noise model of a chain. The error e_i of odometry edge i, in X_i = X_{i-1} Z_i Exp(e_i), is e_i
-/// = sum_j diag(f_ji) beta_j + w_i with w_i ~ N(0, S_i) and beta_j ~ N(0, diag(variance)); each
-/// beta_j is constant along the chain.
+/// Noise model of a chain. The error e_i of odometry edge i, in X_i = X_{i-1} Z_i Exp(e_i), is
+/// e_i ~ N(0, S_i).
 struct NoiseModel {
-  struct Drift {
-    std::vector<Twist> shape;  ///< f_ji, one per edge
-    Twist variance;            ///< of beta_j; an axis with variance 0 has no drift
-  };
-
   std::vector<Matrix6> covariance;           ///< S_i
   std::vector<Matrix6> information;          ///< S_i^-1
   std::vector<Matrix6> closure_covariance;   ///< of a closure's twist error
   std::vector<Matrix6> closure_information;  ///< inverse of closure_covariance
-  std::vector<Drift> drift;                  ///< empty: independent errors only
 };
 
 /// Jacobian of the closure errors with respect to the edge errors at the current poses: eta = c + A
@@ -85,15 +78,6 @@ auto of_closure(Vector& all, std::size_t k) {
   return all.template segment<6>(static_cast<Eigen::Index>(6 * k));
 }
 
-/// Rows of the gap vector that belong to `closures`: six per closure, or x, y and yaw if planar.
-std::vector<Eigen::Index> gap_rows(const std::vector<std::size_t>& closures, bool planar);
-
-/// Odometry errors e_i and drift rates beta_j.
-struct Corrections {
-  std::vector<Twist> errors;
-  std::vector<Twist> drift;
-};
-
 /// A Cholesky factor to which rows can be added.
 class LoopFactor : public Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> {
  public:
@@ -102,10 +86,9 @@ class LoopFactor : public Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> {
   void append(const Eigen::MatrixXd& rows);
 };
 
-/// Cholesky factor of A S A' + S_L plus the covariance of the drift.
+/// Cholesky factor of A S A' + S_L.
 struct LoopEquations {
   LoopJacobian jacobian;
-  std::vector<Eigen::MatrixXd> shapes;  ///< A f_j of each drift, 6 closures x 6
   LoopFactor factor;
   /// Of append_closures(): the sum of edge[i] S_i edge[i]' over the edges before each keyframe.
   std::vector<Matrix6> covariance = {};
@@ -118,15 +101,16 @@ LoopEquations loop_equations(LoopJacobian jacobian,
                              const NoiseModel& noise_model);
 
 /// Adds to the factor the rows of the closures that the Jacobian has been extended by. `sums` and
-/// `noise_model` are of all closures; without drift. Throws as loop_equations(). O(new edges + new
-/// (6 closures)^2), O(edges) the first time.
+/// `noise_model` are of all closures. Throws as loop_equations(). O(new edges + new (6
+/// closures)^2), O(edges) the first time.
 void append_closures(LoopEquations& equations, const LoopSums& sums, const NoiseModel& noise_model);
 
-/// Returns the corrections of minimum cost for loop errors `gap` + A e. O(edges + closures^2).
-Corrections minimum_cost_corrections(const LoopEquations& equations,
-                                     const Eigen::VectorXd& gap,
-                                     const std::vector<Edge>& closures,
-                                     const NoiseModel& noise_model);
+/// Returns the odometry errors e_i of minimum cost for loop errors `gap` + A e. O(edges +
+/// closures^2).
+std::vector<Twist> minimum_cost_corrections(const LoopEquations& equations,
+                                            const Eigen::VectorXd& gap,
+                                            const std::vector<Edge>& closures,
+                                            const NoiseModel& noise_model);
 
 /// Returns A e. O(edges + closures).
 Eigen::VectorXd loop_error_change(const LoopJacobian& jacobian,
@@ -145,11 +129,6 @@ std::vector<Twist> constraint_force_increments(const std::vector<Matrix6>& loop,
 Eigen::MatrixXd propagate_covariance(const LoopJacobian& jacobian,
                                      const LoopSums& sums,
                                      const std::vector<Matrix6>& running);
-
-/// Returns A f, 6 closures x 6. `running` holds the sum of edge[i] diag(f_i) before each cut.
-Eigen::MatrixXd propagate_drift(const LoopJacobian& jacobian,
-                                const LoopSums& sums,
-                                const std::vector<Matrix6>& running);
 
 /// Returns the sums of of(i) over the edges before each cut. O(edges).
 template <class Of>

@@ -3,7 +3,7 @@
 namespace loopbench::methods {
 namespace {
 
-using Twists = std::vector<Twist>;  // of the edges, then of the drift
+using Twists = std::vector<Twist>;  // one per edge
 
 double inner_product(const Twists& a, const Twists& b) {
   double sum = 0.0;
@@ -38,36 +38,27 @@ class NewtonSystem {
     for (std::size_t i = 1; i < wrench_.size(); ++i) wrench_[i] += wrench_[i - 1];
   }
 
-  /// Returns M^-1 v = S v - S A' (A S A' + S_L)^-1 A S v, with the drift as additional columns.
+  /// Returns M^-1 v = S v - S A' (A S A' + S_L)^-1 A S v.
   Twists preconditioned(const Twists& v) const {
     Twists out(v.size());
     for (std::size_t i = 0; i < edges_; ++i) out[i] = noise_model_.covariance[i] * v[i];
-    Eigen::VectorXd gap = loop_error_change(jacobian_, sums_, out);
-    for (std::size_t j = 0; j < noise_model_.drift.size(); ++j) {
-      out[edges_ + j] = noise_model_.drift[j].variance.cwiseProduct(v[edges_ + j]);
-      gap += equations_.shapes[j] * out[edges_ + j];
-    }
-    const Eigen::VectorXd lambda = equations_.factor.solve(gap);
+    const Eigen::VectorXd lambda =
+        equations_.factor.solve(loop_error_change(jacobian_, sums_, out));
     const Twists pull = constraint_force_increments(jacobian_.loop, edges_, closures_, lambda);
     Twist sum = Twist::Zero();
     for (std::size_t i = 0; i < edges_; ++i) {
       sum += pull[i];
       out[i] -= noise_model_.covariance[i] * (jacobian_.edge[i].transpose() * sum);
     }
-    for (std::size_t j = 0; j < noise_model_.drift.size(); ++j) {
-      out[edges_ + j] -= noise_model_.drift[j].variance.cwiseProduct(
-          Twist(equations_.shapes[j].transpose() * lambda));
-    }
     return out;
   }
 
   /// Returns N v. In each loop, edges j after edge i enter as +x_j and edges before it as -x_j.
   Twists curvature_product(const Twists& v) const {
-    const Twists errors = errors_of(v);
     Twists before(edges_ + 1);  // sum of x_j, j < i
     before[0].setZero();
     for (std::size_t i = 0; i < edges_; ++i) {
-      before[i + 1] = before[i] + jacobian_.edge[i] * errors[i];
+      before[i + 1] = before[i] + jacobian_.edge[i] * v[i];
     }
     Twists change(edges_ + 1, Twist::Zero());  // at the first and last keyframe of each loop
     for (std::size_t k = 0; k < closures_.size(); ++k) {
@@ -82,20 +73,6 @@ class NewtonSystem {
       sum += change[i];
       out[i] = 0.5 * (jacobian_.edge[i].transpose() *
                       (sum - bracket(wrench_[i], before[i + 1] + before[i])));
-      for (std::size_t j = 0; j < noise_model_.drift.size(); ++j) {
-        out[edges_ + j] += noise_model_.drift[j].shape[i].cwiseProduct(out[i]);
-      }
-    }
-    return out;
-  }
-
-  /// Total edge errors: noise plus drift.
-  Twists errors_of(const Twists& v) const {
-    Twists out(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(edges_));
-    for (std::size_t j = 0; j < noise_model_.drift.size(); ++j) {
-      for (std::size_t i = 0; i < edges_; ++i) {
-        out[i] += noise_model_.drift[j].shape[i].cwiseProduct(v[edges_ + j]);
-      }
     }
     return out;
   }
@@ -143,19 +120,15 @@ Twists solved(const NewtonSystem& system, Twists r) {
 
 }  // namespace
 
-Corrections newton_direction(const LoopEquations& equations,
-                             const Corrections& gradient,
-                             const LoopSums& sums,
-                             const std::vector<Edge>& closures,
-                             const NoiseModel& noise_model) {
+std::vector<Twist> newton_direction(const LoopEquations& equations,
+                                    const std::vector<Twist>& gradient,
+                                    const LoopSums& sums,
+                                    const std::vector<Edge>& closures,
+                                    const NoiseModel& noise_model) {
   Twists downhill;
-  downhill.reserve(gradient.errors.size() + gradient.drift.size());
-  for (const Twist& each : gradient.errors) downhill.push_back(-each);
-  for (const Twist& each : gradient.drift) downhill.push_back(-each);
-  const NewtonSystem system(equations, sums, closures, noise_model);
-  const Twists d = solved(system, std::move(downhill));
-  const auto drift = d.begin() + static_cast<std::ptrdiff_t>(gradient.errors.size());
-  return {system.errors_of(d), Twists(drift, d.end())};
+  downhill.reserve(gradient.size());
+  for (const Twist& each : gradient) downhill.push_back(-each);
+  return solved(NewtonSystem(equations, sums, closures, noise_model), std::move(downhill));
 }
 
 }  // namespace loopbench::methods

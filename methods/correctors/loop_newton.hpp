@@ -20,13 +20,12 @@ namespace loopbench::methods {
 /// at most 50 iterations. The solver stops at negative curvature (Steihaug); its first iterate is a
 /// multiple of the Gauss-Newton direction.
 ///
-/// The unknowns are the noise of the edges and the drift rates; `gradient` is with respect to them.
-/// Returns the change of the edge errors and of the drift. Source: Nocedal & Wright, Numerical
-/// Optimization, 2006, sections 7.1 and 18.3.
-Corrections newton_direction(const LoopEquations& equations,
-                             const Corrections& gradient,
-                             const LoopSums& sums,
-                             const std::vector<Edge>& closures,
-                             const NoiseModel& noise_model);
+/// The unknowns are the errors of the edges; `gradient` is with respect to them. Returns the change
+/// of the errors. Source: Nocedal & Wright, Numerical Optimization, 2006, sections 7.1 and 18.3.
+std::vector<Twist> newton_direction(const LoopEquations& equations,
+                                    const std::vector<Twist>& gradient,
+                                    const LoopSums& sums,
+                                    const std::vector<Edge>& closures,
+                                    const NoiseModel& noise_model);
 
 }  // namespace loopbench::methods

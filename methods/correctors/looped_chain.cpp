@@ -13,9 +13,8 @@ namespace {
 constexpr double kRounding = 1e-12;  // relative rounding error of a cost summed over a chain
 
 /// Returns a + share b.
-Corrections add_scaled(Corrections a, double share, const Corrections& b) {
-  for (std::size_t i = 0; i < a.errors.size(); ++i) a.errors[i] += share * b.errors[i];
-  for (std::size_t j = 0; j < a.drift.size(); ++j) a.drift[j] += share * b.drift[j];
+std::vector<Twist> add_scaled(std::vector<Twist> a, double share, const std::vector<Twist>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] += share * b[i];
   return a;
 }
 
@@ -27,15 +26,6 @@ double loop_squares(const Eigen::VectorXd& loop_errors, const NoiseModel& noise_
     sum += eta.dot(noise_model.closure_information[k] * eta);
   }
   return sum;
-}
-
-/// Noise of edge i: its error minus the drift.
-Twist noise_of(const Corrections& at, const NoiseModel& noise_model, std::size_t i) {
-  Twist w = at.errors[i];
-  for (std::size_t j = 0; j < at.drift.size(); ++j) {
-    w -= noise_model.drift[j].shape[i].cwiseProduct(at.drift[j]);
-  }
-  return w;
 }
 
 }  // namespace
@@ -70,50 +60,38 @@ LoopedChain::LoopedChain(const Problem& problem,
   }
   for (const Edge& edge : problem.odometry) {
     motions_.push_back(edge.from_from_to);
-    at_.errors.push_back(edge_error(edge, poses_[edge.from], poses_[edge.to]));
+    errors_.push_back(edge_error(edge, poses_[edge.from], poses_[edge.to]));
   }
   set_noise_model(std::move(noise_model));
 }
 
 void LoopedChain::set_noise_model(NoiseModel noise_model) {
   noise_model_ = std::move(noise_model);
-  at_.drift.resize(noise_model_.drift.size(), Twist::Zero());
-  for (std::size_t j = 0; j < at_.drift.size(); ++j) {
-    for (Eigen::Index axis = 0; axis < 6; ++axis) {
-      if (noise_model_.drift[j].variance[axis] == 0.0) at_.drift[j][axis] = 0.0;
-    }
-  }
-  cost_ = cost_of(at_, loop_errors(poses_));
+  cost_ = cost_of(errors_, loop_errors(poses_));
   is_near_minimum_ = false;
 }
 
 void LoopedChain::set_errors(std::vector<Twist> errors) {
-  at_.errors = std::move(errors);
-  poses_ = integrate(at_.errors);
-  cost_ = cost_of(at_, loop_errors(poses_));
+  errors_ = std::move(errors);
+  poses_ = integrate(errors_);
+  cost_ = cost_of(errors_, loop_errors(poses_));
   is_near_minimum_ = false;
 }
 
-double LoopedChain::cost_of(const Corrections& at, const Eigen::VectorXd& loop_errors) const {
+double LoopedChain::cost_of(const std::vector<Twist>& errors,
+                            const Eigen::VectorXd& loop_errors) const {
   double sum = 0.0;
-  for (std::size_t i = 0; i < at.errors.size(); ++i) {
-    const Twist w = noise_of(at, noise_model_, i);
-    sum += w.dot(noise_model_.information[i] * w);
-  }
-  for (std::size_t j = 0; j < at.drift.size(); ++j) {
-    for (Eigen::Index axis = 0; axis < 6; ++axis) {
-      const double beta = at.drift[j][axis];
-      if (beta != 0.0) sum += beta * beta / noise_model_.drift[j].variance[axis];
-    }
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    sum += errors[i].dot(noise_model_.information[i] * errors[i]);
   }
   return 0.5 * (sum + loop_squares(loop_errors, noise_model_));
 }
 
-LoopedChain::Candidate LoopedChain::candidate(Corrections at) const {
-  Candidate out{std::move(at), {}, {}};
-  out.poses = integrate(out.at.errors);
+LoopedChain::Candidate LoopedChain::candidate(std::vector<Twist> errors) const {
+  Candidate out{std::move(errors), {}, {}};
+  out.poses = integrate(out.errors);
   out.loop_errors = loop_errors(out.poses);
-  out.cost = cost_of(out.at, out.loop_errors);
+  out.cost = cost_of(out.errors, out.loop_errors);
   return out;
 }
 
@@ -121,29 +99,28 @@ void LoopedChain::close_loops(Candidate& trial, const LoopEquations& equations) 
   constexpr int kRounds = 3;
   constexpr double kClosed = 1e-6;  // residual loop error, as a fraction of the cost
   const LoopJacobian& jacobian = equations.jacobian;
-  const Eigen::VectorXd predicted =
-      jacobian.gap + loop_error_change(jacobian, sums_, trial.at.errors);
+  const Eigen::VectorXd predicted = jacobian.gap + loop_error_change(jacobian, sums_, trial.errors);
   for (int round = 0; round < kRounds; ++round) {
     const Eigen::VectorXd remaining = trial.loop_errors - predicted;
     if (!(loop_squares(remaining, noise_model_) > kClosed * cost_)) return;
     trial = candidate(add_scaled(
-        trial.at,
+        trial.errors,
         1.0,
         minimum_cost_corrections(equations, remaining, problem_.closures, noise_model_)));
   }
 }
 
-bool LoopedChain::step_towards(const Corrections& target,
+bool LoopedChain::step_towards(const std::vector<Twist>& target,
                                const LoopEquations& equations,
                                double min_length) {
-  const Corrections direction = add_scaled(target, -1.0, at_);
+  const std::vector<Twist> direction = add_scaled(target, -1.0, errors_);
   for (double length = 1.0; length >= min_length; length *= 0.5) {
-    Candidate trial = candidate(add_scaled(at_, length, direction));
+    Candidate trial = candidate(add_scaled(errors_, length, direction));
     close_loops(trial, equations);
     // Where the cost is flat to rounding, a full step still improves the poses.
     if (trial.cost < cost_ || (length == 1.0 && trial.cost <= cost_ * (1.0 + kRounding))) {
       is_near_minimum_ = trial.cost > 0.5 * cost_;
-      at_ = std::move(trial.at);
+      errors_ = std::move(trial.errors);
       poses_ = std::move(trial.poses);
       cost_ = trial.cost;
       return true;
@@ -153,27 +130,21 @@ bool LoopedChain::step_towards(const Corrections& target,
 }
 
 template <class EdgeJacobian>
-Corrections LoopedChain::gradient(EdgeJacobian edge, const std::vector<Matrix6>& loop) const {
+std::vector<Twist> LoopedChain::gradient(EdgeJacobian edge,
+                                         const std::vector<Matrix6>& loop) const {
   Eigen::VectorXd weighted = loop_errors(poses_);
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
     auto each = of_closure(weighted, k);
     each = (noise_model_.closure_information[k] * each).eval();
   }
   const std::vector<Twist> pull =
-      constraint_force_increments(loop, at_.errors.size(), problem_.closures, weighted);
-  Corrections out{at_.errors, at_.drift};
-  for (std::size_t j = 0; j < at_.drift.size(); ++j) {
-    const Twist& variance = noise_model_.drift[j].variance;
-    out.drift[j] = (variance.array() > 0.0).select(at_.drift[j].cwiseQuotient(variance), 0.0);
-  }
+      constraint_force_increments(loop, errors_.size(), problem_.closures, weighted);
+  std::vector<Twist> out(errors_.size());
   Twist sum = Twist::Zero();
-  for (std::size_t i = 0; i < at_.errors.size(); ++i) {
+  for (std::size_t i = 0; i < errors_.size(); ++i) {
     sum += pull[i];
     const Twist by_error = edge(i).transpose() * sum;
-    out.errors[i] = noise_model_.information[i] * noise_of(at_, noise_model_, i) + by_error;
-    for (std::size_t j = 0; j < at_.drift.size(); ++j) {
-      out.drift[j] += noise_model_.drift[j].shape[i].cwiseProduct(by_error);
-    }
+    out[i] = noise_model_.information[i] * errors_[i] + by_error;
   }
   return out;
 }
@@ -181,9 +152,9 @@ Corrections LoopedChain::gradient(EdgeJacobian edge, const std::vector<Matrix6>&
 bool LoopedChain::step_at(const LoopEquations& equations) {
   if (is_near_minimum_) {
     const auto edge = [&](std::size_t i) -> const Matrix6& { return equations.jacobian.edge[i]; };
-    const Corrections direction = newton_direction(
+    const std::vector<Twist> direction = newton_direction(
         equations, gradient(edge, equations.jacobian.loop), sums_, problem_.closures, noise_model_);
-    if (step_towards(add_scaled(at_, 1.0, direction), equations, 0.25)) return true;
+    if (step_towards(add_scaled(errors_, 1.0, direction), equations, 0.25)) return true;
   }
   const Eigen::VectorXd& gap = equations.jacobian.gap;
   return step_towards(
@@ -193,16 +164,16 @@ bool LoopedChain::step_at(const LoopEquations& equations) {
 bool LoopedChain::step_with(LoopEquations& equations) {
   LoopJacobian& jacobian = equations.jacobian;
   jacobian.gap = loop_errors(poses_);
-  jacobian.gap -= loop_error_change(jacobian, sums_, at_.errors);
+  jacobian.gap -= loop_error_change(jacobian, sums_, errors_);
   std::vector<Matrix6> loop;
   const Eigen::VectorXd errors = loop_errors(poses_);
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
     loop.push_back(loop_jacobian(k, of_closure(errors, k)));
   }
   const auto edge = [&](std::size_t i) { return edge_jacobian(i); };  // storing them takes longer
-  const Corrections direction =
+  const std::vector<Twist> direction =
       newton_direction(equations, gradient(edge, loop), sums_, problem_.closures, noise_model_);
-  return step_towards(add_scaled(at_, 1.0, direction), equations, 0.25);
+  return step_towards(add_scaled(errors_, 1.0, direction), equations, 0.25);
 }
 
 int LoopedChain::minimise(int max_iterations, double tolerance) {
@@ -251,13 +222,13 @@ Matrix6 LoopedChain::loop_jacobian(std::size_t closure, const Twist& error) cons
 LoopJacobian LoopedChain::linearise(LoopJacobian storage) const {
   LoopJacobian out = std::move(storage);
   out.loop.clear();
-  out.edge.resize(at_.errors.size());
-  for (std::size_t i = 0; i < at_.errors.size(); ++i) out.edge[i] = edge_jacobian(i);
+  out.edge.resize(errors_.size());
+  for (std::size_t i = 0; i < errors_.size(); ++i) out.edge[i] = edge_jacobian(i);
   out.gap = loop_errors(poses_);
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
     out.loop.push_back(loop_jacobian(k, of_closure(out.gap, k)));
   }
-  out.gap -= loop_error_change(out, sums_, at_.errors);
+  out.gap -= loop_error_change(out, sums_, errors_);
   return out;
 }
 

@@ -10,12 +10,12 @@
 
 namespace loopbench::methods {
 
-/// Returns the stated covariances of the problem's edges and closures, without drift.
+/// Returns the stated covariances of the problem's edges and closures.
 NoiseModel stated_noise_model(const Problem& problem);
 
-/// State of the chain at its current corrections: poses, errors e_i and drift beta. Positions are
-/// relative to the chain's centroid, because adjoints grow with the distance from the origin and
-/// lose precision. Keeps references to the problem, and does not use its anchors.
+/// State of the chain at its current corrections: poses and errors e_i. Positions are relative to
+/// the chain's centroid, because adjoints grow with the distance from the origin and lose
+/// precision. Keeps references to the problem, and does not use its anchors.
 class LoopedChain {
  public:
   /// `points`: empty, or one entry per closure. A closure with a point b measures only a position:
@@ -25,17 +25,15 @@ class LoopedChain {
               NoiseModel noise_model,
               std::vector<std::optional<Vector3>> points = {});
 
-  /// Returns half of sum w' S^-1 w + sum beta' V^-1 beta + sum eta' S_L^-1 eta. A cost that is not
-  /// finite makes the chain unusable as a start.
+  /// Returns half of sum e' S^-1 e + sum eta' S_L^-1 eta. A cost that is not finite makes the chain
+  /// unusable as a start.
   double cost() const { return cost_; }
 
-  /// Replaces the noise model and keeps poses, errors and drift.
+  /// Replaces the noise model and keeps poses and errors.
   void set_noise_model(NoiseModel noise_model);
 
-  /// Replaces the errors e_i, one per odometry edge, and keeps the drift.
+  /// Replaces the errors e_i, one per odometry edge.
   void set_errors(std::vector<Twist> errors);
-
-  const std::vector<Twist>& errors() const { return at_.errors; }
 
   /// Takes one step that lowers the cost, or keeps it to rounding; returns false when none is
   /// found. Uses Gauss-Newton with step halving, and Newton (loop_newton.hpp) once a step no longer
@@ -49,7 +47,7 @@ class LoopedChain {
   bool step_at(const LoopEquations& equations);
 
   /// The problem has grown: new keyframes continue the chain without errors, and edges and closures
-  /// have their stated covariances. Without drift. O(edges + closures log closures).
+  /// have their stated covariances. O(edges + closures log closures).
   void grow();
 
   /// Closure `k` is about to be erased from the problem; grow() follows.
@@ -76,12 +74,11 @@ class LoopedChain {
   LoopJacobian linearise(LoopJacobian storage = {}) const;
 
   const LoopSums& sums() const { return sums_; }
-  const std::vector<Twist>& drift() const { return at_.drift; }
 
   Trajectory keyframes() const;
 
   /// Covariance of each keyframe in fixed axes (datasets/core/covariance.hpp) to first order at the
-  /// current poses, without drift: that of the open chain minus the reduction by the loops. It
+  /// current poses: that of the open chain minus the reduction by the loops. It
   /// equals graph_covariances() at the same poses; zero for the first keyframe, and out of the
   /// plane if the problem is planar. `has_front`: the first edge is that of an AnchoredChain, which
   /// is no measurement. Throws as step(). O(edges closures + (6 closures)^3), and one
@@ -91,35 +88,37 @@ class LoopedChain {
  private:
   /// State after a trial step.
   struct Candidate {
-    Corrections at;
+    std::vector<Twist> errors;
     std::vector<Pose> poses;
     Eigen::VectorXd loop_errors;  ///< eta, six numbers per closure
     double cost = 0.0;
   };
 
-  bool step_towards(const Corrections& target, const LoopEquations& equations, double min_length);
-  Candidate candidate(Corrections at) const;
+  bool step_towards(const std::vector<Twist>& target,
+                    const LoopEquations& equations,
+                    double min_length);
+  Candidate candidate(std::vector<Twist> errors) const;
   void close_loops(Candidate& trial, const LoopEquations& equations) const;
   /// The entries of LoopJacobian at the current poses.
   Matrix6 edge_jacobian(std::size_t edge) const {
-    return adjoint(poses_[edge + 1]) * right_jacobian_se3(at_.errors[edge]);
+    return adjoint(poses_[edge + 1]) * right_jacobian_se3(errors_[edge]);
   }
   Matrix6 loop_jacobian(std::size_t closure, const Twist& error) const;
-  /// Gradient of the cost with respect to the noise w_i of the edges and to the drift, at the
-  /// current poses: `edge(i)` and `loop` are entries of LoopJacobian.
+  /// Gradient of the cost with respect to the errors e_i of the edges, at the current poses:
+  /// `edge(i)` and `loop` are entries of LoopJacobian.
   template <class EdgeJacobian>
-  Corrections gradient(EdgeJacobian edge, const std::vector<Matrix6>& loop) const;
+  std::vector<Twist> gradient(EdgeJacobian edge, const std::vector<Matrix6>& loop) const;
   std::vector<Pose> integrate(const std::vector<Twist>& errors) const;
   Eigen::VectorXd loop_errors(const std::vector<Pose>& poses) const;
   bool measures_position(std::size_t closure) const { return points_[closure].has_value(); }
-  double cost_of(const Corrections& at, const Eigen::VectorXd& loop_errors) const;
+  double cost_of(const std::vector<Twist>& errors, const Eigen::VectorXd& loop_errors) const;
 
   const Problem& problem_;
   std::vector<Pose> motions_;  ///< measured by the odometry: an Edge has six times the size
   LoopSums sums_;
   NoiseModel noise_model_;
   std::vector<Pose> poses_;
-  Corrections at_;
+  std::vector<Twist> errors_;
   std::vector<std::optional<Vector3>> points_;
   Vector3 centre_;
   double cost_ = 0.0;

@@ -18,6 +18,61 @@ using LatticePoint = std::array<int, 2>;  // lattice indices of translation and 
 
 double factor_of(int steps) { return std::exp2(kLattice * steps); }
 
+/// Rows of the gap vector that are measured: six per closure, or x, y and yaw if planar.
+std::vector<Eigen::Index> gap_rows(std::size_t closures, bool planar) {
+  const std::vector<int> axes = planar ? std::vector{0, 1, 5} : std::vector{0, 1, 2, 3, 4, 5};
+  std::vector<Eigen::Index> out;
+  for (std::size_t k = 0; k < closures; ++k) {
+    for (const int axis : axes) out.push_back(static_cast<Eigen::Index>(6 * k) + axis);
+  }
+  return out;
+}
+
+/// Gaps of all closures at the current poses of a chain, and what their covariance consists of.
+struct LoopCovariance {
+  Eigen::VectorXd gap;
+  Eigen::MatrixXd translation, rotation, mixed, closures;
+
+  /// Covariance under the factors. Only the lower triangle is valid.
+  Eigen::MatrixXd under(const VarianceFactors& factors) const {
+    return factors.translation * translation + factors.rotation * rotation +
+           std::sqrt(factors.translation * factors.rotation) * mixed + closures;
+  }
+};
+
+/// O(edges + closures^2).
+LoopCovariance loop_covariance(const Problem& problem,
+                               const NoiseModel& stated,
+                               const LoopedChain& chain) {
+  const LoopJacobian jacobian = chain.linearise();
+  const std::vector<Eigen::Index> rows = gap_rows(problem.closures.size(), problem.planar);
+  const auto through = [&](auto part) -> Eigen::MatrixXd {
+    const Eigen::MatrixXd all = propagate_covariance(
+        jacobian, chain.sums(), running_sum(chain.sums(), [&](std::size_t i) -> Matrix6 {
+          return jacobian.edge[i] * part(stated.covariance[i]) * jacobian.edge[i].transpose();
+        }));
+    return all(rows, rows);
+  };
+  const auto block = [](const Matrix6& S, Eigen::Index row, Eigen::Index column) {
+    Matrix6 out = Matrix6::Zero();
+    out.block<3, 3>(row, column) = S.block<3, 3>(row, column);
+    return out;
+  };
+  LoopCovariance out;
+  out.gap = jacobian.gap(rows);
+  out.translation = through([&](const Matrix6& S) { return block(S, 0, 0); });
+  out.rotation = through([&](const Matrix6& S) { return block(S, 3, 3); });
+  out.mixed = through([&](const Matrix6& S) -> Matrix6 { return block(S, 0, 3) + block(S, 3, 0); });
+  const auto size = static_cast<Eigen::Index>(6 * problem.closures.size());
+  Eigen::MatrixXd closures = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t k = 0; k < problem.closures.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(6 * k);
+    closures.block<6, 6>(at, at) = stated.closure_covariance[k];
+  }
+  out.closures = closures(rows, rows);
+  return out;
+}
+
 /// Returns -log posterior up to a constant, or infinity when the covariance is not positive
 /// definite.
 double objective(const LoopCovariance& loops, const LatticePoint& steps) {

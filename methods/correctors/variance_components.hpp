@@ -2,10 +2,15 @@
 #pragma once
 
 #include "datasets/core/problem.hpp"
-#include "methods/correctors/loop_covariance.hpp"
 #include "methods/report.hpp"
 
 namespace loopbench::methods {
+
+/// Factors on the stated variances of all odometry edges [-].
+struct VarianceFactors {
+  double translation = 1.0;
+  double rotation = 1.0;
+};
 
 /// Maximises the likelihood of the closure errors before correction over both factors,
 ///
