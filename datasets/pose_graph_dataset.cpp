@@ -7,7 +7,6 @@
 #include "datasets/core/disabled_options.hpp"
 #include "datasets/derive/closures.hpp"
 #include "datasets/derive/graph_parts.hpp"
-#include "datasets/derive/grid_truth.hpp"
 #include "datasets/formats/formats.hpp"
 
 namespace loopbench {
@@ -98,8 +97,6 @@ std::string closure_provenance(const PoseGraphOptions& o,
 void check_combination(const PoseGraphOptions& o, const Params& given) {
   if (o.path.empty()) throw OptionError("path", "path: is empty, expected a g2o file");
   pose_of(o.reference_body);  // throws if it is not a valid pose
-  if (o.truth_grid && !o.truth.empty())
-    throw OptionError("truth_grid", "truth_grid: truth is given too, expected one of the two");
   if (o.truth.empty()) {
     reject_disabled_by_missing(given, "reference_body.", "truth");
     reject_disabled_by_missing(given, "truth_axes", "truth");
@@ -171,13 +168,6 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
     sequence.provenance.reference = open(o.truth, "truth");
     sequence.reference =
         read_truth(sequence.provenance.reference, vertex_stamps(graph, o.period), o);
-  }
-  if (o.truth_grid) {
-    const std::vector<Pose> poses = grid_truth(graph, file);
-    const std::vector<double> stamps = vertex_stamps(graph, o.period);
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      sequence.reference.push_back({stamps[i], poses[i]});
-    }
   }
 
   const std::filesystem::path path(o.path);

@@ -39,7 +39,6 @@ struct PoseGraphOptions {
   std::string name;
   std::string path;
   std::string truth;
-  bool truth_grid = false;
   TruthAxes truth_axes = TruthAxes::same;
   ReferenceBody reference_body;
   InformationRules rules;
@@ -74,11 +73,6 @@ void fields(PoseGraphOptions& o, Visit visit) {
   visit("truth",
         o.truth,
         "ground truth file: g2o with the same vertex ids, or one pose per vertex; empty: none");
-  visit(
-      "truth_grid",
-      o.truth_grid,
-      "the graph was simulated in steps of whole metres and quarter turns (city10000, M3500): the "
-      "ground truth is its odometry, rounded; an error unless all edges agree with it");
   visit("truth_axes", o.truth_axes, "body axes of the ground truth");
   reference_body_fields(o.reference_body, visit);
   information_fields(o.rules, visit);
