@@ -83,9 +83,8 @@ std::string closure_provenance(const PoseGraphOptions& o,
   }
   text += false_closures_text(o.false_closures, false_closures, count);
   if (graph.altered > 0) {
-    const char* how = o.rules.indefinite == IndefiniteInformation::repair    ? "repaired"
-                      : o.rules.indefinite == IndefiniteInformation::project ? "projected"
-                                                                             : "made isotropic";
+    const char* how =
+        o.rules.indefinite == IndefiniteInformation::repair ? "repaired" : "projected";
     text += fmt::format("; indefinite information of {} edges {}", graph.altered, how);
   }
   if (graph.similarity) text += "; Sim(3) chain: keyframes are its rigid part";

@@ -31,8 +31,7 @@ inline auto choices(RotationInformation) {
 inline auto choices(IndefiniteInformation) {
   return std::array{std::pair{"reject", IndefiniteInformation::reject},
                     std::pair{"repair", IndefiniteInformation::repair},
-                    std::pair{"project", IndefiniteInformation::project},
-                    std::pair{"isotropic", IndefiniteInformation::isotropic}};
+                    std::pair{"project", IndefiniteInformation::project}};
 }
 
 struct PoseGraphOptions {
@@ -63,7 +62,7 @@ void information_fields(InformationRules& rules, Visit visit) {
   visit("indefinite",
         rules.indefinite,
         "edges whose information is not positive definite: reject, repair (planar terms stored at "
-        "z, roll and z, pitch), project (eigenvalues), isotropic (mean variances)");
+        "z, roll and z, pitch), project (eigenvalues)");
 }
 
 template <class Visit>

@@ -3,7 +3,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <optional>
 #include <utility>
 
@@ -34,24 +33,6 @@ Square with_positive_eigenvalues(const Square& information) {
   return 0.5 * (out + out.transpose());
 }
 
-/// Replaces translation and rotation by the inverse mean variance of their own blocks, without
-/// terms between them. 6 x 6: a twist; 3 x 3: x, y, yaw.
-template <int N>
-Eigen::Matrix<double, N, N> isotropic_blocks(const Eigen::Matrix<double, N, N>& information) {
-  constexpr int kMoves = N == 6 ? 3 : 2;
-  const auto weight = [&](const auto& block) -> double {
-    return static_cast<double>(block.rows()) / block.inverse().trace();
-  };
-  Eigen::Matrix<double, N, N> out = Eigen::Matrix<double, N, N>::Zero();
-  using Moves = Eigen::Matrix<double, kMoves, kMoves>;
-  using Rotations = Eigen::Matrix<double, N - kMoves, N - kMoves>;
-  const Moves moves = information.template topLeftCorner<kMoves, kMoves>();
-  const Rotations rotations = information.template bottomRightCorner<N - kMoves, N - kMoves>();
-  out.diagonal().template head<kMoves>().setConstant(weight(moves));
-  out.diagonal().template tail<N - kMoves>().setConstant(weight(rotations));
-  return out;
-}
-
 /// Returns a positive definite matrix in place of one that is not; nullopt if that is not possible.
 template <int N>
 std::optional<Eigen::Matrix<double, N, N>> made_definite(
@@ -65,9 +46,6 @@ std::optional<Eigen::Matrix<double, N, N>> made_definite(
       break;
     case IndefiniteInformation::project:
       out = with_positive_eigenvalues(information);
-      break;
-    case IndefiniteInformation::isotropic:
-      out = isotropic_blocks<N>(information);
       break;
   }
   if (!is_positive_definite(out)) return std::nullopt;

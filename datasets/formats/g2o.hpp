@@ -30,10 +30,9 @@ enum class RotationInformation { half_angles, angles };
 
 /// Treatment of edges whose information is not positive definite (definite_information.hpp).
 enum class IndefiniteInformation {
-  reject,    ///< the file is an error
-  repair,    ///< terms x, yaw and y, yaw stored at z, roll and z, pitch are moved (cubicle.g2o)
-  project,   ///< eigenvalues are raised to at least 1e-6 of the largest
-  isotropic  ///< inverse mean variances of translation and rotation
+  reject,  ///< the file is an error
+  repair,  ///< terms x, yaw and y, yaw stored at z, roll and z, pitch are moved (cubicle.g2o)
+  project  ///< eigenvalues are raised to at least 1e-6 of the largest
 };
 
 struct InformationRules {

@@ -167,7 +167,7 @@ class Record {
     const bool is_rejected = rules_.indefinite == IndefiniteInformation::reject;
     throw file_.error(line_.number,
                       is_rejected ? "information is not positive definite (option indefinite: "
-                                    "repair, project, isotropic)"
+                                    "repair, project)"
                                   : "information is not positive definite and cannot be altered "
                                     "as the option `indefinite` states");
   }

@@ -75,7 +75,7 @@ Diagnosed of_graph(const std::string& file) {
          fmt::format("the information of {} of {} edges is not positive definite",
                      graph.altered,
                      graph.edges.size()),
-         "option indefinite of dataset pose_graph: repair, project or isotropic",
+         "option indefinite of dataset pose_graph: repair or project",
          1.0,
          static_cast<double>(graph.altered)});
   }

@@ -54,15 +54,6 @@ TEST(IndefiniteInformation, ProjectionRaisesEigenvalues) {
   EXPECT_LT((eigen.eigenvalues() - expected).norm(), 1e-12);
 }
 
-TEST(IndefiniteInformation, IsotropicHasTheMeanVariances) {
-  const TemporaryFolder folder;
-  const PoseGraph out = graph(folder, IndefiniteInformation::isotropic);
-  Twist expected;
-  expected << Vector3::Constant(3.0 / (0.25 + 0.25 + 0.5)),
-      Vector3::Constant(3.0 / (0.5 + 0.5 + 1.0 / 9.0));
-  EXPECT_LT((out.edges[1].information - Matrix6(expected.asDiagonal())).norm(), 1e-12);
-}
-
 TEST(IndefiniteInformation, IsRejectedIfTheRepairDoesNotHelp) {
   const TemporaryFolder folder;
   const auto file = folder.file("planar.g2o", "EDGE_SE2 0 1 1 0 0 1 2 0 1 0 1\n");
