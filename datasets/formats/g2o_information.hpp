@@ -1,6 +1,7 @@
 /// Conversion of information matrices between g2o's error vectors and twists.
 #pragma once
 
+#include "datasets/core/problem.hpp"
 #include "datasets/core/se3.hpp"
 
 namespace loopbench {
