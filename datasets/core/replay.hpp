@@ -30,18 +30,10 @@ struct ReplayUpdate {
   std::array<Movement, kAges.size()> moved;  ///< of the earlier keyframes, by age
 };
 
-/// Some poses of the trajectory as known after an update.
-struct ReplaySnapshot {
-  double time = 0.0;  ///< of the update [s]
-  Trajectory poses;   ///< of evenly chosen keyframes, with the first and the current one
-};
-
 struct Replay {
   /// Every keyframe at its own time: with the data that had arrived then, and no later ones.
   Trajectory causal;
   std::vector<ReplayUpdate> updates;  ///< in the order of time
-  /// Of evenly chosen updates and the last one, for figures.
-  std::vector<ReplaySnapshot> snapshots;
 };
 
 }  // namespace loopbench

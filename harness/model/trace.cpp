@@ -1,13 +1,9 @@
 #include "harness/model/trace.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
-#include "datasets/core/replay.hpp"
 #include "metrics/numerics/angle.hpp"
-#include "metrics/online/causal_errors.hpp"
-#include "metrics/trajectory/projection.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -57,15 +53,6 @@ std::vector<TraceSample> samples(const metrics::Evaluation& evaluation, const Tr
   return out;
 }
 
-/// Poses between snapshots: as many as a screen shows over the complete path.
-Trajectory thinned(const Trajectory& causal) {
-  constexpr std::size_t kMost = 400;
-  const std::size_t step = causal.size() / kMost + 1;
-  Trajectory out;
-  for (std::size_t i = 0; i < causal.size(); i += step) out.push_back(causal[i]);
-  return out;
-}
-
 }  // namespace
 
 TraceOrigin trace_origin(const Sequence& sequence) {
@@ -97,33 +84,7 @@ SequenceTrace sequence_trace(const Sequence& sequence) {
 CellTrace cell_trace(const metrics::Evaluation& evaluation,
                      metrics::Times times,
                      const TraceOrigin& origin) {
-  CellTrace out{times, samples(evaluation, origin)};
-  const Curve* curve = evaluation.context.curve;
-  const Replay* replay = curve == nullptr ? nullptr : curve->replay();
-  if (replay == nullptr || evaluation.context.reference == nullptr) return out;
-  try {
-    out.causal = samples(metrics::causal_evaluation(evaluation), origin);
-  } catch (
-      const metrics::Undefined&) {  // cannot be paired or aligned: only the snapshots are drawn
-  }
-  if (replay->snapshots.empty() || replay->causal.empty()) return out;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const Trajectory causal = thinned(replay->causal);
-  const auto add = [&](double time, Trajectory known, double after, double end) {
-    for (const StampedPose& pose : causal) {
-      if (pose.stamp > after && pose.stamp <= end) known.push_back(pose);
-    }
-    known = metrics::moved(evaluation.alignment, known);
-    metrics::project(known, evaluation.protocol.project);
-    out.snapshots.push_back({time - origin.stamp, poses(known, origin)});
-  };
-  const std::vector<ReplaySnapshot>& kept = replay->snapshots;
-  add(causal.front().stamp, {}, -kInfinity, kept.front().time);  // no update so far
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    const double end = i + 1 == kept.size() ? kInfinity : kept[i + 1].time;
-    add(kept[i].time, kept[i].poses, kept[i].time, end);
-  }
-  return out;
+  return {times, samples(evaluation, origin)};
 }
 
 void add_values(CellTrace& trace,

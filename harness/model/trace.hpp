@@ -52,12 +52,6 @@ struct SequenceTrace {
   std::vector<TraceClosure> closures;  ///< all closures, positions as for keyframes
 };
 
-/// The trajectory as a replayed method knew it from `time` on, until the next snapshot.
-struct TraceSnapshot {
-  double time = 0.0;             ///< relative to the origin [s]
-  std::vector<TracePose> poses;  ///< aligned; after `time`, each pose as known at its own time
-};
-
 /// Values that a metric gave for each evaluated pose.
 struct TraceValues {
   std::string name;  ///< of the metric and its score
@@ -68,8 +62,6 @@ struct TraceValues {
 struct CellTrace {
   metrics::Times times = metrics::Times::dense;  ///< evaluation times
   std::vector<TraceSample> samples;              ///< empty if nothing was evaluated
-  std::vector<TraceSample> causal{};       ///< of a replay: each pose as known at its own time
-  std::vector<TraceSnapshot> snapshots{};  ///< of a replay, in the order of time
   std::vector<TraceValues> values{};
 };
 

@@ -28,8 +28,8 @@ struct Thinning {
 Thinning thinning_for(const ReportContent& content, double bytes);
 
 /// {points, sequences, grids, cells} from the traces. Sequences: reference, and closures by repeat.
-/// Cells: grid, errors, sections of the path, and what a replay knew over time (of one repeat); the
-/// evaluation times of a cell are in its grid, which cells share.
+/// Cells: grid, errors and sections of the path; the evaluation times of a cell are in its grid,
+/// which cells share.
 nlohmann::json traces_json(const ReportContent& content, const Thinning& thinning);
 
 }  // namespace loopbench::harness

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -56,23 +55,6 @@ nlohmann::json closures_json(const SequenceTrace& trace) {
                         rounded_number(trace.closures[i].to_stamp, kDigits)});
   }
   return {{"closures", std::move(closures)}, {"all", trace.closures.size()}};
-}
-
-/// {known: [{time, t, x, y, z}], t, error}: the trajectory as known from each time on, and the
-/// position error of each pose as known at its own time [m].
-nlohmann::json replay_json(const CellTrace& trace, std::size_t most) {
-  nlohmann::json known = nlohmann::json::array();
-  for (const TraceSnapshot& snapshot : trace.snapshots) {
-    known.push_back(path_json(path_of(snapshot.poses)));
-    known.back()["time"] = snapshot.time;
-  }
-  Column t, error;
-  for (const std::size_t i : subsampled_indices(trace.causal.size(), most)) {
-    const TraceSample& s = trace.causal[i];
-    t.push_back(s.estimate.stamp);
-    error.push_back(std::hypot(s.error_x, s.error_y, s.error_z));
-  }
-  return {{"known", std::move(known)}, {"t", packed(t)}, {"error", packed(error)}};
 }
 
 struct CellErrors {
@@ -188,7 +170,6 @@ nlohmann::json traces_json(const ReportContent& content, const Thinning& thinnin
   std::map<std::string, nlohmann::json> sequences;  // references, and closures of their repeats
   std::map<std::string, double> origins;            // of time [s]
   std::map<std::pair<std::string, Column>, std::size_t> grid_of;  // sequence and stamps
-  std::set<std::pair<SharedText, SharedText>> replayed;           // replays are drawn of one repeat
   nlohmann::json grids = nlohmann::json::array();
   nlohmann::json cells = nlohmann::json::object();
   for (const std::size_t i : drawn_cells(content.shown_cells, thinning.repeats)) {
@@ -216,9 +197,6 @@ nlohmann::json traces_json(const ReportContent& content, const Thinning& thinnin
              {"z", packed(e.z)},
              {"angle", packed(e.angle)}};
     if (!trace->values.empty()) drawn["values"] = values_json(*trace, thinning.points);
-    if (!trace->snapshots.empty() && replayed.insert({cell.sequence, cell.method}).second) {
-      drawn["replay"] = replay_json(*trace, thinning.points);
-    }
     const std::vector<methods::Section> sections = traces.sections(cell.position);
     const auto origin = origins.find(cell.sequence);
     if (!sections.empty() && origin != origins.end()) {

@@ -55,14 +55,11 @@ std::string script_elements(const std::string& nonce) {
                            "map",
                            "space",
                            "along",
-                           "replay",
                            "cut",
                            "spread",
                            "sweeps",
                            "front",
                            "pareto",
-                           "detection",
-                           "calibration",
                            "tables",
                            "start"}) {
     scripts.push_back("\n" + asset_text(std::string("page/") + name + ".js"));

@@ -58,11 +58,6 @@ void walk(Archive& a, T& worker) {
   a(worker.isolated)(worker.serial)(worker.pinned)(worker.stated);
 }
 
-template <class Archive, Either<harness::TraceSnapshot> T>
-void walk(Archive& a, T& snapshot) {
-  a(snapshot.time)(snapshot.poses);
-}
-
 template <class Archive, Either<harness::TraceValues> T>
 void walk(Archive& a, T& values) {
   a(values.name)(values.unit)(values.values);
@@ -74,7 +69,7 @@ void walk(Archive& a, T& r) {
   a(r.cell)(r.status)(r.why)(r.signal)(r.worker)(r.oracle_method)(r.seconds)(r.cpu_seconds);
   a(r.peak_memory)(r.added_memory);
   a(r.report.phases)(r.report.counts)(r.report.notes)(r.report.sections);
-  a(r.scores)(r.trace.times)(r.trace.samples)(r.trace.causal)(r.trace.snapshots)(r.trace.values);
+  a(r.scores)(r.trace.times)(r.trace.samples)(r.trace.values);
 }
 
 template <>

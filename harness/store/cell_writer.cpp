@@ -58,7 +58,6 @@ CellWriter::CellWriter(Database& database, std::string provenance_key)
       note_(insert_into(database, kNoteTable)),
       section_(insert_into(database, kSectionTable)),
       trace_(insert_into(database, kTraceTable)),
-      snapshot_(insert_into(database, kSnapshotTable)),
       pose_value_(insert_into(database, kPoseValueTable)),
       set_checksum_(checksum_update(database)),
       one_more_(database.prepare("UPDATE run SET value = value + 1 WHERE key = 'cells'")) {}
@@ -89,14 +88,8 @@ void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
   write_report(id, result.report);
   const CellTrace& trace = result.trace;
   if (trace.samples.empty()) return;
-  trace_.bind(
-      id, to_text(trace.times), Blob{bytes_of(trace.samples)}, Blob{bytes_of(trace.causal)});
-  trace_.run();
+  trace_.bind(id, to_text(trace.times), Blob{bytes_of(trace.samples)}).run();
   std::int64_t number = 0;
-  for (const TraceSnapshot& each : trace.snapshots) {
-    snapshot_.bind(id, number++, each.time, Blob{bytes_of(each.poses)}).run();
-  }
-  number = 0;
   for (const TraceValues& each : trace.values) {
     pose_value_.bind(id, number++, each.name, each.unit, Blob{bytes_of(each.values)}).run();
   }

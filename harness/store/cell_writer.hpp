@@ -44,7 +44,6 @@ class CellWriter {
   Statement note_;
   Statement section_;
   Statement trace_;
-  Statement snapshot_;
   Statement pose_value_;
   Statement set_checksum_;
   Statement one_more_;                  ///< cell of the store

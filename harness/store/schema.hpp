@@ -6,7 +6,7 @@
 namespace loopbench::harness {
 
 /// Incremented when the meaning of a table or column changes; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 13;
+inline constexpr int kSchemaVersion = 14;
 
 /// Creates the tables of a store, readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
@@ -122,14 +122,7 @@ inline constexpr const char* kSchema = R"sql(
     cell INTEGER PRIMARY KEY REFERENCES cell(id),
     times TEXT NOT NULL,               -- keyframes | dense
     samples BLOB NOT NULL,             -- TraceSample, 12 floats each, under the first protocol
-    causal BLOB NOT NULL,              -- the same of a replay: poses as known at their own time
     checksum INTEGER NOT NULL);
-  CREATE TABLE snapshot (              -- of a replay
-    cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
-    time REAL NOT NULL,                -- from here on known, relative to the sequence's origin [s]
-    poses BLOB NOT NULL,               -- TracePose, 8 floats each
-    checksum INTEGER NOT NULL,
-    PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE TABLE pose_value (            -- of a metric, for each sample of the trace
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
     name TEXT NOT NULL, unit TEXT NOT NULL,
@@ -167,17 +160,10 @@ inline constexpr CellTable kPhaseTable{"phase", "number, name, seconds"};
 inline constexpr CellTable kCountTable{"count", "number, name, value"};
 inline constexpr CellTable kNoteTable{"note", "number, text"};
 inline constexpr CellTable kSectionTable{"section", "number, kind, begin_stamp, end_stamp, what"};
-inline constexpr CellTable kTraceTable{"trace", "times, samples, causal"};
-inline constexpr CellTable kSnapshotTable{"snapshot", "number, time, poses"};
+inline constexpr CellTable kTraceTable{"trace", "times, samples"};
 inline constexpr CellTable kPoseValueTable{"pose_value", "number, name, unit, value"};
-inline constexpr CellTable kCellTables[] = {kScoreTable,
-                                            kPhaseTable,
-                                            kCountTable,
-                                            kNoteTable,
-                                            kSectionTable,
-                                            kTraceTable,
-                                            kSnapshotTable,
-                                            kPoseValueTable};
+inline constexpr CellTable kCellTables[] = {
+    kScoreTable, kPhaseTable, kCountTable, kNoteTable, kSectionTable, kTraceTable, kPoseValueTable};
 
 /// Columns of the table cell between `id` and `checksum`.
 inline constexpr const char* kCellColumns =

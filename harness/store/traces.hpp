@@ -76,16 +76,6 @@ inline std::optional<CellTrace> Traces::cell(std::int64_t position) {
   CellTrace out;
   out.times = from_text<metrics::Times>(row.text()).value_or(metrics::Times::dense);
   out.samples = from_blob<TraceSample>(row.view());
-  out.causal = from_blob<TraceSample>(row.view());
-  Statement each = database_.prepare(trace_query(kSnapshotTable));
-  each.bind(position);
-  while (each.step()) {
-    require_intact(each, "a snapshot is");
-    each.integer();  // number
-    TraceSnapshot& snapshot = out.snapshots.emplace_back();
-    each.read(snapshot.time);
-    snapshot.poses = from_blob<TracePose>(each.view());
-  }
   Statement values = database_.prepare(trace_query(kPoseValueTable));
   values.bind(position);
   while (values.step()) {

@@ -88,27 +88,8 @@ void ReplayRun::update(double time) {
                              solved.back().world_from_body,
                              movement(before, solved)});
   chain_.replace(std::move(solved));
-  if ((replay_.updates.size() - 1) % snapshot_every_ == 0) keep_snapshot(time);
   merge(report_, std::move(report));
   waiting_ = {};
-}
-
-void ReplayRun::keep_snapshot(double time) {
-  constexpr std::size_t kMostSnapshots = 32;
-  constexpr std::size_t kMostPoses = 100;  // of a snapshot: a smooth curve on a screen
-  std::vector<ReplaySnapshot>& kept = replay_.snapshots;
-  if (kept.size() == kMostSnapshots) {
-    for (std::size_t i = 1; 2 * i < kept.size(); ++i) kept[i] = std::move(kept[2 * i]);
-    kept.resize(kMostSnapshots / 2);
-    snapshot_every_ *= 2;
-  }
-  const Trajectory& poses = chain_.poses();
-  ReplaySnapshot& snapshot = kept.emplace_back();
-  snapshot.time = time;
-  const std::size_t count = std::min(poses.size(), kMostPoses);
-  for (std::size_t i = 0; i < count; ++i) {
-    snapshot.poses.push_back(poses[count == 1 ? 0 : i * (poses.size() - 1) / (count - 1)]);
-  }
 }
 
 void ReplayRun::run(std::span<const Arrival> arrivals) {
@@ -130,9 +111,6 @@ void ReplayRun::run(std::span<const Arrival> arrivals) {
   if (!arrivals.empty()) time = arrivals.back().time;
   add_until(time);
   if (changes() > 0 || !waiting_.keyframes.empty()) update(time);
-  if (!replay_.updates.empty() && (replay_.updates.size() - 1) % snapshot_every_ != 0) {
-    keep_snapshot(time);
-  }
 }
 
 }  // namespace loopbench::methods

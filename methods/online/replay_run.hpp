@@ -31,7 +31,6 @@ class ReplayRun {
   void add_keyframe(std::size_t i);
   void add(const Arrival& arrival);
   void update(double time);
-  void keep_snapshot(double time);
 
   const Problem& problem_;
   Incremental& method_;
@@ -42,7 +41,6 @@ class ReplayRun {
   std::size_t edges_ = 0;   ///< odometry edges passed on
   std::size_t frames_ = 0;  ///< frames passed on
   Replay replay_;
-  std::size_t snapshot_every_ = 1;  ///< updates
 };
 
 }  // namespace loopbench::methods

@@ -30,8 +30,7 @@ inline Evaluation causal_evaluation(const Evaluation& evaluation,
   return out;
 }
 
-inline Evaluation causal_evaluation(const Evaluation& evaluation,
-                                    const std::string& metric = "causal") {
+inline Evaluation causal_evaluation(const Evaluation& evaluation, const std::string& metric) {
   return causal_evaluation(evaluation, evaluation.protocol, metric);
 }
 

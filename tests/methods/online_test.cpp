@@ -102,25 +102,6 @@ TEST(Online, RecordsTheMovementOfPastPosesByAge) {
   EXPECT_EQ(moved[2].translation, 0.0);
 }
 
-TEST(Online, KeepsSnapshotsOfEvenlyChosenUpdatesAndTheLastOne) {
-  const Replayed few = replayed<Uniform>(shortened());
-  ASSERT_EQ(few.record().snapshots.size(), 2u);
-  EXPECT_EQ(few.record().snapshots[0].time, 3.0);
-  expect_positions(few.record().snapshots[0].poses, {0, 2.0 / 3, 4.0 / 3, 2});
-  // Updates at keyframes 1 to 100, of which every fourth is kept: 2 more than 3 times 32.
-  Problem problem = test::along_x(std::vector<double>(102));
-  for (std::size_t i = 1; i < 102; ++i) problem.closures.push_back({0, i, at_x(0.0)});
-  const Replayed many = replayed<Uniform>(problem);
-  ASSERT_EQ(many.record().updates.size(), 101u);
-  const std::vector<ReplaySnapshot>& kept = many.record().snapshots;
-  ASSERT_EQ(kept.size(), 26u);
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    EXPECT_EQ(kept[i].time, 1.0 + 4.0 * static_cast<double>(i));
-    EXPECT_EQ(kept[i].poses.size(), std::min<std::size_t>(100, 2 + 4 * i));
-    EXPECT_EQ(kept[i].poses.back().stamp, kept[i].time);
-  }
-}
-
 TEST(Online, ReturnsTheCausalTrajectoryOnRequest) {
   const Replayed out = replayed<Uniform>(shortened(), {.result = Online::Result::causal});
   expect_positions(out.curve->sample({0, 1, 2, 2.5, 3, 4}), {0, 1, 2, 2, 2, 3});

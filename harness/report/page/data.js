@@ -94,16 +94,6 @@
     return i === undefined ? null : R.cutOf(i);
   };
 
-  // What a replayed method knew over time, on the first drawn run: {known: [{time, t, x, y, z}], t, error}, or null.
-  const replays = cached((i) => {
-    const packed = raw.traces.cells[i].replay;
-    return { known: packed.known.map((each) => ({ time: each.time, ...path(each) })), t: R.unpack(packed.t), error: R.unpack(packed.error) };
-  });
-  R.replay = (s, m) => {
-    const i = raw.scores.cells.findIndex((c, place) => c.sequence === s && c.method === m && raw.traces.cells[place] && raw.traces.cells[place].replay);
-    return i < 0 ? null : replays(i);
-  };
-
   // Values of a score: one for each cell of the method, on one sequence or (s null) on all.
   R.values = (kind, statistic, m, s = null) => raw.scores.cells
     .filter((c) => c.method === m && (s === null || c.sequence === s) && c.values[kind] && c.values[kind][statistic] !== null)

@@ -1,9 +1,7 @@
-/// What a replayed method knew over time and what a metric states for each pose, from the cell to
-/// the report.
+/// What a metric states for each pose, from the cell to the report.
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <future>
 #include <memory>
@@ -15,55 +13,11 @@
 #include "harness/store/traces.hpp"
 #include "tests/support/command.hpp"
 
-namespace loopbench::replay_report_test {
+namespace loopbench::pose_values_test {
 
 using namespace harness;
 
 namespace {
-
-TEST(ReplayReport, DrawsWhatWasKnownAtEachTime) {
-  const TemporaryFolder folder;
-  folder.file("c.yaml",
-              "datasets: [{dataset: simulated, path: room, keyframes: 40, laps: 2}]\n"
-              "methods: [uniform, online + uniform]\nmetrics: [ate, causal_ate]\n"
-              "times: keyframes\nrepeats: 2\n");
-  const CommandResult ran = loopbench_command("run c.yaml --out r -j 1", folder);
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  Traces traces(folder.path() / "r");
-  const auto plain = traces.cell(0);
-  ASSERT_TRUE(plain);
-  EXPECT_TRUE(plain->snapshots.empty());
-  EXPECT_TRUE(plain->causal.empty());
-  const auto replayed = traces.cell(1);
-  ASSERT_TRUE(replayed);
-  ASSERT_GE(replayed->snapshots.size(), 2u);
-  EXPECT_EQ(replayed->causal.size(), replayed->samples.size());
-  // Nothing of the first update is known before it.
-  const auto& begin = replayed->snapshots.front();
-  EXPECT_EQ(begin.time, 0.0);
-  ASSERT_FALSE(begin.poses.empty());
-  EXPECT_LE(begin.poses.back().stamp, static_cast<float>(replayed->snapshots[1].time));
-  const auto distance = [](const TracePose& a, const TracePose& b) {
-    return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
-  };
-  for (std::size_t i = 0; i < begin.poses.size(); ++i) {  // each has its own alignment
-    EXPECT_NEAR(distance(begin.poses[0], begin.poses[i]),
-                distance(replayed->causal[0].estimate, replayed->causal[i].estimate),
-                1e-4);
-  }
-  // At the end, what is known is the result.
-  const TracePose& known = replayed->snapshots.back().poses.back();
-  const TracePose& result = replayed->samples.back().estimate;
-  EXPECT_FLOAT_EQ(known.stamp, result.stamp);
-  EXPECT_NEAR(known.x, result.x, 1e-5);
-  EXPECT_NEAR(known.y, result.y, 1e-5);
-  const nlohmann::json drawn =
-      traces_json(read_report_content(folder.path() / "r"), {100, 2})["cells"];
-  EXPECT_EQ(drawn.size(), 4u);
-  EXPECT_EQ(drawn["1"]["replay"]["known"].size(), replayed->snapshots.size());
-  EXPECT_FALSE(drawn["3"].contains("replay"));  // one repeat of a method is enough
-  EXPECT_FALSE(drawn["0"].contains("replay"));
-}
 
 TEST(PoseValues, OfAProgramReachTheReport) {
   const TemporaryFolder folder;
@@ -127,4 +81,4 @@ TEST(Report, IsWrittenAgainWhileASweepRuns) {
 }
 
 }  // namespace
-}  // namespace loopbench::replay_report_test
+}  // namespace loopbench::pose_values_test
