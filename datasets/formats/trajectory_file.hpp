@@ -39,13 +39,11 @@ TrajectoryFile selected(const TrajectoryFile& file, const std::vector<std::size_
 /// covariances, if stated: see has_covariances(). Positions and quaternions are printed so that
 /// reading them is bit-identical, and exact stamps with all digits; euroc and bag round other
 /// stamps to nanoseconds. `-` is standard output. Throws InputError for an invalid trajectory and
-/// if the file cannot be written. `may_repeat`: consecutive poses may have equal stamps, as paired
-/// poses have if a reference pose has several partners.
+/// if the file cannot be written.
 void write_trajectory(const std::filesystem::path& file,
                       const TrajectoryFile& trajectory,
                       Format format,
-                      const std::optional<std::filesystem::path>& times = std::nullopt,
-                      bool may_repeat = false);
+                      const std::optional<std::filesystem::path>& times = std::nullopt);
 
 /// The same as tum, with `comments` as `# ` lines at the top.
 void write_tum(const std::filesystem::path& file,

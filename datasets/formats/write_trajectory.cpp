@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "datasets/bags/write_mcap.hpp"
@@ -173,18 +172,8 @@ bool has_covariances(const TrajectoryFile& file, Format format) {
 void write_trajectory(const std::filesystem::path& file,
                       const TrajectoryFile& trajectory,
                       Format format,
-                      const std::optional<std::filesystem::path>& times,
-                      bool may_repeat) {
-  if (may_repeat) {
-    Trajectory different = trajectory.poses;
-    const auto is_repeated = [](const StampedPose& a, const StampedPose& b) {
-      return a.stamp == b.stamp;
-    };
-    different.erase(std::unique(different.begin(), different.end(), is_repeated), different.end());
-    check(different, file.string(), Rotations::optional);
-  } else {
-    check(trajectory.poses, file.string(), Rotations::optional);
-  }
+                      const std::optional<std::filesystem::path>& times) {
+  check(trajectory.poses, file.string(), Rotations::optional);
   if (lacks_rotations(trajectory.poses) && format != Format::tum && format != Format::csv) {
     throw InputError(file.string() + ": " + to_text(format) +
                      " needs rotations, expected tum or csv for positions without rotation");

@@ -67,18 +67,7 @@ void declare_files(CLI::App& command, EvalArguments& a) {
   };
   seconds("--start,--t_start", a.start, "First stamp of REF to evaluate [s]");
   seconds("--end,--t_end", a.end, "Last stamp of REF to evaluate [s]");
-  command.add_option("--downsample", a.downsample, "Evenly spaced poses to keep of each file")
-      ->type_name("N")
-      ->check(positive_number());
-  command
-      .add_option("--motion_filter",
-                  a.motion_filter,
-                  "Keep only poses that are this path length [m] or this angle [deg] from the "
-                  "pose kept before, in each file")
-      ->type_name("M DEG")
-      ->expected(2)
-      ->allow_extra_args(false)
-      ->check(number_between(0.0, 1e9));
+  declare_pose_filters(command, a.downsample, a.motion_filter);
 }
 
 void declare_rules(CLI::App& command, EvalArguments& a) {
@@ -136,6 +125,23 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
 }
 
 }  // namespace
+
+void declare_pose_filters(CLI::App& command,
+                          std::optional<std::size_t>& downsample,
+                          std::vector<double>& motion_filter) {
+  command.add_option("--downsample", downsample, "Evenly spaced poses to keep of each file")
+      ->type_name("N")
+      ->check(positive_number());
+  command
+      .add_option("--motion_filter",
+                  motion_filter,
+                  "Keep only poses that are this path length [m] or this angle [deg] from the "
+                  "pose kept before, in each file")
+      ->type_name("M DEG")
+      ->expected(2)
+      ->allow_extra_args(false)
+      ->check(number_between(0.0, 1e9));
+}
 
 void declare(CLI::App& command, EvalArguments& a) {
   declare_files(command, a);

@@ -93,11 +93,8 @@ const std::map<std::string, std::string> kExamples{
     {"traj convert",
      "  loopbench traj convert poses.txt --times times.txt --to tum -o poses.tum\n"
      "  loopbench traj convert run.bag --all-topics --to tum -o out/\n"
-     "  loopbench traj convert data.csv --to kitti --times-out times.txt -o poses.txt\n"},
-    {"traj sync",
-     "  loopbench traj sync estimate.txt --ref reference.txt -o synced/\n"
-     "  loopbench traj sync a.txt b.txt --ref reference.txt --max-diff 0.01 -o synced/\n"
-     "  loopbench traj sync estimate.txt --ref reference.txt --offset 0.2 -o synced/\n"},
+     "  loopbench traj convert data.csv --to kitti --times-out times.txt -o poses.txt\n"
+     "  loopbench traj convert run.txt --downsample 500 --project_to_plane xy -o fewer.txt\n"},
     {"traj merge",
      "  loopbench traj merge part1.txt part2.txt -o all.txt\n"
      "  loopbench traj merge part*.txt -o - | loopbench traj info -\n"
@@ -106,18 +103,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench traj crop run.txt --start 10 --end 60 --relative -o middle.txt\n"
      "  loopbench traj crop *.txt --start 1403715273.26 -o cropped/\n"
      "  zcat run.txt.gz | loopbench traj crop - --end 60 --relative -o start.txt\n"},
-    {"traj laps",
-     "  loopbench traj laps run.txt --radius 3 -o laps/\n"
-     "  loopbench eval laps/run_*.txt --pairwise --by-position 2\n"
-     "  loopbench eval reference.txt laps/run_*.txt --align-together\n"},
-    {"traj downsample",
-     "  loopbench traj downsample run.txt --count 500 -o fewer.txt\n"
-     "  loopbench traj downsample run.txt --metres 0.2 --degrees 10 -o keyframes.txt\n"
-     "  loopbench traj downsample *.txt --count 500 -o fewer/\n"},
-    {"traj resample",
-     "  loopbench traj resample run.txt --seconds 0.1 -o even.txt\n"
-     "  loopbench traj resample run.txt --metres 0.5 -o even.txt\n"
-     "  loopbench traj resample *.txt --seconds 0.1 -o even/\n"},
     {"traj transform",
      "  loopbench traj transform run.txt --left 1,2,0,0,0,0.707,0.707 -o moved.txt\n"
      "  loopbench traj transform imu.txt --right imu_from_camera.json -o camera.txt\n"
@@ -126,10 +111,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench traj align estimate.txt --ref reference.txt -o aligned.txt\n"
      "  loopbench traj align mono.txt --ref reference.txt --align sim3 -o aligned.txt\n"
      "  loopbench traj align estimate.txt --ref reference.txt --json\n"},
-    {"traj project",
-     "  loopbench traj project run.txt --plane xy -o flat.txt\n"
-     "  loopbench traj project kitti.txt --plane xz -o flat.txt\n"
-     "  loopbench traj project *.txt --plane xy -o flat/\n"},
     {"traj plot",
      "  loopbench traj plot run.txt -o run.pdf\n"
      "  loopbench traj plot a.txt b.txt --ref reference.txt -o compared.svg\n"

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <numeric>
 
 #include "datasets/core/covariance.hpp"
 #include "harness/base/counted.hpp"
@@ -65,6 +64,25 @@ int info(const TrajArguments& a) {
   return kExitOk;
 }
 
+/// Selects, shifts and projects in the order of evo_traj.
+int convert(const TrajArguments& a) {
+  auto plane = metrics::ProjectionPlane::none;
+  if (!a.plane.empty()) {
+    FieldType<metrics::ProjectionPlane>::assign("project_to_plane", plane, a.plane);
+  }
+  return write_changed(a, [&](NamedTrajectory& each) {
+    TrajectoryFile& file = each.file;
+    if (a.downsample) file = selected(file, evenly_spaced(file.poses.size(), *a.downsample));
+    if (a.motion_filter.size() == 2) {
+      file = selected(file, by_motion(file.poses, a.motion_filter[0], a.motion_filter[1]));
+    }
+    shift_stamps(file, a.offset);
+    if (plane == metrics::ProjectionPlane::none) return;
+    metrics::project(file.poses, plane);
+    file.covariances.clear();
+  });
+}
+
 int merge_files(const TrajArguments& a) {
   NamedTrajectories all = read_all_named(a.files, a.reading);
   std::vector<TrajectoryFile> files;
@@ -100,67 +118,6 @@ int crop(const TrajArguments& a) {
   });
 }
 
-int split_laps(const TrajArguments& a) {
-  NamedTrajectories out;
-  for (const NamedTrajectory& each : read_all_named(a.files, a.reading)) {
-    const std::vector<std::size_t> starts = lap_starts(each.file.poses, a.radius);
-    if (starts.size() == 1) {
-      throw InputError(fmt::format(
-          "{}: the path does not return to within {:g} m of its first position in the same "
-          "direction, expected a lap or a larger --radius",
-          each.name,
-          a.radius));
-    }
-    for (std::size_t lap = 1; lap < starts.size(); ++lap) {
-      std::vector<std::size_t> indices(starts[lap] - starts[lap - 1]);
-      std::iota(indices.begin(), indices.end(), starts[lap - 1]);
-      // With an ending, which is replaced by that of the format.
-      const std::string name = fmt::format("{}_{}.txt", output_stem(each.name), lap);
-      out.push_back({name, selected(each.file, indices), each.findings});
-    }
-    if (const std::size_t left = each.file.poses.size() - starts.back(); left > 1) {
-      fmt::print(stderr,
-                 "loopbench: {}: the last {} poses are no complete lap and are left out\n",
-                 printable(each.name),
-                 left);
-    }
-  }
-  return write_all(a, out);
-}
-
-int downsample(const TrajArguments& a) {
-  const bool by_count = a.count.has_value();
-  const bool has_motion = a.step.seconds || a.step.metres || a.step.degrees;
-  if (by_count == has_motion) {
-    throw InputError("downsample: expected --count, or any of --seconds, --metres, --degrees");
-  }
-  return write_changed(a, [&](NamedTrajectory& each) {
-    const Trajectory& poses = each.file.poses;
-    each.file = selected(
-        each.file, by_count ? evenly_spaced(poses.size(), *a.count) : by_motion(poses, a.step));
-  });
-}
-
-int resample(const TrajArguments& a) {
-  constexpr double kLongestGap = 2.0;  // [s]
-  return write_changed(a, [&](NamedTrajectory& each) {
-    TrajectoryFile out{.poses = resampled(each.file.poses, a.step),
-                       .format = each.file.format,
-                       .has_stamps = each.file.has_stamps};
-    const std::size_t in_gaps = poses_in_gaps(each.file.poses, out.poses, kLongestGap);
-    if (in_gaps > 0) {
-      fmt::print(stderr,
-                 "loopbench: warning: {}: {} of {} poses are interpolated in gaps longer than {:g} "
-                 "s\n",
-                 printable(each.name),
-                 in_gaps,
-                 out.poses.size(),
-                 kLongestGap);
-    }
-    each.file = std::move(out);
-  });
-}
-
 int transform(const TrajArguments& a) {
   const std::string& given = a.left.empty() ? a.right : a.left;
   if (given.empty() && (a.invert || !a.conventions.any())) {
@@ -184,31 +141,6 @@ int transform(const TrajArguments& a) {
     if (side == TransformSide::right) displace(covariances, before, each.file.poses);
     if (side == TransformSide::left) rotate(covariances, similarity->pose, similarity->scale);
   });
-}
-
-int sync(const TrajArguments& a) {
-  if (is_dash(a.out)) throw InputError("sync: expected -o FOLDER, it writes two files per input");
-  const NamedTrajectory reference = read_named(a.reference, a.reading);
-  const NamedTrajectories all = read_all_named(a.files, a.reading, &reference);
-  const Format format = written_format(a);
-  const std::string folder = a.out.ends_with('/') ? a.out : a.out + "/";
-  const auto files = output_files(names_of(all), folder, format);
-  const auto references = output_files(names_of(all), folder, format, "_reference");
-  protect_inputs(a, files);
-  protect_inputs(a, references);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto pairs = paired_indices(a, reference, all[i]);
-    TrajectoryFile paired = paired_part(all[i].file, pairs, &metrics::IndexPair::estimate);
-    shift_stamps(paired, a.offset);
-    write_trajectory(files[i], paired, format);
-    const auto partners = paired_part(reference.file, pairs, &metrics::IndexPair::reference);
-    // As in evo, a reference pose can be the nearest one of several poses.
-    constexpr bool kMayRepeat = true;
-    write_trajectory(references[i], partners, format, std::nullopt, kMayRepeat);
-    const std::string poses = counted(pairs.size(), "pose");
-    fmt::print("{} and {}: {}\n", printable(files[i]), printable(references[i]), poses);
-  }
-  return kExitOk;
 }
 
 int align_files(const TrajArguments& a) {
@@ -249,15 +181,6 @@ int align_files(const TrajArguments& a) {
   return exit_code;
 }
 
-int project_files(const TrajArguments& a) {
-  metrics::ProjectionPlane plane{};
-  FieldType<metrics::ProjectionPlane>::assign("plane", plane, a.plane);
-  return write_changed(a, [&](NamedTrajectory& each) {
-    metrics::project(each.file.poses, plane);
-    each.file.covariances.clear();
-  });
-}
-
 int plot_files(const TrajArguments& a) {
   std::optional<NamedTrajectory> reference;
   if (!a.reference.empty()) reference = read_named(a.reference, a.reading);
@@ -283,16 +206,11 @@ void add_traj(CLI::App& app, int& exit_code) {
   traj->require_subcommand(1);
   declare_traj(*traj,
                {{"info", info},
-                {"convert", [](const TrajArguments& a) { return write_changed(a, [](auto&) {}); }},
-                {"sync", sync},
+                {"convert", convert},
                 {"merge", merge_files},
                 {"crop", crop},
-                {"laps", split_laps},
-                {"downsample", downsample},
-                {"resample", resample},
                 {"transform", transform},
                 {"align", align_files},
-                {"project", project_files},
                 {"plot", plot_files}},
                exit_code);
 }

@@ -5,6 +5,7 @@
 
 #include "datasets/core/fields.hpp"
 #include "harness/commands/checks.hpp"
+#include "harness/commands/eval_options.hpp"
 #include "harness/commands/figure_options.hpp"
 
 namespace loopbench::harness {
@@ -42,6 +43,18 @@ void declare_output(CLI::App& verb, TrajArguments& a) {
       ->type_name("FILE");
 }
 
+void declare_offset(CLI::App& verb, TrajArguments& a) {
+  verb.add_option("--offset,--t_offset", a.offset, "Time offset added to the files' stamps [s]")
+      ->check(finite_number());
+}
+
+void declare_changes(CLI::App& verb, TrajArguments& a) {
+  declare_pose_filters(verb, a.downsample, a.motion_filter);
+  declare_offset(verb, a);
+  verb.add_option("--project_to_plane", a.plane, "Plane to project onto")
+      ->type_name(choice_type<metrics::ProjectionPlane>());
+}
+
 void declare_pairing(CLI::App& verb, TrajArguments& a) {
   verb.add_option("--ref", a.reference, "Reference trajectory")->required()->type_name("FILE");
   verb.add_option("--association",
@@ -53,17 +66,7 @@ void declare_pairing(CLI::App& verb, TrajArguments& a) {
   verb.add_option(
           "--max-diff,--t_max_diff", a.max_diff, "Maximum time difference between paired poses [s]")
       ->check(finite_number());
-  verb.add_option("--offset,--t_offset", a.offset, "Time offset added to the files' stamps [s]")
-      ->check(finite_number());
-}
-
-void declare_steps(CLI::App& verb, TrajArguments& a) {
-  const auto step = [&](const char* name, std::optional<double>& value, const char* help) {
-    verb.add_option(name, value, help)->check(finite_number())->check(positive_number());
-  };
-  step("--seconds", a.step.seconds, "Time between poses [s]");
-  step("--metres,--meters", a.step.metres, "Path length between poses [m]");
-  step("--degrees", a.step.degrees, "Rotation angle between poses [deg]");
+  declare_offset(verb, a);
 }
 
 void declare_crop(CLI::App& verb, TrajArguments& a) {
@@ -119,44 +122,18 @@ const std::vector<VerbInfo>& verb_infos() {
       {"info",
        "Print number of poses, duration, distance, speed, rate, gaps and bounding box",
        {[](CLI::App& verb, TrajArguments& a) { verb.add_flag("--json", a.json, "Print JSON"); }}},
-      {"convert", "Convert to another format without loss", {declare_output}},
-      {"sync",
-       "Write the paired poses of each file and of the reference to a folder",
-       {declare_pairing, declare_output}},
+      {"convert",
+       "Convert to another format without loss; also keep fewer poses, shift stamps, or project",
+       {declare_changes, declare_output}},
       {"merge",
        "Merge files into one trajectory, sorted by stamp; of equal stamps the first pose is kept, "
        "or see --repeats",
        {declare_output}},
       {"crop", "Keep the poses in a time range", {declare_crop, declare_output}},
-      {"laps",
-       "Split a path into the laps that return to its first position",
-       {[](CLI::App& verb, TrajArguments& a) {
-          verb.add_option("--radius",
-                          a.radius,
-                          "Distance from the first position within which a lap ends [m]")
-              ->required()
-              ->check(finite_number())
-              ->check(positive_number());
-        },
-        declare_output}},
-      {"downsample",
-       "Keep some poses: evenly spaced, or by motion since the last kept one",
-       {declare_steps,
-        [](CLI::App& verb, TrajArguments& a) {
-          verb.add_option("--count,-n", a.count, "Number of poses")->check(positive_number());
-        },
-        declare_output}},
-      {"resample", "Interpolate poses in equal steps", {declare_steps, declare_output}},
       {"transform",
        "Multiply all poses by a transform, or change their conventions",
        {declare_transform, declare_output}},
       {"align", "Align to a reference", {declare_pairing, declare_alignment, declare_output}},
-      {"project",
-       "Project onto a coordinate plane",
-       {[](CLI::App& verb, TrajArguments& a) {
-          verb.add_option("--plane", a.plane, "Plane: xy, xz or yz")->required();
-        },
-        declare_output}},
       {"plot",
        "Plot trajectories: their plane, space, position, orientation and speed over time",
        {[](CLI::App& verb, TrajArguments& a) {

@@ -10,7 +10,6 @@
 
 #include "harness/eval/named_trajectory.hpp"
 #include "harness/eval/trajectory_figures.hpp"
-#include "harness/eval/trajectory_selection.hpp"
 #include "harness/eval/transformation.hpp"
 
 namespace CLI {
@@ -29,13 +28,12 @@ struct TrajArguments {
   std::string to;         ///< empty: of the extension of `out`
   std::string times_out;  ///< stamps of a KITTI file; empty: none
   bool json = false;
-  double start = -kForever;  ///< [s]
-  double end = kForever;     ///< [s]
-  bool relative = false;     ///< start and end count from the first stamp
-  double radius = 0.0;       ///< around the start of a lap [m]
-  std::optional<std::size_t> count;
-  MotionStep step;
-  std::string left;  ///< transform; empty: none
+  double start = -kForever;               ///< [s]
+  double end = kForever;                  ///< [s]
+  bool relative = false;                  ///< start and end count from the first stamp
+  std::optional<std::size_t> downsample;  ///< most poses of each file
+  std::vector<double> motion_filter;      ///< thresholds [m, deg] between poses; empty: none
+  std::string left;                       ///< transform; empty: none
   std::string right;
   bool invert = false;
   bool propagate = false;
@@ -45,7 +43,7 @@ struct TrajArguments {
   double offset = 0.0;     ///< added to the stamps of the files [s]
   std::string align = "se3";
   std::size_t align_first = 0;
-  std::string plane;                                              ///< of `project`
+  std::string plane;                                              ///< of `convert`; empty: none
   std::vector<std::string> panels = default_trajectory_panels();  ///< of `plot`
   FigureOptions figures;
 };

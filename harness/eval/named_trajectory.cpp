@@ -139,8 +139,7 @@ std::string output_stem(const std::string& name) {
 
 std::vector<std::string> output_files(const std::vector<std::string>& names,
                                       const std::string& out,
-                                      Format format,
-                                      const std::string& suffix) {
+                                      Format format) {
   const bool is_folder =
       !is_dash(out) && (out.ends_with('/') || std::filesystem::is_directory(out));
   if (names.size() == 1 && !is_folder) return {out};
@@ -157,7 +156,7 @@ std::vector<std::string> output_files(const std::vector<std::string>& names,
   std::set<std::string> taken;
   for (const std::string& name : names) {
     files.push_back(
-        (std::filesystem::path(out) / (output_stem(name) + suffix + extension(format))).string());
+        (std::filesystem::path(out) / (output_stem(name) + extension(format))).string());
     if (!taken.insert(files.back()).second) {
       throw InputError("-o: " + files.back() + " would be written twice, the second time for " +
                        name);

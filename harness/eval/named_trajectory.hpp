@@ -59,7 +59,6 @@ std::string output_stem(const std::string& name);
 /// file, or several names would be printed.
 std::vector<std::string> output_files(const std::vector<std::string>& names,
                                       const std::string& out,
-                                      Format format,
-                                      const std::string& suffix = "");
+                                      Format format);
 
 }  // namespace loopbench::harness

@@ -79,7 +79,7 @@ RecordedFile read_recorded(const std::string& file,
   if (std::ranges::all_of(out.findings.covariances, is_zero)) out.findings.covariances.clear();
   if (a.downsample) keep(out, evenly_spaced(out.poses.size(), *a.downsample));
   if (a.motion_filter.size() == 2) {
-    keep(out, by_motion(out.poses, {{}, a.motion_filter[0], a.motion_filter[1]}));
+    keep(out, by_motion(out.poses, a.motion_filter[0], a.motion_filter[1]));
   }
   return out;
 }

@@ -96,10 +96,12 @@ TEST(EvalCovariances, ConversionsKeepThemOrSayThatTheyAreLost) {
   }
   EXPECT_THAT(traj({"convert", file, "--to", "euroc", "-o", out("b.csv")}).errors,
               HasSubstr("wide.csv has covariances, which are not written: expected --to csv, tum"));
-  EXPECT_THAT(traj({"resample", file, "--seconds", "1", "-o", out("b.csv")}).errors,
+  EXPECT_THAT(traj({"convert", file, "--project_to_plane", "xy", "-o", out("b.csv")}).errors,
               HasSubstr("wide.csv: covariances are removed"));
   EXPECT_EQ(traj({"transform", file, "--left", "1,2,3", "-o", out("c.csv")}).errors, "");
   EXPECT_EQ(read_trajectory_file(out("c.csv")).covariances.size(), read_trajectory(file).size());
+  EXPECT_EQ(traj({"convert", file, "--downsample", "3", "-o", out("d.csv")}).errors, "");
+  EXPECT_EQ(read_trajectory_file(out("d.csv")).covariances.size(), 3u);
 }
 
 TEST(EvalCovariances, TheConventionIsStatedOrNoted) {

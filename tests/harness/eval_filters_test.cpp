@@ -45,6 +45,13 @@ TEST(EvalFilters, DownsamplesBothFiles) {
   EXPECT_NEAR(ate(result), 0.6610658733288742, 1e-12);
 }
 
+TEST(EvalFilters, PairsAreThoseOfEvo) {
+  EXPECT_EQ(evaluated({"--t_max_diff=0.003", "--t_offset=-0.004"})["pairs"], 578);
+  // A reference pose can be the nearest one of several poses.
+  const Json burst = eval_json({golden("gt.txt"), golden("est_burst.txt"), "--association=evo"});
+  EXPECT_EQ(burst["pairs"], 953);
+}
+
 TEST(EvalFilters, UnitsChange) {
   EXPECT_NEAR(ate(evaluated({"--change_unit=mm"})), 676.208260682124, 1e-9);
   const Json result = evaluated({"--unit=rad", "-r", "angle_deg"});

@@ -6,10 +6,8 @@
 #include <cmath>
 
 #include "datasets/formats/formats.hpp"
-#include "harness/eval/trajectory_selection.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tests/support/traj_command.hpp"
 
 namespace loopbench::eval_groups_test {
 namespace {
@@ -160,36 +158,6 @@ TEST(EvalGroups, RepeatedRoutesArePairedByPosition) {
               HasSubstr("expected no --offset"));
   EXPECT_THROW(eval({files[0], files[1], "--by-position", "2", "--common", "yes"}),
                CLI::ExcludesError);
-}
-
-TEST(EvalGroups, LapsAreComparedWithEachOther) {
-  const TemporaryFolder folder;
-  const std::string run = (folder.path() / "run.txt").string();
-  const std::string laps = (folder.path() / "laps").string() + "/";
-  const Trajectory poses = rounds(3, 0, 0);
-  EXPECT_THAT(lap_starts(poses, 3.0), testing::ElementsAre(0u, 40u, 80u, 120u));
-  write_tum(run, poses);
-  EXPECT_THAT(test::traj({"laps", run, "--radius", "3", "-o", laps}).output,
-              HasSubstr("run_3.txt: 40 poses"));
-  const std::vector<std::string> files{laps + "run_1.txt", laps + "run_2.txt", laps + "run_3.txt"};
-  const Json pairs = eval_json({files[0], files[1], files[2], "--pairwise", "--by-position", "1"});
-  ASSERT_EQ(pairs.size(), 3u);
-  for (const Json& pair : pairs) EXPECT_NEAR(find(pair, "ate", "translation")["rmse"], 0, 1e-9);
-  // Each lap covers a third of the reference, and all have its frame.
-  const Json together = eval_json({run, files[0], files[1], files[2], "--align-together"});
-  EXPECT_EQ(together.size(), 3u);
-  EXPECT_THAT(traj_refusal({"laps", files[0], "--radius", "1", "-o", laps}),
-              HasSubstr("does not return to within 1 m of its first position"));
-}
-
-TEST(EvalGroups, ALapPassesItsStartInOneDirection) {
-  Trajectory eight;  // passes its centre twice in a round, in directions 118 degrees apart
-  for (int i = 0; i <= 80; ++i) {
-    const double angle = M_PI / 40.0 * i;
-    eight.push_back(
-        {0.1 * i, {Rotation::Identity(), {20 * std::sin(angle), 6 * std::sin(2 * angle), 0}}});
-  }
-  EXPECT_THAT(lap_starts(eight, 2.0), testing::ElementsAre(0u, 80u));
 }
 
 }  // namespace

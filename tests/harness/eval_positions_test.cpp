@@ -67,8 +67,8 @@ TEST(EvalPositions, TheEstimateIsMovedToTheAntenna) {
 
 TEST(EvalPositions, TrajRejectsWhatNeedsRotations) {
   const Trajectory positions{{0, {no_rotation(), {0, 0, 0}}}, {1, {no_rotation(), {1, 0, 0}}}};
-  EXPECT_THROW(by_motion(positions, {.degrees = 5.0}), InputError);
-  EXPECT_EQ(by_motion(positions, {.metres = 0.5}).size(), 2u);
+  EXPECT_THROW(by_motion(positions, 0.5, 5.0), InputError);
+  EXPECT_EQ(by_motion(positions, 0.5, 360.0).size(), 2u);
   EXPECT_THROW(transformed(positions, Similarity{}, TransformSide::right), InputError);
   EXPECT_TRUE(lacks_rotations(transformed(positions, Similarity{}, TransformSide::left)));
 }

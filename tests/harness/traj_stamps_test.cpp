@@ -48,12 +48,12 @@ class TrajStamps : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(TrajStamps, SyncAndAlignWriteStampsWithTheOffset) {
+TEST_F(TrajStamps, ConvertAndAlignWriteStampsWithTheOffset) {
   const std::string est = tum("est.txt", {"1700000000.100000001", "1700000000.200000001"});
   const std::string ref = tum("ref.txt", {"1700000003.600000001", "1700000003.700000001"});
-  traj({"sync", est, "--ref", ref, "--offset", "3.5", "-o", path("out")});
-  EXPECT_THAT(nanoseconds("out/est.txt"), ElementsAre(1700000003600000001, 1700000003700000001));
-  EXPECT_EQ(nanoseconds("out/est_reference.txt"), nanoseconds("out/est.txt"));
+  traj({"convert", est, "--offset", "3.5", "-o", path("out.txt")});
+  EXPECT_THAT(nanoseconds("out.txt"), ElementsAre(1700000003600000001, 1700000003700000001));
+  EXPECT_EQ(nanoseconds("ref.txt"), nanoseconds("out.txt"));
   traj({"align",
         est,
         "--ref",
@@ -73,12 +73,14 @@ TEST_F(TrajStamps, PosesWithoutStampsAreNotPairedWithStamps) {
   const std::string why = est + ": is kitti, poses without stamps, and " + ref +
                           " has stamps: expected --period S, or a file with stamps (traj convert "
                           "FILE --times TIMES -o NEW)";
-  EXPECT_EQ(traj_refusal({"sync", est, "--ref", ref, "-o", path("out")}), why);
   EXPECT_EQ(traj_refusal({"align", est, "--ref", ref, "-o", path("a.txt")}), why);
   EXPECT_EQ(traj_refusal({"merge", ref, est, "-o", path("a.txt")}), why);
-  traj({"sync", est, "--ref", ref, "--period", "0.1", "-o", path("out")});
-  EXPECT_EQ(read_trajectory(path("out/est.txt")).size(), 3u);
-  traj({"sync", est, "--ref", kitti("other.txt", 3), "-o", path("both")});
+  const auto align = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"align", est, "--align", "none", "--json"});
+    return test::Json::parse(traj(options).output).at(0);
+  };
+  EXPECT_EQ(align({"--ref", ref, "--period", "0.1"}).at("pairs"), 3);
+  EXPECT_EQ(align({"--ref", kitti("other.txt", 3)}).at("pairs"), 3);
 }
 
 TEST_F(TrajStamps, AssumedStampsArePrinted) {
@@ -180,16 +182,6 @@ TEST_F(TrajStamps, TheExtensionOfTheOutputIsItsFormat) {
   EXPECT_EQ(traj_refusal({"convert", est, "-o", "x.dat"}), "x.dat" + why);
   EXPECT_EQ(traj_refusal({"convert", est, "-o", "x.bag"}),
             "x.bag" + why + "; bags are written as .mcap, which ROS 2, Foxglove and Rerun read");
-}
-
-TEST_F(TrajStamps, PosesInterpolatedInGapsAreCounted) {
-  const std::string est = tum("est.txt", {"0", "1", "5", "6"});
-  EXPECT_EQ(
-      traj({"resample", est, "--seconds", "0.5", "-o", path("out.txt")}).errors,
-      "loopbench: warning: " + est + ": 7 of 13 poses are interpolated in gaps longer than 2 s\n");
-  const std::string dense = tum("dense.txt", {"0", "2", "4"});
-  EXPECT_THAT(traj({"resample", dense, "--seconds", "0.5", "-o", path("out.txt")}).errors,
-              IsEmpty());
 }
 
 }  // namespace

@@ -23,47 +23,6 @@ std::string traj(const std::vector<std::string>& arguments) { return test::traj(
 
 using test::traj_refusal;
 
-double ate(const std::string& reference, const std::string& estimate, const std::string& align) {
-  const test::Json json = test::eval_json(
-      {reference, estimate, "--protocol", "evo", "--align=" + align, "--association", "index"});
-  return test::find(json, "ate", "translation")["rmse"];
-}
-
-TEST(Traj, SyncGivesThePairsOfEvo) {
-  const TemporaryFolder folder;
-  const std::string out = (folder.path() / "sync").string();
-  traj({"sync",
-        golden("est_drift.txt"),
-        golden("est_corrected.txt"),
-        "--ref",
-        golden("gt.txt"),
-        "-o",
-        out});
-  EXPECT_EQ(read_trajectory(out + "/est_drift.txt").size(), 635u);
-  // evo's APE of the paired poses, without alignment: see golden.json.
-  EXPECT_NEAR(ate(out + "/est_drift_reference.txt", out + "/est_drift.txt", "none"),
-              12.6565235225568,
-              1e-12);
-  EXPECT_NEAR(ate(out + "/est_corrected_reference.txt", out + "/est_corrected.txt", "none"),
-              11.0497073968323,
-              1e-12);
-  EXPECT_NEAR(ate(out + "/est_drift_reference.txt", out + "/est_drift.txt", "se3"),
-              0.676208260682124,
-              1e-12);
-}
-
-TEST(Traj, SyncRepeatsReferencePosesAsEvoDoes) {
-  const TemporaryFolder folder;
-  const std::string out = (folder.path() / "sync").string();
-  traj({"sync", golden("est_burst.txt"), "--ref", golden("gt.txt"), "-o", out});
-  ReadOptions keep;
-  keep.repeats = Repeats::keep_first;
-  EXPECT_EQ(read_trajectory(out + "/est_burst.txt").size(), 953u);  // of evo
-  const std::string text = read_all(out + "/est_burst_reference.txt");
-  EXPECT_EQ(std::ranges::count(text, '\n'), 953);
-  EXPECT_LT(read_trajectory(out + "/est_burst_reference.txt", keep).size(), 953u);
-}
-
 TEST(Traj, AFolderOfABagTakesTf) {
   const char* const data = std::getenv("LOOPBENCH_DATA");
   if (data == nullptr) GTEST_SKIP() << "needs LOOPBENCH_DATA";
@@ -73,22 +32,6 @@ TEST(Traj, AFolderOfABagTakesTf) {
                         folder.path() / "bag");
   EXPECT_THAT(traj({"info", (folder.path() / "bag").string(), "--tf", "odom.base_link"}),
               HasSubstr("tf:odom.base_link"));
-}
-
-TEST(Traj, SyncUsesMaxDiffAndOffsetOfEvo) {
-  const TemporaryFolder folder;
-  const std::string out = (folder.path() / "sync").string();
-  traj({"sync",
-        golden("est_drift.txt"),
-        "--ref",
-        golden("gt.txt"),
-        "-o",
-        out,
-        "--t_max_diff",
-        "0.003",
-        "--t_offset",
-        "-0.004"});
-  EXPECT_EQ(read_trajectory(out + "/est_drift.txt").size(), 578u);
 }
 
 TEST(Traj, AlignMovesThePosesAsEvo) {
@@ -134,7 +77,7 @@ TEST(Traj, DownsampleTakesTheIndicesOfNumpyLinspace) {
   EXPECT_THAT(evenly_spaced(5, 1), ElementsAre(0));
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "some.txt").string();
-  traj({"downsample", golden("est_drift.txt"), "--count", "100", "-o", out});
+  traj({"convert", golden("est_drift.txt"), "--downsample", "100", "-o", out});
   EXPECT_EQ(read_trajectory(out).size(), 100u);
   EXPECT_EQ(read_trajectory(out).back().stamp,
             read_trajectory(golden("est_drift.txt")).back().stamp);
@@ -150,32 +93,15 @@ Trajectory line(std::size_t count) {
 }
 
 TEST(Traj, MotionFilterKeepsAPoseWhenAThresholdIsReached) {
-  EXPECT_THAT(by_motion(line(8), {.seconds = {}, .metres = 1.5, .degrees = {}}),
-              ElementsAre(0, 3, 6));
-  EXPECT_THAT(by_motion(line(8), {.seconds = 2.5, .metres = {}, .degrees = {}}),
-              ElementsAre(0, 3, 6));
-  EXPECT_THAT(by_motion(line(8), {.seconds = {}, .metres = 100.0, .degrees = 22.0}),
-              ElementsAre(0, 4));
-  // Differences of decimal stamps are rounded.
-  Trajectory tenths;
-  for (int i = 0; i < 30; ++i) tenths.push_back({0.1 * i, Pose{}});
-  EXPECT_EQ(by_motion(tenths, {.seconds = 0.1, .metres = {}, .degrees = {}}).size(), 30u);
-  EXPECT_EQ(by_motion(tenths, {.seconds = 0.3, .metres = {}, .degrees = {}}).size(), 10u);
+  EXPECT_THAT(by_motion(line(8), 1.5, 360.0), ElementsAre(0, 3, 6));
+  EXPECT_THAT(by_motion(line(8), 100.0, 22.0), ElementsAre(0, 4));
+  EXPECT_THAT(by_motion(line(8), 1.5, 6.0), ElementsAre(0, 2, 4, 6));
   // The angle counts from the last kept pose to this one: rotating to and fro reaches nothing.
   Trajectory nodding = line(8);
   for (std::size_t i = 0; i < nodding.size(); ++i) {
     nodding[i].world_from_body.rotation = exp_so3({0, 0, i % 2 == 0 ? 0.0 : 0.3});
   }
-  EXPECT_THAT(by_motion(nodding, {.seconds = {}, .metres = {}, .degrees = 20.0}), ElementsAre(0));
-}
-
-TEST(Traj, ResampleInterpolatesInEqualSteps) {
-  const Trajectory poses = resampled(line(4), {.seconds = {}, .metres = 0.6, .degrees = {}});
-  ASSERT_EQ(poses.size(), 3u);
-  EXPECT_DOUBLE_EQ(poses[1].world_from_body.translation.x(), 0.6);
-  EXPECT_DOUBLE_EQ(poses[1].stamp, 1.2);
-  EXPECT_NEAR(log_so3(poses[2].world_from_body.rotation).z(), 0.24, 1e-12);
-  EXPECT_EQ(resampled(line(4), {.seconds = 1.0, .metres = {}, .degrees = {}}).size(), 4u);
+  EXPECT_THAT(by_motion(nodding, 100.0, 20.0), ElementsAre(0));
 }
 
 TEST(Traj, TransformIsAppliedLeftRightOrToTheSteps) {
@@ -208,18 +134,46 @@ TEST(Traj, TransformReadsEvosJson) {
   EXPECT_THROW(read_similarity("1,2"), InputError);
 }
 
-TEST(Traj, CropMergeAndProject) {
+TEST(Traj, CropAndMerge) {
   const TemporaryFolder folder;
   const auto path = [&](const char* name) { return (folder.path() / name).string(); };
   traj({"crop", golden("gt.txt"), "--relative", "--end", "10", "-o", path("a.txt")});
   traj({"crop", golden("gt.txt"), "--relative", "--start", "5", "-o", path("b.txt")});
   traj({"merge", path("a.txt"), path("b.txt"), "-o", path("all.txt")});
   EXPECT_EQ(read_trajectory(path("all.txt")).size(), 1995u);
-  traj({"project", path("a.txt"), "--plane", "xy", "-o", path("flat.txt")});
-  for (const StampedPose& pose : read_trajectory(path("flat.txt"))) {
+}
+
+TEST(Traj, ConvertSelectsShiftsAndProjects) {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "flat.txt").string();
+  const auto converted = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"convert", golden("gt.txt"), "-o", out};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    traj(arguments);
+    return read_trajectory(out);
+  };
+  const Trajectory whole = read_trajectory(golden("gt.txt"));
+  const Trajectory all = converted({"--project_to_plane", "xy"});
+  EXPECT_EQ(all.size(), whole.size());
+  for (const StampedPose& pose : all) {
     ASSERT_EQ(pose.world_from_body.translation.z(), 0.0);
     ASSERT_NEAR(log_so3(pose.world_from_body.rotation).head<2>().norm(), 0.0, 1e-12);
   }
+  // Poses are selected by their motion in space, before they are projected.
+  const std::vector<std::size_t> kept = by_motion(whole, 0.2, 3.0);
+  const Trajectory few =
+      converted({"--project_to_plane", "xy", "--offset", "0.5", "--motion_filter", "0.2", "3"});
+  ASSERT_EQ(few.size(), kept.size());
+  for (std::size_t i = 0; i < few.size(); ++i) {
+    EXPECT_NEAR(few[i].stamp, whole[kept[i]].stamp + 0.5, 1e-6);
+    EXPECT_EQ(few[i].world_from_body.translation, all[kept[i]].world_from_body.translation);
+  }
+  EXPECT_EQ(converted({"--motion_filter", "0.2", "3", "--downsample", "10"}).size(),
+            by_motion(converted({"--downsample", "10"}), 0.2, 3.0).size());
+  EXPECT_EQ(converted({"--project_to_plane", "none"})[1].world_from_body.translation,
+            whole[1].world_from_body.translation);
+  EXPECT_EQ(traj_refusal({"convert", golden("gt.txt"), "--project_to_plane", "zz"}),
+            "project_to_plane = zz: expected one of none | xy | xz | yz");
 }
 
 TEST(Traj, CountsOnePose) {
