@@ -227,9 +227,6 @@ void reject_results_of_evo(const EvalArguments& a) {
 
 int eval(const EvalArguments& a, const Source& source) {
   reject_results_of_evo(a);
-  if (a.estimates.empty() && !std::filesystem::is_directory(a.reference)) {
-    throw CLI::RequiredError("EST");
-  }
   return_large_lists();
   if (!a.store.empty()) return eval_to_store(a, source);
   reject_standard_output("--report", a.report);

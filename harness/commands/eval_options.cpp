@@ -9,15 +9,11 @@ namespace loopbench::harness {
 namespace {
 
 void declare_files(CLI::App& command, EvalArguments& a) {
-  command.add_option("reference", a.reference, "Reference trajectory file, or a folder (see EST)")
+  command.add_option("reference", a.reference, "Reference trajectory file")
       ->required()
       ->type_name("REF");
-  command
-      .add_option("estimates",
-                  a.estimates,
-                  "Trajectory files to evaluate. Without EST, REF is a folder with "
-                  "stamped_groundtruth.txt and stamped_traj_estimate*.txt. If EST is a folder "
-                  "ALGORITHM/DATASET/RUN.txt, REF is a folder with DATASET.txt")
+  command.add_option("estimates", a.estimates, "Trajectory files to evaluate")
+      ->required()
       ->type_name("EST");
   command.add_option("--format", a.format, "File format")
       ->type_name(choice_type<Format>())

@@ -40,11 +40,7 @@ void reject_folder(const std::string& estimate, const EvalArguments& a) {
   if (names_bag(estimate) || !std::filesystem::is_directory(estimate)) return;
   const std::string folder = (std::filesystem::path(estimate) / "").lexically_normal().string();
   throw InputError(estimate + ": is a folder, expected trajectory files, for example `eval " +
-                   a.reference + " " + folder +
-                   "*.txt`; a folder is accepted as the only EST if it contains "
-                   "ALGORITHM/DATASET/RUN.txt and REF is a folder with DATASET.txt, or as REF "
-                   "without EST if it contains stamped_groundtruth.txt and "
-                   "stamped_traj_estimate*.txt");
+                   a.reference + " " + folder + "*.txt`");
 }
 
 /// Maps evo's words for relations and units to ours.
@@ -133,14 +129,9 @@ std::vector<MetricChoice> metrics_of_evo(const EvalArguments& a) {
 }  // namespace
 
 std::vector<metrics::NamedProtocol> protocols(const EvalArguments& a) {
-  const bool is_rpg_folder = a.estimates.empty() && std::filesystem::is_directory(a.reference);
-  const Params of_folder = is_rpg_folder ? rpg_settings(a.reference) : Params{};
   std::vector<metrics::NamedProtocol> out;
   for (const std::string& name : a.protocols) {
-    Params changed = changes(a, known_protocol(name, {}).rules);
-    // Command line options override the folder's configuration, which applies to rpg's protocols.
-    if (name.starts_with("rpg")) changed.insert(of_folder.begin(), of_folder.end());
-    out.push_back(known_protocol(name, changed));
+    out.push_back(known_protocol(name, changes(a, known_protocol(name, {}).rules)));
     const std::string label = out.back().label();
     if (std::ranges::count(out, label, &metrics::NamedProtocol::label) > 1) {
       throw InputError("--protocol: '" + label + "' is listed twice");
@@ -195,11 +186,7 @@ ReferenceBody reference_body(const EvalArguments& a) {
 }
 
 std::vector<FilePair> file_pairs(const EvalArguments& a) {
-  if (a.estimates.empty()) return rpg_layout(a.reference);
-  const bool is_folder = std::filesystem::is_directory(a.reference);
-  if (is_folder && a.pairwise) throw InputError(a.reference + ": --pairwise expects files");
-  if (is_folder && a.estimates.size() == 1) return ov_eval_layout(a.reference, a.estimates[0]);
-  if (!a.covariances.empty() && (a.estimates.size() != 1 || is_folder)) {
+  if (!a.covariances.empty() && a.estimates.size() != 1) {
     throw InputError("--cov " + a.covariances + ": expected one EST");
   }
   std::vector<FilePair> out;

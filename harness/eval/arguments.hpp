@@ -10,7 +10,7 @@
 #include "datasets/formats/formats.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/eval/eval_figures.hpp"
-#include "harness/eval/layout.hpp"
+#include "harness/eval/recorded_runs.hpp"
 #include "harness/model/sweep.hpp"
 
 namespace loopbench::harness {
@@ -92,8 +92,7 @@ EvaluatedRange evaluated_range(const EvalArguments& arguments);
 /// Throws InputError unless the text has three or seven numbers, with a unit quaternion.
 ReferenceBody reference_body(const EvalArguments& arguments);
 
-/// Pairs REF with each EST (pairwise: also each EST with the later ones), or lists the files of an
-/// rpg folder (no EST) or of ov_eval folders (REF and EST). Throws InputError.
+/// Pairs REF with each EST (pairwise: also each EST with the later ones). Throws InputError.
 std::vector<FilePair> file_pairs(const EvalArguments& arguments);
 
 }  // namespace loopbench::harness

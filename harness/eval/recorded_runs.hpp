@@ -4,9 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "harness/eval/layout.hpp"
-
 namespace loopbench::harness {
+
+/// A reference and one of its estimates.
+struct FilePair {
+  std::string reference;
+  std::string estimate;
+};
 
 /// One output of a system on one sequence.
 struct RecordedRun {

@@ -19,7 +19,7 @@ const std::map<std::string, void (*)(const std::filesystem::path& file)>& fuzz_t
       {"gate", fuzz_gate},
       {"where", fuzz_where},
       {"eval", fuzz_eval},
-      {"eval_folder", fuzz_eval_folder},
+      {"eval_files", fuzz_eval_files},
       {"messages", fuzz_messages},
       {"camera", fuzz_camera},
       {"image_list", fuzz_image_list},

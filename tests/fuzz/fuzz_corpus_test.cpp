@@ -27,7 +27,7 @@ const std::set<std::string> kReaders{"tum",
                                      "gate",
                                      "where",
                                      "eval",
-                                     "eval_folder",
+                                     "eval_files",
                                      "camera",
                                      "image_list",
                                      "layout"};

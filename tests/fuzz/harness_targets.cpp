@@ -5,7 +5,6 @@
 #include "harness/compare/baseline_file.hpp"
 #include "harness/eval/arguments.hpp"
 #include "harness/eval/evaluate_files.hpp"
-#include "harness/eval/layout.hpp"
 #include "harness/model/where.hpp"
 #include "harness/run/pack.hpp"
 #include "tests/fuzz/scratch_file.hpp"
@@ -79,31 +78,14 @@ void fuzz_eval(const std::filesystem::path& file) {
   or_rejected([&] { metric_choices(arguments, catalogue({}), protocols(arguments)); });
 }
 
-/// The input is the settings file and every trajectory of an rpg folder, and of ov_eval folders.
-void fuzz_eval_folder(const std::filesystem::path& file) {
-  const std::string bytes = fuzz_bytes(file);
-  const std::filesystem::path folder = fuzz_folder();
-  for (const char* name :
-       {"eval_cfg.yaml", "stamped_groundtruth.txt", "stamped_traj_estimate.txt"}) {
-    fuzz_file(folder, name, bytes);
-  }
-  or_rejected([&] { rpg_settings(folder); });
+/// The input is the reference and the estimate.
+void fuzz_eval_files(const std::filesystem::path& file) {
   or_rejected([&] {
     EvalArguments arguments;
-    arguments.reference = folder;
+    arguments.reference = file;
+    arguments.estimates = {file};
     evaluate_files(arguments);
   });
-  std::filesystem::create_directories(folder / "truths");
-  std::filesystem::create_directories(folder / "algorithms" / "one" / "room");
-  fuzz_file(folder / "truths", "room.txt", bytes);
-  fuzz_file(folder / "algorithms" / "one" / "room", "run.txt", bytes);
-  or_rejected([&] {
-    EvalArguments arguments;
-    arguments.reference = folder / "truths";
-    arguments.estimates = {folder / "algorithms"};
-    evaluate_files(arguments);
-  });
-  std::filesystem::remove_all(folder);
 }
 
 void fuzz_messages(const std::filesystem::path& file) {

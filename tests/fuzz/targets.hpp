@@ -21,12 +21,12 @@ void fuzz_bag(const std::filesystem::path& file);
 void fuzz_csv(const std::filesystem::path& file);
 void fuzz_config(const std::filesystem::path& file);
 void fuzz_store(const std::filesystem::path& file);
-void fuzz_report(const std::filesystem::path& file);       ///< of a store
-void fuzz_gate(const std::filesystem::path& file);         ///< baselines and limits
-void fuzz_where(const std::filesystem::path& file);        ///< one rule per line
-void fuzz_eval(const std::filesystem::path& file);         ///< one argument per line
-void fuzz_eval_folder(const std::filesystem::path& file);  ///< every file of a folder
-void fuzz_messages(const std::filesystem::path& file);     ///< of workers
+void fuzz_report(const std::filesystem::path& file);      ///< of a store
+void fuzz_gate(const std::filesystem::path& file);        ///< baselines and limits
+void fuzz_where(const std::filesystem::path& file);       ///< one rule per line
+void fuzz_eval(const std::filesystem::path& file);        ///< one argument per line
+void fuzz_eval_files(const std::filesystem::path& file);  ///< reference and estimate
+void fuzz_messages(const std::filesystem::path& file);    ///< of workers
 void fuzz_camera(const std::filesystem::path& file);
 void fuzz_image_list(const std::filesystem::path& file);
 void fuzz_layout(const std::filesystem::path& file);  ///< every text file of a recording

@@ -1,4 +1,4 @@
-// Input files of `eval`: folders of other tools, stamps, files with positions only.
+// Input files of `eval`: stamps, files with positions only.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,21 +26,6 @@ std::string written(const std::filesystem::path& file, const std::string& text) 
   return file.string();
 }
 
-TEST(Eval, ReadsRpgsFolder) {
-  const TemporaryFolder folder;
-  std::filesystem::copy_file(golden("gt.txt"), folder.path() / "stamped_groundtruth.txt");
-  EXPECT_THROW(eval({folder.path().string()}), InputError);
-  for (const char* run : {"1", "0"}) {
-    std::filesystem::copy_file(
-        golden("est_drift.txt"),
-        folder.path() / (std::string("stamped_traj_estimate") + run + ".txt"));
-  }
-  const Json results = eval_json({folder.path().string(), "--protocol=rpg"});
-  ASSERT_EQ(results.size(), 2u);
-  EXPECT_NE(results[0]["estimate"].get<std::string>().find("estimate0"), std::string::npos);
-  EXPECT_NEAR(find(results[0], "ate", "translation")["rmse"], 0.660473127811482, 1e-12);
-}
-
 // Several files are evaluated in parallel.
 TEST(Eval, ThreadsDoNotMatterForSeveralFiles) {
   const std::vector<std::string> estimates{
@@ -59,62 +44,6 @@ TEST(Eval, ThreadsDoNotMatterForSeveralFiles) {
       }
     }
   }
-}
-
-TEST(Eval, ReadsOvEvalsFolders) {
-  const TemporaryFolder folder;
-  const auto truths = folder.path() / "truths";
-  const auto runs = folder.path() / "algorithms/mine/eight";
-  std::filesystem::create_directories(truths);
-  std::filesystem::create_directories(runs);
-  const std::string algorithms = (folder.path() / "algorithms").string();
-  EXPECT_THROW(eval({truths.string(), algorithms}), InputError);
-  std::filesystem::copy_file(golden("gt.txt"), truths / "eight.txt");
-  std::filesystem::copy_file(golden("est_drift.txt"), runs / "00.txt");
-  std::filesystem::copy_file(golden("est_corrected.txt"), runs / "01.txt");
-  const Json results = eval_json({truths.string(), algorithms, "--protocol=ov_eval"});
-  ASSERT_EQ(results.size(), 2u);
-  EXPECT_EQ(results[1]["estimate"], (runs / "01.txt").string());
-  EXPECT_EQ(results[1]["alignment"]["type"], "posyaw");
-  const auto other = folder.path() / "algorithms/mine/nine";
-  std::filesystem::create_directories(other);
-  std::filesystem::copy_file(golden("est_drift.txt"), other / "00.txt");
-  EXPECT_EQ(
-      refusal<InputError>({truths.string(), algorithms}),
-      other.string() + ": has runs, but there is no reference nine.txt in " + truths.string());
-}
-
-// Values of golden.json: rpg with sim3, se3, posyaw, se3 and posyaw of the first frame.
-TEST(Eval, DoesAsRpgsFolderAsks) {
-  const TemporaryFolder folder;
-  std::filesystem::copy_file(golden("gt.txt"), folder.path() / "stamped_groundtruth.txt");
-  std::filesystem::copy_file(golden("est_drift.txt"), folder.path() / "stamped_traj_estimate.txt");
-  const auto cfg = folder.path() / "eval_cfg.yaml";
-  const auto rmse = [&](const std::string& settings, const std::string& align = "") {
-    written(cfg, settings);
-    std::vector<std::string> arguments{folder.path().string(), "--protocol=rpg"};
-    if (!align.empty()) arguments.push_back(align);
-    return find(eval_json(arguments), "ate", "translation")["rmse"].get<double>();
-  };
-  EXPECT_NEAR(rmse("align_type: sim3\nalign_num_frames: -1\n"), 0.660473127811482, 1e-12);
-  EXPECT_NEAR(rmse("align_type: se3\n"), 0.676208260682124, 1e-12);
-  EXPECT_NEAR(rmse("align_type: posyaw\n"), 3.48498534022219, 1e-11);
-  EXPECT_NEAR(rmse("align_type: se3\nalign_num_frames: 1\n"), 2.12100433850654, 1e-11);
-  EXPECT_NEAR(rmse("align_type: posyaw\nalign_num_frames: 1\n"), 4.08061545719117, 1e-11);
-  EXPECT_NEAR(rmse("align_type: posyaw\n", "--align=se3"), 0.676208260682124, 1e-12);
-  const auto why = [&](const std::string& settings) {
-    written(cfg, settings);
-    return refusal<InputError>({folder.path().string(), "--protocol=rpg"});
-  };
-  EXPECT_THAT(why("align_type: best\n"), HasSubstr(":1: align_type: expected sim3"));
-  EXPECT_THAT(why("align_type: se3\nalign_num_frames: some\n"),
-              HasSubstr(":2: align_num_frames: expected -1"));
-  EXPECT_THAT(why("aling_type: se3\n"), HasSubstr(":1: no setting is named 'aling_type'"));
-  std::filesystem::remove(cfg);
-  const auto cut = folder.path() / "start_end_time.yaml";
-  written(cut, "start: 1\n");
-  EXPECT_EQ(refusal<InputError>({folder.path().string()}),
-            cut.string() + ": is not supported; cut the files to these times and remove it");
 }
 
 TEST(Eval, TellsWhatReadingMended) {

@@ -62,34 +62,6 @@ TEST(EvalGroups, SubmapsAlignedTogetherHaveTheErrorOfTheCompleteTrajectory) {
   EXPECT_THROW(eval(with({"--align-together", "--pairwise"})), CLI::ExcludesError);
 }
 
-TEST(EvalGroups, RobotsWithReferencesOfTheirOwnShareAnAlignment) {
-  const TemporaryFolder folder;
-  const Trajectory truth = read_trajectory(golden("gt.txt"));
-  const Trajectory estimate = read_trajectory(golden("est_drift.txt"));
-  const double middle = estimate[estimate.size() / 2].stamp;
-  for (const bool is_first : {true, false}) {
-    const auto part = [&](Trajectory all) {
-      std::erase_if(all, [&](const auto& pose) { return (pose.stamp < middle) != is_first; });
-      return all;
-    };
-    const std::string robot = is_first ? "a" : "b";
-    const auto runs = folder.path() / "systems" / "team" / robot;
-    std::filesystem::create_directories(runs);
-    std::filesystem::create_directories(folder.path() / "truths");
-    write_tum(folder.path() / "truths" / (robot + ".txt"), part(truth));
-    write_tum(runs / "0.txt", part(estimate));
-  }
-  const std::vector<std::string> arguments{(folder.path() / "truths").string(),
-                                           (folder.path() / "systems").string(),
-                                           "--align-together"};
-  const Json robots = eval_json(arguments);
-  ASSERT_EQ(robots.size(), 2u);
-  EXPECT_EQ(robots[0]["alignment"], robots[1]["alignment"]);
-  EXPECT_THAT(eval(arguments), HasSubstr("team: ate translation, rmse [m], loopbench"));
-  EXPECT_THAT(refusal<InputError>({golden("gt.txt"), "missing.txt", "--align-together"}),
-              HasSubstr("--align-together: missing.txt"));
-}
-
 TEST(EvalGroups, PartsOfAGroupAreNotIncomplete) {
   TemporaryFolder folder;
   const Trajectory all = read_trajectory(golden("est_drift.txt"));

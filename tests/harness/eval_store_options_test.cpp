@@ -1,4 +1,4 @@
-// `eval --store`: notes, options, layouts and the gate.
+// `eval --store`: notes, options and the gate.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +44,8 @@ TEST_F(EvalStoreOptions, PrintsFindingsOfTheDoctorOncePerKind) {
 }
 
 TEST_F(EvalStoreOptions, RejectsOptionsThatAStoreIgnores) {
-  const std::vector<std::string> files{path("truths"), path("systems"), "--store", path("store")};
+  std::vector<std::string> files = files_of("office");
+  files.insert(files.end(), {"--store", path("store")});
   const auto error = [&](const std::string& option, const std::string& value) {
     std::vector<std::string> arguments = files;
     arguments.insert(arguments.end(), {option, value});
@@ -60,14 +61,12 @@ TEST_F(EvalStoreOptions, RejectsOptionsThatAStoreIgnores) {
 }
 
 TEST_F(EvalStoreOptions, PrintsATableAndAVerdictForEachProtocol) {
-  const std::string out = test::eval(
-      {path("truths"), path("systems"), "--protocol", "evo,tum", "--store", path("store")});
+  const std::string out = store_systems("store", {"--protocol", "evo,tum"});
   for (const char* const protocol : {"evo", "tum"}) {
     EXPECT_THAT(out, HasSubstr("mean ate (" + std::string(protocol) + ") [m]"));
     EXPECT_THAT(out, HasSubstr(", keyframes, " + std::string(protocol) + ": good is best: "));
   }
-  const std::string without_ate =
-      test::eval({path("truths"), path("systems"), "-r", "trans_part", "--store", path("ape")});
+  const std::string without_ate = store_systems("ape", {"-r", "trans_part"});
   EXPECT_THAT(without_ate,
               HasSubstr("verdict: translation_part ape, rmse [m], keyframes, loopbench: "));
   EXPECT_THAT(without_ate, ContainsRegex("mean ape[^|]* \\[m\\]"));
@@ -112,15 +111,16 @@ TEST_F(EvalStoreOptions, LowCoverageHasExitCodeOne) {
 }
 
 TEST_F(EvalStoreOptions, TimesOfReadingFilesAreNotRecorded) {
-  test::eval({path("truths"), path("systems"), "--store", path("store")});
+  store_systems("store");
   for (const Record& r : all_records(path("store"))) EXPECT_NE(r.metric, "time");
   EXPECT_THROW(compare_store(path("store"), "time", {}, CompareOptions{}), InputError);
   EXPECT_TRUE(costs(read_cells(path("store"))).lines.empty());
 }
 
 TEST_F(EvalStoreOptions, TablesShowAxesIfThereIsNoTotal) {
-  const std::vector<std::string> files{path("truths"), path("systems"), "-r", "rpy"};
-  const std::string out = test::eval(files);
+  std::vector<std::string> arguments = files_of("office");
+  arguments.insert(arguments.end(), {"-r", "rpy"});
+  const std::string out = test::eval(arguments);
   EXPECT_THAT(out, HasSubstr("ape roll [deg]"));
   EXPECT_THAT(out, HasSubstr("mean ape roll [deg]"));
   EXPECT_THAT(out, HasSubstr("range [deg]"));
@@ -153,11 +153,12 @@ TEST(RunReport, IntervalIsWithinTheErrors) {
   EXPECT_THAT(run_report(records), HasSubstr("| 0.0300 to 2.5100 |"));
 }
 
-TEST_F(EvalStoreOptions, RejectsAFolderOfRunsWithTheAcceptedLayouts) {
-  const std::string folder = path("systems/good/office");
-  const std::string error = test::refusal<InputError>({path("truths/office.txt"), folder});
-  EXPECT_THAT(error, HasSubstr(folder + ": is a folder"));
-  EXPECT_THAT(error, HasSubstr("ALGORITHM/DATASET/RUN.txt"));
+TEST_F(EvalStoreOptions, RejectsAFolderOfRuns) {
+  const std::string reference = path("truths/office.txt"), folder = path("systems/good/office");
+  EXPECT_EQ(test::refusal<InputError>({reference, folder}),
+            folder + ": is a folder, expected trajectory files, for example `eval " + reference +
+                " " + folder + "/*.txt`");
+  EXPECT_THROW(test::eval({path("truths"), folder + "/0.txt"}), InputError);
 }
 
 TEST_F(EvalStoreOptions, TheGateComparesNewOutputsWithTheOldOnes) {
@@ -168,14 +169,14 @@ TEST_F(EvalStoreOptions, TheGateComparesNewOutputsWithTheOldOnes) {
         write_run("new/bad", sequence, run, (0.03 + 0.0013 * run) * change);
       }
     }
-    test::eval({path("truths"), path("new"), "--store", path(store)});
+    store_systems(store, {}, kExitOk, "new");
     Baseline baseline;
     baseline.limits = {Tolerance{}};
     baseline.limits.front().where = {"metric=ate"};
     baseline.snapshot = snapshot(path("old"), baseline.limits);
     return check(baseline, snapshot(path(store), baseline.limits));
   };
-  test::eval({path("truths"), path("systems"), "--store", path("old")});
+  store_systems("old");
   EXPECT_TRUE(gate(1.0, "equal").findings.empty());
   const GateReport better = gate(0.5, "better");
   EXPECT_TRUE(better.passes());

@@ -22,7 +22,7 @@ using namespace harness;
 class EvalStore : public test::RecordedFiles {};
 
 TEST_F(EvalStore, RunsAreRepeatsAndSystemsAreMethods) {
-  const std::string out = test::eval({path("truths"), path("systems"), "--store", path("store")});
+  const std::string out = store_systems("store");
   EXPECT_THAT(out, HasSubstr("40 runs in"));
   EXPECT_THAT(out, ContainsRegex("\n\\| office / bad +\\| +10 of 10 \\|"));
   EXPECT_THAT(out, HasSubstr("good is"));  // the verdict
@@ -39,7 +39,7 @@ TEST_F(EvalStore, RunsAreRepeatsAndSystemsAreMethods) {
 }
 
 TEST_F(EvalStore, NumbersAreThoseOfEval) {
-  test::eval({path("truths"), path("systems"), "--store", path("store")});
+  store_systems("store");
   const std::string estimate = path("systems/bad/office/3.txt");
   const test::Json json = test::eval_json({path("truths/office.txt"), estimate});
   const double expected = test::find(json, "ate", "translation")["rmse"];
@@ -90,8 +90,7 @@ TEST_F(EvalStore, LaterCallsAddRunsAndKeepTheOthers) {
 
 TEST_F(EvalStore, ARunThatCannotBeReadIsAFailure) {
   std::ofstream(path("systems/bad/office/3.txt")) << "1 2 3\n";
-  const std::string out =
-      test::eval({path("truths"), path("systems"), "--store", path("store")}, kExitSomeCellsFailed);
+  const std::string out = store_systems("store", {}, kExitSomeCellsFailed);
   EXPECT_THAT(out, ContainsRegex("\n\\| office / bad +\\| +9 of 10 \\|"));
   EXPECT_THAT(out, HasSubstr("1 failed"));
 }
@@ -99,12 +98,13 @@ TEST_F(EvalStore, ARunThatCannotBeReadIsAFailure) {
 TEST_F(EvalStore, ARepairedFileIsEvaluatedAgain) {
   const std::string broken = path("systems/bad/office/3.txt");
   std::ofstream(broken) << "1 2 3\n";
-  const std::vector<std::string> arguments{path("truths"), path("systems"), "--store", path("s")};
-  EXPECT_THAT(test::eval(arguments, kExitSomeCellsFailed),
-              HasSubstr("1 failed\nfailed: " + broken));
-  EXPECT_THAT(test::eval(arguments, kExitSomeCellsFailed),
-              HasSubstr("1 failed\nfailed: " + broken));
+  for (int call = 0; call < 2; ++call) {
+    EXPECT_THAT(store_systems("s", {}, kExitSomeCellsFailed),
+                HasSubstr("1 failed\nfailed: " + broken));
+  }
   write_run("systems/bad", "office", 3, 0.034);
+  std::vector<std::string> arguments = files_of("office");
+  arguments.insert(arguments.end(), {"--store", path("s")});
   const std::string out = test::eval(arguments);
   EXPECT_THAT(out, HasSubstr("(39 stored before)"));
   EXPECT_THAT(out, ContainsRegex("\n\\| office / bad +\\| +10 of 10 \\|"));
@@ -144,7 +144,7 @@ TEST_F(EvalStore, RelativeNamesInSeveralFoldersAreDifferentFiles) {
 }
 
 TEST_F(EvalStore, AnUnreadableReferenceLeavesTheStoreUnchanged) {
-  test::eval({path("truths"), path("systems"), "--store", path("s")});
+  store_systems("s");
   std::ofstream(path("truths/street.txt")) << "1 2 3\n";
   EXPECT_THAT(test::refusal<InputError>({path("truths/office.txt"),
                                          path("systems/bad/office/1.txt"),
@@ -161,7 +161,7 @@ TEST_F(EvalStore, AnUnreadableReferenceLeavesTheStoreUnchanged) {
 TEST_F(EvalStore, OtherOptionsEvaluateEarlierRunsAgainWithANote) {
   const std::vector<std::string> arguments{
       path("truths/office.txt"), path("systems/bad/office/1.txt"), "--store", path("s")};
-  test::eval({path("truths"), path("systems"), "--store", path("s")});
+  store_systems("s");
   const auto notes = [&](std::vector<std::string> all) {
     testing::internal::CaptureStderr();
     test::eval(std::move(all));

@@ -8,6 +8,7 @@
 
 #include "datasets/formats/formats.hpp"
 #include "harness/tables/all_records.hpp"
+#include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::test {
@@ -38,6 +39,35 @@ class RecordedFiles : public testing::Test {
     const std::filesystem::path folder = folder_.path() / method / sequence;
     std::filesystem::create_directories(folder);
     write_tum(folder / (std::to_string(run) + ".txt"), path_of(error, start_of(sequence)));
+  }
+
+  /// The reference of a sequence and all runs of both systems in a folder, for `eval`.
+  std::vector<std::string> files_of(const std::string& sequence,
+                                    const std::string& systems = "systems") const {
+    std::vector<std::string> out{path("truths/" + sequence + ".txt")};
+    for (const std::string method : {"bad", "good"}) {
+      for (int run = 0; run < 10; ++run) {
+        const std::string name = systems + "/" + method + "/" + sequence + "/";
+        out.push_back(path(name + std::to_string(run) + ".txt"));
+      }
+    }
+    return out;
+  }
+
+  /// Evaluates both systems of a folder into a store, a call for each sequence, with more options;
+  /// the output of the last call.
+  std::string store_systems(const std::string& store,
+                            const std::vector<std::string>& options = {},
+                            int expected_exit = kExitOk,
+                            const std::string& systems = "systems") const {
+    std::string out;
+    for (const char* const sequence : {"office", "street"}) {
+      std::vector<std::string> arguments = files_of(sequence, systems);
+      arguments.insert(arguments.end(), {"--store", path(store)});
+      arguments.insert(arguments.end(), options.begin(), options.end());
+      out = eval(arguments, expected_exit);
+    }
+    return out;
   }
 
   /// The comparison of a store by translational ATE.
