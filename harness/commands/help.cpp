@@ -127,7 +127,7 @@ const std::map<std::string, std::string> kExamples{
     {"report",
      "  loopbench report results/quickstart -o report.html\n"
      "  loopbench report results/quickstart -o report.html --size 2\n"
-     "  loopbench report results/quickstart -o report.html --every 10\n"},
+     "  loopbench report results/quickstart -o - | gzip >report.html.gz\n"},
 };
 
 const std::string kDefaultExitCodes = "0 success, 2 invalid input or output, 3 internal error.";

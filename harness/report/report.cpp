@@ -91,22 +91,17 @@ std::string thinned_html(const ReportContent& content, std::size_t bytes) {
   // Content-Security-Policy: the page runs its own scripts only and loads nothing. No text of the
   // sweep can contain the nonce, a hash of all of them.
   const std::string nonce = hex(hash_of(data_text(data)));
-  Placeholders values{
-      {"title", html_text(title_of(content.sequences, content.run))},
-      {"nonce", nonce},
-      {"refresh",
-       content.refresh == 0
-           ? ""
-           : fmt::format("<meta http-equiv=\"refresh\" content=\"{}\">\n", content.refresh)},
-      {"style", "\n" + asset_text("page/report.css") + "\n"},
-      {"summary", summary_html(content)},
-      {"verdicts", verdicts_html(content)},
-      {"comparison", comparison_html(content)},
-      {"scores", scores_html(content)},
-      {"failures", failures_html(content)},
-      {"costs", costs_html(content)},
-      {"provenance", provenance_html(content)},
-      {"scripts", script_elements(nonce)}};
+  Placeholders values{{"title", html_text(title_of(content.sequences, content.run))},
+                      {"nonce", nonce},
+                      {"style", "\n" + asset_text("page/report.css") + "\n"},
+                      {"summary", summary_html(content)},
+                      {"verdicts", verdicts_html(content)},
+                      {"comparison", comparison_html(content)},
+                      {"scores", scores_html(content)},
+                      {"failures", failures_html(content)},
+                      {"costs", costs_html(content)},
+                      {"provenance", provenance_html(content)},
+                      {"scripts", script_elements(nonce)}};
   std::size_t taken = data_text(data).size();
   for (const auto& [name, text] : values) taken += text.size();
   const Thinning least = thinning_for(content, 0.0);

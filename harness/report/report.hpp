@@ -17,7 +17,6 @@ inline constexpr std::size_t kReportBytes = 9'000'000;  ///< default size limit
 struct ReportContent {
   std::filesystem::path store;
   std::string plane;  ///< of maps: xy, xz or yz; empty: of the largest extent
-  int refresh = 0;    ///< the page loads itself again after so many seconds; 0: never
   std::map<std::string, std::string> run;
   std::map<std::string, std::string> provenance;
   std::map<std::string, std::vector<InputFile>> inputs;

@@ -130,13 +130,6 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
 
 FolderLock::~FolderLock() { close(descriptor_); }
 
-bool is_being_written(const std::filesystem::path& store) {
-  const int folder = open(folder_of(store_file(store)).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool is_locked = folder >= 0 && flock(folder, LOCK_SH | LOCK_NB) != 0;
-  if (folder >= 0) close(folder);
-  return is_locked;
-}
-
 std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
 }

@@ -39,9 +39,6 @@ class FolderLock {
   int descriptor_;
 };
 
-/// Whether another process holds the lock of the folder of a store.
-bool is_being_written(const std::filesystem::path& store);
-
 /// The folder of a file given by a path.
 std::filesystem::path folder_of(const std::filesystem::path& file);
 

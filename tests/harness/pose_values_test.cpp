@@ -1,15 +1,9 @@
 /// What a metric states for each pose, from the cell to the report.
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <filesystem>
-#include <future>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "harness/report/data.hpp"
-#include "harness/store/open.hpp"
 #include "harness/store/traces.hpp"
 #include "tests/support/command.hpp"
 
@@ -48,36 +42,6 @@ awk '{ values = values (NR > 1 ? ", " : "") $4 }
       traces_json(read_report_content(folder.path() / "r"), {100, 1})["cells"]["0"]["values"];
   ASSERT_EQ(drawn.size(), 1u);
   EXPECT_EQ(drawn[0]["name"], "height top");
-}
-
-TEST(Report, IsWrittenAgainWhileASweepRuns) {
-  const TemporaryFolder folder;
-  folder.file("c.yaml",
-              "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmethods: [raw]\n"
-              "metrics: [ate]\n");
-  // One that begins before the sweep waits for it.
-  auto early = std::async(std::launch::async, [&] {
-    return loopbench_command("report r -o early.html --every 1", folder);
-  });
-  ASSERT_EQ(loopbench_command("run c.yaml --out r", folder).exit_code, 0);
-  EXPECT_EQ(early.get().exit_code, 0);
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "early.html"));
-  EXPECT_EQ(loopbench_command("report c.yaml --every 1", folder).exit_code, 2) << "no store";
-  const auto refreshes = [&] {
-    return read_all(folder.path() / "page.html").find("http-equiv=\"refresh\" content=\"1\"") !=
-           std::string::npos;
-  };
-  auto sweep = std::make_unique<FolderLock>(folder.path() / "r");
-  auto report = std::async(std::launch::async, [&] {
-    return loopbench_command("report r -o page.html --every 1", folder);
-  });
-  for (int i = 0; i < 500 && !std::filesystem::exists(folder.path() / "page.html"); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  EXPECT_TRUE(refreshes());
-  sweep.reset();
-  EXPECT_EQ(report.get().exit_code, 0);
-  EXPECT_FALSE(refreshes());
 }
 
 }  // namespace
