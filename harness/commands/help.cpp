@@ -74,10 +74,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench correct graph.g2o -o corrected.g2o --plot corrected.svg\n"
      "  loopbench correct run.txt --loops loops.txt --method dual_pcm -o corrected.txt\n"
      "  loopbench correct run.txt --anchors points.txt --method dual -o corrected.txt\n"},
-    {"import",
-     "  loopbench import results/quickstart scores.csv\n"
-     "  loopbench table results/quickstart --where protocol=imported\n"
-     "  loopbench compare results/quickstart --where protocol=imported\n"},
     {"export",
      "  loopbench run configs/quickstart.yaml --save-trajectories\n"
      "  loopbench export results/quickstart --what trajectories -o estimates\n"

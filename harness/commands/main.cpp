@@ -242,7 +242,6 @@ int main(int argc, char** argv) {
   add_eval(app, exit_code, source);
   add_correct(app, exit_code);
   add_export(app, exit_code);
-  add_import(app, exit_code);
   add_merge(app, exit_code);
   add_submit(app, exit_code);
   add_plot(app, exit_code);

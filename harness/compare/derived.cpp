@@ -119,7 +119,6 @@ std::vector<Record> pair_counts(const std::vector<Record>& records) {
   const SharedText metric = "pairs";
   std::vector<Record> out;
   for (const std::size_t i : first_scores(records)) {
-    if (records[i].protocol == kImported) continue;
     const auto pairs = static_cast<double>(records[i].pairs);
     out.push_back(one_number(records[i], metric, {}, metrics::Better::neither, pairs));
   }

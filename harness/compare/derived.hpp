@@ -20,7 +20,6 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
 std::vector<Record> run_times(const std::vector<Record>& records);
 
 /// One record per cell, protocol and times: metric `pairs`, number of pose pairs of the scores.
-/// None of imported scores.
 std::vector<Record> pair_counts(const std::vector<Record>& records);
 
 /// Appends gains, pair counts and run times; `records`: complete sequences.

@@ -17,10 +17,6 @@ namespace loopbench::harness {
 /// In `CellRecord::worker`: the times are statements of a program.
 inline constexpr const char* kStatedTimes = ", times as stated";
 
-/// Protocol of imported scores, whose pairs are unknown; the labels of their metrics end with
-/// " (imported)".
-inline constexpr const char* kImported = "imported";
-
 /// A declined or failed cell has one record with empty metric and the reason.
 struct Record {
   std::int64_t cell = 0;  ///< position in the sweep

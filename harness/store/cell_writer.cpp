@@ -36,13 +36,14 @@ std::ptrdiff_t count_columns(std::string_view columns) {
   return std::ranges::count(columns, ',') + 1;
 }
 
-}  // namespace
-
+/// Inserts the id of a cell and the columns of the table, in that order.
 Statement insert_into(Database& database, const CellTable& table) {
   const std::string values = parameters(2, count_columns(table.columns) + 1);
   return database.prepare(std::string("INSERT INTO ") + table.name + " (cell, " + table.columns +
                           ", checksum) VALUES (?1," + values + ",row_checksum(" + values + "))");
 }
+
+}  // namespace
 
 CellWriter::CellWriter(Database& database, std::string provenance_key)
     : database_(database),

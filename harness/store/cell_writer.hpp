@@ -12,9 +12,6 @@
 
 namespace loopbench::harness {
 
-/// Inserts the id of a cell and the columns of the table, in that order.
-Statement insert_into(Database& database, const CellTable& table);
-
 /// Statements prepared once for all cells of a sweep.
 class CellWriter {
  public:
