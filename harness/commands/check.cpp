@@ -7,7 +7,6 @@
 #include "harness/base/print_error.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
-#include "harness/commands/check_history.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/compare/baseline_file.hpp"
@@ -27,7 +26,6 @@ struct CheckArguments {
   bool update = false;
   bool part = false;
   bool allow_dirty = false;
-  HistoryOptions history;
   std::optional<double> time;  ///< relative limit on times, written by --update
 };
 
@@ -78,12 +76,6 @@ int update(const CheckArguments& arguments) {
 }
 
 int check_store(const CheckArguments& arguments) {
-  if (!arguments.history.files.empty()) {
-    check_history(arguments.history);
-    return kExitOk;
-  }
-  if (arguments.store.empty()) throw CLI::RequiredError("store");
-  if (arguments.baseline.empty()) throw CLI::RequiredError("--baseline");
   if (arguments.update) return update(arguments);
   if (arguments.time) throw InputError("--time: needs --update, which writes the limit");
   const Baseline baseline = read_baseline(arguments.baseline);
@@ -117,12 +109,13 @@ int check_store(const CheckArguments& arguments) {
 void add_check(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand("check", "Compare a sweep with its baseline");
-  CLI::Option* store =
-      command->add_option("store", arguments->store, "Folder of results, or its results.sqlite");
+  command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
+      ->required();
   command
       ->add_option("--baseline",
                    arguments->baseline,
                    "Baseline file, for example results/reference/quickstart.json")
+      ->required()
       ->type_name("FILE");
   command->add_option("--junit", arguments->junit, "JUnit XML file to write")->type_name("FILE");
   command->add_option("--markdown", arguments->markdown, "Markdown report to write")
@@ -142,27 +135,6 @@ void add_check(CLI::App& app, int& exit_code) {
           "increase (plus 1 ms)")
       ->check(number_between(0.0, 1e9))
       ->type_name("SHARE");
-  CLI::Option* history =
-      command
-          ->add_option("--history",
-                       arguments->history.files,
-                       "Instead of a store: baselines in the order of their commits; prints what "
-                       "changed between them, by the limits of the earlier one")
-          ->type_name("FILES")
-          ->excludes(store);
-  command
-      ->add_option("--chart",
-                   arguments->history.chart,
-                   "With --history: figure of a score's mean for each method, relative to the "
-                   "first baseline (svg, pdf, png or pgf)")
-      ->type_name("FILE")
-      ->needs(history);
-  command
-      ->add_option("--where",
-                   arguments->history.where,
-                   "With --chart: filter of its score, FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, ... "
-                   "(default: the first score)")
-      ->needs(history);
   command->callback([arguments, &exit_code] { exit_code = check_store(*arguments); });
 }
 

@@ -49,7 +49,7 @@ const std::map<std::string, std::string> kExamples{
     {"check",
      "  loopbench check results/quickstart --baseline results/reference/quickstart.json\n"
      "  loopbench check results/mine --baseline mine.json --update\n"
-     "  loopbench check --history january.json june.json --chart history.svg\n"},
+     "  loopbench check results/mine --baseline mine.json --junit junit.xml\n"},
     {"eval",
      "  loopbench eval reference.txt estimate.txt --align sim3\n"
      "  loopbench eval reference.txt a.txt b.txt --protocol evo,tum,rpg\n"

@@ -26,9 +26,6 @@ std::string digest_of(const std::string& text);
 Baseline parse_baseline(const std::string& text, const std::string& file);
 Baseline read_baseline(const std::filesystem::path& file);
 
-/// The same for a baseline of an earlier commit: also of format 3, which has no digest.
-Baseline read_earlier_baseline(const std::filesystem::path& file);
-
 /// Only the limits, for any format of the rest of the file.
 std::vector<Tolerance> read_limits(const std::filesystem::path& file);
 

@@ -231,13 +231,7 @@ std::size_t GateReport::count(Finding::Kind kind) const {
 
 GateReport check(const Baseline& baseline, const Snapshot& now, GateExtent extent) {
   require_used_limits(baseline);
-  const std::vector<std::string> differences = different_definitions(baseline.snapshot, now);
-  if (!differences.empty()) throw InputError(differences.front());
-  return changes(baseline, now, extent);
-}
-
-GateReport changes(const Baseline& baseline, const Snapshot& now, GateExtent extent) {
-  require_used_limits(baseline);
+  require_same_definitions(baseline.snapshot, now);
   GateReport out = Checker(baseline, now, extent).report();
   for (std::string& note : notes_on_limits(baseline.limits)) out.notes.push_back(std::move(note));
   const std::string contents = note_on_contents(baseline.snapshot, now);

@@ -43,9 +43,4 @@ GateReport check(const Baseline& baseline,
                  const Snapshot& now,
                  GateExtent extent = GateExtent::complete);
 
-/// The same comparison for results that can have other definitions.
-GateReport changes(const Baseline& baseline,
-                   const Snapshot& now,
-                   GateExtent extent = GateExtent::complete);
-
 }  // namespace loopbench::harness

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/fields.hpp"
@@ -179,16 +178,6 @@ std::string baseline_text(const std::filesystem::path& file) {
 }
 
 }  // namespace
-
-Baseline read_earlier_baseline(const std::filesystem::path& file) {
-  const std::string text = baseline_text(file);
-  const auto read = [&](const Json& root) -> std::optional<Baseline> {
-    if (root.value("loopbench_baseline", Json()) != 3) return std::nullopt;
-    return baseline_of(root, file.string());
-  };
-  const auto found = read_json(text, file.string(), read);
-  return found ? *found : parse_baseline(text, file.string());
-}
 
 Baseline parse_baseline(const std::string& text, const std::string& file) {
   return read_json(text, file, [&](const Json& root) {

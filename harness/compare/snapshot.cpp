@@ -119,14 +119,13 @@ std::string only_in(const std::string& text, const std::string& other) {
 
 using Definitions = std::map<std::string, std::string>;
 
-/// Adds the text about the first label that differs, with the number of further ones.
+/// Throws InputError about the first label that differs, with the number of further ones.
 /// `may_be_missing`: whether `now` can lack labels.
 template <class Describe>
-void add_difference(std::vector<std::string>& out,
-                    const Definitions& baseline,
-                    const Definitions& now,
-                    bool may_be_missing,
-                    Describe describe) {
+void require_same(const Definitions& baseline,
+                  const Definitions& now,
+                  bool may_be_missing,
+                  Describe describe) {
   std::string first;
   std::size_t more = 0;
   for (const auto& [label, text] : baseline) {
@@ -140,7 +139,7 @@ void add_difference(std::vector<std::string>& out,
     }
   }
   if (first.empty()) return;
-  out.push_back(more == 0 ? first : fmt::format("{} (and {} more)", first, more));
+  throw InputError(more == 0 ? first : fmt::format("{} (and {} more)", first, more));
 }
 
 bool are_comparable(const Snapshot& baseline, const Snapshot& now) {
@@ -193,9 +192,8 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
   return out;
 }
 
-std::vector<std::string> different_definitions(const Snapshot& baseline, const Snapshot& now) {
-  std::vector<std::string> out;
-  const auto add = [&](const char* what, const auto Snapshot::*member, bool may_be_missing) {
+void require_same_definitions(const Snapshot& baseline, const Snapshot& now) {
+  const auto require = [&](const char* what, const auto Snapshot::*member, bool may_be_missing) {
     const auto describe = [&](const std::string& label,
                               const std::string& before,
                               const std::string* after) {
@@ -204,21 +202,20 @@ std::vector<std::string> different_definitions(const Snapshot& baseline, const S
       return "the baseline defines " + named + " differently: it has '" + only_in(before, *after) +
              "', these results have '" + only_in(*after, before) + "'";
     };
-    add_difference(out, baseline.*member, now.*member, may_be_missing, describe);
+    require_same(baseline.*member, now.*member, may_be_missing, describe);
   };
-  add("sequence", &Snapshot::sequences, true);
-  add("protocol", &Snapshot::protocols, false);
-  add("metric", &Snapshot::metrics, true);
-  add("method", &Snapshot::methods, true);
-  if (!are_comparable(baseline, now)) return out;
+  require("sequence", &Snapshot::sequences, true);
+  require("protocol", &Snapshot::protocols, false);
+  require("metric", &Snapshot::metrics, true);
+  require("method", &Snapshot::methods, true);
+  if (!are_comparable(baseline, now)) return;
   const auto describe =
       [](const std::string& label, const std::string& before, const std::string* after) {
         return "the baseline has different data for the sequence '" + label +
                "' with the same options and files: its poses, edges or reference differ (hash " +
                before + ", these results " + *after + ")";
       };
-  add_difference(out, baseline.contents, now.contents, true, describe);
-  return out;
+  require_same(baseline.contents, now.contents, true, describe);
 }
 
 std::string note_on_contents(const Snapshot& baseline, const Snapshot& now) {

@@ -12,13 +12,12 @@ namespace loopbench::harness {
 /// cells.
 Snapshot snapshot(const std::filesystem::path& store, const std::vector<Tolerance>& limits);
 
-/// Texts that name how sequences, protocols, metrics and methods of the baseline have the same
-/// label in `now` but different options, stages, files or content: at most one text for each of the
-/// four and for contents, about the first label and the number of further ones. Labels that are
-/// missing in `now` are reported with their cells and scores, except protocols. Contents of
-/// sequences are compared only between equal machines, because the last digits of a simulated
-/// sequence can differ otherwise.
-std::vector<std::string> different_definitions(const Snapshot& baseline, const Snapshot& now);
+/// Throws InputError if a sequence, protocol, metric or method of the baseline has the same label
+/// in `now` but different options, stages, files or content; the message names the first difference
+/// and the number of further ones. Labels that are missing in `now` are reported with their cells
+/// and scores, except protocols. Contents of sequences are compared only between equal machines,
+/// because the last digits of a simulated sequence can differ otherwise.
+void require_same_definitions(const Snapshot& baseline, const Snapshot& now);
 
 /// "contents are not compared ..." if this applies, otherwise empty.
 std::string note_on_contents(const Snapshot& baseline, const Snapshot& now);

@@ -29,7 +29,7 @@ std::vector<std::string> labels_of(const FigureOptions& options,
                                    const std::vector<std::string>& names);
 
 /// Panels: "plane", "xy", "xz", "yz", "xyz" (space), "COLUMN by time", "COLUMN by distance",
-/// "COLUMN by baseline", "histogram".
+/// "histogram".
 struct DrawnFigure {
   std::vector<std::filesystem::path> files;  ///< the same name with suffixes of kFigureFormats
   std::vector<std::string> panels;

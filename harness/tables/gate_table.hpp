@@ -52,9 +52,9 @@ inline std::string test_case(const std::string& sweep,
                            xml(all));
 }
 
-/// Counts, notes and table of findings.
-inline std::string findings_markdown(const GateReport& report, const std::string& title) {
-  Table out{title,
+/// Verdict, counts, notes and table of findings.
+inline std::string markdown(const GateReport& report, const std::string& sweep) {
+  Table out{sweep + (report.passes() ? ": passed" : ": FAILED"),
             {"cell", "score", "finding", "what"},
             {},
             {fmt::format("{}, {}, {} in {} and {}",
@@ -71,11 +71,6 @@ inline std::string findings_markdown(const GateReport& report, const std::string
   std::string text = "### " + one_line(out.title) + "\n\n";
   for (const std::string& note : out.notes) text += "- " + one_line(note) + "\n";
   return text;
-}
-
-/// Verdict and table of findings.
-inline std::string markdown(const GateReport& report, const std::string& sweep) {
-  return findings_markdown(report, sweep + (report.passes() ? ": passed" : ": FAILED"));
 }
 
 /// JUnit test suite with one case per cell of the baseline, failed if it has a regression, and one

@@ -8,8 +8,8 @@ Data are curves with columns of equal length::
 
 Columns: time [s], distance [m], x, y, z [m], roll, pitch, yaw [deg], speed [m/s]; error, error_x,
 error_y, error_z [m] and angle [deg] are errors; sorted_errors are the position errors of all poses,
-for histograms and boxes. Those of `check --history` are baseline (1, 2, ...) and relative [-]. A
-curve can have a style (an index of colour and dash), a color and a dash (1 to 5) of its own.
+for histograms and boxes. A curve can have a style (an index of colour and dash), a color and a dash
+(1 to 5) of its own.
 `loopbench plot STORE --script` writes such data, and the lines that draw them::
 
     data = json.load(open("figures/01_room_errors.json"))
@@ -216,7 +216,7 @@ def figure(
     """Panels row by row with one legend above and, for a single estimate, a colour bar below them.
 
     panels: "plane", "xy", "xz", "yz", "xyz" (space), "COLUMN by time", "COLUMN by distance",
-    "COLUMN by baseline", "histogram", "boxes". size: width and height of a panel [in]; font: [pt],
+    "histogram", "boxes". size: width and height of a panel [in]; font: [pt],
     default: that of the style sheets or 8. style: style sheets of matplotlib, files or names.
     plane: that of "plane", which is horizontal in "xyz" (default: the one of the largest extent).
     """

@@ -33,8 +33,6 @@ if ERROR_COLORS.name not in colormaps:
 LABELS = {
     "time": "time [s]",
     "distance": "distance [m]",
-    "baseline": "baseline",
-    "relative": "relative to the first baseline [-]",
     "x": "x [m]",
     "y": "y [m]",
     "z": "z [m]",
@@ -242,7 +240,7 @@ def broken_at_wraps(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
 
 
 def draw_curves(axes: Any, data: Mapping[str, Any], panel: str, size: Sequence[float]) -> None:
-    """`panel`: "COLUMN by time", "by distance" or "by baseline"; curves without these are left out."""
+    """`panel`: "COLUMN by time" or "COLUMN by distance"; curves without these are left out."""
     name, along = panel.split(" by ")
     index = 0
     for curve in data["curves"]:
@@ -259,8 +257,6 @@ def draw_curves(axes: Any, data: Mapping[str, Any], panel: str, size: Sequence[f
     axes.set_xlabel(LABELS[along])
     axes.set_ylabel(LABELS[name])
     _few_ticks(axes, size, rcParams["font.size"])
-    if along == "baseline":
-        axes.xaxis.get_major_locator().set_params(integer=True)
 
 
 def draw_histogram(axes: Any, data: Mapping[str, Any], size: Sequence[float]) -> None:
