@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -18,16 +17,12 @@
 namespace loopbench::harness {
 
 /// Limit on the change of a number: it is a regression if worse by more than absolute + relative *
-/// |baseline|. With `alpha`, consistent small losses over all runs of a method are a regression,
-/// too, even if each number is within the limit (see consistent_loss.hpp). Scores without a
-/// direction are limited in both directions.
+/// |baseline|. Scores without a direction are limited in both directions.
 struct Tolerance {
   std::vector<std::string> where;                  ///< filters, see model/where; empty: every score
   std::vector<std::string> values{"rmse", "max"};  ///< compared statistics
   double relative = 0.001;                         ///< [-]
   double absolute = 1e-6;                          ///< in the unit of the score
-  double tie = 1e-6;  ///< relative change that counts as a tie in the test [-]
-  std::optional<double> alpha = 0.01;
 };
 
 /// One score of one cell with the statistics that have a limit.
@@ -78,15 +73,11 @@ inline bool is_measured_time(const Record& score) {
   return std::ranges::count(kMeasuredTimes, score.metric.text()) > 0;
 }
 
-/// Limits for times, compared between runs on the same CPU, with a test for methods that are slower
-/// by a tenth or more: a cell's median wall time [ms], and the times of its updates [s] (neither
-/// their growth nor missed deadlines).
+/// Limits for times, compared between runs on the same CPU: a cell's median wall time [ms], and the
+/// times of its updates [s] (neither their growth nor missed deadlines).
 inline std::vector<Tolerance> time_limits(double relative) {
-  const Tolerance of_cells{.where = {"metric=time"},
-                           .values = {"rmse"},
-                           .relative = relative,
-                           .absolute = 1.0,
-                           .tie = 0.1};
+  const Tolerance of_cells{
+      .where = {"metric=time"}, .values = {"rmse"}, .relative = relative, .absolute = 1.0};
   Tolerance of_updates = of_cells;
   of_updates.where = {"metric=update_time", "unit=s"};
   of_updates.absolute = 0.001;

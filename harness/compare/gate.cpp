@@ -8,7 +8,6 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/fields.hpp"
-#include "harness/compare/consistent_loss.hpp"
 #include "harness/compare/gate_limits.hpp"
 #include "harness/compare/snapshot.hpp"
 
@@ -76,7 +75,6 @@ class Checker {
       if (now_.contains(key(cell)))
         find(Finding::Kind::added, name(cell), "", "not in the baseline");
     }
-    losses_.report(report_);
     if (unlimited_ > 0) {
       report_.notes.push_back(
           fmt::format("{} {} no limit", unlimited_, unlimited_ == 1 ? "score has" : "scores have"));
@@ -195,8 +193,6 @@ class Checker {
                double now) {
     const double allowed = limit.absolute + limit.relative * std::abs(before);
     const double worse = loss(score, before, now);
-    const double target = score.better == metrics::Better::target ? score.target : 0.0;
-    losses_.add(cell, score, statistic, limit, before - target, worse);
     if (std::abs(worse) <= allowed) return;  // NaN exceeds every limit
     if (has_vanished(score, before, now) && ++implausible_ == 1) {
       first_implausible_ = name(cell) + ", " + name(score);
@@ -219,7 +215,6 @@ class Checker {
   std::string first_implausible_;
   std::size_t unlimited_ = 0;               // scores without a limit
   std::map<CellKey, const GateCell*> now_;  // that the baseline did not have so far
-  ConsistentLosses losses_;
   GateReport report_;
 };
 

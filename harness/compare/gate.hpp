@@ -1,7 +1,6 @@
 /// Comparison of a sweep with its baseline.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +15,7 @@ struct Finding {
     added         ///< not in the baseline
   };
   Kind kind = Kind::regression;
-  std::string cell;   ///< result of `name`; a method for findings over all its runs
+  std::string cell;   ///< result of `name`
   std::string score;  ///< empty: the complete cell
   std::string what;   ///< old and new value, with the limit
 };
@@ -25,7 +24,7 @@ struct GateReport {
   std::size_t cells = 0;           ///< of the baseline
   std::size_t scores = 0;          ///< compared scores, that is, those with a limit
   std::vector<std::string> names;  ///< of the baseline's cells, in order
-  std::vector<Finding> findings;   ///< in the order of the baseline; those over all runs last
+  std::vector<Finding> findings;   ///< in the order of the baseline
   std::vector<std::string> notes;  ///< checks that were not possible, with the reason
 
   std::size_t count(Finding::Kind kind) const;
@@ -37,8 +36,7 @@ enum class GateExtent { complete, part };
 
 /// Throws InputError if the baseline was computed with other definitions (see snapshot.hpp), has
 /// no cell in common with the results, or has a limit that selects no score. Removed sequences or
-/// methods are reported as missing cells, not as other definitions. O(n log n) and one joint test
-/// of all methods and scores.
+/// methods are reported as missing cells, not as other definitions. O(n log n).
 GateReport check(const Baseline& baseline,
                  const Snapshot& now,
                  GateExtent extent = GateExtent::complete);

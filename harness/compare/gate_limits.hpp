@@ -23,12 +23,10 @@ inline bool selects_a_score(const Tolerance& limit, const Snapshot& snapshot) {
 }
 
 inline std::string numbers_of(const Tolerance& limit) {
-  return fmt::format("{}: relative {:g}, absolute {:g}, tie {:g}, {}",
+  return fmt::format("{}: relative {:g}, absolute {:g}",
                      fmt::join(limit.values, ", "),
                      limit.relative,
-                     limit.absolute,
-                     limit.tie,
-                     limit.alpha ? fmt::format("alpha {:g}", *limit.alpha) : "no test over runs");
+                     limit.absolute);
 }
 
 /// A function that returns the first of the limits whose `where` selects a score, or null. It keeps

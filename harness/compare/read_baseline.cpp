@@ -19,8 +19,7 @@ using Json = nlohmann::ordered_json;
 Tolerance limit_of(const Json& node, const std::string& at) {
   if (!node.is_object()) throw InputError(at + ": expected an object");
   // A misspelt key would be a limit that is not applied.
-  static const std::vector<std::string> known{
-      "where", "values", "relative", "absolute", "tie", "alpha"};
+  static const std::vector<std::string> known{"where", "values", "relative", "absolute"};
   for (const auto& entry : node.items()) {
     if (std::ranges::count(known, entry.key()) > 0) continue;
     throw InputError(at + ": " + unknown_name("key of a limit", entry.key(), known));
@@ -44,9 +43,6 @@ Tolerance limit_of(const Json& node, const std::string& at) {
     throw InputError(at + "." + key + ": expected a list of texts, found " + found.dump());
   };
   Tolerance out{texts("where"), texts("values"), number("relative"), number("absolute")};
-  out.tie = number("tie");
-  out.alpha.reset();
-  if (node.contains("alpha")) out.alpha = number("alpha");
   if (out.values.empty()) throw InputError(at + ".values: expected at least one statistic");
   try {
     where(out.where);

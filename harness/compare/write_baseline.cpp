@@ -73,13 +73,10 @@ Json cell_json(const GateCell& cell,
 }
 
 Json written(const Tolerance& limit) {
-  Json out{{"where", limit.where},
-           {"values", limit.values},
-           {"relative", limit.relative},
-           {"absolute", limit.absolute},
-           {"tie", limit.tie}};
-  if (limit.alpha) out["alpha"] = *limit.alpha;
-  return out;
+  return {{"where", limit.where},
+          {"values", limit.values},
+          {"relative", limit.relative},
+          {"absolute", limit.absolute}};
 }
 
 /// All statistics that have a limit.

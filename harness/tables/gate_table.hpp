@@ -73,21 +73,16 @@ inline std::string markdown(const GateReport& report, const std::string& sweep) 
   return text;
 }
 
-/// JUnit test suite with one case per cell of the baseline, failed if it has a regression, and one
-/// for each regression over all runs. Escaped for XML 1.0.
+/// JUnit test suite with one case per cell of the baseline, failed if it has a regression. Escaped
+/// for XML 1.0.
 inline std::string junit(const GateReport& report, const std::string& sweep) {
   std::map<std::string, std::vector<const Finding*>> regressions;
-  for (const std::string& cell : report.names) regressions[cell];
-  std::vector<std::string> order = report.names;
   for (const Finding& finding : report.findings) {
-    if (finding.kind != Finding::Kind::regression) continue;
-    const auto [found, is_new] = regressions.try_emplace(finding.cell);
-    if (is_new) order.push_back(finding.cell);  // a method, for findings over all runs
-    found->second.push_back(&finding);
+    if (finding.kind == Finding::Kind::regression) regressions[finding.cell].push_back(&finding);
   }
   std::size_t failures = 0;
   std::string cases;
-  for (const std::string& cell : order) {
+  for (const std::string& cell : report.names) {
     if (!regressions[cell].empty()) ++failures;
     cases += test_case(sweep, cell, regressions[cell]);
   }
@@ -95,7 +90,7 @@ inline std::string junit(const GateReport& report, const std::string& sweep) {
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\">\n{}</testsuite>\n",
       xml("loopbench check " + sweep),
-      order.size(),
+      report.names.size(),
       failures,
       cases);
 }

@@ -49,8 +49,6 @@ TEST_F(GateCli, PassesTheSameSweepRunAgain) {
   sweep("uniform");
   const CommandResult result = call("check out --baseline b.json --allow-dirty");
   EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
-  EXPECT_NE(result.out.find("no test for small consistent losses of 2 methods"), std::string::npos)
-      << result.out;
 }
 
 // Times of updates differ between runs, as the times of cells do.
@@ -108,7 +106,6 @@ TEST_F(GateCli, NamesAMetricThatIsAnotherUnderItsLabel) {
       << refused();
 }
 
-// One group for all runs would leave no test that can fail.
 TEST_F(GateCli, NamesASequenceWhoseRunsAreInAnotherGroup) {
   sweep("uniform", "rpe, delta: 1", ", group: all");
   EXPECT_NE(refused().find("these results have 'group:all'"), std::string::npos) << refused();

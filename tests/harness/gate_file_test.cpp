@@ -35,7 +35,7 @@ TEST(BaselineFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(rmse(const_cast<Baseline&>(read).snapshot, 1), 1.0 / 3.0);
   EXPECT_TRUE(check(before, read.snapshot).findings.empty());
   EXPECT_EQ(read.build_summary, before.build_summary);
-  EXPECT_EQ(read.limits[0].alpha, before.limits[0].alpha);
+  EXPECT_EQ(read.limits[0].relative, before.limits[0].relative);
 }
 
 TEST(BaselineFile, IsRejectedAfterAChangeOfAnythingButItsLimits) {
@@ -58,8 +58,8 @@ TEST(BaselineFile, IsRejectedAfterAChangeOfAnythingButItsLimits) {
   EXPECT_EQ(read.limits[0].relative, 10.0);
   EXPECT_EQ(check(read, sweep()).notes,
             std::vector<std::string>{
-                "limit of all scores: rmse: relative 10, absolute 1e-06, tie 1e-06, alpha 0.01 "
-                "(default: rmse, max: relative 0.001, absolute 1e-06, tie 1e-06, alpha 0.01)"});
+                "limit of all scores: rmse: relative 10, absolute 1e-06 (default: rmse, max: "
+                "relative 0.001, absolute 1e-06)"});
 }
 
 TEST(BaselineFile, IsRefusedWithItsPlace) {
@@ -88,8 +88,8 @@ TEST(BaselineFile, IsRefusedWithItsPlace) {
             "b.json: limits[0].values: expected a list of texts, found [3]");
   EXPECT_EQ(changed("\"values\":[\"rmse\"]", "\"values\":[\"rms\"]"),
             "b.json: limits[0]: no statistic is named 'rms'; did you mean 'rmse'?");
-  EXPECT_EQ(changed("\"alpha\":", "\"alhpa\":"),
-            "b.json: limits[0]: no key of a limit is named 'alhpa'; did you mean 'alpha'?");
+  EXPECT_EQ(changed("\"absolute\":", "\"absolut\":"),
+            "b.json: limits[0]: no key of a limit is named 'absolut'; did you mean 'absolute'?");
   EXPECT_EQ(changed("\"relative\":0.001", "\"relative\":-1"),
             "b.json: limits[0].relative: expected a non-negative number, found -1");
 }
@@ -121,8 +121,8 @@ TEST(GateText, IsMarkdownAndJUnit) {
   EXPECT_EQ(markdown(after([](Snapshot&) {}), "quick"),
             "### quick: passed\n\n"
             "- 0 regressions, 0 improvements, 0 new cells in 16 cells and 16 scores\n"
-            "- limit of all scores: rmse: relative 0.001, absolute 1e-06, tie 1e-06, alpha 0.01 "
-            "(default: rmse, max: relative 0.001, absolute 1e-06, tie 1e-06, alpha 0.01)\n");
+            "- limit of all scores: rmse: relative 0.001, absolute 1e-06 (default: rmse, max: "
+            "relative 0.001, absolute 1e-06)\n");
 }
 
 TEST(GateText, DoubtsErrorsThatVanish) {

@@ -69,48 +69,10 @@ TEST(Gate, ReportsWhatIsNewOrWorksAgain) {
   EXPECT_EQ(repaired.findings.at(0).kind, Finding::Kind::improvement);
 }
 
-TEST(Gate, FindsALossTooSmallForAnyOneNumber) {
-  const auto creep = [](double by) {
-    return after([&](Snapshot& now) {
-      for (std::size_t cell = 1; cell < 16; cell += 2) rmse(now, cell) *= 1.0 + by;
-    });
-  };
-  const GateReport report = creep(5e-4);  // half the limit, on all eight runs of uniform
-  ASSERT_EQ(report.findings.size(), 1u);
-  EXPECT_FALSE(report.passes());
-  EXPECT_EQ(report.findings[0].cell, "uniform");
-  // One-sided 2^-8 for any number of tested methods and scores.
-  EXPECT_EQ(report.findings[0].what, "rmse worse over 8 runs, by 0.05 % on average: p = 0.0039");
-  EXPECT_TRUE(creep(-5e-4).findings.empty());
-  EXPECT_TRUE(creep(5e-7).findings.empty());  // rounding of another compiler
-}
-
-TEST(Gate, CountsRunsOfAGroupOrOfEqualContentOnce) {
-  const auto report = [](const std::function<void(GateCell&)>& change) {
-    Snapshot now = sweep();
-    for (std::size_t i = 0; i < now.cells.size(); ++i) {
-      change(now.cells[i]);
-      if (i % 2 == 1) rmse(now, i) *= 1.0005;
-    }
-    return check(baseline(), now);
-  };
-  EXPECT_FALSE(report([](GateCell&) {}).passes());
-  for (const GateReport& few :
-       {report([](GateCell& cell) { cell.group = cell.repeat < 4 ? "route 1" : "route 2"; }),
-        report([](GateCell& cell) { cell.content = cell.repeat < 4 ? "beef" : "cafe"; })}) {
-    EXPECT_TRUE(few.findings.empty());
-    ASSERT_FALSE(few.notes.empty());
-    EXPECT_EQ(few.notes[0],
-              "no test for small consistent losses of 2 methods: 2 independent runs or groups "
-              "reach at best p = 0.25, level 0.01 needs 7");
-  }
-}
-
 TEST(Gate, HoldsTheFirstLimitThatKeepsAScore) {
   Baseline strict = baseline();
-  strict.limits = {
-      {.where = {"method=raw"}, .values = {"rmse"}, .relative = 1e-9, .absolute = 0.0, .alpha = {}},
-      {.where = {}, .values = {"rmse"}, .relative = 0.5, .absolute = 0.0, .alpha = {}}};
+  strict.limits = {{.where = {"method=raw"}, .values = {"rmse"}, .relative = 1e-9, .absolute = 0.0},
+                   {.where = {}, .values = {"rmse"}, .relative = 0.5, .absolute = 0.0}};
   Snapshot now = sweep();
   rmse(now, 0) += 1e-6;
   rmse(now, 1) *= 1.4;
@@ -174,7 +136,7 @@ TEST(Gate, LooksAtTimesOnlyWhenALimitIsAboutThem) {
   };
   add_times(timed.snapshot, 10.0);
   Snapshot now = sweep();
-  add_times(now, 10.9);  // within the limit, and below the tie threshold of a tenth
+  add_times(now, 10.9);  // within the limit
   EXPECT_TRUE(check(timed, now).findings.empty());
   now.cells[1].scores.back().values["rmse"] = 16.1;
   const GateReport slow = check(timed, now);
@@ -187,9 +149,6 @@ TEST(Gate, LooksAtTimesOnlyWhenALimitIsAboutThem) {
       std::ranges::count_if(
           fast.notes, [](const std::string& note) { return note.starts_with("implausible"); }),
       0);
-  now = sweep();
-  add_times(now, 12.0);  // a fifth on all runs
-  EXPECT_FALSE(check(timed, now).passes());
 }
 
 TEST(Gate, TellsTheOptionsThatDiffer) {
