@@ -32,9 +32,8 @@ struct CompareArguments {
   std::string metric;
   std::vector<std::string> where;
   CompareOptions options;
-  std::optional<double> power;  ///< gain
-  std::string as_claim;         ///< file to write
-  std::string config;           ///< of the store, for the claim
+  std::string as_claim;  ///< file to write
+  std::string config;    ///< of the store, for the claim
   OutputOptions output;
 };
 
@@ -45,19 +44,6 @@ std::string metric_of(const CompareArguments& arguments) {
   };
   if (!arguments.metric.empty()) return arguments.metric;
   return std::ranges::any_of(arguments.where, is_chosen) ? "" : "ate";
-}
-
-int print_power(const CompareArguments& arguments, const std::vector<Comparison>& comparisons) {
-  std::vector<Table> tables;
-  for (const Comparison& comparison : comparisons) {
-    tables.push_back(power_table(comparison, *arguments.power));
-  }
-  const ExportFormat format = arguments.output.format();
-  if (format == ExportFormat::json) {
-    throw InputError("--power: cannot be written as json; expected markdown, terminal, latex, csv");
-  }
-  write_output(text(tables, arguments.output), arguments.output, "power", arguments.store);
-  return kExitOk;
 }
 
 std::string comparisons_text(const std::vector<Comparison>& comparisons,
@@ -71,7 +57,6 @@ std::string comparisons_text(const std::vector<Comparison>& comparisons,
 
 /// Compares with the method of the first file, if no other is named.
 int print_evo_comparison(CompareArguments arguments) {
-  if (arguments.power) throw InputError("--power: expected a store, found a result file of evo");
   std::vector<Record> records = read_evo_results(arguments.files);
   if (arguments.options.baseline.empty()) {
     arguments.options.baseline = records.front().method.text();
@@ -141,7 +126,6 @@ int print_comparison(CompareArguments arguments, const Source& source) {
   const std::vector<Comparison> comparisons =
       compare_store(arguments.store, metric_of(arguments), arguments.where, arguments.options);
   if (!arguments.as_claim.empty()) return write_claim(arguments, comparisons, source);
-  if (arguments.power) return print_power(arguments, comparisons);
   write_output(comparisons_text(comparisons, arguments.output),
                arguments.output,
                "comparisons",
@@ -181,12 +165,6 @@ void add_compare(CLI::App& app, int& exit_code, const Source& source) {
                    arguments->config,
                    "With --as-claim: the config of the store (default: configs/SWEEP.yaml)")
       ->type_name("FILE");
-  command
-      ->add_option("--power",
-                   arguments->power,
-                   "Print the smallest gains that this design finds, and what this one needs [-]")
-      ->type_name("GAIN")
-      ->check(number_between(1e-4, 0.99));
   command
       ->add_option("--value", arguments->options.value, "Statistic: rmse mean median std min max")
       ->capture_default_str();

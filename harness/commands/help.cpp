@@ -40,7 +40,7 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench table results/quickstart --success 0.1 --value p95\n"},
     {"compare",
      "  loopbench compare results/quickstart\n"
-     "  loopbench compare results/quickstart --power 0.05   # groups needed to find 5 %\n"
+     "  loopbench compare results/quickstart --baseline dual --where times=dense,unit=m\n"
      "  loopbench compare results/quickstart --over sequences --format csv -o compared.csv\n"},
     {"claim",
      "  loopbench compare results/quickstart --as-claim claim.yaml\n"

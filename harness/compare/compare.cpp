@@ -183,7 +183,6 @@ void add_baseline(MethodVerdict& method,
   method.ratio = ratio_of(pair, kept, of);
   method.wins = pair.wins;
   method.losses = pair.losses;
-  if (pair.is_ratio) method.deviation = pair.deviation();
   method.ties = pair.ties;
   const double p = corrected(pair.p, of.tests);
   if (of.can_show) method.p = p;

@@ -58,10 +58,9 @@ struct MethodVerdict {
   std::size_t wins = 0;        ///< groups better than the baseline
   std::size_t losses = 0;
   std::size_t ties = 0;
-  std::optional<double> p;      ///< against the baseline, corrected; none if no test is possible
-  bool beats_baseline = false;  ///< significantly better
-  std::optional<double> deviation;     ///< of the groups' log ratios to the baseline
-  bool is_contradicted = false;        ///< p is at most alpha, but the geometric mean disagrees
+  std::optional<double> p;       ///< against the baseline, corrected; none if no test is possible
+  bool beats_baseline = false;   ///< significantly better
+  bool is_contradicted = false;  ///< p is at most alpha, but the geometric mean disagrees
   Standing standing = Standing::open;  ///< relative to the leader
   std::optional<Ratio> from_leader;    ///< the leader's ratio to this method
 };

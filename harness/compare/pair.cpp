@@ -237,29 +237,6 @@ std::vector<SequenceMean> Pair::by_sequence() const {
   return out;
 }
 
-std::optional<double> Pair::deviation() const {
-  std::vector<double> finite;
-  for (const double value : values) {
-    if (is_finite(value)) finite.push_back(value);
-  }
-  const auto sequences = by_sequence();
-  const bool has_strata = !strata.empty();
-  if (!has_strata && (sequences.size() < 2 || 2 * sequences.size() > finite.size())) {
-    return finite.size() < 2 ? std::nullopt : std::optional(metrics::sample_deviation(finite));
-  }
-  std::map<std::size_t, double> means;
-  for (const SequenceMean& one : sequences) means[one.sequence] = one.mean;
-  double squares = 0.0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (is_finite(values[i])) squares += std::pow(values[i] - means.at(sequence[i]), 2);
-  }
-  const auto n = static_cast<double>(finite.size());
-  const auto k = static_cast<double>(sequences.size());
-  // Of independent runs, each of sqrt(n / k) runs is in as many pairs.
-  const double freedom = has_strata ? n - std::sqrt(n * k) : n - k;
-  return freedom > 0.0 ? std::optional(std::sqrt(squares / freedom)) : std::nullopt;
-}
-
 Pair compared(const Levels& levels, std::size_t first, std::size_t second) {
   Pair out = levels.is_paired() ? of_paired_runs(levels, first, second)
                                 : of_independent_runs(levels, first, second);

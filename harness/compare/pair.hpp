@@ -64,10 +64,6 @@ struct Pair {
   /// runs of these sequences.
   std::optional<Interval> typical(double alpha) const;
 
-  /// Standard deviation of the finite values; if every sequence has several, about their means.
-  /// None for independent runs with one run each.
-  std::optional<double> deviation() const;
-
   /// Of each sequence that has finite values, by number of the sequence.
   std::vector<SequenceMean> by_sequence() const;
 };

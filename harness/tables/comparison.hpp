@@ -17,10 +17,6 @@ std::string title(const Comparison& comparison);
 /// (~: not significantly). Best methods are marked. Notes: verdict, remarks.
 Table table_view(const Comparison& comparison);
 
-/// For each method the smallest gain that as many groups would find with 80 %, and the number of
-/// groups that a gain (0..1) needs, given the deviation of its log ratios.
-Table power_table(const Comparison& comparison, double gain);
-
 /// One line per method of every comparison, numbers in full precision; missing values are empty.
 std::string csv(const std::vector<Comparison>& comparisons);
 

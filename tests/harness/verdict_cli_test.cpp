@@ -62,18 +62,6 @@ TEST_F(VerdictCli, CompareGivesAVerdict) {
   EXPECT_TRUE(has(few.out, "nothing can be shown: ")) << few.out;
 }
 
-TEST_F(VerdictCli, CompareStatesItsPower) {
-  const CommandResult result = run("compare r --where unit=m --power 0.05");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(
-      result.out.rfind("### ate rmse, keyframes, loopbench: power against raw\n\n| method", 0), 0u)
-      << result.out;
-  EXPECT_TRUE(has(result.out, "| groups for 5 % |")) << result.out;
-  EXPECT_EQ(run("compare r --power 2").exit_code, 2);
-  EXPECT_TRUE(
-      has(run("compare r --power 0.1 --format json").err, "--power: cannot be written as json"));
-}
-
 TEST_F(VerdictCli, CompareSpeaksEveryFormat) {
   EXPECT_EQ(run("compare r --format json").out.rfind("{\n\"provenance\": {\n", 0), 0u);
   const CommandResult printed = run("compare r --format csv");
