@@ -12,6 +12,7 @@ namespace loopbench::harness {
 inline constexpr int kExitOk = 0;
 inline constexpr int kExitSomeCellsFailed = 1;
 inline constexpr int kExitRegression = 1;
+inline constexpr int kExitNotShown = 1;
 inline constexpr int kExitUnexpected = 1;
 inline constexpr int kExitBadInput = 2;
 inline constexpr int kExitInternal = 3;

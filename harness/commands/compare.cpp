@@ -7,11 +7,14 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/formats/regular_file.hpp"
+#include "harness/base/print_error.hpp"
+#include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/looks.hpp"
 #include "harness/commands/write_output.hpp"
+#include "harness/compare/assertion.hpp"
 #include "harness/config/read_claim.hpp"
 #include "harness/eval/evo_results.hpp"
 #include "harness/model/where.hpp"
@@ -24,6 +27,16 @@
 namespace loopbench::harness {
 namespace {
 
+const char* const kAssertions =
+    "Sentences of --assert about methods A and B, whose values of one score they compare:\n"
+    "  A is below B                     significantly lower: p is at most alpha\n"
+    "  A is at least X % below B        also, the interval of A / B ends below 1 - X %\n"
+    "  A is not above B                 not significantly higher\n"
+    "  A is at most X % above B         the interval of A / B ends below 1 + X %\n"
+    "  A is not shown to differ from B  neither significantly lower nor higher\n"
+    "p and interval are those that `--baseline B` prints. Where too few groups can show nothing, "
+    "`not above` and `not shown to differ` hold, too.";
+
 constexpr std::size_t kLongestConfig = 16'000'000;  // [bytes]
 
 struct CompareArguments {
@@ -32,6 +45,7 @@ struct CompareArguments {
   std::string metric;
   std::vector<std::string> where;
   CompareOptions options;
+  std::vector<std::string> assertions;
   std::string as_claim;  ///< file to write
   std::string config;    ///< of the store, for the claim
   OutputOptions output;
@@ -120,17 +134,39 @@ int write_claim(const CompareArguments& arguments,
   return kExitOk;
 }
 
+/// Assertions are about one score.
+void require_one_score(const std::vector<Comparison>& comparisons) {
+  if (comparisons.size() == 1) return;
+  std::string titles;
+  for (const Comparison& c : comparisons) titles += (titles.empty() ? "" : "; ") + title(c);
+  throw InputError(
+      fmt::format("--assert: expected one score, found {}: {}; choose one by --metric and --where, "
+                  "for example --where times=dense,unit=m",
+                  comparisons.size(),
+                  titles));
+}
+
 int print_comparison(CompareArguments arguments, const Source& source) {
   if (is_evo_result(arguments.files.front())) return print_evo_comparison(std::move(arguments));
   arguments.store = one_store(arguments.files);
-  const std::vector<Comparison> comparisons =
-      compare_store(arguments.store, metric_of(arguments), arguments.where, arguments.options);
+  const auto compared = [&](const std::string& baseline) {
+    CompareOptions options = arguments.options;
+    options.baseline = baseline;
+    return compare_store(arguments.store, metric_of(arguments), arguments.where, options);
+  };
+  const std::vector<Comparison> comparisons = compared(arguments.options.baseline);
   if (!arguments.as_claim.empty()) return write_claim(arguments, comparisons, source);
+  if (!arguments.assertions.empty()) require_one_score(comparisons);
+  const std::vector<std::string> failures =
+      not_shown(arguments.assertions, comparisons.front(), [&](const std::string& baseline) {
+        return compared(baseline).front();
+      });
   write_output(comparisons_text(comparisons, arguments.output),
                arguments.output,
                "comparisons",
                arguments.store);
-  return kExitOk;
+  for (const std::string& failure : failures) print_error("loopbench: {}\n", printable(failure));
+  return failures.empty() ? kExitOk : kExitNotShown;
 }
 
 }  // namespace
@@ -166,6 +202,12 @@ void add_compare(CLI::App& app, int& exit_code, const Source& source) {
                    "With --as-claim: the config of the store (default: configs/SWEEP.yaml)")
       ->type_name("FILE");
   command
+      ->add_option("--assert",
+                   arguments->assertions,
+                   "Sentence that the comparison must show, otherwise exit 1; see below")
+      ->type_name("SENTENCE")
+      ->allow_extra_args(false);
+  command
       ->add_option("--value", arguments->options.value, "Statistic: rmse mean median std min max")
       ->capture_default_str();
   command
@@ -194,6 +236,7 @@ void add_compare(CLI::App& app, int& exit_code, const Source& source) {
            ExportFormat::latex,
            ExportFormat::csv,
            ExportFormat::json});
+  command->footer(kAssertions);
   command->callback(
       [arguments, source, &exit_code] { exit_code = print_comparison(*arguments, source); });
 }

@@ -40,7 +40,8 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench table results/quickstart --success 0.1 --value p95\n"},
     {"compare",
      "  loopbench compare results/quickstart\n"
-     "  loopbench compare results/quickstart --baseline dual --where times=dense,unit=m\n"
+     "  loopbench compare results/quickstart --where times=dense,unit=m --assert 'dual is below "
+     "raw'\n"
      "  loopbench compare results/quickstart --over sequences --format csv -o compared.csv\n"},
     {"claim",
      "  loopbench compare results/quickstart --as-claim claim.yaml\n"
@@ -146,6 +147,8 @@ const std::map<std::string, std::string> kExitCodes{
     {"claim",
      "0 every answer is the expected one, 1 another answer, 2 invalid input or output, 3 internal "
      "error, 4 the build lacks a required part, 130 interrupted."},
+    {"compare",
+     "0 success, 1 an assertion is not shown, 2 invalid input or output, 3 internal error."},
     {"check", "0 passed, 1 regressions, 2 invalid input or output, 3 internal error."},
     {"doctor",
      "0 nothing found, 1 mistakes found or nothing could be checked, 2 invalid input or output, 3 "

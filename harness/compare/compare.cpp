@@ -187,7 +187,9 @@ void add_baseline(MethodVerdict& method,
   const double p = corrected(pair.p, of.tests);
   if (of.can_show) method.p = p;
   method.is_contradicted = p <= of.options.alpha && pair.is_contradicted();
-  method.beats_baseline = pair.is_first_ahead() && pair.is_significant(of.options.alpha, of.tests);
+  const bool is_significant = pair.is_significant(of.options.alpha, of.tests);
+  method.beats_baseline = is_significant && pair.is_first_ahead();
+  method.is_beaten = is_significant && !pair.is_first_ahead();
 }
 
 MethodVerdict counts_of(const Observations& all, const KeptRuns& kept, std::size_t method_index) {

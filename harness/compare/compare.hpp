@@ -60,6 +60,7 @@ struct MethodVerdict {
   std::size_t ties = 0;
   std::optional<double> p;       ///< against the baseline, corrected; none if no test is possible
   bool beats_baseline = false;   ///< significantly better
+  bool is_beaten = false;        ///< significantly worse than the baseline
   bool is_contradicted = false;  ///< p is at most alpha, but the geometric mean disagrees
   Standing standing = Standing::open;  ///< relative to the leader
   std::optional<Ratio> from_leader;    ///< the leader's ratio to this method

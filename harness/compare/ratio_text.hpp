@@ -12,8 +12,11 @@
 
 namespace loopbench::harness {
 
-/// "7 are needed": observations for a significant difference.
-std::string needed_text(const Comparison& c);
+/// "12.3 % below raw [8.1, 15.2], p = 0.02": the difference of a method to the baseline.
+std::string result_text(const Comparison& c, const MethodVerdict& method);
+
+/// "5 runs cannot show a difference among 2 methods at 0.05 (6 are needed)".
+std::string cannot_show_text(const Comparison& c);
 
 /// One decimal, or two digits if that would be 0.0.
 inline std::string percent_text(double percent) {

@@ -71,14 +71,6 @@ std::string contradiction_text(const Comparison& c, const MethodVerdict& method)
                   : " on most runs, but not in the mean";
 }
 
-/// distance() with p.
-std::string result(const Comparison& c, const MethodVerdict& method) {
-  std::string out = distance(method, c);
-  if (method.ratio && method.standing == Standing::leader) out += sequences_text(*method.ratio, c);
-  if (method.p) out += ", " + p_sentence(*method.p);
-  return out + contradiction_text(c, method);
-}
-
 /// "; 5.2 % below dual, the next [2.0, 8.1]": the margin to the best method that is behind.
 std::string next_text(const Comparison& c) {
   const MethodVerdict* next = nullptr;
@@ -132,7 +124,7 @@ std::string only_other(const Comparison& c) {
   if (c.methods.size() != 2) return "";
   const bool is_first = c.methods.front().method != c.options.baseline;
   const MethodVerdict& other = is_first ? c.methods.front() : c.methods.back();
-  return ": " + other.method + " is " + result(c, other);
+  return ": " + other.method + " is " + result_text(c, other);
 }
 
 /// "dual is ", or of several "dual and twin are equal, ".
@@ -155,7 +147,7 @@ std::string best_text(const Comparison& c, const std::vector<std::string>& leade
   if (leaders.size() == 1) {
     return baseline.standing == Standing::leader
                ? "the baseline " + names + " is best" + only_other(c) + tail
-               : names + " is best: " + result(c, c.methods.front()) + tail;
+               : names + " is best: " + result_text(c, c.methods.front()) + tail;
   }
   const bool has_near = std::ranges::any_of(
       c.methods, [](const MethodVerdict& m) { return m.standing == Standing::near; });
@@ -165,7 +157,7 @@ std::string best_text(const Comparison& c, const std::vector<std::string>& leade
   if (baseline.standing == Standing::leader || baseline.standing == Standing::equal) {
     return out + tail;
   }
-  return out + ": " + (has_near ? leaders_text(c) : "") + result(c, c.methods.front()) + tail;
+  return out + ": " + (has_near ? leaders_text(c) : "") + result_text(c, c.methods.front()) + tail;
 }
 
 /// What holds although no method is best.
@@ -182,7 +174,7 @@ std::string undecided_text(const Comparison& c) {
     return "no method is significantly better than the baseline " + c.options.baseline +
            ", which is not significantly better than " + rest + only_other(c);
   }
-  const std::string lead = leaders_text(c) + result(c, first);
+  const std::string lead = leaders_text(c) + result_text(c, first);
   const std::string tail = exceptions_text(c) + next_text(c);
   if (first.beats_baseline) {
     return "no method is significantly best: " + lead + ", but not significantly better than " +
@@ -198,10 +190,20 @@ std::string undecided_text(const Comparison& c) {
 
 }  // namespace
 
-std::string needed_text(const Comparison& c) {
-  return c.has_strata
-             ? fmt::format("{} runs of each method and sequence are needed", c.groups_needed)
-             : fmt::format("{} are needed", c.groups_needed);
+std::string result_text(const Comparison& c, const MethodVerdict& method) {
+  std::string out = distance(method, c);
+  if (method.ratio && method.standing == Standing::leader) out += sequences_text(*method.ratio, c);
+  if (method.p) out += ", " + p_sentence(*method.p);
+  return out + contradiction_text(c, method);
+}
+
+std::string cannot_show_text(const Comparison& c) {
+  return fmt::format("{} cannot show a difference among {} methods at {:g} ({}{} are needed)",
+                     unit_text(c),
+                     c.methods.size(),
+                     c.options.alpha,
+                     c.groups_needed,
+                     c.has_strata ? " runs of each method and sequence" : "");
 }
 
 std::string unit_text(const Comparison& c) {
@@ -245,22 +247,18 @@ std::string verdict(const Comparison& c) {
   const std::string covered = coverage_text(c, partial);
   if (c.can_show && !covered.empty()) {
     return "no method is called best: " + covered + "; " + leaders_text(c) +
-           result(c, c.methods.front()) + over;
+           result_text(c, c.methods.front()) + over;
   }
   if (c.can_show) return (c.is_best ? best_text(c, leaders) : undecided_text(c)) + over;
   const std::string lead =
       is_leading(*find(c, c.options.baseline))
           ? "the baseline " + c.options.baseline + " ranks first" + only_other(c)
-          : leaders_text(c) + result(c, c.methods.front());
-  return fmt::format(
-      "nothing can be shown: {}{}{}, but {} cannot show a difference among {} methods at {:g} ({})",
-      lead,
-      covered.empty() ? "" : ", and " + covered,
-      missing_text(c),
-      unit_text(c),
-      c.methods.size(),
-      c.options.alpha,
-      needed_text(c));
+          : leaders_text(c) + result_text(c, c.methods.front());
+  return fmt::format("nothing can be shown: {}{}{}, but {}",
+                     lead,
+                     covered.empty() ? "" : ", and " + covered,
+                     missing_text(c),
+                     cannot_show_text(c));
 }
 
 std::string statement(const Comparison& c) {

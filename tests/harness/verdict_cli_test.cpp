@@ -62,6 +62,38 @@ TEST_F(VerdictCli, CompareGivesAVerdict) {
   EXPECT_TRUE(has(few.out, "nothing can be shown: ")) << few.out;
 }
 
+TEST_F(VerdictCli, CompareFailsWhereAnAssertionIsNotShown) {
+  const std::string compared = run("compare r --where unit=m").out;
+  const CommandResult shown =
+      run("compare --assert 'uniform is below raw' r --where unit=m --assert 'raw is not shown to "
+          "differ from raw'");
+  EXPECT_EQ(shown.exit_code, 0) << shown.err;
+  EXPECT_EQ(shown.out, compared);
+  const CommandResult result =
+      run("compare r --where unit=m --assert 'uniform is at least 99 % below raw' --assert 'raw is "
+          "below uniform' --assert 'uniform is not above raw'");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, compared);
+  EXPECT_EQ(std::ranges::count(result.err, '\n'), 2) << result.err;
+  EXPECT_TRUE(has(result.err,
+                  "loopbench: assertion not shown: uniform is at least 99 % below raw: measured "))
+      << result.err;
+  EXPECT_TRUE(has(result.err, "raw is below uniform: measured ")) << result.err;
+  const auto refusal = [](const std::string& arguments) {
+    const CommandResult refused = run("compare r " + arguments);
+    EXPECT_EQ(refused.exit_code, 2) << arguments;
+    EXPECT_EQ(refused.out, "") << arguments;
+    return refused.err;
+  };
+  EXPECT_TRUE(has(refusal("--assert 'uniform is below raw'"),
+                  "--assert: expected one score, found 2: ate rmse, keyframes, loopbench; ate "
+                  "rotation rmse"));
+  EXPECT_TRUE(has(refusal("--where unit=m --assert 'unifrom is below raw'"),
+                  "no method is named 'unifrom'; did you mean 'uniform'?"));
+  EXPECT_TRUE(has(refusal("--where unit=m --assert 'uniform is better'"),
+                  "expected 'A is below B', 'A is at least X % below B'"));
+}
+
 TEST_F(VerdictCli, CompareSpeaksEveryFormat) {
   EXPECT_EQ(run("compare r --format json").out.rfind("{\n\"provenance\": {\n", 0), 0u);
   const CommandResult printed = run("compare r --format csv");

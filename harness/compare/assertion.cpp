@@ -1,0 +1,138 @@
+#include "harness/compare/assertion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "datasets/core/error.hpp"
+#include "harness/base/suggest.hpp"
+#include "harness/compare/ratio_text.hpp"
+
+namespace loopbench::harness {
+namespace {
+
+/// Words between the two methods, around a percentage if there is one.
+struct Form {
+  std::string_view before;
+  std::string_view after;  ///< empty: no percentage
+  Assertion::Relation relation;
+};
+
+constexpr std::array kForms{
+    Form{" is below ", "", Assertion::Relation::below},
+    Form{" is at least ", " % below ", Assertion::Relation::below},
+    Form{" is not above ", "", Assertion::Relation::not_above},
+    Form{" is at most ", " % above ", Assertion::Relation::not_above},
+    Form{" is not shown to differ from ", "", Assertion::Relation::not_different}};
+
+std::optional<Assertion> assertion_of(const std::string& text, const Form& form) {
+  const std::size_t at = text.find(form.before);
+  if (at == std::string::npos) return std::nullopt;
+  Assertion out{text, text.substr(0, at), form.relation, {}, text.substr(at + form.before.size())};
+  if (!form.after.empty()) {
+    const char* const begin = out.baseline.data();
+    double percent = 0.0;
+    const auto [end, error] = std::from_chars(begin, begin + out.baseline.size(), percent);
+    const auto rest = static_cast<std::size_t>(end - begin);
+    const bool is_number = error == std::errc() && std::isfinite(percent) && percent >= 0.0;
+    if (!is_number || out.baseline.compare(rest, form.after.size(), form.after) != 0) {
+      return std::nullopt;
+    }
+    out.percent = percent;
+    out.baseline.erase(0, rest + form.after.size());
+  }
+  const bool has_methods = !out.method.empty() && !out.baseline.empty();
+  return has_methods ? std::optional(out) : std::nullopt;
+}
+
+/// Names of the methods of a comparison, also of those without a value.
+std::vector<std::string> method_names(const Comparison& c) {
+  std::vector<std::string> out;
+  for (const MethodVerdict& m : c.methods) out.push_back(m.method);
+  for (const Gap& gap : c.gaps) {
+    if (!gap.is_ranked) out.push_back(gap.method);
+  }
+  return out;
+}
+
+bool is_shown(const Assertion& a, const Comparison& c, const MethodVerdict& m) {
+  const bool is_inverse = c.kind.better == metrics::Better::higher;
+  const bool is_better = m.p && m.beats_baseline;
+  const bool is_worse = m.p && m.is_beaten;
+  const bool is_lower = is_inverse ? is_worse : is_better;
+  const bool is_higher = is_inverse ? is_better : is_worse;
+  const auto is_up_to = [&](double limit) {
+    return m.ratio && m.ratio->has_interval && m.ratio->typical.high <= limit;
+  };
+  switch (a.relation) {
+    case Assertion::Relation::below:
+      return is_lower && (!a.percent || is_up_to(1.0 - *a.percent / 100.0));
+    case Assertion::Relation::not_above:
+      return a.percent ? is_up_to(1.0 + *a.percent / 100.0) && !m.is_contradicted : !is_higher;
+    case Assertion::Relation::not_different:
+      break;
+  }
+  return !is_lower && !is_higher;
+}
+
+}  // namespace
+
+Assertion parse_assertion(const std::string& text) {
+  for (const Form& form : kForms) {
+    if (const auto found = assertion_of(text, form)) return *found;
+  }
+  throw InputError(
+      "--assert: expected 'A is below B', 'A is at least X % below B', 'A is not above B', "
+      "'A is at most X % above B' or 'A is not shown to differ from B', found '" +
+      text + "'");
+}
+
+std::string why_not_shown(const Assertion& a, const Comparison& c) {
+  const bool is_order = a.relation != Assertion::Relation::not_different;
+  if (is_order && c.kind.better == metrics::Better::target) {
+    throw InputError(
+        fmt::format("--assert: '{}': the best value of {} is {:g}, so that neither above "
+                    "nor below is better; expected 'A is not shown to differ from B'",
+                    a.text,
+                    metric_label(c.kind).text(),
+                    c.kind.target));
+  }
+  const auto m = std::ranges::find(c.methods, a.method, &MethodVerdict::method);
+  if (c.methods.empty()) return verdict(c);
+  if (m == c.methods.end()) return a.method + " has no value on any run";
+  if (m->wins + m->losses + m->ties == 0) return "the methods have no run in common";
+  const auto partial = methods_with_less_coverage(c);
+  if (is_order && std::ranges::count(partial, a.method) > 0) return coverage_text(c, {a.method});
+  if (is_shown(a, c, *m)) return "";
+  std::string out = "measured " + result_text(c, *m) + "; ";
+  out += m->p ? "over " + unit_text(c) : cannot_show_text(c);
+  if (c.kind.better == metrics::Better::higher) {
+    out += "; above and below compare values, of which higher ones are better";
+  }
+  return out;
+}
+
+std::vector<std::string> not_shown(const std::vector<std::string>& sentences,
+                                   const Comparison& printed,
+                                   const CompareWith& compare_with) {
+  std::vector<std::string> out;
+  const std::vector<std::string> known = method_names(printed);
+  for (const std::string& text : sentences) {
+    const Assertion a = parse_assertion(text);
+    for (const std::string& method : {a.method, a.baseline}) {
+      if (printed.methods.empty() || std::ranges::count(known, method) > 0) continue;
+      throw InputError(
+          fmt::format("--assert: '{}': {}", text, unknown_name("method", method, known)));
+    }
+    const bool is_printed = printed.options.baseline == a.baseline;
+    const std::string why = why_not_shown(a, is_printed ? printed : compare_with(a.baseline));
+    if (!why.empty()) out.push_back(fmt::format("assertion not shown: {}: {}", text, why));
+  }
+  return out;
+}
+
+}  // namespace loopbench::harness
