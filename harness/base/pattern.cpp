@@ -40,12 +40,4 @@ bool Pattern::matches(std::string_view text) const {
   return re2::RE2::FullMatch(piece(text), *compiled_);
 }
 
-std::string pattern_of_any(const std::vector<std::string>& texts) {
-  std::string out;
-  for (const std::string& text : texts) {
-    out += (out.empty() ? "" : "|") + re2::RE2::QuoteMeta(piece(text));
-  }
-  return "^(?:" + out + ")$";
-}
-
 }  // namespace loopbench::harness

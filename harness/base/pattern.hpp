@@ -4,7 +4,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace re2 {
 class RE2;
@@ -31,8 +30,5 @@ class Pattern {
  private:
   std::shared_ptr<const re2::RE2> compiled_;
 };
-
-/// Expression that matches these complete texts and no other.
-std::string pattern_of_any(const std::vector<std::string>& texts);
 
 }  // namespace loopbench::harness

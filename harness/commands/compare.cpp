@@ -6,38 +6,30 @@
 #include <utility>
 
 #include "datasets/core/error.hpp"
-#include "datasets/formats/regular_file.hpp"
 #include "harness/base/print_error.hpp"
 #include "harness/base/printable.hpp"
-#include "harness/base/write_file.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/looks.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/compare/assertion.hpp"
-#include "harness/config/read_claim.hpp"
 #include "harness/eval/evo_results.hpp"
 #include "harness/model/where.hpp"
-#include "harness/store/open.hpp"
-#include "harness/store/read.hpp"
 #include "harness/tables/all_records.hpp"
-#include "harness/tables/claim_store.hpp"
 #include "harness/tables/comparison.hpp"
 
 namespace loopbench::harness {
 namespace {
 
 const char* const kAssertions =
-    "Sentences of --assert about methods A and B, whose values of one score they compare:\n"
+    "Sentences of --assert, which compare values of one score of the methods A and B:\n"
     "  A is below B                     significantly lower: p is at most alpha\n"
-    "  A is at least X % below B        also, the interval of A / B ends below 1 - X %\n"
+    "  A is at least X % below B        the same, and the interval of A / B ends at 1 - X % or "
+    "below\n"
     "  A is not above B                 not significantly higher\n"
-    "  A is at most X % above B         the interval of A / B ends below 1 + X %\n"
+    "  A is at most X % above B         the interval of A / B ends at 1 + X % or below\n"
     "  A is not shown to differ from B  neither significantly lower nor higher\n"
     "p and interval are those that `--baseline B` prints. Where too few groups can show nothing, "
     "`not above` and `not shown to differ` hold, too.";
-
-constexpr std::size_t kLongestConfig = 16'000'000;  // [bytes]
 
 struct CompareArguments {
   std::vector<std::string> files;  ///< a store, or result files of evo
@@ -46,8 +38,6 @@ struct CompareArguments {
   std::vector<std::string> where;
   CompareOptions options;
   std::vector<std::string> assertions;
-  std::string as_claim;  ///< file to write
-  std::string config;    ///< of the store, for the claim
   OutputOptions output;
 };
 
@@ -71,6 +61,9 @@ std::string comparisons_text(const std::vector<Comparison>& comparisons,
 
 /// Compares with the method of the first file, if no other is named.
 int print_evo_comparison(CompareArguments arguments) {
+  if (!arguments.assertions.empty()) {
+    throw InputError("--assert: expected a store, found a result file of evo");
+  }
   std::vector<Record> records = read_evo_results(arguments.files);
   if (arguments.options.baseline.empty()) {
     arguments.options.baseline = records.front().method.text();
@@ -80,57 +73,6 @@ int print_evo_comparison(CompareArguments arguments) {
   write_plain(comparisons_text(comparisons, arguments.output),
               arguments.output,
               {arguments.files.begin(), arguments.files.end()});
-  return kExitOk;
-}
-
-/// The config that the sweep of a store was made with, relative to the folder of `file`. Throws
-/// InputError unless its text is that of the store.
-std::string config_beside_claim(const CompareArguments& arguments) {
-  const auto run = read_run(arguments.store);
-  const std::string path =
-      arguments.config.empty() ? "configs/" + run.at("sweep") + ".yaml" : arguments.config;
-  std::error_code missing;
-  const bool exists = std::filesystem::is_regular_file(path, missing);
-  if (!exists || read_named_file(path, kLongestConfig, "config") != run.at("config")) {
-    throw InputError(path +
-                     (exists ? ": is not the config of " : ": not found; expected the config of ") +
-                     arguments.store + "; set --config FILE");
-  }
-  const std::filesystem::path folder = std::filesystem::absolute(arguments.as_claim).parent_path();
-  return std::filesystem::absolute(path).lexically_relative(folder).string();
-}
-
-/// Writes the claim that the first method is better than the baseline or, if the baseline is first,
-/// than the second; this look is its first.
-int write_claim(const CompareArguments& arguments,
-                const std::vector<Comparison>& comparisons,
-                const Source& source) {
-  if (comparisons.size() != 1) {
-    throw InputError(fmt::format("--as-claim: expected one score, found {}; select it by --where",
-                                 comparisons.size()));
-  }
-  const Comparison& comparison = comparisons.front();
-  if (comparison.methods.size() < 2) throw InputError("--as-claim: " + verdict(comparison));
-  const bool leads = comparison.methods.front().method == comparison.options.baseline;
-  Claim claim;
-  claim.file = arguments.as_claim;
-  claim.config = config_beside_claim(arguments);
-  claim.method = comparison.methods.front().method;
-  claim.baseline = leads ? comparison.methods[1].method : comparison.options.baseline;
-  claim.metric = metric_of(arguments);
-  claim.where = arguments.where;
-  claim.value = arguments.options.value;
-  claim.over = arguments.options.over == Over::groups ? "groups" : "sequences";
-  claim.alpha = arguments.options.alpha;
-  claim.statement = claim.method + " has a smaller error than " + claim.baseline;
-  claim.sequences = sequences_of(claim, arguments.store);
-  Look look = look_at_store(claim, arguments.store);
-  look.date = today();
-  look.commit = commit_of(source);
-  claim.expected = look.answer;
-  claim.looks.push_back(look);
-  reject_overwriting({store_file(arguments.store)}, arguments.as_claim);
-  write_file(arguments.as_claim, yaml(claim));
   return kExitOk;
 }
 
@@ -146,7 +88,7 @@ void require_one_score(const std::vector<Comparison>& comparisons) {
                   titles));
 }
 
-int print_comparison(CompareArguments arguments, const Source& source) {
+int print_comparison(CompareArguments arguments) {
   if (is_evo_result(arguments.files.front())) return print_evo_comparison(std::move(arguments));
   arguments.store = one_store(arguments.files);
   const auto compared = [&](const std::string& baseline) {
@@ -155,7 +97,6 @@ int print_comparison(CompareArguments arguments, const Source& source) {
     return compare_store(arguments.store, metric_of(arguments), arguments.where, options);
   };
   const std::vector<Comparison> comparisons = compared(arguments.options.baseline);
-  if (!arguments.as_claim.empty()) return write_claim(arguments, comparisons, source);
   if (!arguments.assertions.empty()) require_one_score(comparisons);
   const std::vector<std::string> failures =
       not_shown(arguments.assertions, comparisons.front(), [&](const std::string& baseline) {
@@ -171,7 +112,7 @@ int print_comparison(CompareArguments arguments, const Source& source) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, int& exit_code, const Source& source) {
+void add_compare(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command =
       app.add_subcommand("compare", "Compare and rank methods with significance tests");
@@ -190,17 +131,6 @@ void add_compare(CLI::App& app, int& exit_code, const Source& source) {
           arguments->metric,
           "Label or name of a metric, or a score: ate, error x; ate unless --where selects one")
       ->type_name("METRIC");
-  command
-      ->add_option("--as-claim",
-                   arguments->as_claim,
-                   "Write a claim file: the first method against the baseline, this look included; "
-                   "see `claim`")
-      ->type_name("FILE");
-  command
-      ->add_option("--config",
-                   arguments->config,
-                   "With --as-claim: the config of the store (default: configs/SWEEP.yaml)")
-      ->type_name("FILE");
   command
       ->add_option("--assert",
                    arguments->assertions,
@@ -237,8 +167,7 @@ void add_compare(CLI::App& app, int& exit_code, const Source& source) {
            ExportFormat::csv,
            ExportFormat::json});
   command->footer(kAssertions);
-  command->callback(
-      [arguments, source, &exit_code] { exit_code = print_comparison(*arguments, source); });
+  command->callback([arguments, &exit_code] { exit_code = print_comparison(*arguments); });
 }
 
 }  // namespace loopbench::harness

@@ -43,10 +43,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench compare results/quickstart --where times=dense,unit=m --assert 'dual is below "
      "raw'\n"
      "  loopbench compare results/quickstart --over sequences --format csv -o compared.csv\n"},
-    {"claim",
-     "  loopbench compare results/quickstart --as-claim claim.yaml\n"
-     "  loopbench claim claim.yaml\n"
-     "  loopbench claim results/claims/*.yaml\n"},
     {"check",
      "  loopbench check results/quickstart --baseline results/reference/quickstart.json\n"
      "  loopbench check results/mine --baseline mine.json --update\n"
@@ -144,9 +140,6 @@ const std::map<std::string, std::string> kExitCodes{
     {"table",
      "0 success, 1 a result file of evo cannot be used, 2 invalid input or output, 3 internal "
      "error."},
-    {"claim",
-     "0 every answer is the expected one, 1 another answer, 2 invalid input or output, 3 internal "
-     "error, 4 the build lacks a required part, 130 interrupted."},
     {"compare",
      "0 success, 1 an assertion is not shown, 2 invalid input or output, 3 internal error."},
     {"check", "0 passed, 1 regressions, 2 invalid input or output, 3 internal error."},

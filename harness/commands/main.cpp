@@ -236,8 +236,7 @@ int main(int argc, char** argv) {
   add_list(app, exit_code);
   add_schema(app, exit_code);
   add_table(app, exit_code);
-  add_compare(app, exit_code, source);
-  add_claim(app, exit_code, source);
+  add_compare(app, exit_code);
   add_check(app, exit_code);
   add_eval(app, exit_code, source);
   add_correct(app, exit_code);

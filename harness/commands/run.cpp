@@ -1,5 +1,3 @@
-#include "harness/commands/run.hpp"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -31,6 +29,23 @@
 
 namespace loopbench::harness {
 namespace {
+
+struct RunArguments {
+  std::string config;
+  std::string only;
+  std::string data;
+  std::string out;
+  std::vector<std::filesystem::path> plugins;
+  int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  std::string shard;  ///< "3/8"; empty: all cells
+  bool dry_run = false;
+  std::string retry = "none";
+  bool fresh = false;
+  bool failed_cells_ok = false;
+  bool no_sandbox = false;
+  bool save_trajectories = false;
+  bool pin_instructions = false;
+};
 
 /// Larger sweeps get no tables and no summary after each run, because they take longer than
 /// matching the store with its config and all records do not fit into memory; `table` and `export`
@@ -65,8 +80,7 @@ std::string protocol_names(const Sweep& sweep) {
   return out;
 }
 
-}  // namespace
-
+/// Returns the exit code. Throws InputError, MissingPart.
 int run_config(const RunArguments& arguments, const Source& source) {
   if (arguments.pin_instructions) pin_instructions();
   const Catalogue known =
@@ -180,12 +194,6 @@ int run_config(const RunArguments& arguments, const Source& source) {
     return exit_code;
   }
 
-  if (arguments.quiet) {
-    store->close();
-    report_interruption();
-    return exit_code;
-  }
-
   const bool has_tables = all.size() <= kMostCellsInTables;
   const std::vector<Record> records = has_tables ? all_records(file) : std::vector<Record>{};
   if (has_tables) fmt::print("{}", summary_text(records, sweep));  // even if a table of it fails
@@ -215,6 +223,8 @@ int run_config(const RunArguments& arguments, const Source& source) {
   report_interruption();
   return exit_code;
 }
+
+}  // namespace
 
 void add_run(CLI::App& app, int& exit_code, const Source& source) {
   auto arguments = std::make_shared<RunArguments>();

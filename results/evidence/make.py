@@ -10,7 +10,6 @@ import csv
 import io
 import json
 import os
-import re
 import resource
 import shutil
 import sqlite3
@@ -24,7 +23,6 @@ RESULTS = Path(__file__).resolve().parents[1]
 ROOT = RESULTS.parent
 sys.path[:0] = [str(RESULTS), str(RESULTS / "paper")]
 
-from article.verdicts import table  # noqa: E402
 from evidence_tables import chain_parts, cost_part, graph_part, outlier_parts, spacing_part  # noqa: E402
 from pages import with_parts  # noqa: E402
 
@@ -45,48 +43,29 @@ class Program:
             raise RuntimeError(f"loopbench {words[0]}: {next((x for x in lines if x.startswith('loopbench: ')), lines[0])}")
         return done.stdout
 
-    def timed(self, name, command, config, out):
-        """Keeps the times of the step, also the processor time of all processes, if it starts without stored cells."""
+    def store(self, config):
+        """Path of the store of a config, after its sweep was run. Failed cells have rows. Keeps the times of the sweep, also
+        the processor time of all processes, if it starts without stored cells."""
+        out = self.stores / Path(config).stem
+        name = out.name
         print(f"{name} ...", file=sys.stderr, flush=True)
         kept = self.stores / "times.json"
         times = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
         is_first = name not in times or not out.exists()
         begin, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
-        text = self(command, *config, "--out", out, "--data", self.data, "-j", self.jobs, codes=(0, 1))
+        self("run", ROOT / config, "--out", out, "--data", self.data, "-j", self.jobs, codes=(0, 1))
         used = resource.getrusage(resource.RUSAGE_CHILDREN)
         spent = (time.monotonic() - begin, used.ru_utime + used.ru_stime - before.ru_utime - before.ru_stime)
         if is_first:
             kept.write_text(json.dumps({**times, name: spent}), encoding="utf-8")
         print(f"{name}: {spent[0]:.0f} s", file=sys.stderr, flush=True)
         self.times[name] = spent if is_first else times[name]
-        return text
-
-    def store(self, config):
-        """Path of the store of a config, after its sweep was run. Failed cells have rows."""
-        out = self.stores / Path(config).stem
-        self.timed(out.name, "run", [ROOT / config], out)
         return out
 
     def compared(self, store, baseline, *where):
         """Rows of `compare` for the ATE by method."""
         text = self("compare", store, "--baseline", baseline, "--where", "label=ate", "unit=m", *where, "--format", "csv")
         return {row["method"]: row for row in csv.DictReader(io.StringIO(text))}
-
-
-def claim_part(program):
-    files = defaultdict(list)
-    for file in sorted(RESULTS.glob("claims/*.yaml")):
-        files[re.search(r"(?m)^config: '?(.*?)'?$", file.read_text(encoding="utf-8"))[1]].append(file)
-    lines = []
-    for config, claims in files.items():
-        out = program.stores / Path(config).stem
-        text = program.timed(f"claims of {out.name}", "claim", claims, out)
-        found = re.findall(r"(?m)^(\S.*?): (.*)\n  (.*)\n  (.*look.*)$", text)
-        if len(found) != len(claims):
-            raise RuntimeError(f"claim: expected {len(claims)} answers, found {len(found)}")
-        lines += [(f"`{file.stem}`", answer, statement, numbers.split("; claimed")[0], re.search(r"look \d+", look)[0])
-                  for file, (answer, statement, numbers, look) in zip(claims, found)]
-    return table(("claim", "answer", "statement", "result", "look"), ["---"] * 5, *lines)
 
 
 def builds_of(store):
@@ -111,7 +90,7 @@ def parts_of(program):
     chains, outliers, graphs, *spacing = stores = [program.store(config) for config in SWEEPS]
     return {**chain_parts(program, chains), **outlier_parts(program, outliers), "graphs": graph_part(graphs),
             "spacing": spacing_part(program, dict(zip(("cameras", "roads"), spacing))),
-            "claims": claim_part(program), "costs": cost_part(stores), "times": time_part(program, stores)}
+            "costs": cost_part(stores), "times": time_part(program, stores)}
 
 
 def main():
