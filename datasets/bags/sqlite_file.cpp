@@ -84,10 +84,6 @@ std::int64_t integer(const SqliteQuery& query, int column) {
   return sqlite3_column_int64(query.get(), column);
 }
 
-double real(const SqliteQuery& query, int column) {
-  return sqlite3_column_double(query.get(), column);
-}
-
 std::string_view text(const SqliteQuery& query, int column) {
   const auto* found = reinterpret_cast<const char*>(sqlite3_column_text(query.get(), column));
   return found == nullptr ? std::string_view() : std::string_view(found);

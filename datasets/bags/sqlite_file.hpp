@@ -37,7 +37,6 @@ SqliteStep step(const SqliteQuery& query);
 
 /// Columns of the current row; texts and bytes are valid until the next row.
 std::int64_t integer(const SqliteQuery& query, int column);
-double real(const SqliteQuery& query, int column);
 std::string_view text(const SqliteQuery& query, int column);
 std::string_view blob(const SqliteQuery& query, int column);
 

@@ -40,8 +40,7 @@ struct InformationRules {
   IndefiniteInformation indefinite = IndefiniteInformation::reject;
 };
 
-/// Reads a g2o file, or a database of RTAB-Map (rtabmap.hpp). Conventions of g2o (g2o wiki and
-/// sources; TORO; COP-SLAM):
+/// Reads a g2o file. Conventions of g2o (g2o wiki and sources; TORO; COP-SLAM):
 /// - Information of :QUAT edges refers to the vector part of the quaternion (half angles) and is
 ///   converted to twists: Omega_phi = Omega_q / 4, Omega_t,phi = Omega_tq / 2 (except for
 ///   RotationInformation::angles).
@@ -59,9 +58,6 @@ struct InformationRules {
 /// - FIX lines and comments are skipped; other tags are rejected.
 /// Throws InputError `file:line: what`. O(n log n) in the number of lines.
 PoseGraph read_g2o(const std::filesystem::path& file, const InformationRules& rules = {});
-
-/// Whether read_g2o() reads this file.
-bool is_pose_graph(const std::filesystem::path& file);
 
 /// Writes vertices and edges as SE2 lines if `planar`, as RST3 if `similarity`, else as SE3:QUAT.
 /// read_g2o returns yaw angles and scales up to rounding, all other values bit-identical. Throws

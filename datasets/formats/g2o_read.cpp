@@ -5,11 +5,9 @@
 #include <string>
 
 #include "datasets/core/error.hpp"
-#include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "datasets/formats/g2o_information.hpp"
 #include "datasets/formats/g2o_records.hpp"
-#include "datasets/formats/rtabmap.hpp"
 
 namespace loopbench {
 namespace {
@@ -68,7 +66,6 @@ void invert_edge(const TextFile& file, std::size_t line, Edge& edge) {
 }  // namespace
 
 PoseGraph read_g2o(const std::filesystem::path& path, const InformationRules& rules) {
-  if (is_rtabmap(open_input(path))) return read_rtabmap_graph(path);
   TextFile file(path);
   Records records = read_records(file, rules);
   PoseGraph out;
@@ -91,10 +88,6 @@ PoseGraph read_g2o(const std::filesystem::path& path, const InformationRules& ru
     out.lines.push_back(ends.line);
   }
   return out;
-}
-
-bool is_pose_graph(const std::filesystem::path& file) {
-  return is_rtabmap(open_input(file)) || detect_format(file) == Format::g2o;
 }
 
 std::vector<double> vertex_stamps(const PoseGraph& graph, double period) {

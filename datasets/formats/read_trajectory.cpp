@@ -8,7 +8,6 @@
 #include "datasets/formats/g2o.hpp"
 #include "datasets/formats/pcd.hpp"
 #include "datasets/formats/pose_rules.hpp"
-#include "datasets/formats/rtabmap.hpp"
 #include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_formats.hpp"
 #include "datasets/formats/trajectory_file.hpp"
@@ -88,7 +87,6 @@ std::optional<TrajectoryFile> from_system(const std::filesystem::path& path,
                                           const ReadOptions& options) {
   if (options.format == Format::bag || names_bag(path.string())) return std::nullopt;
   const OpenedFile input = open_input(path);
-  if (is_rtabmap(input)) return read_rtabmap_poses(path, options);
   if (is_pcd(input)) return TrajectoryFile{.poses = read_pcd(path, options), .format = Format::csv};
   return std::nullopt;
 }

@@ -153,7 +153,7 @@ int doctor(const DoctorArguments& a) {
     const std::string& owner = a.estimates.empty() ? a.reference : a.estimates.front();
     all.push_back(of_loops(owner, a.loops));
   } else if (a.estimates.empty()) {
-    if (!is_pose_graph(a.reference)) {
+    if (detect_format(a.reference) != Format::g2o) {
       throw InputError(a.reference +
                        ": expected REF EST, a trajectory with --loops, or a g2o graph");
     }

@@ -22,7 +22,7 @@
 namespace loopbench::harness {
 namespace {
 
-bool is_graph(const CorrectArguments& a) { return is_pose_graph(a.estimate); }
+bool is_graph(const CorrectArguments& a) { return detect_format(a.estimate) == Format::g2o; }
 
 /// Whether a stage of the method corrects keyframes by closures.
 bool uses_closures(const MethodChoice& choice, const Catalogue& catalogue) {

@@ -1,10 +1,8 @@
 /// Files as SLAM systems and public datasets write them.
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 
 #include <cstring>
 
-#include "datasets/formats/g2o.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 #include "tests/datasets/scratch.hpp"
 
@@ -16,127 +14,6 @@ std::string bytes_of(const std::vector<Number>& numbers) {
   std::string out(sizeof(Number) * numbers.size(), 0);
   std::memcpy(out.data(), numbers.data(), out.size());
   return out;
-}
-
-/// A transform of RTAB-Map: a quarter turn about z and a step of `x` [m].
-std::string quarter_turn(float x) {
-  return bytes_of(std::vector<float>{0, -1, 0, x, 1, 0, 0, 0, 0, 0, 1, 0});
-}
-
-std::string diagonal_information(double each) {
-  std::vector<double> out(36, 0.0);
-  for (std::size_t i = 0; i < 36; i += 7) out[i] = each;
-  return bytes_of(out);
-}
-
-class Map {
- public:
-  explicit Map(const std::filesystem::path& file) {
-    sqlite3_open(file.c_str(), &db_);
-    run("CREATE TABLE Node(id INTEGER PRIMARY KEY, stamp FLOAT, pose BLOB);"
-        "CREATE TABLE Link(from_id INTEGER, to_id INTEGER, type INTEGER, "
-        "information_matrix BLOB, transform BLOB)");
-  }
-  ~Map() { sqlite3_close(db_); }
-  Map(const Map&) = delete;
-  Map& operator=(const Map&) = delete;
-
-  void node(int id, double stamp, const std::string& pose) {
-    row("INSERT INTO Node VALUES(?1, ?2, ?4)", id, stamp, 0, pose, "");
-  }
-  void link(int from, int to, int type, const std::string& moved, double information) {
-    row("INSERT INTO Link VALUES(?1, ?2, ?3, ?5, ?4)",
-        from,
-        to,
-        type,
-        moved,
-        diagonal_information(information));
-  }
-
- private:
-  void run(const char* sql) {
-    EXPECT_EQ(sqlite3_exec(db_, sql, nullptr, nullptr, nullptr), SQLITE_OK);
-  }
-  void row(const char* sql,
-           int first,
-           double second,
-           int third,
-           const std::string& fourth,
-           const std::string& fifth) {
-    sqlite3_stmt* insert = nullptr;
-    EXPECT_EQ(sqlite3_prepare_v2(db_, sql, -1, &insert, nullptr), SQLITE_OK);
-    const auto blob = [&](int at, const std::string& bytes) {
-      sqlite3_bind_blob(insert, at, bytes.data(), static_cast<int>(bytes.size()), SQLITE_TRANSIENT);
-    };
-    sqlite3_bind_int(insert, 1, first);
-    sqlite3_bind_double(insert, 2, second);
-    sqlite3_bind_int(insert, 3, third);
-    blob(4, fourth);
-    blob(5, fifth);
-    EXPECT_EQ(sqlite3_step(insert), SQLITE_DONE);
-    sqlite3_finalize(insert);
-  }
-  sqlite3* db_ = nullptr;
-};
-
-/// Three nodes with poses and a landmark; the closure points backwards and is stored twice.
-std::filesystem::path map_in(const TemporaryFolder& scratch) {
-  const auto file = scratch.path() / "rtabmap.db";
-  Map map(file);
-  for (int id = 1; id <= 3; ++id) map.node(id, 100.0 + id, quarter_turn(static_cast<float>(id)));
-  map.node(4, 104.0, "");  // no pose
-  map.link(1, 2, 0, quarter_turn(0.5F), 10.0);
-  map.link(2, 3, 0, quarter_turn(0.5F), 10.0);
-  map.link(3, 1, 1, quarter_turn(2.0F), 40.0);
-  map.link(1, 3, 1, quarter_turn(2.0F), 40.0);
-  map.link(2, 2, 9, quarter_turn(0.0F), 1.0);   // gravity
-  map.link(2, -5, 9, quarter_turn(0.0F), 1.0);  // landmark
-  return file;
-}
-
-TEST(Systems, RtabmapGivesItsNodesAsATrajectory) {
-  const TemporaryFolder scratch;
-  const Trajectory poses = read_trajectory(map_in(scratch));
-  ASSERT_EQ(poses.size(), 3u);
-  EXPECT_EQ(poses[1].stamp, 102.0);
-  EXPECT_EQ(poses[1].world_from_body.translation, Vector3(2, 0, 0));
-  EXPECT_NEAR(poses[1].world_from_body.rotation.z(), std::sqrt(0.5), 1e-7);
-}
-
-TEST(Systems, RtabmapGivesItsLinksAsAGraph) {
-  const TemporaryFolder scratch;
-  const auto file = map_in(scratch);
-  EXPECT_TRUE(is_pose_graph(file));
-  const PoseGraph graph = read_g2o(file);
-  EXPECT_EQ(graph.ids, (std::vector<std::int64_t>{1, 2, 3}));
-  ASSERT_EQ(graph.edges.size(), 3u);
-  EXPECT_EQ(graph.edges[0].from_from_to.translation, Vector3(0.5, 0, 0));
-  EXPECT_EQ(graph.edges[0].information, 10.0 * Matrix6::Identity());
-  // The inverse of a quarter turn after two metres along x.
-  const Edge& closure = graph.edges[2];
-  EXPECT_EQ(closure.from, 0u);
-  EXPECT_EQ(closure.to, 2u);
-  EXPECT_LT((closure.from_from_to.translation - Vector3(0, 2, 0)).norm(), 1e-6);
-  EXPECT_NEAR(closure.from_from_to.rotation.z(), -std::sqrt(0.5), 1e-7);
-}
-
-TEST(Systems, RtabmapNamesRowsThatAreWrong) {
-  const TemporaryFolder scratch;
-  const auto file = scratch.path() / "rtabmap.db";
-  {
-    Map map(file);
-    map.node(1, 1.0, quarter_turn(0.0F));
-    map.node(2, 2.0, quarter_turn(1.0F));
-    map.link(1, 2, 0, quarter_turn(0.5F), -1.0);
-  }
-  EXPECT_EQ(refusal([&] { read_g2o(file); }),
-            file.string() + ": row 1 of Link: information is not positive definite");
-  const auto old = scratch.path() / "old.db";
-  { const Map map(old); }
-  EXPECT_EQ(
-      refusal([&] { read_trajectory(old); }),
-      old.string() +
-          ": has no node with a pose of 12 float32, expected a map of RTAB-Map 0.11 or later");
 }
 
 const char* const kCloudHeader =
