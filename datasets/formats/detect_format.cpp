@@ -8,7 +8,6 @@
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/bags/messages.hpp"
 #include "datasets/formats/columns.hpp"
-#include "datasets/formats/pcd.hpp"
 #include "datasets/formats/text_formats.hpp"
 
 namespace loopbench {
@@ -160,10 +159,7 @@ Format detect_format(TextFile& file) {
 }
 
 Format detect_format(const std::filesystem::path& file) {
-  if (names_bag(file.string())) return Format::bag;
-  const OpenedFile input = open_input(file);
-  if (is_pcd(input)) return Format::csv;
-  if (bag_kind(input) != BagKind::none) return Format::bag;
+  if (names_bag(file.string()) || bag_kind(open_input(file)) != BagKind::none) return Format::bag;
   TextFile text(file);
   text.skip_header();
   return detect_format(text);

@@ -6,7 +6,6 @@
 #include "datasets/formats/columns.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/g2o.hpp"
-#include "datasets/formats/pcd.hpp"
 #include "datasets/formats/pose_rules.hpp"
 #include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_formats.hpp"
@@ -82,15 +81,6 @@ bool is_bag(const std::filesystem::path& path, Format format) {
   return format == Format::automatic && bag_kind(open_input(path)) != BagKind::none;
 }
 
-/// Files of one system, recognised by their content; nothing for other files.
-std::optional<TrajectoryFile> from_system(const std::filesystem::path& path,
-                                          const ReadOptions& options) {
-  if (options.format == Format::bag || names_bag(path.string())) return std::nullopt;
-  const OpenedFile input = open_input(path);
-  if (is_pcd(input)) return TrajectoryFile{.poses = read_pcd(path, options), .format = Format::csv};
-  return std::nullopt;
-}
-
 /// Rejects options that do not fit, then reads a text file.
 TrajectoryFile from_text(const std::filesystem::path& path, const ReadOptions& options) {
   TextFile file(path);
@@ -164,7 +154,6 @@ void check_period(const ReadOptions& options) {
 
 Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions& options) {
   check_period(options);
-  if (auto system = from_system(path, options)) return std::move(system->poses);
   const bool is_recorded = is_bag(path, options.format);
   TrajectoryFile out = is_recorded ? from_bag(path.string(), options) : from_text(path, options);
   if (options.findings) options.findings->covariances = std::move(out.covariances);
@@ -173,7 +162,6 @@ Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions&
 
 TrajectoryFile read_trajectory_file(const std::filesystem::path& path, const ReadOptions& options) {
   check_period(options);
-  if (auto system = from_system(path, options)) return std::move(*system);
   if (is_bag(path, options.format)) return from_bag(path.string(), options);
   TrajectoryFile out = from_text(path, options);
   const bool has_text_stamps = out.format != Format::kitti && out.format != Format::g2o;

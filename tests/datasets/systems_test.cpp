@@ -1,55 +1,11 @@
 /// Files as SLAM systems and public datasets write them.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "datasets/formats/trajectory_file.hpp"
 #include "tests/datasets/scratch.hpp"
 
 namespace loopbench::systems_test {
 namespace {
-
-template <class Number>
-std::string bytes_of(const std::vector<Number>& numbers) {
-  std::string out(sizeof(Number) * numbers.size(), 0);
-  std::memcpy(out.data(), numbers.data(), out.size());
-  return out;
-}
-
-const char* const kCloudHeader =
-    "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
-    "FIELDS x y z intensity roll pitch yaw time\nSIZE 4 4 4 4 4 4 4 8\n"
-    "TYPE F F F F F F F F\nCOUNT 1 1 1 1 1 1 1 1\nWIDTH 2\nHEIGHT 1\n"
-    "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\n";
-
-TEST(Systems, LioSamKeyframesAreAPointCloud) {
-  const TemporaryFolder scratch;
-  const auto text = scratch.file("text.pcd",
-                                 std::string(kCloudHeader) +
-                                     "DATA ascii\n1 2 3 0 0 0 1.5707963267948966 10.25\n"
-                                     "4 5 6 1 0 0 0 11.5\n");
-  std::string binary = std::string(kCloudHeader) + "DATA binary\n";
-  const float yaw = 1.5707964F;
-  for (const auto& [row, stamp] : {std::pair{std::vector<float>{1, 2, 3, 0, 0, 0, yaw}, 10.25},
-                                   std::pair{std::vector<float>{4, 5, 6, 1, 0, 0, 0}, 11.5}}) {
-    binary += bytes_of(row) + bytes_of(std::vector<double>{stamp});
-  }
-  for (const auto& file : {text, scratch.file("binary.pcd", binary)}) {
-    const Trajectory poses = read_trajectory(file);
-    ASSERT_EQ(poses.size(), 2u);
-    EXPECT_EQ(poses[0].stamp, 10.25);
-    EXPECT_EQ(poses[1].world_from_body.translation, Vector3(4, 5, 6));
-    EXPECT_NEAR(poses[0].world_from_body.rotation.w(), std::sqrt(0.5), 1e-7);
-  }
-  const auto cut = scratch.file("cut.pcd", binary.substr(0, binary.size() - 1));
-  EXPECT_EQ(refusal([&] { read_trajectory(cut); }), cut.string() + ": ends after 1 of 2 points");
-  std::string many = binary;
-  many.replace(many.find("POINTS 2"), 8, "POINTS 99999999999");
-  const auto file = scratch.file("many.pcd", many);
-  EXPECT_EQ(
-      refusal([&] { read_trajectory(file); }),
-      file.string() + ": states 99999999999 points, expected at most one per byte of the file");
-}
 
 TEST(Systems, OkvisAndTrajectopyNameColumnsInTheirWay) {
   const TemporaryFolder scratch;
