@@ -27,19 +27,18 @@ struct TrajectoryFile {
 TrajectoryFile read_trajectory_file(const std::filesystem::path& file,
                                     const ReadOptions& options = {});
 
-/// Whether files of this format contain the covariances of `file`: csv; tum and bag of poses with
-/// rotation. False if there are none.
+/// Whether files of this format contain the covariances of `file`: csv; tum of poses with rotation.
+/// False if there are none.
 bool has_covariances(const TrajectoryFile& file, Format format);
 
 /// Keeps the poses with these indices, in their order. O(indices).
 TrajectoryFile selected(const TrajectoryFile& file, const std::vector<std::size_t>& indices);
 
 /// Writes tum, kitti (and the stamps to `times`, one per line, if given), euroc, g2o (vertices with
-/// ids 0, 1, ...), csv or bag (MCAP with a topic named after the file). tum, csv and bag contain
-/// covariances, if stated: see has_covariances(). Positions and quaternions are printed so that
-/// reading them is bit-identical, and exact stamps with all digits; euroc and bag round other
-/// stamps to nanoseconds. `-` is standard output. Throws InputError for an invalid trajectory and
-/// if the file cannot be written.
+/// ids 0, 1, ...) or csv. tum and csv contain covariances, if stated: see has_covariances().
+/// Positions and quaternions are printed so that reading them is bit-identical, and exact stamps
+/// with all digits; euroc rounds other stamps to nanoseconds. `-` is standard output. Throws
+/// InputError for an invalid trajectory and if the file cannot be written.
 void write_trajectory(const std::filesystem::path& file,
                       const TrajectoryFile& trajectory,
                       Format format,

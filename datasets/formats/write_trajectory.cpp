@@ -2,10 +2,8 @@
 
 #include <cmath>
 
-#include "datasets/bags/write_mcap.hpp"
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/g2o.hpp"
-#include "datasets/formats/replace_file.hpp"
 #include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_writer.hpp"
 #include "datasets/formats/trajectory_file.hpp"
@@ -141,17 +139,6 @@ TextWriter csv_text(const TrajectoryFile& file) {
   return out;
 }
 
-/// "out/run 1.mcap" -> "/run_1": names of ROS have letters, digits and underscores.
-std::string topic_of(const std::filesystem::path& file) {
-  std::string out = file == "-" ? "poses" : file.stem().string();
-  for (char& c : out) {
-    const bool is_plain =
-        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    if (!is_plain) c = '_';
-  }
-  return (out[0] >= '0' && out[0] <= '9' ? "/poses_" : "/") + out;
-}
-
 PoseGraph graph_of(const Trajectory& poses) {
   PoseGraph out;
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -165,8 +152,7 @@ PoseGraph graph_of(const Trajectory& poses) {
 
 bool has_covariances(const TrajectoryFile& file, Format format) {
   if (file.covariances.empty()) return false;
-  const bool is_posed = format == Format::tum || format == Format::bag;
-  return format == Format::csv || (is_posed && !lacks_rotations(file.poses));
+  return format == Format::csv || (format == Format::tum && !lacks_rotations(file.poses));
 }
 
 void write_trajectory(const std::filesystem::path& file,
@@ -194,16 +180,10 @@ void write_trajectory(const std::filesystem::path& file,
     case Format::g2o:
       write_g2o(file, graph_of(trajectory.poses));
       break;
-    case Format::bag: {
-      const std::string bytes = mcap_of(trajectory.poses,
-                                        rounded_nanoseconds(trajectory, file),
-                                        topic_of(file),
-                                        trajectory.covariances);
-      replace_file(file == "-" ? "/dev/stdout" : file, bytes, Target::named);
-      break;
-    }
+    case Format::bag:
     case Format::automatic:
-      throw InputError("format: found auto, expected tum, kitti, euroc, g2o, csv or mcap");
+      throw InputError("format: found " + to_text(format) +
+                       ", expected tum, kitti, euroc, g2o or csv");
   }
   if (times) times_text(trajectory).save(*times);
 }

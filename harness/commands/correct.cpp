@@ -108,12 +108,11 @@ void add_correct(CLI::App& app, int& exit_code) {
   command->add_option("-o,--out", a->output.out, "Output file; - is standard output")
       ->type_name("FILE");
   command
-      ->add_option(
-          "--to",
-          a->output.to,
-          "Output format (default: csv, g2o, kitti or mcap if -o ends in .csv, .g2o, .kitti "
-          "or .mcap, otherwise tum); g2o contains all edges")
-      ->type_name("WORD:tum|kitti|euroc|g2o|csv|mcap");
+      ->add_option("--to",
+                   a->output.to,
+                   "Output format (default: csv, g2o or kitti if -o ends in .csv, .g2o or .kitti, "
+                   "otherwise tum); g2o contains all edges")
+      ->type_name("WORD:tum|kitti|euroc|g2o|csv");
   command
       ->add_option("--plot",
                    a->plot,

@@ -34,11 +34,8 @@ void declare_inputs(CLI::App& verb, TrajArguments& a) {
 void declare_output(CLI::App& verb, TrajArguments& a) {
   verb.add_option("-o,--out", a.out, "Output file, or folder for several; - is standard output")
       ->type_name("PATH");
-  verb.add_option("--to",
-                  a.to,
-                  "Output format; mcap: PoseStamped of ROS 2, with covariances "
-                  "PoseWithCovarianceStamped (default: by the ending of -o, or tum)")
-      ->type_name("WORD:tum|kitti|euroc|g2o|csv|mcap");
+  verb.add_option("--to", a.to, "Output format (default: by the ending of -o, or tum)")
+      ->type_name("WORD:tum|kitti|euroc|g2o|csv");
   verb.add_option("--times-out", a.times_out, "File for the stamps of KITTI poses")
       ->type_name("FILE");
 }
@@ -171,8 +168,7 @@ Format written_format(const TrajArguments& arguments) {
                                                       {".tum", Format::tum},
                                                       {".csv", Format::csv},
                                                       {".g2o", Format::g2o},
-                                                      {".kitti", Format::kitti},
-                                                      {".mcap", Format::bag}};
+                                                      {".kitti", Format::kitti}};
   if (arguments.to.empty()) {
     const bool is_folder = std::filesystem::is_directory(arguments.out);
     const std::string ending =
@@ -180,19 +176,15 @@ Format written_format(const TrajArguments& arguments) {
     const auto found = kEndings.find(ending);
     if (found != kEndings.end()) return found->second;
     throw InputError(arguments.out +
-                     ": expected a file name that ends in .txt, .tum, .csv, .g2o, " +
-                     ".kitti or .mcap, or --to FORMAT" +
-                     (ending == ".bag" || ending == ".db3"
-                          ? "; bags are written as .mcap, which ROS 2, Foxglove and Rerun read"
-                          : ""));
+                     ": expected a file name that ends in .txt, .tum, .csv, .g2o or .kitti, or "
+                     "--to FORMAT");
   }
-  if (arguments.to == "mcap") return Format::bag;
   for (const auto& [name, format] : choices(Format{})) {
     const bool is_written = format != Format::automatic && format != Format::bag;
     if (is_written && name == arguments.to) return format;
   }
-  throw OptionError(
-      "to", "to = " + arguments.to + ": expected one of tum | kitti | euroc | g2o | csv | mcap");
+  throw OptionError("to",
+                    "to = " + arguments.to + ": expected one of tum | kitti | euroc | g2o | csv");
 }
 
 void declare_traj(CLI::App& traj, const std::map<std::string, TrajVerb>& verbs, int& exit_code) {

@@ -59,7 +59,7 @@ inline int write_all(const TrajArguments& a, const NamedTrajectories& all) {
       fmt::print(stderr,
                  "loopbench: {} has covariances, which are not written: expected --to csv{}\n",
                  printable(all[i].name),
-                 lacks_rotations(all[i].file.poses) ? "" : ", tum or mcap");
+                 lacks_rotations(all[i].file.poses) ? "" : " or tum");
     }
     std::optional<std::filesystem::path> times;
     if (!a.times_out.empty()) times = a.times_out;

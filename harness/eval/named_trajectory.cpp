@@ -22,7 +22,6 @@ bool is_bag_without_topic(const std::string& name) {
 
 const char* extension(Format format) {
   if (format == Format::g2o) return ".g2o";
-  if (format == Format::bag) return ".mcap";
   return format == Format::euroc || format == Format::csv ? ".csv" : ".txt";
 }
 
@@ -145,8 +144,8 @@ std::vector<std::string> output_files(const std::vector<std::string>& names,
   if (names.size() == 1 && !is_folder) return {out};
   if (is_dash(out)) throw InputError("-o: found several trajectories, expected a folder");
   const std::string ending = std::filesystem::path(out).extension().string();
-  const bool names_file = ending == ".txt" || ending == ".tum" || ending == ".csv" ||
-                          ending == ".g2o" || ending == ".mcap";
+  const bool names_file =
+      ending == ".txt" || ending == ".tum" || ending == ".csv" || ending == ".g2o";
   if (names_file && !is_folder) {
     throw InputError("-o: found several trajectories and the file " + out +
                      ", expected a folder (" + out + "/ is one)");

@@ -63,12 +63,11 @@ TEST(TrajectoryFile, StampsThatAreNoNanosecondsAreNotWritten) {
       return error.what();
     }
   };
-  for (const Format format : {Format::euroc, Format::bag}) {
-    EXPECT_THAT(why(1.7e12, 1.7e12 + 100.0, format),
-                HasSubstr("out: nanoseconds of stamp 1700000000000 do not fit in 64 bits"));
-    EXPECT_THAT(why(1e300, 2e300, format), HasSubstr("do not fit"));
-    EXPECT_THAT(why(0.0, 1e-10, format), HasSubstr("stamps 0 and 1e-10 are one nanosecond"));
-  }
+  EXPECT_THAT(why(1.7e12, 1.7e12 + 100.0, Format::euroc),
+              HasSubstr("out: nanoseconds of stamp 1700000000000 do not fit in 64 bits"));
+  EXPECT_THAT(why(1e300, 2e300, Format::euroc), HasSubstr("do not fit"));
+  EXPECT_THAT(why(0.0, 1e-10, Format::euroc), HasSubstr("stamps 0 and 1e-10 are one nanosecond"));
+  EXPECT_THAT(why(1.0, 2.0, Format::bag), HasSubstr("found bag, expected tum, kitti"));
   EXPECT_FALSE(std::filesystem::exists(scratch.path() / "out"));
   EXPECT_EQ(why(1.0, 2.0, Format::euroc), "");
 }

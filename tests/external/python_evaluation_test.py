@@ -227,7 +227,7 @@ class Evaluation(unittest.TestCase):
         rows = rows_of(GT)
         np.testing.assert_allclose(loopbench.read_trajectory(GT), rows, rtol=0, atol=1e-7)  # normalised
         with tempfile.TemporaryDirectory() as folder:
-            for name in ("kitti", "euroc", "g2o", "csv", "mcap"):
+            for name in ("kitti", "euroc", "g2o", "csv"):
                 file = f"{folder}/file.{name}"
                 subprocess.run([PROGRAM, "traj", "convert", str(GT), "-o", file, "--to", name,
                                 *(["--times-out", folder + "/times"] if name == "kitti" else [])],

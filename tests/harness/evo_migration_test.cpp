@@ -4,6 +4,8 @@
 #include <regex>
 #include <set>
 
+#include "datasets/formats/formats.hpp"
+#include "tests/support/bag_writer.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/matplotlib.hpp"
 
@@ -47,6 +49,15 @@ TEST(EvoMigration, NamesEveryOptionOfEvo) {
   }
 }
 
+/// An MCAP with the poses of a file on the topic /pose.
+std::string mcap_of(const fs::path& file) {
+  std::vector<std::string> messages;
+  for (const auto& [stamp, pose] : read_trajectory(file)) {
+    messages.push_back(test::cdr_pose_stamped(std::llround(1e9 * stamp), pose));
+  }
+  return test::mcap(messages);
+}
+
 TEST(EvoMigration, EveryCommandWorks) {
   const TemporaryFolder folder;
   const fs::path golden = fs::path(LOOPBENCH_TEST_DATA) / "golden";
@@ -57,6 +68,7 @@ TEST(EvoMigration, EveryCommandWorks) {
                                  {"kitti_est.txt", "a.kitti"}}) {
     fs::copy_file(golden / from, folder.path() / to);
   }
+  std::ofstream(folder.path() / "run.mcap") << mcap_of(folder.path() / "a.txt");
   const char* const data = std::getenv("LOOPBENCH_DATA");
   const fs::path tf = fs::path(data == nullptr ? "" : data) / "bags" / "tf_example.bag";
   if (data != nullptr && fs::exists(tf)) fs::copy_file(tf, folder.path() / "tf.bag");
