@@ -74,25 +74,6 @@ bool has_fix(const TextFile& file, const Line& line, const CsvColumns& columns, 
   return false;
 }
 
-/// The middle of an interval; the time itself without one.
-double middle_of_row(const TextFile& file,
-                     const Line& line,
-                     const CsvColumns& columns,
-                     const CsvRow& row) {
-  const double begin = stamp_of_row(file, line, columns, row).seconds;
-  if (!columns.end) return begin;
-  CsvColumns ends = columns;
-  ends.index[0] = *columns.end;
-  ends.nanoseconds.reset();
-  const double end = stamp_of_row(file, line, ends, row).seconds;
-  if (!(end >= begin)) {
-    throw file.error(line.number,
-                     "interval ends at " + to_text(end) + ", before its start " + to_text(begin));
-  }
-  file.repaired.intervals.emplace_back(begin, end);
-  return 0.5 * begin + 0.5 * end;
-}
-
 /// Latitude, longitude and height of the coordinates of a row.
 Vector3 geodetic_of_row(const TextFile& file,
                         const Line& line,
@@ -138,7 +119,7 @@ Trajectory read_csv_part(TextFile& file, const CsvColumns& columns, const ReadOp
   for (Line line; file.next(line);) {
     split_row(file, line, columns, row);
     if (!has_fix(file, line, columns, row)) continue;
-    const double stamp = middle_of_row(file, line, columns, row);
+    const double stamp = stamp_of_row(file, line, columns, row).seconds;
     for (std::size_t i = 1; i < (columns.has_rotation ? v.size() : 4); ++i) {
       v[i] = csv_number(file, line, row[columns.index[i]], kPoseColumns[i]);
     }

@@ -234,7 +234,6 @@ CsvHeader csv_header(std::string_view header) {
   };
   if (columns.coordinates == Coordinates::geodetic) columns.fix = other(11);
   columns.zone = other(18);
-  columns.end = other(12);
   if (columns.coordinates == Coordinates::utm && !columns.zone) {
     out.why_not = "has a header with easting and northing, but without zone (32N, 56S)";
     return out;

@@ -27,7 +27,6 @@ struct CsvColumns {
   Coordinates coordinates = Coordinates::local;
   std::optional<std::size_t> fix;            ///< status of a NavSatFix; negative: no position
   std::optional<std::size_t> zone;           ///< of UTM: 32N
-  std::optional<std::size_t> end;            ///< of the interval that begins at the time
   std::vector<std::size_t> covariance = {};  ///< upper triangle by rows: 21, without rotation 6
 };
 
@@ -44,10 +43,10 @@ struct CsvHeader {
 /// pose.position.x; qw, q_w, orientation.w, and q0 to q3 in the order w, x, y, z. The usual name is
 /// taken if a rare one (epoch, rx) is present, too. Without any column of a quaternion, the rows
 /// are positions; instead of x, y and z they can have latitude (lat), longitude (lon) and height
-/// (alt), or ecef_x, ecef_y, ecef_z, or easting, northing, zone and height. start and end are an
-/// interval. cov_x_x, cov_x_y, ... cov_yaw_yaw are the upper triangle of a covariance, which has to
-/// be complete. If only the first column is unknown and only the time is missing, this is the time.
-/// Columns with an empty name are ignored.
+/// (alt), or ecef_x, ecef_y, ecef_z, or easting, northing, zone and height. cov_x_x, cov_x_y, ...
+/// cov_yaw_yaw are the upper triangle of a covariance, which has to be complete. If only the first
+/// column is unknown and only the time is missing, this is the time. Columns with an empty name are
+/// ignored.
 CsvHeader csv_header(std::string_view header);
 
 /// Splits a row or a header at commas, or at blanks if it has none. Quotes around a column are

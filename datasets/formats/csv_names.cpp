@@ -170,9 +170,6 @@ std::optional<PoseColumn> time_column(const NamedColumn& name) {
   PoseColumn out;
   if (is_one_of(base, {"t", "time", "times", "stamp", "timestamp", "timestamps"})) {
     out.rank = NameRank::usual;
-  } else if (is_one_of(base, {"tstart", "start", "tend", "end"})) {
-    out.column = base.ends_with("end") ? 12 : 0;
-    out.rank = NameRank::rare;
   } else if (base == "utime") {
     out.rank = NameRank::rare;
     out.time_exponent = -6;  // by convention, as in LCM

@@ -11,8 +11,8 @@ namespace loopbench {
 /// Of several columns with the same meaning, the one of the lowest rank is taken.
 enum class NameRank { usual, rare, whole_seconds, nanoseconds };
 
-/// One of the columns t, x, y, z, qw, qx, qy, qz, latitude, longitude, height, fix status, end of
-/// an interval, ecef_x, ecef_y, ecef_z, easting, northing, zone.
+/// One of the columns t, x, y, z, qw, qx, qy, qz, latitude, longitude, height, fix status,
+/// nothing, ecef_x, ecef_y, ecef_z, easting, northing, zone.
 struct PoseColumn {
   std::size_t column = 0;  ///< 0 to 18
   NameRank rank = NameRank::usual;

@@ -48,8 +48,6 @@ struct ReadFindings {
   std::string damage = {};                    ///< what is missing of a damaged bag; empty: intact
   std::size_t without_fix = 0;                ///< rows of NavSatFix without a position
   std::optional<GeodeticOrigin> origin = {};  ///< of positions converted from WGS 84
-  /// Begin and end [s] of the rows, if their stamps are intervals; poses have the middle.
-  std::vector<std::pair<double, double>> intervals = {};
   /// Stated covariances, one per pose (datasets/core/covariance.hpp); empty: none. Those of
   /// positions without rotation have zeros for the rotation.
   std::vector<Matrix6> covariances = {};

@@ -31,9 +31,6 @@ auto read_parallel(TextFile& file, const Parse& parse, const Fits& fits) {
           file.repaired.off_unit = std::max(file.repaired.off_unit, text.repaired.off_unit);
           file.repaired.repeated += text.repaired.repeated;
           file.repaired.without_fix += text.repaired.without_fix;
-          const auto& intervals = text.repaired.intervals;
-          file.repaired.intervals.insert(
-              file.repaired.intervals.end(), intervals.begin(), intervals.end());
           const auto& covariances = text.repaired.covariances;
           file.repaired.covariances.insert(
               file.repaired.covariances.end(), covariances.begin(), covariances.end());

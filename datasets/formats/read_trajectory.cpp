@@ -111,7 +111,6 @@ TrajectoryFile from_text(const std::filesystem::path& path, const ReadOptions& o
     options.findings->off_unit = file.repaired.off_unit;
     options.findings->repeated = file.repaired.repeated;
     options.findings->without_fix = file.repaired.without_fix;
-    options.findings->intervals = file.repaired.intervals;
     options.findings->assumed_axes = file.repaired.assumed_axes;
   }
   return out;

@@ -77,7 +77,6 @@ class alignas(64) TextFile {
     double off_unit = 0.0;
     std::size_t repeated = 0;
     std::size_t without_fix = 0;
-    std::vector<std::pair<double, double>> intervals;
     std::vector<Matrix6> covariances;
     bool assumed_axes = false;
   };

@@ -106,14 +106,8 @@ struct PairEvaluation {
   void add(EvaluationResult& own, const ScoreResult& row, const metrics::Protocol& rules) {
     const EvalArguments& arguments = files.arguments;
     const Sweep& sweep = files.sweep;
-    const auto& intervals = reference.findings.intervals;
     const metrics::Alignment* fit = given ? given + row.protocol : nullptr;
-    metrics::Evaluation evaluation = metrics::evaluate(
-        reference.poses,
-        intervals.empty() ? estimate.poses
-                          : metrics::averaged_in(estimate.poses, intervals, rules.offset),
-        rules,
-        fit);
+    metrics::Evaluation evaluation = metrics::evaluate(reference.poses, estimate.poses, rules, fit);
     if (!common.empty()) evaluation = within_common_times(evaluation, fit);
     const bool has_range = (arguments.start || arguments.end) && !arguments.by_position;
     if (has_range) count_in_range(evaluation.coverage, rules.offset);

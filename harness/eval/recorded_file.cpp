@@ -154,10 +154,6 @@ RecordedFile recorded_estimate(const std::string& file,
 std::vector<std::string> reading_notes(const ReadFindings& findings, const std::string& whose) {
   std::vector<std::string> out;
   if (findings.origin) out.push_back(whose + ": " + to_text(*findings.origin));
-  if (!findings.intervals.empty() && whose == "reference") {
-    out.push_back("reference: " + std::to_string(findings.intervals.size()) +
-                  " stamps are intervals, over which the estimate is averaged");
-  }
   if (findings.assumed_axes) {
     out.push_back(whose +
                   ": the convention of the covariances is assumed, and '#%TANGENT_CONVENTION "

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -133,31 +132,6 @@ Paired interpolate_estimate(const Trajectory& reference,
                             double offset) {
   Paired out = interpolate_reference(estimate, reference, max_gap, -offset);
   std::swap(out.reference, out.estimate);
-  return out;
-}
-
-Trajectory averaged_in(const Trajectory& estimate,
-                       const std::vector<std::pair<double, double>>& intervals,
-                       double offset) {
-  Trajectory out;
-  auto next = estimate.begin();
-  for (const auto& [begin, end] : intervals) {
-    while (next != estimate.end() && next->stamp + offset < begin) out.push_back(*next++);
-    const double middle = 0.5 * begin + 0.5 * end - offset;
-    StampedPose mean{middle, {}};
-    double count = 0.0, nearest = std::numeric_limits<double>::infinity();
-    for (; next != estimate.end() && next->stamp + offset <= end; ++next) {
-      mean.world_from_body.translation += next->world_from_body.translation;
-      count += 1.0;
-      if (std::abs(next->stamp - middle) >= nearest) continue;
-      nearest = std::abs(next->stamp - middle);
-      mean.world_from_body.rotation = next->world_from_body.rotation;
-    }
-    if (count == 0.0 || (!out.empty() && out.back().stamp >= middle)) continue;
-    mean.world_from_body.translation /= count;
-    out.push_back(mean);
-  }
-  out.insert(out.end(), next, estimate.end());
   return out;
 }
 

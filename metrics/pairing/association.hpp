@@ -81,13 +81,6 @@ Paired interpolate_estimate(const Trajectory& reference,
                             double max_gap,
                             double offset);
 
-/// Replaces the poses whose stamp + offset lies in an interval [begin, end] (ascending, disjoint)
-/// by one in its middle, with their mean position and the rotation of the pose nearest to the
-/// middle: a body at rest on a surveyed point. Intervals without a pose change nothing. O(n).
-Trajectory averaged_in(const Trajectory& estimate,
-                       const std::vector<std::pair<double, double>>& intervals,
-                       double offset);
-
 /// Pairs by the protocol's association; empty if nothing matches. Throws std::runtime_error if
 /// association `index` is used with lists of different size.
 Paired associate(const Trajectory& reference, const Trajectory& estimate, const Protocol& protocol);

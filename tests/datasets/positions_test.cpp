@@ -141,19 +141,6 @@ TEST(Positions, EarthCentredAndUtmCoordinatesAreTheSamePlaces) {
   EXPECT_THAT(reason("t,easting,northing,height\n1,500000,0,0\n"), HasSubstr("without zone (32N"));
 }
 
-TEST(Positions, IntervalsHaveTheirMiddleAsStamp) {
-  const TemporaryFolder scratch;
-  ReadFindings findings;
-  const Trajectory poses =
-      read(scratch.file("a.csv", "start,end,x,y,z\n1,3,1,2,3\n7,7.5,4,5,6\n"), &findings);
-  EXPECT_EQ(poses[0].stamp, 2.0);
-  EXPECT_EQ(poses[1].stamp, 7.25);
-  ASSERT_EQ(findings.intervals.size(), 2u);
-  EXPECT_EQ(findings.intervals[1], (std::pair{7.0, 7.5}));
-  EXPECT_THAT(reason("start,end,x,y,z\n3,1,1,2,3\n"),
-              HasSubstr(":2: interval ends at 1.0, before its start 3.0"));
-}
-
 TEST(Positions, RowsOfANavSatFixWithoutFixAreSkippedAndCounted) {
   if (!has_geographiclib()) GTEST_SKIP() << "built without GeographicLib";
   const TemporaryFolder scratch;

@@ -104,16 +104,6 @@ TEST(ControlPoints, TheEstimateIsInterpolatedAtThem) {
   EXPECT_EQ(named_protocol("hilti").rules.association, Association::interpolate_estimate);
 }
 
-TEST(ControlPoints, TheEstimateIsAveragedOverIntervals) {
-  Trajectory estimate;
-  for (int i = 0; i <= 10; ++i) estimate.push_back({0.5 * i, {{}, {i % 2 == 0 ? 1.0 : 3.0, 0, 0}}});
-  const Trajectory out = averaged_in(estimate, {{1.0, 2.5}, {7.0, 8.0}}, 0.0);
-  ASSERT_EQ(out.size(), estimate.size() - 3);
-  EXPECT_EQ(out[2].stamp, 1.75);
-  EXPECT_EQ(out[2].world_from_body.translation.x(), 2.0);
-  EXPECT_EQ(averaged_in(estimate, {{11.0, 12.5}}, 10.0)[2].stamp, 1.75);
-}
-
 TEST(ControlPoints, PointsOfTheChallengeOf2023) {
   // README of the Hilti SLAM Challenge 2023: < 0.5, 1, 3, 6, 10, 40 cm give 20, 10, 6, 5, 3, 1.
   const double errors[] = {0.0049, 0.005, 0.0299, 0.0599, 0.0999, 0.3999, 0.4};
