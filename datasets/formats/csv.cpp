@@ -74,26 +74,6 @@ bool has_fix(const TextFile& file, const Line& line, const CsvColumns& columns, 
   return false;
 }
 
-/// Latitude, longitude and height of the coordinates of a row.
-Vector3 geodetic_of_row(const TextFile& file,
-                        const Line& line,
-                        const CsvColumns& columns,
-                        const CsvRow& row,
-                        Vector3 position) {
-  try {
-    if (columns.coordinates == Coordinates::ecef) position = geodetic_of_ecef(position);
-    if (columns.coordinates == Coordinates::utm) {
-      position = geodetic_of_utm(position, std::string(row[*columns.zone]));
-    }
-  } catch (const MissingPart&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    throw file.error(line.number, error.what());
-  }
-  require_degrees(file, line.number, position);
-  return position;
-}
-
 Matrix6 covariance_of_row(const TextFile& file,
                           const Line& line,
                           const CsvColumns& columns,
@@ -124,10 +104,8 @@ Trajectory read_csv_part(TextFile& file, const CsvColumns& columns, const ReadOp
       v[i] = csv_number(file, line, row[columns.index[i]], kPoseColumns[i]);
     }
     for (std::size_t i = 0; i < columns.per_metre.size(); ++i) v[1 + i] /= columns.per_metre[i];
-    Vector3 position(v[1], v[2], v[3]);
-    if (columns.coordinates != Coordinates::local) {
-      position = geodetic_of_row(file, line, columns, row, position);
-    }
+    const Vector3 position(v[1], v[2], v[3]);
+    if (columns.is_geodetic) require_degrees(file, line.number, position);
     const Rotation rotation =
         columns.has_rotation
             ? rotation_of_row(file, line, {v[4], v[5], v[6], v[7]}, out, options.positions)
@@ -180,7 +158,7 @@ Trajectory read_csv(TextFile& file, const ReadOptions& options) {
       [](const Trajectory& a, const Trajectory& b) {
         return !a.empty() && !b.empty() && follows(a, b);
       }));
-  if (columns->coordinates == Coordinates::local) return out;
+  if (!columns->is_geodetic) return out;
   return local_positions(std::move(out), options);
 }
 

@@ -109,36 +109,22 @@ std::vector<std::size_t> covariance_indices(const PoseNames& all,
   return out;
 }
 
-Coordinates coordinates_of(const PoseNames& all) {
+/// Whether the header has latitude, longitude and height instead of x, y and z.
+bool names_degrees(const PoseNames& all) {
   const auto names = [&](std::size_t column) { return !all.best(column).empty(); };
-  if (names(1) || names(2) || names(3)) return Coordinates::local;
-  if (names(8)) return Coordinates::geodetic;
-  if (names(13)) return Coordinates::ecef;
-  return names(16) ? Coordinates::utm : Coordinates::local;
+  return !names(1) && !names(2) && !names(3) && names(8);
 }
 
 /// Columns of the header that stand for x, y and z.
 std::size_t position_column(const PoseNames& all, std::size_t axis) {
-  constexpr std::size_t kFirst[] = {1, 8, 13, 16};
-  const Coordinates kind = coordinates_of(all);
-  if (kind == Coordinates::utm && axis == 2) return 10;
-  return kFirst[static_cast<std::size_t>(kind)] + axis;
+  return (names_degrees(all) ? 8 : 1) + axis;
 }
 
 std::string why_not_understood(const PoseNames& all, bool with_rotation) {
   constexpr const char* kAccepted =
       "expected time (t, timestamp, time_ns, secs with nsecs), position (x, tx, p_x, position.x) "
       "and quaternion (qw, q_w, orientation.w, or q0 q1 q2 q3 for w x y z)";
-  constexpr std::array kOthers{"latitude",
-                               "longitude",
-                               "height",
-                               "",
-                               "",
-                               "ecef_x",
-                               "ecef_y",
-                               "ecef_z",
-                               "easting",
-                               "northing"};
+  constexpr std::array kOthers{"latitude", "longitude", "height"};
   std::string missing;
   for (std::size_t i = 0; i < (with_rotation ? kPoseColumns.size() : 4); ++i) {
     const std::size_t column = 1 <= i && i < 4 ? position_column(all, i - 1) : i;
@@ -226,18 +212,10 @@ CsvHeader csv_header(std::string_view header) {
   columns.has_rotation = out.names_quaternion || out.why_not.empty();
   if (!out.why_not.empty() && columns.has_rotation) return out;
   if (!why_not_understood(all, columns.has_rotation).empty()) return out;
-  columns.coordinates = coordinates_of(all);
-  out.names_position |= columns.coordinates != Coordinates::local;
-  const auto other = [&](std::size_t column) {
-    const std::vector<std::size_t> found = all.best(column);
-    return found.empty() ? std::nullopt : std::optional(found.front());
-  };
-  if (columns.coordinates == Coordinates::geodetic) columns.fix = other(11);
-  columns.zone = other(18);
-  if (columns.coordinates == Coordinates::utm && !columns.zone) {
-    out.why_not = "has a header with easting and northing, but without zone (32N, 56S)";
-    return out;
-  }
+  columns.is_geodetic = names_degrees(all);
+  out.names_position |= columns.is_geodetic;
+  const std::vector<std::size_t> fix = all.best(11);
+  if (columns.is_geodetic && !fix.empty()) columns.fix = fix.front();
   columns.width = out.width;
   std::string why_not_split;
   columns.nanoseconds = nanoseconds_column(all, why_not_split);

@@ -13,9 +13,6 @@ namespace loopbench {
 /// Columns of a pose, in this order.
 inline constexpr std::array kPoseColumns{"time", "x", "y", "z", "qw", "qx", "qy", "qz"};
 
-/// What the columns x, y and z are; geodetic: latitude, longitude [deg] and height.
-enum class Coordinates { local, geodetic, ecef, utm };
-
 /// Indices of the columns kPoseColumns in a row with `width` columns. The rotation can be missing.
 struct CsvColumns {
   std::array<std::size_t, kPoseColumns.size()> index{};
@@ -24,9 +21,8 @@ struct CsvColumns {
   std::optional<std::size_t> nanoseconds;          ///< column to add to whole seconds
   std::array<double, 3> per_metre{1.0, 1.0, 1.0};  ///< unit of x, y and z
   bool has_rotation = true;
-  Coordinates coordinates = Coordinates::local;
+  bool is_geodetic = false;                  ///< x, y, z: latitude, longitude [deg], height
   std::optional<std::size_t> fix;            ///< status of a NavSatFix; negative: no position
-  std::optional<std::size_t> zone;           ///< of UTM: 32N
   std::vector<std::size_t> covariance = {};  ///< upper triangle by rows: 21, without rotation 6
 };
 
@@ -43,10 +39,9 @@ struct CsvHeader {
 /// pose.position.x; qw, q_w, orientation.w, and q0 to q3 in the order w, x, y, z. The usual name is
 /// taken if a rare one (epoch, rx) is present, too. Without any column of a quaternion, the rows
 /// are positions; instead of x, y and z they can have latitude (lat), longitude (lon) and height
-/// (alt), or ecef_x, ecef_y, ecef_z, or easting, northing, zone and height. cov_x_x, cov_x_y, ...
-/// cov_yaw_yaw are the upper triangle of a covariance, which has to be complete. If only the first
-/// column is unknown and only the time is missing, this is the time. Columns with an empty name are
-/// ignored.
+/// (alt). cov_x_x, cov_x_y, ... cov_yaw_yaw are the upper triangle of a covariance, which has to be
+/// complete. If only the first column is unknown and only the time is missing, this is the time.
+/// Columns with an empty name are ignored.
 CsvHeader csv_header(std::string_view header);
 
 /// Splits a row or a header at commas, or at blanks if it has none. Quotes around a column are

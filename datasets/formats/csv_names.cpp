@@ -82,8 +82,7 @@ std::optional<PoseColumn> position_column(const NamedColumn& name) {
       1 + *axis, NameRank::usual, {}, per_metre.value_or(1.0), per_metre ? "" : name.unit};
 }
 
-/// Latitude, longitude [deg] and ellipsoidal height: also fields of NavSatFix, with the status;
-/// ECEF and UTM coordinates.
+/// Latitude, longitude [deg] and ellipsoidal height: also fields of NavSatFix, with the status.
 std::optional<PoseColumn> geodetic_column(const NamedColumn& name) {
   constexpr std::size_t kFirst = 8;
   const std::string_view base = name.base;
@@ -95,20 +94,12 @@ std::optional<PoseColumn> geodetic_column(const NamedColumn& name) {
   if (is_one_of(base, {"lon", "lng", "long"}) || base.ends_with("longitude")) {
     return angle(kFirst + 1);
   }
-  const auto length = [&](std::size_t column) {
+  if (is_one_of(base, {"alt", "h", "height"}) || base.ends_with("altitude")) {
     const auto per_metre = units_per_metre(name.unit);
     return PoseColumn{
-        column, NameRank::usual, {}, per_metre.value_or(1.0), per_metre ? "" : name.unit};
-  };
-  if (is_one_of(base, {"alt", "h", "height"}) || base.ends_with("altitude")) {
-    return length(kFirst + 2);
+        kFirst + 2, NameRank::usual, {}, per_metre.value_or(1.0), per_metre ? "" : name.unit};
   }
   if (base.ends_with("statusstatus")) return PoseColumn{kFirst + 3};
-  if (base.size() == 5 && base.starts_with("ecef")) {
-    if (const auto axis = axis_of(base.back()); axis && *axis < 3) return length(13 + *axis);
-  }
-  if (base == "easting" || base == "northing") return length(base == "easting" ? 16 : 17);
-  if (is_one_of(base, {"zone", "utmzone"})) return PoseColumn{18};
   return std::nullopt;
 }
 

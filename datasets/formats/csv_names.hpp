@@ -11,10 +11,9 @@ namespace loopbench {
 /// Of several columns with the same meaning, the one of the lowest rank is taken.
 enum class NameRank { usual, rare, whole_seconds, nanoseconds };
 
-/// One of the columns t, x, y, z, qw, qx, qy, qz, latitude, longitude, height, fix status,
-/// nothing, ecef_x, ecef_y, ecef_z, easting, northing, zone.
+/// One of the columns t, x, y, z, qw, qx, qy, qz, latitude, longitude, height, fix status.
 struct PoseColumn {
-  std::size_t column = 0;  ///< 0 to 18
+  std::size_t column = 0;  ///< 0 to 11
   NameRank rank = NameRank::usual;
   std::optional<int> time_exponent = {};  ///< stated unit of time, 10^exponent [s]
   double per_metre = 1.0;                 ///< unit of a position

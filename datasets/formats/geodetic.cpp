@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #ifdef LOOPBENCH_HAS_GEOGRAPHICLIB
-#include <GeographicLib/Geocentric.hpp>
 #include <GeographicLib/LocalCartesian.hpp>
-#include <GeographicLib/UTMUPS.hpp>
 #endif
 
 #include "datasets/core/error.hpp"
@@ -64,31 +62,6 @@ Trajectory to_local([[maybe_unused]] Trajectory geodetic,
     local.Forward(from.x(), from.y(), from.z(), to.x(), to.y(), to.z());
   }
   return geodetic;
-#else
-  lack_geographiclib();
-#endif
-}
-
-Vector3 geodetic_of_ecef([[maybe_unused]] const Vector3& position) {
-#ifdef LOOPBENCH_HAS_GEOGRAPHICLIB
-  Vector3 out;
-  GeographicLib::Geocentric::WGS84().Reverse(
-      position.x(), position.y(), position.z(), out.x(), out.y(), out.z());
-  return out;
-#else
-  lack_geographiclib();
-#endif
-}
-
-Vector3 geodetic_of_utm([[maybe_unused]] const Vector3& position,
-                        [[maybe_unused]] const std::string& zone) {
-#ifdef LOOPBENCH_HAS_GEOGRAPHICLIB
-  int number = 0;
-  bool is_north = false;
-  GeographicLib::UTMUPS::DecodeZone(zone, number, is_north);
-  Vector3 out = position;
-  GeographicLib::UTMUPS::Reverse(number, is_north, position.x(), position.y(), out.x(), out.y());
-  return out;
 #else
   lack_geographiclib();
 #endif

@@ -21,12 +21,6 @@ std::string to_text(const GeodeticOrigin& origin);
 /// Returns the rule that latitude, longitude [deg] and height [m] violate; empty: none.
 std::string violated_degrees(const Vector3& position);
 
-/// Latitude, longitude [deg] and height of earth-centred coordinates [m], and of easting, northing
-/// and height in a zone of UTM (32N, 56S). Throw MissingPart, and std::runtime_error for an invalid
-/// zone or coordinates outside it.
-Vector3 geodetic_of_ecef(const Vector3& position);
-Vector3 geodetic_of_utm(const Vector3& position, const std::string& zone);
-
 /// The first position of geodetic ones.
 GeodeticOrigin origin_of(const Trajectory& geodetic);
 

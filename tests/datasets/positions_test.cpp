@@ -125,22 +125,6 @@ TEST(Positions, LatitudeLongitudeAndHeightBecomeLocal) {
   EXPECT_NEAR((a - b).norm(), 2.0 * 1.11694, 1e-5);
 }
 
-TEST(Positions, EarthCentredAndUtmCoordinatesAreTheSamePlaces) {
-  if (!has_geographiclib()) GTEST_SKIP() << "built without GeographicLib";
-  const TemporaryFolder scratch;
-  // (a, 0, 0) is latitude 0, longitude 0; its north is z.
-  const Trajectory earth = read(scratch.file(
-      "a.csv", "t,ecef_x,ecef_y,ecef_z\n1,6378137,0,0\n2,6378137,0,10\n3,6378147,0,0\n"));
-  EXPECT_NEAR(earth[1].world_from_body.translation.y(), 10.0, 1e-6);
-  EXPECT_NEAR(earth[2].world_from_body.translation.z(), 10.0, 1e-6);
-  // The central meridian of zone 31 is 3 degrees, where the scale is 0.9996.
-  const Trajectory utm = read(scratch.file(
-      "b.csv", "t,easting,northing,zone,height\n1,500000,0,31N,0\n2,500099.96,0,31N,0\n"));
-  EXPECT_NEAR(utm[1].world_from_body.translation.x(), 100.0, 1e-4);
-  EXPECT_THAT(reason("t,easting,northing,zone,height\n1,500000,0,99N,0\n"), HasSubstr(":2: "));
-  EXPECT_THAT(reason("t,easting,northing,height\n1,500000,0,0\n"), HasSubstr("without zone (32N"));
-}
-
 TEST(Positions, RowsOfANavSatFixWithoutFixAreSkippedAndCounted) {
   if (!has_geographiclib()) GTEST_SKIP() << "built without GeographicLib";
   const TemporaryFolder scratch;
