@@ -1,4 +1,4 @@
-# Writes OUT, a C++ file with the variable NAME: a hash of FILES, libraries whose code affects results.
+# Writes OUT, a C++ file with the variable code_hash: a hash of FILES, libraries whose code affects results.
 set(hashes "")
 foreach(file IN LISTS FILES)
   file(SHA256 ${file} hash)
@@ -6,5 +6,5 @@ foreach(file IN LISTS FILES)
 endforeach()
 string(SHA256 hash "${hashes}")
 file(CONFIGURE OUTPUT ${OUT} CONTENT [[
-char @NAME@[] = "@hash@";
+char code_hash[] = "@hash@";
 ]] @ONLY)

@@ -1,4 +1,4 @@
-/// Hash functions for noise (independent of the order of draws) and for cache keys.
+/// Hash functions for noise (independent of the order of draws) and for checksums.
 #pragma once
 
 #include <algorithm>

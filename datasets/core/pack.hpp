@@ -1,4 +1,4 @@
-/// Binary serialisation, for readers that are the same program: messages and caches.
+/// Binary serialisation, for readers that are the same program: messages between its processes.
 #pragma once
 
 #include <concepts>

@@ -5,11 +5,16 @@
 #include "datasets/rgbd/images/ordered_pipeline.hpp"
 #include "datasets/rgbd/loops/normalised_gap.hpp"
 #include "datasets/rgbd/opencv.hpp"
-#include "datasets/rgbd/stage_cache.hpp"
 #include "datasets/rgbd/tracking/focal_check.hpp"
 
 namespace loopbench::rgbd {
 namespace {
+
+/// Features of a frame, or the reason why it could not be read.
+struct FrameFeatures {
+  std::optional<Features> features = std::nullopt;
+  std::string why = {};
+};
 
 /// Counts unreadable frames and formats notes about them, with the reasons of the first three.
 class SkippedFrames {
@@ -34,21 +39,18 @@ class SkippedFrames {
 
 TrackingResult track(const RgbdSource& source,
                      const FrontendOptions& options,
-                     const FrontendHooks& hooks,
-                     const StageCache& cache) {
+                     const FrontendProgress& progress) {
   const Camera camera = source.camera();
   Tracker tracker(camera, source.size(), options.track);
   SkippedFrames skipped;
   const auto describe_frame = [&](std::size_t i) {
-    return cache.get(cache.frame(i), [&] {
-      FrameFeatures frame;
-      const std::optional<RgbdFrame> images = source.read(i, frame.why);
-      if (images) frame.features = find_features(*images, camera, options.features);
-      return frame;
-    });
+    FrameFeatures frame;
+    const std::optional<RgbdFrame> images = source.read(i, frame.why);
+    if (images) frame.features = find_features(*images, camera, options.features);
+    return frame;
   };
   const auto track_frame = [&](std::size_t i, FrameFeatures frame) {
-    if (hooks.progress) hooks.progress("tracking", i + 1, source.size());
+    if (progress) progress("tracking", i + 1, source.size());
     if (!frame.features) return skipped.add(frame.why);
     tracker.add(i, source.stamp(i), std::move(*frame.features));
   };
@@ -66,14 +68,11 @@ TrackingResult track(const RgbdSource& source,
 DetectedLoops find_loops(const TrackingResult& tracked,
                          const RgbdSource& source,
                          const FrontendOptions& options,
-                         const FrontendHooks& hooks,
-                         const StageCache& cache) {
-  return cache.get(cache.loops(), [&] {
-    return detect_loops(
-        tracked, source.camera(), options.loops, [&](std::size_t done, std::size_t all) {
-          if (hooks.progress) hooks.progress("loops", done, all);
-        });
-  });
+                         const FrontendProgress& progress) {
+  return detect_loops(
+      tracked, source.camera(), options.loops, [&](std::size_t done, std::size_t all) {
+        if (progress) progress("loops", done, all);
+      });
 }
 
 /// Refines odometry and closures by depth and updates keyframes and frames. Returns the factor by
@@ -83,17 +82,14 @@ double refine(TrackingResult& tracked,
               DetectedLoops& loops,
               const RgbdSource& source,
               const FrontendOptions& options,
-              const FrontendHooks& hooks,
-              const StageCache& cache) {
-  RefinedEdges edges = cache.get(cache.refined(), [&] {
-    return refine_by_depth(source,
-                           tracked,
-                           loops.closures,
-                           options.features.depth_max,
-                           [&](std::size_t done, std::size_t all) {
-                             if (hooks.progress) hooks.progress("depth", done, all);
-                           });
-  });
+              const FrontendProgress& progress) {
+  RefinedEdges edges = refine_by_depth(source,
+                                       tracked,
+                                       loops.closures,
+                                       options.features.depth_max,
+                                       [&](std::size_t done, std::size_t all) {
+                                         if (progress) progress("depth", done, all);
+                                       });
   tracked.notes.push_back(fmt::format("measured again by depth: {} of {} steps, {} of {} loops",
                                       edges.odometry_refined,
                                       edges.odometry.size(),
@@ -126,13 +122,9 @@ void scale_information(TrackingResult& tracked, DetectedLoops& loops, double dep
 Sequence run_frontend(const RgbdSource& source,
                       const std::string& name,
                       const FrontendOptions& options,
-                      const FrontendHooks& hooks) {
+                      const FrontendProgress& progress) {
   run_opencv_on_one_thread();
-  const StageCache cache(hooks, source, options);
-  std::optional<CacheLock> lock;  // workers of one sweep may load the same sequence concurrently
-  if (!hooks.cache.empty()) lock.emplace(cache.tracked());
-  TrackingResult tracked =
-      cache.get(cache.tracked(), [&] { return track(source, options, hooks, cache); });
+  TrackingResult tracked = track(source, options, progress);
   const double skipped_share =
       static_cast<double>(tracked.skipped) / static_cast<double>(source.size());
   if (skipped_share > options.skipped_max) {
@@ -151,11 +143,9 @@ Sequence run_frontend(const RgbdSource& source,
         name,
         source.size()));
   }
-  DetectedLoops loops = find_loops(tracked, source, options, hooks, cache);
+  DetectedLoops loops = find_loops(tracked, source, options, progress);
   double depth_excess = 1.0;
-  if (options.refine_depth) {
-    depth_excess = refine(tracked, loops, source, options, hooks, cache);
-  }
+  if (options.refine_depth) depth_excess = refine(tracked, loops, source, options, progress);
   scale_information(tracked, loops, depth_excess);
 
   Sequence out;

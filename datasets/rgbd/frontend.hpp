@@ -1,7 +1,6 @@
 /// RGB-D front end: from images to a problem by features, tracking, keyframes and loop detection.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -35,15 +34,8 @@ void fields(FrontendOptions& o, Visit visit) {
         Between{0, 1});
 }
 
-/// Progress callback and cache folder of a front-end run.
-struct FrontendHooks {
-  /// Called from one thread with stage, completed items and total number of items.
-  std::function<void(const std::string&, std::size_t, std::size_t)> progress = {};
-  /// Folder for the results of stages (see StageCache); empty: no cache.
-  std::filesystem::path cache = {};
-  /// Identifies the code of the front end; cached results of another build are recomputed.
-  std::string build = {};
-};
+/// Called from one thread with stage, completed items and total number of items, unless empty.
+using FrontendProgress = std::function<void(const std::string&, std::size_t, std::size_t)>;
 
 /// Runs the front end on all frames of `source`. Images are read and features detected on all
 /// cores, a few frames ahead of the tracker; only these images are in memory, together with the
@@ -56,6 +48,6 @@ struct FrontendHooks {
 Sequence run_frontend(const RgbdSource& source,
                       const std::string& name,
                       const FrontendOptions& options,
-                      const FrontendHooks& hooks);
+                      const FrontendProgress& progress);
 
 }  // namespace loopbench::rgbd

@@ -41,33 +41,35 @@ void check_combination(const RgbdOptions& options) {
     throw OptionError("path", "path: is empty, expected the folder of a recording");
 }
 
-Sequence load_rendered_room(const RenderedRoomOptions& options, const FrontendHooks& hooks) {
-  return run_frontend(*rendered_room(options.render), "rendered_room", options.frontend, hooks);
+Sequence load_rendered_room(const RenderedRoomOptions& options, const FrontendProgress& progress) {
+  return run_frontend(*rendered_room(options.render), "rendered_room", options.frontend, progress);
 }
 
-Sequence load_rgbd(const RgbdOptions& options, const DataRoot& root, const FrontendHooks& hooks) {
+Sequence load_rgbd(const RgbdOptions& options,
+                   const DataRoot& root,
+                   const FrontendProgress& progress) {
   const std::filesystem::path folder = root.find(options.path);
   const auto source = open_rgbd_folder(folder, options.folder);
   std::string name = options.name;
   if (name.empty()) name = std::filesystem::weakly_canonical(folder).filename().string();
-  Sequence out = run_frontend(*source, name, options.frontend, hooks);
+  Sequence out = run_frontend(*source, name, options.frontend, progress);
   out.provenance.licence = options.licence;
   return out;
 }
 
 }  // namespace
 
-std::vector<DatasetEntry> rgbd_datasets(const FrontendHooks& hooks) {
+std::vector<DatasetEntry> rgbd_datasets(const FrontendProgress& progress) {
   std::vector<DatasetEntry> out{
       dataset<RenderedRoomOptions>("rendered_room",
                                    "RGB-D front end on rendered images of a synthetic room",
-                                   [hooks](const RenderedRoomOptions& options, const DataRoot&) {
-                                     return load_rendered_room(options, hooks);
+                                   [progress](const RenderedRoomOptions& options, const DataRoot&) {
+                                     return load_rendered_room(options, progress);
                                    }),
       dataset<RgbdOptions>("rgbd",
                            "RGB-D front end on a folder of images",
-                           [hooks](const RgbdOptions& options, const DataRoot& root) {
-                             return load_rgbd(options, root, hooks);
+                           [progress](const RgbdOptions& options, const DataRoot& root) {
+                             return load_rgbd(options, root, progress);
                            }),
   };
   // Tracking takes minutes; reading the image lists and the intrinsics is sufficient.

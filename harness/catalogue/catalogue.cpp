@@ -63,10 +63,10 @@ void add_plugin(Catalogue& catalogue, const std::filesystem::path& plugin) {
 
 Catalogue catalogue(const std::vector<std::filesystem::path>& plugins) {
   Catalogue out{datasets(), methods::methods(), metrics::metrics(), {}};
-  for (DatasetEntry& entry : rgbd::rgbd_datasets(loading_hooks())) {
+  for (DatasetEntry& entry : rgbd::rgbd_datasets(loading_progress())) {
     out.datasets.push_back(std::move(entry));
   }
-  out.datasets.push_back(command_dataset(loading_hooks().cache));
+  out.datasets.push_back(command_dataset(cache_folder()));
   out.methods.push_back(command_entry());
   out.metrics.push_back(command_metric());
   for (const std::filesystem::path& plugin : plugins) add_plugin(out, plugin);

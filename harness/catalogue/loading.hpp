@@ -1,4 +1,4 @@
-/// Progress displays of loading, and the cache folder for sequences computed from images.
+/// Progress displays of loading, and the cache folder for outputs of programs.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,8 +17,6 @@
 #include "harness/base/print_error.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/wrap.hpp"
-
-extern char front_end_hash[];  ///< of the library of the image front end; defined by the build
 
 namespace loopbench::harness {
 
@@ -29,6 +28,8 @@ inline std::string loading_line(const std::string& stage, std::size_t done, std:
       "[{:#<{}}{:.<{}}] {}/{}  {}", "", filled, "", kBar - filled, done, total, stage);
 }
 
+/// $LOOPBENCH_CACHE, otherwise $XDG_CACHE_HOME/loopbench, otherwise ~/.cache/loopbench; empty: no
+/// cache.
 inline std::filesystem::path cache_folder() {
   if (const char* own = std::getenv("LOOPBENCH_CACHE")) return own;
   const char* cache = std::getenv("XDG_CACHE_HOME");
@@ -46,14 +47,9 @@ inline void draw_progress(const std::string& stage, std::size_t done, std::size_
   std::fflush(stderr);
 }
 
-/// Progress bar on stderr if that is a terminal. Stages are cached in $LOOPBENCH_CACHE (empty: no
-/// cache), otherwise in $XDG_CACHE_HOME/loopbench, otherwise in ~/.cache/loopbench.
-inline rgbd::FrontendHooks loading_hooks() {
-  rgbd::FrontendHooks out;
-  if (isatty(STDERR_FILENO) == 1) out.progress = draw_progress;
-  out.cache = cache_folder();
-  out.build = front_end_hash;
-  return out;
+/// Progress bar on stderr; empty unless that is a terminal.
+inline rgbd::FrontendProgress loading_progress() {
+  return isatty(STDERR_FILENO) == 1 ? draw_progress : rgbd::FrontendProgress();
 }
 
 /// Prints the notes of a sequence to stderr, each prefixed with `label`.

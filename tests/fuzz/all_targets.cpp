@@ -24,8 +24,7 @@ const std::map<std::string, void (*)(const std::filesystem::path& file)>& fuzz_t
       {"camera", fuzz_camera},
       {"image_list", fuzz_image_list},
       {"layout", fuzz_layout},
-      {"image", fuzz_image},
-      {"cache", fuzz_cache}};
+      {"image", fuzz_image}};
   return all;
 }
 

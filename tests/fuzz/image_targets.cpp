@@ -5,7 +5,6 @@
 #include "datasets/rgbd/folder/layouts.hpp"
 #include "datasets/rgbd/folder/read_image.hpp"
 #include "datasets/rgbd/images/camera.hpp"
-#include "datasets/rgbd/stage_cache.hpp"
 #include "tests/fuzz/scratch_file.hpp"
 #include "tests/fuzz/targets.hpp"
 
@@ -78,21 +77,6 @@ void fuzz_layout(const std::filesystem::path& file) {
 void fuzz_image(const std::filesystem::path& file) {
   unless_rejected([&] { read_grey(file); });
   unless_rejected([&] { read_depth(file); });
-}
-
-void fuzz_cache(const std::filesystem::path& file) {
-  const std::string bytes = fuzz_bytes(file);
-  const auto unpack = [&](auto deserialise) {
-    try {
-      deserialise(bytes);
-    } catch (const std::runtime_error&) {
-      // bytes in another layout, as expected
-    }
-  };
-  unpack(deserialised<FrameFeatures>);
-  unpack(deserialised<TrackingResult>);
-  unpack(deserialised<DetectedLoops>);
-  unpack(deserialised<RefinedEdges>);
 }
 
 }  // namespace loopbench

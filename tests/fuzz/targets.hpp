@@ -31,7 +31,6 @@ void fuzz_camera(const std::filesystem::path& file);
 void fuzz_image_list(const std::filesystem::path& file);
 void fuzz_layout(const std::filesystem::path& file);  ///< every text file of a recording
 void fuzz_image(const std::filesystem::path& file);   ///< PNG and JPEG
-void fuzz_cache(const std::filesystem::path& file);   ///< entries of the image cache
 
 /// All of these by name, without `fuzz_`.
 const std::map<std::string, void (*)(const std::filesystem::path& file)>& fuzz_targets();

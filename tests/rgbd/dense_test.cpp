@@ -178,7 +178,6 @@ class CornerWalk final : public RgbdSource {
     if (index == missing_) return std::nullopt;
     return RgbdFrame{GreyImage(160, 120), depth_from(truth_[index].world_from_body, 3)};
   }
-  std::uint64_t content() const override { return 1; }
   const Trajectory& reference() const override { return truth_; }
   Provenance provenance() const override { return {}; }
 

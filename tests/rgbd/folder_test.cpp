@@ -123,15 +123,6 @@ TEST_F(RgbdFolder, WorksWithoutGroundTruthAndSaysSo) {
   EXPECT_NE(source->provenance().notes[0].find("no groundtruth.txt"), std::string::npos);
 }
 
-TEST_F(RgbdFolder, ContentFollowsEveryImage) {
-  const std::uint64_t before = open()->content();
-  EXPECT_EQ(open()->content(), before);
-  std::filesystem::copy_file(folder_.path() / "depth/0001.png",
-                             folder_.path() / "depth/0002.png",
-                             std::filesystem::copy_options::overwrite_existing);
-  EXPECT_NE(open()->content(), before);
-}
-
 TEST_F(RgbdFolder, RefusesAFolderThatHoldsNoRecording) {
   EXPECT_NE(refusal_of([&] {
               open_rgbd_folder(folder_.path() / "rgb", {});

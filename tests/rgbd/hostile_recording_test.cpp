@@ -2,7 +2,6 @@
 #include <sys/stat.h>
 
 #include <fstream>
-#include <set>
 
 #include "datasets/rgbd/folder/folder_source.hpp"
 #include "tests/rgbd/recording.hpp"
@@ -61,7 +60,6 @@ TEST_F(HostileRecording, ReadsRegularFilesOnlyAlsoBehindLinks) {
   ASSERT_EQ(mkfifo((rgb / "pipe").c_str(), 0600), 0);
   EXPECT_FALSE(open()->read(1, why));
   EXPECT_TRUE(why.ends_with("rgb/0001.png: is not a regular file, expected an image")) << why;
-  open()->content();  // does not wait for a writer either
   replaced_by("../depth");
   EXPECT_FALSE(open()->read(1, why));
   EXPECT_TRUE(why.ends_with("rgb/0001.png: is a folder, expected an image")) << why;
@@ -79,19 +77,6 @@ TEST_F(HostileRecording, DoesNotWaitForPipesInItsFolder) {
     if (exists) std::filesystem::rename(kept, file);
   }
   EXPECT_EQ(refusal(), "");
-}
-
-TEST_F(HostileRecording, HasOwnContentForEveryReasonThatAFileCannotBeRead) {
-  const std::filesystem::path image = folder_.path() / "rgb" / "0001.png";
-  const auto source = open();
-  std::set<std::uint64_t> contents{source->content()};
-  std::filesystem::resize_file(image, 0);
-  contents.insert(source->content());
-  std::filesystem::remove(image);
-  contents.insert(source->content());
-  std::filesystem::create_directory(image);
-  contents.insert(source->content());
-  EXPECT_EQ(contents.size(), 4u);
 }
 
 /// Signature and header of a PNG with 8 bits per pixel.

@@ -138,7 +138,6 @@ TEST(RenderedRoom, GivesTheSameBitsWhoeverAsksInWhateverOrder) {
   RenderOptions other = tiny();
   other.seed = 2;
   EXPECT_NE(frame(other, 4).grey.pixels, late.grey.pixels);
-  EXPECT_NE(rendered_room(other)->content(), source->content());
 }
 
 TEST(RenderedRoom, KnowsItsReferenceAtFourTimesTheRate) {

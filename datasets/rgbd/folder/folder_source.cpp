@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "datasets/core/hash.hpp"
-#include "datasets/formats/regular_file.hpp"
 #include "datasets/rgbd/folder/layouts.hpp"
 #include "datasets/rgbd/folder/read_image.hpp"
 #include "datasets/rgbd/folder/register_depth.hpp"
@@ -14,15 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint16_t kNoDepth = 65535;  // invalid depth in 7-Scenes; TUM uses 0
-
-/// Hash of the content, or of the reason why the file cannot be read, which notes state.
-std::uint64_t hashed(const fs::path& file, std::uint64_t seed) {
-  try {
-    return hash_combine(seed, read_regular_file(file, kLargestImageFile, "image"));
-  } catch (const InputError& error) {  // read() reports it
-    return hash_combine(hash_combine(seed, "cannot be read"), error.what());
-  }
-}
 
 class FolderSource final : public RgbdSource {
  public:
@@ -57,27 +46,6 @@ class FolderSource final : public RgbdSource {
       why = error.what();
       return std::nullopt;
     }
-  }
-
-  std::uint64_t content() const override {
-    std::uint64_t out = hash_combine(registered_ ? 1 : 2, "rgbd_folder");
-    for (const fs::path& list : recording_.lists) out = hashed(list, out);
-    for (const ImagePair& pair : recording_.frames) {
-      out = hashed(pair.depth, hashed(pair.grey, hash_combine(out, pair.grey.filename().string())));
-    }
-    const Camera& c = recording_.camera;
-    return hash_combine(out,
-                        fmt::format("{} {} {} {} {} {} {} {} {} {}",
-                                    c.fx,
-                                    c.fy,
-                                    c.cx,
-                                    c.cy,
-                                    c.k1,
-                                    c.k2,
-                                    c.p1,
-                                    c.p2,
-                                    c.k3,
-                                    c.depth_scale));
   }
 
   Provenance provenance() const override {

@@ -1,7 +1,6 @@
 /// Interface of RGB-D frame sources: a folder or a renderer.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -22,9 +21,6 @@ class RgbdSource {
   /// Returns frame `index`. Returns nothing and writes the reason to `why` if an image is missing
   /// or corrupt. Thread-safe and bit-identical for repeated calls. O(pixels).
   virtual std::optional<RgbdFrame> read(std::size_t index, std::string& why) const = 0;
-
-  /// Hash of everything that read() depends on, used as cache key.
-  virtual std::uint64_t content() const = 0;
 
   virtual const Trajectory& reference() const = 0;  ///< world_from_camera; may be empty
   virtual Provenance provenance() const = 0;

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "datasets/core/hash.hpp"
-#include "datasets/core/params.hpp"
 #include "datasets/core/pose.hpp"
 #include "datasets/rgbd/images/camera.hpp"
 #include "datasets/rgbd/images/image.hpp"
@@ -117,8 +116,6 @@ RgbdFrame apply_sensor_model(const RenderedImage& ideal,
   return out;
 }
 
-// Increment with any change of the rendered images, to invalidate caches.
-constexpr std::uint64_t kRenderVersion = 1;
 constexpr double kExposureTime = 0.012;   // of motion blur [s]
 const Vector3 kHalfRoom(2.7, 2.4, 1.35);  // [m]; the path is within +-1.3 x +-1.1 x +-0.3 m
 
@@ -170,10 +167,6 @@ class RenderedRoom final : public RgbdSource {
     const Pose end = pose(time + 0.5 * kExposureTime);
     const RenderedImage ideal = render(scene_, camera_, now);
     return apply_sensor_model(ideal, camera_, begin.inverse() * end, time, index, options_);
-  }
-
-  std::uint64_t content() const override {
-    return hash_combine(hash_combine(kRenderVersion, "rendered_room"), to_text(echo(options_)));
   }
 
   Provenance provenance() const override {
