@@ -5,7 +5,6 @@
 #include "datasets/rgbd/images/ordered_pipeline.hpp"
 #include "datasets/rgbd/loops/normalised_gap.hpp"
 #include "datasets/rgbd/opencv.hpp"
-#include "datasets/rgbd/tracking/focal_check.hpp"
 
 namespace loopbench::rgbd {
 namespace {
@@ -59,8 +58,6 @@ TrackingResult track(const RgbdSource& source,
   TrackingResult out = tracker.finish();
   const std::vector<std::string> notes = skipped.notes(source.size());
   out.notes.insert(out.notes.begin(), notes.begin(), notes.end());
-  const FocalCheck focal = check_focal(out.keyframes, camera);
-  if (auto warning = focal_warning(focal, camera)) out.notes.push_back(std::move(*warning));
   out.skipped = skipped.count();
   return out;
 }

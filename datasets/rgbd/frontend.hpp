@@ -42,9 +42,9 @@ using FrontendProgress = std::function<void(const std::string&, std::size_t, std
 /// features of keyframes (60 kB each) and all poses. With refine.depth, odometry and closures are
 /// refined by refine_by_depth(), and keyframes and frames are updated. If information_excess() of
 /// loops or of repeated measurements is above 1, all information matrices are divided by the larger
-/// one. Provenance notes report skipped frames, tracking losses, focal lengths that disagree with
-/// the images (check_focal) and the divisor of the information. Throws InputError if more than
-/// skipped_max of the frames cannot be read or if fewer than two keyframes are tracked.
+/// one. Provenance notes report skipped frames, tracking losses and the divisor of the information.
+/// Throws InputError if more than skipped_max of the frames cannot be read or if fewer than two
+/// keyframes are tracked.
 Sequence run_frontend(const RgbdSource& source,
                       const std::string& name,
                       const FrontendOptions& options,

@@ -212,42 +212,6 @@ TEST(Frontend, RefusesWhatCannotBeTracked) {
             std::string::npos);
 }
 
-/// The same images with a camera of other focal lengths.
-class Misread final : public RgbdSource {
- public:
-  explicit Misread(double factor) : factor_(factor) {}
-  Camera camera() const override {
-    Camera out = images_.camera();
-    out.fx *= factor_;
-    out.fy *= factor_;
-    return out;
-  }
-  std::size_t size() const override { return images_.size(); }
-  double stamp(std::size_t index) const override { return images_.stamp(index); }
-  std::optional<RgbdFrame> read(std::size_t index, std::string& why) const override {
-    return images_.read(index, why);
-  }
-  const Trajectory& reference() const override { return images_.reference(); }
-  Provenance provenance() const override { return {}; }
-
- private:
-  OutAndBack images_{0, 0};
-  double factor_;
-};
-
-TEST(Frontend, SaysThatFocalLengthsDoNotBelongToTheImages) {
-  const auto warning = [](double factor) {
-    for (const std::string& note :
-         run_frontend(Misread(factor), "misread", quick(), {}).provenance.notes) {
-      if (note.find("focal lengths") != std::string::npos) return note;
-    }
-    return std::string();
-  };
-  EXPECT_EQ(warning(1.0), "");
-  EXPECT_NE(warning(0.75).find("longer than the camera's"), std::string::npos);
-  EXPECT_NE(warning(1.3).find("shorter than the camera's"), std::string::npos);
-}
-
 TEST(Frontend, OtherFeaturesTrackToo) {
   const OutAndBack source(0, 0);
   for (const FeatureKind kind : {FeatureKind::akaze, FeatureKind::sift}) {

@@ -29,21 +29,6 @@ inline constexpr double kInformationScale = 0.1;
 std::optional<Pose> pose_by_ransac(const std::vector<Observation>& observations,
                                    const Camera& camera);
 
-/// Whitened difference of pixel and inverse depth (0 if that was not measured), and its Jacobian
-/// with respect to the twist e in world_from_camera * exp(e).
-struct Residual {
-  Vector3 value = Vector3::Zero();
-  Eigen::Matrix<double, 3, 6> jacobian = Eigen::Matrix<double, 3, 6>::Zero();
-  bool in_front = false;
-
-  double square() const { return value.squaredNorm(); }
-};
-
-/// Residual of one observation; zero for a point that is not in front of the camera.
-Residual residual(const Observation& observation,
-                  const Camera& camera,
-                  const Pose& camera_from_world);
-
 struct RefinedPose {
   Pose world_from_camera;
   std::vector<bool> inlier = {};  ///< one per observation

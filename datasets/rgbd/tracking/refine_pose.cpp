@@ -11,10 +11,19 @@ constexpr int kSteps = 6;                   // per round
 constexpr double kMinPointDepth = 0.05;     // [m]
 constexpr double kChi2[] = {5.991, 7.815};  // 95 % quantiles for 2 and 3 degrees of freedom
 
+/// Whitened difference of pixel and inverse depth (0 if that was not measured), and its Jacobian
+/// with respect to the twist e in world_from_camera * exp(e).
+struct Residual {
+  Vector3 value = Vector3::Zero();
+  Eigen::Matrix<double, 3, 6> jacobian = Eigen::Matrix<double, 3, 6>::Zero();
+  bool in_front = false;
+
+  double square() const { return value.squaredNorm(); }
+};
+
 double bound(const Observation& o) { return kChi2[o.inverse_depth > 0.0 ? 1 : 0]; }
 
-}  // namespace
-
+/// Residual of one observation; zero for a point that is not in front of the camera.
 Residual residual(const Observation& o, const Camera& camera, const Pose& camera_from_world) {
   Residual out;
   const Vector3 p = camera_from_world * o.in_world;
@@ -37,6 +46,8 @@ Residual residual(const Observation& o, const Camera& camera, const Pose& camera
   out.jacobian.rightCols<3>() = by_point * hat(p);
   return out;
 }
+
+}  // namespace
 
 RefinedPose refine_pose(const std::vector<Observation>& observations,
                         const Camera& camera,
