@@ -28,7 +28,7 @@ struct RgbdOptions {
 
 template <class Visit>
 void fields(RgbdOptions& o, Visit visit) {
-  visit("path", o.path, "folder of the recording in TUM RGB-D, 7-Scenes or ICL-NUIM layout");
+  visit("path", o.path, "folder of the recording in TUM RGB-D or 7-Scenes layout");
   visit("name", o.name, "name of the sequence; empty: name of the folder");
   visit("licence", o.licence, "licence of the data, free text copied to the results");
   fields(o.folder, visit);

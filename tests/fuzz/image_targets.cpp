@@ -57,9 +57,7 @@ void fuzz_layout(const std::filesystem::path& file) {
   const std::filesystem::path folder = fuzz_folder();
   for (const char* name : {"rgb.txt",
                            "depth.txt",
-                           "associations.txt",
                            "groundtruth.txt",
-                           "room.gt.freiburg",
                            "frame-000000.pose.txt",
                            "frame-000000.color.png",
                            "frame-000000.depth.png"}) {
@@ -69,8 +67,6 @@ void fuzz_layout(const std::filesystem::path& file) {
   options.camera = CameraChoice::fr1;
   unless_rejected([&] { read_tum_layout(folder, options); });
   unless_rejected([&] { read_seven_scenes_layout(folder, FolderOptions{}); });
-  std::filesystem::remove(folder / "rgb.txt");
-  unless_rejected([&] { read_icl_nuim_layout(folder, FolderOptions{}); });
   std::filesystem::remove_all(folder);
 }
 

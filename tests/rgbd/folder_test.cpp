@@ -156,31 +156,6 @@ TEST_F(RgbdFolder, ReadsSevenScenesLayout) {
   EXPECT_EQ(open_rgbd_folder(native.path(), options)->camera().fx, 507.0);
 }
 
-TEST_F(RgbdFolder, ReadsIclNuimLayoutAndTurnsYDown) {
-  std::filesystem::remove(folder_.path() / "rgb.txt");
-  folder_.file("associations.txt",
-               "0 depth/0000.png 0 rgb/0000.png\n1 depth/0001.png 1 rgb/0001.png\n");
-  // Rotated by 0.2 rad about x, in axes with y up.
-  folder_.file(
-      "livingRoom0.gt.freiburg",
-      fmt::format("0 0 0 0 0 0 0 1\n1 0.1 0.2 0.3 {} 0 0 {}\n", std::sin(0.1), std::cos(0.1)));
-  const auto source = open();
-  ASSERT_EQ(source->size(), 2u);
-  EXPECT_DOUBLE_EQ(source->stamp(1), 1.0 / 30.0);
-  ASSERT_EQ(source->reference().size(), 2u);
-  EXPECT_DOUBLE_EQ(source->reference()[1].stamp, 1.0 / 30.0);
-  const Pose& pose = source->reference()[1].world_from_body;
-  EXPECT_LT((pose.translation - Vector3(0.1, -0.2, 0.3)).norm(), 1e-12);
-  EXPECT_LT((log_so3(pose.rotation) - Vector3(-0.2, 0.0, 0.0)).norm(), 1e-12);
-  std::string why;
-  EXPECT_TRUE(source->read(1, why)) << why;
-  std::filesystem::remove(folder_.path() / "camera.yaml");
-  EXPECT_DOUBLE_EQ(open()->camera().fx, 481.2);
-  EXPECT_DOUBLE_EQ(open()->camera().fy, 480.0);
-  folder_.file("associations.txt", "0 depth/0000.png 0\n");
-  EXPECT_TRUE(refuses_with("associations.txt:1: expected four columns"));
-}
-
 TEST(PairImages, TakesTheNearestAndNoDepthImageTwice) {
   const std::vector<ListedImage> colour{{1.00, "a"}, {1.03, "b"}, {1.06, "c"}, {2.0, "d"}};
   const std::vector<ListedImage> depth{{1.01, "p"}, {1.05, "q"}};

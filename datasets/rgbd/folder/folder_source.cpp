@@ -105,19 +105,16 @@ std::vector<ImagePair> selected_frames(const std::vector<ImagePair>& all, const 
 std::unique_ptr<const RgbdSource> open_rgbd_folder(const fs::path& folder,
                                                    const FolderOptions& options) {
   const bool tum = fs::exists(folder / "rgb.txt");
-  const bool icl_nuim = is_icl_nuim(folder);
-  if (!tum && !icl_nuim && !is_seven_scenes(folder)) {
+  if (!tum && !is_seven_scenes(folder)) {
     throw input_error(folder.string(),
                       0,
-                      "contains no recording, expected rgb.txt and depth.txt (TUM RGB-D), "
-                      "frame-000000.color.png (7-Scenes) or associations.txt (ICL-NUIM)");
+                      "contains no recording, expected rgb.txt and depth.txt (TUM RGB-D) or "
+                      "frame-000000.color.png (7-Scenes)");
   }
-  Recording recording = tum        ? read_tum_layout(folder, options)
-                        : icl_nuim ? read_icl_nuim_layout(folder, options)
-                                   : read_seven_scenes_layout(folder, options);
-  const bool registered = options.depth == DepthGeometry::automatic
-                              ? tum || icl_nuim
-                              : options.depth == DepthGeometry::registered;
+  Recording recording =
+      tum ? read_tum_layout(folder, options) : read_seven_scenes_layout(folder, options);
+  const bool registered =
+      options.depth == DepthGeometry::automatic ? tum : options.depth == DepthGeometry::registered;
   const std::size_t all = recording.frames.size();
   recording.frames = selected_frames(recording.frames, options);
   if (recording.frames.empty()) {

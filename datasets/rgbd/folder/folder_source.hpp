@@ -1,4 +1,4 @@
-/// Frame source for recordings in TUM RGB-D, 7-Scenes or ICL-NUIM layout.
+/// Frame source for recordings in TUM RGB-D or 7-Scenes layout.
 #pragma once
 
 #include <cstdint>
@@ -59,7 +59,7 @@ void fields(FolderOptions& o, Visit visit) {
         Between{0, 1});
   visit("rate",
         o.rate,
-        "frame rate of 7-Scenes and ICL-NUIM recordings, which have no stamps [Hz]",
+        "frame rate of 7-Scenes recordings, which have no stamps [Hz]",
         GreaterThan{0});
   visit("every", o.every, "interval between used frames [frames]", Between{1});
   visit("first", o.first, "index of the first used frame, from 0", Between{0});
@@ -69,9 +69,7 @@ void fields(FolderOptions& o, Visit visit) {
 /// Opens a recording in one of the layouts
 /// - TUM RGB-D: rgb.txt and depth.txt, optionally groundtruth.txt and camera.yaml;
 /// - 7-Scenes: frame-000000.color.png, .depth.png, .pose.txt and so on; default intrinsics of its
-///   authors (585 px, principal point in the centre);
-/// - ICL-NUIM "TUM compatible PNGs": associations.txt without rgb.txt, optionally *.gt.freiburg;
-///   published intrinsics, converted to y down.
+///   authors (585 px, principal point in the centre).
 /// Throws InputError for another layout, an invalid list or unknown intrinsics. Missing or corrupt
 /// images are detected when they are read.
 std::unique_ptr<const RgbdSource> open_rgbd_folder(const std::filesystem::path& folder,

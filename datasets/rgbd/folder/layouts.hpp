@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "datasets/core/trajectory.hpp"
-#include "datasets/formats/text_file.hpp"
 #include "datasets/rgbd/folder/folder_source.hpp"
 #include "datasets/rgbd/images/camera.hpp"
 
@@ -16,10 +15,6 @@ struct ListedImage {
   double stamp = 0.0;  ///< [s]
   std::string file;    ///< path as written in the list
 };
-
-/// Throws InputError `list:line: what` unless `file`, a path in a list, is relative and stays below
-/// the folder of the list. Symbolic links in that folder can still lead elsewhere.
-void require_inside(const TextFile& list, const Line& line, const std::string& file);
 
 /// Returns the file. Throws InputError if it exists and is no regular file: nobody named it, so a
 /// pipe is a mistake, and its reader would wait for a writer. Follows symbolic links.
@@ -60,10 +55,5 @@ bool is_seven_scenes(const std::filesystem::path& folder);
 /// Throws InputError.
 Recording read_seven_scenes_layout(const std::filesystem::path& folder,
                                    const FolderOptions& options);
-
-bool is_icl_nuim(const std::filesystem::path& folder);
-/// Stamps are image numbers divided by the rate. The reference is converted from y up to y down.
-/// Throws InputError.
-Recording read_icl_nuim_layout(const std::filesystem::path& folder, const FolderOptions& options);
 
 }  // namespace loopbench::rgbd

@@ -4,6 +4,7 @@
 
 #include "datasets/formats/columns.hpp"
 #include "datasets/formats/formats.hpp"
+#include "datasets/formats/text_file.hpp"
 #include "datasets/rgbd/folder/layouts.hpp"
 
 namespace loopbench::rgbd {
@@ -37,6 +38,15 @@ Camera camera_for(const fs::path& folder, CameraChoice choice, std::vector<fs::p
       0,
       "has no camera.yaml and no freiburg1, 2 or 3 in its name; set the option camera "
       "to fr1, fr2 or fr3");
+}
+
+/// Throws InputError `list:line: what` unless `file`, a path in a list, is relative and stays below
+/// the folder of the list. Symbolic links in that folder can still lead elsewhere.
+void require_inside(const TextFile& list, const Line& line, const std::string& file) {
+  const std::filesystem::path path = std::filesystem::path(file).lexically_normal();
+  if (path.is_relative() && *path.begin() != "..") return;
+  throw list.error(line.number,
+                   "'" + file + "' is outside of the folder of the list, expected a path below it");
 }
 
 }  // namespace
@@ -73,13 +83,6 @@ Recording read_tum_layout(const fs::path& folder, const FolderOptions& options) 
     out.notes.emplace_back("no groundtruth.txt: no evaluation against a reference");
   }
   return out;
-}
-
-void require_inside(const TextFile& list, const Line& line, const std::string& file) {
-  const std::filesystem::path path = std::filesystem::path(file).lexically_normal();
-  if (path.is_relative() && *path.begin() != "..") return;
-  throw list.error(line.number,
-                   "'" + file + "' is outside of the folder of the list, expected a path below it");
 }
 
 std::filesystem::path regular(const std::filesystem::path& file) {
