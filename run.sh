@@ -28,7 +28,6 @@ install_missing "${needed[@]}"
 case "$* " in
   plot\ * | traj\ plot\ * | eval\ *--plot[\ =]* | eval\ *--report[\ =]*)
     install_missing "${plot_packages[@]}" ;;
-  get\ *) install_missing "${get_packages[@]}" ;;
 esac
 [[ -f $build/build.ninja ]] || configure
 build_program

@@ -16,7 +16,7 @@ install_missing "${packages[@]}" "${sandbox_packages[@]}" "${compression_package
 # campaigns and fuzzing; each library and program as one source.
 lint() {
   install_missing "${lint_packages[@]}"
-  shellcheck -x ./*.sh cmake/*.sh cmake/package/*.sh results/*.sh tests/*.sh tests/*/*.sh .ci/*
+  shellcheck -x ./*.sh cmake/*.sh cmake/package/*.sh datasets/*.sh results/*.sh tests/*.sh tests/*/*.sh .ci/*
   find datasets methods metrics harness include results tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run --Werror
   cmake --preset lint -DLOOPBENCH_BUILD_TESTS=ON >/dev/null
   # Long ones first, so that no processor waits at the end.

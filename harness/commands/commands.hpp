@@ -31,7 +31,6 @@ void add_complete(CLI::App& app, int& exit_code);
 void add_correct(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code, const Source& source = {});
 void add_export(CLI::App& app, int& exit_code);
-void add_get(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_plot(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);

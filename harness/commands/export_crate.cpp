@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "datasets/core/error.hpp"
+#include "harness/base/run_filter.hpp"
 #include "harness/base/write_file.hpp"
-#include "harness/commands/download.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/read.hpp"
 #include "harness/tables/store_provenance.hpp"
@@ -50,6 +50,14 @@ std::string licence_in(const std::string& options) {
   static const std::regex kLicence(R"((?:: |, )licence=(.*?)(?:, [a-z_.]+=|$))");
   std::smatch found;
   return std::regex_search(options, found, kLicence) ? found[1].str() : "";
+}
+
+/// 64 hexadecimal digits, by the program sha256sum. Throws InputError.
+std::string sha256_of_file(const std::filesystem::path& file) {
+  constexpr std::size_t kDigits = 64;
+  const FilterResult result = run_filter({"sha256sum", "--zero", "--", file.string()});
+  if (result.exit_code != 0) throw InputError(file.string() + ": cannot be read");
+  return result.output.substr(0, kDigits);
 }
 
 class Crate {

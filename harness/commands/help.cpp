@@ -51,10 +51,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench eval reference.txt estimate.txt --align sim3\n"
      "  loopbench eval reference.txt a.txt b.txt --protocol evo,tum,rpg\n"
      "  loopbench eval run_1.txt run_2.txt run_3.txt --pairwise --by-position 2\n"},
-    {"get",
-     "  loopbench get\n"
-     "  loopbench get tum_fr1_room --data /data\n"
-     "  loopbench get kitti_poses parking_garage --data /data\n"},
     {"help",
      "  loopbench help\n"
      "  loopbench help run\n"

@@ -247,7 +247,6 @@ int main(int argc, char** argv) {
   add_report(app, exit_code);
   add_traj(app, exit_code);
   add_doctor(app, exit_code);
-  add_get(app, exit_code);
   add_help(app, exit_code);
   add_complete(app, exit_code);
   add_footers(app);

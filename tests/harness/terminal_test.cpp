@@ -171,7 +171,7 @@ TEST_F(OnATerminal, ListsNameAndDescribeEachEntry) {
   for (const std::size_t columns : {60UL, 80UL}) {
     const std::string text = run("list", columns).out;
     EXPECT_LE(widest_line(text), columns) << text;
-    EXPECT_EQ((text + run("get", columns).out).find("\u2026"), std::string::npos) << "cut";
+    EXPECT_EQ(text.find("\u2026"), std::string::npos) << "cut";
   }
   const std::string all = run("list").out;
   EXPECT_EQ(all.find("\n    planar = "), std::string::npos) << all;
