@@ -24,7 +24,6 @@
 #include "harness/commands/defaults.hpp"
 #include "harness/commands/help.hpp"
 #include "harness/commands/help_format.hpp"
-#include "harness/commands/huge_pages.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/run/build.hpp"
 
@@ -224,8 +223,6 @@ void take_one_word(CLI::App& app) {
 int main(int argc, char** argv) {
   reserve_standard_streams();
   const std::vector<std::string> words{argv + 1, argv + argc};
-  const auto is_first = [&](const char* command) { return !words.empty() && words[0] == command; };
-  if (is_first("eval") || is_first("traj") || is_first("doctor")) use_huge_pages();
   CLI::App app{"Benchmark of loop-closure correction methods for trajectories", "loopbench"};
   app.formatter(help_formatter());
   app.set_version_flag("--version", std::string("loopbench ") + kVersion);
