@@ -4,7 +4,6 @@
 #include "methods/correctors/dual_incremental.hpp"
 #include "methods/correctors/elch.hpp"
 #include "methods/correctors/pose_graph.hpp"
-#include "methods/correctors/pose_graph_incremental.hpp"
 #include "methods/correctors/two_pass.hpp"
 #include "methods/correctors/uniform.hpp"
 #include "methods/function_method.hpp"
@@ -80,17 +79,6 @@ std::vector<MethodEntry> methods() {
       method<PoseGraphOptimizer>("pose_graph",
                                  "maximum likelihood by sparse least squares",
                                  {.start = PoseGraphOptimizer::Start::chordal}),
-      method<IncrementalPoseGraph>(
-          "pose_graph_incremental",
-          "pose_graph by a Cholesky factor that is updated, after iSAM2; for replays"),
-      method<IncrementalPoseGraph>(
-          "pose_graph_incremental_gate",
-          "pose_graph_incremental without closures that raise chi2 too much, after IPC",
-          {.robust = IncrementalRobustness::gate}),
-      method<IncrementalPoseGraph>(
-          "pose_graph_incremental_graduated",
-          "pose_graph_incremental with weights of closures by graduated non-convexity, after riSAM",
-          {.robust = IncrementalRobustness::graduated}),
       method<PoseGraphOptimizer>("pose_graph_huber",
                                  "pose_graph with a Huber loss on closures",
                                  {.loss = RobustLoss::huber}),
