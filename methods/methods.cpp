@@ -1,7 +1,6 @@
 #include "datasets/core/polyline.hpp"
 #include "methods/correctors/checked.hpp"
 #include "methods/correctors/dual.hpp"
-#include "methods/correctors/dual_incremental.hpp"
 #include "methods/correctors/elch.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/correctors/two_pass.hpp"
@@ -74,8 +73,6 @@ std::vector<MethodEntry> methods() {
                       {.rotation_weights = StepWeights::rotation,
                        .translation_weights = StepWeights::distance}),
       method<Dual>("dual", "maximum likelihood on a chain, solved for the loop multipliers"),
-      method<DualIncremental>("dual_incremental",
-                              "dual by loop equations that grow with each closure; for replays"),
       method<PoseGraphOptimizer>("pose_graph",
                                  "maximum likelihood by sparse least squares",
                                  {.start = PoseGraphOptimizer::Start::chordal}),

@@ -24,48 +24,6 @@ LoopEquations loop_equations(LoopJacobian jacobian,
   return out;
 }
 
-void LoopFactor::append(const Eigen::MatrixXd& rows) {
-  const Eigen::Index before = m_matrix.rows(), added = rows.rows();
-  const Eigen::MatrixXd below =
-      matrixL().solve(rows.leftCols(before).transpose()).transpose();  // B L^-T
-  const Eigen::LLT<Eigen::MatrixXd> corner(rows.rightCols(added) - below * below.transpose());
-  if (corner.info() != Eigen::Success) {
-    throw std::runtime_error("the loop equations are not positive definite");
-  }
-  m_matrix.conservativeResize(before + added, before + added);
-  m_matrix.bottomLeftCorner(added, before) = below;
-  m_matrix.bottomRightCorner(added, added) = corner.matrixL();
-}
-
-void append_closures(LoopEquations& equations,
-                     const LoopSums& sums,
-                     const NoiseModel& noise_model) {
-  const LoopJacobian& jacobian = equations.jacobian;
-  const auto first = static_cast<std::size_t>(equations.factor.rows() / 6);
-  const std::size_t added = jacobian.loop.size() - first;
-  if (added == 0) return;
-  std::vector<Matrix6>& covariance = equations.covariance;
-  if (covariance.empty()) covariance.emplace_back(Matrix6::Zero());
-  for (std::size_t i = covariance.size() - 1; i < jacobian.edge.size(); ++i) {
-    const Matrix6& edge = jacobian.edge[i];
-    covariance.push_back(covariance[i] + edge * noise_model.covariance[i] * edge.transpose());
-  }
-  std::vector<Matrix6> running;
-  for (const std::size_t cut : sums.cuts()) running.push_back(covariance[cut]);
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(6 * added),
-                                               static_cast<Eigen::Index>(6 * (first + added)));
-  for (std::size_t k = first; k < first + added; ++k) {
-    const auto row = static_cast<Eigen::Index>(6 * (k - first));
-    for (std::size_t l = 0; l < first + added; ++l) {
-      if (!sums.overlap(k, l)) continue;
-      rows.block<6, 6>(row, static_cast<Eigen::Index>(6 * l)) =
-          jacobian.loop[k] * sums.over_both(running, k, l) * jacobian.loop[l].transpose();
-    }
-    rows.block<6, 6>(row, static_cast<Eigen::Index>(6 * k)) += noise_model.closure_covariance[k];
-  }
-  equations.factor.append(rows);
-}
-
 std::vector<Twist> minimum_cost_corrections(const LoopEquations& equations,
                                             const Eigen::VectorXd& gap,
                                             const std::vector<Edge>& closures,

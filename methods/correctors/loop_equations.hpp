@@ -78,20 +78,10 @@ auto of_closure(Vector& all, std::size_t k) {
   return all.template segment<6>(static_cast<Eigen::Index>(6 * k));
 }
 
-/// A Cholesky factor to which rows can be added.
-class LoopFactor : public Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> {
- public:
-  /// Factor of [M B'; B C] from that of M, where `rows` is [B C]. Throws std::runtime_error when
-  /// the matrix is not positive definite. O(rows size^2).
-  void append(const Eigen::MatrixXd& rows);
-};
-
 /// Cholesky factor of A S A' + S_L.
 struct LoopEquations {
   LoopJacobian jacobian;
-  LoopFactor factor;
-  /// Of append_closures(): the sum of edge[i] S_i edge[i]' over the edges before each keyframe.
-  std::vector<Matrix6> covariance = {};
+  Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor;
 };
 
 /// Assembles and factorises the equations. Throws std::runtime_error when the matrix is not
@@ -99,11 +89,6 @@ struct LoopEquations {
 LoopEquations loop_equations(LoopJacobian jacobian,
                              const LoopSums& sums,
                              const NoiseModel& noise_model);
-
-/// Adds to the factor the rows of the closures that the Jacobian has been extended by. `sums` and
-/// `noise_model` are of all closures. Throws as loop_equations(). O(new edges + new (6
-/// closures)^2), O(edges) the first time.
-void append_closures(LoopEquations& equations, const LoopSums& sums, const NoiseModel& noise_model);
 
 /// Returns the odometry errors e_i of minimum cost for loop errors `gap` + A e. O(edges +
 /// closures^2).

@@ -129,51 +129,34 @@ bool LoopedChain::step_towards(const std::vector<Twist>& target,
   return false;
 }
 
-template <class EdgeJacobian>
-std::vector<Twist> LoopedChain::gradient(EdgeJacobian edge,
-                                         const std::vector<Matrix6>& loop) const {
+std::vector<Twist> LoopedChain::gradient(const LoopJacobian& jacobian) const {
   Eigen::VectorXd weighted = loop_errors(poses_);
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
     auto each = of_closure(weighted, k);
     each = (noise_model_.closure_information[k] * each).eval();
   }
   const std::vector<Twist> pull =
-      constraint_force_increments(loop, errors_.size(), problem_.closures, weighted);
+      constraint_force_increments(jacobian.loop, errors_.size(), problem_.closures, weighted);
   std::vector<Twist> out(errors_.size());
   Twist sum = Twist::Zero();
   for (std::size_t i = 0; i < errors_.size(); ++i) {
     sum += pull[i];
-    const Twist by_error = edge(i).transpose() * sum;
+    const Twist by_error = jacobian.edge[i].transpose() * sum;
     out[i] = noise_model_.information[i] * errors_[i] + by_error;
   }
   return out;
 }
 
-bool LoopedChain::step_at(const LoopEquations& equations) {
+bool LoopedChain::step() {
+  const LoopEquations equations = this->equations();
   if (is_near_minimum_) {
-    const auto edge = [&](std::size_t i) -> const Matrix6& { return equations.jacobian.edge[i]; };
     const std::vector<Twist> direction = newton_direction(
-        equations, gradient(edge, equations.jacobian.loop), sums_, problem_.closures, noise_model_);
+        equations, gradient(equations.jacobian), sums_, problem_.closures, noise_model_);
     if (step_towards(add_scaled(errors_, 1.0, direction), equations, 0.25)) return true;
   }
   const Eigen::VectorXd& gap = equations.jacobian.gap;
   return step_towards(
       minimum_cost_corrections(equations, gap, problem_.closures, noise_model_), equations, 1e-4);
-}
-
-bool LoopedChain::step_with(LoopEquations& equations) {
-  LoopJacobian& jacobian = equations.jacobian;
-  jacobian.gap = loop_errors(poses_);
-  jacobian.gap -= loop_error_change(jacobian, sums_, errors_);
-  std::vector<Matrix6> loop;
-  const Eigen::VectorXd errors = loop_errors(poses_);
-  for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
-    loop.push_back(loop_jacobian(k, of_closure(errors, k)));
-  }
-  const auto edge = [&](std::size_t i) { return edge_jacobian(i); };  // storing them takes longer
-  const std::vector<Twist> direction =
-      newton_direction(equations, gradient(edge, loop), sums_, problem_.closures, noise_model_);
-  return step_towards(add_scaled(errors_, 1.0, direction), equations, 0.25);
 }
 
 int LoopedChain::minimise(int max_iterations, double tolerance) {
@@ -219,9 +202,8 @@ Matrix6 LoopedChain::loop_jacobian(std::size_t closure, const Twist& error) cons
   return out;
 }
 
-LoopJacobian LoopedChain::linearise(LoopJacobian storage) const {
-  LoopJacobian out = std::move(storage);
-  out.loop.clear();
+LoopJacobian LoopedChain::linearise() const {
+  LoopJacobian out;
   out.edge.resize(errors_.size());
   for (std::size_t i = 0; i < errors_.size(); ++i) out.edge[i] = edge_jacobian(i);
   out.gap = loop_errors(poses_);

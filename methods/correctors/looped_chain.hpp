@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "datasets/core/problem.hpp"
@@ -41,37 +40,17 @@ class LoopedChain {
   /// reject almost every step. Each candidate therefore first gets a second-order correction that
   /// closes this residual. Throws std::runtime_error when the loop equations are not positive
   /// definite. O(edges + (6 closures)^3).
-  bool step() { return step_at(equations()); }
+  bool step();
 
-  /// The same with equations() of the current poses.
-  bool step_at(const LoopEquations& equations);
-
-  /// The problem has grown: new keyframes continue the chain without errors, and edges and closures
-  /// have their stated covariances. O(edges + closures log closures).
-  void grow();
-
-  /// Closure `k` is about to be erased from the problem; grow() follows.
-  void remove_closure(std::size_t k);
-
-  /// The equations at the current poses, in the memory of others. Throws std::runtime_error when
-  /// they are not positive definite.
-  LoopEquations equations(LoopJacobian storage = {}) const {
-    return loop_equations(linearise(std::move(storage)), sums_, noise_model_);
-  }
-
-  /// Extends equations of earlier poses to all edges and closures, the new ones at the current
-  /// poses (append_closures()).
-  void extend(LoopEquations& equations) const;
-
-  /// As step(), by Newton's method with the exact gradient, but with equations of earlier poses: it
-  /// converges linearly, without their factorisation. O(edges + closures^2).
-  bool step_with(LoopEquations& equations);
+  /// The equations at the current poses. Throws std::runtime_error when they are not positive
+  /// definite.
+  LoopEquations equations() const { return loop_equations(linearise(), sums_, noise_model_); }
 
   /// Steps until the relative change of the cost is at most `tolerance`. Returns the number of
   /// steps. Throws as step().
   int minimise(int max_iterations, double tolerance);
 
-  LoopJacobian linearise(LoopJacobian storage = {}) const;
+  LoopJacobian linearise() const;
 
   const LoopSums& sums() const { return sums_; }
 
@@ -104,10 +83,8 @@ class LoopedChain {
     return adjoint(poses_[edge + 1]) * right_jacobian_se3(errors_[edge]);
   }
   Matrix6 loop_jacobian(std::size_t closure, const Twist& error) const;
-  /// Gradient of the cost with respect to the errors e_i of the edges, at the current poses:
-  /// `edge(i)` and `loop` are entries of LoopJacobian.
-  template <class EdgeJacobian>
-  std::vector<Twist> gradient(EdgeJacobian edge, const std::vector<Matrix6>& loop) const;
+  /// Gradient of the cost with respect to the errors e_i of the edges.
+  std::vector<Twist> gradient(const LoopJacobian& jacobian) const;
   std::vector<Pose> integrate(const std::vector<Twist>& errors) const;
   Eigen::VectorXd loop_errors(const std::vector<Pose>& poses) const;
   bool measures_position(std::size_t closure) const { return points_[closure].has_value(); }

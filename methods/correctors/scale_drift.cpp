@@ -5,7 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "methods/correctors/chain.hpp"
 #include "methods/correctors/looped_chain.hpp"
 
 namespace loopbench::methods {
@@ -229,12 +228,6 @@ Problem remove_scale_drift(const Problem& problem) {
     if (!(before - at.cost > kConverged * before)) break;
   }
   return std::move(at.rigid);
-}
-
-std::string rigid_loops_fault(const Problem& problem) {
-  if (problem.closures.empty()) return "the problem has no loop closures";
-  if (has_scale_drift(problem)) return "edges change the scale";
-  return why_no_chain(problem);
 }
 
 }  // namespace loopbench::methods

@@ -1,8 +1,6 @@
 /// Estimates and removes the scale drift of a monocular chain before its poses are corrected.
 #pragma once
 
-#include <string>
-
 #include "datasets/core/problem.hpp"
 
 namespace loopbench::methods {
@@ -30,8 +28,5 @@ bool has_scale_drift(const Problem& problem);
 /// cannot be solved. Source: Strasdat, Montiel, Davison, Scale drift-aware large scale monocular
 /// SLAM, RSS 2010 (the problem); generalised least squares with few constraints (the solution).
 Problem remove_scale_drift(const Problem& problem);
-
-/// Returns why the problem is not a chain of rigid edges with loops, or an empty text. O(n).
-std::string rigid_loops_fault(const Problem& problem);
 
 }  // namespace loopbench::methods

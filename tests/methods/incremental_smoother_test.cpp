@@ -1,13 +1,9 @@
-/// dual_incremental and pose_graph with a kept order: their minimum, reached in parts.
+/// pose_graph with a kept order: its minimum, reached in parts.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "methods/correctors/dual.hpp"
-#include "methods/correctors/dual_incremental.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "tests/support/corrected.hpp"
-#include "tests/support/counts.hpp"
-#include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 
 namespace loopbench::incremental_smoother_test {
@@ -40,17 +36,6 @@ Trajectory in_parts(const Problem& problem, const Corrector& method, Report& rep
   return out;
 }
 
-TEST(DualIncremental, ReachesTheMinimumOfDualInParts) {
-  for (const bool planar : {false, true}) {
-    Problem problem = test::walk(2, 80, 0.02);
-    problem.planar = planar;
-    Report report;
-    const Trajectory expected = test::corrected<Dual>(problem);
-    test::expect_close(in_parts(problem, DualIncremental({}), report), expected, 1e-6);
-    test::expect_close(test::corrected<DualIncremental>(problem), expected, 1e-6);
-  }
-}
-
 TEST(PoseGraph, KeepsItsOrderInPartsAndReachesTheSameMinimum) {
   const Problem problem = test::walk(2, 80, 0.02);
   Report report;
@@ -80,38 +65,6 @@ TEST(PoseGraph, KeepsAnOrderOnlyWithoutALoss) {
   EXPECT_EQ(PoseGraphOptimizer({}).incremental(false), nullptr);
   const PoseGraphOptimizer robust({.loss = RobustLoss::huber, .keep_order = 2.0});
   EXPECT_THAT(robust.why_declined(test::walk(2, 80, 0.02)), ::testing::HasSubstr("loss: none"));
-}
-
-TEST(DualIncremental, AnAgreeingClosureAddsRowsOnly) {
-  Problem problem = test::walk(2, 80, 0.02);
-  const auto method = DualIncremental({}).incremental(false);
-  Report first;
-  const Trajectory solved = method->update(part(problem, 0, 80), first);
-  EXPECT_GE(test::count(first, "assemblies"), 1.0);
-  const Pose measured = solved[10].world_from_body.inverse() * solved[70].world_from_body;
-  Increment added;
-  added.closures = {{10, 70, measured * exp_se3(Twist::Constant(1e-4)), Matrix6::Identity() * 1e4}};
-  Report second;
-  const Trajectory last = method->update(added, second);
-  EXPECT_EQ(test::count(second, "assemblies"), 0.0);
-  problem.closures.push_back(added.closures[0]);
-  test::expect_close(last, test::corrected<Dual>(problem), 1e-6);
-}
-
-TEST(DualIncremental, RemovesWithdrawnClosures) {
-  Problem problem = test::walk(3, 50, 0.02);
-  const auto method = DualIncremental({}).incremental(false);
-  Report report;
-  method->update(part(problem, 0, 50), report);
-  Increment withdrawal;
-  withdrawal.withdrawn = {problem.closures[1]};
-  const Trajectory last = method->update(withdrawal, report);
-  Problem left = problem;
-  left.closures.erase(left.closures.begin() + 1);
-  test::expect_close(last, test::corrected<Dual>(left), 1e-6);
-  withdrawal.withdrawn = left.closures;
-  const Trajectory none = method->update(withdrawal, report);
-  test::expect_close(none, problem.keyframes, 1e-9);  // odometry again
 }
 
 }  // namespace
