@@ -16,8 +16,8 @@
 #include "methods/correctors/variance_components.hpp"
 #include "methods/solvers/graph_covariance.hpp"
 #include "methods/solvers/initial_values.hpp"
-#include "methods/solvers/kept_order.hpp"
 #include "methods/solvers/pose_graph_solver.hpp"
+#include "methods/solvers/shared_structure.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -162,8 +162,6 @@ std::string PoseGraphOptimizer::why_declined(const Problem& problem) const {
     return "group is sim3, which has no anchors";
   if (options_.group == Poses::se2 && !problem.planar)
     return "group is se2, but the problem is not planar";
-  if (options_.keep_order && options_.loss != RobustLoss::none)
-    return "keep_order is set, which requires loss: none";
   if (options_.rescale) {
     if (has_scale_drift(problem))
       return "rescale requires edges of scale 1, but edges change the scale";
@@ -186,9 +184,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   if (options_.rescale) {
     Options stated = options_;
     stated.rescale = false;
-    if (order_) order_->odometry.reset();  // its factors change
-    return PoseGraphOptimizer(stated, order_)
-        .correct(with_estimated_factors(problem, report), report);
+    return PoseGraphOptimizer(stated).correct(with_estimated_factors(problem, report), report);
   }
   const bool has_drift = has_scale_drift(problem);
   const Group group = group_of(problem, options_.group, has_drift);
@@ -210,7 +206,6 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   used.report_held_pose(report);
   settings.anchors = used.anchors;
   settings.is_first_free = used.is_first_free;
-  settings.order = order_;
   align_to_anchors(poses, used, problem.keyframes);
   std::vector<double> weights(problem.closures.size(), 1.0);
   int iterations = 0;

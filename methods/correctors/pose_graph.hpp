@@ -51,12 +51,8 @@ class PoseGraphOptimizer final : public Corrector {
     double tolerance = 1e-14;
     bool rescale = false;
     bool covariances = false;
-    std::optional<double> keep_order = std::nullopt;
   };
-  /// `order` replaces the order of the elimination and must outlive this object; null: a new order
-  /// for each solve.
-  explicit PoseGraphOptimizer(const Options& options, KeptOrder* order = nullptr)
-      : options_(options), order_(order) {}
+  explicit PoseGraphOptimizer(const Options& options) : options_(options) {}
 
   /// Declines problems without closures, with unconnected keyframes, and non-planar ones with
   /// SE(2).
@@ -72,13 +68,8 @@ class PoseGraphOptimizer final : public Corrector {
   /// std::runtime_error when the solver finds no usable solution.
   Trajectory correct(const Problem& problem, Report& report) const override;
 
-  /// With `keep_order`: the complete problem again at each update, from the last solution and with
-  /// its order (kept_order.hpp). Count: `orders`, computed so far.
-  std::unique_ptr<Incremental> incremental(bool planar) const override;
-
  private:
   Options options_;
-  KeptOrder* order_;
 };
 
 inline auto choices(PoseGraphOptimizer::Poses) {
@@ -132,12 +123,6 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
         "multiply the odometry's translation and rotation covariances by factors estimated from "
         "the loops (chains only)");
   visit("covariances", o.covariances, "state the covariance of each keyframe, for metric nees");
-  visit("keep_order",
-        o.keep_order,
-        "in a replay without smoother, start from the last solution and keep the elimination order "
-        "until a "
-        "factorisation takes this many times the work per pose of a new order; none: do neither",
-        GreaterThan{1.0});
 }
 
 }  // namespace loopbench::methods

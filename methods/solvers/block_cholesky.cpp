@@ -10,10 +10,8 @@ namespace loopbench::methods {
 constexpr std::size_t kPanelsAhead = 8;  // loaded before they are visited
 
 template <int D>
-BlockCholesky<D>::BlockCholesky(const EliminationStructure& structure, Eigen::VectorXd storage)
-    : structure_(structure),
-      values_(std::move(storage)),
-      cleared_for_(structure.supernodes().size(), -1) {
+BlockCholesky<D>::BlockCholesky(const EliminationStructure& structure)
+    : structure_(structure), cleared_for_(structure.supernodes().size(), -1) {
   std::size_t size = 0;
   std::size_t highest = 0;
   int most_rows = 0;
@@ -32,11 +30,7 @@ BlockCholesky<D>::BlockCholesky(const EliminationStructure& structure, Eigen::Ve
     }
   }
   panel_.push_back(size);
-  const auto needed = static_cast<Eigen::Index>(size);
-  if (values_.size() < needed) {
-    const bool is_growing = values_.size() > 0;
-    values_.resize(is_growing ? needed + needed / 4 : needed);
-  }
+  values_.resize(static_cast<Eigen::Index>(size));
   stack_.resize(highest);
   gathered_.resize(most_rows * D);
   ordered_.resize(structure.blocks() * D);

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "methods/solvers/elimination_structure.hpp"
@@ -30,11 +29,8 @@ class BlockCholesky {
     bool is_transposed = false;
   };
 
-  /// `structure` must outlive this object. `storage`: of an earlier factor, used again.
-  explicit BlockCholesky(const EliminationStructure& structure, Eigen::VectorXd storage = {});
-
-  /// The storage, for another factor; this one can no longer be used.
-  Eigen::VectorXd take_storage() { return std::move(values_); }
+  /// `structure` must outlive this object.
+  explicit BlockCholesky(const EliminationStructure& structure);
 
   /// The pair (i, j) is on the diagonal or in the pairs of the structure.
   Place place(int i, int j) const;

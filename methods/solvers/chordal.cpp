@@ -8,7 +8,7 @@
 #include "datasets/core/closest_rotation.hpp"
 #include "methods/solvers/block_cholesky.hpp"
 #include "methods/solvers/initial_values.hpp"
-#include "methods/solvers/kept_order.hpp"
+#include "methods/solvers/shared_structure.hpp"
 
 namespace loopbench::methods {
 namespace {

@@ -130,20 +130,16 @@ bool is_dense_enough(int columns, double zeros) {
 
 EliminationStructure::EliminationStructure(int blocks,
                                            const std::vector<std::pair<int, int>>& pairs)
-    : EliminationStructure(minimum_degree(blocks, pairs), pairs) {}
-
-EliminationStructure::EliminationStructure(std::vector<int> position,
-                                           const std::vector<std::pair<int, int>>& pairs)
-    : position_(std::move(position)), owner_(position_.size()) {
+    : position_(minimum_degree(blocks, pairs)), owner_(position_.size()) {
   const Lists columns = columns_of_factor(position_, pairs);
   const std::vector<int> order = postorder(columns);
   std::vector<int> column_at(order.size());  // in a place of the order
-  for (int j = 0; j < blocks(); ++j) column_at[at(order[at(j)])] = j;
+  for (int j = 0; j < blocks; ++j) column_at[at(order[at(j)])] = j;
   for (int& position : position_) position = order[at(position)];
   const auto rows_at = [&](int place) { return columns[column_at[at(place)]]; };
 
   double entries = 0.0;
-  for (int j = 0; j < blocks(); ++j) {
+  for (int j = 0; j < blocks; ++j) {
     const auto own = static_cast<double>(rows_at(j).size()) + 1.0;
     if (j > 0 && !rows_at(j - 1).empty() && order[at(rows_at(j - 1).front())] == j) {
       Supernode& last = supernodes_.back();
@@ -170,14 +166,6 @@ EliminationStructure::EliminationStructure(std::vector<int> position,
   for (Supernode& node : supernodes_) {
     if (node.below > 0) node.parent = supernode_of(rows_[node.offset]);
   }
-}
-
-double EliminationStructure::work() const {
-  double sum = 0.0;
-  for (const Supernode& node : supernodes_) {
-    for (int height = node.rows(); height > node.below; --height) sum += double(height) * height;
-  }
-  return sum;
 }
 
 int EliminationStructure::row_in(const Supernode& in, int column) const {

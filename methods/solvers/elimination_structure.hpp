@@ -30,9 +30,6 @@ class EliminationStructure {
   /// the factor. Deterministic.
   EliminationStructure(int blocks, const std::vector<std::pair<int, int>>& pairs);
 
-  /// The same with a given order: `position` is a permutation of the blocks.
-  EliminationStructure(std::vector<int> position, const std::vector<std::pair<int, int>>& pairs);
-
   int blocks() const { return static_cast<int>(position_.size()); }
   /// Column of the factor of a block.
   int position(int block) const { return position_[static_cast<std::size_t>(block)]; }
@@ -42,10 +39,6 @@ class EliminationStructure {
   const int* rows_below(const Supernode& of) const { return rows_.data() + of.offset; }
   /// Row of `column` in the dense matrix of `in`, of which it must be a row. O(log rows).
   int row_in(const Supernode& in, int column) const;
-
-  const std::vector<int>& positions() const { return position_; }
-  /// Multiplications of blocks in a factorisation: sum of the squared heights of the columns.
-  double work() const;
 
  private:
   std::vector<int> position_;

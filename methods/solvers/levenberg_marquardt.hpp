@@ -15,9 +15,8 @@ namespace loopbench::methods {
 /// those of Gauss and Newton as long as the cost decreases as predicted; the damping follows
 /// Nielsen, Damping parameter in Marquardt's method, 1999, with the constants of Ceres. It ends
 /// when the predicted decrease, which has no cancellation, is below `tolerance`, or below the
-/// rounding error of the cost and no longer shrinking; with a kept order, where it starts near the
-/// minimum, already when the next decrease is expected to be below `tolerance`. Throws
-/// std::runtime_error if the normal equations stay singular.
+/// rounding error of the cost and no longer shrinking. Throws std::runtime_error if the normal
+/// equations stay singular.
 template <class G>
 PoseGraphSummary minimise_least_squares(std::vector<typename G::Element>& x,
                                         const WeightedGraph& graph,
@@ -64,12 +63,7 @@ PoseGraphSummary minimise_least_squares(std::vector<typename G::Element>& x,
       const auto row = static_cast<Eigen::Index>(i - equations.first()) * G::kDof;
       candidate[i] = G::compose(x[i], G::exp(step.values.template segment<G::kDof>(row)));
     }
-    // Near the minimum the decrease after this one is to it as it is to the one before.
-    double expected = predicted;
-    if (settings.order != nullptr && predicted < last_predicted && std::isfinite(last_predicted)) {
-      expected *= predicted / last_predicted;
-    }
-    out.converged = expected <= settings.tolerance * cost;
+    out.converged = predicted <= settings.tolerance * cost;
     const double next = out.converged ? equations.cost(candidate) : equations.linearise(candidate);
     const double ratio = (cost - next) / predicted;
     if (ratio > kLeastRatio) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <any>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -10,8 +9,8 @@
 #include "methods/solvers/anchor_residual.hpp"
 #include "methods/solvers/block_cholesky.hpp"
 #include "methods/solvers/edge_residual.hpp"
-#include "methods/solvers/kept_order.hpp"
 #include "methods/solvers/pose_graph_solver.hpp"
+#include "methods/solvers/shared_structure.hpp"
 #include "methods/solvers/weighted_graph.hpp"
 
 namespace loopbench::methods {
@@ -25,15 +24,13 @@ class NormalEquations {
   using Tangent = typename G::Tangent;
   using Square = typename G::Square;
 
-  /// Of `settings`, the structure and the order are used.
+  /// Of `settings`, the structure is used.
   NormalEquations(const WeightedGraph& graph, const PoseGraphSettings& settings)
       : first_(graph.is_first_free ? 0 : 1),
-        odometry_(graph.odometry.size()),
-        order_(settings.order),
-        terms_(terms_of(graph, order_)),
+        terms_(terms_of(graph)),
         shared_(structure_of(graph, settings)),
         structure_(*shared_),
-        factor_(structure_, order_ ? std::move(order_->storage) : Eigen::VectorXd()) {
+        factor_(structure_) {
     diagonal_places_.reserve(static_cast<std::size_t>(structure_.blocks()));
     for (int i = 0; i < structure_.blocks(); ++i) diagonal_places_.push_back(factor_.place(i, i));
     for (Term& term : terms_) {
@@ -45,15 +42,6 @@ class NormalEquations {
     }
     gradient_.resize(structure_.blocks() * G::kDof);
   }
-
-  ~NormalEquations() {
-    if (!order_) return;
-    order_->storage = factor_.take_storage();
-    terms_.resize(odometry_);
-    order_->odometry = std::move(terms_);
-  }
-  NormalEquations(const NormalEquations&) = delete;
-  NormalEquations& operator=(const NormalEquations&) = delete;
 
   /// Index of the first pose that is estimated: 0 or 1.
   std::size_t first() const { return static_cast<std::size_t>(first_); }
@@ -145,24 +133,16 @@ class NormalEquations {
     Matrix3 root;
   };
 
-  /// The terms of the odometry are taken over from the solve before: they have a third of the
-  /// bytes of the edges.
-  static std::vector<Term> terms_of(const WeightedGraph& graph, KeptOrder* order) {
+  static std::vector<Term> terms_of(const WeightedGraph& graph) {
     std::vector<Term> out;
-    if (order) {
-      if (auto* kept = std::any_cast<std::vector<Term>>(&order->odometry)) out = std::move(*kept);
-    }
-    const std::size_t count = graph.odometry.size() + graph.closures.size();
-    if (out.capacity() < count) out.reserve(out.empty() ? count : count + count / 4);
-    graph.for_each_edge(
-        [&](const Edge& edge, double weight, bool) {
-          out.push_back({edge.from,
-                         edge.to,
-                         G::inverse(G::from(measured(edge))),
-                         information_root<G>(edge, weight, graph.scale_sigma),
-                         {}});
-        },
-        out.size());
+    out.reserve(graph.odometry.size() + graph.closures.size());
+    graph.for_each_edge([&](const Edge& edge, double weight, bool) {
+      out.push_back({edge.from,
+                     edge.to,
+                     G::inverse(G::from(measured(edge))),
+                     information_root<G>(edge, weight, graph.scale_sigma),
+                     {}});
+    });
     return out;
   }
 
@@ -175,9 +155,6 @@ class NormalEquations {
       if (std::min(i, j) >= 0) pairs.emplace_back(i, j);
     }
     const int blocks = static_cast<int>(graph.poses) - first_;
-    if (settings.order) {
-      return std::make_shared<const EliminationStructure>(settings.order->structure(blocks, pairs));
-    }
     SharedStructure unshared;
     return (settings.structure ? *settings.structure : unshared).of(blocks, std::move(pairs));
   }
@@ -190,8 +167,6 @@ class NormalEquations {
   }
 
   int first_;
-  std::size_t odometry_;  ///< number of its terms, which are the first
-  KeptOrder* order_;
   std::vector<Term> terms_;
   Structure shared_;
   const EliminationStructure& structure_;

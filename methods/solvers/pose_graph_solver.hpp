@@ -10,7 +10,6 @@
 
 namespace loopbench::methods {
 
-class KeptOrder;
 class SharedStructure;
 
 /// Lie group of the poses.
@@ -41,10 +40,8 @@ struct PoseGraphSettings {
   double tolerance = 1e-14;  ///< relative change of the cost at convergence [-]
   /// Not in Sim(3), in SE(2) in the plane of pose 0; the loss does not apply to them.
   std::vector<Anchor> anchors = {};
-  bool is_first_free = false;  ///< pose 0 is estimated: anchors must determine the frame
-  /// Of the elimination without a loss; null: a new order or structure.
-  KeptOrder* order = nullptr;
-  SharedStructure* structure = nullptr;
+  bool is_first_free = false;            ///< pose 0 is estimated: anchors must determine the frame
+  SharedStructure* structure = nullptr;  ///< of the elimination without a loss; null: a new one
 };
 
 struct PoseGraphSummary {

@@ -18,11 +18,10 @@ struct WeightedGraph {
   bool is_first_free = false;          ///< pose 0 is estimated
   double scale_sigma = 0.01;           ///< deviation of the log scale of an edge, Sim(3) only [-]
 
-  /// Calls `visit` with each edge that is not removed, its weight and whether it is a closure,
-  /// without the first `begin` edges of the odometry.
+  /// Calls `visit` with each edge that is not removed, its weight and whether it is a closure.
   template <class Visit>
-  void for_each_edge(Visit visit, std::size_t begin = 0) const {
-    for (std::size_t i = begin; i < odometry.size(); ++i) visit(odometry[i], 1.0, false);
+  void for_each_edge(Visit visit) const {
+    for (const Edge& edge : odometry) visit(edge, 1.0, false);
     for (std::size_t k = 0; k < closures.size(); ++k) {
       if (weights[k] > 0.0) visit(closures[k], weights[k], true);
     }

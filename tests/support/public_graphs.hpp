@@ -2,8 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -31,14 +29,6 @@ inline Problem public_graph(const std::string& name,
   options.rules.rotation = rotation;
   options.rules.indefinite = IndefiniteInformation::repair;
   return load_pose_graph(options, {{root}}).problem;
-}
-
-/// Value of $LOOPBENCH_DATA. Ends the program without it.
-inline const char* required_data() {
-  const char* root = std::getenv("LOOPBENCH_DATA");
-  if (root != nullptr) return root;
-  std::fputs("LOOPBENCH_DATA is not set\n", stderr);
-  std::exit(2);
 }
 
 }  // namespace loopbench::test
