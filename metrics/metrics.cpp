@@ -26,9 +26,7 @@
 #include "metrics/errors/segments.hpp"
 #include "metrics/metric.hpp"
 #include "metrics/online/causal_errors.hpp"
-#include "metrics/online/causal_lapse.hpp"
 #include "metrics/online/closure_jumps.hpp"
-#include "metrics/online/settling.hpp"
 #include "metrics/online/update_time.hpp"
 
 namespace loopbench::metrics {
@@ -100,17 +98,8 @@ std::vector<MetricEntry> metrics() {
           lever_arm),
       metric("causal_ate", "ate of each pose at its own time, in a replay", causal_ate),
       metric<RpeOptions>("causal_rpe", "rpe of each pose at its own time, in a replay", causal_rpe),
-      metric("closure_errors",
-             "error of the current pose before and after each closure, in a replay",
-             closure_errors),
-      metric<CausalLapseOptions>(
-          "causal_lapse",
-          "time for which the error of the current pose exceeds a limit, in a replay",
-          causal_lapse),
       metric_without_reference<NoOptions>(
           "closure_jumps", "jump of the current pose at each closure, in a replay", closure_jumps),
-      metric_without_reference<NoOptions>(
-          "settling", "movement of past poses by an update, by their age, in a replay", settling),
       metric_without_reference<UpdateTimeOptions>(
           "update_time",
           "time of an update, its growth, and deadline misses, in a replay",

@@ -2,34 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "datasets/core/pose_rule.hpp"
 
 namespace loopbench::methods {
 namespace {
-
-/// Movement of all poses but the last, by their age at the time of the last one.
-std::array<Movement, kAges.size()> movement(const Trajectory& before, const Trajectory& after) {
-  std::array<Movement, kAges.size()> out;
-  for (std::size_t i = 0; i + 1 < after.size(); ++i) {
-    const double age = after.back().stamp - after[i].stamp;
-    const auto above = std::ranges::upper_bound(kAges, age) - kAges.begin();
-    Movement& of = out.at(static_cast<std::size_t>(above - 1));
-    const Pose& from = before[i].world_from_body;
-    const Pose& to = after[i].world_from_body;
-    const double angle = angle_between(from.rotation, to.rotation);
-    ++of.poses;
-    of.translation += (to.translation - from.translation).squaredNorm();
-    of.rotation += angle * angle;
-  }
-  for (Movement& of : out) {
-    const double count = static_cast<double>(std::max<std::size_t>(1, of.poses));
-    of.translation = std::sqrt(of.translation / count);
-    of.rotation = std::sqrt(of.rotation / count);
-  }
-  return out;
-}
 
 /// Adds the phases of an update to those of the same name, and replaces everything else.
 void merge(Report& all, Report of_update) {
@@ -85,8 +62,7 @@ void ReplayRun::update(double time) {
                              waiting_.closures.size() + waiting_.withdrawn.size(),
                              took.count(),
                              before.back().world_from_body,
-                             solved.back().world_from_body,
-                             movement(before, solved)});
+                             solved.back().world_from_body});
   chain_.replace(std::move(solved));
   merge(report_, std::move(report));
   waiting_ = {};

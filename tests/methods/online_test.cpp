@@ -92,16 +92,6 @@ TEST(Online, RecordsTheCurrentPoseAndItsJump) {
   EXPECT_EQ(test::count(out.report, "updates"), 2.0);
 }
 
-TEST(Online, RecordsTheMovementOfPastPosesByAge) {
-  const Replayed out = replayed<Uniform>(shortened());
-  const auto& moved = out.record().updates.front().moved;
-  EXPECT_EQ(moved[0].poses, 0u);
-  EXPECT_EQ(moved[1].poses, 2u);  // 1 s and 2 s old: from 2 to 4/3 m, and from 1 to 2/3 m
-  EXPECT_NEAR(moved[1].translation, std::sqrt(0.5 * (4.0 / 9.0 + 1.0 / 9.0)), 1e-12);
-  EXPECT_EQ(moved[2].poses, 1u);  // 3 s old: the first keyframe
-  EXPECT_EQ(moved[2].translation, 0.0);
-}
-
 TEST(Online, ReturnsTheCausalTrajectoryOnRequest) {
   const Replayed out = replayed<Uniform>(shortened(), {.result = Online::Result::causal});
   expect_positions(out.curve->sample({0, 1, 2, 2.5, 3, 4}), {0, 1, 2, 2, 2, 3});

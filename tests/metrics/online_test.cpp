@@ -4,9 +4,7 @@
 #include "evaluated_cell.hpp"
 #include "metrics/metric.hpp"
 #include "metrics/online/causal_errors.hpp"
-#include "metrics/online/causal_lapse.hpp"
 #include "metrics/online/closure_jumps.hpp"
-#include "metrics/online/settling.hpp"
 #include "metrics/online/update_time.hpp"
 #include "replayed_polyline.hpp"
 #include "support.hpp"
@@ -55,42 +53,6 @@ TEST(Causal, IsAlignedByTheProtocol) {
   EXPECT_DOUBLE_EQ(find(causal_ate(cell.evaluation), "translation", "3d").mean, 0.2);
 }
 
-TEST(CausalLapse, LastsFromTheFirstPoseAboveTheLimitToTheNextBelow) {
-  const EvaluatedCell cell = drive();  // errors 0, 0.5, 0, 0.5, 0 m at 0, 1, 2, 3, 4 s
-  const std::vector<Score> scores = causal_lapse(cell.evaluation, {.limit = 0.4});
-  EXPECT_DOUBLE_EQ(find(scores, "longest", "").mean, 1.0);
-  EXPECT_DOUBLE_EQ(find(scores, "share", "").mean, 50.0);
-  EXPECT_DOUBLE_EQ(find(causal_lapse(cell.evaluation, {.limit = 0.6}), "longest", "").mean, 0.0);
-}
-
-TEST(CausalLapse, IsAlignedAsTheLastTrajectory) {
-  // The last trajectory is 1 m ahead. The first pose was 2 m ahead when the robot was there.
-  const Replay replay{
-      poses_along_x({2.0, 2.5, 3.0, 4.5, 5.0}), {test::closure_at(4, 5.0, 5.0)}, {}};
-  const EvaluatedCell cell{
-      poses_along_x({0, 1, 2, 3, 4}),
-      test::along_x({1, 2, 3, 4, 5}),
-      std::make_unique<test::ReplayedPolyline>(poses_along_x({1, 2, 3, 4, 5}), replay),
-      Times::keyframes,
-      {.align = Align::origin}};
-  const std::vector<Score> scores = causal_lapse(cell.evaluation, {.limit = 0.4});
-  EXPECT_DOUBLE_EQ(find(scores, "longest", "").mean, 2.0);  // errors 1, 0.5, 0, 0.5, 0 m
-  EXPECT_DOUBLE_EQ(find(scores, "share", "").mean, 75.0);
-}
-
-TEST(CausalLapse, IsProjectedByTheProtocol) {
-  // All errors are along x.
-  EvaluatedCell cell = drive({.align = Align::none, .project = ProjectionPlane::yz});
-  EXPECT_DOUBLE_EQ(find(causal_lapse(cell.evaluation, {.limit = 0.4}), "longest", "").mean, 0.0);
-}
-
-TEST(ClosureErrors, AreThoseOfTheCurrentPose) {
-  const std::vector<Score> scores = closure_errors(drive().evaluation);
-  EXPECT_DOUBLE_EQ(find(scores, "translation", "before").mean, 0.75);  // 0.5 and 1
-  EXPECT_DOUBLE_EQ(find(scores, "translation", "after").max, 0.0);
-  EXPECT_DOUBLE_EQ(find(scores, "rotation", "before").max, 0.0);
-}
-
 TEST(ClosureJumps, AreDistancesBetweenBeforeAndAfter) {
   const std::vector<Score> scores = closure_jumps(drive().evaluation);
   const Statistics jumps = find(scores, "translation", "3d");
@@ -98,13 +60,6 @@ TEST(ClosureJumps, AreDistancesBetweenBeforeAndAfter) {
   EXPECT_DOUBLE_EQ(jumps.max, 1.0);
   EXPECT_DOUBLE_EQ(jumps.rmse, std::sqrt(0.5 * (0.25 + 1.0)));
   EXPECT_DOUBLE_EQ(find(scores, "rotation", "3d").max, 0.0);
-}
-
-TEST(Settling, HasAScoreForEachClassWithKeyframes) {
-  const std::vector<Score> scores = settling(drive().evaluation);
-  ASSERT_EQ(scores.size(), 2u);  // translation and rotation of the first class
-  EXPECT_EQ(scores[0].axis, "0 s");
-  EXPECT_DOUBLE_EQ(scores[0].statistics.mean, 0.375);  // halves of 0.5 and 1 m
 }
 
 TEST(UpdateTime, HasPercentilesMissesAndGrowth) {
@@ -154,8 +109,6 @@ TEST(Online, IsUndefinedWithoutClosures) {
       Times::keyframes,
       {.align = Align::none});
   EXPECT_THROW(closure_jumps(cell.evaluation), Undefined);
-  EXPECT_THROW(settling(cell.evaluation), Undefined);
-  EXPECT_THROW(closure_errors(cell.evaluation), Undefined);
   EXPECT_THROW(update_time(cell.evaluation, {}), Undefined);
   EXPECT_EQ(find(causal_ate(cell.evaluation), "translation", "3d").max, 0.0);
 }

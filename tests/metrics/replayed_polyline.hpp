@@ -25,17 +25,14 @@ class ReplayedPolyline final : public Curve {
 };
 
 /// An update with one closure at keyframe `current`, which moves it along x from `before` to
-/// `after` [m], and all earlier keyframes of the first class of age half as far.
+/// `after` [m].
 inline ReplayUpdate closure_at(std::size_t current, double before, double after) {
-  ReplayUpdate out{static_cast<double>(current),
-                   current + 1,
-                   1,
-                   0.01,
-                   {Rotation::Identity(), {before, 0.0, 0.0}},
-                   {Rotation::Identity(), {after, 0.0, 0.0}},
-                   {}};
-  out.moved.front() = {current, 0.5 * std::abs(after - before), 0.0};
-  return out;
+  return {static_cast<double>(current),
+          current + 1,
+          1,
+          0.01,
+          {Rotation::Identity(), {before, 0.0, 0.0}},
+          {Rotation::Identity(), {after, 0.0, 0.0}}};
 }
 
 }  // namespace loopbench::test
