@@ -91,9 +91,6 @@ std::vector<MethodEntry> methods() {
       method<PoseGraphOptimizer>("pose_graph_gnc_tls",
                                  "pose_graph, graduated non-convexity with truncated least squares",
                                  {.start = PoseGraphOptimizer::Start::chordal, .gnc = Gnc::tls}),
-      method<PoseGraphOptimizer>("pose_graph_gnc_gm",
-                                 "pose_graph, graduated non-convexity with Geman-McClure loss",
-                                 {.start = PoseGraphOptimizer::Start::chordal, .gnc = Gnc::gm}),
       method<PairwiseConsistent<Dual>>("dual_pcm",
                                        "dual on the largest pairwise consistent set of closures"),
       method<PairwiseConsistent<PoseGraphOptimizer>>(

@@ -49,7 +49,7 @@ class GncRuns {
       weights[k] = 1.0;
     }
     // Skips the convex stages, because their purpose is to find initial values like these.
-    run({of_.initial(subset), std::move(weights), of_.kind == Gnc::tls ? 1.0 : 10.0});
+    run({of_.initial(subset), std::move(weights), 1.0});
   }
 
   void from_all(std::vector<ScaledPose> poses) {
@@ -81,8 +81,7 @@ class GncRuns {
       solve();
       return squared();
     };
-    const GncResult result =
-        graduate_weights(of_.kind, of_.inlier_chi2, squared(), start.mu, solved_with);
+    const GncResult result = graduate_weights(of_.inlier_chi2, squared(), start.mu, solved_with);
     out.weights = result.weights;
     out.rounds = result.rounds;
     const double cost = cost_of(out.poses);
@@ -102,7 +101,7 @@ class GncRuns {
     double sum = std::accumulate(odometry.begin(), odometry.end(), 0.0);
     const double bound = of_.inlier_chi2;
     for (const double x : squared_errors(poses, of_.problem.closures, of_.settings)) {
-      sum += of_.kind == Gnc::tls ? std::min(x, bound) : bound * x / (bound + x);
+      sum += std::min(x, bound);
     }
     return sum;
   }
@@ -119,18 +118,13 @@ std::size_t kept_count(const std::vector<double>& weights) {
       std::ranges::count_if(weights, [](double weight) { return weight > 0.5; }));
 }
 
-double gnc_weight(Gnc kind, double squared, double c2, double mu) {
-  if (kind == Gnc::gm) {
-    const double w = mu * c2 / (squared + mu * c2);
-    return w * w;
-  }
+double gnc_weight(double squared, double c2, double mu) {
   if (squared <= mu / (mu + 1.0) * c2) return 1.0;
   if (squared >= (mu + 1.0) / mu * c2) return 0.0;
   return std::sqrt(c2 * mu * (mu + 1.0) / squared) - mu;
 }
 
 GncResult graduate_weights(
-    Gnc kind,
     double c2,
     std::vector<double> squared,
     std::optional<double> begin,
@@ -139,19 +133,15 @@ GncResult graduate_weights(
   out.weights.assign(squared.size(), 1.0);
   const double largest = *std::ranges::max_element(squared);
   if (largest <= c2) return out;
-  const bool is_tls = kind == Gnc::tls;
-  // Truncated least squares becomes less convex as mu grows, Geman-McClure as mu shrinks to 1.
-  double mu = begin.value_or(is_tls ? c2 / (2.0 * largest - c2) : 2.0 * largest / c2);
+  double mu = begin.value_or(c2 / (2.0 * largest - c2));
   constexpr int kMaxRounds = 100;
   for (bool converged = false; !converged && out.rounds < kMaxRounds; ++out.rounds) {
     for (std::size_t k = 0; k < squared.size(); ++k) {
-      out.weights[k] = gnc_weight(kind, squared[k], c2, mu);
+      out.weights[k] = gnc_weight(squared[k], c2, mu);
     }
     squared = solve(out.weights);
-    converged =
-        is_tls ? std::ranges::all_of(out.weights, [](double w) { return w == 0.0 || w == 1.0; })
-               : mu <= 1.0;
-    mu = is_tls ? 1.4 * mu : std::max(1.0, mu / 1.4);
+    converged = std::ranges::all_of(out.weights, [](double w) { return w == 0.0 || w == 1.0; });
+    mu = 1.4 * mu;  // less convex
   }
   return out;
 }

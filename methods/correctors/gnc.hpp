@@ -12,15 +12,14 @@
 
 namespace loopbench::methods {
 
-enum class Gnc { off, tls, gm };
+enum class Gnc { off, tls };
 inline auto choices(Gnc) {
-  return std::array{
-      std::pair{"off", Gnc::off}, std::pair{"tls", Gnc::tls}, std::pair{"gm", Gnc::gm}};
+  return std::array{std::pair{"off", Gnc::off}, std::pair{"tls", Gnc::tls}};
 }
 
 /// Weight of a closure with squared error `squared` at convexity mu. c2 is the largest squared
-/// error of an inlier (Yang et al., RA-L 2020, equations 14 and 12).
-double gnc_weight(Gnc kind, double squared, double c2, double mu);
+/// error of an inlier (Yang et al., RA-L 2020, equation 14).
+double gnc_weight(double squared, double c2, double mu);
 
 struct GncResult {
   std::vector<double> weights;
@@ -31,10 +30,8 @@ struct GncResult {
 /// the initial solution. Without `mu`, that solution uses all closures with weight 1 and the
 /// initial convexity is computed from the largest error; with `mu`, the solution is more reliable
 /// and the schedule starts at that convexity. `solve` takes weights and returns the squared errors
-/// at their solution. Truncated least squares ends when every weight is 0 or 1, Geman-McClure when
-/// mu is 1, both after at most 100 rounds.
+/// at their solution. Ends when every weight is 0 or 1, at most after 100 rounds.
 GncResult graduate_weights(
-    Gnc kind,
     double c2,
     std::vector<double> squared,
     std::optional<double> mu,
@@ -43,7 +40,6 @@ GncResult graduate_weights(
 struct GncProblem {
   const Problem& problem;
   PoseGraphSettings settings;
-  Gnc kind = Gnc::tls;
   double inlier_chi2 = 0.0;  ///< largest squared error of an inlier closure [-]
   /// Computes the initial values of a problem. A relaxation treats all its closures as inliers.
   std::function<std::vector<ScaledPose>(const Problem&)> initial;
@@ -66,7 +62,7 @@ std::size_t kept_count(const std::vector<double>& weights);
 /// scale, or there are too many closures to compare. If that start rejects a closure, the
 /// odometry's spanning tree is tried as well. All closures are also tried when the first start
 /// keeps fewer than half of them. Returns the solution of lowest cost, where the cost of a closure
-/// is the final loss of `kind`, bounded by `inlier_chi2`.
+/// is its squared error, bounded by `inlier_chi2`.
 ///
 /// Adds the phases "check" and "graduate_weights", and a note when fewer than half of the closures
 /// are kept. Throws what solve_pose_graph() throws. O(starts rounds) sparse solves.

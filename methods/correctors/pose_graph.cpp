@@ -224,8 +224,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     const auto values = [&](const Problem& of) {
       return initial(of, options_, has_scale_drift(of), structure);
     };
-    GncSolution gnc =
-        solve_gnc({problem, settings, options_.gnc, chi2_quantile(group), values}, report);
+    GncSolution gnc = solve_gnc({problem, settings, chi2_quantile(group), values}, report);
     poses = std::move(gnc.poses);
     weights = std::move(gnc.weights);
     iterations = gnc.iterations;

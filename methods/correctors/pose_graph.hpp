@@ -103,9 +103,7 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
         o.anneal,
         "dcs and switchable: also solve with a width that shrinks from the largest error, and keep "
         "the solution of lower cost");
-  visit("gnc",
-        o.gnc,
-        "graduated non-convexity: off, tls (truncated least squares), gm (Geman-McClure)");
+  visit("gnc", o.gnc, "graduated non-convexity: off, tls (truncated least squares)");
   visit("scale_sigma",
         o.scale_sigma,
         "standard deviation of an edge's log scale in sim3 [-]",
