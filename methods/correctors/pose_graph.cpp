@@ -22,22 +22,17 @@
 namespace loopbench::methods {
 namespace {
 
-/// Whether the loss is bounded, so that closures with large errors have no influence.
-bool is_bounded(RobustLoss loss) {
-  return loss == RobustLoss::dcs || loss == RobustLoss::switchable;
-}
-
-/// Derivative of the bounded loss in `settings` with respect to the squared error, per closure [-].
+/// Derivative of dcs with respect to the squared error, per closure [-].
 std::vector<double> loss_weights(const PoseGraphSettings& settings, std::vector<double> squared) {
   const double width = settings.loss_width;
   for (double& x : squared) {
-    const double root = (settings.loss == RobustLoss::dcs ? 2.0 : 1.0) * width / (width + x);
+    const double root = 2.0 * width / (width + x);
     x = std::min(1.0, root * root);
   }
   return squared;
 }
 
-/// Notes if a bounded loss leaves most closures without influence.
+/// Notes if dcs leaves most closures without influence.
 void note_ignored(const std::vector<double>& weights, Report& report) {
   constexpr double kLittle = 0.05;
   const auto ignored =
@@ -48,11 +43,10 @@ void note_ignored(const std::vector<double>& weights, Report& report) {
                          "odometry");
 }
 
-/// Chooses between two initial values and sets `poses` to the one from which the loss in `settings`
-/// reaches the lower cost: the given poses, or the solution of a continuation that uses the
-/// switchable loss and shrinks its width from the largest squared error by a factor of 0.7 per
-/// solve. `solve` minimises from `poses` under the given settings. Returns the cost at the given
-/// poses.
+/// Chooses between two initial values and sets `poses` to the one from which dcs reaches the lower
+/// cost: the given poses, or the solution of a continuation that uses the smoothed loss and shrinks
+/// its width from the largest squared error by a factor of 0.7 per solve. `solve` minimises from
+/// `poses` under the given settings. Returns the cost at the given poses.
 double anneal(const std::vector<Edge>& closures,
               const PoseGraphSettings& settings,
               std::vector<ScaledPose>& poses,
@@ -64,8 +58,7 @@ double anneal(const std::vector<Edge>& closures,
   PoseGraphSettings intermediate = settings;
   intermediate.max_iterations = std::min(settings.max_iterations, 30);
   intermediate.tolerance = std::max(settings.tolerance, 1e-6);
-  // The switchable loss is smoother than dcs and also bounded, so it has fewer false minima.
-  intermediate.loss = RobustLoss::switchable;
+  intermediate.is_smoothed = true;  // also bounded, with fewer false minima
   double width = *std::ranges::max_element(squared);
   for (; width > 1.4 * settings.loss_width; width *= 0.7) {
     intermediate.loss_width = width;
@@ -188,13 +181,13 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
   }
   const bool has_drift = has_scale_drift(problem);
   const Group group = group_of(problem, options_.group, has_drift);
-  PoseGraphSettings settings{
-      group,
-      options_.scale_sigma,
-      options_.loss,
-      options_.loss_width.value_or(is_bounded(options_.loss) ? chi2_quantile(group) : 1.0),
-      options_.max_iterations,
-      options_.tolerance};
+  const bool is_dcs = options_.loss == RobustLoss::dcs;
+  PoseGraphSettings settings{group,
+                             options_.scale_sigma,
+                             options_.loss,
+                             options_.loss_width.value_or(is_dcs ? chi2_quantile(group) : 1.0),
+                             options_.max_iterations,
+                             options_.tolerance};
   SharedStructure structure;  // of the chordal start and the solves
   settings.structure = &structure;
   std::vector<ScaledPose> poses;
@@ -233,8 +226,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     report.count("closures_kept", static_cast<double>(kept_count(weights)));
   }
   std::optional<double> annealed_from;
-  const bool anneals = is_bounded(options_.loss) && options_.anneal && !problem.closures.empty();
-  if (anneals && options_.gnc == Gnc::off) {
+  if (is_dcs && !problem.closures.empty() && options_.gnc == Gnc::off) {
     annealed_from =
         report.time("anneal", [&] { return anneal(problem.closures, settings, poses, solve); });
   }
@@ -264,7 +256,7 @@ Trajectory PoseGraphOptimizer::correct(const Problem& problem, Report& report) c
     const std::size_t degrees = freedom(problem.keyframes.size(), edges, dimensions(group));
     report_chi2(2.0 * summary.cost, degrees + used.freedom(), report);
   }
-  if (is_bounded(options_.loss)) {
+  if (is_dcs) {
     note_ignored(loss_weights(settings, squared_errors(poses, problem.closures, settings)), report);
   }
   if (!summary.converged) {

@@ -13,12 +13,12 @@ namespace loopbench::methods {
 /// SE(3); `group` overrides this. The resulting poses are rigid, in the scale of the first
 /// keyframe.
 ///
-/// False closures are handled in one of three ways. (1) A bounded `loss`. It also rejects true
-/// closures where the odometry has drifted by more than a closure's deviations. With `anneal`, the
-/// problem is therefore also solved with a width that shrinks from the largest error, and the
-/// solution of lower cost is kept. (2) Graduated non-convexity (`gnc`), which rejects closures
-/// whose squared error stays above the group's 99 % quantile. (3) Pairwise consistency (Checked).
-/// Odometry is assumed to have no outliers.
+/// False closures are handled in one of three ways. (1) The bounded `loss` dcs. It also rejects
+/// true closures where the odometry has drifted by more than a closure's deviations. The problem is
+/// therefore also solved with a width that shrinks from the largest error, and the solution of
+/// lower cost is kept. (2) Graduated non-convexity (`gnc`), which rejects closures whose squared
+/// error stays above the group's 99 % quantile. (3) Pairwise consistency (Checked). Odometry is
+/// assumed to have no outliers.
 ///
 /// With complete odometry, GNC starts from the largest consistent set of closures
 /// (gnc.hpp), and the initial values are computed from these closures only; otherwise it
@@ -44,7 +44,6 @@ class PoseGraphOptimizer final : public Corrector {
     Start start = Start::keyframes;
     RobustLoss loss = RobustLoss::none;
     std::optional<double> loss_width = std::nullopt;
-    bool anneal = true;
     Gnc gnc = Gnc::off;
     double scale_sigma = 0.01;
     int max_iterations = 1000;
@@ -93,16 +92,12 @@ void fields(PoseGraphOptimizer::Options& o, Visit visit) {
         o.start,
         "initial values: keyframes, odometry integrated from the first keyframe, or chordal "
         "relaxation, continued by the equations of dual on chains of at most 20 loops");
-  visit("loss", o.loss, "robust loss on the closures; dcs and switchable are bounded");
+  visit("loss", o.loss, "robust loss on the closures; dcs is bounded");
   visit("loss_width",
         o.loss_width,
-        "width of the loss as a squared error [-]; none: the group's 99 % quantile for dcs and "
-        "switchable, 1 for others",
+        "width of the loss as a squared error [-]; none: the group's 99 % quantile for dcs, 1 for "
+        "others",
         GreaterThan{0.0});
-  visit("anneal",
-        o.anneal,
-        "dcs and switchable: also solve with a width that shrinks from the largest error, and keep "
-        "the solution of lower cost");
   visit("gnc", o.gnc, "graduated non-convexity: off, tls (truncated least squares)");
   visit("scale_sigma",
         o.scale_sigma,

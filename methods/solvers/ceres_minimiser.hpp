@@ -55,9 +55,8 @@ inline std::unique_ptr<ceres::LossFunction> make_loss(const PoseGraphSettings& s
     case RobustLoss::cauchy:
       return std::make_unique<ceres::CauchyLoss>(std::sqrt(width));
     case RobustLoss::dcs:
+      if (settings.is_smoothed) return std::make_unique<SwitchableConstraint>(width);
       return std::make_unique<DynamicCovarianceScaling>(width);
-    case RobustLoss::switchable:
-      return std::make_unique<SwitchableConstraint>(width);
   }
   return nullptr;
 }

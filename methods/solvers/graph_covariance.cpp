@@ -27,8 +27,6 @@ double derivative_of_loss(const PoseGraphSettings& settings, double squared) {
       return s;
     case RobustLoss::dcs:
       return std::min(1.0, 4.0 * s * s);
-    case RobustLoss::switchable:
-      return s * s;
   }
   return 1.0;
 }

@@ -17,18 +17,16 @@ enum class Group { se2, se3, sim3 };
 
 /// Loss rho(x) of a closure, where x is its squared Mahalanobis error; odometry always has x.
 enum class RobustLoss {
-  none,        ///< x
-  huber,       ///< x up to width, then 2 sqrt(width x) - width
-  cauchy,      ///< width log(1 + x / width)
-  dcs,         ///< x up to width, then 3 width - 4 width^2 / (width + x) (Agarwal 2013: weight s^2)
-  switchable,  ///< width x / (width + x): switchable constraints, switch eliminated
+  none,    ///< x
+  huber,   ///< x up to width, then 2 sqrt(width x) - width
+  cauchy,  ///< width log(1 + x / width)
+  dcs,     ///< x up to width, then 3 width - 4 width^2 / (width + x) (Agarwal 2013: weight s^2)
 };
 inline auto choices(RobustLoss) {
   return std::array{std::pair{"none", RobustLoss::none},
                     std::pair{"huber", RobustLoss::huber},
                     std::pair{"cauchy", RobustLoss::cauchy},
-                    std::pair{"dcs", RobustLoss::dcs},
-                    std::pair{"switchable", RobustLoss::switchable}};
+                    std::pair{"dcs", RobustLoss::dcs}};
 }
 
 struct PoseGraphSettings {
@@ -38,6 +36,8 @@ struct PoseGraphSettings {
   double loss_width = 1.0;  ///< width of the loss as a squared error [-]
   int max_iterations = 1000;
   double tolerance = 1e-14;  ///< relative change of the cost at convergence [-]
+  /// dcs is replaced by width x / (width + x): switchable constraints, switch eliminated.
+  bool is_smoothed = false;
   /// Not in Sim(3), in SE(2) in the plane of pose 0; the loss does not apply to them.
   std::vector<Anchor> anchors = {};
   bool is_first_free = false;            ///< pose 0 is estimated: anchors must determine the frame

@@ -188,7 +188,7 @@ TEST(Covariances, IgnoreRejectedClosures) {
   wrong.from_from_to.translation.x() += 40.0;
   problem.closures.push_back(wrong);
   expect_equal(of_graph(problem, nullptr, {.gnc = Gnc::tls}), right, 1e-3);
-  expect_equal(of_graph(problem, nullptr, {.loss = RobustLoss::switchable}), right, 0.05);
+  expect_equal(of_graph(problem, nullptr, {.loss = RobustLoss::dcs}), right, 0.05);
 }
 
 TEST(Covariances, AreOptional) {
