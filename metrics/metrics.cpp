@@ -13,14 +13,12 @@
 #include "metrics/correction/loop_detection.hpp"
 #include "metrics/correction/optimality.hpp"
 #include "metrics/correction/path_length.hpp"
-#include "metrics/correction/smoothing_headroom.hpp"
 #include "metrics/errors/accuracy.hpp"
 #include "metrics/errors/along_cross.hpp"
 #include "metrics/errors/ape.hpp"
 #include "metrics/errors/ate.hpp"
 #include "metrics/errors/axis_error.hpp"
 #include "metrics/errors/control_points.hpp"
-#include "metrics/errors/discernible.hpp"
 #include "metrics/errors/nees.hpp"
 #include "metrics/errors/rpe.hpp"
 #include "metrics/errors/segments.hpp"
@@ -58,8 +56,6 @@ std::vector<MetricEntry> metrics() {
       metric<ControlPointsOptions>("control_points",
                                    "score of the Hilti SLAM Challenge for surveyed points",
                                    control_points),
-      metric<DiscernibleOptions>(
-          "discernible", "robust trajectory and rotation errors DTE and DRE", discernible),
       metric<NeesOptions>(
           "nees", "errors over their stated covariances: NEES, and coverage of regions", nees),
       metric("closure_residual",
@@ -80,9 +76,6 @@ std::vector<MetricEntry> metrics() {
       metric<InterpolationFloorOptions>("interpolation_floor",
                                         "interpolation error between keyframes if they were exact",
                                         interpolation_floor),
-      metric<SmoothingHeadroomOptions>("smoothing_headroom",
-                                       "largest gain possible by removing high-frequency error",
-                                       smoothing_headroom),
       metric("coverage", "share of the estimate and the reference that was evaluated", coverage),
       metric_without_reference<DetectionRule>(
           "loop_detection",

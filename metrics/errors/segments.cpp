@@ -48,12 +48,10 @@ PoseMatrix printed_error(const PrintedPoses& poses, std::size_t i, std::size_t j
 /// used with the printed digits and general matrix inverses, as in the devkit: converting them to
 /// rotations first changes the mean angle by a relative 2e-9.
 SegmentErrors segment_errors(const Evaluation& evaluation,
-                             const std::vector<double>& distances,
                              const std::vector<FromTo>& pairs,
                              double length,
                              bool only_rates) {
   const Protocol& protocol = evaluation.protocol;
-  const bool is_per_metre_gone = protocol.segments.end == SegmentEnd::eth3d;
   Rotation up_from_reference = Rotation::Identity();
   if (protocol.segments.up == PairsFrom::estimate) {
     up_from_reference = evaluation.alignment.reference_from_estimate.rotation.conjugate();
@@ -80,9 +78,8 @@ SegmentErrors segment_errors(const Evaluation& evaluation,
       radians = trace_angle(exact.linear().trace());
     }
     const double metres = E.translation.norm();
-    const double per = is_per_metre_gone ? distances[j] - distances[i] : length;
-    out.translation_share[k] = metres / per;
-    out.rotation_rate[k] = radians / per;
+    out.translation_share[k] = metres / length;
+    out.rotation_rate[k] = radians / length;
     if (only_rates) return;
     const Rotation up_from_body = up_from_reference * P_j.rotation;
     const Euler turn = euler(up_from_body * E.rotation * up_from_body.conjugate());
@@ -233,7 +230,7 @@ class Finder {
     }
     const double miss = tolerance("segments.tolerance", rule_.tolerance).of(length);
     const std::vector<FromTo> pairs = segment_pairs(distances_, length, miss, rule_.end, step);
-    return segment_errors(evaluation_, distances_, pairs, length, only_rates);
+    return segment_errors(evaluation_, pairs, length, only_rates);
   }
 
  private:

@@ -1,4 +1,4 @@
-/// Errors of sub-trajectories of given lengths: KITTI's drift, rpg's and ov_eval's relative errors.
+/// Errors of sub-trajectories of given lengths: KITTI's drift and rpg's relative errors.
 #pragma once
 
 #include "metrics/metric.hpp"
@@ -25,7 +25,7 @@ void check_combination(const SegmentsOptions& options);
 /// [deg/m] of all sub-trajectories of all lengths. Axis `8 m` or `10%` for each length: these two
 /// and translation [m], rotation [deg], and of E rotated into the world yaw [deg] and gravity
 /// [deg], the root of squared roll and pitch. Relative lengths are truncated to centimetres as in
-/// rpg. Errors per metre divide by the nominal length; with end eth3d by the distance travelled.
+/// rpg. Errors per metre divide by the nominal length.
 /// Lengths with fewer than segments.fewest sub-trajectories are skipped. precision float32: the
 /// devkit's float arithmetic and float sums (`mean`), only % and deg/m. Throws Undefined if nothing
 /// remains, and for trajectories that hold only positions, because every relative motion needs an

@@ -79,27 +79,6 @@ std::vector<IndexPair> match_evo(std::vector<double> reference,
   return out;
 }
 
-std::vector<IndexPair> match_ov_eval(const std::vector<double>& reference,
-                                     const std::vector<double>& estimate,
-                                     double max_diff,
-                                     double offset) {
-  std::vector<IndexPair> out;
-  std::size_t next = 0;  // first reference pose not yet passed
-  for (std::size_t i = 0; i < estimate.size(); ++i) {
-    const double wanted = estimate[i] + offset;
-    const auto miss = [&] { return std::abs(reference[next] - wanted); };
-    while (next < reference.size() && reference[next] < wanted && miss() > max_diff) ++next;
-    double best = max_diff;
-    bool is_found = false;
-    for (; next < reference.size() && miss() < best; ++next) {
-      best = miss();
-      is_found = true;
-    }
-    if (is_found) out.push_back({next - 1, i});
-  }
-  return out;
-}
-
 Paired interpolate_reference(const Trajectory& reference,
                              const Trajectory& estimate,
                              double max_gap,
@@ -148,10 +127,6 @@ Paired associate(const Trajectory& reference,
     case Association::evo:
       return gather(
           reference, estimate, match_evo(stamps(reference), stamps(estimate), max_diff, offset));
-    case Association::ov_eval:
-      return gather(reference,
-                    estimate,
-                    match_ov_eval(stamps(reference), stamps(estimate), max_diff, offset));
     case Association::index:
       if (reference.empty() || estimate.empty()) return {};
       if (reference.size() == estimate.size()) return {reference, estimate};

@@ -50,15 +50,6 @@ std::vector<IndexPair> match_one_to_one(const std::vector<double>& reference,
                                         Crossing crossing,
                                         double offset);
 
-/// ov_eval (AlignUtils.cpp, commit 6948812): visits estimate poses in order with a reference index
-/// that only increases, so each reference pose is used once; strict |dt| < max_diff. The pairs are
-/// not always the nearest: an early estimate pose can take a reference pose that is nearer to a
-/// later one. O(n + m).
-std::vector<IndexPair> match_ov_eval(const std::vector<double>& reference,
-                                     const std::vector<double>& estimate,
-                                     double max_diff,
-                                     double offset);
-
 /// Paired trajectories of equal length: element i of one is paired with element i of the other. The
 /// estimate keeps its own stamps.
 struct Paired {

@@ -53,23 +53,6 @@ std::vector<FromTo> nearest(const std::vector<double>& distances,
   return out;
 }
 
-/// The end advances while the next pose is nearer than the end was at the beginning of this start.
-/// It overshoots the first length and fits again only after the starts have caught up. Once it
-/// reaches the last pose, all later starts are dropped.
-std::vector<FromTo> eth3d(const std::vector<double>& distances, double length, double tolerance) {
-  std::vector<FromTo> out;
-  std::size_t end = 0;
-  for (std::size_t start = 0; end + 1 < distances.size() && start < distances.size(); ++start) {
-    const double wanted = distances[start] + length;
-    const double at_first = std::abs(wanted - distances[end]);
-    while (end + 1 < distances.size() && std::abs(wanted - distances[end + 1]) < at_first) ++end;
-    if (end + 1 >= distances.size()) break;
-    if (start == end || std::abs(distances[end] - distances[start] - length) > tolerance) continue;
-    out.emplace_back(start, end);
-  }
-  return out;
-}
-
 }  // namespace
 
 std::vector<FromTo> segment_pairs(const std::vector<double>& distances,
@@ -80,8 +63,6 @@ std::vector<FromTo> segment_pairs(const std::vector<double>& distances,
   switch (end) {
     case SegmentEnd::beyond:
       return segments_beyond(distances, length, step);
-    case SegmentEnd::eth3d:
-      return eth3d(distances, length, tolerance);
     case SegmentEnd::nearest:
     case SegmentEnd::rpg:
       break;

@@ -9,9 +9,8 @@
 namespace loopbench::metrics {
 
 /// Pairs of start and end on `distances` (accumulated, never decreasing) by the rule `end`, for
-/// starts `step` apart. rpg: trajectory_utils.py:25-37 (8c8ceec), ov_eval: ResultTrajectory
-/// (6948812), ETH3D: main.cc (30edfa0), KITTI: evaluate_odometry.cpp (2afdb93). O(n) for all rules;
-/// `nearest` takes O(log n) for a start whose end does not move.
+/// starts `step` apart. rpg: trajectory_utils.py:25-37 (8c8ceec), KITTI: evaluate_odometry.cpp
+/// (2afdb93). O(n) for all rules; `nearest` takes O(log n) for a start whose end does not move.
 std::vector<FromTo> segment_pairs(const std::vector<double>& distances,
                                   double length,
                                   double tolerance,

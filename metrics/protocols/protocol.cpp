@@ -40,9 +40,6 @@ void check_segments(const SegmentErrorRule& rule) {
   if (rule.end == SegmentEnd::rpg && rule.step != 1) {
     refuse("segments.step", std::to_string(rule.step), "segments.end = rpg requires step 1");
   }
-  if (rule.end == SegmentEnd::eth3d && rule.step != 1) {
-    refuse("segments.step", std::to_string(rule.step), "segments.end = eth3d requires step 1");
-  }
 }
 
 void check_max_pairs(const Protocol& p) {

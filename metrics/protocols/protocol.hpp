@@ -12,7 +12,6 @@ enum class Association {
   nearest,      ///< one-to-one in order, smallest differences first, |dt| <= max_diff
   evo,          ///< evo 1.x: nearest for each pose of the shorter list; a pose can be paired twice
   tum,          ///< TUM associate.py: one-to-one, greedy by difference, strict |dt| < max_diff
-  ov_eval,      ///< one pass in time, each reference pose used once, strict |dt| < max_diff
   interpolate,  ///< reference interpolated at the estimate's stamps, gaps up to max_gap
   interpolate_estimate,  ///< estimate interpolated at the reference's stamps, gaps up to max_gap
   index,                 ///< pairs equal indices of equally long lists; ignores stamps
@@ -21,7 +20,6 @@ inline auto choices(Association) {
   return std::array{std::pair{"nearest", Association::nearest},
                     std::pair{"evo", Association::evo},
                     std::pair{"tum", Association::tum},
-                    std::pair{"ov_eval", Association::ov_eval},
                     std::pair{"interpolate", Association::interpolate},
                     std::pair{"interpolate_estimate", Association::interpolate_estimate},
                     std::pair{"index", Association::index}};
@@ -128,13 +126,11 @@ enum class SegmentEnd {
   nearest,  ///< j >= i with the smallest |d_j - (d_i + length)|, below the tolerance
   rpg,      ///< the same ends, but the k-th end found is paired with the k-th pose: rpg as released
   beyond,   ///< first j with d_j > d_i + length, no tolerance: KITTI
-  eth3d,    ///< ETH3D's search as released: skips many early starts; errors per metre travelled
 };
 inline auto choices(SegmentEnd) {
   return std::array{std::pair{"nearest", SegmentEnd::nearest},
                     std::pair{"rpg", SegmentEnd::rpg},
-                    std::pair{"beyond", SegmentEnd::beyond},
-                    std::pair{"eth3d", SegmentEnd::eth3d}};
+                    std::pair{"beyond", SegmentEnd::beyond}};
 }
 
 /// Floating-point precision of segment errors and their sums.
@@ -195,7 +191,7 @@ void fields(Protocol& o, Visit visit) {
       "association",
       o.association,
       "pairing in time; nearest: one-to-one, smallest differences first; evo: nearest, a pose can "
-      "be paired twice; tum: greedy by difference, as associate.py; ov_eval: one pass in time; "
+      "be paired twice; tum: greedy by difference, as associate.py; "
       "interpolate: reference interpolated at the estimate's stamps; interpolate_estimate: "
       "estimate "
       "interpolated at the reference's stamps (control points, GNSS); index: equal indices, stamps "
@@ -241,8 +237,7 @@ void fields(Protocol& o, Visit visit) {
       "segments.end",
       o.segments.end,
       "end of a sub-trajectory; nearest: pose nearest to its length; rpg: nearest, with the index "
-      "error of the released tool; beyond: first pose farther than its length (KITTI); eth3d: as "
-      "the released tool");
+      "error of the released tool; beyond: first pose farther than its length (KITTI)");
   visit("segments.step",
         o.segments.step,
         "poses between the starts of sub-trajectories",

@@ -72,24 +72,6 @@ Protocol kitti_double() {
   return p;
 }
 
-Protocol ov_eval() {
-  Protocol p = tool();
-  p.association = Association::ov_eval;
-  p.align = Align::posyaw;
-  p.segments = {.lengths = "8 16 24 32 40 48", .tolerance = "0.5"};
-  p.ddof = 1;
-  return p;
-}
-
-Protocol eth3d() {
-  Protocol p = tool();
-  p.association = Association::interpolate;
-  p.max_gap = 1.0 / 75.0;
-  p.form = ErrorForm::tum;
-  p.segments = {.lengths = "0.5 1 1.5 2", .tolerance = "0.025", .end = SegmentEnd::eth3d};
-  return p;
-}
-
 Protocol hilti() {
   Protocol p = tool();
   p.association = Association::interpolate_estimate;
@@ -143,14 +125,6 @@ std::vector<ProtocolEntry> protocols() {
        "2afdb93",
        "the devkit's rules in double precision, as in Python reimplementations",
        kitti_double()},
-      {"ov_eval",
-       "6948812",
-       "OpenVINS (VIO): single-pass association, yaw and position alignment, 8..48 m segments",
-       ov_eval()},
-      {"eth3d",
-       "30edfa0",
-       "ETH3D SLAM leaderboard: interpolated at the estimate's stamps, SE(3), 0.5..2 m segments",
-       eth3d()},
       {"hilti",
        "challenge 2023",
        "control points: estimate interpolated at the points' stamps, SE(3); metric control_points",

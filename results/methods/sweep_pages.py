@@ -108,16 +108,13 @@ def _gain_matrix(sweep):
         if raw.keyframes is None:
             continue
         interval, angle = spacing(raw.keyframes)
-        floor, headroom = (
-            next((s["rmse"] for axis in ("3d", "")
-                  if (s := raw.score(label, axis, "dense", relation))), math.nan)
-            for label, relation in (("interpolation_floor", "polyline"),
-                                    ("smoothing_headroom", "gain")))
+        score = raw.score("interpolation_floor", "3d", "dense", "polyline")
+        floor = score["rmse"] if score else math.nan
         lines.append((dataset, f"{interval:.2f}", f"{angle:.1f}", f"{1e3 * raw.ate():.1f}",
-                      f"{1e3 * floor:.1f}", f"{headroom:.1f}",
+                      f"{1e3 * floor:.1f}",
                       *(_gain_text(sweep.gain(dataset, method)) for method in methods)))
     head = ("run", "interval [s]", "angle [deg]", "ATE [mm]", "exact keyframes [mm]",
-            "headroom [%]", *methods)
+            *methods)
     return (_gain_summary(sweep, methods) + "\n## Runs\n\n"
             + table(head, ("---", *["---:"] * (len(head) - 1)), *lines))
 

@@ -161,7 +161,7 @@ TEST_F(Cli, ListKnowsEverythingThatCanBeNamed) {
   EXPECT_EQ(json.out.rfind("{\n  \"methods\": [", 0), 0u) << json.out.substr(0, 80);
   const CommandResult protocols = run("list protocols");
   for (const char* name :
-       {"loopbench ", "evo ", "tum ", "rpg ", "rpg-fixed ", "kitti ", "eth3d "}) {
+       {"loopbench ", "evo ", "tum ", "rpg ", "rpg-fixed ", "kitti ", "hilti "}) {
     EXPECT_NE(("\n" + protocols.out).find(std::string("\n") + name), std::string::npos) << name;
   }
   const CommandResult one = run("list smoothing_spline");

@@ -38,7 +38,7 @@ TEST(Completion, BashCompletesCommandsOptionsAndChoices) {
   EXPECT_EQ(completed("traj crop x --rel"), "--relative\n");
   EXPECT_EQ(completed("traj convert x --to eu"), "euroc\n");
   EXPECT_EQ(completed("eval gt.txt a.txt --protocol kitti-"), "kitti-double\n");
-  EXPECT_EQ(completed("eval gt.txt a.txt --protocol evo,ov"), "evo,ov_eval\n");
+  EXPECT_EQ(completed("eval gt.txt a.txt --protocol evo,hi"), "evo,hilti\n");
   EXPECT_EQ(completed("eval gt.txt a.txt --metric path"), "path_length\n");
   EXPECT_EQ(completed("eval gt.txt a.txt --metric ate,path"), "\n") << "is no list";
   EXPECT_EQ(completed("eval gt.txt a.txt --protocol = kitti-"), "kitti-double\n");

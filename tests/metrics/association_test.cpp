@@ -242,17 +242,6 @@ TEST(Association, NothingMatchesNothing) {
   }
 }
 
-TEST(Association, OvEvalGivesAnEarlyPoseWhatALaterOneIsNearerTo) {
-  // 0.010 is paired with 0.015; then 0.016, though nearer to it, has only 0.030 left.
-  const std::vector<IndexPair> got = match_ov_eval({0.0, 0.015, 0.030}, {0.010, 0.016}, 0.02, 0.0);
-  EXPECT_EQ(got, (std::vector<IndexPair>{{1, 0}, {2, 1}}));
-}
-
-TEST(Association, OvEvalRefusesADifferenceOfExactlyTheLimit) {
-  EXPECT_TRUE(match_ov_eval({0.0}, {0.5}, 0.5, 0.0).empty());
-  EXPECT_EQ(match_ov_eval({0.0, 1.0}, {0.5}, 0.5, 0.25), (std::vector<IndexPair>{{1, 0}}));
-}
-
 TEST(Association, IndexPairsByNumberOrNotAtAll) {
   const Protocol protocol{.association = Association::index};
   const Paired got = associate(line({0.0, 1.0}), line({5.0, 9.0}), protocol);

@@ -10,7 +10,6 @@
 #include "metrics/errors/ape.hpp"
 #include "metrics/errors/ate.hpp"
 #include "metrics/errors/control_points.hpp"
-#include "metrics/errors/discernible.hpp"
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
@@ -138,22 +137,6 @@ TEST(Accuracy, MissingTimeCountsAsFailed) {
   EXPECT_NEAR(find(scores, "within", "1").mean, 70.0, 0.2);
   EXPECT_NEAR(find(scores, "area", "").mean, 40.0 * 0.95 + 30.0 * 0.5, 0.2);
   EXPECT_THROW(check_combination(AccuracyOptions{"0.1 x"}), OptionError);
-}
-
-TEST(Discernible, IgnoresSimilaritiesAndCutsOutliers) {
-  std::mt19937_64 random(4);
-  const Trajectory reference = random_walk(random, 300);
-  const Trajectory exact = moved_by(random_pose(random, 10.0, 2.0), 0.3, reference);
-  const auto errors = [&](const Trajectory& estimate) {
-    return discernible(evaluate(reference, estimate, {.align = Align::none}), {});
-  };
-  EXPECT_LT(errors(exact)[0].statistics.mean, 1e-9);
-  EXPECT_LT(errors(exact)[1].statistics.mean, 1e-6);
-  Trajectory broken = exact;
-  for (std::size_t i = 0; i < 3; ++i) broken[100 * i].world_from_body.translation.x() += 1e4;
-  const double dte = errors(broken)[0].statistics.mean;  // 1 % at the cut: mean 0.01, rmse 0.1
-  EXPECT_NEAR(dte, 0.5 * (0.01 + 0.1), 5e-3);
-  EXPECT_LT(errors(noisy(random, exact, 0.01, 0.01))[0].statistics.mean, dte);
 }
 
 }  // namespace

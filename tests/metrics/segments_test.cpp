@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "metrics/numerics/angle.hpp"
 #include "metrics/pairing/segment_ends.hpp"
 #include "metrics/protocols/lengths.hpp"
 #include "metrics/protocols/protocols.hpp"
@@ -72,18 +74,6 @@ TEST(SegmentPairs, BeyondIsStrictAndSteps) {
   EXPECT_EQ(segment_pairs(d, 2.0, 0.0, SegmentEnd::beyond, 2), (Pairs{{0, 3}, {2, 5}}));
 }
 
-TEST(SegmentPairs, Eth3dLosesTheFirstStartsAndTheLast) {
-  // The end advances to 2 m minus a step before it stops; it fits when the start is 1 m before it.
-  // At 2.75 m the end reaches the last pose and the search stops.
-  std::vector<double> d;
-  for (int i = 0; i <= 16; ++i) d.push_back(0.25 * i);
-  const Pairs got = segment_pairs(d, 1.0, 0.025, SegmentEnd::eth3d, 1);
-  ASSERT_FALSE(got.empty());
-  EXPECT_EQ(got.front(), (FromTo{3, 7}));
-  EXPECT_EQ(got.back(), (FromTo{11, 15}));
-  EXPECT_EQ(got.size(), 9u);
-}
-
 TEST(Lengths, AreMetresOrShares) {
   const std::vector<Length> got = lengths("lengths", " 8 0.5m 10% ");
   ASSERT_EQ(got.size(), 3u);
@@ -131,6 +121,51 @@ TEST(Segments, OfAStraightRoadByHand) {
   // From pose 0, where the estimate's orientation is correct: 10.1 m instead of 10 m.
   EXPECT_NEAR(score("translation", "10 m", "m").min, 0.1, 1e-12);
   EXPECT_NEAR(score("translation", "10 m", "%").min, 1.0, 1e-11);
+}
+
+/// Errors of sub-trajectories of 8 to 48 m, to half a metre, of 1 m steps along x.
+std::vector<Score> short_road(const Trajectory& reference, const Trajectory& estimate) {
+  const Protocol protocol{
+      .align = Align::posyaw,
+      .segments = {.lengths = "8 16 24 32 40 48", .tolerance = "0.5"},
+      .ddof = 1,
+  };
+  return segments(evaluate(reference, estimate, protocol), {});
+}
+
+Trajectory steps_along_x(int size) {
+  Trajectory out;
+  for (int i = 0; i < size; ++i) out.push_back({0.1 * i, {Rotation::Identity(), Vector3(i, 0, 0)}});
+  return out;
+}
+
+TEST(Segments, StartEverywhereAndStdDividesByOneLess) {
+  Trajectory estimate = steps_along_x(21);
+  estimate[10].world_from_body.rotation = exp_so3(Vector3(0.2, 0.0, 0.0));  // about the path
+  const std::vector<Score> got = short_road(steps_along_x(21), estimate);
+  std::set<std::string> axes;
+  for (const Score& score : got) axes.insert(score.axis);
+  EXPECT_EQ(axes, (std::set<std::string>{"all", "8 m", "16 m"}));  // 24 m and more are too long
+  for (const Score& score : got) {
+    if (score.axis != "8 m") continue;
+    EXPECT_EQ(score.statistics.count, 13u);  // starts 0..12; 2 ends in pose 10, 10 starts there
+    if (score.relation == "translation") {
+      EXPECT_NEAR(score.statistics.max, 0.0, 1e-12);
+    }
+    if (score.relation != "rotation" || score.unit != "deg") continue;
+    const double mean = 2.0 * 0.2 / 13.0;
+    EXPECT_NEAR(score.statistics.mean, kDegrees * mean, 1e-9);
+    const double squares = 2.0 * std::pow(0.2 - mean, 2) + 11.0 * mean * mean;
+    EXPECT_NEAR(score.statistics.std, kDegrees * std::sqrt(squares / 12.0), 1e-9);
+  }
+}
+
+TEST(Segments, AnEndExactlyTheToleranceOffIsNone) {
+  Trajectory off = steps_along_x(2);
+  off[1].world_from_body.translation.x() = 7.5;
+  EXPECT_THROW(short_road(off, off), Undefined);
+  off[1].world_from_body.translation.x() = 7.6;
+  EXPECT_EQ(find(short_road(off, off), "translation", "8 m").count, 1u);
 }
 
 TEST(Segments, FloatAndDoubleAgreeToFloat) {
