@@ -269,18 +269,6 @@ void declare(CLI::App& command, EvalArguments& a) {
       ->excludes("--store")
       ->excludes("--report")
       ->excludes("--common");
-  command
-      .add_option("--by-position",
-                  a.by_position,
-                  "Pair by position, not by time: each pose of EST with the nearest point of REF's "
-                  "path in the same direction, at most this far away [m] (repeated routes, laps)")
-      ->type_name("M")
-      ->check(finite_number())
-      ->check(positive_number())
-      ->excludes(together)
-      ->excludes("--cov")
-      ->excludes("--ref-cov")
-      ->excludes("--common");
   command.add_flag("--show-defaults",
                    "Print all options as a section of loopbench.yaml, which sets "
                    "them for the files beside it, or for all in "

@@ -34,8 +34,6 @@ struct EvalArguments {
   std::vector<double> motion_filter;      ///< thresholds [m, deg] between poses; empty: none
   std::optional<double> start;            ///< time range of the reference [s]; none: all
   std::optional<double> end;
-  std::optional<double>
-      by_position;  ///< pair poses that are at most this far apart [m]; none: by time
   std::vector<std::string> protocols{"loopbench"};
   std::vector<std::string> settings;  ///< FIELD=VALUE of the protocol
   std::vector<std::string> fields;    ///< the same, of fields with an option of their own

@@ -19,7 +19,6 @@
 #include "harness/run/doctor_notes.hpp"
 #include "harness/run/sequence_identity.hpp"
 #include "harness/run/summarise_sequence.hpp"
-#include "metrics/pairing/nearest_position.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -109,8 +108,7 @@ struct PairEvaluation {
     const metrics::Alignment* fit = given ? given + row.protocol : nullptr;
     metrics::Evaluation evaluation = metrics::evaluate(reference.poses, estimate.poses, rules, fit);
     if (!common.empty()) evaluation = within_common_times(evaluation, fit);
-    const bool has_range = (arguments.start || arguments.end) && !arguments.by_position;
-    if (has_range) count_in_range(evaluation.coverage, rules.offset);
+    if (arguments.start || arguments.end) count_in_range(evaluation.coverage, rules.offset);
     const bool are_printed = !reference.matrices.empty() && !estimate.matrices.empty();
     const std::vector<Matrix6>& read = reference.findings.covariances;
     const std::vector<Matrix6> of_reference =
@@ -177,34 +175,6 @@ void share_notes(std::vector<EvaluationResult>& evaluations, std::vector<std::st
   }
 }
 
-/// The nearest points of the reference's path at the stamps of the estimate (--by-position), with a
-/// note. Throws InputError if no pose has a partner, or for an --offset.
-RecordedFile reference_of_route(const RecordedFile& reference,
-                                const RecordedFile& estimate,
-                                const RecordedSweep& files) {
-  const metrics::Protocol& rules = files.sweep.protocols.front().rules;
-  const double farthest = *files.arguments.by_position;
-  if (rules.offset != 0.0) {
-    throw InputError("--by-position ignores stamps, expected no --offset");
-  }
-  try {
-    metrics::RepeatedRoute route =
-        metrics::on_repeated_route(reference.poses, estimate.poses, farthest, rules.align);
-    RecordedFile out{.poses = std::move(route.reference), .unstamped = estimate.unstamped};
-    out.note = fmt::format(
-        "paired by position: {} of {} poses are at most {:g} m from the path of {} poses, of which "
-        "{:.1f} % are visited",
-        out.poses.size(),
-        estimate.poses.size(),
-        farthest,
-        reference.poses.size(),
-        100.0 * route.visited);
-    return out;
-  } catch (const std::runtime_error& error) {
-    throw InputError(std::string("--by-position: ") + error.what());
-  }
-}
-
 /// The first pose of each stamp: the doctor needs increasing stamps.
 Trajectory without_repeats(Trajectory poses) {
   const auto are_equal = [](const auto& a, const auto& b) { return a.stamp == b.stamp; };
@@ -260,7 +230,6 @@ EvaluatedFile evaluate_poses(const Cell& cell,
     const bool is_reference = file == &reference.read;
     std::ranges::move(reading_notes(file->findings, is_reference ? "reference" : "estimate"),
                       std::back_inserter(metadata.notes));
-    if (!file->note.empty()) metadata.notes.push_back(file->note);
     if (!file->findings.damage.empty())
       metadata.notes.push_back("damaged file: " + file->findings.damage);
   }
@@ -277,10 +246,7 @@ EvaluatedFile evaluate_recorded(const Cell& cell,
   try {
     const RecordedFile estimate =
         recorded_estimate(run.estimate, files.arguments, files.has_digits, &reference.read);
-    if (!files.arguments.by_position) return evaluate_poses(cell, files, reference, estimate);
-    SharedReference route = reference;
-    route.read = reference_of_route(reference.read, estimate, files);
-    return evaluate_poses(cell, files, route, estimate);
+    return evaluate_poses(cell, files, reference, estimate);
   } catch (const InputError& error) {
     EvaluatedFile out = not_evaluated(cell, files);
     out.result.status = Status::failed;

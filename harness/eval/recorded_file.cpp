@@ -178,7 +178,6 @@ Params reading_options(const EvalArguments& a) {
              {"period", period}};
   if (!a.covariances.empty()) out["covariances"] = a.covariances;
   if (!a.reference_covariances.empty()) out["reference_covariances"] = a.reference_covariances;
-  if (a.by_position) out["by_position"] = *a.by_position;
   if (a.start) out["start"] = *a.start;
   if (a.end) out["end"] = *a.end;
   if (a.downsample) out["downsample"] = static_cast<std::int64_t>(*a.downsample);

@@ -17,7 +17,6 @@ struct RecordedFile {
   std::vector<PoseMatrix> matrices = {};  ///< as printed; only of KITTI files, and if needed
   ReadFindings findings = {};             ///< its covariances are of `poses`
   std::string unstamped = {};  ///< file and format if the stamps were generated, otherwise empty
-  std::string note = {};       ///< on the pairing by position, otherwise empty
 };
 
 /// Read a file as the arguments state, without poses that they filter out; the reference is in the

@@ -215,7 +215,7 @@ StoredRuns store_runs(const std::vector<RecordedRun>& added,
   StoredRuns out;
   std::vector<RecordedRun> runs = with_stored(stored, added, out.notes);
   check_references(runs);
-  if (a.common.value_or(!a.by_position)) set_common_times(runs, a);
+  if (a.common.value_or(true)) set_common_times(runs, a);
   const RecordedSweep files = recorded_sweep(std::move(runs), a);
   CellKeys keys(files.sweep, files.catalogue, DataRoot{}, build_id(source.code));
   // Before the store changes: stored results are kept if a reference cannot be read.

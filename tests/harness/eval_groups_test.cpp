@@ -109,28 +109,5 @@ Trajectory rounds(int laps, double first_stamp, double height) {
   return out;
 }
 
-TEST(EvalGroups, RepeatedRoutesArePairedByPosition) {
-  const TemporaryFolder folder;
-  const auto file = [&](const char* name) { return (folder.path() / name).string(); };
-  write_tum(file("first.txt"), rounds(1, 0, 0));
-  write_tum(file("second.txt"), rounds(1, 1000, 0.1));
-  const std::vector<std::string> files{file("first.txt"), file("second.txt")};
-  EXPECT_THAT(refusal<InputError>(files), HasSubstr("no pose of the estimate"));
-  const Json apart = eval_json({files[0], files[1], "--by-position", "2", "--align", "none"});
-  EXPECT_NEAR(find(apart, "ate", "translation")["rmse"], 0.1, 1e-12);
-  EXPECT_NEAR(find(apart, "ate", "rotation")["rmse"], 0.0, 1e-9);
-  EXPECT_THAT(apart["notes"].dump(),
-              HasSubstr("45 of 45 poses are at most 2 m from the path of 45 poses, of which 100.0 "
-                        "% are visited"));
-  const Json aligned = eval_json({files[0], files[1], "--by-position", "2"});
-  EXPECT_NEAR(find(aligned, "ate", "translation")["rmse"], 0.0, 1e-6);
-  EXPECT_THAT(refusal<InputError>({files[0], files[1], "--by-position", "0.05"}),
-              HasSubstr("--by-position: no pose of the estimate is within 0.05 m"));
-  EXPECT_THAT(refusal<InputError>({files[0], files[1], "--by-position", "2", "--offset", "1"}),
-              HasSubstr("expected no --offset"));
-  EXPECT_THROW(eval({files[0], files[1], "--by-position", "2", "--common", "yes"}),
-               CLI::ExcludesError);
-}
-
 }  // namespace
 }  // namespace loopbench::eval_groups_test
