@@ -4,7 +4,6 @@
 #include "metrics/checks/coverage.hpp"
 #include "metrics/checks/diagnostics.hpp"
 #include "metrics/checks/extrinsic_offset.hpp"
-#include "metrics/checks/lever_arm.hpp"
 #include "metrics/correction/closure_residual.hpp"
 #include "metrics/correction/graph_cost.hpp"
 #include "metrics/correction/interpolation_floor.hpp"
@@ -85,10 +84,6 @@ std::vector<MetricEntry> metrics() {
           "extrinsic_offset",
           "extrinsic offset of the reference's body by hand-eye calibration",
           extrinsic_offset_scores),
-      metric<LeverArmOptions>(
-          "lever_arm",
-          "lever arm and time offset of a prism or antenna, from positions, with 95 % intervals",
-          lever_arm),
       metric("causal_ate", "ate of each pose at its own time, in a replay", causal_ate),
       metric<RpeOptions>("causal_rpe", "rpe of each pose at its own time, in a replay", causal_rpe),
       metric_without_reference<NoOptions>(

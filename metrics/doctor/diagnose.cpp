@@ -142,9 +142,6 @@ class PairDiagnosis {
       note_constant_rotation(largest_rotation_angle(poses.reference),
                              largest_rotation_angle(poses.estimate));
     }
-    const bool is_of_points = largest_rotation_angle(poses.reference) < kConstant &&
-                              largest_rotation_angle(poses.estimate) > kLeastRotation;
-    if (is_of_points) add(remove_lever_arm(poses));
     for (int i = 0; i < kMostRepairs && add(apply_best_repair(poses, out_.findings)); ++i) {
     }
     check_recording(agreement(poses));

@@ -92,10 +92,6 @@ std::optional<InputFinding> repair_order(Trajectory& file,
                                          const Trajectory& other,
                                          const std::string& name);
 
-/// A reference of positions is that of a point with a lever arm that halves the position error: a
-/// prism or an antenna. O(n).
-std::optional<InputFinding> remove_lever_arm(Paired& poses);
-
 /// Of order and sign of quaternions, inverted poses, axes, units of lengths, scale, rotation and
 /// lever arm of the body, the repair with the largest gain. It has to reduce the sum of errors
 /// clearly and at least one error by a quarter, on poses that it was not fitted to. nullopt if

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <stdexcept>
 
 #include "datasets/core/mirrored.hpp"
 #include "metrics/checks/extrinsic_offset.hpp"
-#include "metrics/checks/point_offset.hpp"
 #include "metrics/doctor/pair_checks.hpp"
 #include "metrics/doctor/signed_axes.hpp"
 #include "metrics/numerics/angle.hpp"
@@ -198,28 +196,6 @@ bool agrees(const Agreement& a) {
 }
 
 }  // namespace
-
-std::optional<InputFinding> remove_lever_arm(Paired& poses) {
-  constexpr double kMostRatio = 0.5;
-  PointOffset fit;
-  try {
-    fit = fit_point_offset(poses.reference, poses.estimate, true, longest_gap(poses.estimate));
-  } catch (const std::runtime_error&) {
-    return std::nullopt;  // points on a line
-  }
-  const double ratio = fit.rmse / fit.rmse_before;
-  if (!(ratio < kMostRatio)) return std::nullopt;
-  for (auto& [stamp, pose] : poses.estimate) pose.translation += pose.rotation * fit.lever_arm;
-  return InputFinding{Fault::lever_arm,
-                      fmt::format("the reference is that of a point {:.3g} m away: position error "
-                                  "{:.3g} -> {:.3g} m",
-                                  fit.lever_arm.norm(),
-                                  fit.rmse_before,
-                                  fit.rmse),
-                      "--ref-body=" + body_option({Rotation::Identity(), fit.lever_arm}),
-                      1.0 - ratio,
-                      fit.lever_arm.norm()};
-}
 
 std::optional<InputFinding> apply_best_repair(Paired& poses,
                                               const std::vector<InputFinding>& found) {

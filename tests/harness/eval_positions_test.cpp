@@ -95,21 +95,6 @@ TEST(EvalPositions, OneFrameShowsTheErrorWithoutAlignment) {
   EXPECT_THAT(shown, HasSubstr("in one frame: ATE 0.05 m without alignment"));
 }
 
-TEST(EvalPositions, TheLeverArmIsEstimatedAndNotApplied) {
-  const TemporaryFolder folder;
-  const std::string antenna = positions_of(folder, kAntenna);
-  const Json results = eval_json({antenna, golden("gt.txt"), "--metric=ate", "--metric=lever_arm"});
-  EXPECT_GT(ate_of(results), 0.05);
-  int found = 0;
-  for (const Json& row : results["metrics"]) {
-    if (row["relation"] != "position") continue;
-    const auto axis = static_cast<int>(std::string("xyz").find(row["axis"].get<std::string>()));
-    EXPECT_NEAR(row["mean"].get<double>(), kAntenna.translation[axis], 1e-3);
-    ++found;
-  }
-  EXPECT_EQ(found, 2);  // the path is nearly flat: z is not observable
-}
-
 TEST(EvalPositions, LatitudesStateTheirDatumAndShareTheOrigin) {
   const TemporaryFolder folder;
   std::string table = "t,latitude,longitude,height\n";

@@ -29,12 +29,8 @@ const std::set<std::string> kErrors{"ate",
                                     "causal_rpe",
                                     "closure_jumps",
                                     "update_time"};
-const std::set<std::string> kDescriptions{"closure_residual",
-                                          "interpolation_floor",
-                                          "coverage",
-                                          "extrinsic_offset",
-                                          "diagnostics",
-                                          "lever_arm"};
+const std::set<std::string> kDescriptions{
+    "closure_residual", "interpolation_floor", "coverage", "extrinsic_offset", "diagnostics"};
 const std::set<std::string> kOthers{"path_length",
                                     "jerk",
                                     "graph_cost",

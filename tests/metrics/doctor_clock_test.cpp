@@ -104,15 +104,6 @@ TEST(DoctorOfClocks, ALeftHandedWorldIsOneFinding) {
   EXPECT_THAT(found[0].fix, HasSubstr("--mirror "));
 }
 
-TEST(DoctorOfClocks, AnAntennaIsAPointOfTheBody) {
-  const Vector3 arm(0.8, -0.5, 0.6);
-  const Trajectory reference = each(truth(), [&](const Pose& p) -> Pose {
-    return {no_rotation(), p.translation + p.rotation * arm};
-  });
-  const Trajectory estimate = each(sampled(20), [](const Pose& p) { return p; });
-  EXPECT_THAT(faults(reference, estimate), ElementsAre(Fault::lever_arm));
-}
-
 TEST(DoctorOfClocks, ManyOutliers) {
   Trajectory estimate = sampled(20);
   for (std::size_t i = 15; i < estimate.size(); i += 40) {
