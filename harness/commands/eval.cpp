@@ -97,10 +97,6 @@ std::string result_text(const EvalArguments& a, const std::vector<EvaluationResu
   for (std::size_t i = 0; style && i < tables.size(); ++i) {
     out += (i == 0 ? "" : "\n") + terminal(tables[i], *style);
   }
-  if (a.pairwise || a.align_together) {
-    const Table summary = group_summary(all, a.pairwise);
-    return out + "\n" + (style ? terminal(summary, *style) : markdown(summary));
-  }
   return out + verdict_of(a, all, style) + below_reference_error(a, all);
 }
 

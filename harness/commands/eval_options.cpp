@@ -254,21 +254,6 @@ void declare(CLI::App& command, EvalArguments& a) {
                   "yes with --store)")
       ->transform(one_of<bool>("answer", {{"yes", true}, {"no", false}}))
       ->type_name("WORD");
-  auto* together = command.add_flag(
-      "--align-together",
-      a.align_together,
-      "One alignment for all EST of a common frame (robots, submaps, mapping runs): of one REF, or "
-      "of equal ALGORITHM and RUN");
-  together->excludes("--store");
-  command
-      .add_flag("--pairwise",
-                a.pairwise,
-                "Compare REF and EST as runs of one system, each pair of them, without a reference "
-                "(repeatability)")
-      ->excludes(together)
-      ->excludes("--store")
-      ->excludes("--report")
-      ->excludes("--common");
   command.add_flag("--show-defaults",
                    "Print all options as a section of loopbench.yaml, which sets "
                    "them for the files beside it, or for all in "

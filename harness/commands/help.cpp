@@ -50,7 +50,7 @@ const std::map<std::string, std::string> kExamples{
     {"eval",
      "  loopbench eval reference.txt estimate.txt --align sim3\n"
      "  loopbench eval reference.txt a.txt b.txt --protocol evo,tum,rpg\n"
-     "  loopbench eval run_1.txt run_2.txt run_3.txt --pairwise\n"},
+     "  loopbench eval reference.txt slam_1.txt slam_2.txt --store results/slam\n"},
     {"help",
      "  loopbench help\n"
      "  loopbench help run\n"

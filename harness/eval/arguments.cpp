@@ -194,11 +194,6 @@ std::vector<FilePair> file_pairs(const EvalArguments& a) {
     reject_folder(estimate, a);
     out.push_back({a.reference, estimate});
   }
-  for (std::size_t i = 0; a.pairwise && i < a.estimates.size(); ++i) {
-    for (std::size_t k = i + 1; k < a.estimates.size(); ++k) {
-      out.push_back({a.estimates[i], a.estimates[k]});
-    }
-  }
   return out;
 }
 

@@ -55,14 +55,12 @@ struct EvalArguments {
   bool pose_errors = false;  ///< keep EvaluationResult::poses
   std::string plot;          ///< prefix of figure files; empty: none
   FigureOptions figures;
-  std::string report;           ///< HTML file; empty: none
-  std::string store;            ///< folder of a store for the results; empty: none
-  std::string sequence;         ///< label of the reference in the store; empty: from its file name
-  std::string group;            ///< recording of the reference; empty: by its geometry
-  std::optional<bool> common;   ///< evaluate the times that all estimates cover; none: with a store
-  bool align_together = false;  ///< one alignment for all estimates of a system
-  bool pairwise = false;        ///< evaluate each pair of files, without a reference
-  bool paired = false;          ///< pair runs of equal names in verdicts
+  std::string report;          ///< HTML file; empty: none
+  std::string store;           ///< folder of a store for the results; empty: none
+  std::string sequence;        ///< label of the reference in the store; empty: from its file name
+  std::string group;           ///< recording of the reference; empty: by its geometry
+  std::optional<bool> common;  ///< evaluate the times that all estimates cover; none: with a store
+  bool paired = false;         ///< pair runs of equal names in verdicts
 
   /// Whether trajectories are kept with the results.
   bool keeps_traces() const { return !store.empty() || !report.empty(); }
@@ -90,7 +88,7 @@ EvaluatedRange evaluated_range(const EvalArguments& arguments);
 /// Throws InputError unless the text has three or seven numbers, with a unit quaternion.
 ReferenceBody reference_body(const EvalArguments& arguments);
 
-/// Pairs REF with each EST (pairwise: also each EST with the later ones). Throws InputError.
+/// Pairs REF with each EST. Throws InputError.
 std::vector<FilePair> file_pairs(const EvalArguments& arguments);
 
 }  // namespace loopbench::harness

@@ -189,8 +189,7 @@ std::vector<EvaluationResult> evaluate_files(
   for (const std::string& file : {a.per_pose, a.save_results}) reject_overwriting(inputs, file);
   std::vector<RecordedRun> labelled = runs_of(files, a);
   if (a.common.value_or(false)) set_common_times(labelled, a);
-  RecordedSweep sweep = recorded_sweep(std::move(labelled), a);
-  if (a.align_together) sweep.alignments = common_alignments(sweep);
+  const RecordedSweep sweep = recorded_sweep(std::move(labelled), a);
   const std::vector<RecordedRun>& runs = sweep.runs;
   check_stamp_options(a, runs);
   std::vector<Cell> cells = sweep.cells;
@@ -208,8 +207,7 @@ std::vector<EvaluationResult> evaluate_files(
     });
   }
   require_evaluated(all);
-  // Each estimate of a group may cover a part.
-  if (!a.min_coverage && !a.align_together) check_coverage(all);
+  if (!a.min_coverage) check_coverage(all);
   if (visit) visit(sweep, all);
   return results_of(std::move(all), sweep.sweep);
 }

@@ -62,8 +62,7 @@ struct PairEvaluation {
   const RecordedFile& reference;
   const RecordedFile& estimate;
   EvaluatedFile& out;
-  std::string common;                         ///< times to evaluate; empty: all
-  const metrics::Alignment* given = nullptr;  ///< alignment under each protocol; null: none
+  std::string common;  ///< times to evaluate; empty: all
 
   void evaluate(std::size_t number) {
     EvaluationResult& own = out.protocols[number];
@@ -84,10 +83,9 @@ struct PairEvaluation {
 
  private:
   /// The errors at these times, with the coverage of all.
-  metrics::Evaluation within_common_times(const metrics::Evaluation& all,
-                                          const metrics::Alignment* fit) const {
+  metrics::Evaluation within_common_times(const metrics::Evaluation& all) const {
     metrics::Evaluation part =
-        metrics::evaluate(reference.poses, poses_within(estimate.poses, common), all.protocol, fit);
+        metrics::evaluate(reference.poses, poses_within(estimate.poses, common), all.protocol);
     part.coverage = all.coverage;
     return part;
   }
@@ -105,9 +103,8 @@ struct PairEvaluation {
   void add(EvaluationResult& own, const ScoreResult& row, const metrics::Protocol& rules) {
     const EvalArguments& arguments = files.arguments;
     const Sweep& sweep = files.sweep;
-    const metrics::Alignment* fit = given ? given + row.protocol : nullptr;
-    metrics::Evaluation evaluation = metrics::evaluate(reference.poses, estimate.poses, rules, fit);
-    if (!common.empty()) evaluation = within_common_times(evaluation, fit);
+    metrics::Evaluation evaluation = metrics::evaluate(reference.poses, estimate.poses, rules);
+    if (!common.empty()) evaluation = within_common_times(evaluation);
     if (arguments.start || arguments.end) count_in_range(evaluation.coverage, rules.offset);
     const bool are_printed = !reference.matrices.empty() && !estimate.matrices.empty();
     const std::vector<Matrix6>& read = reference.findings.covariances;
@@ -219,12 +216,7 @@ EvaluatedFile evaluate_poses(const Cell& cell,
   if (!run.common.empty()) {
     metadata.notes.push_back(common_times_note(estimate.poses, run.common));
   }
-  const bool is_group = !files.alignments.empty();
-  const auto* given = is_group ? files.alignments[cell.dataset].data() : nullptr;
-  if (is_group) {
-    metadata.notes.push_back("aligned together with the other estimates (--align-together)");
-  }
-  PairEvaluation evaluation{files, reference.read, estimate, out, run.common, given};
+  PairEvaluation evaluation{files, reference.read, estimate, out, run.common};
   for (std::size_t p = 0; p < out.protocols.size(); ++p) evaluation.evaluate(p);
   for (const RecordedFile* file : {&reference.read, &estimate}) {
     const bool is_reference = file == &reference.read;

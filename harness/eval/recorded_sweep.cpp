@@ -95,7 +95,7 @@ bool uses_digits(const RecordedSweep& files) {
 
 RecordedSweep recorded_sweep(std::vector<RecordedRun> runs, const EvalArguments& a) {
   RecordedSweep out{
-      a, std::move(runs), reference_body(a), recorded_catalogue(a.plugins), {}, false, {}, {}};
+      a, std::move(runs), reference_body(a), recorded_catalogue(a.plugins), {}, false, {}};
   const Params shared = reading_options(a);
   Sweep& sweep = out.sweep;
   sweep.name = "eval";

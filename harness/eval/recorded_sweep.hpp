@@ -9,7 +9,6 @@
 #include "harness/eval/recorded_runs.hpp"
 #include "harness/model/cells.hpp"
 #include "harness/model/sweep.hpp"
-#include "metrics/alignment/alignment.hpp"
 
 namespace loopbench::harness {
 
@@ -28,10 +27,6 @@ struct RecordedSweep {
   /// among all runs of the sequence, numbers in names as numbers, so that runs of equal names are
   /// paired.
   std::vector<Cell> cells;
-
-  /// Alignment of each run under each protocol (common_parts.hpp); empty: each run is aligned
-  /// on its own.
-  std::vector<std::vector<metrics::Alignment>> alignments = {};
 };
 
 /// The methods are in the order of their first run. Throws InputError, OptionError.

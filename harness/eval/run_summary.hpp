@@ -1,11 +1,10 @@
-/// Statistics over runs: of each system with the verdict, against each other, or aligned together.
+/// Statistics over the runs of each system, with the verdict.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "harness/eval/evaluation_result.hpp"
 #include "harness/model/record.hpp"
 #include "harness/tables/table.hpp"
 
@@ -20,11 +19,5 @@ namespace loopbench::harness {
 std::string run_report(const std::vector<Record>& records,
                        const std::optional<TerminalStyle>& style = std::nullopt,
                        bool paired = false);
-
-/// One row for each score of `ate` and `rpe` over all axes and protocol (and method, if there are
-/// several references): number of results, median, minimum, maximum and interquartile range of the
-/// protocol's statistic over them, and the rmse of all their errors. Pairwise: each result is a
-/// pair of runs, otherwise an estimate. O(results log results).
-Table group_summary(const std::vector<EvaluationResult>& results, bool is_pairwise);
 
 }  // namespace loopbench::harness

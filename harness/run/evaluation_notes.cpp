@@ -13,10 +13,8 @@
 namespace loopbench::harness {
 namespace {
 
-/// Number of parameters estimated from all pairs; 0 for alignments that do not use all pairs, or
-/// pairs of other estimates, too.
+/// Number of parameters estimated from all pairs; 0 for alignments that do not use all pairs.
 int fitted_parameters(const metrics::Evaluation& evaluation) {
-  if (evaluation.has_given_alignment) return 0;
   const auto first = static_cast<std::size_t>(evaluation.protocol.align_first);
   if (first > 0 && first < evaluation.coverage.pairs) return 0;
   switch (evaluation.alignment.type) {

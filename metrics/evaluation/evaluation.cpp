@@ -60,18 +60,15 @@ void require_attitudes(const Paired& paired, Align align) {
 Evaluation align_pairs(Paired paired,
                        std::size_t possible,
                        const Trajectory& reference,
-                       const Protocol& protocol,
-                       const Alignment* given = nullptr) {
+                       const Protocol& protocol) {
   require_attitudes(paired, protocol.align);
   Evaluation out;
   out.protocol = protocol;
   out.reference_length = path_length(reference);
-  out.has_given_alignment = given != nullptr;
-  out.alignment = given ? *given
-                        : align(paired.reference,
-                                paired.estimate,
-                                protocol.align,
-                                static_cast<std::size_t>(protocol.align_first));
+  out.alignment = align(paired.reference,
+                        paired.estimate,
+                        protocol.align,
+                        static_cast<std::size_t>(protocol.align_first));
   out.coverage.pairs = paired.reference.size();
   out.coverage.possible = possible;
   const double duration = reference.back().stamp - reference.front().stamp;
@@ -98,8 +95,7 @@ std::string limits(const Protocol& protocol) {
 
 Evaluation evaluate(const Trajectory& reference,
                     const Trajectory& estimate,
-                    const Protocol& protocol,
-                    const Alignment* given) {
+                    const Protocol& protocol) {
   if (reference.empty()) throw std::runtime_error("the reference has no poses");
   if (estimate.empty()) throw std::runtime_error("the estimate has no poses");
   Paired paired = associate(reference, estimate, protocol);
@@ -112,7 +108,7 @@ Evaluation evaluate(const Trajectory& reference,
   }
   const bool is_at_reference = protocol.association == Association::interpolate_estimate;
   const std::size_t possible = is_at_reference ? reference.size() : estimate.size();
-  Evaluation out = align_pairs(std::move(paired), possible, reference, protocol, given);
+  Evaluation out = align_pairs(std::move(paired), possible, reference, protocol);
   if (uses_complete_files(protocol.pairs)) out.complete = {reference, estimate};
   return out;
 }

@@ -81,7 +81,6 @@ struct Evaluation {
   Trajectory reference;
   Trajectory estimate;  ///< after alignment; both lists are projected by the protocol
   Alignment alignment;
-  bool has_given_alignment = false;  ///< not fitted to these pairs alone
   Coverage coverage;
   Protocol protocol;
   double reference_length = 0.0;  ///< path length of the complete reference [m]
@@ -91,14 +90,12 @@ struct Evaluation {
   Context context;  ///< evaluate() leaves it empty; the caller that has problem and curve fills it
 };
 
-/// Pairs two pose lists, aligns them and counts the pairs. `given`: alignment to apply instead of
-/// the protocol's. Throws std::runtime_error if nothing matches, the alignment is degenerate, or
-/// the alignment needs orientations and a file holds only positions. O((n + m) log(n + m)) or
-/// better.
+/// Pairs two pose lists, aligns them and counts the pairs. Throws std::runtime_error if nothing
+/// matches, the alignment is degenerate, or the alignment needs orientations and a file holds only
+/// positions. O((n + m) log(n + m)) or better.
 Evaluation evaluate(const Trajectory& reference,
                     const Trajectory& estimate,
-                    const Protocol& protocol = {},
-                    const Alignment* given = nullptr);
+                    const Protocol& protocol = {});
 
 /// The same for a curve, evaluated at its keyframes or densely at the reference's stamps. Dense
 /// evaluation does not use the association: the curve is evaluated at every reference stamp (minus
