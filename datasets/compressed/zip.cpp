@@ -61,35 +61,6 @@ std::string content_of_entry(std::string_view bytes, std::string_view entry, std
   return out;
 }
 
-class ZipBytes {
- public:
-  template <class T>
-  ZipBytes& number(T value) {
-    out_.append(reinterpret_cast<const char*>(&value), sizeof(T));
-    return *this;
-  }
-  ZipBytes& bytes(std::string_view text) {
-    out_ += text;
-    return *this;
-  }
-  const std::string& text() const { return out_; }
-
- private:
-  std::string out_;
-};
-
-/// What the local header and the entry of the directory have in common.
-ZipBytes description(const ZipMember& member) {
-  constexpr std::uint16_t kVersion = 20, kNoFlags = 0, kStored = 0;
-  constexpr std::uint16_t kMidnight = 0, kFirstDate = 0x21;  // 1980-01-01: equal files are equal
-  const auto size = static_cast<std::uint32_t>(member.content.size());
-  ZipBytes out;
-  out.number(kVersion).number(kNoFlags).number(kStored).number(kMidnight).number(kFirstDate);
-  out.number(crc32_of(member.content)).number(size).number(size);
-  out.number(static_cast<std::uint16_t>(member.name.size())).number(std::uint16_t{0});
-  return out;
-}
-
 }  // namespace
 
 bool is_zip(std::string_view bytes) { return bytes.starts_with(kLocalMark); }
@@ -112,24 +83,6 @@ std::vector<ZipMember> zip_members(std::string_view bytes, std::size_t limit) {
     limit -= out.back().content.size();
   }
   return out;
-}
-
-std::string zip_of(const std::vector<ZipMember>& members) {
-  ZipBytes out;
-  ZipBytes directory;
-  for (const ZipMember& member : members) {
-    const std::string shared = description(member).text();
-    constexpr std::uint16_t kMadeBy = 20, kNone = 0;
-    directory.bytes(kEntryMark).number(kMadeBy).bytes(shared);
-    directory.number(kNone).number(kNone).number(kNone).number(std::uint32_t{0});
-    directory.number(static_cast<std::uint32_t>(out.text().size())).bytes(member.name);
-    out.bytes(kLocalMark).bytes(shared).bytes(member.name).bytes(member.content);
-  }
-  const auto start = static_cast<std::uint32_t>(out.text().size());
-  const auto count = static_cast<std::uint16_t>(members.size());
-  out.bytes(directory.text()).bytes(kEndMark).number(std::uint32_t{0});
-  out.number(count).number(count).number(static_cast<std::uint32_t>(directory.text().size()));
-  return out.number(start).number(std::uint16_t{0}).text();
 }
 
 }  // namespace loopbench

@@ -1,4 +1,4 @@
-/// Zip archives: reading, and writing without compression.
+/// Reading of zip archives.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,5 @@ bool is_zip(std::string_view bytes);
 /// is damaged, encrypted, larger than 4 GiB (ZIP64) or uses another compression than deflate, and
 /// ExpandsTooFar if all files have more than `limit` bytes. O(result).
 std::vector<ZipMember> zip_members(std::string_view bytes, std::size_t limit);
-
-/// An archive of these files, stored. Names and contents below 4 GiB. O(bytes).
-std::string zip_of(const std::vector<ZipMember>& members);
 
 }  // namespace loopbench

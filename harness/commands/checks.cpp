@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "datasets/core/error.hpp"
-
 namespace loopbench::harness {
 
 namespace {
@@ -48,12 +46,6 @@ void declare_ties(CLI::App& command, double& tie, double& relevant) {
                   "Relative difference below which methods share the first place [-]")
       ->check(number_between(0.0, 0.5))
       ->capture_default_str();
-}
-
-std::string one_store(const std::vector<std::string>& paths) {
-  if (paths.size() == 1) return paths.front();
-  throw InputError(paths.at(1) +
-                   ": expected one store, or result files of evo (zip) only, found a second path");
 }
 
 }  // namespace loopbench::harness

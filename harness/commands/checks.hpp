@@ -33,9 +33,6 @@ std::string choice_type() {
 /// Adds --tie and --relevant: when methods share a place.
 void declare_ties(CLI::App& command, double& tie, double& relevant);
 
-/// The only one of these paths. Throws InputError if there are several.
-std::string one_store(const std::vector<std::string>& paths);
-
 /// Accepts one of these words and maps it to its enumerator; `kind` names the set in messages.
 template <class Enum>
 CLI::Validator one_of(const std::string& kind, const std::map<std::string, Enum>& words) {

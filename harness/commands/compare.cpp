@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <regex>
-#include <utility>
 
 #include "datasets/core/error.hpp"
 #include "harness/base/print_error.hpp"
@@ -12,8 +11,6 @@
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/compare/assertion.hpp"
-#include "harness/eval/evo_results.hpp"
-#include "harness/model/where.hpp"
 #include "harness/tables/all_records.hpp"
 #include "harness/tables/comparison.hpp"
 
@@ -32,7 +29,6 @@ const char* const kAssertions =
     "`not above` and `not shown to differ` hold, too.";
 
 struct CompareArguments {
-  std::vector<std::string> files;  ///< a store, or result files of evo
   std::string store;
   std::string metric;
   std::vector<std::string> where;
@@ -59,23 +55,6 @@ std::string comparisons_text(const std::vector<Comparison>& comparisons,
   return text(tables, output);
 }
 
-/// Compares with the method of the first file, if no other is named.
-int print_evo_comparison(CompareArguments arguments) {
-  if (!arguments.assertions.empty()) {
-    throw InputError("--assert: expected a store, found a result file of evo");
-  }
-  std::vector<Record> records = read_evo_results(arguments.files);
-  if (arguments.options.baseline.empty()) {
-    arguments.options.baseline = records.front().method.text();
-  }
-  keep_where(records, arguments.where);
-  const std::vector<Comparison> comparisons = compare(records, arguments.options);
-  write_plain(comparisons_text(comparisons, arguments.output),
-              arguments.output,
-              {arguments.files.begin(), arguments.files.end()});
-  return kExitOk;
-}
-
 /// Assertions are about one score.
 void require_one_score(const std::vector<Comparison>& comparisons) {
   if (comparisons.size() == 1) return;
@@ -88,9 +67,7 @@ void require_one_score(const std::vector<Comparison>& comparisons) {
                   titles));
 }
 
-int print_comparison(CompareArguments arguments) {
-  if (is_evo_result(arguments.files.front())) return print_evo_comparison(std::move(arguments));
-  arguments.store = one_store(arguments.files);
+int print_comparison(const CompareArguments& arguments) {
   const auto compared = [&](const std::string& baseline) {
     CompareOptions options = arguments.options;
     options.baseline = baseline;
@@ -116,10 +93,7 @@ void add_compare(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command =
       app.add_subcommand("compare", "Compare and rank methods with significance tests");
-  command
-      ->add_option("store",
-                   arguments->files,
-                   "Folder of results, its results.sqlite, or result files of evo (zip)")
+  command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
       ->required();
   command
       ->add_option(

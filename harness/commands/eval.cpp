@@ -16,7 +16,6 @@
 #include "harness/commands/standard_output.hpp"
 #include "harness/eval/eval_figures.hpp"
 #include "harness/eval/evaluate_files.hpp"
-#include "harness/eval/evo_results.hpp"
 #include "harness/eval/recorded_store.hpp"
 #include "harness/eval/run_summary.hpp"
 #include "harness/report/report.hpp"
@@ -211,18 +210,7 @@ void return_large_lists() {
 #endif
 }
 
-void reject_results_of_evo(const EvalArguments& a) {
-  std::vector<std::string> files = a.estimates;
-  files.push_back(a.reference);
-  for (const std::string& file : files) {
-    if (!is_evo_result(file)) continue;
-    throw InputError(file + ": is a result of evo, expected trajectories; `loopbench table " +
-                     file + "` prints results, `loopbench compare` compares them");
-  }
-}
-
 int eval(const EvalArguments& a, const Source& source) {
-  reject_results_of_evo(a);
   return_large_lists();
   if (!a.store.empty()) return eval_to_store(a, source);
   reject_standard_output("--report", a.report);
@@ -233,10 +221,6 @@ int eval(const EvalArguments& a, const Source& source) {
   std::vector<EvaluationResult> all =
       a.report.empty() ? evaluate_files(a) : evaluate_files(a, write_page);
   if (!a.unit.empty()) change_unit(all, a.unit);
-  if (!a.save_results.empty()) {
-    if (all.size() != 1) throw InputError("--save_results: expected one EST and one protocol");
-    write_file(a.save_results, evo_result_zip(all.front(), a.relation));
-  }
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all));
   write_figures(a, all);
   if (a.json) {

@@ -196,15 +196,6 @@ void declare(CLI::App& command, EvalArguments& a) {
           "--csv", a.csv, "Print a CSV line per score in full precision, as `export --what rows`")
       ->excludes("--json");
   command
-      .add_option(
-          "--save_results",
-          a.save_results,
-          "Zip file for the APE of the only EST, as evo writes it, for `table` and `compare`")
-      ->type_name("FILE")
-      ->excludes("--delta")
-      ->excludes("--unit")
-      ->excludes("--metric");
-  command
       .add_option("--per-pose",
                   a.per_pose,
                   "CSV file for the error of every pose, and per-pose values of metrics; - is "
@@ -234,7 +225,6 @@ void declare(CLI::App& command, EvalArguments& a) {
       ->excludes("--csv")
       ->excludes("--columns")
       ->excludes("--unit")
-      ->excludes("--save_results")
       ->excludes("--per-pose");
   command
       .add_option("--sequence", a.sequence, "Label of REF in the store (default: from its name)")

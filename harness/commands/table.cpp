@@ -3,17 +3,13 @@
 #include <set>
 
 #include "datasets/core/error.hpp"
-#include "harness/base/print_error.hpp"
-#include "harness/base/printable.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/compare/derived.hpp"
-#include "harness/eval/evo_results.hpp"
 #include "harness/model/where.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/record_reader.hpp"
-#include "harness/tables/record_csv.hpp"
 #include "harness/tables/store_tables.hpp"
 #include "harness/tables/success.hpp"
 
@@ -21,7 +17,6 @@ namespace loopbench::harness {
 namespace {
 
 struct TableArguments {
-  std::vector<std::string> files;  ///< a store, or result files of evo
   std::string store;
   TableSpec spec;
   std::vector<std::string> where;
@@ -113,37 +108,7 @@ void choose_for_paper(TableArguments& arguments) {
   arguments.spec.split = {"sequence"};
 }
 
-int print_evo_results(const TableArguments& arguments) {
-  if (!arguments.has_default_layout || arguments.is_selected()) {
-    throw InputError(arguments.files.front() +
-                     ": a result file of evo has one layout, expected no --rows, --columns, "
-                     "--split, --show, --where and --success");
-  }
-  std::vector<std::string> files;
-  for (const std::string& file : arguments.files) {
-    try {
-      read_evo_results({file});
-      files.push_back(file);
-    } catch (const InputError& error) {
-      if (arguments.files.size() == 1) throw;
-      print_error("{}\n", printable(std::string("loopbench: ") + error.what()));
-    }
-  }
-  if (files.empty()) return kExitBadInput;
-  const std::vector<Record> records = read_evo_results(files);
-  const ExportFormat format = arguments.output.format();
-  const std::vector<Table> tables = evo_result_tables(records, files);
-  write_plain(format == ExportFormat::csv    ? csv(records)
-              : format == ExportFormat::json ? json(tables)
-                                             : text(tables, arguments.output),
-              arguments.output,
-              {arguments.files.begin(), arguments.files.end()});
-  return files.size() == arguments.files.size() ? kExitOk : kExitSomeCellsFailed;
-}
-
 int print_table(TableArguments arguments) {
-  if (is_evo_result(arguments.files.front())) return print_evo_results(arguments);
-  arguments.store = one_store(arguments.files);
   std::vector<std::string> show;
   for (const std::string& word : arguments.spec.show) {
     for (std::string& score : split_list(word)) show.push_back(std::move(score));
@@ -165,10 +130,7 @@ int print_table(TableArguments arguments) {
 void add_table(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<TableArguments>();
   CLI::App* command = app.add_subcommand("table", "Print tables of a sweep's results");
-  command
-      ->add_option("store",
-                   arguments->files,
-                   "Folder of results, its results.sqlite, or result files of evo (zip)")
+  command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
       ->required();
   const std::string columns =
       "comma-separated fields (sequence, repeat, method, closures, protocol, times, metric, label, "

@@ -86,19 +86,13 @@ void write_output(const std::string& text,
   } else if (format == ExportFormat::latex) {
     out += output.provenance ? provenance_lines(provenance, "% ") : "% " + source + "\n";
   }
-  write_plain(out, output, {store_file(store)});
-  if (format == ExportFormat::csv) write_provenance_of_csv(provenance, output.file);
-}
-
-void write_plain(const std::string& text,
-                 const OutputOptions& output,
-                 const std::vector<std::filesystem::path>& inputs) {
   if (is_printed(output)) {
-    fmt::print("{}", text);
-    return;
+    fmt::print("{}", out);
+  } else {
+    reject_overwriting({store_file(store)}, output.file);
+    write_file(output.file, out);
   }
-  reject_overwriting(inputs, output.file);
-  write_file(output.file, text);
+  if (format == ExportFormat::csv) write_provenance_of_csv(provenance, output.file);
 }
 
 void write_provenance_of_csv(const StoreProvenance& provenance, const std::string& file) {

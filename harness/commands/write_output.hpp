@@ -38,11 +38,6 @@ void write_output(const std::string& text,
                   const std::string& key,
                   const std::filesystem::path& store);
 
-/// The same without provenance, for results of other programs. `inputs` are not overwritten.
-void write_plain(const std::string& text,
-                 const OutputOptions& output,
-                 const std::vector<std::filesystem::path>& inputs);
-
 /// Writes the provenance of a CSV file next to it; see write_output().
 void write_provenance_of_csv(const StoreProvenance& provenance, const std::string& file);
 

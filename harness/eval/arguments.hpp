@@ -50,7 +50,6 @@ struct EvalArguments {
   bool full = false;                 ///< print all scores and the diagnosis
   bool json = false;
   bool csv = false;
-  std::string save_results;  ///< zip of evo to write; empty: none
   std::string per_pose;      ///< output file; empty: none
   bool pose_errors = false;  ///< keep EvaluationResult::poses
   std::string plot;          ///< prefix of figure files; empty: none

@@ -186,7 +186,7 @@ std::vector<EvaluationResult> evaluate_files(
   const std::vector<FilePair> files = file_pairs(a);
   std::vector<std::filesystem::path> inputs{a.times};
   for (const FilePair& pair : files) inputs.insert(inputs.end(), {pair.reference, pair.estimate});
-  for (const std::string& file : {a.per_pose, a.save_results}) reject_overwriting(inputs, file);
+  reject_overwriting(inputs, a.per_pose);
   std::vector<RecordedRun> labelled = runs_of(files, a);
   if (a.common.value_or(false)) set_common_times(labelled, a);
   const RecordedSweep sweep = recorded_sweep(std::move(labelled), a);

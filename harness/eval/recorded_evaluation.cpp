@@ -129,7 +129,7 @@ struct PairEvaluation {
           if (!arguments.diagnose) return;
           add_checks(own, evaluation, reference, estimate, files);
         });
-    if (arguments.pose_errors || !arguments.per_pose.empty() || !arguments.save_results.empty())
+    if (arguments.pose_errors || !arguments.per_pose.empty())
       own.poses = metrics::pose_errors(evaluation);
     if (!arguments.plot.empty()) {
       own.drawn = drawn_evaluation(reference.poses, evaluation);
