@@ -234,7 +234,7 @@ void declare(CLI::App& command, EvalArguments& a) {
       .add_option("--group",
                   a.group,
                   "Recording of REF: sequences of one recording are not independent (default: by "
-                  "the geometry of the references)")
+                  "the poses of the references)")
       ->type_name("NAME")
       ->needs("--store");
   command

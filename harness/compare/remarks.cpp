@@ -32,8 +32,8 @@ Lines about_runs(const Comparison& c) {
   }
   if (!c.same_recordings.empty()) {
     out.push_back(
-        "not independent, because the references are one recording (guessed from their geometry "
-        "unless a group is stated): " +
+        "not independent, because the references are one recording (equal positions, or the stated "
+        "group): " +
         joined(c.same_recordings));
   }
   if (c.has_strata) {

@@ -12,7 +12,6 @@
 #include "harness/base/write_file.hpp"
 #include "harness/eval/common_parts.hpp"
 #include "harness/model/recorded_run.hpp"
-#include "harness/model/same_recording.hpp"
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {
@@ -195,13 +194,9 @@ std::vector<EvaluationResult> evaluate_files(
   std::vector<Cell> cells = sweep.cells;
   std::ranges::sort(cells, {}, &Cell::dataset);
   std::vector<EvaluatedFile> all(cells.size());
-  Recordings recordings;
   for (std::size_t begin = 0, end = 0; begin < runs.size(); begin = end) {
     while (end < runs.size() && runs[end].reference == runs[begin].reference) ++end;
-    SharedReference reference = shared_reference(runs[begin].reference, sweep);
-    if (!reference.content.empty()) {
-      reference.recording = recordings.name_of(reference.content, reference.read.poses);
-    }
+    const SharedReference reference = shared_reference(runs[begin].reference, sweep);
     parallel_for_tasks(end - begin, [&](std::size_t i) {
       all[begin + i] = evaluate_recorded(cells[begin + i], sweep, reference);
     });

@@ -14,10 +14,9 @@ namespace loopbench::harness {
 
 /// The reference of several cells, read once.
 struct SharedReference {
-  RecordedFile read;           ///< poses in the body of the estimates
-  std::string content = {};    ///< hash of the poses, so that names and comments do not matter;
-                               ///< empty: runs are not compared
-  std::string recording = {};  ///< content of its first copy, see Recordings
+  RecordedFile read;         ///< poses in the body of the estimates
+  std::string content = {};  ///< hash of the poses, so that names and comments do not matter;
+                             ///< empty: runs are not compared
   std::optional<InputFile> file = {};  ///< for a store
   bool is_traced = false;              ///< for a store or a page
 };

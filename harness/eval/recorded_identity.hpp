@@ -28,10 +28,8 @@ inline SequenceMetadata metadata_of(const RecordedRun& run,
   out.size.reference = static_cast<std::int64_t>(reference.read.poses.size());
   if (estimate) out.size.keyframes = static_cast<std::int64_t>(estimate->poses.size());
   if (reference.content.empty()) return out;
-  out.group = recorded_group(run.run,
-                             !run.group.empty()            ? "group:" + run.group
-                             : reference.recording.empty() ? "reference:" + reference.content
-                                                           : "reference:" + reference.recording);
+  out.group = recorded_group(
+      run.run, run.group.empty() ? "reference:" + reference.content : "group:" + run.group);
   if (reference.file) {
     out.source = "reference:" + reference.content;
     out.inputs = {*reference.file, hashed_input(run.estimate, "estimate")};

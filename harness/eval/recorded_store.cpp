@@ -14,7 +14,6 @@
 #include "harness/base/counted.hpp"
 #include "harness/eval/common_parts.hpp"
 #include "harness/eval/recorded_evaluation.hpp"
-#include "harness/model/same_recording.hpp"
 #include "harness/run/build.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/resume.hpp"
@@ -79,22 +78,6 @@ void read_references(const std::vector<Cell>& cells,
   for (const Cell& cell : cells) {
     const std::string& reference = files.runs[cell.dataset].reference;
     if (!known.contains(reference)) known.emplace(reference, shared_reference(reference, files));
-  }
-}
-
-/// Finds copies of a recording among the references of all runs.
-void find_recordings(const RecordedSweep& files, References& known) {
-  Recordings recordings;
-  for (const RecordedRun& run : files.runs) {
-    try {
-      if (!known.contains(run.reference)) {
-        known.emplace(run.reference, shared_reference(run.reference, files));
-      }
-      SharedReference& own = known.at(run.reference);
-      if (own.recording.empty()) own.recording = recordings.name_of(own.content, own.read.poses);
-    } catch (const InputError&) {
-      continue;  // of a stored run, whose results stay
-    }
   }
 }
 
@@ -230,7 +213,6 @@ StoredRuns store_runs(const std::vector<RecordedRun>& added,
   // A failure can be repaired without a change of the estimate, for example by its permissions.
   const Resumed resumed = store.resume(files.cells, files.cells, Retry::failed);
   read_references(resumed.missing, files, references);
-  if (!resumed.missing.empty()) find_recordings(files, references);
   std::map<std::string, std::vector<Cell>> by_reference;
   for (const Cell& cell : resumed.missing) {
     by_reference[files.runs[cell.dataset].reference].push_back(cell);

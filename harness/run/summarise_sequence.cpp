@@ -7,7 +7,6 @@
 #include "datasets/derive/poses_at.hpp"
 #include "harness/base/hash.hpp"
 #include "harness/base/printable.hpp"
-#include "harness/catalogue/oracle_closures.hpp"
 #include "harness/run/check_output.hpp"
 #include "harness/run/doctor_notes.hpp"
 #include "harness/run/evaluation_notes.hpp"
@@ -19,36 +18,29 @@
 namespace loopbench::harness {
 namespace {
 
-bool is_copy(const Trajectory& poses, const Trajectory& reference) {
-  const auto truth = poses_at(reference, stamps(poses), {});
-  std::optional<std::size_t> first;
-  std::size_t paired = 0;
-  bool moves = false;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (!truth[i]) continue;
-    ++paired;
-    if (!first) first = i;
-    const Pose own = poses[*first].world_from_body.inverse() * poses[i].world_from_body;
-    const Pose same = truth[*first]->inverse() * *truth[i];
-    if (!is_close(own, same, kCopyDistance, kCopyAngle)) return false;
-    moves = moves || !is_close(same, Pose{}, kCopyDistance, kCopyAngle);
+/// Whether all poses are poses of the reference: equal stamps, positions and rotations.
+bool are_of_reference(const Trajectory& poses, const Trajectory& reference) {
+  auto next = reference.begin();
+  for (const auto& [stamp, own] : poses) {
+    next = std::ranges::lower_bound(next, reference.end(), stamp, {}, &StampedPose::stamp);
+    if (next == reference.end() || next->stamp != stamp) return false;
+    const Pose& same = next->world_from_body;
+    if (own.translation != same.translation) return false;
+    if (own.rotation.coeffs() != same.rotation.coeffs()) return false;
   }
-  return moves && 2 * paired >= poses.size();
+  return !poses.empty();
 }
 
 /// "the estimate equals the reference" or "the frames equal the reference", if all keyframes (or
-/// frames) have the relative poses of the reference to within 0.1 mm and 0.1 mrad, in any world
-/// frame; otherwise empty. The reference is interpolated at their stamps; at least half of them,
-/// and a motion beyond these limits, are needed. Empty for simulated data, whose odometry can be
-/// noise-free, and for a reference without orientations. O(poses).
-std::string copied_reference(const Sequence& sequence) {
-  const bool measured = sequence.provenance.noise.empty();
-  if (!measured || sequence.reference.empty()) return "";
-  if (metrics::is_position_only(sequence.reference)) return "";
-  if (is_copy(sequence.problem.keyframes, sequence.reference)) {
+/// frames) are poses of the reference; otherwise empty. Empty for simulated data, whose odometry
+/// can be noise-free. O(poses log(poses)).
+std::string equal_reference(const Sequence& sequence) {
+  if (!sequence.provenance.noise.empty()) return "";
+  const Problem& problem = sequence.problem;
+  if (are_of_reference(problem.keyframes, sequence.reference)) {
     return "the estimate equals the reference";
   }
-  if (is_copy(sequence.problem.frames, sequence.reference)) return "the frames equal the reference";
+  if (are_of_reference(problem.frames, sequence.reference)) return "the frames equal the reference";
   return "";
 }
 
@@ -68,16 +60,6 @@ std::string reference_of_other_body(const Sequence& sequence) {
   const std::optional<Pose>& stated = sequence.provenance.body_from_reference;
   const std::string text = offset ? metrics::other_body(*offset, stated.value_or(Pose{})) : "";
   return text.empty() || !stated ? text : text + "; see reference_body of the dataset";
-}
-
-/// Marks closures that equal the reference as oracle closures, for any source file.
-void flag_oracle_closures(SequenceMetadata& out, const Sequence& sequence) {
-  if (out.oracle_closures) return;
-  const std::size_t equal = undeclared_oracle_closures(sequence);
-  if (equal == 0) return;
-  out.oracle_closures = true;
-  out.closures +=
-      fmt::format("; {} of {} equal the reference", equal, sequence.problem.closures.size());
 }
 
 /// A dataset of a plugin can return any text, which would be printed and stored for every cell.
@@ -116,7 +98,6 @@ SequenceMetadata sequence_metadata(const Sequence& sequence, bool with_trace) {
               count(problem.closures),
               count(problem.frames),
               count(sequence.reference)};
-  flag_oracle_closures(out, sequence);
   out.content = content_of(sequence);
   out.source = source_of(sequence);
   out.group = out.source;
@@ -124,7 +105,7 @@ SequenceMetadata sequence_metadata(const Sequence& sequence, bool with_trace) {
   if (!sequence.loop_candidates.empty() && !sequence.reference.empty()) {
     out.notes.push_back(to_text(metrics::evaluate_detection(sequence, {})));
   }
-  if (const std::string note = copied_reference(sequence); !note.empty()) {
+  if (const std::string note = equal_reference(sequence); !note.empty()) {
     out.notes.push_back("oracle: " + note);
   }
   if (const std::string note = reference_of_other_body(sequence); !note.empty()) {

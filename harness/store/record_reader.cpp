@@ -9,10 +9,8 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/model/recorded_run.hpp"
-#include "harness/model/same_recording.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/schema.hpp"
-#include "harness/store/traces.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -131,42 +129,6 @@ void join_recorded_contents(Database& database, std::vector<StoredCell>& cells) 
   }
 }
 
-/// Poses of a stored reference, in absolute time; empty if its trace is missing or damaged.
-Trajectory stored_reference(Traces& traces, std::int64_t position) try {
-  Trajectory out;
-  const std::optional<SequenceTrace> trace = traces.sequence(position);
-  if (!trace) return out;
-  for (const TracePose& pose : trace->reference) {
-    out.push_back({trace->origin.stamp + pose.stamp, {}});
-    out.back().world_from_body.translation = Vector3(pose.x, pose.y, pose.z);
-  }
-  return out;
-} catch (const InputError&) {
-  return {};
-}
-
-/// Measured sequences whose references are near-copies of one recording belong to one group. Known
-/// from the traces, so only of sweeps that keep them.
-void join_near_copies(const std::filesystem::path& file, std::vector<StoredCell>& cells) {
-  std::map<SharedText, SharedText> groups;  // by own group
-  for (const StoredCell& cell : cells) {
-    if (cell.group.text().starts_with("reference:")) groups.emplace(cell.group, cell.group);
-  }
-  if (groups.size() < 2) return;
-  Traces traces(file);
-  Recordings recordings;
-  std::set<SharedText> seen;
-  for (StoredCell& cell : cells) {
-    const auto found = groups.find(cell.group);
-    if (found == groups.end()) continue;
-    if (seen.insert(cell.group).second) {
-      const Trajectory reference = stored_reference(traces, cell.position);
-      if (reference.size() > 1) found->second = recordings.name_of(cell.group, reference);
-    }
-    cell.group = found->second;
-  }
-}
-
 /// For each cell, whether every sequence that began up to there has ended.
 std::vector<bool> ends_of_chunks(const std::vector<StoredCell>& cells) {
   std::unordered_map<std::string_view, std::size_t> last;
@@ -190,7 +152,6 @@ RecordReader::RecordReader(const std::filesystem::path& file)
       definitions_(read_definitions(database_)) {
   require_all_scores(database_);
   join_recorded_contents(database_, cells_);
-  join_near_copies(file, cells_);
   const bool can_fail = std::ranges::any_of(
       definitions_, [](const auto& entry) { return is_failed_metric(entry.second); });
   if (can_fail) scores_anywhere_ = scores_of_all_cells(database_, definitions_);

@@ -5,7 +5,6 @@
 #include <fstream>
 #include <set>
 
-#include "harness/model/same_recording.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/recorded_files.hpp"
@@ -77,43 +76,34 @@ TEST_F(EvalCopies, SequencesWithOneReferenceAreOneGroup) {
   EXPECT_EQ(comparison.runs, 10u);
   EXPECT_EQ(comparison.groups, 1u);
   EXPECT_FALSE(comparison.is_best);
+  EXPECT_THAT(comparison.same_recordings, testing::Contains("c1 of c0"));
 }
 
-/// Reference and runs of a recording, each time with the reference cropped, scaled or noisy.
-TEST_F(EvalCopies, NearCopiesOfAReferenceAreOneGroup) {
-  std::string out;
-  for (int copy = 0; copy < 10; ++copy) {
-    const std::string name = "c" + std::to_string(copy);
-    Trajectory reference = path_of(copy % 3 == 1 ? 0.002 : 0.0);
-    if (copy % 3 == 2) reference.resize(40);
-    for (StampedPose& pose : reference) pose.world_from_body.translation *= 1.0 + 1e-4 * copy;
+TEST_F(EvalCopies, AStatedGroupOverrulesTheReference) {
+  const auto add = [&](const std::string& name, const Trajectory& reference, bool has_group) {
     write_tum(path("truths/" + name + ".txt"), reference);
-    std::filesystem::create_directories(path(name + "/good"));
-    std::filesystem::create_directories(path(name + "/bad"));
-    write_tum(path(name + "/good/0.txt"), path_of(0.01));
-    write_tum(path(name + "/bad/0.txt"), path_of(0.03));
-    out = test::eval({path("truths/" + name + ".txt"),
-                      path(name + "/good/0.txt"),
-                      path(name + "/bad/0.txt"),
-                      "--store",
-                      path("store")});
-  }
-  EXPECT_EQ(compared("store").groups, 1u);
-  EXPECT_THAT(out, HasSubstr("the references are one recording"));
-  EXPECT_THAT(out, HasSubstr("c1 of c0"));
-  EXPECT_FALSE(is_same_recording(path_of(0.0), path_of(0.0, 1.0)));
-  std::filesystem::create_directories(path("own/good"));
-  std::filesystem::create_directories(path("own/bad"));
-  write_tum(path("own/good/0.txt"), path_of(0.012));
-  write_tum(path("own/bad/0.txt"), path_of(0.034));
-  test::eval({path("truths/c0.txt"),
-              path("own/good/0.txt"),
-              path("own/bad/0.txt"),
-              "--sequence=own",
-              "--group=own",
-              "--store",
-              path("store")});
-  EXPECT_EQ(compared("store").groups, 2u);
+    const double error = 0.001 * name.front();  // other estimates for each sequence
+    for (const std::string method : {"good", "bad"}) {
+      std::filesystem::create_directories(path(name + "/" + method));
+      write_tum(path(name + "/" + method + "/0.txt"),
+                path_of(method == "good" ? 0.1 * error : 0.3 * error));
+    }
+    std::vector<std::string> arguments{path("truths/" + name + ".txt"),
+                                       path(name + "/good/0.txt"),
+                                       path(name + "/bad/0.txt"),
+                                       "--store",
+                                       path("store")};
+    if (has_group) arguments.push_back("--group=own");
+    test::eval(arguments);
+    return compared("store").groups;
+  };
+  const Trajectory whole = path_of(0.0);
+  const Trajectory cropped(whole.begin(), whole.begin() + 40);
+  EXPECT_EQ(add("a", whole, false), 1u);
+  EXPECT_EQ(add("b", whole, false), 1u);
+  EXPECT_EQ(add("c", whole, true), 2u);
+  EXPECT_EQ(add("d", cropped, false), 3u);  // which poses are of one recording, --group states
+  EXPECT_EQ(add("e", cropped, true), 3u);
 }
 
 TEST_F(EvalCopies, AMethodThatIsAddedLaterSeparatesRunsThatWereEqual) {

@@ -172,39 +172,24 @@ TEST(Group, IsTheNoiseOfSimulatedData) {
   EXPECT_EQ(group(4, 0), group(4, 1));
 }
 
-TEST(OracleClosures, AreFoundByTheirValues) {
+TEST(OracleClosures, AreThoseThatTheDatasetDeclares) {
   const TemporaryFolder folder;
   folder.file("est.txt", walk(1.01));
   folder.file("gt.txt", walk(1.0));
   folder.file("exact.txt", "1 19 0 1.8 0 0 0 0 1\n");
-  folder.file("close.txt", "1 19 0.001 1.8 0 0 0 0 1\n");
-  folder.file("placeholder.txt", "1 19 0 0 0 0 0 0 1\n");
   const std::string common = "  - {dataset: trajectory, estimate: est.txt, reference: gt.txt, ";
-  std::string text;
-  for (const char* file : {"exact.txt", "close.txt", "placeholder.txt"}) {
-    text += common + "label: " + file + ", closures: {source: file, file: " + file + "}}\n";
-  }
-  text += common + "label: run, closures: {source: estimate, file: gt.txt}}\n";
-  text += common +
-          "label: some, closures: {source: file, file: exact.txt}, false_closures.share: 0.9}\n";
-  const Sweep sweep = sweep_of(text, folder);
+  const Sweep sweep =
+      sweep_of(common + "label: file, closures: {source: file, file: exact.txt}}\n" + common +
+                   "label: run, closures: {source: estimate, file: gt.txt}}\n" + common +
+                   "label: reference, closures: {source: reference}}\n",
+               folder);
   const auto metadata = [&](std::size_t dataset) {
     return metadata_of_sequence(sweep, folder, dataset);
   };
-  EXPECT_TRUE(metadata(0).oracle_closures);
-  EXPECT_THAT(metadata(0).closures, HasSubstr("1 of 1 equal the reference"));
-  EXPECT_FALSE(metadata(1).oracle_closures);
-  EXPECT_FALSE(metadata(2).oracle_closures);
-  EXPECT_TRUE(metadata(3).oracle_closures);
-  EXPECT_THAT(metadata(3).closures, HasSubstr("which is the reference"));
-  EXPECT_TRUE(metadata(4).oracle_closures);
-}
-
-TEST(OracleClosures, OfASimulatedSensorWithoutNoiseAreNone) {
-  const TemporaryFolder folder;
-  const Sweep sweep =
-      sweep_of("  - {dataset: simulated, closures.sigma_t: 0, closures.sigma_r: 0}\n", folder);
-  EXPECT_FALSE(metadata_of_sequence(sweep, folder, 0).oracle_closures);
+  EXPECT_FALSE(metadata(0).oracle_closures);
+  EXPECT_TRUE(metadata(1).oracle_closures);
+  EXPECT_THAT(metadata(1).closures, HasSubstr("which is the reference"));
+  EXPECT_TRUE(metadata(2).oracle_closures);
 }
 
 }  // namespace
