@@ -5,20 +5,6 @@
 #include "datasets/core/error.hpp"
 
 namespace loopbench::methods {
-namespace {
-
-Trajectory result_of(const Corrector& corrector, const Problem& problem, Report& report) {
-  return corrector.correct(problem, report);
-}
-
-Trajectory result_of(const Estimator& estimator, const Problem& problem, Report& report) {
-  const std::unique_ptr<const Curve> curve = estimator.estimate(problem, report);
-  Trajectory out = problem.keyframes;
-  for (StampedPose& pose : out) pose.world_from_body = curve->at(pose.stamp);
-  return out;
-}
-
-}  // namespace
 
 MethodEntry find_method(const std::string& name) {
   const std::vector<MethodEntry> all = methods();
@@ -31,18 +17,15 @@ MethodEntry find_method(const std::string& name) {
 
 Trajectory correct(const Problem& problem, const std::string& name, const Params& options) {
   const MethodEntry entry = find_method(name);
-  const auto corrected = [&](const auto& method) -> Trajectory {
-    if constexpr (requires(Report report) { result_of(*method, problem, report); }) {
-      const std::string why = reason_to_decline(*method, problem);
-      if (!why.empty()) throw InputError(name + ": is not applicable: " + why);
-      Report report;
-      return result_of(*method, problem, report);
-    } else {
-      throw InputError(name + ": is a " + to_text(entry.kind) +
-                       ", expected a corrector or a joint method");
-    }
-  };
-  return std::visit(corrected, entry.make(options));
+  const Stage stage = entry.make(options);
+  const auto* corrector = std::get_if<std::unique_ptr<const Corrector>>(&stage);
+  if (corrector == nullptr) {
+    throw InputError(name + ": is a " + to_text(entry.kind) + ", expected a corrector");
+  }
+  const std::string why = reason_to_decline(**corrector, problem);
+  if (!why.empty()) throw InputError(name + ": is not applicable: " + why);
+  Report report;
+  return (*corrector)->correct(problem, report);
 }
 
 }  // namespace loopbench::methods

@@ -6,16 +6,12 @@
 #include "methods/correctors/two_pass.hpp"
 #include "methods/correctors/uniform.hpp"
 #include "methods/function_method.hpp"
-#include "methods/joint/spline_fit.hpp"
 #include "methods/method.hpp"
 #include "methods/online/online.hpp"
 #include "methods/smoothers/gaussian_process.hpp"
 #include "methods/smoothers/interpolating_splines.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
-#include "methods/smoothers/savitzky_golay.hpp"
-#include "methods/smoothers/screw.hpp"
 #include "methods/smoothers/smoothing_spline.hpp"
-#include "methods/smoothers/spline_regression.hpp"
 #include "methods/smoothers/tracked_frames.hpp"
 
 namespace loopbench::methods {
@@ -101,16 +97,9 @@ std::vector<MethodEntry> methods() {
                             "tracked frames, moved with the corrected keyframes around them"),
       method<CubicSpline>("cubic_spline", "natural cubic spline in time through the keyframes"),
       method<BSplineThrough>("b_spline", "B-spline of order k in time through the keyframes"),
-      method<Screw>("screw", "one constant screw motion between neighbouring keyframes"),
-      method<SavitzkyGolay>("savitzky_golay", "local polynomial regression in time"),
       method<SmoothingSpline>("smoothing_spline",
                               "penalised cubic spline, penalty chosen by REML or GCV"),
       method<GaussianProcess>("gp_wnoa", "Gaussian process on SE(3), white noise on acceleration"),
-      method<GaussianProcess>("gp_wnoj",
-                              "Gaussian process on SE(3), white noise on jerk",
-                              {.prior = GaussianProcess::Prior::acceleration}),
-      method<SplineRegression>("spline_regression",
-                               "cumulative B-spline with fewer knots than keyframes"),
       method<Dm>("dm",
                  "the article's manifold smoother with guards; window sizes by planar and spatial"),
       method<Dm>("dm_n3", "dm: parabola through 3 nodes", {.planar = 3}),
@@ -122,10 +111,6 @@ std::vector<MethodEntry> methods() {
       method<Dm>("dm_robust",
                  "dm with options chosen on training sequences, configs/dm_training.yaml",
                  robust()),
-
-      // Joint methods.
-      method<SplineFit>("spline_fit",
-                        "cumulative B-spline fitted to odometry and closures (Ceres)"),
 
       // In front of a method.
       method<Online>("online", "replay: the method gets its data in the order of time"),

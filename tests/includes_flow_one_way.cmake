@@ -33,7 +33,7 @@ set(order
   "methods/smoothers/gp methods/smoothers/manifold"
   "methods/solvers"
   "methods/smoothers methods/correctors"
-  "methods/joint methods/online"
+  "methods/online"
   "methods"
 
   "metrics/numerics"

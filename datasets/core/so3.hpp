@@ -79,10 +79,4 @@ inline Matrix3 inverse_left_jacobian_so3(const Vector3& phi) {
   return Matrix3::Identity() - 0.5 * H + c * H * H;
 }
 
-/// Inverse of the right Jacobian J: exp(phi + d) ~ exp(phi) exp(J d). It equals that of the left
-/// one at -phi.
-inline Matrix3 inverse_right_jacobian_so3(const Vector3& phi) {
-  return inverse_left_jacobian_so3(-phi);
-}
-
 }  // namespace loopbench

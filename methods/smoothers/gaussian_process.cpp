@@ -16,6 +16,8 @@
 namespace loopbench::methods {
 namespace {
 
+constexpr std::size_t kMinKeyframes = 3;
+
 /// Hyperparameters fixed by the user; empty values are estimated. Powers are per mean interval.
 struct GpFixedParameters {
   std::optional<double> sigma_t, sigma_r, power_t, power_r;
@@ -40,7 +42,6 @@ struct ScalarNoise {
 /// Estimates noise and power of translation or rotation from the smoothing spline.
 ScalarNoise noise_from_spline(const std::vector<double>& times,
                               const std::vector<Vector3>& y,
-                              int P,
                               Criterion criterion) {
   double extent = 1e-3;
   for (const Vector3& value : y) extent = std::max(extent, (value - y.front()).norm());
@@ -50,17 +51,13 @@ ScalarNoise noise_from_spline(const std::vector<double>& times,
   const double energy = reinsch.fit(y, lambda).energy.sum();
   const double freedom = 3.0 * static_cast<double>(y.size() - 2);
   const double sigma = round_to_lattice(std::max(std::sqrt(energy / freedom), 1e-9 * extent));
-  double power = sigma * sigma / lambda;
-  // The jerk power that produces the same acceleration over the smoothing time of the spline.
-  if (P == 3) power /= std::max(1.0, std::pow(lambda, 2.0 / 3.0));
-  return {sigma, round_to_lattice(power)};
+  return {sigma, round_to_lattice(sigma * sigma / lambda)};
 }
 
-/// Returns initial hyperparameters from the scalar form of the model for P = 2, the smoothing
-/// spline (reinsch.hpp), with the restricted likelihood or GCV. For sparse keyframes the evidence
-/// has several local maxima, so both criteria should be tried.
+/// Returns initial hyperparameters from the scalar form of the model, the smoothing spline
+/// (reinsch.hpp), with the restricted likelihood or GCV. For sparse keyframes the evidence has
+/// several local maxima, so both criteria should be tried.
 GpParameters initial_parameters(const Trajectory& measured,
-                                int P,
                                 Criterion criterion,
                                 const GpFixedParameters& given) {
   std::vector<double> times = stamps(measured);
@@ -72,17 +69,16 @@ GpParameters initial_parameters(const Trajectory& measured,
   std::vector<Vector3> unrolled;
   for (std::size_t i = 0; i < rotations.size(); ++i)
     unrolled.push_back(path.unroll(i, rotations[i]));
-  const ScalarNoise t = noise_from_spline(times, positions_of(measured), P, criterion);
-  const ScalarNoise r = noise_from_spline(times, unrolled, P, criterion);
+  const ScalarNoise t = noise_from_spline(times, positions_of(measured), criterion);
+  const ScalarNoise r = noise_from_spline(times, unrolled, criterion);
   return {given.sigma_t.value_or(t.sigma),
           given.sigma_r.value_or(r.sigma),
           given.power_t.value_or(t.power),
           given.power_r.value_or(r.power)};
 }
 
-template <int P>
-GpEstimate estimate_parameters(const GpPosterior<P>& posterior,
-                               const typename GpPosterior<P>::States& states,
+GpEstimate estimate_parameters(const GpPosterior& posterior,
+                               const GpPosterior::States& states,
                                const GpParameters& start,
                                const GpFixedParameters& given) {
   constexpr double kMinDecrease = 1e-3;  // [nats]; a smaller difference may be rounding
@@ -124,33 +120,26 @@ GpEstimate estimate_parameters(const GpPosterior<P>& posterior,
   return out;
 }
 
-template <int P>
 class GpCurve final : public KnotCurve {
  public:
-  GpCurve(std::vector<double> stamps,
-          const GpPosterior<P>& posterior,
-          std::vector<GpState<P>> states)
+  GpCurve(std::vector<double> stamps, const GpPosterior& posterior, std::vector<GpState> states)
       : KnotCurve(std::move(stamps)), states_(std::move(states)) {
     // Derivatives are scaled by the interval length, so the weights are those of a unit interval.
     for (std::size_t i = 0; i + 1 < states_.size(); ++i) {
       Interval each;
       each.to = local_state(states_[i], states_[i + 1]).value;
       each.from[0].setZero();
-      double power = 1.0;
-      for (std::size_t a = 1; a < P; ++a) {
-        power *= posterior.interval_of(i);
-        each.from[a] = power * states_[i].rates[a - 1];
-        each.to[a] *= power;
-      }
+      each.from[1] = posterior.interval_of(i) * states_[i].rate;
+      each.to[1] *= posterior.interval_of(i);
       intervals_.push_back(each);
     }
   }
 
  private:
   Pose evaluate(std::size_t i, double time) const override {
-    const auto weights = Prior<P>::between(fraction(i, time));
+    const auto weights = Prior::between(fraction(i, time));
     Twist xi = Twist::Zero();
-    for (int a = 0; a < P; ++a) {
+    for (int a = 0; a < 2; ++a) {
       const auto index = static_cast<std::size_t>(a);
       xi += weights.from[a] * intervals_[i].from[index] + weights.to[a] * intervals_[i].to[index];
     }
@@ -158,19 +147,18 @@ class GpCurve final : public KnotCurve {
   }
 
   struct Interval {
-    std::array<Twist, P> from, to;  ///< local states at either end
+    std::array<Twist, 2> from, to;  ///< local states at either end
   };
-  std::vector<GpState<P>> states_;
+  std::vector<GpState> states_;
   std::vector<Interval> intervals_;
 };
 
 }  // namespace
 
-template <int P>
-std::unique_ptr<const Curve> GaussianProcess::smooth_with(const Trajectory& keyframes,
-                                                          Report& report) const {
-  const GpPosterior<P> posterior(keyframes);
-  const double unit = std::pow(posterior.interval(), 2 * P - 1);
+std::unique_ptr<const Curve> GaussianProcess::smooth_segment(const Trajectory& keyframes,
+                                                             Report& report) const {
+  const GpPosterior posterior(keyframes);
+  const double unit = std::pow(posterior.interval(), 3);
   const auto per_interval = [&](const std::optional<double>& power) {
     return power ? std::optional<double>(*power * unit) : std::nullopt;
   };
@@ -184,10 +172,10 @@ std::unique_ptr<const Curve> GaussianProcess::smooth_with(const Trajectory& keyf
     GpParameters best;
     double lowest = std::numeric_limits<double>::infinity();
     for (const Criterion criterion : {Criterion::reml, Criterion::gcv}) {
-      const GpParameters start = initial_parameters(keyframes, P, criterion, given);
+      const GpParameters start = initial_parameters(keyframes, criterion, given);
       auto trial = posterior.initial_states();
       iterations += posterior.solve(trial, start);
-      const GpEstimate chosen = estimate_parameters<P>(posterior, trial, start, given);
+      const GpEstimate chosen = estimate_parameters(posterior, trial, start, given);
       evaluations += chosen.evaluations;
       iterations += posterior.solve(trial, chosen.parameters);
       const double evidence = posterior.negative_evidence(trial, chosen.parameters);
@@ -196,7 +184,7 @@ std::unique_ptr<const Curve> GaussianProcess::smooth_with(const Trajectory& keyf
       best = chosen.parameters;
       states = std::move(trial);
     }
-    const GpEstimate chosen = estimate_parameters<P>(posterior, states, best, given);
+    const GpEstimate chosen = estimate_parameters(posterior, states, best, given);
     evaluations += chosen.evaluations;
     return chosen.parameters;
   });
@@ -208,21 +196,17 @@ std::unique_ptr<const Curve> GaussianProcess::smooth_with(const Trajectory& keyf
   report.count("iterations", iterations);
   report.count("evaluations", evaluations);
   if (options_.covariances) report.covariances = posterior.covariances(states, parameters);
-  return std::make_unique<GpCurve<P>>(stamps(keyframes), posterior, std::move(states));
+  return std::make_unique<GpCurve>(stamps(keyframes), posterior, std::move(states));
 }
 
 std::string GaussianProcess::why_declined(const Problem& problem) const {
-  return too_few_keyframes(problem.keyframes, min_keyframes());
-}
-
-std::size_t GaussianProcess::min_keyframes() const {
-  return options_.prior == Prior::velocity ? 3 : 4;
+  return too_few_keyframes(problem.keyframes, kMinKeyframes);
 }
 
 std::unique_ptr<const Curve> GaussianProcess::smooth(const Problem& problem, Report& report) const {
-  // The covariance of the prior grows with the third (fifth) power of the interval: for 50 medians
-  // it is 1e5 (3e8) times the usual one. Beyond that precision is lost, and the prior does not
-  // constrain such a gap anyway.
+  // The covariance of the prior grows with the third power of the interval: for 50 medians it is
+  // 1e5 times the usual one. Beyond that precision is lost, and the prior does not constrain such a
+  // gap anyway.
   constexpr double kLongest = 50.0;
   constexpr double kShortest = 0.05;
   const Trajectory& keyframes = problem.keyframes;
@@ -231,16 +215,14 @@ std::unique_ptr<const Curve> GaussianProcess::smooth(const Problem& problem, Rep
     const double interval = keyframes[i + 1].stamp - keyframes[i].stamp;
     return interval > kLongest * median || interval < kShortest * median;
   });
-  const std::size_t lowest = min_keyframes();
   return smooth_segments(
       keyframes,
       segments,
       "intervals above 50 or below 0.05 times the median",
       report,
       [&](const Trajectory& part, Report& part_report) -> std::unique_ptr<const Curve> {
-        if (part.size() < lowest) return std::make_unique<Polyline>(part);
-        if (options_.prior == Prior::velocity) return smooth_with<2>(part, part_report);
-        return smooth_with<3>(part, part_report);
+        if (part.size() < kMinKeyframes) return std::make_unique<Polyline>(part);
+        return smooth_segment(part, part_report);
       });
 }
 

@@ -5,36 +5,32 @@
 
 namespace loopbench::methods {
 
-/// The motion prior is driven by white noise on acceleration (prior velocity: constant velocity is
-/// expected, WNOA) or on jerk (prior acceleration, WNOJ). Keyframes are pose measurements with
-/// white noise. The method computes the most probable poses and velocities. Between keyframes it
-/// evaluates the posterior mean, in local coordinates xi = Log(T_i^-1 T) = Lambda(t) gamma_i +
-/// Psi(t) gamma_{i+1}: C1 for WNOA, C2 for WNOJ up to terms of the order of the rotation angle
-/// within an interval. For translation alone, WNOA is the smoothing spline.
+/// The motion prior is driven by white noise on acceleration (constant velocity is expected, WNOA).
+/// Keyframes are pose measurements with white noise. The method computes the most probable poses
+/// and velocities. Between keyframes it evaluates the posterior mean, in local coordinates xi =
+/// Log(T_i^-1 T) = Lambda(t) gamma_i + Psi(t) gamma_{i+1}: C1. For translation alone it is the
+/// smoothing spline.
 ///
 /// The measurement and motion noise of translation and rotation are estimated by maximum marginal
 /// likelihood (Laplace approximation, relinearised once, from two starts) unless given. As with
 /// every smoother, drift that is slow relative to the keyframe rate cannot be distinguished from
 /// motion and remains. Intervals above 50 or below 0.05 times the median are bridged by chords
 /// between separately smoothed segments. O(n): about 150 block tridiagonal eliminations with blocks
-/// of 12 (18), and 2 (5) kB per keyframe. Sources: Anderson & Barfoot 2015 (WNOA); Tang, Yoon &
-/// Barfoot 2019 (WNOJ); Barfoot, ch. 11.
+/// of 12, and 2 kB per keyframe. Sources: Anderson & Barfoot 2015; Barfoot, ch. 11.
 class GaussianProcess final : public Smoother {
  public:
-  enum class Prior { velocity, acceleration };
   struct Options {
-    Prior prior = Prior::velocity;
     std::optional<double> sigma_t = std::nullopt;  ///< [m]
     std::optional<double> sigma_r = std::nullopt;  ///< [rad]
-    std::optional<double> power_t = std::nullopt;  ///< [m^2/s^3], [m^2/s^5]
-    std::optional<double> power_r = std::nullopt;  ///< [rad^2/s^3], [rad^2/s^5]
+    std::optional<double> power_t = std::nullopt;  ///< [m^2/s^3]
+    std::optional<double> power_r = std::nullopt;  ///< [rad^2/s^3]
     bool covariances = false;
   };
   explicit GaussianProcess(const Options& options) : options_(options) {}
 
   std::string why_declined(const Problem& problem) const override;
 
-  /// Counts: `sigma_t` [m], `sigma_r` [rad], `power_t`, `power_r` (per s^3 or s^5), `iterations`,
+  /// Counts: `sigma_t` [m], `sigma_r` [rad], `power_t`, `power_r` (per s^3), `iterations`,
   /// `evaluations` of the evidence. Phases: `evidence`, `solve`. States covariances if asked: those
   /// of the posterior at its parameters, which do not include drift; none if a
   /// segment is too short. Throws std::runtime_error when the
@@ -42,25 +38,13 @@ class GaussianProcess final : public Smoother {
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override;
 
  private:
-  std::size_t min_keyframes() const;
-
-  template <int P>
-  std::unique_ptr<const Curve> smooth_with(const Trajectory& keyframes, Report& report) const;
+  std::unique_ptr<const Curve> smooth_segment(const Trajectory& keyframes, Report& report) const;
 
   Options options_;
 };
 
-inline auto choices(GaussianProcess::Prior) {
-  return std::array{std::pair{"velocity", GaussianProcess::Prior::velocity},
-                    std::pair{"acceleration", GaussianProcess::Prior::acceleration}};
-}
-
 template <class Visit>
 void fields(GaussianProcess::Options& o, Visit visit) {
-  visit("prior",
-        o.prior,
-        "motion prior; velocity: white noise on acceleration (WNOA), acceleration: white noise on "
-        "jerk (WNOJ)");
   visit("sigma_t",
         o.sigma_t,
         "standard deviation of keyframe positions [m]; none: estimated",
@@ -71,11 +55,11 @@ void fields(GaussianProcess::Options& o, Visit visit) {
         GreaterThan{0.0});
   visit("power_t",
         o.power_t,
-        "power spectral density of the translation prior [m^2/s^3 or m^2/s^5]; none: estimated",
+        "power spectral density of the translation prior [m^2/s^3]; none: estimated",
         GreaterThan{0.0});
   visit("power_r",
         o.power_r,
-        "power spectral density of the rotation prior [rad^2/s^3 or rad^2/s^5]; none: estimated",
+        "power spectral density of the rotation prior [rad^2/s^3]; none: estimated",
         GreaterThan{0.0});
   visit("covariances", o.covariances, "state the covariance of each keyframe, for metric nees");
 }

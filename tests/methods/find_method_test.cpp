@@ -25,19 +25,13 @@ TEST(FindMethod, CorrectsWithTheMethodOfTheName) {
   }
 }
 
-TEST(FindMethod, EvaluatesAJointMethodAtTheKeyframes) {
-  const Problem problem = test::circle();
-  const Trajectory found = methods::correct(problem, "spline_fit");
-  EXPECT_EQ(stamps(found), stamps(problem.keyframes));
-}
-
 TEST(FindMethod, RejectsWhatCannotCorrect) {
   Problem problem = test::circle();
   const auto why = [&](const std::string& name) {
     return refusal_of([&] { methods::correct(problem, name); });
   };
   EXPECT_THAT(why("duel"), HasSubstr("no method is named 'duel', expected one of raw, uniform"));
-  EXPECT_EQ(why("polyline"), "polyline: is a smoother, expected a corrector or a joint method");
+  EXPECT_EQ(why("polyline"), "polyline: is a smoother, expected a corrector");
   problem.odometry.clear();
   EXPECT_THAT(why("dual"), HasSubstr("dual: is not applicable: "));
 }

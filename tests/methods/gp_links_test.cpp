@@ -1,4 +1,4 @@
-// Parts of gp_wnoa and gp_wnoj: body rates, the prior between two states, its Jacobians.
+// Parts of gp_wnoa: body rates, the prior between two states, its Jacobians.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -45,37 +45,32 @@ TEST(BodyRate, DerivativeAgreesWithDifferences) {
   }
 }
 
-template <int P>
-GpState<P> random_state(std::mt19937_64& random) {
-  GpState<P> out;
+GpState random_state(std::mt19937_64& random) {
+  GpState out;
   out.pose = exp_se3(random_twist(random, 1.0, 0.8));
-  for (Twist& rate : out.rates) rate = random_twist(random, 1.0, 0.5);
+  out.rate = random_twist(random, 1.0, 0.5);
   return out;
 }
 
-template <int P>
-GpState<P> moved(GpState<P> state, const GpVector<P>& by) {
-  state.pose = state.pose * exp_se3(by.template head<6>());
-  for (int a = 1; a < P; ++a) {
-    state.rates[static_cast<std::size_t>(a - 1)] += by.template segment<6>(6 * a);
-  }
+GpState moved(GpState state, const GpVector& by) {
+  state.pose = state.pose * exp_se3(by.head<6>());
+  state.rate += by.tail<6>();
   return state;
 }
 
-template <int P>
-void expect_link_jacobians() {
+TEST(Link, JacobiansAgreeWithDifferences) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 5; ++trial) {
-    const GpState<P> from = random_state<P>(random), to = random_state<P>(random);
-    const Link<P> analytic = link<P>(from, to, 1.7);
+    const GpState from = random_state(random), to = random_state(random);
+    const Link analytic = link(from, to, 1.7);
     constexpr double step = 1e-6;
-    for (int k = 0; k < 6 * P; ++k) {
-      const GpVector<P> d = step * GpVector<P>::Unit(k);
-      const GpVector<P> by_from =
-          (link<P>(moved<P>(from, d), to, 1.7).error - link<P>(moved<P>(from, -d), to, 1.7).error) /
+    for (int k = 0; k < 12; ++k) {
+      const GpVector d = step * GpVector::Unit(k);
+      const GpVector by_from =
+          (link(moved(from, d), to, 1.7).error - link(moved(from, -d), to, 1.7).error) /
           (2.0 * step);
-      const GpVector<P> by_to =
-          (link<P>(from, moved<P>(to, d), 1.7).error - link<P>(from, moved<P>(to, -d), 1.7).error) /
+      const GpVector by_to =
+          (link(from, moved(to, d), 1.7).error - link(from, moved(to, -d), 1.7).error) /
           (2.0 * step);
       const double size = analytic.by_from.norm();
       EXPECT_LT((by_from - analytic.by_from.col(k)).norm(), 1e-8 * size) << k;
@@ -84,39 +79,30 @@ void expect_link_jacobians() {
   }
 }
 
-TEST(Link, JacobiansAgreeWithDifferences) {
-  expect_link_jacobians<2>();
-  expect_link_jacobians<3>();
-}
-
 TEST(Link, IsWhiteForUnitPower) {
   // Without rotation the error is linear: the covariance of W e must be the identity for e ~ Q(h).
   const double h = 1.7;
-  Eigen::Matrix3d Q;  // textbook covariance for constant acceleration
-  Q << std::pow(h, 5) / 20, std::pow(h, 4) / 8, std::pow(h, 3) / 6, std::pow(h, 4) / 8,
-      std::pow(h, 3) / 3, h * h / 2, std::pow(h, 3) / 6, h * h / 2, h;
-  Eigen::Matrix3d W;
-  GpState<3> from;
-  for (Twist& rate : from.rates) rate.setZero();
-  for (int b = 0; b < 3; ++b) {
-    GpVector<3> d = GpVector<3>::Zero();
+  Eigen::Matrix2d Q;  // textbook covariance for constant velocity
+  Q << std::pow(h, 3) / 3, h * h / 2, h * h / 2, h;
+  Eigen::Matrix2d W;
+  GpState from;
+  from.rate.setZero();
+  for (int b = 0; b < 2; ++b) {
+    GpVector d = GpVector::Zero();
     d[6 * b] = 1.0;
-    const GpVector<3> error = link<3>(from, moved<3>(from, d), h).error;
-    for (int a = 0; a < 3; ++a) W(a, b) = error[6 * a];
+    const GpVector error = link(from, moved(from, d), h).error;
+    for (int a = 0; a < 2; ++a) W(a, b) = error[6 * a];
   }
-  EXPECT_LT((W * Q * W.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  EXPECT_LT((W * Q * W.transpose() - Eigen::Matrix2d::Identity()).norm(), 1e-12);
 }
 
 TEST(Prior, BetweenTwoStatesConstantVelocityIsTheHermiteCubic) {
   for (const double s : {0.0, 0.2, 0.7, 1.0}) {
-    const auto weights = Prior<2>::between(s);
+    const auto weights = Prior::between(s);
     EXPECT_NEAR(weights.from[0], 1.0 - 3.0 * s * s + 2.0 * s * s * s, 1e-14);
     EXPECT_NEAR(weights.from[1], s - 2.0 * s * s + s * s * s, 1e-14);
     EXPECT_NEAR(weights.to[0], 3.0 * s * s - 2.0 * s * s * s, 1e-14);
     EXPECT_NEAR(weights.to[1], s * s * s - s * s, 1e-14);
-    // With position, velocity and acceleration at both ends: the quintic.
-    const auto quintic = Prior<3>::between(s);
-    EXPECT_NEAR(quintic.to[0], s * s * s * (10.0 - 15.0 * s + 6.0 * s * s), 1e-13);
   }
 }
 

@@ -1,4 +1,4 @@
-// gp_wnoa and gp_wnoj: evidence and posterior.
+// gp_wnoa: evidence and posterior.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -17,9 +17,6 @@ namespace {
 
 using namespace test;
 
-const Params kPriors[] = {{{"prior", std::string("velocity")}},
-                          {{"prior", std::string("acceleration")}}};
-
 TEST(GaussianProcess, ReproducesAConstantTwistExactly) {
   // A helix at constant speed: the driving noise is zero.
   const Pose start{exp_so3({0.3, 0.1, -1.0}), {5.0, -2.0, 1.0}};
@@ -27,11 +24,9 @@ TEST(GaussianProcess, ReproducesAConstantTwistExactly) {
     return start * exp_se3(time * twist({0.8, 0.1, 0.2}, {0.1, -0.2, 0.7}));
   };
   const Trajectory keyframes = sampled_at(uneven(15), truth);
-  for (const Params& prior : kPriors) {
-    const auto curve = smooth<GaussianProcess>(keyframes, prior);
-    for (double time = 0.0; time < keyframes.back().stamp; time += 0.07) {
-      EXPECT_TRUE(is_close(curve->at(time), truth(time), 1e-9, 1e-9)) << time;
-    }
+  const auto curve = smooth<GaussianProcess>(keyframes);
+  for (double time = 0.0; time < keyframes.back().stamp; time += 0.07) {
+    EXPECT_TRUE(is_close(curve->at(time), truth(time), 1e-9, 1e-9)) << time;
   }
 }
 
@@ -47,7 +42,7 @@ Trajectory wave(std::size_t n, double sigma) {
   return out;
 }
 
-TEST(GaussianProcess, ConstantVelocityPriorWithoutRotationIsTheSmoothingSpline) {
+TEST(GaussianProcess, WithoutRotationIsTheSmoothingSpline) {
   const Trajectory keyframes = wave(25, 0.03);
   // lambda = sigma^2 / power; rotations are fixed.
   const auto process = smooth<GaussianProcess>(
@@ -82,7 +77,7 @@ double dense_negative_evidence(const Trajectory& keyframes, double sigma, double
 
 TEST(GaussianProcess, EvidenceAgreesWithTheDenseComputationForTwelvePoses) {
   const Trajectory keyframes = wave(12, 0.03);
-  const GpPosterior<2> posterior(keyframes);
+  const GpPosterior posterior(keyframes);
   const double unit = std::pow(posterior.interval(), 3);
   const auto both = [&](double sigma, double power) {
     const GpParameters parameters{sigma, 1e-7, power * unit, 1e-12};
@@ -116,32 +111,28 @@ Trajectory noisy_path(std::uint64_t seed, const Trajectory& truth) {
 TEST(GaussianProcess, EstimatesTheNoiseAndRemovesAThirdOfIt) {
   const Trajectory truth = hand_held_truth(120);
   const Trajectory keyframes = noisy_path(1, truth);
-  for (const Params& prior : kPriors) {
-    Report report;
-    const auto curve = smooth<GaussianProcess>(keyframes, prior, &report);
-    EXPECT_NEAR(count(report, "sigma_t"), 0.02, 0.006);
-    EXPECT_NEAR(count(report, "sigma_r"), 0.01, 0.003);
-    double before = 0.0, after = 0.0, rotation_before = 0.0, rotation_after = 0.0;
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-      const Pose& expected = truth[i].world_from_body;
-      const Pose estimated = curve->at(truth[i].stamp);
-      before += (keyframes[i].world_from_body.translation - expected.translation).squaredNorm();
-      after += (estimated.translation - expected.translation).squaredNorm();
-      rotation_before +=
-          std::pow(angle_between(keyframes[i].world_from_body.rotation, expected.rotation), 2);
-      rotation_after += std::pow(angle_between(estimated.rotation, expected.rotation), 2);
-    }
-    EXPECT_LT(std::sqrt(after), 0.67 * std::sqrt(before));
-    EXPECT_LT(std::sqrt(rotation_after), 0.67 * std::sqrt(rotation_before));
+  Report report;
+  const auto curve = smooth<GaussianProcess>(keyframes, {}, &report);
+  EXPECT_NEAR(count(report, "sigma_t"), 0.02, 0.006);
+  EXPECT_NEAR(count(report, "sigma_r"), 0.01, 0.003);
+  double before = 0.0, after = 0.0, rotation_before = 0.0, rotation_after = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const Pose& expected = truth[i].world_from_body;
+    const Pose estimated = curve->at(truth[i].stamp);
+    before += (keyframes[i].world_from_body.translation - expected.translation).squaredNorm();
+    after += (estimated.translation - expected.translation).squaredNorm();
+    rotation_before +=
+        std::pow(angle_between(keyframes[i].world_from_body.rotation, expected.rotation), 2);
+    rotation_after += std::pow(angle_between(estimated.rotation, expected.rotation), 2);
   }
+  EXPECT_LT(std::sqrt(after), 0.67 * std::sqrt(before));
+  EXPECT_LT(std::sqrt(rotation_after), 0.67 * std::sqrt(rotation_before));
 }
 
 TEST(GaussianProcess, HasNoKink) {
   const Trajectory keyframes = noisy_path(2, hand_held_truth(20));
-  for (const Params& prior : kPriors) {
-    const auto curve = smooth<GaussianProcess>(keyframes, prior);
-    expect_no_kink(*curve, keyframes);
-  }
+  const auto curve = smooth<GaussianProcess>(keyframes);
+  expect_no_kink(*curve, keyframes);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ TEST(Misbehaving, APluginWithOpenMPHangsNoCell) {
   const TemporaryFolder folder;
   folder.file("c.yaml",
               "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nrepeats: 3\n"
-              "methods: [in_parallel, spline_fit, {method: in_parallel, label: b}]\n"
+              "methods: [in_parallel, pose_graph_huber, {method: in_parallel, label: b}]\n"
               "metrics: [ate]\nlimits: {seconds: 100}\n");
   const CommandResult result =
       loopbench_command("run c.yaml --out r --plugin '" LOOPBENCH_OPENMP_PLUGIN "'", folder);

@@ -82,45 +82,34 @@ inline Matrix6 body_rate_jacobian(const Twist& xi, const Twist& v) {
   return out;
 }
 
-/// One scalar axis with state (x, x', ..) over a unit interval. Over h seconds, derivative a scales
-/// by h^-a and the covariance by h^(2P-1). Source: Barfoot, State Estimation for Robotics, 3.4;
-/// Anderson & Barfoot 2015 (P = 2), Tang, Yoon & Barfoot 2019 (P = 3).
-template <int P>
+/// One scalar axis with state (x, x') over a unit interval. Over h seconds, derivative a scales by
+/// h^-a and the covariance by h^3. Source: Barfoot, State Estimation for Robotics, 3.4; Anderson &
+/// Barfoot 2015.
 struct Prior {
-  using Small = Eigen::Matrix<double, P, P>;
-
-  static double factorial(int n) { return n < 2 ? 1.0 : n * factorial(n - 1); }
+  using Small = Eigen::Matrix2d;
 
   static Small transition(double s) {
-    Small out = Small::Zero();
-    for (int a = 0; a < P; ++a) {
-      for (int b = a; b < P; ++b) out(a, b) = std::pow(s, b - a) / factorial(b - a);
-    }
+    Small out;
+    out << 1.0, s, 0.0, 1.0;
     return out;
   }
 
   /// int_0^s Phi(s - r) e e' Phi(s - r)' dr, where e is the last unit vector.
   static Small covariance(double s) {
     Small out;
-    for (int a = 0; a < P; ++a) {
-      for (int b = 0; b < P; ++b) {
-        const int left = P - 1 - a, right = P - 1 - b;
-        out(a, b) = std::pow(s, left + right + 1) /
-                    ((left + right + 1) * factorial(left) * factorial(right));
-      }
-    }
+    out << std::pow(s, 3) / 3.0, std::pow(s, 2) / 2.0, std::pow(s, 2) / 2.0, s;
     return out;
   }
 
   /// Returns the W with W' W = covariance(1)^-1.
   static Small root() {
     const Small lower = covariance(1.0).llt().matrixL();
-    return lower.template triangularView<Eigen::Lower>().solve(Small::Identity());
+    return lower.triangularView<Eigen::Lower>().solve(Small::Identity());
   }
 
   /// Weights of the states at 0 and 1 in the posterior mean of x(s).
   struct Weights {
-    Eigen::Matrix<double, 1, P> from, to;
+    Eigen::RowVector2d from, to;
   };
   static Weights between(double s) {
     static const Small inverse = covariance(1.0).inverse();
@@ -130,90 +119,67 @@ struct Prior {
   }
 };
 
-/// Pose, body twist per unit of time, and for P = 3 its derivative. The pose is perturbed by Exp(d)
-/// on the right.
-template <int P>
+/// Pose and body twist per unit of time. The pose is perturbed by Exp(d) on the right.
 struct GpState {
   Pose pose;
-  std::array<Twist, P - 1> rates;
+  Twist rate;
 };
 
-template <int P>
-using GpVector = Eigen::Matrix<double, 6 * P, 1>;
-template <int P>
-using GpMatrix = Eigen::Matrix<double, 6 * P, 6 * P>;
+using GpVector = Eigen::Matrix<double, 12, 1>;
+using GpMatrix = Eigen::Matrix<double, 12, 12>;
 
-/// Local coordinates of state j relative to state i: xi(t) = Log(T_i^-1 T(t)) and its derivatives
-/// at j. They are xi, J_r^-1(xi) w_j, and for P = 3 also ad(J_r^-1 w_j) w_j / 2 + J_r^-1(xi) a_j
-/// (Tang 2019, up to terms of order xi). At state i they are 0, w_i, a_i.
-template <int P>
+/// Local coordinates of state j relative to state i: xi(t) = Log(T_i^-1 T(t)) and its derivative at
+/// j. They are xi and J_r^-1(xi) w_j. At state i they are 0 and w_i.
 struct LocalState {
-  std::array<Twist, P> value;  ///< local coordinates of j
-  GpMatrix<P> by_from = GpMatrix<P>::Zero();
-  GpMatrix<P> by_to = GpMatrix<P>::Zero();
+  std::array<Twist, 2> value;  ///< local coordinates of j
+  GpMatrix by_from = GpMatrix::Zero();
+  GpMatrix by_to = GpMatrix::Zero();
 };
 
-template <int P>
-LocalState<P> local_state(const GpState<P>& from, const GpState<P>& to) {
-  LocalState<P> out;
+inline LocalState local_state(const GpState& from, const GpState& to) {
+  LocalState out;
   const Twist xi = log_se3(from.pose.inverse() * to.pose);
   const Matrix6 J = inverse_right_jacobian_se3(xi);
   const Matrix6 by_from_pose = -inverse_left_jacobian_se3(xi);
-  const Twist& w = to.rates[0];
-  const Twist rate = J * w;
+  const Twist& w = to.rate;
   const Matrix6 G = body_rate_jacobian(xi, w);
   out.value[0] = xi;
-  out.value[1] = rate;
-  out.by_from.template block<6, 6>(0, 0) = by_from_pose;
-  out.by_from.template block<6, 6>(6, 0) = G * by_from_pose;
-  out.by_to.template block<6, 6>(0, 0) = J;
-  out.by_to.template block<6, 6>(6, 0) = G * J;
-  out.by_to.template block<6, 6>(6, 6) = J;
-  if constexpr (P == 3) {
-    const Twist& a = to.rates[1];
-    const Matrix6 W = small_adjoint(w);
-    const Matrix6 by_xi = body_rate_jacobian(xi, a) - 0.5 * W * G;
-    out.value[2] = J * a - 0.5 * W * rate;
-    out.by_from.template block<6, 6>(12, 0) = by_xi * by_from_pose;
-    out.by_to.template block<6, 6>(12, 0) = by_xi * J;
-    out.by_to.template block<6, 6>(12, 6) = 0.5 * (small_adjoint(rate) - W * J);
-    out.by_to.template block<6, 6>(12, 12) = J;
-  }
+  out.value[1] = J * w;
+  out.by_from.block<6, 6>(0, 0) = by_from_pose;
+  out.by_from.block<6, 6>(6, 0) = G * by_from_pose;
+  out.by_to.block<6, 6>(0, 0) = J;
+  out.by_to.block<6, 6>(6, 0) = G * J;
+  out.by_to.block<6, 6>(6, 6) = J;
   return out;
 }
 
 /// error = W (local state of `to` - Phi(h) local state of `from`), where W' W is the inverse
 /// covariance for unit power. The error is white up to the power of the noise, which differs
 /// between rows 0..2 and 3..5 of each six.
-template <int P>
 struct Link {
-  GpVector<P> error;
-  GpMatrix<P> by_from, by_to;
+  GpVector error;
+  GpMatrix by_from, by_to;
 };
 
-template <int P>
-Link<P> link(const GpState<P>& from, const GpState<P>& to, double h) {
-  static const typename Prior<P>::Small unit_root = Prior<P>::root();
-  const LocalState<P> local = local_state(from, to);
-  Link<P> raw;
+inline Link link(const GpState& from, const GpState& to, double h) {
+  static const Prior::Small unit_root = Prior::root();
+  const LocalState local = local_state(from, to);
+  Link raw;
   raw.by_from = local.by_from;
   raw.by_to = local.by_to;
-  for (int a = 0; a < P; ++a) {
-    raw.error.template segment<6>(6 * a) = local.value[static_cast<std::size_t>(a)];
-    for (int b = std::max(a, 1); b < P; ++b) {
-      const double phi = std::pow(h, b - a) / Prior<P>::factorial(b - a);
-      raw.error.template segment<6>(6 * a) -= phi * from.rates[static_cast<std::size_t>(b - 1)];
-      raw.by_from.template block<6, 6>(6 * a, 6 * b) -= phi * Matrix6::Identity();
-    }
-  }
-  Link<P> out{GpVector<P>::Zero(), GpMatrix<P>::Zero(), GpMatrix<P>::Zero()};
-  for (int a = 0; a < P; ++a) {
+  raw.error.head<6>() = local.value[0];
+  raw.error.head<6>() -= h * from.rate;
+  raw.by_from.block<6, 6>(0, 6) -= h * Matrix6::Identity();
+  raw.error.tail<6>() = local.value[1];
+  raw.error.tail<6>() -= from.rate;
+  raw.by_from.block<6, 6>(6, 6) -= Matrix6::Identity();
+  Link out{GpVector::Zero(), GpMatrix::Zero(), GpMatrix::Zero()};
+  for (int a = 0; a < 2; ++a) {
     for (int b = 0; b <= a; ++b) {
-      const double weight = unit_root(a, b) * std::pow(h, b - P + 0.5);
-      out.error.template segment<6>(6 * a) += weight * raw.error.template segment<6>(6 * b);
-      out.by_from.template middleRows<6>(6 * a) +=
-          weight * raw.by_from.template middleRows<6>(6 * b);
-      out.by_to.template middleRows<6>(6 * a) += weight * raw.by_to.template middleRows<6>(6 * b);
+      const double weight = unit_root(a, b) * std::pow(h, b - 1.5);
+      out.error.segment<6>(6 * a) += weight * raw.error.segment<6>(6 * b);
+      out.by_from.middleRows<6>(6 * a) += weight * raw.by_from.middleRows<6>(6 * b);
+      out.by_to.middleRows<6>(6 * a) += weight * raw.by_to.middleRows<6>(6 * b);
     }
   }
   return out;

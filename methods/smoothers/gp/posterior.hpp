@@ -31,13 +31,12 @@ Eigen::Matrix<double, Rows, 1> row_weights(double variance_t, double variance_r)
 ///
 ///     1/2 sum_i |Log(M_i^-1 T_i)|^2_R + 1/2 sum_i |link(state_i, state_{i+1})|^2_Q,
 ///
-/// with blocks of size 6 P. O(n) per iteration. Source: Anderson & Barfoot 2015; Barfoot, ch. 11.
-template <int P>
+/// with blocks of size 12. O(n) per iteration. Source: Anderson & Barfoot 2015; Barfoot, ch. 11.
 class GpPosterior {
  public:
-  using States = std::vector<GpState<P>>;
+  using States = std::vector<GpState>;
 
-  /// Requires at least P + 1 poses.
+  /// Requires at least three poses.
   explicit GpPosterior(const Trajectory& measured)
       : interval_((measured.back().stamp - measured.front().stamp) /
                   static_cast<double>(measured.size() - 1)) {
@@ -61,8 +60,7 @@ class GpPosterior {
       double time = 0.0;
       for (std::size_t k = before; k < after; ++k) time += intervals_[k];
       out[i].pose = measured_[i];
-      for (Twist& rate : out[i].rates) rate.setZero();
-      out[i].rates[0] = log_se3(measured_[before].inverse() * measured_[after]) / time;
+      out[i].rate = log_se3(measured_[before].inverse() * measured_[after]) / time;
     }
     return out;
   }
@@ -78,25 +76,22 @@ class GpPosterior {
     double current_cost = cost(states, parameters);
     for (int iteration = 1; iteration <= kMostSteps; ++iteration) {
       eliminate(states, parameters, &steps);
-      std::vector<GpVector<P>> step(states.size());
+      std::vector<GpVector> step(states.size());
       double largest = 0.0;
       for (std::size_t i = states.size(); i-- > 0;) {
         step[i] = steps[i].offset;
         if (i + 1 < states.size()) step[i] -= steps[i].to_next * step[i + 1];
-        largest = std::max({largest,
-                            step[i].template head<3>().norm() / extent_,
-                            step[i].template segment<3>(3).norm()});
+        largest =
+            std::max({largest, step[i].head<3>().norm() / extent_, step[i].segment<3>(3).norm()});
       }
       bool better = false;
       double share = 1.0;
       for (int halving = 0; halving <= kMostHalvings && !better; ++halving, share *= 0.5) {
         States trial = states;
         for (std::size_t i = 0; i < states.size(); ++i) {
-          const GpVector<P> part = share * step[i];
-          trial[i].pose = normalized(trial[i].pose * exp_se3(part.template head<6>()));
-          for (int a = 1; a < P; ++a) {
-            trial[i].rates[static_cast<std::size_t>(a - 1)] += part.template segment<6>(6 * a);
-          }
+          const GpVector part = share * step[i];
+          trial[i].pose = normalized(trial[i].pose * exp_se3(part.head<6>()));
+          trial[i].rate += part.tail<6>();
         }
         const double trial_cost = cost(trial, parameters);
         better = trial_cost < current_cost || largest < kRounding;
@@ -115,7 +110,7 @@ class GpPosterior {
   double negative_evidence(const States& states, const GpParameters& parameters) const {
     const Elimination at = eliminate(states, parameters, nullptr);
     const auto poses = static_cast<double>(measured_.size());
-    const double log_links = 3.0 * P * std::log(parameters.power_t * parameters.power_r);
+    const double log_links = 6.0 * std::log(parameters.power_t * parameters.power_r);
     const double log_poses = 6.0 * std::log(parameters.sigma_t * parameters.sigma_r);
     return at.cost - at.decrease +
            0.5 * (at.log_determinant + (poses - 1.0) * log_links + poses * log_poses);
@@ -127,13 +122,12 @@ class GpPosterior {
     std::vector<Step> steps(states.size());
     eliminate(states, parameters, &steps);
     std::vector<Matrix6> out(states.size());
-    GpMatrix<P> of_next = GpMatrix<P>::Zero();
+    GpMatrix of_next = GpMatrix::Zero();
     for (std::size_t i = states.size(); i-- > 0;) {
       const auto& [to_next, offset, schur] = steps[i];
-      of_next =
-          (schur.llt().solve(GpMatrix<P>::Identity()) + to_next * of_next * to_next.transpose())
-              .eval();
-      const Matrix6 of_pose = of_next.template topLeftCorner<6, 6>();
+      of_next = (schur.llt().solve(GpMatrix::Identity()) + to_next * of_next * to_next.transpose())
+                    .eval();
+      const Matrix6 of_pose = of_next.topLeftCorner<6, 6>();
       out[i] = rotated(0.5 * (of_pose + of_pose.transpose()),
                        states[i].pose.rotation.toRotationMatrix());
     }
@@ -142,9 +136,9 @@ class GpPosterior {
 
  private:
   struct Step {
-    GpMatrix<P> to_next;  ///< delta_i = offset - to_next * delta_{i + 1}
-    GpVector<P> offset;
-    GpMatrix<P> schur;  ///< information of delta_i given delta_{i + 1}
+    GpMatrix to_next;  ///< delta_i = offset - to_next * delta_{i + 1}
+    GpVector offset;
+    GpMatrix schur;  ///< information of delta_i given delta_{i + 1}
   };
   struct Elimination {
     double cost, decrease, log_determinant;
@@ -154,23 +148,23 @@ class GpPosterior {
                         std::vector<Step>* steps) const {
     const auto pose_weights = row_weights<6>(parameters.sigma_t * parameters.sigma_t,
                                              parameters.sigma_r * parameters.sigma_r);
-    const auto link_weights = row_weights<6 * P>(parameters.power_t, parameters.power_r);
+    const auto link_weights = row_weights<12>(parameters.power_t, parameters.power_r);
     Elimination out{0.0, 0.0, 0.0};
-    GpMatrix<P> block = GpMatrix<P>::Zero();  // Schur complement of the earlier states
-    GpVector<P> gradient = GpVector<P>::Zero();
+    GpMatrix block = GpMatrix::Zero();  // Schur complement of the earlier states
+    GpVector gradient = GpVector::Zero();
     for (std::size_t i = 0; i < states.size(); ++i) {
       const Twist residual = log_se3(measured_[i].inverse() * states[i].pose);
       const Matrix6 J = pose_weights.asDiagonal() * inverse_right_jacobian_se3(residual);
       const Twist whitened = pose_weights.cwiseProduct(residual);
-      block.template topLeftCorner<6, 6>() += J.transpose() * J;
-      gradient.template head<6>() += J.transpose() * whitened;
+      block.topLeftCorner<6, 6>() += J.transpose() * J;
+      gradient.head<6>() += J.transpose() * whitened;
       out.cost += 0.5 * whitened.squaredNorm();
 
       const bool is_last = i + 1 == states.size();
-      Link<P> next;
-      GpMatrix<P> coupling = GpMatrix<P>::Zero();
+      Link next;
+      GpMatrix coupling = GpMatrix::Zero();
       if (!is_last) {
-        next = link<P>(states[i], states[i + 1], intervals_[i]);
+        next = link(states[i], states[i + 1], intervals_[i]);
         next.error = link_weights.cwiseProduct(next.error).eval();
         next.by_from = (link_weights.asDiagonal() * next.by_from).eval();
         next.by_to = (link_weights.asDiagonal() * next.by_to).eval();
@@ -179,15 +173,15 @@ class GpPosterior {
         coupling.noalias() = next.by_from.transpose() * next.by_to;
         out.cost += 0.5 * next.error.squaredNorm();
       }
-      const Eigen::LLT<GpMatrix<P>> factor(block);
+      const Eigen::LLT<GpMatrix> factor(block);
       if (factor.info() != Eigen::Success) {
         throw std::runtime_error("gp: the normal equations are not positive definite at keyframe " +
                                  std::to_string(i));
       }
       out.log_determinant += 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-      const GpVector<P> offset = factor.solve(gradient);
+      const GpVector offset = factor.solve(gradient);
       out.decrease += 0.5 * gradient.dot(offset);
-      const GpMatrix<P> to_next = factor.solve(coupling);
+      const GpMatrix to_next = factor.solve(coupling);
       if (steps != nullptr) (*steps)[i] = {to_next, -offset, block};
       if (is_last) break;
       block.noalias() = next.by_to.transpose() * next.by_to;
@@ -200,13 +194,13 @@ class GpPosterior {
   double cost(const States& states, const GpParameters& parameters) const {
     const auto pose_weights = row_weights<6>(parameters.sigma_t * parameters.sigma_t,
                                              parameters.sigma_r * parameters.sigma_r);
-    const auto link_weights = row_weights<6 * P>(parameters.power_t, parameters.power_r);
+    const auto link_weights = row_weights<12>(parameters.power_t, parameters.power_r);
     double sum = 0.0;
     for (std::size_t i = 0; i < states.size(); ++i) {
       const Twist residual = log_se3(measured_[i].inverse() * states[i].pose);
       sum += pose_weights.cwiseProduct(residual).squaredNorm();
       if (i == 0) continue;
-      const GpVector<P> error = link<P>(states[i - 1], states[i], intervals_[i - 1]).error;
+      const GpVector error = link(states[i - 1], states[i], intervals_[i - 1]).error;
       sum += link_weights.cwiseProduct(error).squaredNorm();
     }
     return 0.5 * sum;

@@ -1,15 +1,13 @@
-// Local smoothers: b_spline, screw, savitzky_golay.
+// b_spline: its basis, the derivative of its rotation, the curve.
 #include <gtest/gtest.h>
 
 #include "datasets/core/polyline.hpp"
 #include "methods/smoothers/interpolating_splines.hpp"
-#include "methods/smoothers/savitzky_golay.hpp"
-#include "methods/smoothers/screw.hpp"
 #include "methods/smoothers/spline/basis.hpp"
 #include "methods/smoothers/spline/curve.hpp"
 #include "tests/support/noisy_paths.hpp"
 
-namespace loopbench::local_smoothers_test {
+namespace loopbench::b_spline_test {
 
 using namespace methods;
 
@@ -131,79 +129,5 @@ TEST(BSpline, OfOrderTwoIsThePolyline) {
       *curve, keyframes, [&](double time) { return polyline.at(time); }, 1e-12);
 }
 
-TEST(Screw, IsExactOnAHelix) {
-  // Radius 2 m, 0.5 rad/s, rising 0.3 m/s, tangential heading: body twist ((1, 0, 0.3), (0, 0,
-  // 0.5)).
-  const auto helix = [](double time) {
-    const double angle = 0.5 * (time - 1000.0);
-    return turned_about_z(angle, {2.0 * std::sin(angle), 2.0 - 2.0 * std::cos(angle), 0.6 * angle});
-  };
-  const Trajectory keyframes = sampled_at(uneven(12, 1000.0), helix);
-  const auto curve = smooth<Screw>(keyframes);
-  expect_follows(*curve, keyframes, helix, 1e-12);
-  EXPECT_GT((Polyline(keyframes).at(1000.05).translation - helix(1000.05).translation).norm(),
-            1e-4);
-}
-
-TEST(Screw, PassesThroughTheKeyframesBitForBit) {
-  const Trajectory keyframes = hand_held_truth(20);
-  const auto curve = smooth<Screw>(keyframes);
-  for (const auto& [stamp, pose] : keyframes) {
-    EXPECT_EQ(curve->at(stamp).translation, pose.translation);
-    EXPECT_EQ(curve->at(stamp).rotation.coeffs(), pose.rotation.coeffs());
-  }
-}
-
-TEST(SavitzkyGolay, ReproducesPolynomialsOfItsDegree) {
-  for (int degree = 0; degree <= 5; ++degree) {
-    const auto truth = polynomial(degree);
-    const Trajectory keyframes = sampled_at(uneven(20, 1000.0), truth);
-    for (const Params& window : {Params{{"window", std::int64_t{degree + 1}}},
-                                 Params{{"window", std::int64_t{9}}},
-                                 Params{{"window", std::int64_t{100}}},
-                                 Params{{"seconds", 1.5}},
-                                 Params{{"seconds", 0.01}}}) {
-      Params params = window;
-      params["degree"] = std::int64_t{degree};
-      expect_follows(*smooth<SavitzkyGolay>(keyframes, params), keyframes, truth, 1e-9);
-    }
-  }
-}
-
-TEST(SavitzkyGolay, ReproducesRotationsAbovePiWithinAWindow) {
-  const auto spin = [](double time) { return turned_about_z(2.0 * (time - 1000.0), {1, 2, 3}); };
-  const Trajectory keyframes = sampled_at(uneven(20, 1000.0), spin);
-  expect_follows(
-      *smooth<SavitzkyGolay>(keyframes, {{"window", std::int64_t{15}}}), keyframes, spin, 1e-11);
-}
-
-TEST(SavitzkyGolay, OnEvenStampsHasThePublishedWeights) {
-  // Five points, quadratic: (-3, 12, 17, 12, -3) / 35 (Savitzky & Golay 1964, table I).
-  const std::array<double, 5> weights{-3.0, 12.0, 17.0, 12.0, -3.0};
-  for (std::size_t k = 0; k < 5; ++k) {
-    Trajectory keyframes(11);
-    for (std::size_t i = 0; i < 11; ++i) keyframes[i].stamp = 0.5 * static_cast<double>(i);
-    keyframes[3 + k].world_from_body.translation = {1.0, -2.0, 0.0};
-    const auto curve = smooth<SavitzkyGolay>(
-        keyframes, {{"degree", std::int64_t{2}}, {"window", std::int64_t{5}}});
-    EXPECT_NEAR(curve->at(2.5).translation.x(), weights[k] / 35.0, 1e-14);
-    EXPECT_NEAR(curve->at(2.5).translation.y(), -2.0 * weights[k] / 35.0, 1e-14);
-  }
-}
-
-TEST(SavitzkyGolay, HasNoKink) {
-  const Trajectory keyframes = hand_held_truth(20);
-  const auto curve = smooth<SavitzkyGolay>(keyframes);
-  expect_no_kink(*curve, keyframes);
-}
-
-TEST(SavitzkyGolay, RejectsAWindowSmallerThanItsDegree) {
-  EXPECT_THROW(SavitzkyGolay({.degree = 3, .window = 3}), OptionError);
-  EXPECT_NO_THROW(SavitzkyGolay({.degree = 3, .window = 4}));
-  Problem problem;
-  problem.keyframes = hand_held_truth(3);
-  EXPECT_EQ(SavitzkyGolay({}).why_declined(problem), "3 keyframes, fewer than 4");
-}
-
 }  // namespace
-}  // namespace loopbench::local_smoothers_test
+}  // namespace loopbench::b_spline_test
