@@ -49,7 +49,7 @@ class KeyframePath {
       : poses_(at_least_two(keyframes)), nodes_(poses_), spline_(nodes_) {}
 
   std::vector<double> curvatures() const {
-    return kappas(nodes_, poses_, Kappa::turn_per_kf, CurveSpace::space, Vector3::UnitZ());
+    return kappas(nodes_, Kappa::turn_per_kf, CurveSpace::space, Vector3::UnitZ());
   }
 
   std::vector<std::pair<std::size_t, std::size_t>> segments(double speed_band,

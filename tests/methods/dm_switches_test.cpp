@@ -33,28 +33,22 @@ std::vector<Switch> switches() {
   for (const char* v : {"consecutive", "sliding_blend", "one_per_segment"})
     add({{"scheme", Text(v)}});
   add({{"scheme", Text("sliding_blend")}, {"planar", five}});
-  for (const char* v : {"chord", "pca", "parametric"}) add({{"frame", Text(v)}});
+  add({{"frame", Text("chord")}});
   add({{"abscissa", Text("polyline")}});
   for (const char* v : {"overlap_blend", "quintic_bridge", "c0", "none"}) {
     add({{"joint", Text(v)}, {"planar", five}});
     add({{"joint", Text(v)}, {"planar", std::int64_t{0}}, {"spatial", std::int64_t{7}}});
   }
-  add({{"joint", Text("constrained_ls")}, {"frame", Text("parametric")}});
   add({{"low_speed_c0_below", 0.3}, {"planar", five}});
   for (const char* v : {"line", "poly2", "poly3"}) add({{"families", Text(v)}, {"planar", five}});
   for (const char* v : {"sin1 poly3", "rat02 poly3", "hyperbola poly3", "implicit poly3"}) {
     add({{"families", Text(v)}, {"planar", six}});
   }
-  for (const char* v : {"aicc", "loocv"}) {
-    add({{"selection", Text(v)}, {"families", Text("line poly2 poly3 sin1")}, {"planar", six}});
-  }
-  for (const char* v : {"adjacent", "bins", "running_mean", "absolute"})
-    add({{"speed_rule", Text(v)}});
-  for (const char* v : {"menger", "dtheta_ds", "dtheta_dt", "analytic_spline", "rotation_per_kf"}) {
-    add({{"kappa", Text(v)}});
-  }
+  add({{"selection", Text("loocv")}, {"families", Text("line poly2 poly3 sin1")}, {"planar", six}});
+  add({{"speed_rule", Text("adjacent")}});
+  for (const char* v : {"menger", "dtheta_dt"}) add({{"kappa", Text(v)}});
   add({{"kappa_plane", Text("xy")}});
-  for (const char* v : {"merge", "polyline", "quasi_keyframes"}) add({{"short_policy", Text(v)}});
+  add({{"short_policy", Text("polyline")}});
   for (const char* v : {"discrete", "frechet"}) {
     add({{"psi", Text("boundary_tangent")}, {"psi_mean", Text(v)}});
   }
@@ -158,7 +152,7 @@ TEST(DmSwitches, QuinticBridgesAreC2AtTheirEnds) {
 
 TEST(DmSwitches, ParabolaAndCubicReproduceTheirKeyframesInEveryFrame) {
   const Trajectory keyframes = wandering(50, 12);
-  for (const char* frame : {"chord", "pca", "parametric", "world"}) {
+  for (const char* frame : {"chord", "world"}) {
     for (const std::int64_t N : {3, 4}) {
       Report report;
       const auto curve = Dm(with(Dm::Options{}, {{"frame", Text(frame)}, {"planar", N}}))
@@ -195,8 +189,6 @@ TEST(DmSwitches, LiteralVariantFitsInWorldAxesAndDependsOnThem) {
 
 TEST(DmSwitches, RejectsContradictoryOptions) {
   const auto build = [](Params params) { return Dm(with(Dm::Options{}, std::move(params))); };
-  EXPECT_THROW(build({{"joint", Text("constrained_ls")}}), OptionError);
-  EXPECT_THROW(build({{"frame", Text("parametric")}, {"families", Text("sin1")}}), OptionError);
   EXPECT_THROW(build({{"families", Text("poly7")}}), OptionError);
   EXPECT_THROW(build({{"psi", Text("boundary_tangent")}, {"abscissa", Text("polyline")}}),
                OptionError);

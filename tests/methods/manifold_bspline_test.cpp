@@ -32,11 +32,14 @@ INSTANTIATE_TEST_SUITE_P(BSpline, EveryOrder, testing::Values(2u, 3u, 4u, 5u, 6u
 TEST_P(EveryOrder, BasisIsTheRecursion) {
   const std::size_t k = GetParam();
   const SplineBasis basis = SplineBasis::for_sites(k, kSites);
+  std::vector<double> knots(k - 1, basis.breaks().front());
+  knots.insert(knots.end(), basis.breaks().begin(), basis.breaks().end());
+  knots.insert(knots.end(), k - 1, basis.breaks().back());
   for (double u = 0.0; u < 4.0; u += 0.037) {
     const std::size_t piece = basis.piece_at(u);
     const auto values = basis.values(piece, u);
     for (std::size_t j = 0; j < k; ++j) {
-      EXPECT_NEAR(values[j], N(basis.knots(), piece + j, k, u), 1e-12) << u;
+      EXPECT_NEAR(values[j], N(knots, piece + j, k, u), 1e-12) << u;
     }
   }
 }
@@ -66,19 +69,6 @@ TEST(BSpline, ReproducesCubicsFromOrderFourOn) {
     for (double u = 0.0; u <= 4.0; u += 0.1) {
       EXPECT_LT((spline.at(u) - cubic(u)).norm(), 1e-10) << k << " " << u;
     }
-  }
-}
-
-TEST(BSpline, LeastSquaresReproducesACubicForAnyKnots) {
-  const std::vector<double> inner{1.0, 1.3, 1.35, 1.4, 1.45, 2.5};  // more than the sites determine
-  const BSpline spline = BSpline::near(
-      kSites, values_of([](double u) { return Value(u, 1.0 - 2.0 * u, 0.0, 3.0); }), inner);
-  for (double u = 0.0; u <= 4.0; u += 0.1) {
-    EXPECT_LT((spline.at(u) - Value(u, 1.0 - 2.0 * u, 0.0, 3.0)).norm(), 1e-5) << u;
-  }
-  const BSpline plain = BSpline::near(kSites, values_of(cubic), {2.0});
-  for (double u = 0.0; u <= 4.0; u += 0.1) {
-    EXPECT_LT((plain.at(u) - cubic(u)).norm(), 1e-6) << u;
   }
 }
 

@@ -129,17 +129,6 @@ TEST(Implicit, NeedsPointsWithAnExtent) {
   EXPECT_FALSE(fit_implicit(std::vector<Vector2>(7, Vector2(1, 2))));
 }
 
-TEST(ArcPolynomial, ReproducesACubicInSpace) {
-  const auto truth = [](double s) { return Vector3(s, s * s - 1.0, 0.5 * s * s * s); };
-  std::vector<Vector3> points;
-  const std::vector<double> arc_lengths{10.0, 10.4, 11.0, 11.7, 12.1};
-  for (const double s : arc_lengths) points.push_back(truth(s - 11.0));
-  const auto f = fit_arc_polynomial(points, arc_lengths, 3);
-  ASSERT_TRUE(f);
-  for (const double s : {10.2, 11.5}) EXPECT_LT(((*f)(s)-truth(s - 11.0)).norm(), 1e-12);
-  EXPECT_FALSE(fit_arc_polynomial(points, std::vector{1.0, 1.0, 2.0, 3.0, 4.0}, 3));
-}
-
 TEST(Polynomial, CoefficientsHaveTheOrderOfTheArticle) {
   const auto truth = [](double x) {
     return -1.779 * x * x * x + 0.4036 * x * x + 0.7173 * x - 17.71;
@@ -154,13 +143,6 @@ TEST(Families, AreParsedByName) {
             (std::vector{Family::poly2, Family::sin1, Family::line}));
   EXPECT_THROW(read_families("poly4"), OptionError);
   EXPECT_THROW(read_families(" "), OptionError);
-}
-
-TEST(Selection, AiccMatchesTheFormulaAndIsInfiniteForTooFewNodes) {
-  // n = 6, k = 3: 6 ln(0.06 / 6) + 6 + 24 / 2.
-  EXPECT_NEAR(aicc(0.06, 6, 2), 6.0 * std::log(0.01) + 18.0, 1e-12);
-  EXPECT_TRUE(std::isinf(aicc(0.06, 5, 3)));
-  EXPECT_TRUE(std::isfinite(aicc(0.0, 5, 2)));
 }
 
 }  // namespace

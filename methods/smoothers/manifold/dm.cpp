@@ -14,39 +14,6 @@ using namespace manifold;  // NOLINT: most names in this file are from manifold
 
 namespace {
 
-/// Least-squares fit of r(s) in space over the arc length along all nodes, with knots where
-/// consecutive windows of N nodes meet. Equal to the windows' cubics under equality constraints,
-/// without multipliers. For the parametric frame only: with y' = f(x') every window has its own
-/// axes, so C2 continuity is not a linear condition. One piece owns all edges. Returns nullopt when
-/// the path has zero length. O(nodes).
-std::optional<PlanarFit> fit_regression(const Nodes& nodes,
-                                        std::span<const NodeRange> segments,
-                                        const NodeSpline& spline,
-                                        std::size_t N) {
-  std::vector<double> arc_lengths;
-  std::vector<BSpline::Value> values;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    arc_lengths.push_back(spline.distance(i));
-    values.emplace_back();
-    values.back() << nodes.points[i], 0.0;
-  }
-  if (!(arc_lengths.back() > arc_lengths.front())) return std::nullopt;
-  std::vector<double> knots;
-  for (const NodeRange& segment : segments) {
-    for (const Window& window : windows(segment, N, nodes.size())) {
-      const double arc_length = arc_lengths[window.owned.last];
-      const double before = knots.empty() ? arc_lengths.front() : knots.back();
-      if (arc_length > before && arc_length < arc_lengths.back()) knots.push_back(arc_length);
-    }
-  }
-  PlanarFit out;
-  const NodeRange all{0, nodes.size() - 1};
-  out.keep(
-      {all, all},
-      RegressionPiece{std::make_shared<const BSpline>(BSpline::near(arc_lengths, values, knots))});
-  return out;
-}
-
 std::size_t min_segment_nodes(const DmOptions& o) {
   const int nodes = o.min_nodes > 0 ? o.min_nodes : o.planar > 0 ? o.planar : o.spatial;
   return static_cast<std::size_t>(nodes);
@@ -93,20 +60,9 @@ Vector3 up_of(const Trajectory& nodes, const DmOptions& o) {
 }  // namespace
 
 Dm::Dm(const Options& options) : options_(options), families_(read_families(options.families)) {
-  const bool parametric = options.frame == Axes::parametric;
   const auto reject = [](const char* name, const char* why) {
     throw OptionError(name, std::string(name) + ": " + why);
   };
-  if (options.joint.kind == JointKind::constrained_ls && !parametric) {
-    reject("joint",
-           "constrained_ls requires frame = parametric, because the axes of the other frames "
-           "differ between windows");
-  }
-  for (const Family family : families_) {
-    if (parametric && !is_polynomial(family)) {
-      reject("families", "frame = parametric supports polynomials only (by_n, line, poly2, poly3)");
-    }
-  }
   if (options.fit_axes == FitAxes::reference) {
     reject("fit_axes",
            "a method has no access to the reference; use the oracle paper_reference_axes, or "
@@ -133,7 +89,7 @@ std::unique_ptr<const Curve> Dm::smooth_in_axes(const Problem& problem, Report& 
   NodesWithQuasiKeyframes dense = with_quasi_keyframes(problem, options_.gap);
   const auto smooth_nodes = [&](NodesWithQuasiKeyframes nodes,
                                 Report& to) -> std::unique_ptr<const Curve> {
-    if (nodes.nodes.size() >= 3) return fit(problem, std::move(nodes), to, {});
+    if (nodes.nodes.size() >= 3) return fit(nodes, to, {});
     describe(nodes, to);
     count(to, "fallbacks", 1);
     to.notes.push_back("fewer than three nodes: polyline used");
@@ -160,51 +116,32 @@ std::unique_ptr<const Curve> Dm::smooth_in_axes(const Problem& problem, Report& 
 std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
                                              Report& report,
                                              const PieceCost& piece_cost) const {
-  NodesWithQuasiKeyframes dense = with_quasi_keyframes(problem, options_.gap);
+  const NodesWithQuasiKeyframes dense = with_quasi_keyframes(problem, options_.gap);
   if (dense.nodes.size() < 3) return nullptr;
-  return fit(problem, std::move(dense), report, piece_cost);
+  return fit(dense, report, piece_cost);
 }
 
-std::unique_ptr<const ManifoldCurve> Dm::fit(const Problem& problem,
-                                             NodesWithQuasiKeyframes dense,
+std::unique_ptr<const ManifoldCurve> Dm::fit(const NodesWithQuasiKeyframes& dense,
                                              Report& report,
                                              const PieceCost& piece_cost) const {
-  Nodes nodes(dense.nodes);
-  Vector3 up = up_of(dense.nodes, options_);
+  const Nodes nodes(dense.nodes);
+  const Vector3 up = up_of(dense.nodes, options_);
   const SegmentRule& rule = options_.segment;
-  std::vector<NodeRange> runs =
-      segments(nodes, rule, kappas(nodes, dense.nodes, rule.kappa, rule.plane, up));
-  if (options_.short_policy == ShortPolicy::merge) {
-    runs = merge_short_segments(nodes, std::move(runs), min_segment_nodes(options_));
-  } else if (options_.short_policy == ShortPolicy::quasi_keyframes) {
-    FilledSegments more =
-        fill_short_segments(dense.nodes, runs, problem.frames, min_segment_nodes(options_));
-    dense.nodes = std::move(more.nodes);
-    dense.inserted += more.inserted;
-    runs = std::move(more.runs);
-    nodes = Nodes(dense.nodes);
-    up = up_of(dense.nodes, options_);
-  }
+  const std::vector<NodeRange> runs =
+      segments(nodes, rule, kappas(nodes, rule.kappa, rule.plane, up));
   describe(dense, report);
   describe(nodes, runs, report);
 
   Parts parts{nodes.base, up, spline_of(nodes, runs, options_), {}, {}};
   JoinOptions join{options_.joint, options_.scheme, static_cast<std::size_t>(options_.planar)};
-  // A single regression spline has no joints, but the heights, and a path of zero length, still
-  // need them.
-  if (join.rule.kind == JointKind::constrained_ls) join.rule.kind = JointKind::overlap_blend;
   if (options_.planar > 0) {
-    std::optional<PlanarFit> fit;
-    if (options_.joint.kind == JointKind::constrained_ls) {
-      fit = fit_regression(nodes, runs, parts.spline, join.size);
-    }
-    if (!fit)
-      fit = fit_planar(nodes, runs, parts.spline, up, planar_rule(options_, families_, piece_cost));
-    describe(nodes, *fit, report);
+    PlanarFit fit =
+        fit_planar(nodes, runs, parts.spline, up, planar_rule(options_, families_, piece_cost));
+    describe(nodes, fit, report);
     parts.planar = join_pieces<Vector3>(
         nodes,
-        fit->windows,
-        std::move(fit->pieces),
+        fit.windows,
+        std::move(fit.pieces),
         join,
         [&](const PlanarPiece& piece, std::size_t edge, const Jet<double>& time) {
           return value_of_piece(piece, parts.spline.at(edge, time));

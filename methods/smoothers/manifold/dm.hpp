@@ -95,8 +95,7 @@ void fields(DmOptions& o, Visit visit) {
   visit("speed_rule",
         o.segment.speed,
         "edges of a segment by their speed; range: all within a range of speed_band; adjacent: "
-        "within speed_band of the edge before; bins: in one bin of width speed_band; running_mean: "
-        "within speed_band of the segment's mean; absolute: on one side of speed_band");
+        "within speed_band of the edge before");
   visit("speed_band",
         o.segment.speed_band,
         "speed threshold of speed_rule [m/s]; none: the mean speed",
@@ -115,8 +114,7 @@ void fields(DmOptions& o, Visit visit) {
       "short_policy",
       o.short_policy,
       "segments with fewer than min_nodes nodes; borrow_neighbours: their windows include nodes of "
-      "neighbours; merge: with the neighbour of the most similar mean speed; polyline: straight "
-      "lines; quasi_keyframes: tracked frames are inserted");
+      "neighbours; polyline: straight lines");
   visit("min_nodes",
         o.min_nodes,
         "minimum number of nodes of a full segment; 0: N, or M if N is 0",
@@ -138,7 +136,7 @@ void fields(DmOptions& o, Visit visit) {
         o.spline_order,
         "order k of the spline through the nodes; 4: natural cubic",
         Between{2, 6});
-  visit("frame", o.frame, "axes of a window; parametric: fit r(s) instead of y' = f(x')");
+  visit("frame", o.frame, "axes of a window");
   visit("up",
         o.up,
         "z' axis of the fitting frames: axis of least variance (pca) or z axis of the world");
@@ -150,7 +148,7 @@ void fields(DmOptions& o, Visit visit) {
       "nodes, cubic for more), line, poly2, poly3, sin1, rat02, hyperbola, implicit");
   visit("selection",
         o.selection,
-        "choice of the family: the first that fits (fixed), or the best by aicc or loocv");
+        "choice of the family: the first that fits (fixed), or the best by loocv");
   visit("fallback",
         o.fallback,
         "curve for nodes that are not a graph: parabola in arc length, or the spline");
@@ -165,8 +163,7 @@ void fields(DmOptions& o, Visit visit) {
       "joint",
       o.joint.kind,
       "joint of neighbouring pieces; overlap_blend: blended, C2; quintic_bridge: a quintic through "
-      "the node, C2; constrained_ls: all pieces are one cubic regression spline, C2; c0: shifted "
-      "by half of the jump; none: not joined");
+      "the node, C2; c0: shifted by half of the jump; none: not joined");
   visit("low_speed_c0_below",
         o.joint.c0_below,
         "speed below which pieces are joined in position only [m/s]; none: never",
@@ -197,8 +194,7 @@ class Dm final : public Smoother {
 
  private:
   std::unique_ptr<const Curve> smooth_in_axes(const Problem& problem, Report& report) const;
-  std::unique_ptr<const manifold::ManifoldCurve> fit(const Problem& problem,
-                                                     manifold::NodesWithQuasiKeyframes dense,
+  std::unique_ptr<const manifold::ManifoldCurve> fit(const manifold::NodesWithQuasiKeyframes& dense,
                                                      Report& report,
                                                      const manifold::PieceCost& piece_cost) const;
 

@@ -26,8 +26,6 @@ const char* family_name(const GraphPiece<Rational>&) { return "rat02"; }
 const char* family_name(const GraphPiece<Hyperbola>&) { return "hyperbola"; }
 const char* family_name(const ImplicitPiece&) { return "implicit"; }
 const char* family_name(const ArcPiece&) { return "arc"; }
-const char* family_name(const ArcPolynomialPiece&) { return "arc polynomial"; }
-const char* family_name(const RegressionPiece&) { return "regression spline"; }
 const char* family_name(const ChordPiece&) { return "chord"; }
 const char* family_name(const SplinePiece&) { return "spline"; }
 

@@ -77,11 +77,4 @@ std::optional<PlanarPiece> fit_family(Family family,
   }
 }
 
-std::optional<PlanarPiece> fit_along(Family family,
-                                     std::span<const Vector3> points,
-                                     std::span<const double> arc_lengths) {
-  const auto curve = fit_arc_polynomial(points, arc_lengths, degree(family, points.size()));
-  return curve ? std::optional<PlanarPiece>(ArcPolynomialPiece{*curve}) : std::nullopt;
-}
-
 }  // namespace loopbench::methods::manifold

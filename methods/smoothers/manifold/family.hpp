@@ -36,9 +36,4 @@ std::optional<PlanarPiece> fit_family(Family family,
                                       const Frame& frame,
                                       std::span<const Vector2> points);
 
-/// Fits a polynomial family as r(s). Returns nullopt when two nodes coincide.
-std::optional<PlanarPiece> fit_along(Family family,
-                                     std::span<const Vector3> points,
-                                     std::span<const double> arc_lengths);
-
 }  // namespace loopbench::methods::manifold

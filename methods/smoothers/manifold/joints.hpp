@@ -13,14 +13,12 @@
 namespace loopbench::methods::manifold {
 
 /// overlap_blend: neighbouring pieces overlap and are blended, C2. quintic_bridge: half a step on
-/// each side of the joint is replaced by a quintic; both meet at the node, C2. constrained_ls: all
-/// pieces are one cubic regression spline, C2 (dm.cpp). c0: both pieces are shifted by half
-/// of their gap. none: pieces are not joined.
-enum class JointKind { overlap_blend, quintic_bridge, constrained_ls, c0, none };
+/// each side of the joint is replaced by a quintic; both meet at the node, C2. c0: both pieces are
+/// shifted by half of their gap. none: pieces are not joined.
+enum class JointKind { overlap_blend, quintic_bridge, c0, none };
 inline auto choices(JointKind) {
   return std::array{std::pair{"overlap_blend", JointKind::overlap_blend},
                     std::pair{"quintic_bridge", JointKind::quintic_bridge},
-                    std::pair{"constrained_ls", JointKind::constrained_ls},
                     std::pair{"c0", JointKind::c0},
                     std::pair{"none", JointKind::none}};
 }

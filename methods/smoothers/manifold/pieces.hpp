@@ -2,9 +2,7 @@
 /// time, to a point of the fitted curve.
 #pragma once
 
-#include <Eigen/QR>
 #include <array>
-#include <memory>
 #include <optional>
 #include <span>
 #include <variant>
@@ -39,52 +37,6 @@ inline std::optional<Arc> fit_arc(std::span<const Vector3, 3> r, std::span<const
   return Arc{{s[0], s[1]}, {r[0], first, (second - first) / (s[2] - s[0])}};
 }
 
-struct ArcPolynomial {
-  double centre = 0.0;                    ///< [m]
-  double scale = 1.0;                     ///< [m]
-  std::array<Vector3, 4> coefficients{};  ///< of powers of u = (s - centre) / scale [m]
-
-  template <class T>
-  VectorOf<T> operator()(const T& arc_length) const {
-    const T u = (arc_length - centre) / scale;
-    const auto& c = coefficients;
-    return c[0] + u * (c[1] + u * (c[2] + u * c[3]));
-  }
-};
-
-/// Least-squares fit in space by QR to at most twelve points. The degree is reduced to the number
-/// of points - 1. Returns nullopt when two arc lengths coincide.
-inline std::optional<ArcPolynomial> fit_arc_polynomial(std::span<const Vector3> points,
-                                                       std::span<const double> arc_lengths,
-                                                       int degree) {
-  for (std::size_t i = 1; i < arc_lengths.size(); ++i) {
-    if (!(arc_lengths[i] > arc_lengths[i - 1])) return std::nullopt;
-  }
-  const auto count = static_cast<Eigen::Index>(points.size());
-  const Eigen::Index terms = std::min<Eigen::Index>(degree + 1, count);
-  ArcPolynomial out;
-  out.coefficients.fill(Vector3::Zero());
-  out.centre = 0.5 * (arc_lengths.front() + arc_lengths.back());
-  out.scale = 0.5 * (arc_lengths.back() - arc_lengths.front());
-  if (count < 2) return std::nullopt;
-  Slopes powers(count, terms);
-  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMaxNodes, 3> right(count, 3);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    right.row(i) = points[k].transpose();
-    powers(i, 0) = 1.0;
-    for (Eigen::Index j = 1; j < terms; ++j) {
-      powers(i, j) = powers(i, j - 1) * (arc_lengths[k] - out.centre) / out.scale;
-    }
-  }
-  const Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMaxParameters, 3> solved =
-      powers.householderQr().solve(right);
-  for (Eigen::Index j = 0; j < terms; ++j) {
-    out.coefficients[static_cast<std::size_t>(j)] = solved.row(j).transpose();
-  }
-  return out;
-}
-
 /// Spline point with y' replaced by the fitted curve at its x'.
 template <class Function>
 struct GraphPiece {
@@ -117,29 +69,13 @@ struct ImplicitPiece {
   }
 };
 
-/// A parametric curve evaluated at the spline's arc length.
-template <class Function>
-struct ParametricPiece {
-  Function curve;
+/// The parabola evaluated at the spline's arc length.
+struct ArcPiece {
+  Arc curve;
 
   template <class T>
   VectorOf<T> operator()(const SplinePointOf<T>& position) const {
     return curve(position.distance);
-  }
-};
-using ArcPiece = ParametricPiece<Arc>;
-using ArcPolynomialPiece = ParametricPiece<ArcPolynomial>;
-
-/// A cubic regression spline r(s) for the whole trajectory.
-struct RegressionPiece {
-  std::shared_ptr<const BSpline> curve;
-
-  Vector3 operator()(const SplinePoint& position) const {
-    return curve->at(position.distance).head<3>();
-  }
-  MotionJet operator()(const SplinePointJet& position) const {
-    const auto out = curve->at(position.distance);
-    return {out.value.head<3>(), out.first.head<3>(), out.second.head<3>()};
   }
 };
 
@@ -169,8 +105,6 @@ using PlanarPiece = std::variant<GraphPiece<Polynomial>,
                                  GraphPiece<Hyperbola>,
                                  ImplicitPiece,
                                  ArcPiece,
-                                 ArcPolynomialPiece,
-                                 RegressionPiece,
                                  ChordPiece,
                                  SplinePiece>;
 

@@ -1,5 +1,7 @@
 #include "methods/smoothers/manifold/planar.hpp"
 
+#include <limits>
+
 namespace loopbench::methods::manifold {
 namespace {
 
@@ -10,7 +12,6 @@ constexpr double kMaxDeviation = 0.25;  // fraction of the chord
 }  // namespace
 
 bool WindowFitter::admits(const Window& window) const {
-  if (rule.axes == Axes::parametric) return true;
   const auto frame = fitting_frame(rule.axes, nodes, window.fitted, up);
   if (!frame) return false;
   if (!rule.guarded) return true;
@@ -25,21 +26,18 @@ bool WindowFitter::admits(const Window& window) const {
 
 std::optional<PlanarPiece> WindowFitter::fit(const Window& window,
                                              std::span<const Family> families) const {
-  std::optional<Frame> frame;
-  if (rule.axes != Axes::parametric) {
-    frame = fitting_frame(rule.axes, nodes, window.fitted, up);
-    if (!frame) return std::nullopt;
-  }
+  const auto frame = fitting_frame(rule.axes, nodes, window.fitted, up);
+  if (!frame) return std::nullopt;
   const std::vector<std::size_t> node_indices = picked(window);
   std::optional<PlanarPiece> best;
   double lowest = std::numeric_limits<double>::infinity();
   for (const Family family : families) {
-    auto piece = fit(family, frame, node_indices);
+    auto piece = fit(family, *frame, node_indices);
     if (!piece) continue;
     if (rule.guarded && !is_polynomial(family) && !stays_near_spline(*piece, window)) continue;
     if (rule.selection == Selection::fixed && !rule.piece_cost) return piece;
     const double cost = rule.piece_cost ? rule.piece_cost(*piece, window, nodes, spline)
-                                        : score(family, *piece, frame, node_indices);
+                                        : leave_one_out(family, *frame, node_indices);
     if (best && !(cost < lowest)) continue;
     best = piece;
     lowest = cost;
@@ -48,32 +46,18 @@ std::optional<PlanarPiece> WindowFitter::fit(const Window& window,
 }
 
 std::optional<PlanarPiece> WindowFitter::fit(Family family,
-                                             const std::optional<Frame>& frame,
+                                             const Frame& frame,
                                              std::span<const std::size_t> node_indices) const {
-  if (!frame) {
-    std::vector<Vector3> points;
-    std::vector<double> arc_lengths;
-    for (const std::size_t i : node_indices) {
-      points.push_back(nodes.points[i]);
-      arc_lengths.push_back(spline.distance(i));
-    }
-    return fit_along(family, points, arc_lengths);
-  }
   std::vector<Vector2> points;
   points.reserve(node_indices.size());
-  for (const std::size_t i : node_indices) points.push_back(frame->local(nodes.points[i]));
-  return fit_family(family, *frame, points);
+  for (const std::size_t i : node_indices) points.push_back(frame.local(nodes.points[i]));
+  return fit_family(family, frame, points);
 }
 
-double WindowFitter::score(Family family,
-                           const PlanarPiece& piece,
-                           const std::optional<Frame>& frame,
-                           std::span<const std::size_t> node_indices) const {
+double WindowFitter::leave_one_out(Family family,
+                                   const Frame& frame,
+                                   std::span<const std::size_t> node_indices) const {
   double sum = 0.0;
-  if (rule.selection == Selection::aicc) {
-    for (const std::size_t i : node_indices) sum += squared_error(piece, i);
-    return aicc(sum, node_indices.size(), unknowns(family, node_indices.size()));
-  }
   for (std::size_t k = 0; k < node_indices.size(); ++k) {
     std::vector<std::size_t> rest(node_indices.begin(), node_indices.end());
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));

@@ -1,10 +1,8 @@
 /// Step 8 in the plane: y' = f(x') on windows of N nodes, with guard and fallback.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <span>
 
@@ -13,27 +11,11 @@
 
 namespace loopbench::methods::manifold {
 
-/// fixed: the first family of the list that can be fitted. aicc: lowest corrected Akaike
-/// information criterion. loocv: lowest squared error in leave-one-out cross-validation over the
-/// nodes.
-enum class Selection { fixed, aicc, loocv };
+/// fixed: the first family of the list that can be fitted. loocv: lowest squared error in
+/// leave-one-out cross-validation over the nodes.
+enum class Selection { fixed, loocv };
 inline auto choices(Selection) {
-  return std::array{std::pair{"fixed", Selection::fixed},
-                    std::pair{"aicc", Selection::aicc},
-                    std::pair{"loocv", Selection::loocv}};
-}
-
-/// Returns n ln(RSS / n) + 2 k + 2 k (k + 1) / (n - k - 1), where k is the number of parameters + 1
-/// for the variance. Infinite for n <= k + 1: five nodes admit only a line, six also a parabola.
-/// The mean squared residual is bounded below by (1 um)^2. Source: Hurvich and Tsai, Biometrika
-/// 76(2) 1989.
-inline double aicc(double residual_squares, std::size_t nodes, std::size_t parameters) {
-  const double n = static_cast<double>(nodes);
-  const double k = static_cast<double>(parameters) + 1.0;
-  if (n <= k + 1.0) return std::numeric_limits<double>::infinity();
-  constexpr double floor = 1e-12;  // [m^2]
-  return n * std::log(std::max(residual_squares / n, floor)) + 2.0 * k +
-         2.0 * k * (k + 1.0) / (n - k - 1.0);
+  return std::array{std::pair{"fixed", Selection::fixed}, std::pair{"loocv", Selection::loocv}};
 }
 
 enum class Fallback { arc, spline };
@@ -87,12 +69,11 @@ struct WindowFitter {
 
  private:
   std::optional<PlanarPiece> fit(Family family,
-                                 const std::optional<Frame>& frame,
+                                 const Frame& frame,
                                  std::span<const std::size_t> picked) const;
-  double score(Family family,
-               const PlanarPiece& piece,
-               const std::optional<Frame>& frame,
-               std::span<const std::size_t> picked) const;
+  double leave_one_out(Family family,
+                       const Frame& frame,
+                       std::span<const std::size_t> picked) const;
   double squared_error(const PlanarPiece& piece, std::size_t node) const;
   bool stays_near_spline(const PlanarPiece& piece, const Window& window) const;
 };

@@ -33,8 +33,9 @@ Trajectory::const_iterator nearest(Trajectory::const_iterator begin,
   return after == end || time - before->stamp <= after->stamp - time ? before : after;
 }
 
-}  // namespace
-
+// Divides the time between two poses into `parts` equal parts and appends to `out` the tracked
+// frame nearest to each division, strictly between the poses and each at most once. Returns the
+// number of appended frames. O(parts log frames).
 std::size_t insert_frames(const StampedPose& current,
                           const StampedPose& next,
                           std::size_t parts,
@@ -53,6 +54,8 @@ std::size_t insert_frames(const StampedPose& current,
   }
   return inserted;
 }
+
+}  // namespace
 
 NodesWithQuasiKeyframes with_quasi_keyframes(const Problem& problem, const GapRule& rule) {
   NodesWithQuasiKeyframes out;

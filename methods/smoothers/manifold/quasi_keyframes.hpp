@@ -19,15 +19,6 @@ struct NodesWithQuasiKeyframes {
   std::size_t gaps_left = 0;  ///< gaps above the limits without any tracked frame
 };
 
-/// Divides the time between two poses into `parts` equal parts and appends to `out` the tracked
-/// frame nearest to each division, strictly between the poses and each at most once. Returns the
-/// number of appended frames. O(parts log frames).
-std::size_t insert_frames(const StampedPose& current,
-                          const StampedPose& next,
-                          std::size_t parts,
-                          const Trajectory& frames,
-                          Trajectory& out);
-
 /// Divides each gap above the limits into equal parts within the limits and inserts the tracked
 /// frame nearest to each division; poses are never interpolated. Gaps between keyframes with too
 /// few common landmarks (problem.shared_landmarks, if known) are divided into at least two parts.

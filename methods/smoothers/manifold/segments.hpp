@@ -6,25 +6,18 @@
 #include <optional>
 #include <span>
 
-#include "datasets/core/problem.hpp"
 #include "methods/smoothers/manifold/families/nodes.hpp"
-#include "methods/smoothers/manifold/spline.hpp"
 
 namespace loopbench::methods::manifold {
 
 /// turn_per_kf: angle between consecutive steps [rad]; the only one whose printed thresholds
 /// segment both sequences usefully. menger: 1 / radius of the circle through three nodes [1/m].
-/// dtheta_ds, dtheta_dt: the angle over the mean step [1/m] or the mean duration [rad/s].
-/// analytic_spline: curvature of the cubic spline [1/m]. rotation_per_kf: half the camera rotation
-/// over both steps [rad].
-enum class Kappa { turn_per_kf, menger, dtheta_ds, dtheta_dt, analytic_spline, rotation_per_kf };
+/// dtheta_dt: the angle over the mean duration [rad/s].
+enum class Kappa { turn_per_kf, menger, dtheta_dt };
 inline auto choices(Kappa) {
   return std::array{std::pair{"turn_per_kf", Kappa::turn_per_kf},
                     std::pair{"menger", Kappa::menger},
-                    std::pair{"dtheta_ds", Kappa::dtheta_ds},
-                    std::pair{"dtheta_dt", Kappa::dtheta_dt},
-                    std::pair{"analytic_spline", Kappa::analytic_spline},
-                    std::pair{"rotation_per_kf", Kappa::rotation_per_kf}};
+                    std::pair{"dtheta_dt", Kappa::dtheta_dt}};
 }
 
 /// space: the path in space. plane: the path projected along the up axis, the article's xoy plane.
@@ -33,57 +26,26 @@ inline auto choices(CurveSpace) {
   return std::array{std::pair{"3d", CurveSpace::space}, std::pair{"xy", CurveSpace::plane}};
 }
 
-/// Returns kappa at every node, 0 at the first and last. `poses` are the nodes with their rotation,
-/// used by rotation_per_kf only, which ignores `plane`. O(n).
+/// Returns kappa at every node, 0 at the first and last. O(n).
 std::vector<double> kappas(const Nodes& nodes,
-                           const Trajectory& poses,
                            Kappa definition,
                            CurveSpace plane,
                            const Vector3& up);
 
-/// borrow_neighbours: their windows include nodes of the neighbouring segments. merge: they are
-/// merged with the neighbour of the most similar mean speed. polyline: straight lines.
-/// quasi_keyframes: tracked frames are inserted; without such frames nodes are borrowed.
-enum class ShortPolicy { borrow_neighbours, merge, polyline, quasi_keyframes };
+/// borrow_neighbours: their windows include nodes of the neighbouring segments. polyline: straight
+/// lines.
+enum class ShortPolicy { borrow_neighbours, polyline };
 inline auto choices(ShortPolicy) {
   return std::array{std::pair{"borrow_neighbours", ShortPolicy::borrow_neighbours},
-                    std::pair{"merge", ShortPolicy::merge},
-                    std::pair{"polyline", ShortPolicy::polyline},
-                    std::pair{"quasi_keyframes", ShortPolicy::quasi_keyframes}};
+                    std::pair{"polyline", ShortPolicy::polyline}};
 }
 
-/// Merges segments with fewer than `min_nodes` nodes, left to right, with the neighbour of the most
-/// similar mean speed, regardless of the segmentation rules. O(n).
-std::vector<NodeRange> merge_short_segments(const Nodes& nodes,
-                                            std::vector<NodeRange> runs,
-                                            std::size_t min_nodes);
-
-/// Nodes and segments after the insertion of tracked frames.
-struct FilledSegments {
-  Trajectory nodes;
-  std::vector<NodeRange> runs;
-  std::size_t inserted = 0;
-};
-
-/// Divides every edge of a segment with fewer than `min_nodes` nodes into as many equal parts as
-/// are needed to reach `min_nodes`, and inserts the tracked frame nearest to each division. O(n log
-/// frames).
-FilledSegments fill_short_segments(const Trajectory& nodes,
-                                   const std::vector<NodeRange>& runs,
-                                   const Trajectory& frames,
-                                   std::size_t min_nodes);
-
 /// Criterion for an edge to belong to a segment, with `band` in m/s. range: all speeds of the
-/// segment lie within `band`. adjacent: at most `band` from the previous edge. bins: in the same of
-/// the bins 0..band..2 band... running_mean: at most `band` from the mean of the segment so far.
-/// absolute: on the same side of `band` as the previous edge.
-enum class SpeedRule { range, adjacent, bins, running_mean, absolute };
+/// segment lie within `band`. adjacent: at most `band` from the previous edge.
+enum class SpeedRule { range, adjacent };
 inline auto choices(SpeedRule) {
   return std::array{std::pair{"range", SpeedRule::range},
-                    std::pair{"adjacent", SpeedRule::adjacent},
-                    std::pair{"bins", SpeedRule::bins},
-                    std::pair{"running_mean", SpeedRule::running_mean},
-                    std::pair{"absolute", SpeedRule::absolute}};
+                    std::pair{"adjacent", SpeedRule::adjacent}};
 }
 
 struct SegmentRule {

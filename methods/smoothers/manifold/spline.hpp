@@ -24,13 +24,6 @@ struct BSpline {
                          const std::vector<Value>& values,
                          std::size_t order);
 
-  /// Least-squares fit of order 4, the C2 piecewise cubic, with the given inner knots (increasing,
-  /// strictly inside). A penalty of 1e-9 on the second differences of the control polygon makes
-  /// controls without data unique. Sites must be non-decreasing, the first below the last. O(n).
-  static BSpline near(const std::vector<double>& sites,
-                      const std::vector<Value>& values,
-                      const std::vector<double>& inner_knots);
-
   Value at(double u) const;
   Jet<Value> at(const Jet<double>& u) const;
 };

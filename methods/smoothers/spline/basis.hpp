@@ -43,7 +43,6 @@ class SplineBasis {
   std::size_t order() const { return order_; }
   std::size_t size() const { return breaks_.size() - 2 + order_; }
   const std::vector<double>& breaks() const { return breaks_; }
-  const std::vector<double>& knots() const { return knots_; }
 
   /// Returns the piece that contains the time; outside, the first or last one. O(log pieces).
   std::size_t piece_at(double time) const {

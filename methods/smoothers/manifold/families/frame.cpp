@@ -22,44 +22,12 @@ std::optional<Frame> chord_frame(const Nodes& nodes, NodeRange range, const Vect
   return Frame{nodes.points[range.first], x, up.cross(x)};
 }
 
-std::optional<Frame> pca_frame(const Nodes& nodes, NodeRange range, const Vector3& up) {
-  constexpr double alike = 1e-6;  // relative variance difference of an undetermined axis
-  const auto chord = chord_frame(nodes, range, up);
-  if (!chord) return std::nullopt;
-  const std::vector<Vector2> points = local(nodes, range, *chord);
-  Vector2 mean = Vector2::Zero();
-  for (const Vector2& point : points) mean += point / static_cast<double>(points.size());
-  double xx = 0.0, xy = 0.0, yy = 0.0;
-  for (const Vector2& point : points) {
-    const Vector2 d = point - mean;
-    xx += d.x() * d.x();
-    xy += d.x() * d.y();
-    yy += d.y() * d.y();
-  }
-  if (std::hypot(xx - yy, 2.0 * xy) < alike * (xx + yy)) return std::nullopt;
-  const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
-  Vector2 axis(std::cos(angle), std::sin(angle));
-  if (std::abs(axis.x()) < alike) return std::nullopt;  // perpendicular to the chord
-  if (axis.x() < 0.0) axis = -axis;
-  const Vector3 x = axis.x() * chord->x + axis.y() * chord->y;
-  return Frame{chord->origin, x, up.cross(x)};
-}
-
 std::optional<Frame> fitting_frame(Axes axes,
                                    const Nodes& nodes,
                                    NodeRange range,
                                    const Vector3& up) {
   if (axes == Axes::world) return Frame{-nodes.base, Vector3::UnitX(), Vector3::UnitY()};
-  return axes == Axes::pca ? pca_frame(nodes, range, up) : chord_frame(nodes, range, up);
-}
-
-std::vector<Vector2> local(const Nodes& nodes, NodeRange range, const Frame& frame) {
-  std::vector<Vector2> out;
-  out.reserve(range.nodes());
-  for (std::size_t i = range.first; i <= range.last; ++i) {
-    out.push_back(frame.local(nodes.points[i]));
-  }
-  return out;
+  return chord_frame(nodes, range, up);
 }
 
 bool is_graph(std::span<const Vector2> points) {

@@ -100,10 +100,4 @@ inline Vector3 curvature_vector(const Vector3& first, const Vector3& second) {
   return (second - first.dot(second) / first.squaredNorm() * first) / first.squaredNorm();
 }
 
-/// |S' x S''| / |S'|^3 [1/m], equation (6); 0 at rest.
-inline double curvature(const Vector3& first, const Vector3& second) {
-  const double speed = first.norm();
-  return speed > 0.0 ? first.cross(second).norm() / (speed * speed * speed) : 0.0;
-}
-
 }  // namespace loopbench::methods::manifold
