@@ -244,10 +244,6 @@ void declare(CLI::App& command, EvalArguments& a) {
                   "yes with --store)")
       ->transform(one_of<bool>("answer", {{"yes", true}, {"no", false}}))
       ->type_name("WORD");
-  command.add_flag("--show-defaults",
-                   "Print all options as a section of loopbench.yaml, which sets "
-                   "them for the files beside it, or for all in "
-                   "~/.config/loopbench");
   command.add_flag("--paired", a.paired, "Pair runs of equal names in verdicts");
 }
 

@@ -21,7 +21,6 @@
 #include "harness/base/printable.hpp"
 #include "harness/base/suggest.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/defaults.hpp"
 #include "harness/commands/help.hpp"
 #include "harness/commands/help_format.hpp"
 #include "harness/commands/standard_output.hpp"
@@ -172,11 +171,7 @@ int run(CLI::App& app,
       fmt::print("{}", app.help());
       return kExitOk;
     }
-    std::vector<std::string> last_first = with_defaults(app, normalised_options(app, words));
-    if (const auto text = shown_defaults(app, last_first)) {
-      fmt::print("{}", printable(*text));
-      return kExitOk;
-    }
+    std::vector<std::string> last_first = normalised_options(app, words);
     std::ranges::reverse(last_first);  // CLI11 expects this order
     app.parse(std::move(last_first));
   } catch (const CLI::ParseError& error) {
