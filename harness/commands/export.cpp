@@ -13,7 +13,6 @@
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/export_crate.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/run/estimate_files.hpp"
 #include "harness/store/open.hpp"
@@ -138,18 +137,6 @@ void export_rows(const std::filesystem::path& store, const std::filesystem::path
   write_provenance_of_csv(provenance, file.string());
 }
 
-/// Scores, provenance and config with the metadata of an RO-Crate.
-void export_crate(const std::filesystem::path& store, const std::filesystem::path& folder) {
-  if (folder.empty()) throw InputError("export --what crate: expected -o FOLDER");
-  reject_standard_output("-o", folder);
-  export_rows(store, folder / "scores.csv");
-  write_result(folder / "config.yaml", read_run(store).at("config"));
-  write_crate_metadata(
-      store, folder, {"scores.csv", "scores.provenance.json", "config.yaml"}, "config.yaml");
-  fmt::print("ro-crate-metadata.json, scores.csv, scores.provenance.json and config.yaml in {}\n",
-             printable(folder.string()));
-}
-
 }  // namespace
 
 void add_export(CLI::App& app, int& exit_code) {
@@ -159,16 +146,14 @@ void add_export(CLI::App& app, int& exit_code) {
     std::filesystem::path out;
   };
   auto a = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("export", "Write the rows or trajectories of a store, or an RO-Crate");
+  CLI::App* command = app.add_subcommand("export", "Write the rows or trajectories of a store");
   command->add_option("store", a->store, "Folder of results, or its results.sqlite")->required();
   command
       ->add_option("--what",
                    a->what,
                    "rows: every score, as CSV; trajectories: TUM files of the estimates and "
-                   "references, with index.csv, see `run --save-trajectories`; crate: every score, "
-                   "provenance and config as an RO-Crate, for archives")
-      ->check(CLI::IsMember({"rows", "trajectories", "crate"}))
+                   "references, with index.csv, see `run --save-trajectories`")
+      ->check(CLI::IsMember({"rows", "trajectories"}))
       ->capture_default_str();
   command->add_option("-o,--out", a->out, "CSV file (default: standard output), or folder");
   command->callback([a, &exit_code] {
@@ -177,7 +162,6 @@ void add_export(CLI::App& app, int& exit_code) {
       return;
     }
     exit_code = kExitOk;
-    if (a->what == "crate") return export_crate(a->store, a->out);
     export_rows(a->store, a->out);
   });
 }

@@ -70,7 +70,7 @@ const std::map<std::string, std::string> kExamples{
     {"export",
      "  loopbench run configs/quickstart.yaml --save-trajectories\n"
      "  loopbench export results/quickstart --what trajectories -o estimates\n"
-     "  loopbench export results/quickstart --what crate -o crate\n"},
+     "  loopbench export results/quickstart -o rows.csv\n"},
     {"traj",
      "  loopbench traj info *.txt\n"
      "  loopbench traj convert run.bag --all-topics --to tum -o out/\n"

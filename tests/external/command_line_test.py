@@ -2,7 +2,6 @@
 loopbench and the plugin four_ways. Needs only the standard library."""
 
 import csv
-import hashlib
 import json
 import os
 import sqlite3
@@ -65,47 +64,6 @@ class CommandLine(unittest.TestCase):
         self.sweep()
         self.assertIn("raw", self.call("table", "--rows", "method,times", "r"))
         self.assertIn("--size: expected WIDTH,HEIGHT, found 1 numbers", self.call("plot", "r", "-o", "f", "--size", "3", code=2))
-
-    def test_a_crate_refers_to_what_it_has(self):
-        poses = "".join(f"{t} {t} {t % 3} 0 0 0 0 1\n" for t in range(20))
-        for name in ("a.txt", "b.txt"):
-            (self.folder / name).write_text(poses)
-        files = {"dataset": "trajectory", "estimate": "a.txt", "reference": "b.txt",
-                 "licence": "CC BY 4.0, with thanks"}
-        self.sweep(datasets=[{**files, "label": "x"}, {**files, "label": "y"}, SIMULATED])
-        self.call("export", "r", "--what", "crate", "-o", "crate")
-        crate = self.folder / "crate"
-        text = (crate / "ro-crate-metadata.json").read_text()
-        graph = json.loads(text)["@graph"]
-        entities = {each["@id"]: each for each in graph}
-        self.assertEqual(len(entities), len(graph))
-
-        def references(value):
-            values = value.values() if isinstance(value, dict) else value if isinstance(value, list) else []
-            if isinstance(value, dict) and set(value) == {"@id"}:
-                return {value["@id"]}
-            return set().union(*map(references, values))
-
-        self.assertEqual(references(graph) - set(entities), {"https://w3id.org/ro/crate/1.1"})
-        self.assertEqual(references(graph) & set(entities), set(entities) - {"ro-crate-metadata.json"})
-        written = {each["@id"]: each for each in graph if each["@type"] == "File"}
-        self.assertEqual({*written, "ro-crate-metadata.json"}, {each.name for each in crate.iterdir()})
-        for name, entity in written.items():
-            content = (crate / name).read_bytes()
-            self.assertEqual(entity["contentSize"], str(len(content)))
-            self.assertEqual(entity["sha256"], hashlib.sha256(content).hexdigest())
-        root, run = entities["./"], entities["#run"]
-        self.assertRegex(root["datePublished"], r"^\d{4}-\d\d-\d\d$")
-        self.assertIn("methods: 2, sequences: 3, cells: 6", root["description"])
-        self.assertEqual([entities[each["@id"]]["name"] for each in root["license"]], [files["licence"]])
-        inputs = [entities[each["@id"]] for each in run["object"]]
-        self.assertEqual([each["name"] for each in inputs], ["a.txt", "b.txt", "config.yaml"])
-        hashes = {f"murmur3_x64_128:{row[0]}" for row in self.select("SELECT hash FROM input")}
-        self.assertEqual({each["identifier"] for each in inputs[:2]}, hashes)
-        self.call("export", "r", "--what", "crate", "-o", "again")
-        self.assertEqual((self.folder / "again/ro-crate-metadata.json").read_text(), text)
-        for words in ([], ["-o", "-"], ["-o", "a.txt"]):
-            self.assertIn("loopbench: ", self.call("export", "r", "--what", "crate", *words, code=2))
 
     def test_files_follow_a_plugin_or_two_dashes(self):
         for name in ("a.txt", "-b.txt", "--full"):
