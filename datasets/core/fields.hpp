@@ -175,7 +175,8 @@ std::vector<OptionInfo> describe(Options options) {
     if constexpr (NamedEnum<Member>) text = choice_list<Member>();
     ((text += (text.empty() ? "" : ", ") + rule.text(name)), ...);
     const bool is_text = std::same_as<Member, std::string> || NamedEnum<Member>;
-    out.push_back({name, FieldType<Member>::to_param(member), help, text, is_text});
+    const bool is_optional = std::same_as<Member, std::optional<double>>;
+    out.push_back({name, FieldType<Member>::to_param(member), help, text, is_text, is_optional});
   });
   return out;
 }

@@ -18,10 +18,11 @@ using Params = std::map<std::string, Param>;
 /// Description of one option, as printed by `list`.
 struct OptionInfo {
   std::string name;
-  Param value;           ///< the default
-  std::string help;      ///< meaning, with the unit in brackets
-  std::string rule;      ///< "0 <= share <= 1", "none | slerp", or empty
-  bool is_text = false;  ///< holds text or one of a list of words, whatever its default
+  Param value;               ///< the default
+  std::string help;          ///< meaning, with the unit in brackets
+  std::string rule;          ///< "0 <= share <= 1", "none | slerp", or empty
+  bool is_text = false;      ///< holds text or one of a list of words, whatever its default
+  bool is_optional = false;  ///< a number that can also be `none`
 };
 
 /// Invalid option: unknown name, wrong type, or value outside its range.

@@ -29,7 +29,7 @@ void walk(Archive& a, T& value) {
 
 template <class Archive, Either<OptionInfo> T>
 void walk(Archive& a, T& option) {
-  a(option.name)(option.value)(option.help)(option.rule)(option.is_text);
+  a(option.name)(option.value)(option.help)(option.rule)(option.is_text)(option.is_optional);
 }
 
 }  // namespace loopbench

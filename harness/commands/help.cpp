@@ -30,10 +30,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench list\n"
      "  loopbench list dual\n"
      "  loopbench list methods 'dm*'\n"},
-    {"schema",
-     "  loopbench schema\n"
-     "  loopbench schema >schema.json\n"
-     "  loopbench schema --plugin mine.so >schema.json\n"},
     {"table",
      "  loopbench table results/quickstart\n"
      "  loopbench table results/quickstart --split '' --plus-minus --format latex -o table.tex\n"

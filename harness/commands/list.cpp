@@ -2,13 +2,16 @@
 #include <fnmatch.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "harness/base/suggest.hpp"
 #include "harness/base/wrap.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/standard_output.hpp"
+#include "harness/config/keys.hpp"
 #include "metrics/protocols/protocols.hpp"
 
 namespace loopbench::harness {
@@ -56,12 +59,72 @@ Json to_json(const Param& value) {
   return std::visit([](const auto& v) { return Json(v); }, value);
 }
 
+std::string type_of(const OptionInfo& option) {
+  if (option.is_text) return "text";
+  if (std::holds_alternative<bool>(option.value)) return "boolean";
+  return std::holds_alternative<std::int64_t>(option.value) ? "integer" : "number";
+}
+
+/// The text in brackets; empty unless there is exactly one.
+std::string unit_in(const std::string& help) {
+  const std::size_t begin = help.find('[');
+  const std::size_t end = help.find(']', begin);
+  const bool is_one = end != std::string::npos && help.find('[', end) == std::string::npos;
+  return is_one ? help.substr(begin + 1, end - begin - 1) : "";
+}
+
+/// Adds "0 <= share <= 1", "order >= ..." and "step > 0", separated by commas, as bounds, or the
+/// words of "none | slerp".
+void add_rule(Json& out, const OptionInfo& option) {
+  if (option.is_text && !option.rule.empty()) {
+    std::istringstream words(option.rule);
+    for (std::string word; words >> word;) {
+      if (word != "|") out["choices"].push_back(word);
+    }
+    return;
+  }
+  const std::string above = option.name + " > ";
+  const std::string from = " <= " + option.name;
+  for (std::size_t begin = 0; begin < option.rule.size();) {
+    const std::size_t end = std::min(option.rule.find(", ", begin), option.rule.size());
+    const std::string rule = option.rule.substr(begin, end - begin);
+    begin = end + 2;
+    const auto number = [&](std::size_t at) { return std::strtod(rule.c_str() + at, nullptr); };
+    const std::size_t name = rule.find(from);
+    if (rule.starts_with(above)) out["exclusive_minimum"] = number(above.size());
+    if (name == std::string::npos) continue;
+    out["minimum"] = number(0);
+    const std::size_t most = rule.find(" <= ", name + from.size());
+    if (most != std::string::npos) out["maximum"] = number(most + 4);
+  }
+}
+
+Json to_json(const OptionInfo& option) {
+  Json out{{"name", option.name}, {"type", type_of(option)}, {"default", to_json(option.value)}};
+  if (option.is_optional) out["none"] = true;
+  const std::string unit = unit_in(option.help);
+  if (!unit.empty()) out["unit"] = unit;
+  add_rule(out, option);
+  out["description"] = option.help;
+  return out;
+}
+
+/// Keys of a config and of its maps.
+Json config_json() {
+  Json out;
+  for (const std::string map : {"", "limits", "timing", "table", "exclude"}) {
+    Json keys = Json::array();
+    for (const ConfigKey& key : config_keys(map)) {
+      keys.push_back({{"name", key.name}, {"description", key.help}});
+    }
+    out[map.empty() ? "config" : map] = std::move(keys);
+  }
+  return out;
+}
+
 Json to_json(const Item& item, bool is_protocol) {
   Json options = Json::array();
-  for (const OptionInfo& o : item.options) {
-    options.push_back(
-        {{"name", o.name}, {"default", to_json(o.value)}, {"rule", o.rule}, {"help", o.help}});
-  }
+  for (const OptionInfo& option : item.options) options.push_back(to_json(option));
   Json out{{"name", item.name}};
   if (!item.kind.empty()) out[is_protocol ? "version" : "kind"] = item.kind;
   if (item.is_oracle) out["oracle"] = true;
@@ -157,6 +220,7 @@ int list(const ListArguments& arguments) {
         json[one.subject].push_back(to_json(item, one.subject == "protocols"));
       }
     }
+    if (arguments.subject.empty()) json["keys"] = config_json();
     fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
     return kExitOk;
   }
@@ -190,7 +254,10 @@ void add_list(CLI::App& app, int& exit_code) {
           "--plugin", arguments->plugins, "Shared object with methods, datasets or metrics")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command->add_flag("--json", arguments->json, "Print JSON");
+  command->add_flag(
+      "--json",
+      arguments->json,
+      "Print names, options with type, unit, range and default, and the keys of configs as JSON");
   command->callback([arguments, &exit_code] { exit_code = list(*arguments); });
 }
 

@@ -226,7 +226,6 @@ int main(int argc, char** argv) {
   const Source source{source_commit, source_state, code_hash};
   add_run(app, exit_code, source);
   add_list(app, exit_code);
-  add_schema(app, exit_code);
   add_table(app, exit_code);
   add_compare(app, exit_code);
   add_check(app, exit_code);

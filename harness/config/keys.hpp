@@ -1,4 +1,4 @@
-/// Keys of the maps of a config: what is accepted, and what the schema describes.
+/// Keys of the maps of a config: what is accepted, and what `list --json` describes.
 #pragma once
 
 #include <map>

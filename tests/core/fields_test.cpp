@@ -46,11 +46,13 @@ TEST(Fields, TellTextFromAnOptionalNumber) {
   Options defaults;
   defaults.label = "none";
   defaults.rotation = RotationMode::none;
-  std::string text;
+  std::string text, optional;
   for (const OptionInfo& option : describe(defaults)) {
     if (option.is_text) text += option.name + " ";
+    if (option.is_optional) optional += option.name + " ";
   }
   EXPECT_EQ(text, "label rotation ");  // and not band, whose default is the word none too
+  EXPECT_EQ(optional, "band ");
 }
 
 TEST(Fields, EchoNamesEveryFieldWithItsDefault) {
