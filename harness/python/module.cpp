@@ -17,7 +17,6 @@
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/eval/recorded_file.hpp"
 #include "harness/python/arrays.hpp"
-#include "harness/python/manifold.hpp"
 #include "metrics/alignment/alignment.hpp"
 #include "metrics/pairing/association.hpp"
 #include "metrics/trajectory/tracking_gaps.hpp"
@@ -274,5 +273,4 @@ PYBIND11_MODULE(_core, module) {
   module.def("odometry", &python::odometry, "edges between consecutive keyframes");
   module.def("load", &python::load, "keyframes, frames, odometry, closures, planar, reference");
   module.def("methods", &python::method_list, "name and summary of every method");
-  python::add_manifold(module);
 }

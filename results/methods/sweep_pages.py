@@ -7,10 +7,10 @@ import re
 
 import numpy as np
 
+from article import manifold
 from article.drawing import Panel, write_figure
 from article.judge_complete import is_real_time
 from article.verdicts import percent_change, signed_tenths, table
-from loopbench import manifold
 
 #: Title, label, axis, times, relation, factor and digits of a column, which is hidden if no cell
 #: has a number.

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Makes the pages and figures of this folder, and those of the sweeps in results/methods/configs.
-Needs the compiled Python package, PyYAML, matplotlib and the plugin of plugin/; README.md has the
+Needs the compiled Python package, PyYAML, matplotlib and what plugin/ builds; README.md has the
 commands."""
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
 """Pages of results/paper: those of a stand-in and, with LOOPBENCH_DATA, those of the article and those that
 take seconds are what make.py writes. Arguments: loopbench, the plugin paper_readings. Exits with 77 without the compiled
-module, PyYAML or matplotlib."""
+modules, PyYAML or matplotlib."""
 
 import contextlib
+import doctest
 import math
 import os
 import re
@@ -20,10 +21,9 @@ sys.path[:0] = [str(PAPER), str(METHODS)]
 try:
     import numpy as np
 
-    from article import judge_curves, judge_data, judge_segments, verdicts
+    from article import judge_curves, judge_data, judge_segments, manifold, verdicts
     from article.cells import Cell, Config
     from article.runs import RUNS, Program, run_config
-    from loopbench import manifold
     from make import article_pages
     from sweep_pages import PLOTTED, sweep_page
 except ImportError as missing:
@@ -135,6 +135,13 @@ class Pages(unittest.TestCase):
         with folder() as out:
             (out / "text.md").write_text(written, encoding="utf-8")
             self.assertLessEqual(decimals(out / "text.md"), known)
+
+
+class Manifold(unittest.TestCase):
+    def test_examples(self):
+        found = doctest.testmod(manifold)
+        self.assertEqual(found.failed, 0)
+        self.assertGreater(found.attempted, 0)
 
 
 class Judging(unittest.TestCase):

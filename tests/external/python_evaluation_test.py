@@ -90,7 +90,7 @@ def arguments_of(row):
 
 class Doctests(unittest.TestCase):
     def test_all_modules(self):
-        for name in ("evaluation", "correction", "manifold"):
+        for name in ("evaluation", "correction"):
             found = doctest.testmod(importlib.import_module("loopbench." + name))
             self.assertEqual(found.failed, 0, name)
             self.assertGreater(found.attempted, 0, name)

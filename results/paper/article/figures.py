@@ -10,10 +10,10 @@ import math
 
 import numpy as np
 
+from article import manifold
 from article.drawing import BLACK, BLUE, FAINT, GREEN, MARKERS, RED, Panel, write_figure
 from article.judge_curves import FAMILIES, FAR, nearest_window
 from article.statements import ARTICLE, SEQUENCES
-from loopbench import manifold
 
 MARGIN = 0.3  #: around the reference [m]
 PLANAR = ("N3", "N4 parabola", "N5 parabola")

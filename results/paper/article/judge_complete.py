@@ -7,12 +7,12 @@ import math
 
 import numpy as np
 
+from article import manifold
 from article.judge_data import rank_correlation
 from article.statements import judge
 from article.verdicts import (
     DOES_NOT_HOLD, HOLDS, TIE, TIED_CHANGE, agreed, percent_change, when,
 )
-from loopbench import manifold
 
 
 def better_tenths(ours, raw):

@@ -10,9 +10,9 @@ import math
 
 import numpy as np
 
+from article import manifold
 from article.statements import ARTICLE, judge
 from article.verdicts import DOES_NOT_HOLD, HOLDS, UNDECIDED
-from loopbench import manifold
 
 DRAWS = 10000  #: random curves per printed one
 FAR = 0.1  #: a curve was not fitted to a path that is nowhere nearer [m]

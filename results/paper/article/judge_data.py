@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
+from article import manifold
 from article.judge_segments import kappas
 from article.statements import SEQUENCES, judge
 from article.verdicts import when
-from loopbench import manifold
 
 
 def rank_correlation(x, y):

@@ -13,11 +13,11 @@ import math
 
 import numpy as np
 
+from article import manifold
 from article.statements import judge
 from article.verdicts import (
     CANNOT_BE_JUDGED, DOES_NOT_HOLD, HOLDS, OTHER_SIZE, TIE, TIED_FIT,
 )
-from loopbench import manifold
 
 #: Family (an option value of `dm`) and N by name.
 CANDIDATES = {

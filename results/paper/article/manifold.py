@@ -1,6 +1,6 @@
 """Building blocks of the manifold smoother on arrays: curvatures, segments, window fits, psi.
 
-Keyframes are rows of 8 numbers, as everywhere: stamp x y z qx qy qz qw [s, m].
+Keyframes are rows of 8 numbers: stamp x y z qx qy qz qw [s, m].
 """
 
 from __future__ import annotations
@@ -10,8 +10,9 @@ from typing import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from . import _core
-from .problem import Array
+import paper_manifold
+
+Array = npt.NDArray[np.float64]
 
 
 def _rows(keyframes: npt.ArrayLike) -> Array:
@@ -70,7 +71,7 @@ class KeyframePath:
     """
 
     def __init__(self, keyframes: npt.ArrayLike) -> None:
-        self._path = _core.KeyframePath(_rows(keyframes))
+        self._path = paper_manifold.KeyframePath(_rows(keyframes))
 
     def curvatures(self) -> Array:
         """(n,) the article's kappa: angle between consecutive steps [rad]; 0 at both ends."""
@@ -112,7 +113,7 @@ class KeyframePath:
 def free_joints(keyframes: npt.ArrayLike, count: int) -> tuple[list[int], Array, Array]:
     """Keyframes where curves through `count` keyframes meet that are not joined, and the velocities
     (k, 3) before and after [m/s]."""
-    return _core.free_joints(_rows(keyframes), count)
+    return paper_manifold.free_joints(_rows(keyframes), count)
 
 
 def polynomial_text(points: npt.ArrayLike, degree: int) -> str:
@@ -121,14 +122,14 @@ def polynomial_text(points: npt.ArrayLike, degree: int) -> str:
     >>> polynomial_text([[-1, 1], [0, 3], [1, 7]], 2)
     'alpha(2,0) = 1, alpha(1,0) = 3, alpha(0,1) = 1, alpha(0,0) = 3'
     """
-    return _core.polynomial_text([(float(x), float(y)) for x, y in np.asarray(points)], degree)
+    return paper_manifold.polynomial_text([(float(x), float(y)) for x, y in np.asarray(points)], degree)
 
 
 def level_up(keyframes: npt.ArrayLike) -> Array:
     """(3,) upward direction, estimated from cameras that rarely roll (x right, y down)."""
-    return _core.level_up(_rows(keyframes))
+    return paper_manifold.level_up(_rows(keyframes))
 
 
 def least_variance_axis(keyframes: npt.ArrayLike) -> Array:
     """(3,) unit axis of least variance of the positions."""
-    return _core.least_variance_axis(_rows(keyframes))
+    return paper_manifold.least_variance_axis(_rows(keyframes))

@@ -1,5 +1,6 @@
-#include "harness/python/manifold.hpp"
-
+/// The module paper_manifold: building blocks of the manifold smoother on numpy arrays, for
+/// article/manifold.py.
+#include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <optional>
@@ -15,10 +16,11 @@
 
 namespace py = pybind11;
 
-namespace loopbench::python {
+namespace loopbench::paper {
 namespace {
 
 using namespace methods::manifold;
+using python::Array;
 
 Array rows_of(const std::vector<Vector3>& vectors) {
   Array out({vectors.size(), std::size_t{3}});
@@ -36,7 +38,7 @@ std::size_t node_in(std::size_t index, std::size_t limit, const char* name) {
 }
 
 Trajectory at_least_two(const Array& rows) {
-  Trajectory out = read_rows(rows, "keyframes").poses;
+  Trajectory out = python::read_rows(rows, "keyframes").poses;
   check(out, "keyframes");
   if (out.size() < 2) throw InputError("keyframes: expected at least two");
   return out;
@@ -46,7 +48,7 @@ Trajectory at_least_two(const Array& rows) {
 class KeyframePath {
  public:
   explicit KeyframePath(const Array& keyframes)
-      : poses_(at_least_two(keyframes)), nodes_(poses_), spline_(nodes_) {}
+      : nodes_(at_least_two(keyframes)), spline_(nodes_) {}
 
   std::vector<double> curvatures() const {
     return kappas(nodes_, Kappa::turn_per_kf, CurveSpace::space, Vector3::UnitZ());
@@ -123,7 +125,6 @@ class KeyframePath {
     return static_cast<std::size_t>(after - nodes_.stamps.begin()) - 1;
   }
 
-  Trajectory poses_;
   Nodes nodes_;
   NodeSpline spline_;
 };
@@ -166,8 +167,12 @@ Array least_variance_axis(const Array& keyframes) {
 }
 
 }  // namespace
+}  // namespace loopbench::paper
 
-void add_manifold(py::module_& module) {
+PYBIND11_MODULE(paper_manifold, module) {
+  using namespace loopbench;
+  using namespace loopbench::paper;
+  py::register_local_exception<InputError>(module, "InputError", PyExc_ValueError);
   py::class_<KeyframePath>(module, "KeyframePath")
       .def(py::init<const Array&>())
       .def("curvatures", &KeyframePath::curvatures)
@@ -183,5 +188,3 @@ void add_manifold(py::module_& module) {
   module.def("level_up", &level_up);
   module.def("least_variance_axis", &least_variance_axis);
 }
-
-}  // namespace loopbench::python
