@@ -34,6 +34,9 @@ Problem Dual::used_part(const Problem& problem) const {
 std::string Dual::why_declined(const Problem& problem) const {
   if (options_.use != Use::all) return Dual(with_all(options_)).why_declined(used_part(problem));
   if (std::string fault = anchors_fault(problem); !fault.empty()) return fault;
+  if (has_scale_drift(problem)) {
+    return "edges change the scale, which this method does not estimate: use pose_graph";
+  }
   return loops_fault(problem, options_.max_closures);
 }
 
@@ -42,12 +45,7 @@ Trajectory Dual::correct(const Problem& problem, Report& report) const {
     return Dual(with_all(options_)).correct(used_part(problem), report);
   }
   if (!problem.anchors.empty()) return correct_anchored(options_, problem, report);
-  if (!options_.scale || !has_scale_drift(problem)) return correct_rigid(options_, problem, report);
-  Options rigid = options_;
-  if (std::exchange(rigid.covariances, false)) {
-    report.notes.emplace_back("covariances are not stated: that of the scale is not known");
-  }
-  return correct_rigid(rigid, remove_scale_drift(problem), report);
+  return correct_rigid(options_, problem, report);
 }
 
 Trajectory Dual::correct_rigid(const Options& options, const Problem& stated, Report& report) {

@@ -21,10 +21,6 @@ namespace loopbench::methods {
 /// memory for n keyframes and K closures, without a sparse solver. For many loops a pose graph is
 /// the better choice.
 ///
-/// If edges change the scale (monocular chains, Sim(3)), scale drift is estimated and removed
-/// first, also in closed form (scale_drift.hpp). With `scale` off, poses are rigid and the
-/// scales of edges are ignored.
-///
 /// The initial values are the keyframes. If chi2 at that minimum is larger than its distribution
 /// allows, chordal relaxation (initial_values.hpp) provides a second start, and the lower minimum
 /// is returned. `rescale` first multiplies the odometry's stated covariances by two factors
@@ -45,7 +41,6 @@ class Dual final : public Corrector {
     int max_iterations = 500;
     double tolerance = 1e-10;
     int max_closures = 300;
-    bool scale = true;
     Start start = Start::automatic;
     bool rescale = false;
     Use use = Use::all;
@@ -53,6 +48,7 @@ class Dual final : public Corrector {
   };
   explicit Dual(const Options& options) : options_(options) {}
 
+  /// Declines, among others, edges that change the scale.
   std::string why_declined(const Problem& problem) const override;
 
   /// `rescale` knows no anchors.
@@ -96,7 +92,6 @@ void fields(Dual::Options& o, Visit visit) {
         o.max_closures,
         "maximum number of closures and anchors; the time of the dense solve grows with its cube",
         Between{1, 2000});
-  visit("scale", o.scale, "estimate and remove scale drift first (Sim(3) chains)");
   visit("start",
         o.start,
         "initial values; auto: keyframes, then chordal relaxation if chi2 is implausibly large");
@@ -105,9 +100,7 @@ void fields(Dual::Options& o, Visit visit) {
         "multiply the odometry's translation and rotation covariances by factors estimated from "
         "the loops");
   visit("use", o.use, "measurements that are used, to compare what closures and anchors add");
-  visit("covariances",
-        o.covariances,
-        "state the covariance of each keyframe, for metric nees; not if edges change the scale");
+  visit("covariances", o.covariances, "state the covariance of each keyframe, for metric nees");
 }
 
 }  // namespace loopbench::methods
