@@ -4,6 +4,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
+#include "harness/report/curve.hpp"
 #include "harness/report/report.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/record_reader.hpp"
