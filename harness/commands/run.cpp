@@ -270,8 +270,8 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
   command
       ->add_option("--retry",
                    arguments->retry,
-                   "Stored cells to recompute: failed, damaged (checks all rows), or all")
-      ->check(CLI::IsMember({"none", "failed", "damaged", "all"}))
+                   "Stored cells to recompute in addition to damaged ones: failed, or all")
+      ->check(CLI::IsMember({"none", "failed", "all"}))
       ->capture_default_str();
   command->add_flag(
       "--fresh", arguments->fresh, "Recompute all cells; keep the old store as previous-N.sqlite");

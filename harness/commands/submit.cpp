@@ -142,7 +142,7 @@ void add_submit(CLI::App& app, int& exit_code) {
       ->type_name("FILE");
   command->add_flag("--print", arguments->print, "Print the scripts without submitting them");
   command->add_option("--retry", arguments->retry, "Stored cells to recompute, as of `run`")
-      ->check(CLI::IsMember({"none", "failed", "damaged", "all"}));
+      ->check(CLI::IsMember({"none", "failed", "all"}));
   command->add_option("--out", arguments->out, "Output folder (default: results/CONFIG)")
       ->type_name("DIR");
   command->add_option(

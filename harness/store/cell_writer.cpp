@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "harness/store/row_checksum.hpp"
+#include "harness/store/hashes.hpp"
 #include "harness/store/stored_cells.hpp"
 #include "harness/store/traces.hpp"
 #include "metrics/numerics/median.hpp"
@@ -38,9 +38,8 @@ std::ptrdiff_t count_columns(std::string_view columns) {
 
 /// Inserts the id of a cell and the columns of the table, in that order.
 Statement insert_into(Database& database, const CellTable& table) {
-  const std::string values = parameters(2, count_columns(table.columns) + 1);
   return database.prepare(std::string("INSERT INTO ") + table.name + " (cell, " + table.columns +
-                          ", checksum) VALUES (?1," + values + ",row_checksum(" + values + "))");
+                          ") VALUES (" + parameters(1, count_columns(table.columns) + 1) + ")");
 }
 
 }  // namespace
@@ -50,18 +49,16 @@ CellWriter::CellWriter(Database& database, std::string provenance_key)
       provenance_key_(std::move(provenance_key)),
       replaced_(database.prepare("SELECT id FROM cell WHERE position = ?")),
       cell_(database.prepare("INSERT INTO cell VALUES (NULL," +
-                             parameters(1, count_columns(kCellColumns)) + ",0)")),
+                             parameters(1, count_columns(kCellColumns) - 1) + ",0,0)")),  // hashes
       definition_(database.prepare(
-          "INSERT OR IGNORE INTO score_definition VALUES (?,?,?,?,?,?,?,?,?,?,?)")),
+          "INSERT OR REPLACE INTO score_definition VALUES (?,?,?,?,?,?,?,?,?,?,?)")),
       score_(insert_into(database, kScoreTable)),
       phase_(insert_into(database, kPhaseTable)),
       count_(insert_into(database, kCountTable)),
       note_(insert_into(database, kNoteTable)),
       section_(insert_into(database, kSectionTable)),
       trace_(insert_into(database, kTraceTable)),
-      pose_value_(insert_into(database, kPoseValueTable)),
-      set_checksum_(checksum_update(database)),
-      one_more_(database.prepare("UPDATE run SET value = value + 1 WHERE key = 'cells'")) {}
+      pose_value_(insert_into(database, kPoseValueTable)) {}
 
 void CellWriter::write(const CellResult& result, CellKeys& keys) {
   try {
@@ -81,13 +78,19 @@ void CellWriter::write_rows(const CellResult& result, CellKeys& keys) {
   while (replaced_.step()) before.push_back(replaced_.integer());
   replaced_.reset();
   for (const std::int64_t id : before) remove_cell(database_, id);
-  if (before.empty()) one_more_.run();
+  if (before.empty()) {
+    set_run_value(database_, "cells", std::to_string(written_cells(database_) + 1));
+  }
 
   if (result.metadata) write_metadata(result.cell, keys, *result.metadata);
   const std::int64_t id = write_cell(result, keys);
   write_scores(id, result, keys.sweep());
   write_report(id, result.report);
-  const CellTrace& trace = result.trace;
+  write_trace(id, result.trace);
+  set_hashes(database_, id);
+}
+
+void CellWriter::write_trace(std::int64_t id, const CellTrace& trace) {
   if (trace.samples.empty()) return;
   trace_.bind(id, to_text(trace.times), Blob{bytes_of(trace.samples)}).run();
   std::int64_t number = 0;
@@ -120,7 +123,6 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
   const auto cpu = result.cpu_seconds.empty()
                        ? std::nullopt
                        : std::optional<double>(metrics::median(result.cpu_seconds));
-  const methods::Report& report = result.report;
   cell_.bind(cell.index, keys.key(cell, metadata.inputs), keys.build());
   cell_.bind(keys.sequence_key(cell, metadata.inputs), provenance_key_);
   cell_.bind(dataset.label, cell.repeat, method.label);
@@ -132,13 +134,8 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
   cell_.bind(cpu, result.peak_memory, result.added_memory);
   cell_.bind(to_text(result.status), result.signal, result.why);
   cell_.bind(std::ranges::count_if(result.scores, is_failure, &ScoreResult::status));
-  cell_.bind(result.scores.size());
-  cell_.bind(report.phases.size() + report.counts.size() + report.notes.size() +
-             report.sections.size());
-  cell_.run();
-  const std::int64_t id = database_.last_row();
-  set_checksum_.bind(id).run();
-  return id;
+  cell_.bind(result.scores.size()).run();
+  return database_.last_row();
 }
 
 std::int64_t CellWriter::definition_of(const ScoreResult& score,
@@ -152,10 +149,10 @@ std::int64_t CellWriter::definition_of(const ScoreResult& score,
                                score.score.axis,
                                score.score.unit,
                                to_text(score.score.better)};
-  RowChecksum checksum;
-  for (const std::string& text : texts) checksum.add(std::string_view(text));
-  checksum.add(score.score.target);
-  const std::int64_t id = checksum.value();
+  RowHash row;
+  for (const std::string& text : texts) row.add(std::string_view(text));
+  row.add(score.score.target);
+  const std::int64_t id = definition_id(row.after(0));
   if (!definitions_.insert(id).second) return id;
   definition_.bind(id);
   for (const std::string& text : texts) definition_.bind(text);
@@ -186,10 +183,10 @@ void CellWriter::write_metadata(const Cell& cell,
   const std::string sequence_key = keys.sequence_key(cell, metadata.inputs);
   if (!sequences_.insert(sequence_key).second) return;
   database_.prepare("DELETE FROM input WHERE sequence_key = ?").bind(sequence_key).run();
-  Statement input = database_.prepare("INSERT INTO input VALUES (?,?,?,?,?,?)");
+  Statement input = database_.prepare("INSERT INTO input VALUES (?,?,?,?,?,?,?)");
   std::int64_t number = 0;
   for (const InputFile& file : metadata.inputs) {
-    input.bind(sequence_key, number++, file.option, file.path, file.bytes, file.hash).run();
+    input.bind_hashed(sequence_key, number++, file.option, file.path, file.bytes, file.hash).run();
   }
   const SequenceSize& size = metadata.size;
   database_.prepare("INSERT OR REPLACE INTO sequence VALUES (?,?,?,?,?,?,?,?,?,?)")
@@ -199,15 +196,16 @@ void CellWriter::write_metadata(const Cell& cell,
       .run();
   const SequenceTrace& trace = metadata.trace;
   if (trace.keyframes.empty()) return;
-  const std::string values = parameters(1, count_columns(kSequenceTraceColumns));
-  database_
-      .prepare("INSERT OR REPLACE INTO sequence_trace VALUES (" + values + ",row_checksum(" +
-               values + "))")
-      .bind(sequence_key)
-      .bind(trace.origin.stamp, trace.origin.x, trace.origin.y, trace.origin.z)
-      .bind(Blob{bytes_of(trace.reference)})
-      .bind(Blob{bytes_of(trace.keyframes)})
-      .bind(Blob{bytes_of(trace.closures)})
+  const TraceOrigin& origin = trace.origin;
+  database_.prepare("INSERT OR REPLACE INTO sequence_trace VALUES (?,?,?,?,?,?,?,?,?)")
+      .bind_hashed(sequence_key,
+                   origin.stamp,
+                   origin.x,
+                   origin.y,
+                   origin.z,
+                   Blob{bytes_of(trace.reference)},
+                   Blob{bytes_of(trace.keyframes)},
+                   Blob{bytes_of(trace.closures)})
       .run();
 }
 

@@ -27,6 +27,7 @@ class CellWriter {
   std::int64_t write_cell(const CellResult& result, CellKeys& keys);
   void write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep);
   void write_report(std::int64_t id, const methods::Report& report);
+  void write_trace(std::int64_t id, const CellTrace& trace);
   std::int64_t definition_of(const ScoreResult& score, const metrics::NamedProtocol& protocol);
   void write_metadata(const Cell& cell, CellKeys& keys, const SequenceMetadata& metadata);
 
@@ -42,8 +43,6 @@ class CellWriter {
   Statement section_;
   Statement trace_;
   Statement pose_value_;
-  Statement set_checksum_;
-  Statement one_more_;                  ///< cell of the store
   std::set<std::int64_t> definitions_;  ///< ids of those that are written
   std::set<std::string> sequences_;     ///< keys of those that are written
 };

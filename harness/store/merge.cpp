@@ -8,6 +8,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/model/recorded_run.hpp"
+#include "harness/store/hashes.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/schema.hpp"
 #include "harness/store/stored_cells.hpp"
@@ -80,7 +81,7 @@ class Merge {
   Merged done() {
     Merged out;
     out.cells = static_cast<std::size_t>(number("SELECT count(*) FROM cell"));
-    database_.prepare("INSERT INTO run VALUES ('cells', ?)").bind(std::to_string(out.cells)).run();
+    set_run_value(database_, "cells", std::to_string(out.cells));
     out.duplicates = duplicates_;
     const std::int64_t planned =
         number("SELECT CAST(value AS INTEGER) FROM run WHERE key = 'planned'");
@@ -201,19 +202,20 @@ class Merge {
                         "position IS NOT NULL)");
     }
     const std::string rows = "added JOIN source.cell AS cell USING (id)";
-    database_.execute("INSERT INTO main.cell SELECT " + offset + "id, " + columns +
-                      ", row_checksum(" + columns + ", " + kSequenceColumns + ") FROM " + rows +
-                      " LEFT JOIN source.sequence AS sequence USING (sequence_key) ORDER BY id");
+    database_.execute("INSERT INTO main.cell SELECT " + offset + "id, " + columns + ", hash FROM " +
+                      rows + " ORDER BY id");
     database_.execute("INSERT INTO known SELECT " + offset +
                       "id, key, cell.sequence, cell.repeat, cell.method, failed FROM " + rows +
                       " ORDER BY id");
     for (const CellTable& table : kCellTables) {
       const std::string name = table.name;
-      database_.execute("INSERT INTO main." + name + " (cell, " + table.columns +
-                        ", checksum) SELECT " + offset + "cell, " + table.columns +
-                        ", checksum FROM source." + name +
+      database_.execute("INSERT INTO main." + name + " (cell, " + table.columns + ") SELECT " +
+                        offset + "cell, " + table.columns + " FROM source." + name +
                         " WHERE cell IN (SELECT id FROM added) ORDER BY cell");
     }
+    Statement moved =
+        database_.prepare("SELECT " + offset + "id FROM " + rows + " WHERE place <> position");
+    while (moved.step()) set_hashes(database_, moved.integer());
     database_.execute(
         "INSERT OR IGNORE INTO main.score_definition SELECT * FROM source.score_definition");
   }
@@ -222,13 +224,20 @@ class Merge {
   /// the baseline is that of the first store, and stores of different sizes have no planned number.
   void copy_descriptions() {
     database_.execute(
-        "INSERT INTO main.run SELECT key, value FROM source.run WHERE key <> 'cells' "
+        "INSERT INTO main.run SELECT key, value, 0 FROM source.run WHERE key <> 'cells' "
         "ON CONFLICT (key) DO UPDATE SET value = CASE WHEN key = 'planned' THEN '' ELSE "
         "value || char(10) || excluded.value END WHERE key <> 'baseline' AND instr(char(10) || "
         "value || char(10), char(10) || excluded.value || char(10)) = 0; "
         "INSERT OR IGNORE INTO main.provenance SELECT * FROM source.provenance WHERE "
         "provenance_key IN (SELECT provenance_key FROM source.cell WHERE id IN (SELECT id FROM "
         "added))");
+    std::map<std::string, std::string> values;
+    Statement row = database_.prepare("SELECT key, value FROM main.run");
+    while (row.step()) {
+      const std::string key = row.text();
+      values[key] = row.text();
+    }
+    for (const auto& [key, value] : values) set_run_value(database_, key, value);
   }
 
   std::int64_t number(const std::string& query) {

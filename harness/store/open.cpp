@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "datasets/core/error.hpp"
+#include "harness/store/hashes.hpp"
 #include "harness/store/schema.hpp"
 
 namespace loopbench::harness {
@@ -109,6 +110,7 @@ Database open_store(const std::filesystem::path& given) {
   Database database(file, Database::Mode::read);
   check_schema(database, file);
   database.execute("BEGIN");
+  require_intact_descriptions(database);
   return database;
 }
 

@@ -11,7 +11,8 @@ namespace loopbench::harness {
 std::filesystem::path store_file(const std::filesystem::path& given);
 
 /// Opens the database in a read transaction, which does not see concurrent writes. Throws
-/// InputError if it is not a store of this schema.
+/// InputError if it is not a store of this schema, or its tables run, provenance or input are
+/// damaged.
 Database open_store(const std::filesystem::path& given);
 
 /// Creates the tables of an empty store.

@@ -41,22 +41,13 @@ class ReportReader {
   /// Calls `add` with the cell and its row from the column after `number` on.
   template <class Add>
   void read(const CellTable& table, Add add) {
-    Statement row = database_.prepare(std::string("SELECT cell, ") + table.columns +
-                                      ", checksum FROM " + table.name + " ORDER BY cell, number");
+    Statement row = database_.prepare(std::string("SELECT cell, ") + table.columns + " FROM " +
+                                      table.name + " ORDER BY cell, number");
     while (row.step()) {
       const auto found = index_.find(row.integer());
       if (found == index_.end()) continue;
-      StoredCell& cell = cells_[found->second];
       row.integer();  // number
-      if (row.is_intact(1)) --cell.report_rows;
-      add(cell, row);
-    }
-  }
-
-  /// Throws InputError if a row of a cell was missing or damaged. Call after all tables.
-  void require_all_rows() const {
-    for (const StoredCell& cell : cells_) {
-      if (cell.report_rows != 0) throw_damaged(database_.file(), label_of(cell) + " is");
+      add(cells_[found->second], row);
     }
   }
 
@@ -91,8 +82,6 @@ std::vector<CellRecord> read_cells(const std::filesystem::path& file) {
   });
   reader.read(kNoteTable,
               [](StoredCell& cell, Statement& row) { row.read(cell.notes.emplace_back()); });
-  reader.read(kSectionTable, [](StoredCell&, Statement&) {});
-  reader.require_all_rows();
   return {std::move_iterator(cells.begin()), std::move_iterator(cells.end())};
 }
 

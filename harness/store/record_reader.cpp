@@ -40,7 +40,6 @@ std::map<std::int64_t, Record> read_definitions(Database& database) {
   Statement row =
       database.prepare(std::string("SELECT ") + kDefinitionColumns + ", id FROM score_definition");
   while (row.step()) {
-    if (!row.is_intact(0)) throw_damaged(database.file(), "a definition of a score is");
     Record r;
     std::string better;
     std::int64_t id = 0;
@@ -150,7 +149,6 @@ RecordReader::RecordReader(const std::filesystem::path& file)
     : database_(open_store(file)),
       cells_(read_intact_cells(database_)),
       definitions_(read_definitions(database_)) {
-  require_all_scores(database_);
   join_recorded_contents(database_, cells_);
   const bool can_fail = std::ranges::any_of(
       definitions_, [](const auto& entry) { return is_failed_metric(entry.second); });
@@ -188,11 +186,7 @@ void RecordReader::add_cell(const StoredCell& cell, std::vector<Record>& out) {
   const bool has_reason = cell.why.empty() || is_incomplete;
   for (; row_cell_ == cell.id; step_scores()) {
     scores_->integer();  // number
-    const auto definition = definitions_.find(scores_->integer());
-    if (definition == definitions_.end() || !scores_->is_intact(1)) {
-      throw_damaged(database_.file(), label_of(cell) + " is");
-    }
-    Record& r = out.emplace_back(definition->second);
+    Record& r = out.emplace_back(definitions_.at(scores_->integer()));
     set_cell(r, cell);
     metrics::Statistics& s = r.statistics;
     scores_->read(
@@ -211,8 +205,8 @@ void RecordReader::for_each_chunk(const std::function<bool(std::vector<Record>&)
   // CROSS JOIN: in the order of the cells, by their index.
   scores_.emplace(database_.prepare(
       std::string("SELECT score_value.cell, ") + kScoreTable.columns +
-      ", score_value.checksum FROM (SELECT id, position FROM cell WHERE position IS NOT NULL) "
-      "CROSS JOIN score_value ON score_value.cell = id" +
+      " FROM (SELECT id, position FROM cell WHERE position IS NOT NULL) CROSS JOIN score_value ON "
+      "score_value.cell = id" +
       kept_ + " ORDER BY position, id, number"));
   step_scores();
   const std::vector<bool> is_end = ends_of_chunks(cells_);

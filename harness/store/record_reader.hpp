@@ -18,15 +18,15 @@ namespace loopbench::harness {
 /// One state of a store, also while a sweep is writing it; not thread-safe.
 class RecordReader {
  public:
-  /// Reads the table of cells and counts their scores. `file` can be the folder with
-  /// results.sqlite. Throws InputError if it is not a store or is damaged. O(scores); 500 bytes of
-  /// memory per cell.
+  /// Reads the table of cells and compares the hashes of their scores. `file` can be the folder
+  /// with results.sqlite. Throws InputError if it is not a store or is damaged. O(scores); 500
+  /// bytes of memory per cell.
   explicit RecordReader(const std::filesystem::path& file);
 
   /// Visits all records in sweep order, in chunks: every sequence is complete within one chunk, and
   /// a chunk is one sequence, or several if they are small or their cells are mixed. The next chunk
   /// is read on another thread during a visit. Metrics are expanded as described at read_records().
-  /// Ends early if `visit` returns false. Throws InputError for a damaged score. O(scores).
+  /// Ends early if `visit` returns false. Throws InputError if the file cannot be read. O(scores).
   void for_each_chunk(const std::function<bool(std::vector<Record>& records)>& visit);
 
   /// Visits all records one by one, in the same order.

@@ -4,6 +4,8 @@
 #include <map>
 #include <unordered_map>
 
+#include "harness/store/hashes.hpp"
+
 namespace loopbench::harness {
 namespace {
 
@@ -99,7 +101,6 @@ Resumed match(Database& database,
               Retry retry) {
   const Sweep& sweep = keys.sweep();
   const std::vector<const StoredCell*> claimed = claim(stored, database, keys, all);
-  Statement set_checksum = checksum_update(database);
 
   Resumed out;
   out.unchanged = true;
@@ -109,7 +110,7 @@ Resumed match(Database& database,
   for (const StoredCell& row : stored) {
     if (!row.placed || std::ranges::binary_search(in_use, &row)) continue;
     set_aside.bind(row.id).run();
-    set_checksum.bind(row.id).run();
+    set_hashes(database, row.id);
     out.unchanged = false;
   }
   Statement entry = database.prepare(
@@ -130,7 +131,7 @@ Resumed match(Database& database,
     entry.bind(cell.index, sweep.datasets[cell.dataset].label, cell.repeat)
         .bind(sweep.methods[cell.method].label, row->id)
         .run();
-    set_checksum.bind(row->id).run();
+    set_hashes(database, row->id);
   }
   for (const Cell& cell : planned) {
     const auto found = by_index.find(cell.index);
@@ -152,8 +153,12 @@ std::vector<Cell> missing_cells(const std::filesystem::path& store,
                                 CellKeys& keys,
                                 const std::vector<Cell>& all,
                                 const std::vector<Cell>& planned) {
-  Database database = open_store(store);
+  const std::filesystem::path file = store_file(store);
+  Database database(file, Database::Mode::read);
+  check_schema(database, file);
+  database.execute("BEGIN");
   std::vector<StoredCell> stored = read_stored_cells(database);
+  check_traces(database, stored);
   std::erase_if(stored, [](const StoredCell& cell) { return !cell.intact; });
   const std::vector<const StoredCell*> claimed = claim(stored, database, keys, all);
   std::vector<Cell> out;

@@ -16,7 +16,7 @@ Resumed match(Database& database,
               Retry retry);
 
 /// The planned cells without an intact result in a store, which is not changed. Throws InputError
-/// if it is not a store. O(cells + bytes of input).
+/// if it is not a store. O(bytes of the store and input).
 std::vector<Cell> missing_cells(const std::filesystem::path& store,
                                 CellKeys& keys,
                                 const std::vector<Cell>& all,

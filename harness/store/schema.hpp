@@ -1,8 +1,6 @@
 /// Tables of a store.
 #pragma once
 
-#include <string>
-
 namespace loopbench::harness {
 
 /// Incremented when the meaning of a table or column changes; stored as SQLite's user_version.
@@ -10,11 +8,15 @@ inline constexpr int kSchemaVersion = 14;
 
 /// Creates the tables of a store, readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
-  CREATE TABLE run (key TEXT PRIMARY KEY, value TEXT NOT NULL);  -- config and settings of the last run
+  CREATE TABLE run (                   -- config and settings of the last run
+    key TEXT PRIMARY KEY,
+    value TEXT NOT NULL,
+    row_hash INTEGER NOT NULL);        -- of the other columns, as in the next tables
   CREATE TABLE provenance (            -- build and machine of the cells
     provenance_key TEXT NOT NULL,      -- hash of all key-value pairs of one run
     key TEXT NOT NULL,
     value TEXT NOT NULL,               -- can be a list, one item per line
+    row_hash INTEGER NOT NULL,
     PRIMARY KEY (provenance_key, key)) WITHOUT ROWID;
   CREATE TABLE input (                 -- input files of each sequence
     sequence_key TEXT NOT NULL,
@@ -23,6 +25,7 @@ inline constexpr const char* kSchema = R"sql(
     path TEXT NOT NULL,
     bytes INTEGER NOT NULL,
     hash TEXT NOT NULL,                -- of the content (MurmurHash3 x64 128), or `missing`
+    row_hash INTEGER NOT NULL,
     PRIMARY KEY (sequence_key, number)) WITHOUT ROWID;
   CREATE TABLE sequence (              -- metadata and sizes of each sequence
     sequence_key TEXT PRIMARY KEY,     -- hash of configuration_hash, content of inputs, build
@@ -65,10 +68,11 @@ inline constexpr const char* kSchema = R"sql(
     why TEXT NOT NULL,
     failed_scores INTEGER NOT NULL,    -- number of failed scores
     scores INTEGER NOT NULL,           -- number of its rows in score_value
-    report_rows INTEGER NOT NULL,      -- number of its rows in phase, count, note and section
-    checksum INTEGER NOT NULL);        -- of this row and its sequence
+    trace_hash INTEGER NOT NULL,       -- of its rows in trace, snapshot and pose_value
+    hash INTEGER NOT NULL);            -- of this row, its sequence, and its rows in score_value,
+                                       -- phase, count, note and section
   CREATE TABLE score_definition (      -- what a score is; cells share definitions
-    id INTEGER PRIMARY KEY,            -- checksum of the other columns: equal in all stores
+    id INTEGER PRIMARY KEY,            -- hash of the other columns: equal in all stores
     protocol TEXT NOT NULL,            -- name (changes), for example: evo (align=se3)
     protocol_version TEXT NOT NULL,    -- version of the original tool
     times TEXT NOT NULL,               -- keyframes | dense
@@ -91,7 +95,6 @@ inline constexpr const char* kSchema = R"sql(
     span REAL NOT NULL,                -- evaluated share of the reference's time, 0..1
     status TEXT NOT NULL,              -- ok | declined | incomplete | failed | out_of_memory
     why TEXT NOT NULL,
-    checksum INTEGER NOT NULL,
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE VIEW score AS
     SELECT v.cell, d.protocol, d.protocol_version, d.times, d.metric, d.label, d.relation, d.axis,
@@ -100,15 +103,15 @@ inline constexpr const char* kSchema = R"sql(
     FROM score_value v JOIN score_definition d ON d.id = v.definition;
   CREATE TABLE phase (                 -- reported by the method, as are the next three
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
-    name TEXT NOT NULL, seconds REAL NOT NULL, checksum INTEGER NOT NULL,
+    name TEXT NOT NULL, seconds REAL NOT NULL,
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE TABLE count (
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
-    name TEXT NOT NULL, value REAL NOT NULL, checksum INTEGER NOT NULL,
+    name TEXT NOT NULL, value REAL NOT NULL,
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE TABLE note (
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
-    text TEXT NOT NULL, checksum INTEGER NOT NULL,
+    text TEXT NOT NULL,
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE TABLE section (               -- sections of the path
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
@@ -116,18 +119,15 @@ inline constexpr const char* kSchema = R"sql(
     begin_stamp REAL NOT NULL,         -- [s]
     end_stamp REAL NOT NULL,           -- [s]
     what TEXT NOT NULL,                -- choice of the method; can be empty
-    checksum INTEGER NOT NULL,
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE TABLE trace (                 -- blobs: float32, little endian, see harness/model/trace.hpp
     cell INTEGER PRIMARY KEY REFERENCES cell(id),
     times TEXT NOT NULL,               -- keyframes | dense
-    samples BLOB NOT NULL,             -- TraceSample, 12 floats each, under the first protocol
-    checksum INTEGER NOT NULL);
+    samples BLOB NOT NULL);            -- TraceSample, 12 floats each, under the first protocol
   CREATE TABLE pose_value (            -- of a metric, for each sample of the trace
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
     name TEXT NOT NULL, unit TEXT NOT NULL,
     value BLOB NOT NULL,               -- float32
-    checksum INTEGER NOT NULL,
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE TABLE sequence_trace (
     sequence_key TEXT PRIMARY KEY,
@@ -139,17 +139,17 @@ inline constexpr const char* kSchema = R"sql(
     reference BLOB NOT NULL,           -- TracePose, 8 floats each
     keyframes BLOB NOT NULL,           -- TracePose, in the tracker's world frame
     closures BLOB NOT NULL,            -- TraceClosure, 8 floats each
-    checksum INTEGER NOT NULL);
+    row_hash INTEGER NOT NULL);
   CREATE INDEX cell_position ON cell(position);
 )sql";
 
-// Checksums are row_checksum() of the other columns of a row, without the id of its cell, so that
-// another store can number its cells differently.
+// Hashes do not cover the ids of cells, so that another store can number its cells differently.
 
-/// A table with rows of cells: column `cell`, these columns, and `checksum`.
+/// A table with rows of cells: column `cell`, and these columns.
 struct CellTable {
   const char* name;
   const char* columns;
+  bool is_trace = false;  ///< covered by `trace_hash`, otherwise by `hash`
 };
 inline constexpr CellTable kScoreTable{
     "score_value",
@@ -160,30 +160,38 @@ inline constexpr CellTable kPhaseTable{"phase", "number, name, seconds"};
 inline constexpr CellTable kCountTable{"count", "number, name, value"};
 inline constexpr CellTable kNoteTable{"note", "number, text"};
 inline constexpr CellTable kSectionTable{"section", "number, kind, begin_stamp, end_stamp, what"};
-inline constexpr CellTable kTraceTable{"trace", "times, samples"};
-inline constexpr CellTable kPoseValueTable{"pose_value", "number, name, unit, value"};
+inline constexpr CellTable kTraceTable{"trace", "times, samples", true};
+inline constexpr CellTable kPoseValueTable{"pose_value", "number, name, unit, value", true};
 inline constexpr CellTable kCellTables[] = {
     kScoreTable, kPhaseTable, kCountTable, kNoteTable, kSectionTable, kTraceTable, kPoseValueTable};
 
-/// Columns of the table cell between `id` and `checksum`.
+/// Columns of the table cell between `id` and `hash`.
 inline constexpr const char* kCellColumns =
     "position, key, build, cell.sequence_key, provenance_key, cell.sequence, repeat, method, "
     "dataset_options, method_options, cell.closures, oracle_closures, oracle, worker, runs, "
     "seconds_median, seconds_min, seconds_max, cpu_seconds_median, peak_memory, added_memory, "
-    "status, signal, why, failed_scores, scores, report_rows";
+    "status, signal, why, failed_scores, scores, trace_hash";
 
-/// A cell's row and that of its sequence, and their checksum.
+/// A cell's row and that of its sequence, which `hash` covers.
 inline constexpr const char* kCellsWithSequences = "cell LEFT JOIN sequence USING (sequence_key)";
 inline constexpr const char* kSequenceColumns =
     "sequence.sequence_key, configuration_hash, options, keyframes, odometry, sequence.closures, "
     "frames, reference, content, group_name";
-inline std::string cell_checksum() {
-  return std::string("row_checksum(") + kCellColumns + ", " + kSequenceColumns + ")";
-}
 
 inline constexpr const char* kDefinitionColumns =
     "protocol, protocol_version, times, metric, label, relation, axis, unit, better, target";
-inline constexpr const char* kSequenceTraceColumns =
-    "sequence_key, origin_stamp, origin_x, origin_y, origin_z, reference, keyframes, closures";
+
+/// A table with rows that cells share: its key and other columns, and `row_hash`.
+struct SharedTable {
+  const char* name;
+  const char* columns;
+};
+inline constexpr SharedTable kRunTable{"run", "key, value"};
+inline constexpr SharedTable kProvenanceTable{"provenance", "provenance_key, key, value"};
+inline constexpr SharedTable kInputTable{"input",
+                                         "sequence_key, number, option, path, bytes, hash"};
+inline constexpr SharedTable kSequenceTraceTable{
+    "sequence_trace",
+    "sequence_key, origin_stamp, origin_x, origin_y, origin_z, reference, keyframes, closures"};
 
 }  // namespace loopbench::harness

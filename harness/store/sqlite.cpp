@@ -3,7 +3,6 @@
 #include <sqlite3.h>
 
 #include "datasets/core/error.hpp"
-#include "harness/store/row_checksum.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -14,23 +13,17 @@ std::string_view bytes_of(sqlite3_value* value) {
   return bytes == nullptr ? std::string_view{} : std::string_view(bytes, size);
 }
 
-void add_value(RowChecksum& checksum, sqlite3_value* value) {
+void add_value(RowHash& row, sqlite3_value* value) {
   switch (sqlite3_value_type(value)) {
     case SQLITE_INTEGER:
-      return checksum.add(std::int64_t{sqlite3_value_int64(value)});
+      return row.add(sqlite3_value_int64(value));
     case SQLITE_FLOAT:
-      return checksum.add(sqlite3_value_double(value));
+      return row.add(sqlite3_value_double(value));
     case SQLITE_NULL:
-      return checksum.add_null();
+      return row.add_null();
     default:
-      return checksum.add(bytes_of(value));
+      return row.add(bytes_of(value));
   }
-}
-
-void row_checksum(sqlite3_context* context, int count, sqlite3_value** values) {
-  RowChecksum checksum;
-  for (int i = 0; i < count; ++i) add_value(checksum, values[i]);
-  sqlite3_result_int64(context, checksum.value());
 }
 
 }  // namespace
@@ -56,17 +49,6 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file.st
   sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(handle, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
-  const int function =
-      sqlite3_create_function_v2(handle,
-                                 "row_checksum",
-                                 -1,
-                                 SQLITE_UTF8 | SQLITE_DETERMINISTIC | SQLITE_DIRECTONLY,
-                                 nullptr,
-                                 row_checksum,
-                                 nullptr,
-                                 nullptr,
-                                 nullptr);
-  if (function != SQLITE_OK) fail("cannot be opened");
 }
 
 void Database::execute(const std::string& sql) {
@@ -163,13 +145,12 @@ std::string_view Statement::view() {
   return bytes == nullptr ? std::string_view{} : std::string_view(bytes, size);
 }
 
-bool Statement::is_intact(int first) const {
-  const int last = sqlite3_column_count(handle_.get()) - 1;
-  RowChecksum checksum;
-  for (int i = first; i < last; ++i) {
-    add_value(checksum, sqlite3_column_value(handle_.get(), i));
-  }
-  return checksum.value() == sqlite3_column_int64(handle_.get(), last);
+std::uint64_t Statement::hashed(std::uint64_t before, int first) const {
+  thread_local RowHash row;  // keeps its memory
+  row.clear();
+  const int count = sqlite3_column_count(handle_.get());
+  for (int i = first; i < count; ++i) add_value(row, sqlite3_column_value(handle_.get(), i));
+  return row.after(before);
 }
 
 }  // namespace loopbench::harness

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "harness/base/shared_text.hpp"
+#include "harness/store/row_hash.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -20,11 +21,11 @@ class Statement;
 
 /// What to do with a file whose structure is damaged.
 inline constexpr const char* kRecoverAdvice =
-    "`sqlite3 FILE .recover | sqlite3 NEW_FILE` saves the readable rows, of which `run --retry "
-    "damaged` recomputes incomplete cells; --fresh starts a new store";
+    "`sqlite3 FILE .recover | sqlite3 NEW_FILE` saves the readable rows, of which `run` recomputes "
+    "incomplete cells; --fresh starts a new store";
 
-/// An open database file, in SQLite's defensive mode, with the SQL function row_checksum(...), see
-/// RowChecksum. Every failure throws InputError naming the file and SQLite's reason.
+/// An open database file, in SQLite's defensive mode. Every failure throws InputError naming the
+/// file and SQLite's reason.
 class Database {
  public:
   enum class Mode { create, read };
@@ -50,6 +51,7 @@ class Database {
 /// A blob to bind; not copied: must live until the statement has run.
 struct Blob {
   std::string_view bytes;
+  operator std::string_view() const { return bytes; }  // NOLINT(google-explicit-constructor)
 };
 
 /// A prepared statement; parameters and columns are accessed in order, starting at the first.
@@ -60,6 +62,14 @@ class Statement {
   Statement& bind(const Values&... values) {
     (bind_one(values), ...);
     return *this;
+  }
+
+  /// Binds the values of a row, and then their hash.
+  template <class... Values>
+  Statement& bind_hashed(const Values&... values) {
+    RowHash row;
+    (row.add(values), ...);
+    return bind(values..., row.after(0));
   }
 
   /// Runs to completion and resets for the next binding.
@@ -81,8 +91,8 @@ class Statement {
   std::string text();       ///< text or blob
   std::string_view view();  ///< the same, valid until the next step
 
-  /// Whether the last column is the row_checksum() of the columns from `first` on.
-  bool is_intact(int first) const;
+  /// Hash of the columns from `first` on, see RowHash. `before`: that of the rows before.
+  std::uint64_t hashed(std::uint64_t before, int first) const;
 
  private:
   friend class Database;

@@ -8,8 +8,8 @@
 #include "harness/base/hash.hpp"
 #include "harness/run/build.hpp"
 #include "harness/store/cell_writer.hpp"
+#include "harness/store/hashes.hpp"
 #include "harness/store/resume.hpp"
-#include "harness/store/schema.hpp"
 #include "harness/store/stored_cells.hpp"
 
 namespace loopbench::harness {
@@ -74,9 +74,8 @@ void reject_links(const std::filesystem::path& file) {
 
 void write_run(Database& database, const CellKeys& keys) {
   const Sweep& sweep = keys.sweep();
-  Statement insert = database.prepare("INSERT OR REPLACE INTO run VALUES (?, ?)");
   const auto set_value = [&](const std::string& key, const std::string& text) {
-    insert.bind(key, text).run();
+    set_run_value(database, key, text);
   };
   set_value("loopbench", kVersion);
   set_value("sweep", sweep.name);
@@ -113,30 +112,25 @@ std::string key_of_provenance(const std::map<std::string, std::string>& provenan
 
 void write_provenance(Database& database, const std::map<std::string, std::string>& provenance) {
   const std::string provenance_key = key_of_provenance(provenance);
-  Statement insert = database.prepare("INSERT OR IGNORE INTO provenance VALUES (?, ?, ?)");
-  for (const auto& [key, value] : provenance) insert.bind(provenance_key, key, value).run();
+  database.prepare("DELETE FROM provenance WHERE provenance_key = ?").bind(provenance_key).run();
+  Statement insert = database.prepare("INSERT INTO provenance VALUES (?, ?, ?, ?)");
+  for (const auto& [key, value] : provenance) insert.bind_hashed(provenance_key, key, value).run();
 }
 
 /// Removes damaged cells, so that they count as not run, and returns their labels.
-std::vector<std::string> remove_damaged(Database& database,
-                                        std::vector<StoredCell>& cells,
-                                        bool check_all_rows) {
+std::vector<std::string> remove_damaged(Database& database, std::vector<StoredCell>& cells) {
+  check_traces(database, cells);
   std::vector<std::string> out;
-  if (check_all_rows) {
-    const std::vector<std::int64_t> damaged = damaged_cells(database);
-    for (StoredCell& cell : cells) {
-      cell.intact = cell.intact && !std::ranges::binary_search(damaged, cell.id);
-    }
-    // Written again with the cells.
-    database.execute(std::string("DELETE FROM score_definition WHERE id <> row_checksum(") +
-                     kDefinitionColumns + ")");
-  }
   for (const StoredCell& cell : cells) {
     if (cell.intact) continue;
     out.push_back(label_of(cell));
     remove_cell(database, cell.id);
   }
   std::erase_if(cells, [](const StoredCell& cell) { return !cell.intact; });
+  remove_damaged_rows(database, kProvenanceTable);
+  for (const std::string& key : remove_damaged_rows(database, kInputTable)) {
+    database.prepare("DELETE FROM sequence WHERE sequence_key = ?").bind(key).run();
+  }
   remove_orphans(database);
   return out;
 }
@@ -198,15 +192,14 @@ void Store::create() {
   make_ready(*database_);
   Transaction transaction(*database_);
   create_tables(*database_);
-  database_->execute("INSERT INTO run VALUES ('cells', '0')");
+  set_run_value(*database_, "cells", "0");
   write_description();
   transaction.commit();
 }
 
 void Store::write_description() {
-  Statement insert = database_->prepare("INSERT OR REPLACE INTO run VALUES (?, ?)");
-  if (planned_ > 0) insert.bind("planned", std::to_string(planned_)).run();
-  if (!shard_.empty()) insert.bind("shard", shard_).run();
+  if (planned_ > 0) set_run_value(*database_, "planned", std::to_string(planned_));
+  if (!shard_.empty()) set_run_value(*database_, "shard", shard_);
   write_run(*database_, keys_);
 }
 
@@ -224,12 +217,15 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
     return nothing;
   }
   Transaction transaction(*database_);
+  const bool is_described = remove_damaged_rows(*database_, kRunTable).empty();
+  if (damaged_rows(*database_, kProvenanceTable).contains(key_of_provenance(provenance_))) {
+    write_provenance(*database_, provenance_);  // so that its cells need not be recomputed
+  }
   std::vector<StoredCell> stored = read_stored_cells(*database_);
-  const std::vector<std::string> damaged =
-      remove_damaged(*database_, stored, retry == Retry::damaged);
+  const std::vector<std::string> damaged = remove_damaged(*database_, stored);
   Resumed out = match(*database_, stored, keys_, all, planned, retry);
   out.damaged = damaged;
-  out.unchanged = out.unchanged && damaged.empty();
+  out.unchanged = out.unchanged && damaged.empty() && is_described;
   out.unchanged = out.unchanged && is_description_current();
   if (!out.unchanged) write_description();
   transaction.commit();

@@ -28,13 +28,11 @@
 
 namespace loopbench::harness {
 
-/// Stored cells to run again. Cells whose own row is damaged are always recomputed; `damaged`
-/// checks their scores, reports and traces, too.
-enum class Retry { none, failed, damaged, all };
+/// Stored cells to run again. Damaged cells are always recomputed.
+enum class Retry { none, failed, all };
 inline auto choices(Retry) {
   return std::array{std::pair{"none", Retry::none},
                     std::pair{"failed", Retry::failed},
-                    std::pair{"damaged", Retry::damaged},
                     std::pair{"all", Retry::all}};
 }
 
@@ -65,8 +63,8 @@ class Store {
   Store& operator=(const Store&) = delete;
 
   /// Matches stored cells with the sweep by their keys, and marks the others as unused. Damaged
-  /// cells are removed first. `all`: every cell of the sweep; `planned`: those selected by --only.
-  /// O(cells + bytes of input).
+  /// cells are removed first, and damaged rows of run and provenance are written again. `all`:
+  /// every cell of the sweep; `planned`: those selected by --only. O(bytes of the store and input).
   Resumed resume(const std::vector<Cell>& all, const std::vector<Cell>& planned, Retry retry);
 
   /// Records that this store holds one shard of a sweep: "3/8 DIVISION", see division_hash(). Call

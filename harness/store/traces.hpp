@@ -10,16 +10,15 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/model/trace.hpp"
+#include "harness/store/hashes.hpp"
 #include "harness/store/open.hpp"
-#include "harness/store/schema.hpp"
-#include "harness/store/sqlite.hpp"
 #include "harness/store/stored_cells.hpp"
 #include "methods/report.hpp"
 
 namespace loopbench::harness {
 
 /// Traces of one store, which stays open; not thread-safe. Cells are given by their position in the
-/// sweep (Record::cell). Throws InputError if what is read is damaged.
+/// sweep (Record::cell). Throws InputError if a trace is damaged; read_cells() checks sections.
 class Traces {
  public:
   /// `file` can be the folder with results.sqlite.
@@ -35,8 +34,6 @@ class Traces {
   std::optional<SequenceTrace> sequence(std::int64_t position);
 
  private:
-  void require_intact(const Statement& row, const char* what) const;
-
   Database database_;
 };
 
@@ -57,7 +54,7 @@ std::vector<Item> from_blob(std::string_view bytes) {
 }
 
 inline std::string trace_query(const CellTable& table) {
-  return std::string("SELECT ") + table.columns + ", checksum FROM " + table.name +
+  return std::string("SELECT ") + table.columns + " FROM " + table.name +
          " WHERE cell = (SELECT id FROM cell WHERE position = ?)";  // in the order of the key
 }
 
@@ -65,21 +62,24 @@ inline Traces::Traces(const std::filesystem::path& file) : database_(open_store(
   database_.execute("COMMIT");  // a report takes long and must not block writers
 }
 
-inline void Traces::require_intact(const Statement& row, const char* what) const {
-  if (!row.is_intact(0)) throw_damaged(database_.file(), what);
-}
-
 inline std::optional<CellTrace> Traces::cell(std::int64_t position) {
+  Statement stored = database_.prepare(
+      "SELECT id, trace_hash, sequence, repeat, method FROM cell WHERE position = ?");
+  // While this is at a row, the queries that follow see the same state.
+  if (!stored.bind(position).step()) return std::nullopt;
+  StoredCell named;
+  stored.read(named.id, named.trace_hash, named.sequence, named.repeat, named.method);
+  if (trace_hash(database_, named.id) != named.trace_hash) {
+    throw_damaged(database_.file(), "the trace of " + label_of(named) + " is");
+  }
   Statement row = database_.prepare(trace_query(kTraceTable));
   if (!row.bind(position).step()) return std::nullopt;
-  require_intact(row, "the trace of a cell is");
   CellTrace out;
   out.times = from_text<metrics::Times>(row.text()).value_or(metrics::Times::dense);
   out.samples = from_blob<TraceSample>(row.view());
   Statement values = database_.prepare(trace_query(kPoseValueTable));
   values.bind(position);
   while (values.step()) {
-    require_intact(values, "a value of each pose is");
     values.integer();  // number
     TraceValues& added = out.values.emplace_back();
     values.read(added.name, added.unit);
@@ -93,7 +93,6 @@ inline std::vector<methods::Section> Traces::sections(std::int64_t position) {
   Statement row = database_.prepare(trace_query(kSectionTable));
   row.bind(position);
   while (row.step()) {
-    require_intact(row, "a section is");
     row.integer();  // number
     methods::Section& section = out.emplace_back();
     row.read(section.kind, section.begin, section.end, section.what);
@@ -103,12 +102,16 @@ inline std::vector<methods::Section> Traces::sections(std::int64_t position) {
 
 inline std::optional<SequenceTrace> Traces::sequence(std::int64_t position) {
   Statement row = database_.prepare(
-      std::string("SELECT ") + kSequenceTraceColumns +
-      ", checksum FROM sequence_trace WHERE sequence_key = (SELECT sequence_key FROM cell WHERE "
+      std::string("SELECT row_hash, ") + kSequenceTraceTable.columns +
+      " FROM sequence_trace WHERE sequence_key = (SELECT sequence_key FROM cell WHERE "
       "position = ?)");
   if (!row.bind(position).step()) return std::nullopt;
-  require_intact(row, "the trace of a sequence is");
-  row.view();  // sequence_key
+  std::uint64_t hash = 0;
+  row.read(hash);
+  const std::string key = row.text();
+  if (row.hashed(0, 1) != hash) {
+    throw_damaged(database_.file(), "row " + key + " of its table sequence_trace is");
+  }
   SequenceTrace out;
   row.read(out.origin.stamp, out.origin.x, out.origin.y, out.origin.z);
   out.reference = from_blob<TracePose>(row.view());

@@ -18,8 +18,6 @@ std::vector<std::string> random_options(History& history) {
   switch (history.random() % 8) {
     case 0:
       return {"--retry", "all"};
-    case 1:
-      return {"--retry", "damaged"};
     case 2:
       return {"--retry", "failed"};
     default:
@@ -207,7 +205,7 @@ void damage_store(History& history) {
   // Readers print rows of an intact store or one error.
   history.command({history.settings().binary, "table", history.out()}, {0, kBadInput});
   const int done = history.undisturbed().exit_code;
-  if (history.command(history.run_words({"--retry", "damaged"}), {done, kBadInput}) == done) return;
+  if (history.command(history.run_words(), {done, kBadInput}) == done) return;
   ++history.counts["not repaired"];
   history.command(history.run_words({"--fresh"}), {done});
 }
