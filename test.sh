@@ -12,15 +12,15 @@ install_missing "${packages[@]}" "${sandbox_packages[@]}" "${compression_package
 [[ " $* " == *" gcc "* ]] && install_missing g++
 [[ " $* " == *" debug "* || " $* " == *" tsan "* ]] && install_missing "${sanitizer_packages[@]}"
 
-# Runs shellcheck for all scripts, clang-format for all files, and clang-tidy for all but benchmarks, studies,
-# campaigns and fuzzing; each library and program as one source.
+# Runs shellcheck for all scripts, clang-format for all files, and clang-tidy for all but benchmarks, studies
+# and fuzzing; each library and program as one source.
 lint() {
   install_missing "${lint_packages[@]}"
   shellcheck -x ./*.sh cmake/*.sh cmake/package/*.sh datasets/*.sh results/*.sh tests/*.sh tests/*/*.sh .ci/*
   find datasets methods metrics harness include results tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run --Werror
   cmake --preset lint -DLOOPBENCH_BUILD_TESTS=ON >/dev/null
   # Long ones first, so that no processor waits at the end.
-  find build/lint -path '*/Unity/*.cxx' -not -regex '.*/tests/\(benchmarks\|campaign\|fuzz\|scale\|studies\)/.*' -printf '%s %p\n' |
+  find build/lint -path '*/Unity/*.cxx' -not -regex '.*/tests/\(benchmarks\|fuzz\|scale\|studies\)/.*' -printf '%s %p\n' |
     sort -rn | cut -d ' ' -f 2 |
     xargs -P "$(nproc)" -n 1 clang-tidy -p build/lint --quiet 2>/dev/null
 }

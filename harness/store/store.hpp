@@ -75,14 +75,13 @@ class Store {
   /// example if the disk is full.
   void write(const CellResult& result);
 
-  /// Waits until all written cells are on the disk. Throws InputError.
-  void sync();
-
   /// Waits until everything is on the disk and leaves a single file. Call at the end: the
   /// destructor does the same without errors. Throws InputError, for example if the disk fails.
   void close();
 
  private:
+  /// Waits until all written cells are on the disk. Throws InputError.
+  void sync();
   void create();
   void write_description();
   bool is_description_current();

@@ -27,7 +27,7 @@ namespace {
 #ifdef LOOPBENCH_SANITIZED
 constexpr int kKills = 15;  // each start costs ten times as much
 #else
-constexpr int kKills = 40;  // tests/campaign has as many as wanted
+constexpr int kKills = 40;
 #endif
 
 const char* const kConfig =
