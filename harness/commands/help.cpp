@@ -123,8 +123,8 @@ const std::string kSweepExitCodes =
 /// Of commands with other codes; "" is the program.
 const std::map<std::string, std::string> kExitCodes{
     {"",
-     "0 success, 1 failed cells or regressions, 2 invalid input or output, 3 internal error, 4 the "
-     "build lacks a required part, 130 interrupted."},
+     "0 success, 1 failed cells, regressions or assertions, 2 invalid input or output, 3 internal "
+     "error, 4 the build lacks a required part, 130 interrupted."},
     {"run", kSweepExitCodes},
     {"eval",
      "0 success, 1 an estimate failed or covers too little, 2 invalid input or output, 3 internal "

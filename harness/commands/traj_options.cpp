@@ -7,6 +7,7 @@
 #include "harness/commands/checks.hpp"
 #include "harness/commands/eval_options.hpp"
 #include "harness/commands/figure_options.hpp"
+#include "metrics/protocols/protocol.hpp"
 
 namespace loopbench::harness {
 namespace {
