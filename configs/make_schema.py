@@ -73,8 +73,7 @@ def values_schema():
 
 
 def dataset_keys():
-    return {"group": {"description": "name of runs that are not independent"} | TEXT,
-            "odometer": {"description": "name of the odometer: methods in C++ can learn from its other chains"} | TEXT}
+    return {"group": {"description": "name of runs that are not independent"} | TEXT}
 
 
 def entry_schema(kind, entry):
