@@ -55,9 +55,6 @@ void expect_near_keyframes(const Curve& curve, const Trajectory& keyframes, doub
   }
 }
 
-constexpr GaussianProcess::Prior kPriors[] = {GaussianProcess::Prior::velocity,
-                                              GaussianProcess::Prior::acceleration};
-
 TEST(PoseRuns, AreSplitAtTheGivenIntervals) {
   EXPECT_EQ(runs_without_breaks(5, [](std::size_t i) { return i == 1 || i == 3; }),
             (std::vector<PoseRun>{{0, 1}, {2, 3}, {4, 4}}));
@@ -92,28 +89,24 @@ TEST(ShortInterval, IsBridgedByAChordInsteadOfOvershooting) {
 
 TEST(GaussianProcess, AGapOf1000SecondsIsAChord) {
   const Problem problem = with_gap(1000.0);
-  for (const auto prior : kPriors) {
-    Report report;
-    const auto curve = GaussianProcess({.prior = prior}).smooth(problem, report);
-    EXPECT_EQ(count(report, "chords"), 1.0);
-    ASSERT_EQ(report.notes.size(), 1u);
-    const auto [metres, radians] = chord_deviation(*curve, problem.keyframes, 39);
-    EXPECT_LT(metres, 1e-9);
-    EXPECT_LT(radians, 1e-9);
-    EXPECT_GT(chord_deviation(*curve, problem.keyframes, 20).first, 1e-4);  // smooth elsewhere
-    expect_near_keyframes(*curve, problem.keyframes, 0.02);
-  }
+  Report report;
+  const auto curve = GaussianProcess({}).smooth(problem, report);
+  EXPECT_EQ(count(report, "chords"), 1.0);
+  ASSERT_EQ(report.notes.size(), 1u);
+  const auto [metres, radians] = chord_deviation(*curve, problem.keyframes, 39);
+  EXPECT_LT(metres, 1e-9);
+  EXPECT_LT(radians, 1e-9);
+  EXPECT_GT(chord_deviation(*curve, problem.keyframes, 20).first, 1e-4);  // smooth elsewhere
+  expect_near_keyframes(*curve, problem.keyframes, 0.02);
 }
 
 TEST(GaussianProcess, IntervalsBelowTheLimitAreSmoothed) {
   const double median = median_interval(hand_held_truth(40));
-  for (const auto prior : kPriors) {
-    for (const double gap : {10.0 * median, 49.0 * median, 0.055 * median}) {
-      Report report;
-      const auto curve = GaussianProcess({.prior = prior}).smooth(with_gap(gap), report);
-      EXPECT_TRUE(report.notes.empty()) << gap;
-      EXPECT_TRUE(is_finite(curve->at(curve->end())));
-    }
+  for (const double gap : {10.0 * median, 49.0 * median, 0.055 * median}) {
+    Report report;
+    const auto curve = GaussianProcess({}).smooth(with_gap(gap), report);
+    EXPECT_TRUE(report.notes.empty()) << gap;
+    EXPECT_TRUE(is_finite(curve->at(curve->end())));
   }
 }
 
@@ -122,12 +115,10 @@ TEST(GaussianProcess, AcceptsAPairOneMicrosecondApart) {
   problem.keyframes = hand_held_truth(60);
   problem.keyframes.insert(problem.keyframes.begin() + 31, problem.keyframes[30]);
   problem.keyframes[31].stamp += 1e-6;
-  for (const auto prior : kPriors) {
-    Report report;
-    const auto curve = GaussianProcess({.prior = prior}).smooth(problem, report);
-    EXPECT_EQ(count(report, "chords"), 1.0);
-    expect_near_keyframes(*curve, problem.keyframes, 0.02);
-  }
+  Report report;
+  const auto curve = GaussianProcess({}).smooth(problem, report);
+  EXPECT_EQ(count(report, "chords"), 1.0);
+  expect_near_keyframes(*curve, problem.keyframes, 0.02);
 }
 
 /// Keyframes 30 and later are rotated by another 150 degrees.

@@ -68,8 +68,7 @@ std::map<std::string, std::pair<Better, double>> directions(const std::string& m
   const Replay replay{thinned(circle(0.3)),
                       {test::closure_at(10, 0.0, 0.1),
                        test::closure_at(20, 0.0, 0.1),
-                       test::closure_at(30, 0.0, 0.1)},
-                      {}};
+                       test::closure_at(30, 0.0, 0.1)}};
   const std::vector<LoopCandidate> candidates{{0, 20, 1.0, true}, {5, 25, 0.5, true}};
   EvaluatedCell cell(circle(0.0),
                      problem,

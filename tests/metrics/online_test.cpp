@@ -27,8 +27,7 @@ Trajectory poses_along_x(const std::vector<double>& positions) {
 /// 4 m when it was there; closures moved it at keyframes 2 (from 2.5 to 2 m) and 4 (from 5 to 4 m).
 EvaluatedCell drive(const Protocol& protocol = {.align = Align::none}) {
   const Replay replay{poses_along_x({0.0, 1.5, 2.0, 3.5, 4.0}),
-                      {test::closure_at(2, 2.5, 2.0), test::closure_at(4, 5.0, 4.0)},
-                      {}};
+                      {test::closure_at(2, 2.5, 2.0), test::closure_at(4, 5.0, 4.0)}};
   return {poses_along_x({0, 1, 2, 3, 4}),
           test::along_x({0, 1, 2, 3, 4}),
           std::make_unique<test::ReplayedPolyline>(poses_along_x({0, 1, 2, 3, 4}), replay),
@@ -101,7 +100,7 @@ TEST(Online, IsUndefinedForMethodsThatWereNotReplayed) {
 }
 
 TEST(Online, IsUndefinedWithoutClosures) {
-  const Replay replay{poses_along_x({0, 1, 2}), {}, {}};
+  const Replay replay{poses_along_x({0, 1, 2}), {}};
   const EvaluatedCell cell(
       poses_along_x({0, 1, 2}),
       test::along_x({0, 1, 2}),
