@@ -27,12 +27,7 @@ std::string uncertain(const TemporaryFolder& folder, const char* name) {
 }
 
 double mean_nees(const std::vector<std::string>& arguments, const std::string& axis) {
-  const Json results = eval_json(arguments);
-  for (const Json& row : results["metrics"]) {
-    if (row["relation"] == "nees" && row["axis"] == axis) return row["mean"];
-  }
-  ADD_FAILURE() << "no nees";
-  return 0.0;
+  return find(eval_json(arguments), "nees", "nees", axis)["mean"];
 }
 
 double mean_square(const Json& results, const std::string& relation) {
@@ -43,7 +38,7 @@ double mean_square(const Json& results, const std::string& relation) {
 TEST(EvalCovariances, OfEqualAxesScaleTheAte) {
   const TemporaryFolder folder;
   const std::string file = uncertain(folder, "wide.txt");
-  const Json full = eval_json({golden("gt.txt"), golden("est_drift.txt"), "--metric", "ate"});
+  const Json full = eval_json(drift({"--metric", "ate"}));
   const std::string metric = "nees:gauge=protocol";
   const std::vector<std::string> arguments{golden("gt.txt"), file, "--metric", metric};
   EXPECT_NEAR(mean_nees(arguments, "position"), mean_square(full, "translation") / 1e-2, 1e-8);
@@ -56,8 +51,7 @@ TEST(EvalCovariances, OfEqualAxesScaleTheAte) {
       mean_nees({golden("gt.txt"), file, "--metric", metric, "--ref-sigma", "0.1"}, "position"),
       mean_square(full, "translation") / 2e-2,
       1e-8);
-  const Json none =
-      eval_json({golden("gt.txt"), golden("est_drift.txt"), "--metric", "ate", "--align", "none"});
+  const Json none = eval_json(drift({"--metric", "ate", "--align", "none"}));
   EXPECT_NEAR(mean_nees({golden("gt.txt"), file, "--metric", "nees:gauge=none"}, "position"),
               mean_square(none, "translation") / 1e-2,
               1e-6);
@@ -71,7 +65,7 @@ TEST(EvalCovariances, CanBeInAFileOfTheirOwn) {
     out << fmt::format("{} 0.01 0 0 0.01 0 0.01\n", pose.stamp);
   }
   out.close();
-  const Json full = eval_json({golden("gt.txt"), golden("est_drift.txt"), "--metric", "ate"});
+  const Json full = eval_json(drift({"--metric", "ate"}));
   const std::vector<std::string> arguments{
       golden("gt.txt"), golden("est_drift.txt"), "--metric", "nees", "--cov", file};
   EXPECT_NEAR(mean_nees(arguments, "position"), mean_square(full, "translation") / 1e-2, 1e-8);
@@ -81,9 +75,8 @@ TEST(EvalCovariances, CanBeInAFileOfTheirOwn) {
 }
 
 TEST(EvalCovariances, AreOptional) {
-  EXPECT_THAT(
-      eval({golden("gt.txt"), golden("est_drift.txt"), "--metric", "nees", "--metric", "ate"}),
-      HasSubstr("the estimate states no covariances"));
+  EXPECT_THAT(eval(drift({"--metric", "nees", "--metric", "ate"})),
+              HasSubstr("the estimate states no covariances"));
 }
 
 TEST(EvalCovariances, ConversionsKeepThemOrSayThatTheyAreLost) {
@@ -94,8 +87,9 @@ TEST(EvalCovariances, ConversionsKeepThemOrSayThatTheyAreLost) {
     EXPECT_EQ(traj({"convert", file, "-o", out(name)}).errors, "") << name;
     EXPECT_EQ(read_trajectory_file(out(name)).covariances, read_trajectory_file(file).covariances);
   }
-  EXPECT_THAT(traj({"convert", file, "--to", "euroc", "-o", out("b.csv")}).errors,
-              HasSubstr("wide.csv has covariances, which are not written: expected --to csv or tum"));
+  EXPECT_THAT(
+      traj({"convert", file, "--to", "euroc", "-o", out("b.csv")}).errors,
+      HasSubstr("wide.csv has covariances, which are not written: expected --to csv or tum"));
   EXPECT_THAT(traj({"convert", file, "--project_to_plane", "xy", "-o", out("b.csv")}).errors,
               HasSubstr("wide.csv: covariances are removed"));
   EXPECT_EQ(traj({"transform", file, "--left", "1,2,3", "-o", out("c.csv")}).errors, "");

@@ -2,15 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/eval/evaluation_result.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::eval_coverage_test {
-
-using namespace metrics;
-using namespace harness;
-
 namespace {
 
 using namespace test;
@@ -59,10 +54,9 @@ TEST_F(EvalCoverage, FivePosesOfAThousandAreIncompleteBesideOthers) {
   const std::string table = eval(both, kExitSomeCellsFailed);
   EXPECT_THAT(table, HasSubstr("| coverage [%] |"));
   EXPECT_THAT(table, HasSubstr("\n- short.txt: incomplete: evaluated 5 of 5 poses over 0.4 %"));
-
-  std::vector<std::string> accepted = both;
-  accepted.push_back("--min-coverage=0");
-  EXPECT_EQ(eval_json(accepted)[1]["status"], "ok");
+  EXPECT_EQ(eval_json(with(both, {"--min-coverage=0"}))[1]["status"], "ok");
+  // The RPE shows its own number of pairs.
+  EXPECT_THAT(eval(with(both, {"--min-coverage=0"})), HasSubstr("rpe 1 s [m]: 992;"));
 }
 
 TEST_F(EvalCoverage, ATenthIsTheLeastForOneEstimate) {
@@ -73,6 +67,23 @@ TEST_F(EvalCoverage, ATenthIsTheLeastForOneEstimate) {
   EXPECT_EQ(eval_json({reference_, short_, "--start=40", "--end=41"})["status"], "ok");
   const std::string tenth = written("tenth.txt", spiral(40.0, 51.0, 0.1, 1.0, 0.3));
   EXPECT_EQ(eval_json({reference_, tenth})["status"], "ok");
+}
+
+TEST_F(EvalCoverage, BelowTheStatedLimitIsIncomplete) {
+  const std::vector<std::string> limited = drift({"--min-coverage=0.97"});
+  const std::string why =
+      "evaluated 635 of 657 poses over 100.0 % of the reference's time, below 97.0 %";
+  const Json results = eval_json(limited, kExitSomeCellsFailed);
+  EXPECT_EQ(results["status"], "incomplete");
+  EXPECT_EQ(results["why"], why);
+  EXPECT_GT(find(results, "ate", "translation")["rmse"], 0.0);  // reported nevertheless
+  EXPECT_THAT(eval(limited, kExitSomeCellsFailed), HasSubstr("\nincomplete " + why + "\n"));
+  EXPECT_EQ(eval_json(drift({"--min-coverage=0.96"}))["status"], "ok");
+  const std::string table =
+      eval(with(limited, {golden("est_corrected.txt")}), kExitSomeCellsFailed);
+  EXPECT_THAT(table, HasSubstr("est_corrected.txt: incomplete: " + why));
+  EXPECT_THAT(table, HasSubstr(" incomplete |"));
+  EXPECT_THROW(eval(drift({"--min-coverage=1.5"})), CLI::ParseError);
 }
 
 TEST_F(EvalCoverage, FewPosesDoNotCoverTheTimeBetweenThem) {
@@ -107,24 +118,14 @@ TEST_F(EvalCoverage, CommonTimesOfAllEstimatesAreCompared) {
   };
   const std::vector<std::string> files{reference_, complete_, half, late};
   EXPECT_EQ(count(eval_json(files)[1]), 601);
-  std::vector<std::string> common = files;
-  common.push_back("--common=yes");
-  const Json results = eval_json(common);
+  const Json results = eval_json(with(files, {"--common=yes"}));
   for (const Json& result : results) EXPECT_NEAR(count(result), 401, 1) << result;
   EXPECT_NEAR(results[1]["span"].get<double>(), 0.6, 0.01);  // the loss stays visible
-  const std::string store = (folder_.path() / "store").string();
-  std::vector<std::string> stored = files;
-  stored.insert(stored.end(), {"--store", store});
+  const auto stored = with(files, {"--store", (folder_.path() / "store").string()});
   const std::string out = eval(stored);
   EXPECT_THAT(out, HasSubstr("% of the reference, others up to 100 %"));
-  EXPECT_EQ(out.find(" is best: "), out.npos) << out;
-  stored.push_back("--common=no");
-  eval(stored);
-}
-
-TEST_F(EvalCoverage, RpeShowsItsOwnPairs) {
-  EXPECT_THAT(eval({reference_, complete_, short_, "--min-coverage=0"}),
-              HasSubstr("rpe 1 s [m]: 992;"));
+  EXPECT_THAT(out, Not(HasSubstr(" is best: ")));
+  eval(with(stored, {"--common=no"}));
 }
 
 TEST_F(EvalCoverage, FewPairsAfterAFitAreNoted) {

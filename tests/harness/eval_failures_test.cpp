@@ -1,5 +1,5 @@
 /// Output of `eval` when metrics are undefined or fail, and when estimates cannot be evaluated.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 
@@ -7,32 +7,31 @@
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::eval_failures_test {
-
-using namespace harness;
-
 namespace {
 
 using namespace test;
+using testing::HasSubstr;
 
 constexpr const char* kShort = "0 0 0 0 0 0 0 1\n0.1 0.1 0 0 0 0 0 1\n0.2 0 0.1 0 0 0 0 1\n";
 
-TEST(EvalFailures, AnUndefinedMetricSaysWhyAndTheOthersStand) {
+struct EvalFailures : testing::Test {
   const TemporaryFolder folder;
   const std::string file = folder.file("short.txt", kShort).string();
+};
+
+TEST_F(EvalFailures, AnUndefinedMetricSaysWhyAndTheOthersStand) {
   const Json results = eval_json({file, file});
   EXPECT_EQ(find(results, "ate", "translation")["count"], 3);
   ASSERT_EQ(results["undefined"].size(), 3u);  // rpe over 1 frame, 1 s and 1 m
   EXPECT_EQ(results["undefined"][0]["why"],
             "found 2 pairs 1.0 frames apart among 3 poses, fewer than min_pairs = 10");
   EXPECT_EQ(results["undefined"][1]["why"], "none of 3 poses is 1.0 s before another");
-  EXPECT_NE(eval({file, file, "--full"}).find("\nrpe 1 m undefined: none of 3"), std::string::npos);
+  EXPECT_THAT(eval({file, file, "--full"}), HasSubstr("\nrpe 1 m undefined: none of 3"));
 }
 
 // If pairs 1 m apart are selected on the estimate and there are none, the estimate is at fault and
 // not the data, as in sweeps.
-TEST(EvalFailures, AFailedMetricIsNotUndefinedAndTheOthersStand) {
-  const TemporaryFolder folder;
-  const std::string file = folder.file("short.txt", kShort).string();
+TEST_F(EvalFailures, AFailedMetricIsNotUndefinedAndTheOthersStand) {
   const std::string why = "none of 3 poses is 1.0 m before another";
   const std::string from_estimate = "--set=pairs_from=estimate";
   const Json evaluated = eval_json({file, file, from_estimate});
@@ -41,10 +40,8 @@ TEST(EvalFailures, AFailedMetricIsNotUndefinedAndTheOthersStand) {
   ASSERT_EQ(evaluated["failed"].size(), 1u);
   EXPECT_EQ(evaluated["failed"][0]["metric"], "rpe");
   EXPECT_EQ(evaluated["failed"][0]["why"], why);
-  EXPECT_NE(eval({file, file, from_estimate, "--full"}).find("\nrpe 1 m failed: " + why),
-            std::string::npos);
-  EXPECT_NE(eval({file, file, from_estimate, "--csv"}).find(",failed," + why + "\n"),
-            std::string::npos);
+  EXPECT_THAT(eval({file, file, from_estimate, "--full"}), HasSubstr("\nrpe 1 m failed: " + why));
+  EXPECT_THAT(eval({file, file, from_estimate, "--csv"}), HasSubstr(",failed," + why + "\n"));
 
   const Json alone =
       eval_json({file, file, from_estimate, "-d", "1", "-u", "m"}, kExitSomeCellsFailed);
@@ -52,8 +49,7 @@ TEST(EvalFailures, AFailedMetricIsNotUndefinedAndTheOthersStand) {
   EXPECT_EQ(alone["why"], why);
 }
 
-TEST(EvalFailures, OneBadEstimateIsARowAndTheOthersStand) {
-  const TemporaryFolder folder;
+TEST_F(EvalFailures, OneBadEstimateIsARowAndTheOthersStand) {
   const std::string bad = folder.file("bad.txt", "1 0 0 \x1b[31m 0 0 0 1\n").string();
   const std::string why = bad + ":1: column 4 (tz): '\x1b[31m' is not a number";
   const std::vector<std::string> files{golden("gt.txt"), bad, golden("est_corrected.txt")};
@@ -68,50 +64,42 @@ TEST(EvalFailures, OneBadEstimateIsARowAndTheOthersStand) {
   EXPECT_EQ(results[1]["status"], "ok");
   EXPECT_EQ(results[1]["pairs"], 635);
 
-  std::vector<std::string> as_csv = files;
-  as_csv.push_back("--csv");
-  const std::string csv = eval(as_csv, kExitSomeCellsFailed);
-  EXPECT_NE(csv.find("\ngolden,0,bad,"), std::string::npos) << csv;
-  EXPECT_NE(csv.find(",failed," + bad + ":1: column 4 (tz): '\\x1b[31m' is not a number\n"),
-            std::string::npos)
-      << csv;
+  const std::string csv = eval(with(files, {"--csv"}), kExitSomeCellsFailed);
+  EXPECT_THAT(csv, HasSubstr("\ngolden,0,bad,"));
+  EXPECT_THAT(csv,
+              HasSubstr(",failed," + bad + ":1: column 4 (tz): '\\x1b[31m' is not a number\n"));
 
   const std::string text = eval(files, kExitSomeCellsFailed);
-  EXPECT_NE(text.find("failed |"), std::string::npos) << text;
-  EXPECT_NE(text.find("| est_corrected.txt |"), std::string::npos) << text;
-  EXPECT_NE(text.find("\n- bad.txt: failed: " + bad + ":1: column 4 (tz): ' [31m' is not"),
-            std::string::npos)
-      << text;  // no terminal escape sequences
+  EXPECT_THAT(text, HasSubstr("failed |"));
+  EXPECT_THAT(text, HasSubstr("| est_corrected.txt |"));
+  EXPECT_THAT(text,
+              HasSubstr("\n- bad.txt: failed: " + bad +
+                        ":1: column 4 (tz): ' [31m' is not"));  // no terminal escape sequences
   const std::string three =
       eval({files[0], bad, files[2], golden("est_drift.txt")}, kExitSomeCellsFailed);
-  EXPECT_NE(three.find("the baseline est_corrected ranks first: est_drift is"), std::string::npos)
-      << three;
+  EXPECT_THAT(three, HasSubstr("the baseline est_corrected ranks first: est_drift is"));
 }
 
-TEST(EvalFailures, AProtocolThatDoesNotFitIsARowAndABadReferenceAnError) {
-  const std::vector<std::string> both{
-      golden("gt.txt"), golden("est_drift.txt"), "--protocol=tum,kitti"};
+TEST_F(EvalFailures, AProtocolThatDoesNotFitIsARowAndABadReferenceAnError) {
+  const std::vector<std::string> both = drift({"--protocol=tum,kitti"});
   const Json results = eval_json(both, kExitSomeCellsFailed);
   ASSERT_EQ(results.size(), 2u);
   EXPECT_EQ(results[0]["status"], "ok");
   EXPECT_EQ(results[1]["status"], "failed");
   EXPECT_EQ(results[1]["protocol"]["name"], "kitti");
-  EXPECT_NE(eval(both, kExitSomeCellsFailed).find("\n- est_drift.txt: failed: "),
-            std::string::npos);
+  EXPECT_THAT(eval(both, kExitSomeCellsFailed), HasSubstr("\n- est_drift.txt: failed: "));
   EXPECT_EQ(refusal<InputError>({golden("absent.txt"), golden("gt.txt"), golden("gt.txt")}),
             golden("absent.txt") + ": no such file");
 }
 
-TEST(EvalFailures, NothingThatWasAskedForIsNoSuccess) {
-  const Json results =
-      eval_json({golden("gt.txt"), golden("est_drift.txt"), "-d", "1e9"}, kExitSomeCellsFailed);
+TEST_F(EvalFailures, NothingThatWasAskedForIsNoSuccess) {
+  const Json results = eval_json(drift({"-d", "1e9"}), kExitSomeCellsFailed);
   EXPECT_EQ(results["status"], "undefined");
   EXPECT_EQ(results["why"], "none of the requested metrics is defined");
   EXPECT_TRUE(results["metrics"].empty());
   EXPECT_EQ(results["undefined"][0]["why"], "none of 635 poses is 1e+09 frames before another");
-  const std::string text =
-      eval({golden("gt.txt"), golden("est_drift.txt"), "-d", "1e9"}, kExitSomeCellsFailed);
-  EXPECT_NE(text.find(" undefined: none of 635 poses"), std::string::npos) << text;
+  const std::string text = eval(drift({"-d", "1e9"}), kExitSomeCellsFailed);
+  EXPECT_THAT(text, HasSubstr(" undefined: none of 635 poses"));
 }
 
 }  // namespace

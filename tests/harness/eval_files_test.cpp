@@ -11,32 +11,39 @@
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::eval_files_test {
-
-using namespace methods;
-using namespace metrics;
-using namespace harness;
-
 namespace {
 
 using namespace test;
 using testing::HasSubstr;
 
-std::string written(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream(file) << text;
-  return file.string();
-}
+class EvalFiles : public testing::Test {
+ protected:
+  std::string written(const std::string& name, const std::string& text) const {
+    return folder_.file(name, text).string();
+  }
+  /// Names of columns and the first row of the errors of poses.
+  std::pair<std::string, std::string> first_error(const std::vector<std::string>& arguments) const {
+    const std::filesystem::path file = folder_.path() / "poses.csv";
+    eval(with(arguments, {"--align=none", "--per-pose=" + file.string()}));
+    std::ifstream in(file);
+    std::string header, row;
+    std::getline(in, header);
+    std::getline(in, row);
+    return {header, row};
+  }
+  TemporaryFolder folder_;
+};
 
 // Several files are evaluated in parallel.
-TEST(Eval, ThreadsDoNotMatterForSeveralFiles) {
+TEST_F(EvalFiles, ThreadsDoNotMatterForSeveralFiles) {
   const std::vector<std::string> estimates{
       golden("est_drift.txt"), golden("est_corrected.txt"), "absent.txt", golden("est_burst.txt")};
   std::vector<std::string> words{golden("gt.txt"), "--protocol=loopbench,tum"};
-  words.insert(words.begin() + 1, estimates.begin(), estimates.end());
-  const Json all = eval_json(words, kExitSomeCellsFailed);
+  const Json all = eval_json(with(words, estimates), kExitSomeCellsFailed);
   ASSERT_EQ(all.size(), 2 * estimates.size());
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     const Json alone =
-        eval_json({words[0], estimates[i], words.back()}, i == 2 ? kExitSomeCellsFailed : kExitOk);
+        eval_json(with(words, {estimates[i]}), i == 2 ? kExitSomeCellsFailed : kExitOk);
     for (std::size_t k = 0; k < 2; ++k) {
       for (const char* key : {"estimate", "status", "why", "metrics", "pairs"}) {
         EXPECT_EQ(all[2 * i + k].value(key, Json()), alone[k].value(key, Json()))
@@ -46,12 +53,10 @@ TEST(Eval, ThreadsDoNotMatterForSeveralFiles) {
   }
 }
 
-TEST(Eval, TellsWhatReadingMended) {
-  const TemporaryFolder folder;
-  const std::string reference =
-      written(folder.path() / "reference.txt",
-              "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 1 1 0 0 0 0 1\n3 0 1 1 0 0 0 1\n");
-  const std::string estimate = written(folder.path() / "estimate.txt",
+TEST_F(EvalFiles, TellsWhatReadingMended) {
+  const std::string reference = written(
+      "reference.txt", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 1 1 0 0 0 0 1\n3 0 1 1 0 0 0 1\n");
+  const std::string estimate = written("estimate.txt",
                                        "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1.005\n1 9 9 9 0 0 0 1\n"
                                        "2 1 1 0 0 0 0 1\n3 0 1 1 0 0 0 0.998\n");
   const Json results = eval_json({reference, estimate, "--repeats=keep_first"});
@@ -73,11 +78,10 @@ std::string bent_way(const std::filesystem::path& file, const Pose& aside) {
   return file.string();
 }
 
-TEST(Eval, SaysWhenTheReferenceIsAnotherBodyAndTakesItsPlace) {
-  const TemporaryFolder folder;
+TEST_F(EvalFiles, SaysWhenTheReferenceIsAnotherBodyAndTakesItsPlace) {
   const std::string reference =
-      bent_way(folder.path() / "marker.txt", {Rotation(0.5, 0.5, 0.5, 0.5), {0.1, -0.2, 0.3}});
-  const std::string estimate = bent_way(folder.path() / "camera.txt", {});
+      bent_way(folder_.path() / "marker.txt", {Rotation(0.5, 0.5, 0.5, 0.5), {0.1, -0.2, 0.3}});
+  const std::string estimate = bent_way(folder_.path() / "camera.txt", {});
   const std::string place = "0.1,-0.2,0.3,0.5,0.5,0.5,0.5";
   EXPECT_THAT(
       eval({reference, estimate}),
@@ -104,24 +108,19 @@ TEST(Eval, SaysWhenTheReferenceIsAnotherBodyAndTakesItsPlace) {
       HasSubstr("--ref-body: '0,0,0,0,0,0,2': expected a unit quaternion after the position"));
 }
 
-TEST(Eval, NumberedPosesAreNotPairedWithStampedOnes) {
+TEST_F(EvalFiles, NumberedPosesAreNotPairedWithStampedOnes) {
   const std::string numbered = golden("kitti_gt.txt"), stamped = golden("gt.txt");
   const std::string rule =
       ": is kitti, poses without stamps, and the other file has stamps: expected --times FILE "
       "(KITTI), --period S or --association index";
   EXPECT_EQ(refusal<InputError>({stamped, numbered}), numbered + rule);
   EXPECT_EQ(refusal<InputError>({numbered, stamped}), numbered + rule);
-  const Json stated = eval_json({stamped,
-                                 numbered,
-                                 "--period=0.1",
-                                 "--offset=1700000000",
-                                 "--max-diff=0.05",
-                                 "--align=none"});
-  EXPECT_GT(stated["pairs"], 100);
+  const std::vector<std::string> options{
+      "--period=0.1", "--offset=1700000000", "--max-diff=0.05", "--align=none"};
+  EXPECT_GT(eval_json(with({stamped, numbered}, options))["pairs"], 100);
 }
 
-TEST(Eval, ErrorsOfPosesHaveNoTurnWhereThereIsNoAttitude) {
-  const TemporaryFolder folder;
+TEST_F(EvalFiles, ErrorsOfPosesHaveNoTurnWhereThereIsNoAttitude) {
   std::string positions, turning;
   for (int i = 0; i < 20; ++i) {
     const std::string place =
@@ -129,22 +128,14 @@ TEST(Eval, ErrorsOfPosesHaveNoTurnWhereThereIsNoAttitude) {
     positions += place + "0 1\n";
     turning += place + (i % 2 == 0 ? "0 1\n" : "0.6 0.8\n");
   }
-  const std::string poses = (folder.path() / "poses.csv").string();
-  eval({written(folder.path() / "reference.txt", positions),
-        written(folder.path() / "estimate.txt", turning),
-        "--align=none",
-        "--per-pose=" + poses});
-  std::ifstream in(poses);
-  std::string header, row;
-  std::getline(in, header);
-  std::getline(in, row);
+  const auto [header, row] =
+      first_error({written("reference.txt", positions), written("estimate.txt", turning)});
   EXPECT_TRUE(header.ends_with(",distance_m,rx_rad,ry_rad,rz_rad,angle_rad")) << header;
   EXPECT_TRUE(row.ends_with(",0,0,0,0,0,,,,")) << row;  // stamp, x y z, distance
 }
 
-TEST(Eval, AFailedEstimateKeepsTheBodyOfTheReference) {
-  const TemporaryFolder folder;
-  const std::string bad = folder.file("bad.txt", "not a pose\n").string();
+TEST_F(EvalFiles, AFailedEstimateKeepsTheBodyOfTheReference) {
+  const std::string bad = written("bad.txt", "not a pose\n");
   const Json results = eval_json({golden("gt.txt"), bad, golden("gt.txt"), "--ref-body=0.1,0,0"},
                                  kExitSomeCellsFailed);
   ASSERT_EQ(results.size(), 2u);
@@ -153,30 +144,21 @@ TEST(Eval, AFailedEstimateKeepsTheBodyOfTheReference) {
   EXPECT_EQ(results[1]["reference_body"], "0.1,0,0");
 }
 
-TEST(Eval, ErrorsOfPosesHaveTheStampsOfBoth) {
-  const TemporaryFolder folder;
-  const std::string poses = (folder.path() / "poses.csv").string();
+TEST_F(EvalFiles, ErrorsOfPosesHaveTheStampsOfBoth) {
   const std::string rest = " 0 0 0 0 1\n";
-  eval({written(folder.path() / "reference.txt",
-                "1 0 0" + rest + "2 1 0" + rest + "3 1 1" + rest + "4 2 5" + rest),
-        written(folder.path() / "estimate.txt",
-                "1.01 0 0" + rest + "2.01 1 0" + rest + "3.01 1 1" + rest + "4.01 2 5" + rest),
-        "--align=none",
-        "--association=evo",
-        "--max-diff=0.1",
-        "--per-pose=" + poses});
-  std::ifstream in(poses);
-  std::string header, row;
-  std::getline(in, header);
-  std::getline(in, row);
-  EXPECT_NE(header.find(",stamp,estimate_stamp,x_m,"), std::string::npos) << header;
-  EXPECT_NE(row.find(",1,1.01,0,"), std::string::npos) << row;
+  const auto [header, row] = first_error(
+      {written("reference.txt", "1 0 0" + rest + "2 1 0" + rest + "3 1 1" + rest + "4 2 5" + rest),
+       written("estimate.txt",
+               "1.01 0 0" + rest + "2.01 1 0" + rest + "3.01 1 1" + rest + "4.01 2 5" + rest),
+       "--association=evo",
+       "--max-diff=0.1"});
+  EXPECT_THAT(header, HasSubstr(",stamp,estimate_stamp,x_m,"));
+  EXPECT_THAT(row, HasSubstr(",1,1.01,0,"));
 }
 
 // Pairs by the literal sync.py of evo: 6 of the 7 repeated stamps are within 0.01 s of a reference
 // pose.
-TEST(Eval, KeepsEqualStampsAsEvoDoes) {
-  const TemporaryFolder folder;
+TEST_F(EvalFiles, KeepsEqualStampsAsEvoDoes) {
   std::ifstream drift(golden("est_drift.txt"));
   std::string repeated;
   std::size_t rows = 0;
@@ -185,7 +167,7 @@ TEST(Eval, KeepsEqualStampsAsEvoDoes) {
     if (line.starts_with('#') || rows++ % 100 != 0) continue;
     repeated += line.substr(0, line.find(' ')) + " 1 2 3 0 0 0 1\n";
   }
-  const std::string file = written(folder.path() / "repeated.txt", repeated);
+  const std::string file = written("repeated.txt", repeated);
   const Json result = eval_json({golden("gt.txt"), file, "--protocol=evo", "-a"});
   EXPECT_EQ(result["possible"], 664);
   EXPECT_EQ(result["pairs"], 641);

@@ -2,8 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "datasets/core/se3.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 #include "harness/eval/trajectory_selection.hpp"
@@ -12,11 +10,6 @@
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::eval_positions_test {
-
-using namespace methods;
-using namespace metrics;
-using namespace harness;
-
 namespace {
 
 using namespace test;
@@ -24,40 +17,42 @@ using testing::HasSubstr;
 
 const Pose kAntenna{Rotation::Identity(), {0.1, -0.2, 0.3}};
 
-/// The golden reference with `point` in the body frame as position, and without rotation.
-std::string positions_of(const TemporaryFolder& folder, const Pose& point, std::size_t every = 1) {
-  const Trajectory all = read_trajectory(golden("gt.txt"));
-  Trajectory out;
-  for (std::size_t i = 0; i < all.size(); i += every) {
-    const Pose moved = all[i].world_from_body * point;
-    out.push_back({all[i].stamp, {no_rotation(), moved.translation}});
+class EvalPositions : public testing::Test {
+ protected:
+  /// The golden reference with `point` in the body frame as position, and without rotation.
+  std::string positions_of(const Pose& point, std::size_t every = 1) const {
+    const Trajectory all = read_trajectory(golden("gt.txt"));
+    Trajectory out;
+    for (std::size_t i = 0; i < all.size(); i += every) {
+      const Pose moved = all[i].world_from_body * point;
+      out.push_back({all[i].stamp, {no_rotation(), moved.translation}});
+    }
+    const auto file = folder.path() / "positions.txt";
+    write_trajectory(file, {.poses = out}, Format::tum);
+    return file.string();
   }
-  const auto file = folder.path() / "positions.txt";
-  write_trajectory(file, {.poses = out}, Format::tum);
-  return file.string();
-}
+  TemporaryFolder folder;
+};
 
 double ate_of(const Json& results) { return find(results, "ate", "translation")["rmse"]; }
 
-TEST(EvalPositions, PositionsGiveTheAteOfTheFullReference) {
-  const TemporaryFolder folder;
-  const double full = ate_of(eval_json({golden("gt.txt"), golden("est_drift.txt")}));
-  const std::string positions = positions_of(folder, Pose{});
+TEST_F(EvalPositions, PositionsGiveTheAteOfTheFullReference) {
+  const double full = ate_of(eval_json(drift()));
+  const std::string positions = positions_of(Pose{});
   const Json results = eval_json({positions, golden("est_drift.txt")});
   EXPECT_NEAR(ate_of(results), full, 1e-12);
   EXPECT_THAT(
       eval({positions, golden("est_drift.txt")}),
       HasSubstr("undefined: the reference has positions\n  without rotation, so rotation is not"));
-  EXPECT_THAT(eval({golden("gt.txt"), golden("est_drift.txt"), "--ref-positions"}),
+  EXPECT_THAT(eval(drift({"--ref-positions"})),
               HasSubstr("undefined: the reference has positions\n"));
   EXPECT_THAT(refusal<InputError>({positions, golden("est_drift.txt"), "--align_origin"}),
               HasSubstr("its first pose does not define a rotation"));
 }
 
-TEST(EvalPositions, TheEstimateIsMovedToTheAntenna) {
-  const TemporaryFolder folder;
+TEST_F(EvalPositions, TheEstimateIsMovedToTheAntenna) {
   const std::string body = "--ref-body=0.1,-0.2,0.3";
-  const std::string antenna = positions_of(folder, kAntenna);
+  const std::string antenna = positions_of(kAntenna);
   // The reference itself as estimate: nothing remains.
   EXPECT_LT(ate_of(eval_json({antenna, golden("gt.txt"), body})), 1e-9);
   EXPECT_GT(ate_of(eval_json({antenna, golden("gt.txt")})), 0.05);
@@ -65,7 +60,7 @@ TEST(EvalPositions, TheEstimateIsMovedToTheAntenna) {
               HasSubstr("--ref-body needs rotations, and neither file has any"));
 }
 
-TEST(EvalPositions, TrajRejectsWhatNeedsRotations) {
+TEST_F(EvalPositions, TrajRejectsWhatNeedsRotations) {
   const Trajectory positions{{0, {no_rotation(), {0, 0, 0}}}, {1, {no_rotation(), {1, 0, 0}}}};
   EXPECT_THROW(by_motion(positions, 0.5, 5.0), InputError);
   EXPECT_EQ(by_motion(positions, 0.5, 360.0).size(), 2u);
@@ -73,9 +68,8 @@ TEST(EvalPositions, TrajRejectsWhatNeedsRotations) {
   EXPECT_TRUE(lacks_rotations(transformed(positions, Similarity{}, TransformSide::left)));
 }
 
-TEST(EvalPositions, ControlPointsAreScoredAtTheirStamps) {
-  const TemporaryFolder folder;
-  const std::string points = positions_of(folder, Pose{}, 40);
+TEST_F(EvalPositions, ControlPointsAreScoredAtTheirStamps) {
+  const std::string points = positions_of(Pose{}, 40);
   const Json results =
       eval_json({points, golden("gt.txt"), "--protocol=hilti", "--set=align=none"});
   EXPECT_EQ(results["possible"], results["pairs"]);
@@ -86,8 +80,7 @@ TEST(EvalPositions, ControlPointsAreScoredAtTheirStamps) {
   }
 }
 
-TEST(EvalPositions, OneFrameShowsTheErrorWithoutAlignment) {
-  const TemporaryFolder folder;
+TEST_F(EvalPositions, OneFrameShowsTheErrorWithoutAlignment) {
   Trajectory shifted = read_trajectory(golden("gt.txt"));
   for (StampedPose& pose : shifted) pose.world_from_body.translation.x() += 0.05;
   write_tum(folder.path() / "shifted.txt", shifted);
@@ -95,8 +88,7 @@ TEST(EvalPositions, OneFrameShowsTheErrorWithoutAlignment) {
   EXPECT_THAT(shown, HasSubstr("in one frame: ATE 0.05 m without alignment"));
 }
 
-TEST(EvalPositions, LatitudesStateTheirDatumAndShareTheOrigin) {
-  const TemporaryFolder folder;
+TEST_F(EvalPositions, LatitudesStateTheirDatumAndShareTheOrigin) {
   std::string table = "t,latitude,longitude,height\n";
   std::string other = table;
   for (int i = 0; i < 40; ++i) {
@@ -106,10 +98,8 @@ TEST(EvalPositions, LatitudesStateTheirDatumAndShareTheOrigin) {
     table += row + ",400\n";
     other += row + ",401\n";
   }
-  std::ofstream(folder.path() / "a.csv") << table;
-  std::ofstream(folder.path() / "b.csv") << other;
-  const std::vector<std::string> files{(folder.path() / "a.csv").string(),
-                                       (folder.path() / "b.csv").string()};
+  const std::vector<std::string> files{folder.file("a.csv", table).string(),
+                                       folder.file("b.csv", other).string()};
   try {
     const std::string shown = eval(files);
     EXPECT_THAT(shown, HasSubstr("WGS 84, local coordinates east, north, up at latitude 47,"));

@@ -1,27 +1,16 @@
-/// eval with other tools' protocols, options and folders.
-#include <gtest/gtest.h>
+/// `eval` with protocols, options and filters of other tools; evo 1.36 on the same files.
+#include <gmock/gmock.h>
 
-#include <filesystem>
-#include <fstream>
-#include <regex>
-
-#include "harness/eval/evaluation_result.hpp"
 #include "tests/support/eval_command.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::eval_protocols_test {
-
-using namespace metrics;
-using namespace harness;
-
 namespace {
 
 using namespace test;
+using testing::HasSubstr;
 
 double rmse(const std::vector<std::string>& options, const std::string& metric) {
-  std::vector<std::string> arguments{golden("gt.txt"), golden("est_drift.txt"), "--protocol=evo"};
-  arguments.insert(arguments.end(), options.begin(), options.end());
-  const Json results = eval_json(arguments);
+  const Json results = eval_json(with(drift({"--protocol=evo"}), options));
   for (const Json& row : results["metrics"]) {
     if (row["metric"] == metric && row["axis"] == "3d") return row["rmse"];
   }
@@ -50,11 +39,7 @@ TEST(Eval, KnowsEvosHabits) {
 }
 
 TEST(Eval, TellsTheProtocolInFull) {
-  const Json results = eval_json({golden("gt.txt"),
-                                  golden("est_drift.txt"),
-                                  "--protocol=evo",
-                                  "--align=origin",
-                                  "--set=ddof=1"});
+  const Json results = eval_json(drift({"--protocol=evo", "--align=origin", "--set=ddof=1"}));
   const Json& protocol = results["protocol"];
   EXPECT_EQ(protocol["name"], "evo");
   EXPECT_EQ(protocol["version"], "26d0953");
@@ -64,26 +49,19 @@ TEST(Eval, TellsTheProtocolInFull) {
 }
 
 TEST(Eval, SeveralProtocolsAndEstimatesAreATable) {
-  const std::string got = eval({golden("gt.txt"),
-                                golden("est_drift.txt"),
-                                golden("est_corrected.txt"),
-                                "--protocol=tum,rpg"});
-  EXPECT_NE(got.find("tum [evo 26d0953, test/tum_benchmark_tools], rmse against "),
-            std::string::npos);
-  EXPECT_NE(got.find("rpg [8c8ceec], rmse against "), std::string::npos);
-  EXPECT_NE(got.find("| ate [m] |"), std::string::npos);
-  EXPECT_NE(got.find("est_corrected.txt"), std::string::npos);
-  EXPECT_EQ(eval_json({golden("gt.txt"), golden("est_drift.txt"), "--protocol=tum,rpg"}).size(),
-            2u);
+  const std::string got = eval(drift({golden("est_corrected.txt"), "--protocol=tum,rpg"}));
+  EXPECT_THAT(got, HasSubstr("tum [evo 26d0953, test/tum_benchmark_tools], rmse against "));
+  EXPECT_THAT(got, HasSubstr("rpg [8c8ceec], rmse against "));
+  EXPECT_THAT(got, HasSubstr("| ate [m] |"));
+  EXPECT_THAT(got, HasSubstr("est_corrected.txt"));
+  EXPECT_EQ(eval_json(drift({"--protocol=tum,rpg"})).size(), 2u);
 }
 
 TEST(Eval, CsvHoldsALinePerScoreInFull) {
-  const std::string got =
-      eval({golden("gt.txt"), golden("est_drift.txt"), "--protocol=evo", "-a", "--csv"});
-  EXPECT_NE(got.find("golden,0,est_drift,,false,false,evo (align=se3),26d0953,keyframes,ate,ate,"
-                     "translation,3d,m,lower,,635,0.6762082606821"),
-            std::string::npos)
-      << got;
+  const std::string got = eval(drift({"--protocol=evo", "-a", "--csv"}));
+  EXPECT_THAT(got,
+              HasSubstr("golden,0,est_drift,,false,false,evo (align=se3),26d0953,keyframes,ate,ate,"
+                        "translation,3d,m,lower,,635,0.6762082606821"));
 }
 
 TEST(Eval, EvaluatesKittiByTheDigitsOfItsFiles) {
@@ -97,33 +75,11 @@ TEST(Eval, EvaluatesKittiByTheDigitsOfItsFiles) {
 }
 
 TEST(Eval, DrawsTumsRandomPairsOnce) {
-  const Json results = eval_json(
-      {golden("gt.txt"), golden("est_drift.txt"), "--protocol=tum", "--set=pairs=tum_random"});
+  const Json results = eval_json(drift({"--protocol=tum", "--set=pairs=tum_random"}));
   EXPECT_NEAR(find(results, "rpe", "translation")["rmse"], 1.5566026278354204, 1e-9);
   int rows = 0;
   for (const Json& row : results["metrics"]) rows += row["metric"] == "rpe" ? 1 : 0;
   EXPECT_EQ(rows, 5);
-}
-
-TEST(Eval, BelowTheLimitOfCoverageIsIncomplete) {
-  const std::vector<std::string> arguments{
-      golden("gt.txt"), golden("est_drift.txt"), "--min-coverage=0.97"};
-  const std::string why =
-      "evaluated 635 of 657 poses over 100.0 % of the reference's time, below 97.0 %";
-  const Json results = eval_json(arguments, kExitSomeCellsFailed);
-  EXPECT_EQ(results["status"], "incomplete");
-  EXPECT_EQ(results["why"], why);
-  EXPECT_GT(find(results, "ate", "translation")["rmse"], 0.0);  // reported nevertheless
-  EXPECT_NE(eval(arguments, kExitSomeCellsFailed).find("\nincomplete " + why + "\n"),
-            std::string::npos);
-  const Json enough = eval_json({arguments[0], arguments[1], "--min-coverage=0.96"});
-  EXPECT_EQ(enough["status"], "ok");
-  const std::string table =
-      eval({arguments[0], arguments[1], golden("est_corrected.txt"), "--min-coverage=0.97"},
-           kExitSomeCellsFailed);
-  EXPECT_NE(table.find("est_corrected.txt: incomplete: " + why), std::string::npos) << table;
-  EXPECT_NE(table.find(" incomplete |"), std::string::npos) << table;
-  EXPECT_THROW(eval({arguments[0], arguments[1], "--min-coverage=1.5"}), CLI::ParseError);
 }
 
 TEST(Eval, RefusesProtocolsThatCannotBe) {
@@ -136,6 +92,66 @@ TEST(Eval, RefusesProtocolsThatCannotBe) {
             "--set: found 'ddof', expected OPTION=VALUE");
   EXPECT_EQ(refusal<OptionError>({tum, tum, "--align=origin", "-s"}),
             "align = origin: has no variant with scale; use se3 or none");
+}
+
+Json evaluated(const std::vector<std::string>& options) {
+  return eval_json(with(drift({"--protocol=evo", "-a"}), options));
+}
+
+double ate(const Json& result) { return find(result, "ate", "translation")["rmse"]; }
+
+TEST(EvalFilters, MotionFilterIsThatOfEvo) {
+  const Json result = evaluated({"--motion_filter", "0.2", "3"});
+  EXPECT_EQ(result["pairs"], 61);  // of 356 poses of the reference
+  EXPECT_EQ(result["possible"], 303);
+  EXPECT_NEAR(ate(result), 0.6714582585666118, 1e-12);
+}
+
+TEST(EvalFilters, TimeRangeCutsTheReference) {
+  const Json result = evaluated({"--t_start=1700000010", "--t_end=1700000020"});
+  EXPECT_EQ(result["pairs"], 165);
+  EXPECT_GT(result["coverage"], 0.95);
+  EXPECT_NEAR(ate(result), 0.14221731741268467, 1e-12);
+  EXPECT_EQ(refusal<InputError>(drift({"--start=2", "--end=1"})), "--start 2 is after --end 1");
+  EXPECT_EQ(refusal<InputError>(drift({"--end=1"})),
+            golden("gt.txt") + ": has no poses between --start and --end");
+}
+
+TEST(EvalFilters, DownsamplesBothFiles) {
+  const Json result = evaluated({"-s", "--downsample=300", "--t_max_diff=0.05"});
+  EXPECT_EQ(result["pairs"], 227);
+  EXPECT_NEAR(ate(result), 0.6610658733288742, 1e-12);
+}
+
+TEST(EvalFilters, PairsAreThoseOfEvo) {
+  EXPECT_EQ(evaluated({"--t_max_diff=0.003", "--t_offset=-0.004"})["pairs"], 578);
+  // A reference pose can be the nearest one of several poses.
+  const Json burst = eval_json({golden("gt.txt"), golden("est_burst.txt"), "--association=evo"});
+  EXPECT_EQ(burst["pairs"], 953);
+}
+
+TEST(EvalFilters, UnitsChange) {
+  EXPECT_NEAR(ate(evaluated({"--change_unit=mm"})), 676.208260682124, 1e-9);
+  const Json result = evaluated({"--unit=rad", "-r", "angle_deg"});
+  const Json& ape = result["metrics"][0];
+  EXPECT_EQ(ape["unit"], "rad");
+  EXPECT_NEAR(ape["rmse"], 0.11910329954688206, 1e-12);
+  const Json degrees = evaluated({"--unit=deg", "-r", "angle_rad"});
+  EXPECT_NEAR(degrees["metrics"][0]["rmse"], 0.11910329954688206 * 180.0 / M_PI, 1e-9);
+  EXPECT_THAT(eval(drift({golden("est_corrected.txt"), "--unit=km"})), HasSubstr("| 0.000676 |"));
+  EXPECT_EQ(refusal<InputError>(drift({"--unit=inch"})),
+            "--unit: found 'inch', expected mm, cm, m, km, deg or rad");
+  EXPECT_EQ(refusal<InputError>(drift({"--unit=km", "--metric=coverage"})),
+            "--unit km: no score is a length");
+}
+
+TEST(EvalFilters, PrintsTheTransformThatTrajReads) {
+  const Json alignment = evaluated({"-s"})["alignment"];
+  for (const char* key : {"x", "y", "z", "qx", "qy", "qz", "qw", "scale"}) {
+    EXPECT_TRUE(alignment[key].is_number()) << key;
+  }
+  EXPECT_THAT(eval(drift()), HasSubstr("\ntransform  x,y,z,qx,qy,qz,qw = "));
+  EXPECT_THAT(eval(drift({"--align=none"})), testing::Not(HasSubstr("\ntransform ")));
 }
 
 }  // namespace

@@ -23,20 +23,14 @@ using namespace harness;
 class EvalStoreOptions : public test::RecordedFiles {};
 
 TEST_F(EvalStoreOptions, PrintsFindingsOfTheDoctorOncePerKind) {
+  std::vector<std::string> arguments{write("reference.txt", long_path(0.0))};
   for (int run = 0; run < 10; ++run) {  // stamps 0.35 s late
     Trajectory late = long_path(0.001 * run);
     for (StampedPose& pose : late) pose.stamp += 0.35;
-    std::filesystem::create_directories(path("late"));
-    write_tum(path("late/" + std::to_string(run) + ".txt"), late);
+    arguments.push_back(write("late/" + std::to_string(run) + ".txt", late));
   }
-  write_tum(path("reference.txt"), long_path(0.0));
-  std::vector<std::string> arguments{path("reference.txt")};
-  for (int run = 0; run < 10; ++run) {
-    arguments.push_back(path("late/" + std::to_string(run) + ".txt"));
-  }
-  arguments.insert(arguments.end(), {"--store", path("store")});
   testing::internal::CaptureStderr();
-  test::eval(arguments);
+  stored(arguments);
   const std::string notes = testing::internal::GetCapturedStderr();
   EXPECT_THAT(notes, HasSubstr(path("late/0.txt") + ": doctor: time_offset: "));
   EXPECT_THAT(notes, HasSubstr("(and 9 more runs)"));
@@ -44,12 +38,9 @@ TEST_F(EvalStoreOptions, PrintsFindingsOfTheDoctorOncePerKind) {
 }
 
 TEST_F(EvalStoreOptions, RejectsOptionsThatAStoreIgnores) {
-  std::vector<std::string> files = files_of("office");
-  files.insert(files.end(), {"--store", path("store")});
   const auto error = [&](const std::string& option, const std::string& value) {
-    std::vector<std::string> arguments = files;
-    arguments.insert(arguments.end(), {option, value});
-    return test::refusal<InputError>(arguments);
+    return test::refusal<InputError>(
+        test::with(files_of("office"), {"--store", path("store"), option, value}));
   };
   EXPECT_THAT(error("--report", "out.html"),
               HasSubstr("loopbench report " + path("store") + " -o out.html"));
@@ -76,20 +67,13 @@ TEST_F(EvalStoreOptions, EvaluatesNoNumbersAgainstStamps) {
   std::ofstream kitti(path("kitti.txt"));
   for (int i = 0; i < 60; ++i) kitti << "1 0 0 " << i << " 0 1 0 0 0 0 1 0\n";
   kitti.close();
-  const std::string out =
-      test::eval({path("truths/office.txt"), path("kitti.txt"), "--store", path("store")},
-                 kExitSomeCellsFailed);
-  EXPECT_THAT(out, HasSubstr("poses without stamps, and the other file has stamps"));
+  EXPECT_THAT(stored({path("truths/office.txt"), path("kitti.txt")}, kExitSomeCellsFailed),
+              HasSubstr("poses without stamps, and the other file has stamps"));
 }
 
 TEST_F(EvalStoreOptions, MetricsThatFailAreFailures) {
-  const std::string out = test::eval({path("truths/office.txt"),
-                                      path("systems/good/office/0.txt"),
-                                      "--offset",
-                                      "0.05",
-                                      "--store",
-                                      path("store")},
-                                     kExitSomeCellsFailed);
+  const std::string out =
+      stored(test::with(office({"good/office/0"}), {"--offset", "0.05"}), kExitSomeCellsFailed);
   EXPECT_THAT(out, HasSubstr("1 failed\nfailed: " + path("systems/good/office/0.txt")));
   EXPECT_THAT(out, HasSubstr("no pose of the estimate"));
 }
@@ -97,16 +81,10 @@ TEST_F(EvalStoreOptions, MetricsThatFailAreFailures) {
 TEST_F(EvalStoreOptions, LowCoverageHasExitCodeOne) {
   Trajectory part = path_of(0.01);
   part.resize(40);
-  write_tum(path("part.txt"), part);
+  const std::vector<std::string> arguments{
+      path("truths/office.txt"), write("part.txt", part), "--min-coverage", "0.9"};
   for (int call = 0; call < 2; ++call) {  // also if it is stored already
-    EXPECT_THAT(test::eval({path("truths/office.txt"),
-                            path("part.txt"),
-                            "--min-coverage",
-                            "0.9",
-                            "--store",
-                            path("store")},
-                           kExitSomeCellsFailed),
-                HasSubstr("1 with coverage below 0.9"));
+    EXPECT_THAT(stored(arguments, kExitSomeCellsFailed), HasSubstr("1 with coverage below 0.9"));
   }
 }
 
@@ -118,23 +96,10 @@ TEST_F(EvalStoreOptions, TimesOfReadingFilesAreNotRecorded) {
 }
 
 TEST_F(EvalStoreOptions, TablesShowAxesIfThereIsNoTotal) {
-  std::vector<std::string> arguments = files_of("office");
-  arguments.insert(arguments.end(), {"-r", "rpy"});
-  const std::string out = test::eval(arguments);
+  const std::string out = test::eval(test::with(files_of("office"), {"-r", "rpy"}));
   EXPECT_THAT(out, HasSubstr("ape roll [deg]"));
   EXPECT_THAT(out, HasSubstr("mean ape roll [deg]"));
   EXPECT_THAT(out, HasSubstr("range [deg]"));
-}
-
-TEST_F(EvalStoreOptions, EqualRunsOfOneMethodCountOnce) {
-  std::vector<std::string> arguments{path("truths/office.txt")};
-  for (int run = 0; run < 10; ++run) {
-    write_run("copies", "office", run, 0.01);
-    arguments.push_back(path("copies/office/" + std::to_string(run) + ".txt"));
-  }
-  const std::string out = test::eval(arguments);
-  EXPECT_THAT(out, ContainsRegex("\n\\| office / copies +\\| +1 of 1 \\|"));
-  EXPECT_THAT(out, HasSubstr("9 of the files repeat the data of another run"));
 }
 
 TEST(RunReport, IntervalIsWithinTheErrors) {

@@ -30,18 +30,15 @@ TEST_F(EvalStore, RunsAreRepeatsAndSystemsAreMethods) {
   const auto cells = read_cells(path("store"));
   ASSERT_EQ(cells.size(), 40u);
   EXPECT_EQ(cells.back().repeat, 9);
-  CompareOptions options;
-  const auto comparison = compare_store(path("store"), "ate", {"unit=m"}, options);
-  ASSERT_EQ(comparison.size(), 1u);
-  EXPECT_EQ(comparison[0].groups, 20u);
-  EXPECT_TRUE(comparison[0].is_best);
-  EXPECT_EQ(comparison[0].methods[0].method, "good");
+  const Comparison comparison = compared("store");
+  EXPECT_EQ(comparison.groups, 20u);
+  EXPECT_TRUE(comparison.is_best);
+  EXPECT_EQ(comparison.methods.at(0).method, "good");
 }
 
 TEST_F(EvalStore, NumbersAreThoseOfEval) {
   store_systems("store");
-  const std::string estimate = path("systems/bad/office/3.txt");
-  const test::Json json = test::eval_json({path("truths/office.txt"), estimate});
+  const test::Json json = test::eval_json(office({"bad/office/3"}));
   const double expected = test::find(json, "ate", "translation")["rmse"];
   for (const Record& r : read_records(path("store"))) {
     if (r.sequence == "office" && r.method == "bad" && r.repeat == 3 && r.label == "ate" &&
@@ -54,58 +51,35 @@ TEST_F(EvalStore, NumbersAreThoseOfEval) {
 }
 
 TEST_F(EvalStore, AFileThatAKilledProgramLeftWithoutTablesIsNew) {
-  const auto evaluated = [&] {
-    return test::eval(
-        {path("truths/office.txt"), path("systems/good/office/0.txt"), "--store", path("s")});
-  };
   for (const char* sql : {"", "PRAGMA journal_mode = WAL", "PRAGMA user_version = 0; VACUUM"}) {
     std::filesystem::remove_all(path("s"));
     std::filesystem::create_directories(path("s"));
     Database(path("s") + "/results.sqlite", Database::Mode::create).execute(sql);
     EXPECT_THROW(read_cells(path("s")), InputError) << sql;
-    EXPECT_THAT(evaluated(), HasSubstr("1 run")) << sql;
+    EXPECT_THAT(stored(office({"good/office/0"}), kExitOk, "s"), HasSubstr("1 run")) << sql;
     EXPECT_EQ(read_cells(path("s")).size(), 1u) << sql;
   }
 }
 
 TEST_F(EvalStore, LaterCallsAddRunsAndKeepTheOthers) {
-  test::eval({path("truths/office.txt"), path("systems/good/office/0.txt"), "--store", path("s")});
-  EXPECT_THAT(test::eval({path("truths/office.txt"),
-                          path("systems/bad/office/0.txt"),
-                          path("systems/bad/office/1.txt"),
-                          "--store",
-                          path("s")}),
-              HasSubstr("3 runs in"));
-  EXPECT_EQ(read_cells(path("s")).size(), 3u);
-  EXPECT_THAT(
-      test::eval(
-          {path("truths/office.txt"), path("systems/bad/office/1.txt"), "--store", path("s")}),
-      HasSubstr("(3 stored before)"));
+  stored(office({"good/office/0"}));
+  EXPECT_THAT(stored(office({"bad/office/0", "bad/office/1"})), HasSubstr("3 runs in"));
+  EXPECT_EQ(read_cells(path("store")).size(), 3u);
+  EXPECT_THAT(stored(office({"bad/office/1"})), HasSubstr("(3 stored before)"));
   write_run("systems/bad", "office", 1, 0.5);  // changed: evaluated again
-  EXPECT_THAT(
-      test::eval(
-          {path("truths/office.txt"), path("systems/bad/office/1.txt"), "--store", path("s")}),
-      HasSubstr("(2 stored before)"));
+  EXPECT_THAT(stored(office({"bad/office/1"})), HasSubstr("(2 stored before)"));
 }
 
-TEST_F(EvalStore, ARunThatCannotBeReadIsAFailure) {
-  std::ofstream(path("systems/bad/office/3.txt")) << "1 2 3\n";
-  const std::string out = store_systems("store", {}, kExitSomeCellsFailed);
-  EXPECT_THAT(out, ContainsRegex("\n\\| office / bad +\\| +9 of 10 \\|"));
-  EXPECT_THAT(out, HasSubstr("1 failed"));
-}
-
-TEST_F(EvalStore, ARepairedFileIsEvaluatedAgain) {
+TEST_F(EvalStore, ARunThatCannotBeReadIsAFailureUntilItIsRepaired) {
   const std::string broken = path("systems/bad/office/3.txt");
   std::ofstream(broken) << "1 2 3\n";
   for (int call = 0; call < 2; ++call) {
-    EXPECT_THAT(store_systems("s", {}, kExitSomeCellsFailed),
-                HasSubstr("1 failed\nfailed: " + broken));
+    const std::string out = store_systems("store", {}, kExitSomeCellsFailed);
+    EXPECT_THAT(out, ContainsRegex("\n\\| office / bad +\\| +9 of 10 \\|"));
+    EXPECT_THAT(out, HasSubstr("1 failed\nfailed: " + broken));
   }
   write_run("systems/bad", "office", 3, 0.034);
-  std::vector<std::string> arguments = files_of("office");
-  arguments.insert(arguments.end(), {"--store", path("s")});
-  const std::string out = test::eval(arguments);
+  const std::string out = stored(files_of("office"));
   EXPECT_THAT(out, HasSubstr("(39 stored before)"));
   EXPECT_THAT(out, ContainsRegex("\n\\| office / bad +\\| +10 of 10 \\|"));
 }
@@ -125,11 +99,9 @@ class InFolder {
 TEST_F(EvalStore, RelativeNamesInSeveralFoldersAreDifferentFiles) {
   for (const std::string dot : {"", "./"}) {
     const std::string store = path(dot.empty() ? "store" : "dots");
-    for (const char* const sequence : {"seq1", "seq2"}) {
-      const double error = std::string(sequence) == "seq1" ? 0.01 : 0.05;
-      std::filesystem::create_directories(path(sequence));
-      write_tum(path(std::string(sequence) + "/ref.txt"), path_of(0.0));
-      write_tum(path(std::string(sequence) + "/sys.txt"), path_of(error));
+    for (const std::string sequence : {"seq1", "seq2"}) {
+      write(sequence + "/ref.txt", path_of(0.0));
+      write(sequence + "/sys.txt", path_of(sequence == "seq1" ? 0.01 : 0.05));
       const InFolder folder(path(sequence));
       test::eval({dot + "ref.txt", dot + "sys.txt", "--store", store});
     }
@@ -146,12 +118,8 @@ TEST_F(EvalStore, RelativeNamesInSeveralFoldersAreDifferentFiles) {
 TEST_F(EvalStore, AnUnreadableReferenceLeavesTheStoreUnchanged) {
   store_systems("s");
   std::ofstream(path("truths/street.txt")) << "1 2 3\n";
-  EXPECT_THAT(test::refusal<InputError>({path("truths/office.txt"),
-                                         path("systems/bad/office/1.txt"),
-                                         "--align",
-                                         "sim3",
-                                         "--store",
-                                         path("s")}),
+  const std::vector<std::string> options{"--align", "sim3", "--store", path("s")};
+  EXPECT_THAT(test::refusal<InputError>(test::with(office({"bad/office/1"}), options)),
               HasSubstr("street.txt"));
   const auto cells = read_cells(path("s"));
   EXPECT_EQ(cells.size(), 40u);
@@ -159,35 +127,25 @@ TEST_F(EvalStore, AnUnreadableReferenceLeavesTheStoreUnchanged) {
 }
 
 TEST_F(EvalStore, OtherOptionsEvaluateEarlierRunsAgainWithANote) {
-  const std::vector<std::string> arguments{
-      path("truths/office.txt"), path("systems/bad/office/1.txt"), "--store", path("s")};
-  store_systems("s");
-  const auto notes = [&](std::vector<std::string> all) {
+  store_systems("store");
+  const auto notes = [&](const std::vector<std::string>& options) {
     testing::internal::CaptureStderr();
-    test::eval(std::move(all));
+    stored(test::with(office({"bad/office/1"}), options));
     return testing::internal::GetCapturedStderr();
   };
-  EXPECT_THAT(notes(arguments), Not(HasSubstr("evaluated again")));
-  std::vector<std::string> others = arguments;
-  others.insert(others.end(), {"--align", "sim3"});
-  EXPECT_THAT(notes(others), HasSubstr("39 earlier runs are evaluated again"));
+  EXPECT_THAT(notes({}), Not(HasSubstr("evaluated again")));
+  EXPECT_THAT(notes({"--align", "sim3"}), HasSubstr("39 earlier runs are evaluated again"));
 }
 
 TEST_F(EvalStore, MergedStoresGoOn) {
   const auto store_of = [&](const std::string& method, const std::string& repeats) {
-    const std::string folder = path(method + repeats);
-    test::eval({path("truths/office.txt"),
-                path("systems/" + method + "/office/0.txt"),
-                "--repeats",
-                repeats,
-                "--store",
-                folder});
-    return std::filesystem::path(folder);
+    const std::vector<std::string> options{"--repeats", repeats};
+    stored(test::with(office({method + "/office/0"}), options), kExitOk, method + repeats);
+    return folder_.path() / (method + repeats);
   };
   const std::filesystem::path good = store_of("good", "refuse");
   merge_stores({good, store_of("bad", "refuse")}, path("merged/results.sqlite"), {});
-  const std::string out = test::eval(
-      {path("truths/office.txt"), path("systems/good/office/1.txt"), "--store", path("merged")});
+  const std::string out = stored(office({"good/office/1"}), kExitOk, "merged");
   EXPECT_THAT(out, HasSubstr("3 runs in"));
   EXPECT_THAT(out, HasSubstr("(2 stored before)"));
   EXPECT_THROW(merge_stores({good, store_of("bad", "keep_last")}, path("other.sqlite"), {}),
@@ -195,13 +153,10 @@ TEST_F(EvalStore, MergedStoresGoOn) {
 }
 
 TEST_F(EvalStore, EvalStatesWhyThereIsNoVerdict) {
-  for (const char* const folder : {"x/same", "y/same"}) {
-    std::filesystem::create_directories(path(folder));
-    write_tum(path(std::string(folder) + "/est.txt"), path_of(0.01));
-  }
-  const std::string out =
-      test::eval({path("truths/office.txt"), path("x/same/est.txt"), path("y/same/est.txt")});
-  EXPECT_THAT(out, HasSubstr("no verdict: " + path("y/same/est.txt") + ": has the same sequence"));
+  const std::string first = write("x/same/est.txt", path_of(0.01));
+  const std::string second = write("y/same/est.txt", path_of(0.01));
+  EXPECT_THAT(test::eval({path("truths/office.txt"), first, second}),
+              HasSubstr("no verdict: " + second + ": has the same sequence"));
 }
 
 }  // namespace

@@ -24,6 +24,17 @@ inline std::string golden(const std::string& name) {
   return std::string(LOOPBENCH_TEST_DATA) + "/golden/" + name;
 }
 
+inline std::vector<std::string> with(std::vector<std::string> arguments,
+                                     const std::vector<std::string>& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+/// The golden reference, an estimate of it and options.
+inline std::vector<std::string> drift(const std::vector<std::string>& options = {}) {
+  return with({golden("gt.txt"), golden("est_drift.txt")}, options);
+}
+
 /// Output of `loopbench eval ARGS`, which must have the expected exit code.
 inline std::string eval(std::vector<std::string> arguments, int expected_exit = kExitOk) {
   CLI::App app;
@@ -61,9 +72,12 @@ std::string refusal(const std::vector<std::string>& arguments) {
   return "";
 }
 
-inline Json find(const Json& results, const std::string& metric, const std::string& relation) {
+inline Json find(const Json& results,
+                 const std::string& metric,
+                 const std::string& relation,
+                 const std::string& axis = "3d") {
   for (const Json& row : results["metrics"]) {
-    if (row["metric"] == metric && row["relation"] == relation && row["axis"] == "3d") return row;
+    if (row["metric"] == metric && row["relation"] == relation && row["axis"] == axis) return row;
   }
   ADD_FAILURE() << "no " << metric << " " << relation;
   return {};

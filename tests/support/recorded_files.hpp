@@ -35,22 +35,47 @@ class RecordedFiles : public testing::Test {
   /// The sequences have different paths, because equal ones would be one recording.
   static double start_of(const std::string& sequence) { return sequence == "office" ? 0.0 : 1.0; }
 
-  void write_run(const std::string& method, const std::string& sequence, int run, double error) {
-    const std::filesystem::path folder = folder_.path() / method / sequence;
-    std::filesystem::create_directories(folder);
-    write_tum(folder / (std::to_string(run) + ".txt"), path_of(error, start_of(sequence)));
+  /// Writes a file, and its folder if there is none; its path.
+  std::string write(const std::string& name, const Trajectory& poses) const {
+    std::filesystem::create_directories((folder_.path() / name).parent_path());
+    write_tum(folder_.path() / name, poses);
+    return path(name);
   }
 
-  /// The reference of a sequence and all runs of both systems in a folder, for `eval`.
+  std::string write_run(const std::string& method,
+                        const std::string& sequence,
+                        int run,
+                        double error) const {
+    return write(method + "/" + sequence + "/" + std::to_string(run) + ".txt",
+                 path_of(error, start_of(sequence)));
+  }
+
+  /// The reference of a sequence and all runs of systems in a folder, for `eval`.
   std::vector<std::string> files_of(const std::string& sequence,
-                                    const std::string& systems = "systems") const {
+                                    const std::string& systems = "systems",
+                                    const std::vector<std::string>& methods = {"bad",
+                                                                               "good"}) const {
     std::vector<std::string> out{path("truths/" + sequence + ".txt")};
-    for (const std::string method : {"bad", "good"}) {
+    for (const std::string& method : methods) {
       for (int run = 0; run < 10; ++run) {
         const std::string name = systems + "/" + method + "/" + sequence + "/";
         out.push_back(path(name + std::to_string(run) + ".txt"));
       }
     }
+    return out;
+  }
+
+  /// Output of `eval` of the files into a store.
+  std::string stored(const std::vector<std::string>& files,
+                     int expected_exit = kExitOk,
+                     const std::string& store = "store") const {
+    return eval(with(files, {"--store", path(store)}), expected_exit);
+  }
+
+  /// The reference of office and runs of systems on it, for example "bad/office/0".
+  std::vector<std::string> office(const std::vector<std::string>& runs) const {
+    std::vector<std::string> out{path("truths/office.txt")};
+    for (const std::string& run : runs) out.push_back(path("systems/" + run + ".txt"));
     return out;
   }
 
@@ -62,10 +87,7 @@ class RecordedFiles : public testing::Test {
                             const std::string& systems = "systems") const {
     std::string out;
     for (const char* const sequence : {"office", "street"}) {
-      std::vector<std::string> arguments = files_of(sequence, systems);
-      arguments.insert(arguments.end(), {"--store", path(store)});
-      arguments.insert(arguments.end(), options.begin(), options.end());
-      out = eval(arguments, expected_exit);
+      out = stored(with(files_of(sequence, systems), options), expected_exit, store);
     }
     return out;
   }
@@ -94,10 +116,8 @@ class RecordedFiles : public testing::Test {
   }
 
   void SetUp() override {
-    std::filesystem::create_directories(folder_.path() / "truths");
-    for (const char* const sequence : {"office", "street"}) {
-      write_tum(folder_.path() / "truths" / (std::string(sequence) + ".txt"),
-                path_of(0.0, start_of(sequence)));
+    for (const std::string sequence : {"office", "street"}) {
+      write("truths/" + sequence + ".txt", path_of(0.0, start_of(sequence)));
       for (int run = 0; run < 10; ++run) {
         write_run("systems/good", sequence, run, 0.01 + 0.0005 * run);
         write_run("systems/bad", sequence, run, 0.03 + 0.0013 * run);
