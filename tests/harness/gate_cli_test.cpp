@@ -1,5 +1,5 @@
 /// `check` on real stores: equal labels must have equal definitions.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 
@@ -9,6 +9,7 @@
 namespace loopbench::gate_cli_test {
 
 using namespace harness;
+using testing::HasSubstr;
 
 namespace {
 
@@ -31,15 +32,16 @@ class GateCli : public testing::Test {
     ASSERT_EQ(ran.exit_code, 0) << ran.err;
   }
 
-  std::string refused() {
-    const CommandResult result = call("check out --baseline b.json --allow-dirty");
-    EXPECT_EQ(result.exit_code, 2) << result.out;
+  std::string checked(int expected_exit, const std::string& files = "out --baseline b.json") {
+    const CommandResult result = call("check " + files + " --allow-dirty");
+    EXPECT_EQ(result.exit_code, expected_exit) << result.err << result.out;
     return result.err;
   }
+  std::string refused() { return checked(2); }
 
   void SetUp() override {
     sweep("uniform");
-    ASSERT_EQ(call("check out --baseline b.json --update --allow-dirty").exit_code, 0);
+    checked(0, "out --baseline b.json --update");
   }
 
   TemporaryFolder folder_;
@@ -47,8 +49,7 @@ class GateCli : public testing::Test {
 
 TEST_F(GateCli, PassesTheSameSweepRunAgain) {
   sweep("uniform");
-  const CommandResult result = call("check out --baseline b.json --allow-dirty");
-  EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
+  checked(0);
 }
 
 // Times of updates differ between runs, as the times of cells do.
@@ -71,44 +72,33 @@ TEST_F(GateCli, ComparesTimesOfUpdatesOnlyOnRequest) {
     return out;
   };
   replay();
-  ASSERT_EQ(call("check replay --baseline r.json --update --allow-dirty").exit_code, 0);
+  checked(0, "replay --baseline r.json --update");
   EXPECT_TRUE(limited().empty());
   replay();
-  const CommandResult again = call("check replay --baseline r.json --allow-dirty");
-  EXPECT_EQ(again.exit_code, 0) << again.out;
-  const std::string timed = "check replay --baseline r.json --update --allow-dirty --time ";
-  ASSERT_EQ(call(timed + "0.5").exit_code, 0);
+  checked(0, "replay --baseline r.json");
+  const std::string timed = "replay --baseline r.json --update --time ";
+  checked(0, timed + "0.5");
   EXPECT_EQ(limited(), (std::vector<std::string>{"s", "ms"}));  // neither misses nor growth
-  ASSERT_EQ(call(timed + "1000").exit_code, 0);
+  checked(0, timed + "1000");
   EXPECT_EQ(read_limits(folder_.path() / "r.json").size(), 3u);
   replay();
-  const CommandResult loose = call("check replay --baseline r.json --allow-dirty");
-  EXPECT_EQ(loose.exit_code, 0) << loose.out;
+  checked(0, "replay --baseline r.json");
   // A sweep without replays has no such limit.
-  ASSERT_EQ(call("check out --baseline b.json --update --allow-dirty --time 1").exit_code, 0);
+  checked(0, "out --baseline b.json --update --time 1");
   EXPECT_EQ(read_limits(folder_.path() / "b.json").size(), 2u);
 }
 
-TEST_F(GateCli, NamesAMethodThatIsAnotherUnderItsLabel) {
+TEST_F(GateCli, NamesWhatIsAnotherUnderItsLabel) {
   sweep("two_pass");
-  EXPECT_NE(refused().find("defines the method 'mine' differently"), std::string::npos)
-      << refused();
+  EXPECT_THAT(refused(), HasSubstr("defines the method 'mine' differently"));
   sweep("uniform, rotation: none");
-  EXPECT_NE(refused().find("these results have 'rotation=none'"), std::string::npos) << refused();
-}
-
-TEST_F(GateCli, NamesAMetricThatIsAnotherUnderItsLabel) {
-  sweep("uniform", "rpe, delta: 10");
-  EXPECT_NE(refused().find("defines the metric 'motion' differently"), std::string::npos)
-      << refused();
-  sweep("uniform", "ape");
-  EXPECT_NE(refused().find("defines the metric 'motion' differently"), std::string::npos)
-      << refused();
-}
-
-TEST_F(GateCli, NamesASequenceWhoseRunsAreInAnotherGroup) {
+  EXPECT_THAT(refused(), HasSubstr("these results have 'rotation=none'"));
+  for (const char* const metric : {"rpe, delta: 10", "ape"}) {
+    sweep("uniform", metric);
+    EXPECT_THAT(refused(), HasSubstr("defines the metric 'motion' differently")) << metric;
+  }
   sweep("uniform", "rpe, delta: 1", ", group: all");
-  EXPECT_NE(refused().find("these results have 'group:all'"), std::string::npos) << refused();
+  EXPECT_THAT(refused(), HasSubstr("these results have 'group:all'"));
 }
 
 TEST_F(GateCli, RejectsABaselineOfAnUncommittedBuild) {
@@ -117,14 +107,13 @@ TEST_F(GateCli, RejectsABaselineOfAnUncommittedBuild) {
   folder_.file("b.json", json(dirty));
   const CommandResult result = call("check out --baseline b.json");
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("was written by a build with uncommitted changes"), std::string::npos)
-      << result.err;
-  EXPECT_EQ(call("check out --baseline b.json --allow-dirty").exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("was written by a build with uncommitted changes"));
+  checked(0);
 }
 
 TEST_F(GateCli, SaysThatAnOldBaselineHasToBeWrittenAnew) {
   folder_.file("b.json", "{\"loopbench_baseline\": 2}");
-  EXPECT_NE(refused().find("found format 2, expected 4"), std::string::npos) << refused();
+  EXPECT_THAT(refused(), HasSubstr("found format 2, expected 4"));
 }
 
 }  // namespace

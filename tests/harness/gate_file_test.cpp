@@ -1,5 +1,5 @@
 /// Baseline files, and reports of the gate as text.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 
@@ -19,6 +19,12 @@ using namespace harness;
 namespace {
 
 using namespace gate_snapshot;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string refusal(const std::string& text) {
+  return refusal_of([&] { parse_baseline(text, "b.json"); });
+}
 
 TEST(BaselineFile, ReadsBackWhatWasWritten) {
   Baseline before = baseline();
@@ -40,18 +46,15 @@ TEST(BaselineFile, ReadsBackWhatWasWritten) {
 
 TEST(BaselineFile, IsRejectedAfterAChangeOfAnythingButItsLimits) {
   const std::string good = json(baseline());
-  const auto refusal = [](const std::string& text) {
-    return refusal_of([&] { parse_baseline(text, "b.json"); });
-  };
   const auto without = [&](const std::string& start) {
     const std::size_t at = good.find("\n" + start);
     EXPECT_NE(at, std::string::npos) << good;
     return good.substr(0, at) + good.substr(good.find('\n', at + 1));
   };
   const std::string cell = "{\"sequence\":\"room\",\"repeat\":3,\"method\":\"raw\"";
-  EXPECT_EQ(refusal(without(cell)).find("b.json: digest: found \""), 0u) << refusal(without(cell));
-  EXPECT_EQ(refusal(without("\"digest\"")).find("b.json: digest: found none, expected \""), 0u)
-      << refusal(without("\"digest\""));
+  EXPECT_THAT(refusal(without(cell)), StartsWith("b.json: digest: found \""));
+  EXPECT_THAT(refusal(without("\"digest\"")),
+              StartsWith("b.json: digest: found none, expected \""));
   std::string wide = good;
   wide.replace(wide.find("0.001"), 5, "10.0");
   const Baseline read = parse_baseline(wide, "b.json");
@@ -64,20 +67,16 @@ TEST(BaselineFile, IsRejectedAfterAChangeOfAnythingButItsLimits) {
 
 TEST(BaselineFile, IsRefusedWithItsPlace) {
   const std::string good = json(baseline());
-  const auto refusal = [](const std::string& text) {
-    return refusal_of([&] { parse_baseline(text, "b.json"); });
-  };
-  EXPECT_EQ(refusal("{\n\"sweep\": \n]").find("b.json:3: is not JSON: "), 0u)
-      << refusal("{\n\"sweep\": \n]");
-  EXPECT_EQ(refusal("").find("b.json:1: is not JSON: "), 0u);
+  EXPECT_THAT(refusal("{\n\"sweep\": \n]"), StartsWith("b.json:3: is not JSON: "));
+  EXPECT_THAT(refusal(""), StartsWith("b.json:1: is not JSON: "));
   EXPECT_EQ(refusal("[]"), "b.json: baseline: expected an object");
-  EXPECT_EQ(
-      refusal("{}"),
-      "b.json: loopbench_baseline: found format null, expected 4: it lacks data that format 4 "
-      "compares; check the results, then write it again with --update (limits are kept)");
-  EXPECT_EQ(refusal("{\"loopbench_baseline\": 9}"),
-            "b.json: loopbench_baseline: found format 9, expected 4: it lacks data that format 4 "
-            "compares; check the results, then write it again with --update (limits are kept)");
+  for (const auto& [text, format] :
+       {std::pair{"{}", "null"}, std::pair{"{\"loopbench_baseline\": 9}", "9"}}) {
+    EXPECT_EQ(refusal(text),
+              "b.json: loopbench_baseline: found format " + std::string(format) +
+                  ", expected 4: it lacks data that format 4 compares; check the results, then "
+                  "write it again with --update (limits are kept)");
+  }
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     const std::size_t at = text.find(from);
@@ -100,24 +99,20 @@ TEST(GateText, IsMarkdownAndJUnit) {
     now.cells[0].method = "ra<w>&\"";
   });
   const std::string text = markdown(report, "quick");
-  EXPECT_EQ(text.find("### quick: FAILED\n\n| cell "), 0u) << text;
-  EXPECT_NE(text.find("| room / raw                |"), std::string::npos) << text;
-  EXPECT_NE(text.find("- 2 regressions, 0 improvements, 1 new cell in 16 cells and 15 scores\n"),
-            std::string::npos)
-      << text;
+  EXPECT_THAT(text, StartsWith("### quick: FAILED\n\n| cell "));
+  EXPECT_THAT(text, HasSubstr("| room / raw                |"));
+  EXPECT_THAT(text,
+              HasSubstr("- 2 regressions, 0 improvements, 1 new cell in 16 cells and 15 scores\n"));
   const std::string xml = junit(report, "quick");
-  EXPECT_NE(xml.find("<testsuite name=\"loopbench check quick\" tests=\"16\" failures=\"2\""),
-            std::string::npos)
-      << xml;
-  EXPECT_NE(
-      xml.find("<testcase classname=\"quick\" name=\"room (repeat 1) / uniform\">\n"
-               "    <failure message=\"1 regression\">ate translation 3d, dense, loopbench: "),
-      std::string::npos)
-      << xml;
+  EXPECT_THAT(xml,
+              HasSubstr("<testsuite name=\"loopbench check quick\" tests=\"16\" failures=\"2\""));
+  EXPECT_THAT(
+      xml,
+      HasSubstr("<testcase classname=\"quick\" name=\"room (repeat 1) / uniform\">\n"
+                "    <failure message=\"1 regression\">ate translation 3d, dense, loopbench: "));
   Baseline odd = baseline();
   odd.snapshot.cells[0].method = "ra<w>&\"";
-  EXPECT_NE(junit(check(odd, sweep()), "q").find("name=\"room / ra&lt;w&gt;&amp;&quot;\""),
-            std::string::npos);
+  EXPECT_THAT(junit(check(odd, sweep()), "q"), HasSubstr("name=\"room / ra&lt;w&gt;&amp;&quot;\""));
   EXPECT_EQ(markdown(after([](Snapshot&) {}), "quick"),
             "### quick: passed\n\n"
             "- 0 regressions, 0 improvements, 0 new cells in 16 cells and 16 scores\n"
