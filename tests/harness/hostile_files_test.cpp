@@ -1,5 +1,6 @@
-/// Links, pipes and devices in place of files, closed streams, and texts that steer programs.
-#include <gtest/gtest.h>
+/// Written files are complete or an error is reported; links, pipes and devices in place of files,
+/// and texts that steer programs.
+#include <gmock/gmock.h>
 #include <sys/stat.h>
 
 #include <atomic>
@@ -21,9 +22,92 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string why_unwritten(const fs::path& file) {
+  try {
+    write_file(file, "new");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 std::size_t files_in(const TemporaryFolder& folder) {
   return static_cast<std::size_t>(
       std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()));
+}
+
+TEST(WriteFile, MakesFoldersAndKeepsTheMode) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "a/b", "new");
+  EXPECT_EQ(read_all(folder.path() / "a/b"), "new");
+  const fs::path mine = folder.file("mine", "old");
+  fs::permissions(mine, fs::perms::owner_read | fs::perms::owner_write);
+  write_file(mine, "new");
+  EXPECT_EQ(read_all(mine), "new");
+  EXPECT_EQ(fs::status(mine).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(files_in(folder), 2u);  // no temporary files remain
+}
+
+TEST(WriteFile, FollowsLinks) {
+  const TemporaryFolder folder;
+  folder.file("there", "old");
+  fs::create_symlink("there", folder.path() / "link");
+  fs::create_symlink("link", folder.path() / "link_to_link");
+  fs::create_symlink("made", folder.path() / "dangling");
+  write_file(folder.path() / "link_to_link", "new");
+  write_file(folder.path() / "dangling", "new");
+  EXPECT_EQ(read_all(folder.path() / "there"), "new");
+  EXPECT_EQ(read_all(folder.path() / "made"), "new");
+  for (const char* link : {"link", "link_to_link", "dangling"}) {
+    EXPECT_TRUE(fs::is_symlink(folder.path() / link)) << link;
+  }
+}
+
+TEST(WriteFile, WritesIntoAPipe) {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::string got;
+  std::thread reader([&] { got = read_all(pipe); });
+  write_file(pipe, "new");
+  reader.join();
+  EXPECT_EQ(got, "new");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+TEST(WriteFile, RefusesWhatNobodyMayWrite) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.file("locked", "old");
+  fs::permissions(file, fs::perms::owner_read);
+  EXPECT_EQ(why_unwritten(file), file.string() + ": cannot be written: is read-only");
+  EXPECT_EQ(read_all(file), "old");
+  EXPECT_EQ(why_unwritten(folder.path()),
+            folder.path().string() + ": cannot be written: is a folder");
+  EXPECT_EQ(why_unwritten(file / "below"),
+            (file / "below").string() + ": cannot be written: Not a directory");
+  EXPECT_EQ(files_in(folder), 1u);
+}
+
+TEST(WriteFile, KnowsAnInputByAnyName) {
+  const TemporaryFolder folder;
+  const fs::path input = folder.file("input", "old");
+  fs::create_hard_link(input, folder.path() / "twin");
+  EXPECT_THROW(reject_overwriting({"absent", input}, folder.path() / "twin"), InputError);
+  EXPECT_NO_THROW(reject_overwriting({input}, folder.path() / "new"));
+  EXPECT_NO_THROW(reject_overwriting({input}, ""));
+  EXPECT_NO_THROW(reject_overwriting({"/dev/null"}, "/dev/null"));
+}
+
+TEST(Printable, LeavesNothingThatSteersATerminal) {
+  EXPECT_EQ(printable("a b\nc \xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80"),
+            "a b\nc \xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80");
+  EXPECT_EQ(printable("\x1b[31m\t\r\x7f"), "\\x1b[31m\\x09\\x0d\\x7f");
+  EXPECT_EQ(printable(std::string(1, '\0')), "\\x00");
+  EXPECT_EQ(printable("\xc2\x9b"), "\\xc2\\x9b");                    // C1: also starts a sequence
+  EXPECT_EQ(printable("\xff\xc3"), "\\xff\\xc3");                    // not UTF-8; truncated
+  EXPECT_EQ(printable("\xc0\xaf"), "\\xc0\\xaf");                    // overlong encoding
+  EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");           // surrogate
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");  // beyond Unicode
 }
 
 TEST(WriteResult, ReplacesLinksPipesAndDevicesInAFolderOfResults) {
@@ -99,80 +183,6 @@ TEST(Tables, PrintNothingButUtf8WithoutControlCharacters) {
   EXPECT_TRUE(is_plain(latex(view)));
   EXPECT_TRUE(is_plain(terminal(view)));
   EXPECT_TRUE(is_plain(text_csv(view)));
-}
-
-class HostileFiles : public testing::Test {
- protected:
-  /// With streams redirected by `shell`; err is the file "err".
-  CommandResult run(const std::string& arguments, const std::string& shell) {
-    const std::string line = "cd '" + folder_.path().string() + "' && '" LOOPBENCH_BINARY "' " +
-                             arguments + " 2>err " + shell;
-    const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, "", read_all(folder_.path() / "err")};
-  }
-  TemporaryFolder folder_;
-  const fs::path poses_ =
-      folder_.file("a.txt", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 0 1 0 0 0 0 1\n3 0 0 1 0 0 0 1\n");
-  const fs::path config_ = folder_.file(
-      "s.yaml",
-      "datasets: [{dataset: simulated, keyframes: 40}]\nmethods: [raw]\nmetrics: [ate]\n");
-};
-
-TEST_F(HostileFiles, ClosedStandardStreamsCrashNothing) {
-  EXPECT_EQ(run("eval a.txt a.txt", "2>&- >/dev/null").exit_code, 0);
-  EXPECT_EQ(run("eval absent.txt a.txt", "<&- >&- 2>&-").exit_code, 2);
-  EXPECT_EQ(run("eval a.txt a.txt", "<&- >&- 2>&-").exit_code, 2) << "the result cannot be printed";
-  EXPECT_EQ(run("eval absent.txt a.txt", "2>/dev/full").exit_code, 2);
-  EXPECT_EQ(run("run s.yaml --out closed", "<&- >&- 2>&-").exit_code, 2);
-  EXPECT_EQ(run("run s.yaml --out closed", ">out").exit_code, 0);
-  EXPECT_NE(read_all(folder_.path() / "out").find("1 of 1 cells done (1 of them in earlier runs)"),
-            std::string::npos);
-}
-
-TEST_F(HostileFiles, NoCommandWaitsForAPipeInPlaceOfAStore) {
-  ASSERT_EQ(mkfifo((folder_.path() / "pipe").c_str(), 0600), 0);
-  for (const char* arguments : {"table pipe", "report pipe", "check pipe --baseline b"}) {
-    EXPECT_EQ(run(arguments, ">out").exit_code, 2) << arguments;
-  }
-  EXPECT_EQ(read_all(folder_.path() / "err").find("loopbench: "), 0u);
-  run("table pipe", ">out");
-  EXPECT_EQ(read_all(folder_.path() / "err"),
-            "loopbench: pipe: is not a regular file, expected a store of results\n");
-}
-
-TEST_F(HostileFiles, AStoreIsNotWrittenThroughALink) {
-  fs::create_directory(folder_.path() / "l");
-  folder_.file("empty", "");
-  for (const char* target : {"absent", "empty"}) {
-    for (const char* part : {"results.sqlite", "results.sqlite-wal"}) {
-      fs::create_symlink(folder_.path() / target, folder_.path() / "l" / part);
-      EXPECT_EQ(run("run s.yaml --out l", ">/dev/null").exit_code, 2) << target;
-      EXPECT_EQ(read_all(folder_.path() / "err"),
-                std::string("loopbench: l/") + part + ": is a symbolic link, expected a store of " +
-                    "results; remove it, or use another --out\n");
-      EXPECT_EQ(run("run s.yaml --out l --fresh", ">/dev/null").exit_code, 2) << target;
-      fs::remove(folder_.path() / "l" / part);
-    }
-  }
-  EXPECT_FALSE(fs::exists(folder_.path() / "absent"));
-  EXPECT_EQ(fs::file_size(folder_.path() / "empty"), 0u);
-}
-
-TEST_F(HostileFiles, LinksInAFolderOfResultsAreReplacedAndNotFollowed) {
-  const fs::path mine = folder_.file("mine", "precious");
-  fs::create_directory(folder_.path() / "r");
-  const auto names = {"table.md", "table.csv", "rows.csv", "provenance.json"};
-  for (const char* name : names) fs::create_symlink(mine, folder_.path() / "r" / name);
-  EXPECT_EQ(run("run s.yaml --out r", ">/dev/null").exit_code, 0);
-  for (const char* name : names) EXPECT_FALSE(fs::is_symlink(folder_.path() / "r" / name)) << name;
-  fs::remove(folder_.path() / "r/table.md");
-  fs::create_symlink(mine, folder_.path() / "r/table.md");
-  EXPECT_EQ(run("run s.yaml --out r", ">out").exit_code, 0);
-  EXPECT_EQ(read_all(folder_.path() / "out").find("precious"), std::string::npos);
-  EXPECT_FALSE(fs::is_symlink(folder_.path() / "r/table.md"));
-  fs::create_symlink(mine, folder_.path() / "t.provenance.json");
-  EXPECT_EQ(run("table r --format csv -o t.csv", ">out").exit_code, 0);
-  EXPECT_EQ(read_all(mine), "precious");
 }
 
 }  // namespace
