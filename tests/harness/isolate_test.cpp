@@ -1,5 +1,5 @@
 /// Worker processes: a crash affects only its own cell.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -142,7 +142,7 @@ TEST_F(Isolated, ADatasetThatCrashesCostsItsCells) {
       run("datasets: [crash, line]\nmethods: [straight, shift]\nmetrics: [ate]\n", 2);
   ASSERT_EQ(results.size(), 4u);
   EXPECT_EQ(results[0].status, Status::crashed);
-  EXPECT_NE(results[0].why.find("while loading"), std::string::npos) << results[0].why;
+  EXPECT_THAT(results[0].why, testing::HasSubstr("while loading"));
   EXPECT_EQ(results[1].status, Status::crashed);
   EXPECT_EQ(results[2].status, Status::ok);
 }

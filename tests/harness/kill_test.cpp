@@ -1,6 +1,6 @@
 /// Sweeps that end early: killed, disk full, concurrent runs.
 #include <fcntl.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -21,6 +21,7 @@ namespace loopbench::kill_test {
 using namespace methods;
 using namespace metrics;
 using namespace harness;
+using testing::HasSubstr;
 
 namespace {
 
@@ -43,9 +44,9 @@ class Ended : public testing::Test {
   /// `loopbench run c.yaml --out OUT` in the folder; the process, not a shell around it, and the
   /// leader of a process group.
   pid_t start(const std::string& out) {
-    const std::string config = (folder_.path() / "c.yaml").string();
     const std::string target = (folder_.path() / out).string();
-    std::vector<std::string> words{LOOPBENCH_BINARY, "run", config, "--out", target, "--jobs", "3"};
+    std::vector<std::string> words{
+        LOOPBENCH_BINARY, "run", config_.string(), "--out", target, "--jobs", "3"};
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
@@ -74,10 +75,10 @@ class Ended : public testing::Test {
   }
 
   TemporaryFolder folder_;
+  const std::filesystem::path config_ = folder_.file("c.yaml", kConfig);
 };
 
 TEST_F(Ended, KilledAtAnyMomentItGoesOnToTheSameRows) {
-  folder_.file("c.yaml", kConfig);
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
   ASSERT_EQ(wait(start("whole")), 0);
@@ -108,7 +109,6 @@ TEST_F(Ended, KilledAtAnyMomentItGoesOnToTheSameRows) {
 }
 
 TEST_F(Ended, AFullDiskIsAClearErrorAndLeavesWholeCells) {
-  folder_.file("c.yaml", kConfig);
   ASSERT_EQ(run("run c.yaml --out whole").exit_code, 0);
   const std::string script = "cd '" + folder_.path().string() +
                              "'; trap '' XFSZ; ulimit -f 300; exec '" LOOPBENCH_BINARY
@@ -117,7 +117,7 @@ TEST_F(Ended, AFullDiskIsAClearErrorAndLeavesWholeCells) {
   const int status = std::system("bash -c \"$SCRIPT\"");
   EXPECT_EQ(WEXITSTATUS(status), 2);
   const std::string error = read_all(folder_.path() / ".err");
-  EXPECT_NE(error.find("results.sqlite: "), std::string::npos) << error;
+  EXPECT_THAT(error, HasSubstr("results.sqlite: "));
   EXPECT_EQ(std::ranges::count(error, '\n'), 1) << error;
   EXPECT_LT(read_cells(store("k")).size(), read_cells(store("whole")).size());
   EXPECT_EQ(run("run c.yaml --out k").exit_code, 0);
@@ -125,7 +125,6 @@ TEST_F(Ended, AFullDiskIsAClearErrorAndLeavesWholeCells) {
 }
 
 TEST_F(Ended, OfTwoSweepsOnOneStoreOneIsToldToWait) {
-  folder_.file("c.yaml", kConfig);
   ASSERT_EQ(run("run c.yaml --out k --only 'a / raw'").exit_code, 0);
   const std::string line = "cd '" + folder_.path().string() +
                            "' && '" LOOPBENCH_BINARY
@@ -140,8 +139,7 @@ TEST_F(Ended, OfTwoSweepsOnOneStoreOneIsToldToWait) {
       ++done;
     } else {
       EXPECT_EQ(code, "2\n");
-      EXPECT_NE(error.find("another sweep is writing its results here"), std::string::npos)
-          << error;
+      EXPECT_THAT(error, HasSubstr("another sweep is writing its results here"));
     }
   }
   EXPECT_GE(done, 1);
@@ -150,23 +148,19 @@ TEST_F(Ended, OfTwoSweepsOnOneStoreOneIsToldToWait) {
 }
 
 TEST_F(Ended, RunningAgainSaysHowMuchWasThere) {
-  folder_.file("c.yaml", kConfig);
   ASSERT_EQ(run("run c.yaml --out k --only 'a / '").exit_code, 0);
   const CommandResult again = run("run c.yaml --out k");
-  EXPECT_NE(again.out.find("48 of 48 cells done (24 of them in earlier runs), 0 failed"),
-            std::string::npos)
-      << again.out;
+  EXPECT_THAT(again.out, HasSubstr("48 of 48 cells done (24 of them in earlier runs), 0 failed"));
   const CommandResult third = run("run c.yaml --out k");
-  EXPECT_NE(third.out.find("(48 of them in earlier runs)"), std::string::npos);
+  EXPECT_THAT(third.out, HasSubstr("(48 of them in earlier runs)"));
   const std::size_t end = again.out.find("48 of 48 cells");
   EXPECT_EQ(third.out.substr(0, end), again.out.substr(0, end)) << "the summary as it was";
   const CommandResult fresh = run("run c.yaml --out k --fresh");
-  EXPECT_EQ(fresh.out.find("before"), std::string::npos);
+  EXPECT_THAT(fresh.out, testing::Not(HasSubstr("before")));
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "k/previous-1.sqlite"));
 }
 
 TEST_F(Ended, SignalsToTheProcessGroupFailNoCell) {
-  folder_.file("c.yaml", kConfig);
   ASSERT_EQ(wait(start("whole")), 0);
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
     for (const int milliseconds : {20, 60, 120}) {
@@ -182,7 +176,6 @@ TEST_F(Ended, SignalsToTheProcessGroupFailNoCell) {
 }
 
 TEST_F(Ended, AFreshSweepKeepsEveryCellOfAKilledOne) {
-  folder_.file("c.yaml", kConfig);
   ASSERT_EQ(run("run c.yaml --out k").exit_code, 0);
   // As a kill leaves it: the last transaction is only in the log.
   const std::filesystem::path file = store("k");
@@ -205,10 +198,9 @@ TEST_F(Ended, AFreshSweepKeepsEveryCellOfAKilledOne) {
 }
 
 TEST_F(Ended, AFolderThatTakesNoFilesIsOneClearError) {
-  folder_.file("c.yaml", kConfig);
   const CommandResult result = run("run c.yaml --out /proc/self");  // not writable even for root
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("results.sqlite: cannot be opened"), std::string::npos) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("results.sqlite: cannot be opened"));
 }
 
 }  // namespace
