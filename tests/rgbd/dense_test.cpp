@@ -14,13 +14,7 @@ using namespace rgbd;
 namespace {
 
 Camera toy_camera() {
-  Camera out;
-  out.width = 160;
-  out.height = 120;
-  out.fx = out.fy = 130.0;
-  out.cx = 79.5;
-  out.cy = 59.5;
-  return out;
+  return {.width = 160, .height = 120, .fx = 130.0, .fy = 130.0, .cx = 79.5, .cy = 59.5};
 }
 
 /// Noise-free depth image of the first `walls` of: a wall at z = 3, a wall at x = 1 and the floor
@@ -65,12 +59,7 @@ TEST(Surface, BlocksAreTheMeanOfWhatLiesNearTheirMedian) {
                   0.0f,
                   1.0f,
                   1.0f};
-  Camera camera;
-  camera.width = 6;
-  camera.height = 2;
-  camera.fx = camera.fy = 10.0;
-  camera.cx = 2.5;
-  camera.cy = 0.5;
+  const Camera camera{.width = 6, .height = 2, .fx = 10.0, .fy = 10.0, .cx = 2.5, .cy = 0.5};
   const DownsampledDepth small = downsample_depth(depth, camera, 3, 5.0);
   ASSERT_EQ(small.depth.width, 3);
   ASSERT_EQ(small.depth.height, 1);
@@ -84,12 +73,8 @@ TEST(Surface, BlocksAreTheMeanOfWhatLiesNearTheirMedian) {
 }
 
 TEST(Surface, UndoesLensDistortion) {
-  Camera camera;
-  camera.width = 101;
-  camera.height = 101;
-  camera.fx = camera.fy = 100.0;
-  camera.cx = camera.cy = 50.0;
-  camera.k1 = 0.1;
+  const Camera camera{
+      .width = 101, .height = 101, .fx = 100.0, .fy = 100.0, .cx = 50.0, .cy = 50.0, .k1 = 0.1};
   DepthImage depth(101, 101, 1.0f);
   depth.at(91, 50) = 2.0f;  // (90 - 50) / 100 = 0.4 becomes 0.4 (1 + 0.1 * 0.16): 90.64 px
   const DownsampledDepth straight = downsample_depth(depth, camera, 101, 5.0);

@@ -1,11 +1,7 @@
 // Tests of the layouts of recordings, and of error messages for faulty ones.
-#include <fstream>
-
-#include "datasets/rgbd/folder/folder_source.hpp"
 #include "datasets/rgbd/folder/layouts.hpp"
 #include "datasets/rgbd/folder/register_depth.hpp"
 #include "tests/rgbd/recording.hpp"
-#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::folder_test {
 
@@ -13,29 +9,8 @@ using namespace rgbd;
 
 namespace {
 
-using testing::Test;
-
-class RgbdFolder : public Test {
- protected:
-  RgbdFolder() { write_recording(folder_, *room_); }
-
-  std::unique_ptr<const RgbdSource> open(const FolderOptions& options = {}) const {
-    return open_rgbd_folder(folder_.path(), options);
-  }
-  std::string refusal() const {
-    return refusal_of([&] { open(); });
-  }
-  bool refuses_with(const std::string& text) const {
-    const std::string message = refusal();
-    return message.find(text) != std::string::npos ? true : (ADD_FAILURE() << message, false);
-  }
-  void cut(const std::string& name, std::uintmax_t bytes) const {
-    std::filesystem::resize_file(folder_.path() / name, bytes);
-  }
-
-  std::unique_ptr<const RgbdSource> room_ = rendered_room(small_room(0.01));  // five frames
-  TemporaryFolder folder_;
-};
+using testing::HasSubstr;
+using RgbdFolder = RecordedRoom;
 
 TEST_F(RgbdFolder, GivesBackWhatWasWritten) {
   const auto source = open();
@@ -52,61 +27,52 @@ TEST_F(RgbdFolder, GivesBackWhatWasWritten) {
 }
 
 TEST_F(RgbdFolder, TellsATruncatedPngAndAMissingDepthImage) {
-  cut("rgb/0001.png", 3000);
+  std::filesystem::resize_file(folder_.path() / "rgb/0001.png", 3000);
   std::filesystem::remove(folder_.path() / "depth/0002.png");
-  const auto source = open();
-  std::string why;
-  EXPECT_FALSE(source->read(1, why));
-  EXPECT_NE(why.find("rgb/0001.png: is not a valid PNG or JPEG"), std::string::npos) << why;
-  EXPECT_FALSE(source->read(2, why));
-  EXPECT_NE(why.find("depth/0002.png: no such image"), std::string::npos) << why;
-  EXPECT_TRUE(source->read(3, why));
+  EXPECT_THAT(unreadable(1), HasSubstr("rgb/0001.png: is not a valid PNG or JPEG"));
+  EXPECT_THAT(unreadable(2), HasSubstr("depth/0002.png: no such image"));
+  EXPECT_EQ(unreadable(3), "");
 }
 
 TEST_F(RgbdFolder, TellsADepthImageOfEightBits) {
   std::filesystem::copy_file(folder_.path() / "rgb/0001.png",
                              folder_.path() / "depth/0001.png",
                              std::filesystem::copy_options::overwrite_existing);
-  std::string why;
-  EXPECT_FALSE(open()->read(1, why));
-  EXPECT_NE(why.find("expected a 16-bit PNG"), std::string::npos) << why;
+  EXPECT_THAT(unreadable(1), HasSubstr("expected a 16-bit PNG"));
 }
 
 TEST_F(RgbdFolder, RefusesListsThatAreEmptyOrBroken) {
   folder_.file("rgb.txt", "# color images\n");
-  EXPECT_TRUE(refuses_with("rgb.txt: lists no image"));
+  EXPECT_THAT(refusal(), HasSubstr("rgb.txt: lists no image"));
   folder_.file("rgb.txt", "0.0 rgb/0000.png\n0.0 rgb/0001.png\n");
-  EXPECT_TRUE(refuses_with("rgb.txt:2: stamp does not increase"));
+  EXPECT_THAT(refusal(), HasSubstr("rgb.txt:2: stamp does not increase"));
   folder_.file("rgb.txt", "0.0\n");
-  EXPECT_TRUE(refuses_with("rgb.txt:1: expected two columns"));
+  EXPECT_THAT(refusal(), HasSubstr("rgb.txt:1: expected two columns"));
   folder_.file("rgb.txt", "100.0 rgb/0000.png\n");
-  EXPECT_TRUE(refuses_with("depth.txt: found no depth image within pair_gap = 0.02 s"));
+  EXPECT_THAT(refusal(), HasSubstr("depth.txt: found no depth image within pair_gap = 0.02 s"));
 }
 
 TEST_F(RgbdFolder, RefusesIntrinsicsThatCannotBe) {
   folder_.file("camera.yaml", "fx: 0\n");
-  EXPECT_TRUE(refuses_with("camera.yaml:1: fx = 0: expected fx > 0"));
+  EXPECT_THAT(refusal(), HasSubstr("camera.yaml:1: fx = 0: expected fx > 0"));
   folder_.file("camera.yaml", "fx: wide\n");
-  EXPECT_TRUE(refuses_with("camera.yaml:1: fx = 'wide': expected a number"));
+  EXPECT_THAT(refusal(), HasSubstr("camera.yaml:1: fx = 'wide': expected a number"));
   folder_.file("camera.yaml", "fx: 100\nfy: 100\ncx: 50\n");
-  EXPECT_TRUE(refuses_with("camera.yaml: has no key cy"));
+  EXPECT_THAT(refusal(), HasSubstr("camera.yaml: has no key cy"));
   folder_.file("camera.yaml", "width: 160\nheight: 120\nfx: 100\nfy: 100\ncx: 320\ncy: 240\n");
-  EXPECT_TRUE(refuses_with("principal point (320, 240) is outside the image of 160 x 120 pixels"));
+  EXPECT_THAT(refusal(),
+              HasSubstr("principal point (320, 240) is outside the image of 160 x 120 pixels"));
 }
 
 TEST_F(RgbdFolder, TellsImagesOfAnotherSizeThanTheCameras) {
   folder_.file("camera.yaml", "fx: 525\nfy: 525\ncx: 320\ncy: 240\n");  // 640 x 480
-  std::string why;
-  EXPECT_FALSE(open()->read(0, why));
-  EXPECT_NE(why.find("has 160 x 120 pixels, expected 640 x 480"), std::string::npos) << why;
+  EXPECT_THAT(unreadable(0), HasSubstr("has 160 x 120 pixels, expected 640 x 480"));
 }
 
 TEST_F(RgbdFolder, KnowsPublishedCamerasByNameAndAsksOtherwise) {
   std::filesystem::remove(folder_.path() / "camera.yaml");
-  EXPECT_TRUE(refuses_with("has no camera.yaml and no freiburg1, 2 or 3 in its name"));
-  FolderOptions options;
-  options.camera = CameraChoice::fr3;
-  EXPECT_DOUBLE_EQ(open(options)->camera().fx, 535.4);
+  EXPECT_THAT(refusal(), HasSubstr("has no camera.yaml and no freiburg1, 2 or 3 in its name"));
+  EXPECT_DOUBLE_EQ(open({.camera = CameraChoice::fr3})->camera().fx, 535.4);
   const std::filesystem::path named = folder_.path() / "rgbd_dataset_freiburg1_room";
   std::filesystem::create_directory(named);
   for (const char* list : {"rgb.txt", "depth.txt"}) {
@@ -120,14 +86,12 @@ TEST_F(RgbdFolder, WorksWithoutGroundTruthAndSaysSo) {
   const auto source = open();
   EXPECT_TRUE(source->reference().empty());
   ASSERT_EQ(source->provenance().notes.size(), 1u);
-  EXPECT_NE(source->provenance().notes[0].find("no groundtruth.txt"), std::string::npos);
+  EXPECT_THAT(source->provenance().notes[0], HasSubstr("no groundtruth.txt"));
 }
 
 TEST_F(RgbdFolder, RefusesAFolderThatHoldsNoRecording) {
-  EXPECT_NE(refusal_of([&] {
-              open_rgbd_folder(folder_.path() / "rgb", {});
-            }).find("contains no recording"),
-            std::string::npos);
+  EXPECT_THAT(refusal_of([&] { open_rgbd_folder(folder_.path() / "rgb", {}); }),
+              HasSubstr("contains no recording"));
 }
 
 TEST_F(RgbdFolder, ReadsSevenScenesLayout) {

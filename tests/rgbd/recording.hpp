@@ -2,24 +2,21 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include "datasets/formats/formats.hpp"
+#include "datasets/rgbd/folder/folder_source.hpp"
 #include "datasets/rgbd/render/rendered_room.hpp"
+#include "tests/support/refusal_of.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
 
 using namespace rgbd;
 
-inline RenderOptions small_room(double laps) {
-  RenderOptions out;
-  out.width = 160;
-  out.rate = 8.0;
-  out.laps = laps;
-  return out;
-}
+inline RenderOptions small_room(double laps) { return {.width = 160, .rate = 8.0, .laps = laps}; }
 
 inline std::string camera_yaml(const Camera& c) {
   return fmt::format(
@@ -61,5 +58,26 @@ inline void write_recording(const TemporaryFolder& folder, const RgbdSource& sou
   folder.file("camera.yaml", camera_yaml(source.camera()));
   write_tum(folder.path() / "groundtruth.txt", source.reference());
 }
+
+/// A folder with the recording of a room, five frames.
+class RecordedRoom : public testing::Test {
+ protected:
+  RecordedRoom() { write_recording(folder_, *room_); }
+
+  std::unique_ptr<const RgbdSource> open(const FolderOptions& options = {}) const {
+    return open_rgbd_folder(folder_.path(), options);
+  }
+  std::string refusal() const {
+    return refusal_of([&] { open(); });
+  }
+  /// The reason why frame `index` cannot be read; "" if it can.
+  std::string unreadable(std::size_t index) const {
+    std::string why;
+    return open()->read(index, why) ? "" : why;
+  }
+
+  std::unique_ptr<const RgbdSource> room_ = rendered_room(small_room(0.01));
+  TemporaryFolder folder_;
+};
 
 }  // namespace loopbench

@@ -10,13 +10,7 @@ using namespace rgbd;
 
 namespace {
 
-RenderOptions tiny() {
-  RenderOptions out;
-  out.width = 80;
-  out.rate = 2.0;
-  out.laps = 0.1;
-  return out;
-}
+RenderOptions tiny() { return {.width = 80, .rate = 2.0, .laps = 0.1}; }
 
 RgbdFrame frame(const RenderOptions& options, std::size_t index) {
   std::string why;
@@ -53,12 +47,7 @@ TEST(Render, FurnitureHidesTheWallBehindIt) {
 }
 
 TEST(Render, DepthIsAlongTheAxisSoAFlatWallIsFlat) {
-  Camera camera;
-  camera.width = 32;
-  camera.height = 24;
-  camera.fx = camera.fy = 30.0;
-  camera.cx = 15.5;
-  camera.cy = 11.5;
+  const Camera camera{.width = 32, .height = 24, .fx = 30.0, .fy = 30.0, .cx = 15.5, .cy = 11.5};
   Matrix3 R;  // camera looks along x
   R << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   const RenderedImage rendered = render(bare_room(), camera, {Rotation(R), {0.2, 0.0, 0.0}});
