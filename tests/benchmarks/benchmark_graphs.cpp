@@ -18,13 +18,23 @@
 #include "methods/solvers/groups/se3.hpp"
 #include "metrics/correction/optimality.hpp"
 #include "tests/benchmarks/peak_memory.hpp"
-#include "tests/support/public_graphs.hpp"
 
 namespace loopbench {
 
 using namespace methods;
 
 namespace {
+
+constexpr const char* kPublicGraphs[] = {"intel",
+                                         "INTEL_1228_with_vertices",
+                                         "MIT",
+                                         "M3500_with_vertices",
+                                         "city10000",
+                                         "smallGrid3D",
+                                         "parking-garage",
+                                         "sphere2500",
+                                         "torus3D",
+                                         "cubicle"};
 
 using Sparse = Eigen::SparseMatrix<double>;
 
@@ -118,10 +128,14 @@ int main(int argc, char** argv) {
         ->MeasureProcessCPUTime()
         ->Unit(benchmark::kMillisecond);
   };
-  for (const std::string name : test::kPublicGraphs) {
+  for (const std::string name : kPublicGraphs) {
     if (root == nullptr) continue;
     try {
-      const Problem& problem = problems.emplace(name, test::public_graph(name, root)).first->second;
+      PoseGraphOptions options;
+      options.path = "pose_graphs/" + name + ".g2o";
+      options.rules.indefinite = IndefiniteInformation::repair;
+      const Problem& problem =
+          problems.emplace(name, load_pose_graph(options, {{root}}).problem).first->second;
       time("SimplicialLDLT " + name, [&](benchmark::State& state) {
         factorise<Eigen::SimplicialLDLT<Sparse, Eigen::Lower>>(problem, state);
       });

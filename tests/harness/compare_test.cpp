@@ -21,10 +21,6 @@ namespace {
 
 using namespace compared_sweep;  // NOLINT: its records are what every test here is about
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 bool has_note(const Comparison& c, const std::string& text) {
   return std::ranges::count(remarks(c), text) == 1;
 }

@@ -7,7 +7,6 @@
 #include "datasets/formats/trajectory_file.hpp"
 #include "tests/support/eval_command.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tests/support/traj_command.hpp"
 
 namespace loopbench::eval_covariances_test {
 namespace {

@@ -7,7 +7,6 @@
 #include "datasets/formats/formats.hpp"
 #include "tests/support/bag_writer.hpp"
 #include "tests/support/command.hpp"
-#include "tests/support/matplotlib.hpp"
 
 namespace loopbench::evo_migration_test {
 namespace {

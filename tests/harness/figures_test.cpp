@@ -7,7 +7,6 @@
 #include "harness/eval/eval_figures.hpp"
 #include "harness/eval/trajectory_figures.hpp"
 #include "tests/support/command.hpp"
-#include "tests/support/matplotlib.hpp"
 
 namespace loopbench::figures_test {
 namespace {

@@ -8,7 +8,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
 #include "harness/tables/record_csv.hpp"
-#include "tests/support/ate_record.hpp"
+#include "tests/support/compared_sweep.hpp"
 
 namespace loopbench::pivot_test {
 
@@ -18,7 +18,7 @@ using namespace harness;
 
 namespace {
 
-using test::ate;
+using compared_sweep::ate;
 
 TEST(Pivot, MarksAlongRowsWhereTheColumnsAreMethods) {
   std::vector<Record> records;

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/baseline_file.hpp"
+#include "harness/compare/gate.hpp"
 #include "harness/tables/gate_table.hpp"
-#include "tests/support/gate_sweep.hpp"
+#include "tests/support/compared_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench::planted_regressions_test {
@@ -19,7 +21,46 @@ using namespace harness;
 
 namespace {
 
-using namespace gate_sweep;
+/// A sweep for the gate: two methods on eight repeats, with records as read from a store.
+Record score(int run, const std::string& method, const std::string& metric, double rmse) {
+  Record out = compared_sweep::score("room", run, method, rmse);
+  out.cell = 2 * run + (method == "raw" ? 0 : 1);
+  out.metric = out.label = metric;
+  out.statistics.max = 2.0 * rmse;
+  out.statistics.count = 400;
+  out.pairs = out.possible = 400;
+  return out;
+}
+
+/// ATE 1.0, 1.1, ... for raw and half of it for uniform; the RPE is a tenth of the ATE.
+std::vector<Record> records() {
+  std::vector<Record> out;
+  for (int run = 0; run < 8; ++run) {
+    const double error = 1.0 + 0.1 * run;
+    for (const auto& [method, share] : {std::pair{"raw", 1.0}, std::pair{"uniform", 0.5}}) {
+      out.push_back(score(run, method, "ate", share * error));
+      out.push_back(score(run, method, "rpe", 0.1 * share * error));
+    }
+  }
+  return out;
+}
+
+/// The definitions for the records.
+Snapshot snapshot_of(const std::vector<Record>& records) {
+  Snapshot out;
+  out.sweep = "quick";
+  out.machine = "GNU 12.2.0, one CPU";
+  out.sequences = {{"room", "simulated: path=room, seed=1; a.txt 3 beef"}};
+  out.protocols = {{"loopbench [2]", "align=se3, max_diff=0.02"}};
+  out.metrics = {{"ate", "ate"}, {"rpe", "rpe, delta=1.0, unit=frames"}};
+  out.methods = {{"raw", "raw"}, {"uniform", "uniform, rotation=slerp, weights=time"}};
+  out.cells = gate_cells(records, {Tolerance{}});
+  return out;
+}
+
+Baseline baseline() {
+  return {{{"compiler", "GNU 12.2.0"}, {"source", "clean"}}, {Tolerance{}}, snapshot_of(records())};
+}
 
 /// The report as text, or the reason why the baseline does not apply; empty if it passes.
 std::string caught(const Snapshot& now, const Baseline& before = baseline()) {

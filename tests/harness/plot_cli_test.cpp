@@ -5,7 +5,6 @@
 
 #include "harness/report/draw.hpp"
 #include "tests/support/command.hpp"
-#include "tests/support/matplotlib.hpp"
 
 namespace loopbench::plot_cli_test {
 namespace {

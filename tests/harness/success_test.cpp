@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "datasets/core/error.hpp"
-#include "tests/support/ate_record.hpp"
+#include "tests/support/compared_sweep.hpp"
 
 namespace loopbench::success_test {
 namespace {
@@ -24,7 +24,7 @@ TEST(Success, CountsFailedRunsAsFailures) {
   std::vector<Record> records;
   const auto add = [&](const char* method, double error) -> Record& {
     const auto cell = static_cast<int>(records.size());
-    Record& r = records.emplace_back(test::ate(method, error, cell));
+    Record& r = records.emplace_back(compared_sweep::ate(method, error, cell));
     r.cell = cell;
     r.unit = "m";
     return r;
@@ -49,7 +49,7 @@ TEST(Success, CountsFailedRunsAsFailures) {
 
 TEST(Success, NeedsAScoreAndAStatistic) {
   EXPECT_THROW(success_table({}, "rmse", 1.0), InputError);
-  EXPECT_THROW(success_table({test::ate("a", 1.0, 0)}, "p42", 1.0), InputError);
+  EXPECT_THROW(success_table({compared_sweep::ate("a", 1.0, 0)}, "p42", 1.0), InputError);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "harness/tables/pivot.hpp"
 #include "harness/tables/record_csv.hpp"
 #include "harness/tables/summary.hpp"
-#include "tests/support/ate_record.hpp"
+#include "tests/support/compared_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench::tables_test {
@@ -23,7 +23,7 @@ using namespace harness;
 
 namespace {
 
-using test::ate;
+using compared_sweep::ate;
 
 TEST(Where, KeepsWhatEveryRuleKeeps) {
   const auto keeps = [](const std::string& rule) { return where({rule})(ate("dm_n3", 1.0)); };

@@ -7,7 +7,6 @@
 #include "datasets/formats/trajectory_file.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/eval_command.hpp"
-#include "tests/support/traj_command.hpp"
 
 namespace loopbench::traj_stamps_test {
 namespace {

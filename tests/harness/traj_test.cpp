@@ -8,7 +8,6 @@
 #include "harness/eval/transformation.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/eval_command.hpp"
-#include "tests/support/traj_command.hpp"
 
 namespace loopbench::traj_test {
 namespace {

@@ -25,10 +25,6 @@ const MethodVerdict& find(const Comparison& c, const std::string& method) {
   return *std::ranges::find(c.methods, method, &MethodVerdict::method);
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// An error that differs between runs.
 double size_of(int run) { return 0.1 + 0.013 * run; }
 

@@ -41,4 +41,12 @@ inline CommandResult loopbench_command(const std::string& arguments,
   return {code, read_all(out), read_all(err)};
 }
 
+/// Whether figures can be drawn on this machine.
+inline bool has_matplotlib() {
+  static const bool found = std::system(
+                                "python3 -c 'import matplotlib' 2>/dev/null || "
+                                "/usr/bin/python3 -c 'import matplotlib' 2>/dev/null") == 0;
+  return found;
+}
+
 }  // namespace loopbench

@@ -27,6 +27,13 @@ inline Record score(const std::string& sequence,
   return r;
 }
 
+/// A score of a protocol with options.
+inline Record ate(const std::string& method, double rmse, int repeat = 0) {
+  Record r = score("room", repeat, method, rmse);
+  r.protocol = "evo (align=se3, first=10)";
+  return r;
+}
+
 inline Record failed(const std::string& sequence, int repeat, const std::string& method) {
   Record r;
   r.sequence = sequence;
@@ -50,6 +57,10 @@ inline std::vector<Record> sweep() {
     out.push_back(score(sequence, repeat, "copy", size * (1.0 + 1e-13)));
   }
   return out;
+}
+
+inline bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
 }
 
 inline Comparison compared(const std::vector<Record>& records, CompareOptions options = {}) {

@@ -1,4 +1,4 @@
-/// Runs `loopbench eval` in the test process.
+/// Runs `loopbench eval` and `loopbench traj` in the test process.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,13 +35,17 @@ inline std::vector<std::string> drift(const std::vector<std::string>& options = 
   return with({golden("gt.txt"), golden("est_drift.txt")}, options);
 }
 
-/// Output of `loopbench eval ARGS`, which must have the expected exit code.
-inline std::string eval(std::vector<std::string> arguments, int expected_exit = kExitOk) {
+/// Output of `loopbench VERB ARGS`, eval or traj, which must have the expected exit code.
+/// Exceptions of the verb pass.
+inline std::string in_process(const std::string& verb,
+                              std::vector<std::string> arguments,
+                              int expected_exit = kExitOk) {
   CLI::App app;
   int exit_code = -1;
   add_eval(app, exit_code);
-  arguments.insert(arguments.begin(), "eval");
-  std::reverse(arguments.begin(), arguments.end());  // order required by CLI11
+  add_traj(app, exit_code);
+  arguments.insert(arguments.begin(), verb);
+  std::ranges::reverse(arguments);  // order required by CLI11
   testing::internal::CaptureStdout();
   try {
     app.parse(arguments);
@@ -53,23 +57,50 @@ inline std::string eval(std::vector<std::string> arguments, int expected_exit = 
   return testing::internal::GetCapturedStdout();
 }
 
+inline std::string eval(const std::vector<std::string>& arguments, int expected_exit = kExitOk) {
+  return in_process("eval", arguments, expected_exit);
+}
+
+struct Printed {
+  std::string output;
+  std::string errors;
+};
+
+inline Printed traj(const std::vector<std::string>& arguments) {
+  Printed out;
+  testing::internal::CaptureStderr();
+  try {
+    out.output = in_process("traj", arguments);
+  } catch (...) {
+    testing::internal::GetCapturedStderr();
+    throw;
+  }
+  out.errors = testing::internal::GetCapturedStderr();
+  return out;
+}
+
 /// The list of evaluations, or the only one.
 inline Json eval_json(std::vector<std::string> arguments, int expected_exit = kExitOk) {
   arguments.push_back("--json");
-  const Json all = Json::parse(eval(std::move(arguments), expected_exit));
+  const Json all = Json::parse(eval(arguments, expected_exit));
   EXPECT_TRUE(all.is_array()) << all;
   return all.size() == 1 ? all[0] : all;
 }
 
+/// The message of the error of a command, which must be rejected.
 template <class Error>
-std::string refusal(const std::vector<std::string>& arguments) {
+std::string refusal(const std::vector<std::string>& arguments, const std::string& verb = "eval") {
   try {
-    eval(arguments);
+    in_process(verb, arguments);
   } catch (const Error& error) {
     return error.what();
   }
   ADD_FAILURE() << "nothing thrown";
   return "";
+}
+
+inline std::string traj_refusal(const std::vector<std::string>& arguments) {
+  return refusal<std::exception>(arguments, "traj");
 }
 
 inline Json find(const Json& results,
