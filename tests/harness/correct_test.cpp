@@ -26,14 +26,6 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-/// One line of a closure file, with every digit.
-std::string closure_line(const Edge& edge, const Trajectory& keyframes) {
-  std::string out = to_text(keyframes[edge.from].stamp) + " " + to_text(keyframes[edge.to].stamp);
-  for (const double x : edge.from_from_to.translation) out += " " + to_text(x);
-  for (const double x : edge.from_from_to.rotation.coeffs()) out += " " + to_text(x);
-  return out + " 0.02 0.01\n";
-}
-
 /// A drifting drive along a loop: est.txt, gt.txt, loops.txt and a config with the given methods.
 class Correct : public testing::Test {
  protected:
@@ -43,13 +35,11 @@ class Correct : public testing::Test {
         test::drifting(truth, twist({0.01, 0.0, 0.004}, {0.0, 0.002, 0.01}), {{0, 38}, {1, 39}});
     write_tum(folder_.path() / "est.txt", problem.keyframes);
     write_tum(folder_.path() / "gt.txt", truth);
-    write_loops(problem);
+    folder_.file("loops.txt", test::closure_lines(problem));
   }
 
-  void write_loops(const Problem& problem) {
-    std::string text;
-    for (const Edge& edge : problem.closures) text += closure_line(edge, problem.keyframes);
-    folder_.file("loops.txt", text);
+  CommandResult correct(const std::string& arguments) const {
+    return successful_command("correct " + arguments, folder_);
   }
 
   /// RMSE [m] of the ATE that a sweep stores for this method.
@@ -58,8 +48,7 @@ class Correct : public testing::Test {
                  "datasets: [{dataset: trajectory, " + dataset +
                      ", closures: {source: file, file: loops.txt}}]\nmethods: [" + method +
                      "]\nmetrics: [ate]\ntimes: " + times + "\n");
-    const CommandResult ran = loopbench_command("run c.yaml --fresh --out r", folder_);
-    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    successful_command("run c.yaml --fresh --out r", folder_);
     for (const Record& record : read_records(folder_.path() / "r")) {
       if (record.metric == "ate" && record.relation == "translation") return record.statistics.rmse;
     }
@@ -70,8 +59,7 @@ class Correct : public testing::Test {
   /// The same of a file, by `eval`.
   double evaluated(const std::string& reference, const std::string& file) {
     const CommandResult ran =
-        loopbench_command("eval " + reference + " " + file + " --json", folder_);
-    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+        successful_command("eval " + reference + " " + file + " --json", folder_);
     const Json metrics = Json::parse(ran.out).at(0).at("metrics");
     for (const Json& metric : metrics) {
       if (metric["metric"] == "ate" && metric["relation"] == "translation") return metric["rmse"];
@@ -86,16 +74,13 @@ class Correct : public testing::Test {
 TEST_F(Correct, ItsFileHasTheScoreOfTheSweepsCell) {
   const std::string files = "estimate: est.txt, reference: gt.txt";
   for (const std::string method : {"uniform", "dual + cubic_spline"}) {
-    const CommandResult done = loopbench_command(
-        "correct --method '" + method + "' est.txt --loops loops.txt -o out.txt", folder_);
-    ASSERT_EQ(done.exit_code, 0) << done.err;
+    const std::string by_method = "--method '" + method + "' est.txt --loops loops.txt ";
+    const CommandResult done = correct(by_method + "-o out.txt");
     EXPECT_THAT(done.out, HasSubstr("closure residual, rms [m]"));
     EXPECT_THAT(done.out, HasSubstr("chi2 of odometry                         0 "));
     EXPECT_THAT(done.out, HasSubstr("40 poses in out.txt"));
     EXPECT_EQ(evaluated("gt.txt", "out.txt"), in_sweep(method, "keyframes", files)) << method;
-    loopbench_command(
-        "correct --method '" + method + "' est.txt --loops loops.txt --at gt.txt -o dense.txt",
-        folder_);
+    correct(by_method + "--at gt.txt -o dense.txt");
     EXPECT_EQ(evaluated("gt.txt", "dense.txt"), in_sweep(method, "dense", files)) << method;
   }
 }
@@ -108,7 +93,7 @@ TEST_F(Correct, WritesTheCovariancesThatTheSweepScores) {
       "closures: {source: file, file: loops.txt}}]\n"
       "methods: [raw, {method: dual, covariances: true}]\n"
       "metrics: [{metric: nees, gauge: origin}]\ntimes: keyframes\n");
-  ASSERT_EQ(loopbench_command("run nees.yaml --out nees", folder_).exit_code, 0);
+  successful_command("run nees.yaml --out nees", folder_);
   std::map<std::string, std::vector<double>> means;
   std::string why;
   for (const Record& record : read_records(folder_.path() / "nees")) {
@@ -119,14 +104,9 @@ TEST_F(Correct, WritesTheCovariancesThatTheSweepScores) {
     }
   }
   EXPECT_THAT(why, HasSubstr("states no covariances"));
-  ASSERT_EQ(loopbench_command("correct est.txt --loops loops.txt --method dual:covariances=true "
-                              "-o out.txt",
-                              folder_)
-                .exit_code,
-            0);
+  correct("est.txt --loops loops.txt --method dual:covariances=true -o out.txt");
   const CommandResult of_file =
-      loopbench_command("eval gt.txt out.txt --metric nees:gauge=origin --json", folder_);
-  ASSERT_EQ(of_file.exit_code, 0) << of_file.err;
+      successful_command("eval gt.txt out.txt --metric nees:gauge=origin --json", folder_);
   const Json rows = Json::parse(of_file.out).at(0).at("metrics");
   int compared = 0;
   for (const Json& row : rows) {
@@ -148,21 +128,17 @@ TEST_F(Correct, TheOpenRunOfFr1RoomHasTheScoreOfTheSweepsCell) {
   options.estimate = room + "orbslam2_rgbd_open_keyframes.txt";
   options.closures = ClosureSource::estimate;
   options.closures_file = room + "orbslam2_rgbd_closed_frames_run1.txt";
-  write_loops(load_trajectory(options, DataRoot{{"/"}}).problem);
+  folder_.file("loops.txt", test::closure_lines(load_trajectory(options, DataRoot{{"/"}}).problem));
   const std::string files =
       "estimate: " + options.estimate + ", reference: " + room + "groundtruth.txt";
-  const CommandResult done = loopbench_command(
-      "correct --method uniform " + options.estimate + " --loops loops.txt -o out.txt", folder_);
-  ASSERT_EQ(done.exit_code, 0) << done.err;
+  correct("--method uniform " + options.estimate + " --loops loops.txt -o out.txt");
   EXPECT_EQ(evaluated(room + "groundtruth.txt", "out.txt"),
             in_sweep("uniform", "keyframes", files));
 }
 
 TEST_F(Correct, JsonStatesResidualsBeforeAndAfter) {
-  const CommandResult done = loopbench_command(
-      "correct --method pose_graph:loss=huber est.txt --loops loops.txt --json", folder_);
-  ASSERT_EQ(done.exit_code, 0) << done.err;
-  const Json json = Json::parse(done.out);
+  const Json json =
+      Json::parse(correct("--method pose_graph:loss=huber est.txt --loops loops.txt --json").out);
   EXPECT_EQ(json["keyframes"], 40);
   EXPECT_EQ(json["closures"], 2);
   EXPECT_EQ(json["rejected"], nullptr);
@@ -170,17 +146,13 @@ TEST_F(Correct, JsonStatesResidualsBeforeAndAfter) {
   for (const auto& [name, value] : json["counts"].items()) {
     EXPECT_THAT(name, testing::Not(HasSubstr("before"))) << "is that of the input elsewhere";
   }
-  EXPECT_THAT(loopbench_command("correct est.txt --loops loops.txt", folder_).out,
-              HasSubstr("\ncounts: iterations "));
+  EXPECT_THAT(correct("est.txt --loops loops.txt").out, HasSubstr("\ncounts: iterations "));
   EXPECT_LT(json["after"]["translation_rms"], json["before"]["translation_rms"]);
   EXPECT_NEAR(json["before"]["chi2_odometry"], 0.0, 1e-12) << "a trajectory agrees with itself";
 }
 
 TEST_F(Correct, RejectedClosuresAreCounted) {
-  const CommandResult done =
-      loopbench_command("correct --method dual_pcm est.txt --loops loops.txt --json", folder_);
-  ASSERT_EQ(done.exit_code, 0) << done.err;
-  const Json json = Json::parse(done.out);
+  const Json json = Json::parse(correct("--method dual_pcm est.txt --loops loops.txt --json").out);
   EXPECT_EQ(json["rejected"], 2.0 - json["counts"]["closures_consistent"].get<double>());
 }
 
@@ -193,10 +165,8 @@ TEST_F(Correct, MeasuredPositionsAreAnchors) {
     points += " 0.001\n";
   }
   folder_.file("points.txt", points + "1e6 0 0 0 1\n");
-  const CommandResult done = loopbench_command(
-      "correct --method dual est.txt --anchors points.txt -o out.txt --json", folder_);
-  ASSERT_EQ(done.exit_code, 0) << done.err;
-  const Json json = Json::parse(done.out);
+  const Json json =
+      Json::parse(correct("--method dual est.txt --anchors points.txt -o out.txt --json").out);
   EXPECT_EQ(json["anchors"], 10);
   EXPECT_GT(json["before"]["anchor_rms"], 7.0) << "another world";
   EXPECT_LT(json["after"]["anchor_max"], 0.01);
@@ -210,9 +180,7 @@ TEST_F(Correct, MeasuredPositionsAreAnchors) {
 }
 
 TEST_F(Correct, StartEqualsEndNeedsNoMeasuredPose) {
-  const CommandResult done = loopbench_command(
-      "correct --method uniform est.txt --start-equals-end 0.01 -o out.txt", folder_);
-  ASSERT_EQ(done.exit_code, 0) << done.err;
+  correct("--method uniform est.txt --start-equals-end 0.01 -o out.txt");
   const Trajectory out = read_trajectory(folder_.path() / "out.txt");
   EXPECT_NEAR(
       (out.back().world_from_body.translation - out.front().world_from_body.translation).norm(),
@@ -221,19 +189,17 @@ TEST_F(Correct, StartEqualsEndNeedsNoMeasuredPose) {
 }
 
 TEST_F(Correct, WritesOtherFormatsAndStandardOutput) {
-  const std::string correct = "correct est.txt --loops loops.txt ";
-  ASSERT_EQ(loopbench_command(correct + "-o out.txt", folder_).exit_code, 0);
-  ASSERT_EQ(loopbench_command(correct + "--method pose_graph -o same.txt", folder_).exit_code, 0);
+  const std::string input = "est.txt --loops loops.txt ";
+  correct(input + "-o out.txt");
+  correct(input + "--method pose_graph -o same.txt");
   const std::string poses = read_all(folder_.path() / "out.txt");
   EXPECT_EQ(poses, read_all(folder_.path() / "same.txt")) << "the default is pose_graph";
-  const CommandResult printed = loopbench_command(correct + "-o -", folder_);
+  const CommandResult printed = correct(input + "-o -");
   EXPECT_EQ(printed.out, poses);
   EXPECT_THAT(printed.err, HasSubstr("corrected by pose_graph"));
   for (const char* format : {"kitti", "euroc"}) {
     const std::string name = std::string("out.") + format;
-    const CommandResult done =
-        loopbench_command(correct + "-o " + name + " --to " + format, folder_);
-    ASSERT_EQ(done.exit_code, 0) << done.err;
+    const CommandResult done = correct(input + "-o " + name + " --to " + format);
     EXPECT_EQ(read_trajectory(folder_.path() / name).size(), 40u) << format;
     const bool is_noted = done.out.find("note: kitti does not contain stamps\n") < done.out.size();
     EXPECT_EQ(is_noted, name == "out.kitti");
@@ -246,19 +212,49 @@ TEST_F(Correct, ReadsTheLoopsOfAGraphOfTheSamePoses) {
   problem.odometry = odometry_edges(problem.keyframes, EdgeNoise{});
   problem.closures = {{1, 39, Pose{{1, 0, 0, 0}, {0.5, 0, 0}}, Matrix6::Identity()}};
   write_g2o(folder_.path() / "loops.g2o", problem_graph(problem, problem.keyframes, {}));
-  const std::string correct = "correct est.txt --method uniform --json --loops ";
-  const CommandResult done = loopbench_command(correct + "loops.g2o", folder_);
-  ASSERT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_EQ(Json::parse(done.out)["closures"], 1);
+  const std::string input = "est.txt --method uniform --json --loops ";
+  const Json all = Json::parse(correct(input + "loops.g2o").out);
+  EXPECT_EQ(all["closures"], 1);
   folder_.file("only.g2o",
                "EDGE_SE3:QUAT 1 39 0.5 0 0 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 4 0 0 4 0 4\n");
-  const CommandResult only = loopbench_command(correct + "only.g2o", folder_);
-  ASSERT_EQ(only.exit_code, 0) << only.err;
-  EXPECT_EQ(Json::parse(only.out)["after"], Json::parse(done.out)["after"]);
+  EXPECT_EQ(Json::parse(correct(input + "only.g2o").out)["after"], all["after"]);
   folder_.file("far.g2o",
                "EDGE_SE3:QUAT 1 40 0.5 0 0 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 4 0 0 4 0 4\n");
-  EXPECT_THAT(loopbench_command(correct + "far.g2o", folder_).err,
+  EXPECT_THAT(loopbench_command("correct " + input + "far.g2o", folder_).err,
               HasSubstr("far.g2o:1: found vertex 40, expected 0 to 39"));
+}
+
+TEST_F(Correct, AGraphKeepsItsIdsAndEdges) {
+  const Trajectory truth = test::hand_held_truth(12);
+  const Problem problem =
+      test::drifting(truth, twist({0.02, 0.0, 0.0}, {0.0, 0.0, 0.01}), {{0, 11}});
+  std::vector<std::int64_t> ids(12);
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = 100 + static_cast<std::int64_t>(i);
+  write_g2o(folder_.path() / "in.g2o", problem_graph(problem, problem.keyframes, ids));
+  correct("--method dual in.g2o -o out.g2o");
+  const PoseGraph before = read_g2o(folder_.path() / "in.g2o");
+  const PoseGraph after = read_g2o(folder_.path() / "out.g2o");
+  EXPECT_EQ(after.ids, ids);
+  ASSERT_EQ(after.edges.size(), before.edges.size());
+  for (std::size_t i = 0; i < before.edges.size(); ++i) {
+    EXPECT_EQ(after.edges[i].information, before.edges[i].information);
+    EXPECT_EQ(after.edges[i].from_from_to.translation, before.edges[i].from_from_to.translation);
+  }
+  EXPECT_NE(after.vertices.back().translation, before.vertices.back().translation);
+}
+
+// As in cubicle.g2o: terms of x and yaw at z and roll.
+TEST_F(Correct, IndefiniteInformationOfAGraphIsTreatedAsStated) {
+  folder_.file("in.g2o",
+               "EDGE_SE3:QUAT 0 1 1 0 0 0 0 0 1 4 0 0 0 0 0 4 0 0 0 0 2 3 -1 0 2 0 0 2 0 9\n"
+               "EDGE_SE3:QUAT 1 2 1 0 0 0 0 0 1 4 0 0 0 0 0 4 0 0 0 0 4 0 0 0 8 0 0 8 0 8\n"
+               "EDGE_SE3:QUAT 0 2 2.1 0 0 0 0 0 1 4 0 0 0 0 0 4 0 0 0 0 4 0 0 0 8 0 0 8 0 8\n");
+  EXPECT_EQ(loopbench_command("correct in.g2o", folder_).exit_code, 2);
+  correct("in.g2o --set indefinite=repair -o out.g2o");
+  EXPECT_EQ(read_g2o(folder_.path() / "out.g2o").edges.size(), 3u);
+  const CommandResult doctor = loopbench_command("doctor in.g2o", folder_);
+  EXPECT_EQ(doctor.exit_code, 1);
+  EXPECT_THAT(doctor.out, HasSubstr("information_indefinite: the information of 1 of 3 edges"));
 }
 
 TEST_F(Correct, BadArgumentsAreNamed) {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "datasets/core/mirrored.hpp"
-#include "datasets/core/params.hpp"
+#include "datasets/derive/problem_graph.hpp"
 #include "datasets/formats/formats.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "tests/support/command.hpp"
@@ -18,6 +18,11 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
+void reorder_quaternion(StampedPose& p) {
+  const Rotation q = p.world_from_body.rotation;
+  p.world_from_body.rotation = Rotation(q.z(), q.w(), q.x(), q.y());
+}
+
 class DoctorNotes : public testing::Test {
  protected:
   DoctorNotes() {
@@ -28,11 +33,8 @@ class DoctorNotes : public testing::Test {
     write("late.txt", changed(problem.keyframes, [](StampedPose& p) { p.stamp += 0.4; }));
     write("small.txt",
           changed(problem.keyframes, [](StampedPose& p) { p.world_from_body.translation *= 0.4; }));
-    write("wxyz.txt", changed(problem.keyframes, [](StampedPose& p) {
-            const Rotation q = p.world_from_body.rotation;
-            p.world_from_body.rotation = Rotation(q.z(), q.w(), q.x(), q.y());
-          }));
-    loops(problem, "0.02 0.01");
+    write("wxyz.txt", changed(problem.keyframes, reorder_quaternion));
+    loops(problem);
   }
 
   void write(const std::string& name, const Trajectory& poses) {
@@ -45,17 +47,10 @@ class DoctorNotes : public testing::Test {
     return poses;
   }
 
-  /// `sigmas`: standard deviations of the closures [m], [rad].
-  void loops(const Problem& problem, const std::string& sigmas) {
-    std::string text;
-    for (const Edge& edge : problem.closures) {
-      text += to_text(problem.keyframes[edge.from].stamp) + " " +
-              to_text(problem.keyframes[edge.to].stamp);
-      for (const double x : edge.from_from_to.translation) text += " " + to_text(x);
-      for (const double x : edge.from_from_to.rotation.coeffs()) text += " " + to_text(x);
-      text += " " + sigmas + "\n";
-    }
-    folder_.file("loops.txt", text);
+  void loops(const Problem& problem) { folder_.file("loops.txt", test::closure_lines(problem)); }
+
+  CommandResult doctor(const std::string& arguments) const {
+    return loopbench_command("doctor " + arguments, folder_);
   }
 
   CommandResult run(const std::string& estimate, const std::string& protocol, const char* methods) {
@@ -92,16 +87,15 @@ TEST_F(DoctorNotes, RepeatedStampsAreFoundAndDoNotHideOtherMistakes) {
     if (rows.size() > line.size() + 1 && rows.size() < 3 * line.size()) rows += line + "\n";
   }
   folder_.file("twice.txt", rows);
-  const CommandResult found = loopbench_command("doctor gt.txt twice.txt", folder_);
+  const CommandResult found = doctor("gt.txt twice.txt");
   EXPECT_EQ(found.exit_code, 1) << found.err;
   EXPECT_THAT(found.out,
               HasSubstr("  repeated_stamps: twice.txt: 1 with the stamp of the pose before; "
                         "--repeats keep_first or keep_last"));
   EXPECT_THAT(found.out, HasSubstr("  scale: "));
-  const CommandResult given =
-      loopbench_command("doctor gt.txt twice.txt --repeats keep_last", folder_);
-  EXPECT_THAT(given.out, Not(HasSubstr("repeated_stamps")));
-  EXPECT_EQ(loopbench_command("doctor gt.txt twice.txt --repeats refuse", folder_).exit_code, 2);
+  EXPECT_THAT(doctor("gt.txt twice.txt --repeats keep_last").out,
+              Not(HasSubstr("repeated_stamps")));
+  EXPECT_EQ(doctor("gt.txt twice.txt --repeats refuse").exit_code, 2);
 }
 
 /// Applies the command "traj transform EST ..." that `doctor` names for a changed estimate.
@@ -109,22 +103,17 @@ TEST_F(DoctorNotes, TheNamedCommandRemovesTheFinding) {
   const Trajectory estimate = read_trajectory(folder_.path() / "est.txt");
   const auto check = [&](const std::string& fault, auto change) {
     write("wrong.txt", changed(estimate, change));
-    const CommandResult found = loopbench_command("doctor gt.txt wrong.txt", folder_);
+    const CommandResult found = doctor("gt.txt wrong.txt");
     EXPECT_EQ(found.exit_code, 1) << found.out << found.err;
     EXPECT_THAT(found.out, HasSubstr("  " + fault + ": "));
     const std::size_t begin = found.out.find("traj transform EST");
     ASSERT_NE(begin, std::string::npos) << found.out;
     std::string command = found.out.substr(begin, found.out.find(" (", begin) - begin);
     command.replace(command.find("EST"), 3, "wrong.txt");
-    const CommandResult applied = loopbench_command(command + " -o right.txt", folder_);
-    EXPECT_EQ(applied.exit_code, 0) << command << applied.err;
-    const CommandResult after = loopbench_command("doctor gt.txt right.txt", folder_);
-    EXPECT_EQ(after.exit_code, 0) << command << "\n" << after.out;
+    successful_command(command + " -o right.txt", folder_);
+    successful_command("doctor gt.txt right.txt", folder_);
   };
-  check("quaternion_order", [](StampedPose& p) {
-    const Rotation q = p.world_from_body.rotation;
-    p.world_from_body.rotation = Rotation(q.z(), q.w(), q.x(), q.y());
-  });
+  check("quaternion_order", reorder_quaternion);
   check("inverted_poses", [](StampedPose& p) { p.world_from_body = p.world_from_body.inverse(); });
   check("axes", [](StampedPose& p) {
     const Vector3 t = p.world_from_body.translation;
@@ -151,52 +140,38 @@ TEST_F(DoctorNotes, ClosuresOfATrajectoryAreChecked) {
   Problem problem = test::drifting(truth_,
                                    twist({0.004, 0, 0.001}, {0, 0.001, 0.002}),
                                    {{0, 90}, {1, 91}, {2, 92}, {3, 93}, {4, 94}, {5, 95}, {6, 96}});
-  loops(problem, "0.02 0.01");
-  const auto doctor = [&] {
-    return loopbench_command("doctor est.txt --loops loops.txt", folder_);
-  };
-  EXPECT_EQ(doctor().exit_code, 0) << doctor().out << doctor().err;
-  EXPECT_THAT(doctor().out, HasSubstr("nothing found"));
+  loops(problem);
+  const std::string closed = "est.txt --loops loops.txt";
+  EXPECT_THAT(successful_command("doctor " + closed, folder_).out, HasSubstr("nothing found"));
   problem.closures[3].from_from_to.translation.x() += 4.5;  // false
-  loops(problem, "0.02 0.01");
-  EXPECT_EQ(doctor().exit_code, 1);
-  EXPECT_THAT(doctor().out, HasSubstr("closure_gap: 1 of 7 closures"));
+  loops(problem);
+  EXPECT_EQ(doctor(closed).exit_code, 1);
+  EXPECT_THAT(doctor(closed).out, HasSubstr("closure_gap: 1 of 7 closures"));
   EXPECT_THAT(run("est.txt", "loopbench", "[raw]").err, HasSubstr("doctor: closure_gap: 1 of 7"));
-  EXPECT_THAT(
-      loopbench_command("correct est.txt --loops loops.txt --method dual -o c.txt", folder_).out,
-      HasSubstr("note: doctor: closure_gap: 1 of 7 closures"));
+  EXPECT_THAT(loopbench_command("correct " + closed + " --method dual -o c.txt", folder_).out,
+              HasSubstr("note: doctor: closure_gap: 1 of 7 closures"));
 }
 
-/// Applies the command that `doctor` names for a changed pose graph.
-TEST_F(DoctorNotes, ApplyCorrectsPoseGraphs) {
+TEST_F(DoctorNotes, FaultsOfPoseGraphsAreFound) {
   Problem good = test::drifting(truth_,
                                 twist({0.004, 0, 0.001}, {0, 0.001, 0.002}),
                                 {{0, 85}, {2, 87}, {4, 89}, {6, 91}, {8, 93}, {10, 95}, {12, 97}});
-  const auto graph = [&](const Problem& problem) {
-    PoseGraph out;
-    for (std::size_t i = 0; i < problem.keyframes.size(); ++i) {
-      out.ids.push_back(static_cast<std::int64_t>(i));
-      out.vertices.push_back(problem.keyframes[i].world_from_body);
-    }
-    out.edges = problem.odometry;
-    out.edges.insert(out.edges.end(), problem.closures.begin(), problem.closures.end());
-    return out;
+  const auto written = [&](const Problem& problem) {
+    write_g2o(folder_.path() / "g.g2o", problem_graph(problem, problem.keyframes));
+    return doctor("g.g2o");
   };
-  write_g2o(folder_.path() / "g.g2o", graph(good));
-  const CommandResult clean = loopbench_command("doctor g.g2o", folder_);
-  ASSERT_EQ(clean.exit_code, 0) << clean.out;
+  ASSERT_EQ(written(good).exit_code, 0);
   const auto check = [&](const std::string& fault, auto change) {
     Problem wrong = good;
     change(wrong);
-    write_g2o(folder_.path() / "g.g2o", graph(wrong));
-    const CommandResult found = loopbench_command("doctor g.g2o", folder_);
+    const CommandResult found = written(wrong);
     EXPECT_EQ(found.exit_code, 1) << found.out << found.err;
     EXPECT_THAT(found.out, HasSubstr("  " + fault + ": "));
   };
   check("closure_direction", [](Problem& p) {
     for (Edge& edge : p.closures) edge.from_from_to = edge.from_from_to.inverse();
   });
-  const CommandResult json = loopbench_command("doctor g.g2o --json", folder_);
+  const CommandResult json = doctor("g.g2o --json");
   EXPECT_TRUE(nlohmann::json::accept(json.out)) << json.out;
   check("closure_gap", [](Problem& p) { p.closures[3].from_from_to.translation.x() += 4.5; });
   check("information_scale", [](Problem& p) {
@@ -207,20 +182,17 @@ TEST_F(DoctorNotes, ApplyCorrectsPoseGraphs) {
 }
 
 TEST_F(DoctorNotes, TheReferenceHasItsOwnFormat) {
-  const auto error = [&](const std::string& options) {
-    return loopbench_command("doctor gt.txt est.txt " + options, folder_).err;
-  };
-  EXPECT_THAT(error("--ref-format kitti"), HasSubstr("gt.txt"));
-  EXPECT_THAT(error("--format kitti --ref-format tum"), HasSubstr("est.txt"));
+  EXPECT_THAT(doctor("gt.txt est.txt --ref-format kitti").err, HasSubstr("gt.txt"));
+  EXPECT_THAT(doctor("gt.txt est.txt --format kitti --ref-format tum").err, HasSubstr("est.txt"));
 }
 
 TEST_F(DoctorNotes, ASinglePoseIsNoCleanFile) {
   folder_.file("one.txt", "101 0 0 0 0 0 0 1\n");
-  const CommandResult one = loopbench_command("doctor gt.txt one.txt", folder_);
+  const CommandResult one = doctor("gt.txt one.txt");
   EXPECT_EQ(one.exit_code, 1);
   EXPECT_THAT(one.out, HasSubstr("not checked: units, scale, "));
   EXPECT_THAT(one.out, HasSubstr("nothing could be checked"));
-  EXPECT_THAT(loopbench_command("doctor gt.txt est.txt", folder_).out, Not(HasSubstr("offset")));
+  EXPECT_THAT(doctor("gt.txt est.txt").out, Not(HasSubstr("offset")));
   EXPECT_EQ(loopbench_command("eval gt.txt est.txt -a --align_origin", folder_).exit_code, 2);
 }
 

@@ -1,6 +1,7 @@
 /// Runs the real binary from the command line.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <array>
@@ -39,6 +40,14 @@ inline CommandResult loopbench_command(const std::string& arguments,
   const int status = std::system(line.c_str());
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return {code, read_all(out), read_all(err)};
+}
+
+/// The same for a command that must succeed.
+inline CommandResult successful_command(const std::string& arguments,
+                                        const TemporaryFolder& folder) {
+  CommandResult result = loopbench_command(arguments, folder);
+  EXPECT_EQ(result.exit_code, 0) << arguments << "\n" << result.out << result.err;
+  return result;
 }
 
 /// Whether figures can be drawn on this machine.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "datasets/core/interpolate.hpp"
+#include "datasets/core/params.hpp"
 #include "datasets/core/problem.hpp"
 
 namespace loopbench::test {
@@ -35,6 +36,19 @@ inline Problem drifting(const Trajectory& truth, const Twist& bias, const Pairs&
   }
   for (const auto& [from, to] : closures) {
     out.closures.push_back({from, to, normalized(between(from, to)), 4.0 * information});
+  }
+  return out;
+}
+
+/// The closures as text of a closure file, with every digit; standard deviations 0.02 m, 0.01 rad.
+inline std::string closure_lines(const Problem& problem) {
+  std::string out;
+  for (const Edge& edge : problem.closures) {
+    out += to_text(problem.keyframes[edge.from].stamp) + " " +
+           to_text(problem.keyframes[edge.to].stamp);
+    for (const double x : edge.from_from_to.translation) out += " " + to_text(x);
+    for (const double x : edge.from_from_to.rotation.coeffs()) out += " " + to_text(x);
+    out += " 0.02 0.01\n";
   }
   return out;
 }
