@@ -1,10 +1,14 @@
-/// The program as a process: help, exit codes, messages, output files.
+/// The program as a process: dry runs, exit codes, messages, output files.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/command.hpp"
 
 namespace loopbench::cli_test {
 namespace {
+
+using testing::HasSubstr;
 
 const char* const kConfig =
     "datasets:\n"
@@ -16,13 +20,16 @@ const char* const kConfig =
 class Cli : public testing::Test {
  protected:
   CommandResult run(const std::string& arguments) { return loopbench_command(arguments, folder_); }
+  /// `run --dry-run` of a config with one dataset.
+  CommandResult dry_run(const std::string& dataset) {
+    folder_.file("c.yaml", "datasets:\n  - {" + dataset + "}\nmethods: [raw]\nmetrics: [ate]\n");
+    return run("run c.yaml --dry-run");
+  }
   TemporaryFolder folder_;
 };
 
 TEST_F(Cli, TellsItsVersion) {
-  const CommandResult result = run("--version");
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.out, "loopbench " LOOPBENCH_VERSION "\n");
+  EXPECT_EQ(successful_command("--version", folder_).out, "loopbench " LOOPBENCH_VERSION "\n");
 }
 
 TEST_F(Cli, WrongCommandLinesExitWithTwo) {
@@ -36,8 +43,7 @@ TEST_F(Cli, WrongCommandLinesExitWithTwo) {
 
 TEST_F(Cli, DryRunListsCellsAndRunsNone) {
   folder_.file("c.yaml", kConfig);
-  const CommandResult result = run("run c.yaml --dry-run");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = successful_command("run c.yaml --dry-run", folder_);
   EXPECT_EQ(result.out,
             "    0  a / raw\n    1  a / uniform\n    2  a / cubic_spline\n"
             "    3  b / raw\n    4  b / uniform\n    5  b / cubic_spline\n"
@@ -45,10 +51,54 @@ TEST_F(Cli, DryRunListsCellsAndRunsNone) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "results"));
 }
 
+TEST_F(Cli, DryRunFindsAMissingEstimate) {
+  const CommandResult result = dry_run("dataset: trajectory, label: mine, estimate: 007");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("mine: 007: no such file (looked in "));
+  EXPECT_NE(result.err.find("1 of the sequences above cannot be loaded"), std::string::npos);
+  EXPECT_NE(result.out.find("0  mine / raw"), std::string::npos) << result.out;
+}
+
+TEST_F(Cli, DryRunFindsAClosureFileThatIsNone) {
+  std::string poses;
+  for (int i = 0; i < 20; ++i) poses += fmt::format("{} {} 0 0 0 0 0 1\n", i, i * i);
+  folder_.file("e.txt", poses);
+  folder_.file("loops.txt", "not a closure\n");
+  const std::string with = "dataset: trajectory, estimate: e.txt, reference: e.txt, closures: ";
+  const CommandResult result = dry_run(with + "{source: file, file: loops.txt}");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("loops.txt:1: has 3 columns, expected 9 or 11"));
+  EXPECT_EQ(dry_run(with + "{source: none}").exit_code, 0);
+}
+
+TEST_F(Cli, RejectsThreeThousandMillionCellsWithoutBuildingThem) {
+  folder_.file("c.yaml",
+               "datasets:\n  - {dataset: simulated, sweep: {keyframes: {from: 20, to: 1019, "
+               "steps: 1000}}}\n"
+               "methods: [{method: uniform, sweep: {weights: [index, time]}, label: u}, raw]\n"
+               "metrics: [ate]\nrepeats: 1000000\n");
+  for (const char* more : {" --dry-run", " --only nothing"}) {
+    const CommandResult result = run("run c.yaml" + std::string(more));
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.err,
+              "loopbench: c.yaml: 1000 datasets, 3 methods and 1000000 repeats of seeded datasets "
+              "give 3000000000 cells, expected at most 1000000; 'limits: {cells: N}' accepts "
+              "more\n");
+  }
+}
+
+TEST_F(Cli, DryRunFindsAGraphAndAFolderOfImagesThatAreNone) {
+  folder_.file("g.g2o", "VERTEX_SE2 0 0 0\n");
+  EXPECT_EQ(dry_run("dataset: pose_graph, path: g.g2o").exit_code, 2);
+  std::filesystem::create_directory(folder_.path() / "images");
+  const CommandResult result = dry_run("dataset: rgbd, path: images");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err, "");
+}
+
 TEST_F(Cli, RunLeavesStoreAndTables) {
   folder_.file("c.yaml", kConfig);
-  const CommandResult result = run("run c.yaml");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = successful_command("run c.yaml", folder_);
   EXPECT_EQ(result.err, "");                              // no progress bar into a pipe
   EXPECT_EQ(result.out.find('\033'), std::string::npos);  // no colour either
   EXPECT_EQ(result.out.find("### ate [m], dense, rmse by sequence\n"), 0u) << result.out;
@@ -60,9 +110,8 @@ TEST_F(Cli, RunLeavesStoreAndTables) {
   for (const char* name : {"results.sqlite", "table.md", "table.csv", "rows.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "results/c" / name)) << name;
   }
-  const CommandResult table =
-      run("table results/c --where metric=ate --where sequence=b --columns times,axis");
-  EXPECT_EQ(table.exit_code, 0) << table.err;
+  const CommandResult table = successful_command(
+      "table results/c --where metric=ate --where sequence=b --columns times,axis", folder_);
   EXPECT_NE(table.out.find("| raw "), std::string::npos) << table.out;
 }
 
@@ -77,37 +126,25 @@ TEST_F(Cli, AnUndefinedScoreIsTellingAndFails) {
 
 TEST_F(Cli, SeveralProtocolsSplitTheTables) {
   folder_.file("c.yaml", std::string(kConfig) + "protocol: [loopbench, {base: evo, align: se3}]\n");
-  const CommandResult result = run("run c.yaml");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = successful_command("run c.yaml", folder_);
   const std::string tables = read_all(folder_.path() / "results/c/table.md");
   EXPECT_NE(tables.find("### b, dense, loopbench\n"), std::string::npos) << tables;
   EXPECT_NE(tables.find("### b, dense, evo (align=se3)\n"), std::string::npos);
-  EXPECT_NE(result.out.find("protocol: loopbench [3], evo (align=se3) [26d0953]"),
-            std::string::npos);
+  EXPECT_THAT(result.out, HasSubstr("protocol: loopbench [3], evo (align=se3) [26d0953]"));
   const CommandResult rows = run("export results/c");
-  EXPECT_NE(rows.out.find(",evo (align=se3),26d0953,keyframes,ate,"), std::string::npos)
-      << rows.out;
-  const CommandResult one = run("table results/c --where protocol=loopbench");
-  EXPECT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_THAT(rows.out, HasSubstr(",evo (align=se3),26d0953,keyframes,ate,"));
+  const CommandResult one =
+      successful_command("table results/c --where protocol=loopbench", folder_);
   EXPECT_EQ(one.out.substr(0, one.out.find("<!-- source")).find("evo"), std::string::npos)
       << one.out;
 }
 
 TEST_F(Cli, OnlyRunsWhatMatches) {
   folder_.file("c.yaml", kConfig);
-  const CommandResult result = run("run c.yaml --only 'b / (raw|cubic)' --out here");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result =
+      successful_command("run c.yaml --only 'b / (raw|cubic)' --out here", folder_);
   EXPECT_NE(result.out.find("2 of 2 cells done"), std::string::npos) << result.out;
   EXPECT_EQ(run("run c.yaml --only nothing").exit_code, 2);
-}
-
-TEST_F(Cli, ASlipInAConfigIsToldWithItsPlace) {
-  folder_.file("c.yaml", "datasets: [simulated]\nmethods:\n  - unifrom\nmetrics: [ate]\n");
-  const CommandResult result = run("run c.yaml");
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_EQ(result.err,
-            "loopbench: c.yaml:3: no method is named 'unifrom'; did you mean 'uniform'?\n");
-  EXPECT_EQ(result.out, "");
 }
 
 TEST_F(Cli, MissingDataEndsBeforeAnythingIsWritten) {
@@ -171,8 +208,7 @@ TEST_F(Cli, ListKnowsEverythingThatCanBeNamed) {
   const CommandResult slip = run("list method");
   EXPECT_EQ(slip.exit_code, 2);
   EXPECT_NE(slip.err.find("did you mean 'methods'?"), std::string::npos);
-  EXPECT_NE(run("list smoothing_splin").err.find("did you mean 'smoothing_spline'?"),
-            std::string::npos);
+  EXPECT_THAT(run("list smoothing_splin").err, HasSubstr("did you mean 'smoothing_spline'?"));
 }
 
 }  // namespace

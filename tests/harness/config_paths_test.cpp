@@ -49,7 +49,6 @@ class ConfigPaths : public testing::Test {
 
 TEST_F(ConfigPaths, APatternIsOneDatasetPerFile) {
   for (const char* name : {"est/b.txt", "est/a.txt", "truth/a.txt", "truth/b.txt"}) {
-    std::filesystem::create_directories((folder_.path() / name).parent_path());
     folder_.file(name, poses_);
   }
   const std::string rest = "methods: [raw]\nmetrics: [ate]\n";
@@ -70,7 +69,6 @@ TEST_F(ConfigPaths, APatternIsOneDatasetPerFile) {
       dry_run("datasets: [{dataset: trajectory, estimate: $LOOPBENCH_NO_SUCH/a}]\n" + rest).err,
       "loopbench: c.yaml:1: estimate: the environment variable LOOPBENCH_NO_SUCH is not set\n");
   // In the data folder, and a file with brackets in its name.
-  std::filesystem::create_directories(folder_.path() / "data");
   folder_.file("data/x[1].txt", poses_);
   const std::string own = "datasets: [{dataset: trajectory, label: x, estimate: ";
   EXPECT_EQ(dry_run(own + "'x*.txt'}]\n" + rest, " --data data").out.substr(0, 20),
@@ -96,9 +94,12 @@ TEST_F(ConfigPaths, AnchorsHaveAPlaceAtTopLevel) {
 }
 
 TEST_F(ConfigPaths, UpToTenErrorsAreReportedAtOnce) {
-  EXPECT_EQ(dry_run("datasets:\n  - simulatd\n  - {dataset: simulated, path: {}}\n"
-                    "methods: [raw, unifrom]\nmetrics: [aet]\nrepeats: none\nrepeat: 1\n")
-                .err,
+  const CommandResult result = dry_run(
+      "datasets:\n  - simulatd\n  - {dataset: simulated, path: {}}\n"
+      "methods: [raw, unifrom]\nmetrics: [aet]\nrepeats: none\nrepeat: 1\n");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err,
             "loopbench: c.yaml:7: no setting is named 'repeat'; did you mean 'repeats'?\n"
             "loopbench: c.yaml:2: no dataset is named 'simulatd'; did you mean 'simulated'?\n"
             "loopbench: c.yaml:3: path: has no value\n"
