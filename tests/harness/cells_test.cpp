@@ -7,6 +7,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/base/hash.hpp"
+#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::cells_test {
 
@@ -74,14 +75,11 @@ TEST(Cells, MoreThanTheLimitAreRejectedWithTheWayToRaiseIt) {
   Sweep sweep = two_by_three();
   sweep.config = "c.yaml";
   sweep.repeats = 400'000;
-  try {
-    cells(sweep, {true, false}, "road");
-    ADD_FAILURE() << "was accepted";
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "c.yaml: 2 datasets, 3 methods and 400000 repeats of seeded datasets give 1200003 "
-                 "cells, expected at most 1000000; 'limits: {cells: N}' accepts more");
-  }
+  EXPECT_EQ(refusal_of<InputError>([&] {
+              cells(sweep, {true, false}, "road");
+            }),
+            "c.yaml: 2 datasets, 3 methods and 400000 repeats of seeded datasets give 1200003 "
+            "cells, expected at most 1000000; 'limits: {cells: N}' accepts more");
   sweep.limits.cells = 1'200'003;
   EXPECT_EQ(cells(sweep, {true, false}, "road").size(), 3u);
 }

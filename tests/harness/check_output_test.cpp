@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "tests/support/refusal_of.hpp"
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench::check_output_test {
@@ -156,13 +157,8 @@ TEST_F(CheckOutput, BadCurvesOfASmootherFailTheCell) {
 
 TEST_F(CheckOutput, EveryPartOfAReportIsChecked) {
   const std::string utf8 = ", expected UTF-8 without control characters";
-  const auto reason = [](const Report& report) -> std::string {
-    try {
-      check_report(report);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
+  const auto reason = [](const Report& report) {
+    return refusal_of<std::runtime_error>([&] { check_report(report); });
   };
   Report report;
   report.sections = {{"segment", 0.0, 0.0, "cubic"}};

@@ -17,14 +17,10 @@ using namespace harness;
 namespace {
 
 using namespace tiny_store;  // NOLINT: the fixture and its config
+using testing::HasSubstr;
 
 class Damage : public TinyStore {
  protected:
-  static std::string bytes_of_file(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-
   void put(const std::string& bytes) const {
     for (const char* tail : {"-wal", "-shm", "-journal"}) {
       std::filesystem::remove(file_.string() + tail);
@@ -79,13 +75,8 @@ class Damage : public TinyStore {
     return out + description(file);
   }
 
-  std::string refusal(const std::filesystem::path& file) const {
-    try {
-      answers(file);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+  std::string refusal() const {
+    return refusal_of<InputError>([&] { answers(file_); });
   }
 };
 
@@ -96,7 +87,7 @@ const std::string kConfigWithFailures = config(
 
 TEST_F(Damage, AChangedByteIsAnErrorOrChangesNothing) {
   run(kConfigWithFailures);
-  const std::string sound = bytes_of_file(file_);
+  const std::string sound = read_all(file_);
   const std::string expected = answers(file_);
   std::mt19937_64 random(11);
   int errors = 0;
@@ -121,7 +112,7 @@ TEST_F(Damage, AChangedByteIsAnErrorOrChangesNothing) {
 
 TEST_F(Damage, RunMakesTheDamagedCellsAgain) {
   run(kConfigWithFailures);
-  const std::string sound = bytes_of_file(file_);
+  const std::string sound = read_all(file_);
   const std::string expected = stored_cells(file_);
   std::mt19937_64 random(12);
   int repaired = 0;
@@ -142,23 +133,9 @@ TEST_F(Damage, RunMakesTheDamagedCellsAgain) {
   EXPECT_GT(repaired, 10);
 }
 
-TEST_F(Damage, NamesTheCellAndWhatToDo) {
-  run(kUsual);
-  const std::string expected = store_text(file_);
-  change("UPDATE score_value SET rmse = 0 WHERE cell = (SELECT id FROM cell WHERE position = 3)");
-  const std::string said = refusal(file_);
-  EXPECT_NE(said.find("results.sqlite: is damaged: b / shifted is corrupted"), std::string::npos)
-      << said;
-  EXPECT_NE(said.find("recomputes it"), std::string::npos) << said;
-  const Ran again = run(kUsual);
-  EXPECT_EQ(again.cells, Labels{"b / shifted"});
-  EXPECT_EQ(again.resumed.damaged, Labels{"b / shifted"});
-  EXPECT_EQ(store_text(file_), expected);
-}
-
 TEST_F(Damage, ALostOrChangedRowIsNoticedWhereverItWas) {
   run(kUsual);
-  const std::string sound = bytes_of_file(file_);
+  const std::string sound = read_all(file_);
   const std::string expected = store_text(file_);
   const char* const other_definition =
       "UPDATE score_value SET definition = (SELECT definition FROM score_value WHERE number = 1) "
@@ -175,11 +152,19 @@ TEST_F(Damage, ALostOrChangedRowIsNoticedWhereverItWas) {
         "UPDATE sequence SET sequence_key = 'f' || sequence_key"}) {
     put(sound);
     change(damage);
-    EXPECT_NE(refusal(file_).find("is damaged"), std::string::npos) << damage;
+    EXPECT_NE(refusal().find("is damaged"), std::string::npos) << damage;
     EXPECT_FALSE(run(kUsual).cells.empty()) << damage;
     EXPECT_EQ(store_text(file_), expected) << damage;
     EXPECT_EQ(run(kUsual).cells, Labels{}) << damage;
   }
+  put(sound);  // names the cell and what to do
+  change("UPDATE score_value SET rmse = 0 WHERE cell = (SELECT id FROM cell WHERE position = 3)");
+  EXPECT_THAT(refusal(), HasSubstr("results.sqlite: is damaged: b / shifted is corrupted"));
+  EXPECT_THAT(refusal(), HasSubstr("recomputes it"));
+  const Ran again = run(kUsual);
+  EXPECT_EQ(again.cells, Labels{"b / shifted"});
+  EXPECT_EQ(again.resumed.damaged, Labels{"b / shifted"});
+  EXPECT_EQ(store_text(file_), expected);
 }
 
 TEST_F(Damage, ADescriptionIsRejectedByItsRowAndWrittenAgain) {
@@ -188,7 +173,7 @@ TEST_F(Damage, ADescriptionIsRejectedByItsRowAndWrittenAgain) {
       "datasets: [{dataset: file, path: bias, label: f}, {dataset: line, label: g}]\n"
       "methods: [straight]\nmetrics: [ate]\n";
   run(text);
-  const std::string sound = bytes_of_file(file_);
+  const std::string sound = read_all(file_);
   const std::string expected = stored_cells(file_) + description(file_);
   const Labels none, with_file{"f / straight"};
   for (const auto& [damage, row, recomputed] :
@@ -201,7 +186,7 @@ TEST_F(Damage, ADescriptionIsRejectedByItsRowAndWrittenAgain) {
         std::tuple("UPDATE input SET sequence_key = 'x'", "row x of its table input", with_file)}) {
     put(sound);
     change(damage);
-    EXPECT_NE(refusal(file_).find(row), std::string::npos) << damage << ": " << refusal(file_);
+    EXPECT_NE(refusal().find(row), std::string::npos) << damage << ": " << refusal();
     EXPECT_EQ(run(text).cells, recomputed) << damage;
     EXPECT_EQ(stored_cells(file_) + description(file_), expected) << damage;
   }
@@ -224,8 +209,7 @@ TEST_F(Damage, EveryCommandThatReadsScoresRejectsThem) {
                               "merge . -o merged"}) {
     const CommandResult result = loopbench_command(command, folder_);
     EXPECT_EQ(result.exit_code, 2) << command << result.err;
-    EXPECT_NE(result.err.find("results.sqlite: is damaged: b / shifted is corrupted"),
-              std::string::npos)
+    EXPECT_THAT(result.err, HasSubstr("results.sqlite: is damaged: b / shifted is corrupted"))
         << command << result.err;
   }
 }
@@ -253,7 +237,7 @@ TEST_F(Damage, AReaderSeesOneStateWhileASweepWrites) {
 
 TEST_F(Damage, AnotherToolMayPackItButNotExtendIt) {
   run(kUsual);
-  const std::string sound = bytes_of_file(file_);
+  const std::string sound = read_all(file_);
   const std::string expected = answers(file_);
   change("VACUUM");
   EXPECT_EQ(answers(file_), expected);
@@ -268,7 +252,7 @@ TEST_F(Damage, AnotherToolMayPackItButNotExtendIt) {
         std::pair("ALTER TABLE note ADD COLUMN more TEXT", "table note")}) {
     put(sound);
     change(added);
-    EXPECT_NE(refusal(file_).find(name), std::string::npos) << refusal(file_);
+    EXPECT_NE(refusal().find(name), std::string::npos) << refusal();
     expect_refused(name);
   }
 }

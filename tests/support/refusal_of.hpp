@@ -6,13 +6,13 @@
 
 namespace loopbench {
 
-/// The text of the exception, an InputError or OptionError, that `act` throws; "" if it does not
-/// throw.
-template <class Act>
+/// The text of the exception, an InputError or OptionError unless an `Error` is given, that `act`
+/// throws; "" if it does not throw.
+template <class Error = std::exception, class Act>
 std::string refusal_of(Act act) {
   try {
     act();
-  } catch (const std::exception& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   return "";

@@ -1,11 +1,13 @@
 /// A store for sweeps of the tiny catalogue, run on one thread of this process.
 #pragma once
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/store/store.hpp"
+#include "tests/support/refusal_of.hpp"
 #include "tests/support/run_here.hpp"
 #include "tests/support/store_text.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -75,12 +77,7 @@ class TinyStore : public testing::Test {
   }
 
   void expect_refused(const std::string& reason) {
-    try {
-      run(kUsual);
-      ADD_FAILURE() << "was not refused";
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
-    }
+    EXPECT_THAT(refusal_of<InputError>([&] { run(kUsual); }), testing::HasSubstr(reason));
   }
 
   TemporaryFolder folder_;
