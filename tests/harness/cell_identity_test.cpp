@@ -85,19 +85,22 @@ TEST_F(CellIdentity, AnOptionIsHeldAgainstTheFileThatItNames) {
   EXPECT_EQ(run(text).cells.size(), 1u);
 }
 
-TEST_F(CellIdentity, AFileThatComesBackBringsItsOwnFacts) {
+TEST_F(CellIdentity, AFileThatComesBackBringsItsOwnFactsAndTheProvenanceOfItsCells) {
   folder_.file("bias", "0.1");
   run(kFile);
   const std::vector<std::string> first = hashes();
   const double first_rmse = rmse();
+  commit_ = "decaf";
   folder_.file("bias", "0.25");
   run(kFile);
   EXPECT_NE(hashes(), first);
+  EXPECT_EQ(read_provenance(file_).at("commit"), "decaf");
   folder_.file("bias", "0.1");
   EXPECT_EQ(run(kFile).cells, Labels{}) << "its scores are still there";
   EXPECT_EQ(rmse(), first_rmse);
   EXPECT_EQ(hashes(), first);
   EXPECT_EQ(read_inputs(file_).at("f").at(0).bytes, 3u);
+  EXPECT_EQ(read_provenance(file_).at("commit"), "c0ffee");
 }
 
 TEST_F(CellIdentity, AnEmptyFileIsNotAMissingOne) {
@@ -135,18 +138,6 @@ TEST_F(CellIdentity, AChangedGroupReachesTheRecords) {
     EXPECT_EQ(records.front().group, "group:" + group);
     EXPECT_EQ(records.back().group, "group:other");
   }
-}
-
-TEST_F(CellIdentity, ProvenanceIsThatOfTheCellsWhichAreShown) {
-  folder_.file("bias", "0.1");
-  run(kFile);
-  commit_ = "decaf";
-  folder_.file("bias", "0.25");
-  run(kFile);
-  EXPECT_EQ(read_provenance(file_).at("commit"), "decaf");
-  folder_.file("bias", "0.1");
-  run(kFile);
-  EXPECT_EQ(read_provenance(file_).at("commit"), "c0ffee");
 }
 
 }  // namespace
