@@ -1,4 +1,5 @@
 /// The script of the GitHub action and of the template for GitLab.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
@@ -6,6 +7,8 @@
 
 namespace loopbench::action_test {
 namespace {
+
+using testing::HasSubstr;
 
 class Action : public testing::Test {
  protected:
@@ -17,11 +20,12 @@ class Action : public testing::Test {
     return WEXITSTATUS(std::system(line.c_str()));
   }
   std::string text(const std::string& file) { return read_all(folder_.path() / file); }
-  void SetUp() override {
+  void write_config(const std::string& options = "") {
     folder_.file("c.yaml",
-                 "datasets: [{dataset: simulated, label: a, keyframes: 40}]\n"
-                 "methods: [raw, uniform]\nmetrics: [ate]\n");
+                 "datasets: [{dataset: simulated, label: a, keyframes: 40" + options +
+                     "}]\nmethods: [raw, uniform]\nmetrics: [ate]\n");
   }
+  void SetUp() override { write_config(); }
   TemporaryFolder folder_;
 };
 
@@ -29,8 +33,7 @@ TEST_F(Action, WritesCommentAndReport) {
   ASSERT_EQ(action("c.yaml report"), 0) << text("err");
   const std::string comment = text("report/comment.md");
   EXPECT_EQ(comment.find("## loopbench: c.yaml\n\n### ate [m], dense"), 0u) << comment;
-  EXPECT_NE(comment.find("\n- translation ate, rmse [m], dense, loopbench: "), std::string::npos)
-      << comment;
+  EXPECT_THAT(comment, HasSubstr("\n- translation ate, rmse [m], dense, loopbench: "));
   EXPECT_EQ(comment.find("next:"), std::string::npos) << comment;
   EXPECT_EQ(text("report/report.html").find("<!DOCTYPE html>"), 0u);
   EXPECT_EQ(text("out"), comment);
@@ -54,31 +57,24 @@ TEST_F(Action, TheTemplateForGitLabRunsIt) {
 
 TEST_F(Action, FailsIfTheSweepGotWorse) {
   ASSERT_EQ(action("c.yaml report"), 0);
-  ASSERT_EQ(
-      loopbench_command("check report/results --baseline b.json --update --allow-dirty", folder_)
-          .exit_code,
-      0);
+  successful_command("check report/results --baseline b.json --update --allow-dirty", folder_);
   const std::string baseline = text("b.json");
   // 2: a baseline of a build with uncommitted changes.
   const int code = loopbench_command("check report/results --baseline b.json", folder_).exit_code;
   EXPECT_EQ(action("c.yaml report b.json"), code);
   const std::string outcome = code == 0 ? ">passed<" : ">failed<";
   EXPECT_NE(text("report/badge.svg").find(outcome), std::string::npos);
-  folder_.file("c.yaml",
-               "datasets: [{dataset: simulated, label: a, keyframes: 40, noise: {gain: 3}}]\n"
-               "methods: [raw, uniform]\nmetrics: [ate]\n");
+  write_config(", noise: {gain: 3}");
   EXPECT_NE(action("c.yaml worse b.json"), 0);
   EXPECT_EQ(text("worse/badge.svg").find(">passed<"), std::string::npos);
-  EXPECT_NE(text("worse/comment.md").find("### Comparison with b.json"), std::string::npos)
-      << text("worse/comment.md");
+  EXPECT_THAT(text("worse/comment.md"), HasSubstr("### Comparison with b.json"));
 }
 
 TEST_F(Action, ReportsABadConfig) {
   folder_.file("c.yaml", "datasets: [simulated]\nmethods: [rw]\nmetrics: [ate]\n");
   EXPECT_EQ(action("c.yaml report"), 2);
   EXPECT_NE(text("report/badge.svg").find(">failed<"), std::string::npos);
-  EXPECT_NE(text("report/comment.md").find("c.yaml:2: no method is named 'rw'"), std::string::npos)
-      << text("report/comment.md");
+  EXPECT_THAT(text("report/comment.md"), HasSubstr("c.yaml:2: no method is named 'rw'"));
 }
 
 }  // namespace

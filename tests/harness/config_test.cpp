@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <regex>
 #include <sstream>
 
@@ -113,11 +112,9 @@ TEST_P(ShippedConfig, RunsWithoutAFailedCell) {
   std::filesystem::copy(LOOPBENCH_CONFIGS, configs, std::filesystem::copy_options::recursive);
   const std::string name = "configs/" + GetParam() + ".yaml";
   const std::string command = "run " + name + plugin_option(GetParam());
-  std::ostringstream text;
-  text << std::ifstream(file_of(GetParam())).rdbuf();
   const std::string baseline = LOOPBENCH_CONFIGS "/../results/reference/" + GetParam() + ".json";
   const bool has_baseline = std::filesystem::exists(baseline);
-  folder_.file(name, shortened(text.str(), has_baseline));
+  folder_.file(name, shortened(read_all(file_of(GetParam())), has_baseline));
   std::vector<std::string> patterns{""};
   if (!has_baseline) {
     patterns = every_dataset_and_method(loopbench_command(command + " --dry-run", folder_).out);

@@ -25,6 +25,10 @@ std::string why(const std::string& text) {
   return refusal_of([&] { parse(text); });
 }
 
+std::string why_rest(const std::string& rest) {
+  return why(config("{dataset: simulated}", "ate", rest));
+}
+
 Param option(const Sweep& sweep, const std::string& name) {
   return sweep.datasets.at(0).dataset.options.at(name);
 }
@@ -54,45 +58,35 @@ TEST(ConfigText, IsKeptInSweepsLabelsAndRules) {
   EXPECT_EQ(sweep.exclude[0].dataset, "007");
 }
 
-TEST(ConfigText, IsKeptInProtocols) {
-  const Sweep sweep = parse(
-      config("{dataset: simulated}", "ate", "protocol: {base: kitti, segments: {lengths: 1e2}}\n"));
+TEST(ConfigText, IsKeptInProtocolsButNotInOptionalNumbers) {
+  const Sweep sweep = parse(config("{dataset: simulated}",
+                                   "{metric: rpe, label: r, tolerance: 1e-1}",
+                                   "protocol: {base: kitti, segments: {lengths: 1e2}}\n"));
   EXPECT_EQ(sweep.protocols[0].rules.segments.lengths, "1e2");
-}
-
-TEST(ConfigText, AnOptionalNumberIsNoText) {
-  const Sweep sweep =
-      parse(config("{dataset: simulated}", "{metric: rpe, label: r, tolerance: 1e-1}"));
   EXPECT_EQ(sweep.metrics[0].metric.options.at("tolerance"), Param(0.1));
 }
 
 TEST(ConfigShape, AScalarOrAListWhereAMapBelongsIsRejected) {
-  const auto refusal = [](const std::string& rest) {
-    return why(config("{dataset: simulated}", "ate", rest));
-  };
-  EXPECT_EQ(refusal("limits: 60\n"),
+  EXPECT_EQ(why_rest("limits: 60\n"),
             "c.yaml:5: limits: found '60', expected a map of seconds, memory, processes, cells");
-  EXPECT_EQ(refusal("limits: {cells: 0}\n"),
+  EXPECT_EQ(why_rest("limits: {cells: 0}\n"),
             "c.yaml:5: limits.cells: expected a whole number, 1 to 1000000000");
-  EXPECT_EQ(refusal("limits: {memory: none, cells: 2000000}\n"), "");
-  EXPECT_EQ(refusal("exclude: raw\n"),
+  EXPECT_EQ(why_rest("limits: {memory: none, cells: 2000000}\n"), "");
+  EXPECT_EQ(why_rest("exclude: raw\n"),
             "c.yaml:5: exclude: expected a list of {dataset, method} patterns");
-  EXPECT_EQ(refusal("description: [a]\n"), "c.yaml:5: description: expected a string");
+  EXPECT_EQ(why_rest("description: [a]\n"), "c.yaml:5: description: expected a string");
   EXPECT_EQ(why(config("{dataset: simulated, keyframes: {}}")),
             "c.yaml:2: keyframes: has no value");
 }
 
 TEST(ConfigTable, NamesAreCheckedWhenTheConfigIsRead) {
-  const auto refusal = [](const std::string& rest) {
-    return why(config("{dataset: simulated}", "ate", rest));
-  };
-  EXPECT_EQ(refusal("table: {rows: [methods]}\n"),
+  EXPECT_EQ(why_rest("table: {rows: [methods]}\n"),
             "c.yaml:5: table.rows: no column is named 'methods'; did you mean 'method'?");
-  EXPECT_EQ(refusal("table:\n  rows: [method]\n  columns: [scor]\n"),
+  EXPECT_EQ(why_rest("table:\n  rows: [method]\n  columns: [scor]\n"),
             "c.yaml:7: table.columns: no column is named 'scor'; did you mean 'score'?");
-  EXPECT_EQ(refusal("table: {value: rms}\n"),
+  EXPECT_EQ(why_rest("table: {value: rms}\n"),
             "c.yaml:5: table.value: no statistic is named 'rms'; did you mean 'rmse'?");
-  EXPECT_EQ(refusal("table: {rows: [sequence, repeat], split: [], value: max}\n"), "");
+  EXPECT_EQ(why_rest("table: {rows: [sequence, repeat], split: [], value: max}\n"), "");
 }
 
 TEST(ConfigExclude, APatternThatMatchesNoLabelIsRejected) {

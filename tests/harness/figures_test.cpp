@@ -135,69 +135,66 @@ TEST(Figures, ManyRunsOfOneMethodAreRepresentedByBestMedianAndWorst) {
   EXPECT_THAT(names(all[0]), ElementsAre("ba 1 (best)", "ba 6 (median)", "ba 2 (worst)"));
 }
 
-TEST(Figures, EvalFiguresAreOneColumnWideUnlessASizeIsGiven) {
-  if (!has_matplotlib()) GTEST_SKIP() << "needs python3-matplotlib";
-  const TemporaryFolder folder;
-  write_tum(folder.path() / "gt.txt", path(0.0, 50.0));
-  write_tum(folder.path() / "est.txt", path(5.0, 50.0, 0.1));
-  const auto svg = [&](const std::string& name) { return read_all(folder.path() / name); };
+class DrawnFigures : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_matplotlib()) GTEST_SKIP() << "needs python3-matplotlib";
+  }
+  std::string svg(const std::string& name) const { return read_all(folder_.path() / name); }
+  TemporaryFolder folder_;
+};
+
+TEST_F(DrawnFigures, EvalFiguresAreOneColumnWideUnlessASizeIsGiven) {
+  write_tum(folder_.path() / "gt.txt", path(0.0, 50.0));
+  write_tum(folder_.path() / "est.txt", path(5.0, 50.0, 0.1));
   const std::string eval = "eval gt.txt est.txt --align none ";
-  const CommandResult usual = loopbench_command(eval + "--plot a", folder);
-  ASSERT_EQ(usual.exit_code, 0) << usual.err;
+  const CommandResult usual = successful_command(eval + "--plot a", folder_);
   EXPECT_EQ(usual.err.find("arning"), std::string::npos) << usual.err;
   for (const char* const name : {"a_trajectories.svg", "a_errors.svg", "a_axes.svg"}) {
     EXPECT_THAT(svg(name), HasSubstr("width=\"252pt\"")) << name;  // 3.5 in of 72 points
   }
-  const CommandResult sized =
-      loopbench_command(eval + "--plot b --size 2,1.5 --panel-columns 3 --font 9", folder);
-  ASSERT_EQ(sized.exit_code, 0) << sized.err;
+  successful_command(eval + "--plot b --size 2,1.5 --panel-columns 3 --font 9", folder_);
   EXPECT_THAT(svg("b_errors.svg"), HasSubstr("width=\"432pt\""));
   EXPECT_THAT(svg("b_errors.svg"), HasSubstr("font: 9px"));
-  EXPECT_EQ(loopbench_command(eval + "--size 2,1.5", folder).exit_code, 2);
+  EXPECT_EQ(loopbench_command(eval + "--size 2,1.5", folder_).exit_code, 2);
 }
 
-TEST(Figures, EvalStatesSequenceAlignmentAndScoreAndTakesLabels) {
-  if (!has_matplotlib()) GTEST_SKIP() << "needs python3-matplotlib";
-  const TemporaryFolder folder;
-  std::filesystem::create_directory(folder.path() / "room");
-  write_tum(folder.path() / "room/gt.txt", path(0.0, 50.0));
-  write_tum(folder.path() / "room/a_long_name.txt", path(5.0, 50.0, 0.1));
-  write_tum(folder.path() / "room/other_name.txt", path(5.0, 50.0, 0.2));
+TEST_F(DrawnFigures, EvalStatesSequenceAlignmentAndScoreAndTakesLabels) {
+  std::filesystem::create_directory(folder_.path() / "room");
+  write_tum(folder_.path() / "room/gt.txt", path(0.0, 50.0));
+  write_tum(folder_.path() / "room/a_long_name.txt", path(5.0, 50.0, 0.1));
+  write_tum(folder_.path() / "room/other_name.txt", path(5.0, 50.0, 0.2));
   const std::string eval =
       "eval room/gt.txt room/a_long_name.txt room/other_name.txt --align none --plot ";
-  const CommandResult drawn = loopbench_command(eval + "f/p.svg --labels A,B_1", folder);
-  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  const CommandResult drawn = successful_command(eval + "f/p.svg --labels A,B_1", folder_);
   EXPECT_EQ(drawn.err, "f/p_trajectories.svg\nf/p_errors.svg\nf/p_axes.svg\n");
-  const std::string svg = read_all(folder.path() / "f/p_trajectories.svg");
-  EXPECT_THAT(svg, HasSubstr(">room, no alignment (ATE as RMSE)<"));
-  EXPECT_THAT(svg, HasSubstr(">A (0.0707 m)<"));
-  EXPECT_THAT(svg, HasSubstr(">B_1 (0.141 m)<"));
-  EXPECT_THAT(loopbench_command(eval + "p --labels A", folder).err,
+  for (const char* const text :
+       {">room, no alignment (ATE as RMSE)<", ">A (0.0707 m)<", ">B_1 (0.141 m)<"}) {
+    EXPECT_THAT(svg("f/p_trajectories.svg"), HasSubstr(text));
+  }
+  EXPECT_THAT(loopbench_command(eval + "p --labels A", folder_).err,
               HasSubstr("--labels: expected 2 for a_long_name, other_name, found 1"));
 }
 
-TEST(Figures, TrajPlotHasShortNamesAndDrawsThePlaneOfCameraAxes) {
-  if (!has_matplotlib()) GTEST_SKIP() << "needs python3-matplotlib";
-  const TemporaryFolder folder;
+TEST_F(DrawnFigures, TrajPlotHasShortNamesAndDrawsThePlaneOfCameraAxes) {
   Trajectory poses = path(0.0, 50.0);
   for (StampedPose& pose : poses) pose.world_from_body.translation.z() = pose.stamp;
-  std::filesystem::create_directories(folder.path() / "runs");
-  write_tum(folder.path() / "runs/first.txt", poses);
+  std::filesystem::create_directories(folder_.path() / "runs");
+  write_tum(folder_.path() / "runs/first.txt", poses);
   const std::string plot = "traj plot runs/first.txt --panels plane --panel-columns 1 ";
   const auto axes = [&](const std::string& options) {
-    const CommandResult result = loopbench_command(plot + "-o f.svg " + options, folder);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    const std::string svg = read_all(folder.path() / "f.svg");
-    EXPECT_THAT(svg, HasSubstr(options.empty() ? ">first<" : ">Mine<"));
+    successful_command(plot + "-o f.svg " + options, folder_);
+    const std::string page = svg("f.svg");
+    EXPECT_THAT(page, HasSubstr(options.empty() ? ">first<" : ">Mine<"));
     std::string out;
     for (const char* const name : {"x", "y", "z"}) {
-      if (svg.find(std::string(">") + name + " [m]<") != std::string::npos) out += name;
+      if (page.find(std::string(">") + name + " [m]<") != std::string::npos) out += name;
     }
     return out;
   };
   EXPECT_EQ(axes(""), "xz");
   EXPECT_EQ(axes("--plane yz --labels Mine"), "yz");
-  EXPECT_THAT(loopbench_command(plot + "-o f.txt", folder).err, HasSubstr(".png or .pgf"));
+  EXPECT_THAT(loopbench_command(plot + "-o f.txt", folder_).err, HasSubstr(".png or .pgf"));
 }
 
 }  // namespace
