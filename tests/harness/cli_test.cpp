@@ -41,16 +41,6 @@ TEST_F(Cli, WrongCommandLinesExitWithTwo) {
   }
 }
 
-TEST_F(Cli, DryRunListsCellsAndRunsNone) {
-  folder_.file("c.yaml", kConfig);
-  const CommandResult result = successful_command("run c.yaml --dry-run", folder_);
-  EXPECT_EQ(result.out,
-            "    0  a / raw\n    1  a / uniform\n    2  a / cubic_spline\n"
-            "    3  b / raw\n    4  b / uniform\n    5  b / cubic_spline\n"
-            "6 cells, 2 metrics each\n");
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "results"));
-}
-
 TEST_F(Cli, DryRunFindsAMissingEstimate) {
   const CommandResult result = dry_run("dataset: trajectory, label: mine, estimate: 007");
   EXPECT_EQ(result.exit_code, 2);

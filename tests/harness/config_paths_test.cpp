@@ -58,6 +58,7 @@ TEST_F(ConfigPaths, APatternIsOneDatasetPerFile) {
       rest);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, "    0  my (a) / raw\n    1  my (b) / raw\n2 cells, 1 metric each\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "results")) << "nothing is run";
   EXPECT_EQ(dry_run("datasets: [{dataset: trajectory, estimate: 'no/*.txt'}]\n" + rest).err,
             "loopbench: c.yaml:1: estimate: no file matches no/*.txt\n");
   EXPECT_EQ(dry_run("datasets:\n  - dataset: trajectory\n    estimate: 'est/*.txt'\n"
@@ -82,9 +83,11 @@ TEST_F(ConfigPaths, AnchorsHaveAPlaceAtTopLevel) {
       "base: &base {dataset: simulated, path: office}\n"
       "more: &more [raw, uniform]\n"
       "datasets:\n  - {<<: *base, label: a}\n  - {<<: *base, label: b, path: room}\n"
-      "methods: *more\nmetrics: [ate]\n");
+      "methods: *more\nmetrics: [ate, axis_error]\n");
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("3  b / uniform\n"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out,
+            "    0  a / raw\n    1  a / uniform\n    2  b / raw\n    3  b / uniform\n"
+            "4 cells, 2 metrics each\n");
   EXPECT_EQ(dry_run("base: {dataset: simulated}\ndatasets: [simulated]\nmethods: [raw]\n"
                     "metrics: [ate]\n")
                 .err.find("loopbench: c.yaml:1: no setting is named 'base'"),
