@@ -7,11 +7,6 @@
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench::assertion_test {
-
-using namespace methods;
-using namespace metrics;
-using namespace harness;
-
 namespace {
 
 using namespace compared_sweep;  // NOLINT: its records are what every test here is about

@@ -5,11 +5,6 @@
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench::cell_identity_test {
-
-using namespace methods;
-using namespace metrics;
-using namespace harness;
-
 namespace {
 
 using namespace tiny_store;  // NOLINT: the fixture and its config

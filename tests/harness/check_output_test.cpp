@@ -10,11 +10,6 @@
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench::check_output_test {
-
-using namespace methods;
-using namespace metrics;
-using namespace harness;
-
 namespace {
 
 using namespace tiny_store;  // NOLINT: the fixture

@@ -8,11 +8,6 @@
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench::compare_groups_test {
-
-using namespace methods;
-using namespace metrics;
-using namespace harness;
-
 namespace {
 
 using namespace compared_sweep;  // NOLINT: its records are what every test here is about

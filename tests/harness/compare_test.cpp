@@ -6,17 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "datasets/core/error.hpp"
 #include "harness/tables/comparison.hpp"
 #include "tests/support/compared_sweep.hpp"
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench::compare_test {
-
-using namespace methods;
-using namespace metrics;
-using namespace harness;
-
 namespace {
 
 using namespace compared_sweep;  // NOLINT: its records are what every test here is about

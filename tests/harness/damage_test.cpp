@@ -10,10 +10,6 @@
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench::damage_test {
-
-using namespace methods;
-using namespace harness;
-
 namespace {
 
 using namespace tiny_store;  // NOLINT: the fixture and its config
