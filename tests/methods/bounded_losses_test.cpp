@@ -4,7 +4,6 @@
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/solvers/pose_graph_solver.hpp"
 #include "tests/support/corrected.hpp"
-#include "tests/support/counts.hpp"
 #include "tests/support/simulated_drive.hpp"
 
 namespace loopbench::bounded_losses_test {

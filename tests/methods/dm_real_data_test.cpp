@@ -8,7 +8,6 @@
 #include "datasets/formats/formats.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
 #include "tests/support/corrected.hpp"
-#include "tests/support/counts.hpp"
 
 namespace loopbench::dm_real_data_test {
 

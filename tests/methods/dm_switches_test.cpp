@@ -3,7 +3,7 @@
 
 #include "manifold_paths.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
-#include "tests/support/counts.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::dm_switches_test {

@@ -4,7 +4,7 @@
 
 #include "datasets/core/interpolate.hpp"
 #include "manifold_paths.hpp"
-#include "tests/support/counts.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::dm_test {

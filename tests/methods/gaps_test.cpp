@@ -8,7 +8,7 @@
 #include "methods/smoothers/interpolating_splines.hpp"
 #include "methods/smoothers/manifold/dm.hpp"
 #include "methods/smoothers/runs/pose_runs.hpp"
-#include "tests/support/counts.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::gaps_test {

@@ -8,7 +8,6 @@
 #include "methods/correctors/plausibility.hpp"
 #include "methods/find_method.hpp"
 #include "tests/support/corrected.hpp"
-#include "tests/support/counts.hpp"
 #include "tests/support/simulated_drive.hpp"
 
 namespace loopbench::gnc_start_test {

@@ -6,7 +6,7 @@
 #include "methods/smoothers/gaussian_process.hpp"
 #include "methods/smoothers/gp/posterior.hpp"
 #include "methods/smoothers/smoothing_spline.hpp"
-#include "tests/support/counts.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/noisy_paths.hpp"
 
 namespace loopbench::gp_smoothers_test {

@@ -7,7 +7,6 @@
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "tests/support/corrected.hpp"
-#include "tests/support/counts.hpp"
 
 namespace loopbench::known_optima_test {
 

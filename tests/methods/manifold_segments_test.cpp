@@ -7,7 +7,7 @@
 #include "methods/smoothers/manifold/dm.hpp"
 #include "methods/smoothers/manifold/segments.hpp"
 #include "methods/smoothers/manifold/windows.hpp"
-#include "tests/support/counts.hpp"
+#include "tests/support/corrected.hpp"
 
 namespace loopbench::methods::manifold::manifold_segments_test {
 namespace {

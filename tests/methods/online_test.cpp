@@ -12,7 +12,6 @@
 #include "methods/online/replay_run.hpp"
 #include "methods/pipeline.hpp"
 #include "tests/support/corrected.hpp"
-#include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 

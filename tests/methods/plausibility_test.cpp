@@ -6,7 +6,7 @@
 #include "datasets/simulated/simulated.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
-#include "tests/support/counts.hpp"
+#include "tests/support/corrected.hpp"
 
 namespace loopbench::plausibility_test {
 

@@ -7,7 +7,6 @@
 #include "methods/correctors/dual.hpp"
 #include "methods/solvers/initial_values.hpp"
 #include "tests/support/corrected.hpp"
-#include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "methods/smoothers/interpolating_splines.hpp"
 #include "methods/smoothers/penalised/unrolled.hpp"
-#include "tests/support/counts.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/noisy_paths.hpp"
 
 namespace loopbench::smoothing_spline_test {

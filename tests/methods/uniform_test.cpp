@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/corrected.hpp"
-#include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::uniform_test {

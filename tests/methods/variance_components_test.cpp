@@ -6,7 +6,6 @@
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "tests/support/corrected.hpp"
-#include "tests/support/counts.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/simulated_drive.hpp"
 

@@ -11,7 +11,7 @@
 #include "methods/online/online.hpp"
 #include "methods/pipeline.hpp"
 #include "tests/support/command.hpp"
-#include "tests/support/counts.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench {

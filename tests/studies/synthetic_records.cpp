@@ -4,6 +4,7 @@
 
 #include "harness/model/recorded_run.hpp"
 #include "metrics/numerics/median.hpp"
+#include "tests/support/compared_sweep.hpp"
 
 namespace loopbench::synthetic {
 
@@ -50,19 +51,15 @@ double half_ties(std::mt19937_64& bits) {
 }
 
 Record score(std::size_t method, std::size_t group, std::size_t run, std::size_t sequences) {
-  Record out;
-  out.sequence = "sequence " + std::to_string(group) + "." + std::to_string(run);
+  Record out =
+      compared_sweep::score("sequence " + std::to_string(group) + "." + std::to_string(run),
+                            0,
+                            "m" + std::to_string(method),
+                            0.0);
   if (sequences > 0) {
     out.sequence = "path " + std::to_string(group % sequences);
     out.repeat = static_cast<std::int64_t>(group / sequences * 1000 + run);
   }
-  out.method = "m" + std::to_string(method);
-  out.protocol = "loopbench";
-  out.times = "dense";
-  out.metric = "ate";
-  out.relation = "translation";
-  out.axis = "3d";
-  out.unit = "m";
   return out;
 }
 

@@ -1,10 +1,11 @@
-/// Runs a corrector, and distances between trajectories.
+/// Runs a corrector; counts that methods report; distances between trajectories.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "methods/correctors/chain.hpp"
@@ -12,13 +13,24 @@
 
 namespace loopbench::test {
 
+using namespace methods;
+
 /// Keyframes corrected by `Method`.
 template <class Method>
 Trajectory corrected(const Problem& problem,
                      const typename Method::Options& options = {},
-                     methods::Report* report = nullptr) {
-  methods::Report unused;
+                     Report* report = nullptr) {
+  Report unused;
   return Method(options).correct(problem, report ? *report : unused);
+}
+
+/// The count of that name: iterations, kinks, segments ...; fails the test if there is none.
+inline double count(const Report& report, const std::string& name) {
+  for (const Count& each : report.counts) {
+    if (each.name == name) return each.value;
+  }
+  ADD_FAILURE() << "no count " << name;
+  return std::nan("");
 }
 
 inline std::vector<Pose> poses_of(const Trajectory& trajectory) {
@@ -32,7 +44,7 @@ inline double chain_cost(const Problem& problem, const std::vector<Pose>& poses)
   double sum = 0.0;
   for (const std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
     for (const Edge& edge : *edges) {
-      const Twist e = methods::edge_error(edge, poses[edge.from], poses[edge.to]);
+      const Twist e = edge_error(edge, poses[edge.from], poses[edge.to]);
       sum += e.dot(edge.information * e);
     }
   }

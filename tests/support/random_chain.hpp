@@ -4,15 +4,9 @@
 #include <random>
 
 #include "datasets/core/problem.hpp"
+#include "tests/datasets/random_poses.hpp"
 
 namespace loopbench::test {
-
-inline Twist random_twist(std::mt19937_64& random, double rho, double phi) {
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  Twist out;
-  for (int i = 0; i < 6; ++i) out[i] = (i < 3 ? rho : phi) * unit(random);
-  return out;
-}
 
 inline Matrix6 random_information(std::mt19937_64& random) {
   Matrix6 root;
