@@ -7,8 +7,8 @@
 
 #include "datasets/formats/formats.hpp"
 #include "harness/base/wrap.hpp"
+#include "tests/support/command.hpp"
 #include "tests/support/problems.hpp"
-#include "tests/support/terminal_command.hpp"
 
 namespace loopbench::eval_terminal_test {
 namespace {

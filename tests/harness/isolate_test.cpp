@@ -14,7 +14,6 @@
 #include "harness/run/pack.hpp"
 #include "tests/support/isolated_fixture.hpp"
 #include "tests/support/problems.hpp"
-#include "tests/support/run_here.hpp"
 
 namespace loopbench::isolate_test {
 

@@ -17,7 +17,6 @@
 #include "harness/report/store_figures.hpp"
 #include "harness/store/store.hpp"
 #include "tests/support/browser.hpp"
-#include "tests/support/run_here.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 

@@ -7,7 +7,6 @@
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/store/store.hpp"
-#include "tests/support/run_here.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_catalogue.hpp"
 

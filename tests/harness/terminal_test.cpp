@@ -7,7 +7,7 @@
 #include "harness/base/shell.hpp"
 #include "harness/base/wrap.hpp"
 #include "harness/tables/table.hpp"
-#include "tests/support/terminal_command.hpp"
+#include "tests/support/command.hpp"
 
 namespace loopbench::terminal_test {
 

@@ -8,7 +8,6 @@
 #include "harness/config/read_sweep.hpp"
 #include "harness/store/store.hpp"
 #include "tests/support/refusal_of.hpp"
-#include "tests/support/run_here.hpp"
 #include "tests/support/store_text.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_catalogue.hpp"
