@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "datasets/dataset.hpp"
+#include "tests/support/refusal_of.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
@@ -72,13 +73,7 @@ inline bool same_bits(const Trajectory& a, const Trajectory& b) {
 /// Returns the message of the InputError thrown by `act`. The test fails without an InputError.
 template <class Act>
 std::string refusal(Act act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return {};
+  return required_refusal_of<InputError>(act);
 }
 
 }  // namespace loopbench

@@ -11,6 +11,7 @@
 #include "datasets/core/se3.hpp"
 #include "datasets/core/trajectory.hpp"
 #include "metrics/metric.hpp"
+#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::test {
 
@@ -64,13 +65,7 @@ inline Statistics find(const std::vector<Score>& scores,
 /// The message of the exception that `action` must throw.
 template <class Error, class Action>
 std::string why(Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing thrown";
-  return "";
+  return required_refusal_of<Error>(action);
 }
 
 }  // namespace loopbench::test

@@ -12,6 +12,7 @@
 #include "datasets/core/error.hpp"
 #include "datasets/core/params.hpp"
 #include "harness/commands/commands.hpp"
+#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::test {
 
@@ -90,13 +91,7 @@ inline Json eval_json(std::vector<std::string> arguments, int expected_exit = kE
 /// The message of the error of a command, which must be rejected.
 template <class Error>
 std::string refusal(const std::vector<std::string>& arguments, const std::string& verb = "eval") {
-  try {
-    in_process(verb, arguments);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing thrown";
-  return "";
+  return required_refusal_of<Error>([&] { in_process(verb, arguments); });
 }
 
 inline std::string traj_refusal(const std::vector<std::string>& arguments) {

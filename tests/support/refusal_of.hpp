@@ -1,6 +1,8 @@
 /// Error messages of expected failures.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <exception>
 #include <string>
 
@@ -16,6 +18,14 @@ std::string refusal_of(Act act) {
     return error.what();
   }
   return "";
+}
+
+/// The same; the test fails if `act` does not throw.
+template <class Error, class Act>
+std::string required_refusal_of(Act act) {
+  const std::string out = refusal_of<Error>(act);
+  EXPECT_NE(out, "") << "nothing thrown";
+  return out;
 }
 
 }  // namespace loopbench
