@@ -1,7 +1,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "datasets/core/error.hpp"
 #include "harness/compare/baseline_file.hpp"
 #include "harness/eval/arguments.hpp"
 #include "harness/eval/evaluate_files.hpp"
@@ -26,10 +25,9 @@ std::vector<std::string> lines_of(const std::string& text) {
 template <class Act>
 void or_rejected(Act act) {
   try {
-    act();
-  } catch (const InputError&) {
-    // rejected with a message, as expected
+    unless_rejected(act);
   } catch (const OptionError&) {
+    // an option, as expected
   }
 }
 

@@ -1,7 +1,5 @@
 #include <cmath>
-#include <stdexcept>
 
-#include "datasets/core/error.hpp"
 #include "datasets/rgbd/folder/layouts.hpp"
 #include "datasets/rgbd/folder/read_image.hpp"
 #include "datasets/rgbd/images/camera.hpp"
@@ -11,23 +9,6 @@
 namespace loopbench {
 
 using namespace rgbd;
-
-namespace {
-
-void check_holds(bool holds, const char* what) {
-  if (!holds) throw std::logic_error(std::string("violated postcondition: ") + what);
-}
-
-template <class Act>
-void unless_rejected(Act act) {
-  try {
-    act();
-  } catch (const InputError&) {
-    // rejected with a message, as expected
-  }
-}
-
-}  // namespace
 
 void fuzz_camera(const std::filesystem::path& file) {
   unless_rejected([&] {

@@ -1,4 +1,4 @@
-/// Files of fuzz targets whose reader needs a name or a folder.
+/// Helpers of fuzz targets: checks, and files of readers that need a name or a folder.
 #pragma once
 
 #include <unistd.h>
@@ -6,9 +6,26 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 
+#include "datasets/core/error.hpp"
+
 namespace loopbench {
+
+inline void check_holds(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(std::string("violated postcondition: ") + what);
+}
+
+/// Calls `act`; InputError is expected, other exceptions are findings.
+template <class Act>
+void unless_rejected(Act act) {
+  try {
+    act();
+  } catch (const InputError&) {
+    // rejected with a message, as expected
+  }
+}
 
 inline std::string fuzz_bytes(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);

@@ -9,15 +9,12 @@
 #include "datasets/formats/g2o.hpp"
 #include "datasets/formats/text_formats.hpp"
 #include "datasets/formats/trajectory_file.hpp"
+#include "tests/fuzz/scratch_file.hpp"
 
 namespace loopbench {
 namespace {
 
 using Path = std::filesystem::path;
-
-void expect(bool holds, const char* what) {
-  if (!holds) throw std::logic_error(std::string("violated postcondition: ") + what);
-}
 
 /// check() throws InputError, as readers do for an invalid file; on a reader's result it is a
 /// finding.
@@ -65,7 +62,7 @@ void fuzz_tum(const Path& file) { fuzz_trajectory(file, Format::tum); }
 void fuzz_kitti(const Path& file) {
   fuzz_trajectory(file, Format::kitti);
   for (const PoseMatrix& pose : read_or_refuse([&] { return read_kitti_matrices(file); })) {
-    expect(pose.matrix().allFinite(), "matrices are finite");
+    check_holds(pose.matrix().allFinite(), "matrices are finite");
   }
 }
 void fuzz_euroc(const Path& file) { fuzz_trajectory(file, Format::euroc); }
@@ -73,14 +70,15 @@ void fuzz_any(const Path& file) { fuzz_trajectory(file, Format::automatic); }
 
 void fuzz_g2o(const Path& file) {
   const PoseGraph graph = read_or_refuse([&] { return read_g2o(file); });
-  expect(graph.lines.size() == graph.edges.size(), "a line for each edge");
-  expect(graph.vertices.empty() || graph.vertices.size() == graph.ids.size(), "a pose for each id");
+  check_holds(graph.lines.size() == graph.edges.size(), "a line for each edge");
+  check_holds(graph.vertices.empty() || graph.vertices.size() == graph.ids.size(),
+              "a pose for each id");
   for (std::size_t i = 1; i < graph.ids.size(); ++i) {
-    expect(graph.ids[i - 1] < graph.ids[i], "ids ascend");
+    check_holds(graph.ids[i - 1] < graph.ids[i], "ids ascend");
   }
   for (const Pose& pose : graph.vertices) expect_checked(Trajectory{{0.0, pose}});
   for (const Edge& edge : graph.edges) {
-    expect(edge.from < edge.to && edge.to < graph.ids.size(), "edges lead forward");
+    check_holds(edge.from < edge.to && edge.to < graph.ids.size(), "edges lead forward");
     expect_sound(edge);
   }
 }
@@ -88,8 +86,8 @@ void fuzz_g2o(const Path& file) {
 void fuzz_times(const Path& file) {
   const std::vector<double> times = read_or_refuse([&] { return read_times(file); });
   for (std::size_t i = 0; i < times.size(); ++i) {
-    expect(std::isfinite(times[i]), "times are finite");
-    expect(i == 0 || times[i - 1] < times[i], "times increase");
+    check_holds(std::isfinite(times[i]), "times are finite");
+    check_holds(i == 0 || times[i - 1] < times[i], "times increase");
   }
 }
 
@@ -98,7 +96,7 @@ void fuzz_bag(const Path& file) {
     const TrajectoryFile trajectory =
         read_or_refuse([&] { return read_trajectory_file(to_text(name)); });
     expect_checked(trajectory.poses);
-    expect(trajectory.nanoseconds.size() == trajectory.poses.size(), "exact stamps");
+    check_holds(trajectory.nanoseconds.size() == trajectory.poses.size(), "exact stamps");
   };
   for (const BagTopic& topic : read_or_refuse([&] { return bag_topics(file.string()); }).topics) {
     read({file.string(), topic.name});
@@ -111,9 +109,10 @@ void fuzz_csv(const Path& file) { fuzz_trajectory(file, Format::csv); }
 void fuzz_closures(const Path& file) {
   for (const StampedClosure& closure :
        read_or_refuse([&] { return read_closure_file(file, ClosureNoise{}); })) {
-    expect(std::isfinite(closure.stamp_from) && std::isfinite(closure.stamp_to), "finite stamps");
+    check_holds(std::isfinite(closure.stamp_from) && std::isfinite(closure.stamp_to),
+                "finite stamps");
     expect_checked(Trajectory{{0.0, closure.from_from_to}});
-    expect(closure.noise.sigma_t > 0.0 && closure.noise.sigma_r > 0.0, "positive sigmas");
+    check_holds(closure.noise.sigma_t > 0.0 && closure.noise.sigma_r > 0.0, "positive sigmas");
   }
 }
 
