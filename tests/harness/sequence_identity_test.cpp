@@ -22,20 +22,29 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-Sweep sweep_of(const std::string& datasets, const TemporaryFolder& folder) {
-  return parse_sweep("datasets:\n" + datasets + "methods: [raw]\nmetrics: [ate]\nrepeats: 3\n",
-                     folder.path() / "c.yaml",
-                     catalogue({}));
-}
+/// The sequences of a sweep over these datasets, with files of the folder.
+class Identity : public testing::Test {
+ protected:
+  void read(const std::string& datasets) {
+    sweep_ = parse_sweep("datasets:\n" + datasets + "methods: [raw]\nmetrics: [ate]\nrepeats: 3\n",
+                         folder_.path() / "c.yaml",
+                         known_);
+  }
+  SequenceMetadata metadata(std::size_t dataset, int repeat = 0) const {
+    const Cell cell{0, dataset, 0, repeat};
+    return metadata_of(load_sequence(cell, sweep_, known_, {{folder_.path()}}), cell, sweep_);
+  }
+  std::string group(std::size_t dataset, int repeat = 0) const {
+    return metadata(dataset, repeat).group;
+  }
 
-SequenceMetadata metadata_of_sequence(const Sweep& sweep,
-                                      const TemporaryFolder& folder,
-                                      std::size_t dataset,
-                                      int repeat = 0) {
-  const Cell cell{0, dataset, 0, repeat};
-  const Catalogue known = catalogue({});
-  return metadata_of(load_sequence(cell, sweep, known, {{folder.path()}}), cell, sweep);
-}
+  TemporaryFolder folder_;
+  Catalogue known_ = catalogue({});
+  Sweep sweep_;
+};
+using SequenceContent = Identity;
+using Group = Identity;
+using OracleClosures = Identity;
 
 std::string walk(double scale) {
   std::string out;
@@ -46,15 +55,13 @@ std::string walk(double scale) {
   return out;
 }
 
-TEST(SequenceContent, IsEqualWhereNothingRandomActs) {
-  const TemporaryFolder folder;
-  const Sweep sweep = sweep_of(
+TEST_F(SequenceContent, IsEqualWhereNothingRandomActs) {
+  read(
       "  - {dataset: simulated, label: silent, noise.gain: 0, closures.sigma_t: 0, "
       "closures.sigma_r: 0}\n"
-      "  - {dataset: simulated, label: noisy}\n",
-      folder);
+      "  - {dataset: simulated, label: noisy}\n");
   const auto content = [&](std::size_t dataset, int repeat) {
-    return metadata_of_sequence(sweep, folder, dataset, repeat).content;
+    return metadata(dataset, repeat).content;
   };
   EXPECT_EQ(content(0, 0), content(0, 1));
   EXPECT_EQ(content(1, 0), content(1, 0));
@@ -63,7 +70,7 @@ TEST(SequenceContent, IsEqualWhereNothingRandomActs) {
   EXPECT_EQ(content(0, 0).size(), 32u);
 }
 
-TEST(SequenceContent, DependsOnEveryPart) {
+TEST_F(SequenceContent, DependsOnEveryPart) {
   Sequence base;
   for (int i = 0; i < 3; ++i) base.problem.keyframes.push_back({double(i), {}});
   base.problem.odometry = {{0, 1, {}}, {1, 2, {}}};
@@ -89,7 +96,7 @@ TEST(SequenceContent, DependsOnEveryPart) {
   EXPECT_EQ(content_of(base), content_of(all[0]));
 }
 
-TEST(SequenceContent, OfALongSequenceIsStable) {
+TEST_F(SequenceContent, OfALongSequenceIsStable) {
   Sequence sequence;
   for (int i = 0; i < 40000; ++i) sequence.reference.push_back({double(i), {}});
   const std::string first = content_of(sequence);
@@ -98,72 +105,57 @@ TEST(SequenceContent, OfALongSequenceIsStable) {
   EXPECT_NE(content_of(sequence), first);
 }
 
-TEST(Group, IsTheShapeOfTheReferenceInAnyFile) {
-  const TemporaryFolder folder;
+TEST_F(Group, IsTheShapeOfTheReferenceInAnyFile) {
   std::string kitti;
   for (int i = 0; i <= 20; ++i) {
     const std::string x = std::to_string(1.0 / 3.0 * std::abs(i - 10));
     const std::string z = std::to_string(0.1 * i);
     kitti += "1 0 0 " + x + " 0 1 0 " + z + " 0 0 1 0\n";
   }
-  folder.file("est.txt", walk(1.01));
-  folder.file("gt.txt", walk(1.0 / 3.0));
-  folder.file("remark.txt", "# another line\n" + walk(1.0 / 3.0));
-  folder.file("gt.kitti", kitti);
+  folder_.file("est.txt", walk(1.01));
+  folder_.file("gt.txt", walk(1.0 / 3.0));
+  folder_.file("remark.txt", "# another line\n" + walk(1.0 / 3.0));
+  folder_.file("gt.kitti", kitti);
   const std::string common = "  - {dataset: trajectory, estimate: est.txt, ";
-  const Sweep sweep = sweep_of(common + "label: tum, reference: gt.txt}\n" + common +
-                                   "label: remark, reference: remark.txt}\n" + common +
-                                   "label: turned, reference: gt.txt, reference_body.y: 0.7, "
-                                   "reference_body.qz: 0.6, reference_body.qw: 0.8}\n" +
-                                   "  - {dataset: trajectory, label: kitti, estimate: gt.kitti, "
-                                   "reference: gt.kitti}\n",
-                               folder);
-  const auto group = [&](std::size_t dataset) {
-    return metadata_of_sequence(sweep, folder, dataset).group;
-  };
+  read(common + "label: tum, reference: gt.txt}\n" + common +
+       "label: remark, reference: remark.txt}\n" + common +
+       "label: turned, reference: gt.txt, reference_body.y: 0.7, "
+       "reference_body.qz: 0.6, reference_body.qw: 0.8}\n" +
+       "  - {dataset: trajectory, label: kitti, estimate: gt.kitti, "
+       "reference: gt.kitti}\n");
   EXPECT_THAT(group(0), StartsWith("reference:"));
   for (const std::size_t other : {1u, 2u, 3u}) EXPECT_EQ(group(0), group(other)) << other;
 }
 
-TEST(Group, IsTheReferenceOfMeasuredData) {
-  const TemporaryFolder folder;
-  folder.file("a.txt", walk(1.01));
-  folder.file("b.txt", walk(1.02));
-  folder.file("gt.txt", walk(1.0));
-  folder.file("copy/gt.txt", walk(1.0));
-  folder.file("other.txt", walk(1.1));
-  const Sweep sweep = sweep_of(
+TEST_F(Group, IsTheReferenceOfMeasuredData) {
+  folder_.file("a.txt", walk(1.01));
+  folder_.file("b.txt", walk(1.02));
+  folder_.file("gt.txt", walk(1.0));
+  folder_.file("copy/gt.txt", walk(1.0));
+  folder_.file("other.txt", walk(1.1));
+  read(
       "  - {dataset: trajectory, label: a, estimate: a.txt, reference: gt.txt}\n"
       "  - {dataset: trajectory, label: b, estimate: b.txt, reference: copy/gt.txt, "
       "reference_body.x: 0.3, closures: {source: reference}}\n"
       "  - {dataset: trajectory, label: other, estimate: a.txt, reference: other.txt}\n"
       "  - {dataset: trajectory, label: none, estimate: a.txt}\n"
-      "  - {dataset: trajectory, label: named, estimate: a.txt, reference: other.txt, group: x}\n",
-      folder);
-  const auto group = [&](std::size_t dataset, int repeat = 0) {
-    return metadata_of_sequence(sweep, folder, dataset, repeat).group;
-  };
+      "  - {dataset: trajectory, label: named, estimate: a.txt, reference: other.txt, group: x}\n");
   EXPECT_THAT(group(0), StartsWith("reference:"));
   EXPECT_EQ(group(0), group(1));     // another odometer on the same recording
   EXPECT_EQ(group(1), group(1, 2));  // other noise on its closures
   EXPECT_NE(group(0), group(2));
   EXPECT_THAT(group(3), StartsWith("estimate:"));
   EXPECT_EQ(group(4), "group:x");
-  EXPECT_EQ(metadata_of_sequence(sweep, folder, 4).source, group(2));
+  EXPECT_EQ(metadata(4).source, group(2));
 }
 
-TEST(Group, IsTheNoiseOfSimulatedData) {
-  const TemporaryFolder folder;
-  const Sweep sweep = sweep_of(
+TEST_F(Group, IsTheNoiseOfSimulatedData) {
+  read(
       "  - {dataset: simulated, label: room}\n"
       "  - {dataset: simulated, label: loud, noise.gain: 2}\n"
       "  - {dataset: simulated, label: s1, stream: s}\n"
       "  - {dataset: simulated, label: s2, stream: s, noise.gain: 2}\n"
-      "  - {dataset: simulated, label: named, group: room}\n",
-      folder);
-  const auto group = [&](std::size_t dataset, int repeat = 0) {
-    return metadata_of_sequence(sweep, folder, dataset, repeat).group;
-  };
+      "  - {dataset: simulated, label: named, group: room}\n");
   EXPECT_THAT(group(0), StartsWith("noise:"));
   EXPECT_NE(group(0), group(0, 1));  // every seed is a separate observation
   EXPECT_NE(group(0), group(1));
@@ -172,20 +164,14 @@ TEST(Group, IsTheNoiseOfSimulatedData) {
   EXPECT_EQ(group(4, 0), group(4, 1));
 }
 
-TEST(OracleClosures, AreThoseThatTheDatasetDeclares) {
-  const TemporaryFolder folder;
-  folder.file("est.txt", walk(1.01));
-  folder.file("gt.txt", walk(1.0));
-  folder.file("exact.txt", "1 19 0 1.8 0 0 0 0 1\n");
+TEST_F(OracleClosures, AreThoseThatTheDatasetDeclares) {
+  folder_.file("est.txt", walk(1.01));
+  folder_.file("gt.txt", walk(1.0));
+  folder_.file("exact.txt", "1 19 0 1.8 0 0 0 0 1\n");
   const std::string common = "  - {dataset: trajectory, estimate: est.txt, reference: gt.txt, ";
-  const Sweep sweep =
-      sweep_of(common + "label: file, closures: {source: file, file: exact.txt}}\n" + common +
-                   "label: run, closures: {source: estimate, file: gt.txt}}\n" + common +
-                   "label: reference, closures: {source: reference}}\n",
-               folder);
-  const auto metadata = [&](std::size_t dataset) {
-    return metadata_of_sequence(sweep, folder, dataset);
-  };
+  read(common + "label: file, closures: {source: file, file: exact.txt}}\n" + common +
+       "label: run, closures: {source: estimate, file: gt.txt}}\n" + common +
+       "label: reference, closures: {source: reference}}\n");
   EXPECT_FALSE(metadata(0).oracle_closures);
   EXPECT_TRUE(metadata(1).oracle_closures);
   EXPECT_THAT(metadata(1).closures, HasSubstr("which is the reference"));
