@@ -8,8 +8,8 @@
 
 namespace loopbench {
 
-/// The text of the exception, an InputError or OptionError unless an `Error` is given, that `act`
-/// throws; "" if it does not throw.
+/// The text of the exception that `act` throws, for example an InputError or OptionError; "" if it
+/// does not throw. Exceptions of other types than `Error` pass.
 template <class Error = std::exception, class Act>
 std::string refusal_of(Act act) {
   try {
