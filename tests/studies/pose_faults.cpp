@@ -153,6 +153,13 @@ bool delay(Recording& r, double seconds) {
 }
 
 std::vector<PlantedFault> times() {
+  const auto drift = [](double size) {
+    return [=](Recording& r, std::mt19937& random, const Others&) {
+      const double rate = 1.0 + (flip(random) ? size : -size), start = r.estimate.front().stamp;
+      for (StampedPose& pose : r.estimate) pose.stamp = start + rate * (pose.stamp - start);
+      return r.has_stamps;
+    };
+  };
   return {{"a time offset",
            {"time_offset"},
            [](Recording& r, std::mt19937& random, const Others&) {
@@ -169,20 +176,8 @@ std::vector<PlantedFault> times() {
              return has_regular_stamps(r) &&
                     delay(r, (flip(random) ? 0.5 : -0.5) * median_interval(r.estimate));
            }},
-          {"clock drift 0.1 %",
-           {"clock_drift"},
-           [](Recording& r, std::mt19937& random, const Others&) {
-             const double rate = flip(random) ? 1.001 : 0.999, start = r.estimate.front().stamp;
-             for (StampedPose& pose : r.estimate) pose.stamp = start + rate * (pose.stamp - start);
-             return r.has_stamps;
-           }},
-          {"clock drift 0.5 %",
-           {"clock_drift"},
-           [](Recording& r, std::mt19937& random, const Others&) {
-             const double rate = flip(random) ? 1.005 : 0.995, start = r.estimate.front().stamp;
-             for (StampedPose& pose : r.estimate) pose.stamp = start + rate * (pose.stamp - start);
-             return r.has_stamps;
-           }},
+          {"clock drift 0.1 %", {"clock_drift"}, drift(0.001)},
+          {"clock drift 0.5 %", {"clock_drift"}, drift(0.005)},
           {"stamps in another unit",
            {"stamp_unit"},
            [](Recording& r, std::mt19937& random, const Others&) {

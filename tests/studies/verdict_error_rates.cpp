@@ -157,13 +157,8 @@ void print_power(int repeats) {
   }
 }
 
-struct CoverageCase {
-  std::string name;
-  Truth truth;
-};
-
-std::vector<CoverageCase> coverage_cases() {
-  std::vector<CoverageCase> out;
+std::vector<Scene> coverage_cases() {
+  std::vector<Scene> out;
   for (const std::size_t n : {6u, 8u, 15u, 30u, 100u}) {
     out.push_back({fmt::format("{} runs", n), {.effects = {0.0, -0.2}, .groups = n}});
   }
@@ -186,7 +181,7 @@ bool print_coverage(int repeats) {
   fmt::print(
       "\n| observations | 95 % intervals that hold the typical ratio [%] | declined [%] |\n"
       "| --- | ---: | ---: |\n");
-  for (const CoverageCase& one : coverage_cases()) {
+  for (const Scene& one : coverage_cases()) {
     double least = 1.0;
     double most = 0.0;
     double declined = 0.0;
