@@ -21,6 +21,7 @@ double rmse(const std::vector<std::string>& options, const std::string& metric) 
 // Values of golden.json.
 TEST(Eval, KnowsEvosHabits) {
   EXPECT_NEAR(rmse({}, "ate"), 12.6565235225568, 1e-10);
+  EXPECT_NEAR(rmse({"--align=origin"}, "ate"), 2.12100433850654, 1e-11);
   EXPECT_NEAR(rmse({"-a"}, "ate"), 0.676208260682124, 1e-12);
   EXPECT_NEAR(rmse({"-as"}, "ate"), 0.660473127811482, 1e-12);
   EXPECT_NEAR(rmse({"--align", "--correct_scale"}, "ate"), 0.660473127811482, 1e-12);
@@ -76,7 +77,6 @@ TEST(Eval, EvaluatesKittiByTheDigitsOfItsFiles) {
 
 TEST(Eval, DrawsTumsRandomPairsOnce) {
   const Json results = eval_json(drift({"--protocol=tum", "--set=pairs=tum_random"}));
-  EXPECT_NEAR(find(results, "rpe", "translation")["rmse"], 1.5566026278354204, 1e-9);
   int rows = 0;
   for (const Json& row : results["metrics"]) rows += row["metric"] == "rpe" ? 1 : 0;
   EXPECT_EQ(rows, 5);

@@ -1,14 +1,21 @@
-/// Results of evo, TUM's scripts and rpg on the same files: all 516 rows.
+/// Results of evo, TUM's scripts, rpg and KITTI's devkit on the same files: 516 rows of
+/// golden.json, and single numbers in values.json, some of public data outside the repository.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
-#include "datasets/formats/formats.hpp"
+#include "datasets/formats/text_formats.hpp"
 #include "metrics/errors/ape.hpp"
 #include "metrics/errors/ate.hpp"
+#include "metrics/errors/printed_motion.hpp"
 #include "metrics/errors/rpe.hpp"
 #include "metrics/errors/segments.hpp"
 #include "metrics/protocols/protocols.hpp"
@@ -20,25 +27,25 @@ using namespace metrics;
 
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-std::string golden(const std::string& name) {
-  return std::string(LOOPBENCH_TEST_DATA) + "/golden/" + name;
+fs::path golden(const std::string& name) { return fs::path(LOOPBENCH_TEST_DATA) / "golden" / name; }
+
+const Json& table(const std::string& name) {
+  static std::map<std::string, Json> seen;
+  Json& out = seen[name];
+  if (out.empty()) out = Json::parse(std::ifstream(golden(name)));
+  return out;
 }
 
-const Json& rows() {
-  static const Json all = [] {
-    std::ifstream file(golden("golden.json"));
-    return Json::parse(file);
-  }();
-  return all;
-}
-
-const Trajectory& file(const std::string& name) {
-  static std::map<std::string, Trajectory> seen;
+/// Published ground truths have repeated stamps.
+const Trajectory& file(const fs::path& name) {
+  static std::map<fs::path, Trajectory> seen;
   const auto found = seen.find(name);
-  return found != seen.end() ? found->second
-                             : seen.emplace(name, read_trajectory(golden(name))).first->second;
+  if (found != seen.end()) return found->second;
+  const fs::path path = golden("") / name;
+  return seen.emplace(name, read_trajectory(path, {.repeats = Repeats::keep_first})).first->second;
 }
 
 /// Relative tolerance 1e-9, absolute for values that are zero up to rounding (align origin).
@@ -65,6 +72,14 @@ void expect_same(const Statistics& got,
   expect_same(got.min, wanted.at("min"), what + " min", zero);
   expect_same(got.max, wanted.at("max"), what + " max", zero);
   if (wanted.contains("sse")) expect_same(got.sse, wanted["sse"], what + " sse", zero);
+}
+
+/// The score called "relation axis unit".
+const Statistics& named(const std::vector<Score>& scores, const std::string& name) {
+  for (const Score& score : scores) {
+    if (score.relation + " " + score.axis + " " + score.unit == name) return score.statistics;
+  }
+  throw std::runtime_error("no score " + name);
 }
 
 std::string label(Json row) {
@@ -156,22 +171,15 @@ void rpg(const Json& row) {
   const std::map<std::string, std::string> shares{
       {"7.39", "10%"}, {"14.79", "20%"}, {"22.18", "30%"}, {"29.58", "40%"}, {"36.98", "50%"}};
   ASSERT_EQ(row["rel"].size(), shares.size());
-  const auto numbers = [&](const std::string& name, const std::string& axis, const char* unit) {
-    for (const Score& score : scores) {
-      if (score.relation == name && score.axis == axis && score.unit == unit) {
-        return score.statistics;
-      }
-    }
-    throw std::runtime_error("no score " + name + " " + axis + " " + unit);
-  };
   for (const auto& [length, wanted] : row["rel"].items()) {
-    const std::string& axis = shares.at(length);
+    const std::string share = " " + shares.at(length) + " ";
     const std::string what = label(row) + " " + length;
-    expect_same(numbers("translation", axis, "m"), wanted["rel_trans"], what);
-    expect_same(numbers("translation", axis, "%"), wanted["rel_trans_perc"], what);
-    expect_same(numbers("rotation", axis, "deg"), wanted["rel_rot"], what, kNearZeroByTrace);
-    expect_same(numbers("yaw", axis, "deg"), wanted["rel_yaw"], what);
-    expect_same(numbers("gravity", axis, "deg"), wanted["rel_gravity"], what);
+    expect_same(named(scores, "translation" + share + "m"), wanted["rel_trans"], what);
+    expect_same(named(scores, "translation" + share + "%"), wanted["rel_trans_perc"], what);
+    expect_same(
+        named(scores, "rotation" + share + "deg"), wanted["rel_rot"], what, kNearZeroByTrace);
+    expect_same(named(scores, "yaw" + share + "deg"), wanted["rel_yaw"], what);
+    expect_same(named(scores, "gravity" + share + "deg"), wanted["rel_gravity"], what);
   }
 }
 
@@ -179,7 +187,7 @@ void rpg(const Json& row) {
 template <class Compare>
 std::size_t compared(const std::string& tool, Compare compare) {
   std::size_t count = 0;
-  for (const Json& row : rows()) {
+  for (const Json& row : table("golden.json")) {
     if (row["tool"] != tool) continue;
     compare(row);
     ++count;
@@ -196,46 +204,96 @@ TEST(Golden, TumPairsInEvosForm) {
 }
 TEST(Golden, Rpg) { EXPECT_EQ(compared("rpg", rpg), 18u); }
 
-TEST(Golden, LeavesNoRowOut) { EXPECT_EQ(rows().size(), 252u + 210u + 12u + 12u + 12u + 18u); }
-
-// The commonly quoted number, written out explicitly.
-TEST(Golden, BurstSeparatesTheAssociations) {
-  const auto rmse = [](Association rule, double max_diff) {
-    const Protocol rules{.association = rule, .max_diff = max_diff, .align = Align::se3};
-    const Evaluation got = evaluate(file("gt.txt"), file("est_burst.txt"), rules);
-    return find(ate(got, {}), "translation", "3d").rmse;
-  };
-  EXPECT_NEAR(rmse(Association::evo, 0.01), 0.0406472010353845, 1e-12);
-  EXPECT_NEAR(rmse(Association::tum, 0.02), 0.0361229585047602, 1e-12);
+TEST(Golden, LeavesNoRowOut) {
+  EXPECT_EQ(table("golden.json").size(), 252u + 210u + 12u + 12u + 12u + 18u);
 }
 
-/// Not from golden.json: the result of a literal copy of evaluate_rpe.py in Python 3.11 with
-/// random.seed(0), without --fixed_delta.
-TEST(Golden, TumRpeOfRandomPairs) {
-  const Params random{{"pairs", std::string("tum_random")}};
-  const auto expect = [&](const char* name, std::size_t n, double rmse, double mean, double deg) {
-    const Evaluation evaluated =
-        evaluate(file("gt.txt"), file(name), named_protocol("tum", random).rules);
-    const std::vector<Score> got = rpe(evaluated, {});
-    const Statistics translation = find(got, "translation", "3d");
-    EXPECT_EQ(translation.count, n) << name;
-    expect_same(translation.rmse, rmse, name);
-    expect_same(translation.mean, mean, name);
-    expect_same(find(got, "rotation", "3d").rmse, deg, name);
-  };
-  expect("est_drift.txt", 9393, 1.5566026278354204, 1.1909726827963953, 9.716495239575913);
-  expect("est_corrected.txt", 9393, 0.10058034889875365, 0.0781356581798225, 0.6351958430506388);
-  expect("est_burst.txt", 9408, 0.10196076571413372, 0.07908341199621904, 0.6368885820702946);
+/// One number of another tool: values.json, with relative tolerances.
+class GoldenValue : public testing::TestWithParam<std::string> {};
+
+fs::path path_of(const std::string& name) {
+  if (name[0] != '$') return golden(name);
+  const char* data = std::getenv("LOOPBENCH_DATA");
+  return data == nullptr ? name : data + name.substr(name.find('/'));
 }
 
-TEST(Golden, RandomPairsHaveNoDelta) {
-  const Params random{{"pairs", std::string("tum_random")}};
-  const Evaluation evaluated =
-      evaluate(file("gt.txt"), file("est_drift.txt"), named_protocol("tum", random).rules);
-  EXPECT_EQ(why<Undefined>([&] { rpe(evaluated, {.delta = 1.0, .unit = DeltaUnit::s}); }),
-            "rpe: pairs tum_random ignore delta = 1.0 s; use rpe without delta and unit");
-  EXPECT_EQ(rpe(evaluated, {.unit = DeltaUnit::s, .pairs = RpePairs::tum}).front().statistics.count,
-            620u);
+Params params(const Json& object) {
+  Params out;
+  for (const auto& [name, value] : object.items()) {
+    out[name] = value.is_string() ? Param(value.get<std::string>()) : Param(value.get<double>());
+  }
+  return out;
+}
+
+double statistic(const Json& row, const Evaluation& evaluation) {
+  const std::string name = row["statistic"];
+  if (name == "scale") return evaluation.alignment.scale;
+  const std::vector<MetricEntry> known = metrics::metrics();
+  const auto metric =
+      std::ranges::find(known, row["metric"].get<std::string>(), &MetricEntry::name);
+  const std::vector<Score> scores = metric->score(evaluation, params(row["options"]));
+  const Statistics& got = named(scores, row["score"]);
+  if (name == "count") return static_cast<double>(got.count);
+  return name == "rmse" ? got.rmse : got.mean;
+}
+
+/// The matrices of KITTI files with their digits.
+PrintedPoses printed(const fs::path& reference, const fs::path& estimate) {
+  return {read_kitti_matrices(reference), read_kitti_matrices(estimate)};
+}
+
+Evaluation of_files(const fs::path& reference,
+                    const fs::path& estimate,
+                    const Protocol& rules,
+                    const PrintedPoses* digits) {
+  Evaluation out = evaluate(file(reference), file(estimate), rules);
+  out.context.reference = &file(reference);
+  out.context.estimate = &file(estimate);
+  out.context.printed = digits;
+  return out;
+}
+
+TEST_P(GoldenValue, IsReproduced) {
+  for (const Json& row : table("values.json")) {
+    if (row["files"][1] != GetParam()) continue;
+    const fs::path reference = path_of(row["files"][0]), estimate = path_of(row["files"][1]);
+    if (!fs::exists(estimate)) GTEST_SKIP() << "not found: " << GetParam();
+    const Protocol rules = named_protocol(row["protocol"], params(row["changes"])).rules;
+    const bool has_digits = row.value("digits", GetParam().find("kitti") != std::string::npos);
+    const PrintedPoses digits = has_digits ? printed(reference, estimate) : PrintedPoses{};
+    const Evaluation evaluation =
+        of_files(reference, estimate, rules, has_digits ? &digits : nullptr);
+    const double wanted = row["value"];
+    const double difference = std::abs(statistic(row, evaluation) - wanted) / wanted;
+    EXPECT_LE(difference, row["tolerance"].get<double>()) << row;
+    // Without the digits of the files, the number differs measurably.
+    EXPECT_GE(difference, row.value("least_difference", 0.0)) << row;
+  }
+}
+
+std::set<std::string> estimates() {
+  std::set<std::string> out;
+  for (const Json& row : table("values.json")) out.insert(row["files"][1]);
+  return out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Golden, GoldenValue, testing::ValuesIn(estimates()), [](const auto& at) {
+  std::string name = at.param;
+  std::erase_if(name, [](unsigned char c) { return std::isalnum(c) == 0; });
+  return name;
+});
+
+TEST(EvoOnKitti, OtherPairsThanPoseByPoseHaveNoDigits) {
+  const fs::path reference = golden("kitti_gt.txt"), estimate = golden("kitti_est.txt");
+  const PrintedPoses digits = printed(reference, estimate);
+  const auto uses_digits = [&](const NamedProtocol& protocol) {
+    return printed_for_evo(of_files(reference, estimate, protocol.rules, &digits)).has_value();
+  };
+  EXPECT_TRUE(uses_digits(named_protocol("evo")));
+  EXPECT_TRUE(uses_digits(named_protocol("evo", {{"align", std::string("sim3")}})));
+  EXPECT_FALSE(uses_digits(named_protocol("evo", {{"offset", 0.1}})));
+  EXPECT_FALSE(uses_digits(named_protocol("evo", {{"project", std::string("xy")}})));
+  EXPECT_FALSE(uses_digits(named_protocol("loopbench")));
 }
 
 }  // namespace

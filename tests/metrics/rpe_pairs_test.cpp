@@ -63,6 +63,17 @@ TEST(RpePairs, ConsecutiveSecondsAreThoseAskedFor) {
   EXPECT_EQ(find(of(0.2), "translation", "3d").count, 100u);
 }
 
+TEST(RpePairs, RandomOnesHaveNoDelta) {
+  std::mt19937_64 random(14);
+  const Trajectory walk = random_walk(random, 101);  // 0.1 s apart
+  const Params drawn{{"pairs", std::string("tum_random")}};
+  const Evaluation evaluated = evaluate(walk, walk, named_protocol("tum", drawn).rules);
+  EXPECT_EQ(why<Undefined>([&] { rpe(evaluated, kSecond); }),
+            "rpe: pairs tum_random ignore delta = 1.0 s; use rpe without delta and unit");
+  EXPECT_EQ(rpe(evaluated, {.unit = DeltaUnit::s, .pairs = RpePairs::tum}).front().statistics.count,
+            90u);
+}
+
 TEST(RpeAxes, AreComponentsOfTheErrorTransform) {
   std::mt19937_64 random(13);
   const Trajectory reference = random_walk(random, 200);
