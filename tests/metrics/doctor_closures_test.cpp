@@ -2,14 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "metrics/doctor/graph_checks.hpp"
 #include "metrics/doctor/loop_likelihood.hpp"
+#include "tests/metrics/doctor_pairs.hpp"
 
 namespace loopbench::doctor_closures_test {
 namespace {
 
 using namespace metrics;
+using test::only;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -47,30 +50,82 @@ Problem rounds() {
   return out;
 }
 
+Pose true_pose(const Problem& problem, std::size_t from, std::size_t to) {
+  return problem.keyframes[from].world_from_body.inverse() * problem.keyframes[to].world_from_body;
+}
+
+/// A closure that is wrong by `up` [m].
+void add_false_closure(Problem& problem, std::size_t from, std::size_t to, double up) {
+  Pose pose = true_pose(problem, from, to);
+  pose.translation.z() += up;
+  problem.closures.push_back({from, to, pose, problem.closures[0].information});
+}
+
 std::vector<Fault::Name> closure_faults(const Problem& problem) {
   std::vector<Fault::Name> out;
   for (const InputFinding& finding : check_closures(problem)) out.push_back(finding.fault);
   return out;
 }
 
-TEST(DoctorOfClosures, FindsNothingInAGoodGraph) {
-  EXPECT_THAT(closure_faults(rounds()), IsEmpty());
+void invert(std::vector<Edge>& edges) {
+  for (Edge& edge : edges) edge.from_from_to = edge.from_from_to.inverse();
 }
 
-TEST(DoctorOfClosures, InvertedClosures) {
-  Problem problem = rounds();
-  for (Edge& edge : problem.closures) edge.from_from_to = edge.from_from_to.inverse();
-  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_direction));
+void scale_information(std::vector<Edge>& edges, double factor) {
+  for (Edge& edge : edges) edge.information *= factor;
 }
 
-/// The vertices of a file state the motion that the odometry should have.
-TEST(DoctorOfClosures, InvertedOdometryIsNotAnsweredByInvertedClosures) {
-  Problem problem = rounds();
-  for (Edge& edge : problem.odometry) edge.from_from_to = edge.from_from_to.inverse();
-  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::odometry_direction));
+struct Change {
+  const char* name;
+  std::function<void(Problem&)> change;
+  std::vector<Fault::Name> faults;
+};
+
+TEST(DoctorOfClosures, OneFindingForOneChange) {
+  const Change changes[] = {
+      {"none", [](Problem&) {}, {}},
+      {"inverted closures", [](Problem& p) { invert(p.closures); }, {Fault::closure_direction}},
+      // The vertices of a file state the motion that the odometry should have.
+      {"inverted odometry", [](Problem& p) { invert(p.odometry); }, {Fault::odometry_direction}},
+      {"a false closure",
+       [](Problem& p) {
+         p.closures.push_back({10, 40, Pose{}, p.closures[0].information});
+       },
+       {Fault::closure_gap}},
+      // Of closures that are mostly false, no covariance can be judged.
+      {"many false closures",
+       [](Problem& p) {
+         const Matrix6 information = p.closures[0].information;
+         for (std::size_t i = 0; i < 50; ++i) p.closures.push_back({i, i + 25, {}, information});
+       },
+       {Fault::closure_gap}},
+      {"information of another scale",
+       [](Problem& p) {
+         scale_information(p.odometry, 1e4);
+         scale_information(p.closures, 1e4);
+       },
+       {Fault::information_scale}},
+      {"information of closures of another scale",
+       [](Problem& p) { scale_information(p.closures, 1e-6); },
+       {Fault::information_scale}},
+      {"information in another order",
+       [](Problem& p) {
+         for (auto* edges : {&p.odometry, &p.closures}) {
+           for (Edge& edge : *edges) edge.information.diagonal().reverseInPlace();
+         }
+       },
+       {Fault::information_order}},
+      // A closure that is listed twice agrees with itself.
+      {"a repeated closure", [](Problem& p) { p.closures.push_back(p.closures.back()); }, {}},
+  };
+  for (const auto& [name, change, expected] : changes) {
+    Problem problem = rounds();
+    change(problem);
+    EXPECT_EQ(closure_faults(problem), expected) << name;
+  }
 }
 
-TEST(DoctorOfClosures, ConventionsOfClosures) {
+TEST(DoctorOfClosures, ConventionsOfTurnedClosures) {
   const auto changed = [](auto change) {
     Problem problem = rounds();
     for (Edge& edge : problem.closures) {
@@ -94,11 +149,7 @@ TEST(DoctorOfClosures, ConventionsOfClosures) {
                 return {p.rotation, 1000.0 * p.translation};
               }),
               ElementsAre(Fault::closure_unit));
-  EXPECT_THAT(changed([](const Pose& p) -> Pose {
-                const Rotation& q = p.rotation;
-                return {Rotation(q.z(), q.w(), q.x(), q.y()), p.translation};
-              }),
-              ElementsAre(Fault::closure_rotation));
+  EXPECT_THAT(changed(test::misordered), ElementsAre(Fault::closure_rotation));
   EXPECT_THAT(changed([](const Pose& p) -> Pose {
                 return {exp_so3(180.0 / M_PI * log_so3(p.rotation)), p.translation};
               }),
@@ -120,38 +171,9 @@ TEST(DoctorOfClosures, AllClosuresAreContradicted) {
     closure.from_from_to = {exp_so3({0, 0, angle}),
                             {40 * std::cos(angle), 40 * std::sin(angle), 0}};
   }
-  const auto found = check_closures(problem);
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].fault, Fault::closure_gap);
-  EXPECT_THAT(found[0].evidence, testing::Not(HasSubstr("without them")));
-  EXPECT_THAT(found[0].fix, HasSubstr("order of quaternions of all edges"));
-}
-
-/// Of closures that are mostly false, no covariance can be judged.
-TEST(DoctorOfClosures, ManyFalseClosuresShowNothingAboutTheInformation) {
-  Problem problem = rounds();
-  const Matrix6 information = problem.closures[0].information;
-  for (std::size_t i = 0; i < 50; ++i) problem.closures.push_back({i, i + 25, Pose{}, information});
-  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_gap));
-}
-
-TEST(DoctorOfClosures, AFalseClosure) {
-  Problem problem = rounds();
-  problem.closures.push_back({10, 40, Pose{}, problem.closures[0].information});
-  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_gap));
-}
-
-TEST(DoctorOfClosures, InformationInTheWrongOrderOrScale) {
-  Problem problem = rounds();
-  for (auto* edges : {&problem.odometry, &problem.closures}) {
-    for (Edge& edge : *edges) edge.information *= 1e4;
-  }
-  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_scale));
-  problem = rounds();
-  for (auto* edges : {&problem.odometry, &problem.closures}) {
-    for (Edge& edge : *edges) edge.information.diagonal().reverseInPlace();
-  }
-  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_order));
+  const InputFinding found = only(check_closures(problem), Fault::closure_gap);
+  EXPECT_THAT(found.evidence, testing::Not(HasSubstr("without them")));
+  EXPECT_THAT(found.fix, HasSubstr("order of quaternions of all edges"));
 }
 
 /// Without neighbours, and with too little drift to hide the motion between the lanes.
@@ -163,13 +185,8 @@ TEST(DoctorOfClosures, RepeatedOrExactClosuresShowNothingAboutTheirInformation) 
   }
   EXPECT_THAT(closure_faults(repeated), IsEmpty());
   Problem exact = rounds();
-  for (Edge& edge : exact.odometry) {
-    edge.from_from_to = exact.keyframes[edge.from].world_from_body.inverse() *
-                        exact.keyframes[edge.to].world_from_body;
-  }
-  for (Edge& edge : exact.closures) {
-    edge.from_from_to = exact.keyframes[edge.from].world_from_body.inverse() *
-                        exact.keyframes[edge.to].world_from_body;
+  for (auto* edges : {&exact.odometry, &exact.closures}) {
+    for (Edge& edge : *edges) edge.from_from_to = true_pose(exact, edge.from, edge.to);
   }
   EXPECT_THAT(closure_faults(exact), IsEmpty());
 }
@@ -179,11 +196,10 @@ TEST(DoctorOfClosures, FewClosuresAreComparedWithTheOdometry) {
   problem.closures = {problem.closures[0], problem.closures[13], problem.closures[26]};
   EXPECT_THAT(closure_faults(problem), IsEmpty());
   Problem inverted = problem;
-  for (Edge& edge : inverted.closures) edge.from_from_to = edge.from_from_to.inverse();
+  invert(inverted.closures);
   EXPECT_THAT(closure_faults(inverted), ElementsAre(Fault::closure_direction));
-  for (auto* edges : {&problem.odometry, &problem.closures}) {
-    for (Edge& edge : *edges) edge.information *= 1e4;
-  }
+  scale_information(problem.odometry, 1e4);
+  scale_information(problem.closures, 1e4);
   EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_scale));
 }
 
@@ -194,7 +210,7 @@ TEST(DoctorOfClosures, FewClosuresShareTheirDrift) {
       problem.odometry[58].from_from_to * Pose{exp_so3({0, 0, 0.05}), {6, -3, 0}};
   problem.closures = {problem.closures[0], problem.closures[13], problem.closures[26]};
   EXPECT_THAT(closure_faults(problem), IsEmpty());
-  for (Edge& edge : problem.closures) edge.from_from_to = edge.from_from_to.inverse();
+  invert(problem.closures);
   EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_direction));
 }
 
@@ -217,12 +233,7 @@ TEST(DoctorOfClosures, AFalseClosureWithinTheUsualDriftContradictsItsCovariance)
   Problem problem = rounds();
   // The gap is 30 % of the loop's length, most loops drift by 5 %.
   for (Edge& edge : problem.odometry) edge.from_from_to.translation *= 1.06;
-  const Pose true_pose =
-      problem.keyframes[10].world_from_body.inverse() * problem.keyframes[110].world_from_body;
-  problem.closures.push_back({10,
-                              110,
-                              Pose{true_pose.rotation, true_pose.translation + Vector3(0, 0, 60)},
-                              problem.closures[0].information});
+  add_false_closure(problem, 10, 110, 60);
   EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_gap));
 }
 
@@ -232,19 +243,11 @@ TEST(DoctorOfClosures, AFalseClosureThatOnlyOtherClosuresContradict) {
   for (Edge& edge : problem.odometry) {
     edge.from_from_to = edge.from_from_to * Pose{exp_so3({0, 0, 0.003}), Vector3::Zero()};
   }
-  const Pose true_pose =
-      problem.keyframes[10].world_from_body.inverse() * problem.keyframes[110].world_from_body;
-  Edge edge = problem.closures[0];
-  edge.from = 10;
-  edge.to = 110;
-  edge.from_from_to = {true_pose.rotation, true_pose.translation + Vector3(0, 0, 15)};
-  problem.closures.push_back(edge);
-  const auto found = check_closures(problem);
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].fault, Fault::closure_gap);
-  EXPECT_EQ(found[0].value, 1.0);
-  EXPECT_THAT(found[0].evidence, HasSubstr("contradict the odometry or other closures"));
-  EXPECT_THAT(found[0].evidence, HasSubstr("10 -> 110 (gap of 14.8 m"));
+  add_false_closure(problem, 10, 110, 15);
+  const InputFinding found = only(check_closures(problem), Fault::closure_gap);
+  EXPECT_EQ(found.value, 1.0);
+  EXPECT_THAT(found.evidence, HasSubstr("contradict the odometry or other closures"));
+  EXPECT_THAT(found.evidence, HasSubstr("10 -> 110 (gap of 14.8 m"));
 }
 
 /// Drift makes the gaps of long loops larger than that of the false closure, so that the odometry
@@ -254,12 +257,7 @@ TEST(DoctorOfClosures, AFalseClosureWithASmallerGapThanMost) {
   for (Edge& edge : problem.odometry) {
     edge.from_from_to = edge.from_from_to * Pose{exp_so3({0, 0, 0.01}), Vector3::Zero()};
   }
-  const Pose true_pose =
-      problem.keyframes[10].world_from_body.inverse() * problem.keyframes[14].world_from_body;
-  problem.closures.push_back({10,
-                              14,
-                              Pose{true_pose.rotation, true_pose.translation + Vector3(0, 0, 6)},
-                              problem.closures[0].information});
+  add_false_closure(problem, 10, 14, 6);
   const auto found = check_closures(problem);
   ASSERT_FALSE(found.empty());  // the drift is larger than stated, too
   EXPECT_EQ(found[0].fault, Fault::closure_gap);
@@ -267,23 +265,11 @@ TEST(DoctorOfClosures, AFalseClosureWithASmallerGapThanMost) {
   EXPECT_THAT(found[0].evidence, HasSubstr("10 -> 14"));
 }
 
-TEST(DoctorOfClosures, InformationOfOneKindOfEdges) {
+TEST(DoctorOfClosures, InformationOfTheOdometry) {
   Problem problem = rounds();
-  for (Edge& edge : problem.odometry) edge.information *= 1e6;
-  auto found = check_closures(problem);
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].fault, Fault::information_scale);
-  EXPECT_THAT(found[0].fix, HasSubstr("of the odometry"));
-  problem = rounds();
-  for (Edge& edge : problem.closures) edge.information *= 1e-6;
-  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_scale));
-}
-
-/// A closure that is listed twice agrees with itself.
-TEST(DoctorOfClosures, ARepeatedClosure) {
-  Problem problem = rounds();
-  problem.closures.push_back(problem.closures.back());
-  EXPECT_THAT(closure_faults(problem), IsEmpty());
+  scale_information(problem.odometry, 1e6);
+  const InputFinding found = only(check_closures(problem), Fault::information_scale);
+  EXPECT_THAT(found.fix, HasSubstr("of the odometry"));
 }
 
 }  // namespace

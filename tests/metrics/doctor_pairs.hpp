@@ -49,6 +49,27 @@ Trajectory each(Trajectory poses, Change change) {
   return poses;
 }
 
+/// The only finding, which must be of that fault.
+inline InputFinding only(const std::vector<InputFinding>& found, Fault::Name fault) {
+  EXPECT_EQ(found.size(), 1u);
+  if (found.empty()) return {};
+  EXPECT_EQ(found[0].fault, fault) << text(found[0]);
+  return found[0];
+}
+
+inline InputFinding only_finding(const Trajectory& reference,
+                                 const Trajectory& estimate,
+                                 Fault::Name fault) {
+  return only(metrics::diagnosis(reference, estimate, "reference.txt", "run.txt").findings, fault);
+}
+
+/// A quaternion whose components were read in the order z w x y.
+inline Pose misordered(const Pose& p) {
+  return {Rotation(p.rotation.z(), p.rotation.w(), p.rotation.x(), p.rotation.y()), p.translation};
+}
+
+inline Pose conjugated(const Pose& p) { return {p.rotation.conjugate(), p.translation}; }
+
 inline std::vector<Fault::Name> faults(const Trajectory& reference, const Trajectory& estimate) {
   std::vector<Fault::Name> out;
   for (const InputFinding& finding :
