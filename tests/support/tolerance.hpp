@@ -13,6 +13,8 @@
 #include <string>
 #include <utility>
 
+#include "datasets/core/pose.hpp"
+
 namespace loopbench::test {
 
 class UsedTolerances {
@@ -69,6 +71,18 @@ struct NearAt {
   }
 };
 
+/// is_close(), recorded for its place in the source.
+inline testing::AssertionResult pose_near(
+    const char* file, int line, const Pose& a, const Pose& b, double metres, double radians) {
+  const double apart = (a.translation - b.translation).norm();
+  const double turned = angle_between(a.rotation, b.rotation);
+  UsedTolerances::all().add(file, line, apart, metres);
+  UsedTolerances::all().add(file, line, turned, radians);
+  if (is_close(a, b, metres, radians)) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "the poses differ by " << apart << " m (limit " << metres
+                                     << ") and " << turned << " rad (limit " << radians << ")";
+}
+
 }  // namespace loopbench::test
 
 #undef EXPECT_NEAR
@@ -77,3 +91,7 @@ struct NearAt {
   EXPECT_PRED_FORMAT3((::loopbench::test::NearAt{__FILE__, __LINE__}), a, b, limit)
 #define ASSERT_NEAR(a, b, limit) \
   ASSERT_PRED_FORMAT3((::loopbench::test::NearAt{__FILE__, __LINE__}), a, b, limit)
+#define EXPECT_POSE_NEAR(...) \
+  EXPECT_TRUE(::loopbench::test::pose_near(__FILE__, __LINE__, __VA_ARGS__))
+#define ASSERT_POSE_NEAR(...) \
+  ASSERT_TRUE(::loopbench::test::pose_near(__FILE__, __LINE__, __VA_ARGS__))
