@@ -16,28 +16,12 @@ using namespace loopbench::methods;
 
 namespace {
 
-template <class Deed>
-struct Bad final : Corrector {
+struct HangsWhenMade final : Corrector {
   using Options = NoOptions;
-  explicit Bad(const Options&) {}
-  Trajectory correct(const Problem& problem, Report&) const override {
-    Deed{}();
-    return problem.keyframes;
-  }
-};
-
-struct Loops {
-  void operator()() const {
+  explicit HangsWhenMade(const Options&) {
     for (std::atomic<unsigned> turns = 0;; ++turns) {
     }
   }
-};
-struct Exits {
-  void operator()() const { std::exit(exit_code_of_success()); }
-};
-struct HangsWhenMade final : Corrector {
-  using Options = NoOptions;
-  explicit HangsWhenMade(const Options&) { Loops{}(); }
   Trajectory correct(const Problem& problem, Report&) const override { return problem.keyframes; }
 };
 
@@ -69,10 +53,6 @@ class Pool {
 };
 Pool& pool = *new Pool;  // NOLINT: used by its thread until the process ends
 
-struct Pooled {
-  void operator()() const { pool.run(); }
-};
-
 std::vector<metrics::Score> rounds_upward(const metrics::Evaluation&, const NoOptions&) {
   std::fesetround(FE_UPWARD);
   return {};
@@ -88,8 +68,15 @@ std::vector<metrics::Score> moves_estimate(const metrics::Evaluation& evaluation
 
 }  // namespace
 
-LOOPBENCH_PLUGIN(method<Bad<Exits>>("exits", "ends the process as if all were well"),
-                 method<Bad<Pooled>>("pooled", "works in a thread of its own"),
+LOOPBENCH_PLUGIN(method("exits",
+                        "ends the process as if all were well",
+                        [](const Problem&) -> Trajectory { std::exit(exit_code_of_success()); }),
+                 method("pooled",
+                        "works in a thread of its own",
+                        [](const Problem& problem) {
+                          pool.run();
+                          return problem.keyframes;
+                        }),
                  method<HangsWhenMade>("hangs_when_made", "never returns from its constructor"),
                  metric<NoOptions>("rounds_upward", "leaves another rounding", rounds_upward),
                  metric<NoOptions>("moves_estimate", "writes through const", moves_estimate))

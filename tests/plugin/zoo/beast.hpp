@@ -32,22 +32,19 @@ struct Beast final : methods::Corrector {
   }
 };
 
-/// Name and deed, for the list of methods.
-template <void (*deed)(const Scene&)>
-methods::MethodEntry beast(const std::string& name) {
-  return methods::method<Beast<deed>>(name, "misbehaves");
-}
+/// The methods of all files, listed by BEAST.
+std::vector<harness::PluginEntry>& beasts();
+
+/// Defines a deed and lists the method of that name.
+#define BEAST(deed)                                                                     \
+  void deed(const Scene& scene);                                                        \
+  [[maybe_unused]] const bool deed##_is_listed =                                        \
+      (beasts().emplace_back(methods::method<Beast<deed>>(#deed, "misbehaves")), true); \
+  void deed([[maybe_unused]] const Scene& scene)
 
 /// Throws with the reason of the system if a call failed.
 inline void require(long result, const char* call) {
   if (result < 0) throw std::runtime_error(std::string(call) + ": " + std::strerror(errno));
 }
-
-std::vector<methods::MethodEntry> crashing();  ///< end their process
-std::vector<methods::MethodEntry> hanging();   ///< never return
-std::vector<methods::MethodEntry> breeding();  ///< start or signal other processes
-std::vector<methods::MethodEntry> meddling();  ///< change the state of their process
-std::vector<methods::MethodEntry> greedy();    ///< memory and output without end
-std::vector<methods::MethodEntry> lying();     ///< return or throw what they should not
 
 }  // namespace loopbench::zoo

@@ -1,3 +1,4 @@
+/// Methods that start or signal other processes.
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -14,11 +15,11 @@ namespace {
   for (;;) pause();
 }
 
-void leave_child(const Scene&) {
+BEAST(leave_child) {
   if (fork() == 0) stray();
 }
 /// In a session of their own, out of reach of signals to the group, with parents that have ended.
-void leave_grandchildren(const Scene&) {
+BEAST(leave_grandchildren) {
   for (int i = 0; i < 5; ++i) {
     if (fork() != 0) continue;
     setsid();
@@ -29,31 +30,20 @@ void leave_grandchildren(const Scene&) {
     _exit(0);
   }
 }
-void linger(const Scene& scene) {
+BEAST(linger) {
   leave_grandchildren(scene);
   for (;;) pause();
 }
 /// Bounded, in case nothing else ends it.
-void fork_bomb(const Scene&) {
+BEAST(fork_bomb) {
   for (int i = 0; i < 400; ++i) {
     if (fork() == 0) stray();
   }
   stray();
 }
-void kill_parent(const Scene&) { kill(getppid(), SIGKILL); }
-void stop_parent(const Scene&) { kill(getppid(), SIGSTOP); }
-void kill_group(const Scene&) { kill(0, SIGKILL); }
+BEAST(kill_parent) { kill(getppid(), SIGKILL); }
+BEAST(stop_parent) { kill(getppid(), SIGSTOP); }
+BEAST(kill_group) { kill(0, SIGKILL); }
 
 }  // namespace
-
-std::vector<methods::MethodEntry> breeding() {
-  return {beast<leave_child>("leave_child"),
-          beast<leave_grandchildren>("leave_grandchildren"),
-          beast<linger>("linger"),
-          beast<fork_bomb>("fork_bomb"),
-          beast<kill_parent>("kill_parent"),
-          beast<stop_parent>("stop_parent"),
-          beast<kill_group>("kill_group")};
-}
-
 }  // namespace loopbench::zoo

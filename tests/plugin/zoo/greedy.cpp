@@ -1,3 +1,4 @@
+/// Methods that use memory and write output without end.
 #include <unistd.h>
 
 #include <cstdio>
@@ -17,22 +18,22 @@ void allocate(int blocks) {
   }
 }
 
-void leak(const Scene&) { allocate(2); }
+BEAST(leak) { allocate(2); }
 /// Bounded, in case nothing else ends it.
-void allocate_without_end(const Scene&) { allocate(128); }
+BEAST(allocate_without_end) { allocate(128); }
 /// In a process of its own, which the limit covers as well.
-void allocate_in_child(const Scene&) {
+BEAST(allocate_in_child) {
   if (fork() == 0) {
     allocate(128);
     for (;;) pause();
   }
   for (;;) pause();
 }
-void flood_output(const Scene&) {
+BEAST(flood_output) {
   const std::string line(1 << 16, '.');
   for (int i = 0; i < 4096; ++i) std::fputs(line.c_str(), stdout);
 }
-void flood_errors(const Scene&) {
+BEAST(flood_errors) {
   const std::string line(1 << 16, '.');
   for (;;) {
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
@@ -40,13 +41,4 @@ void flood_errors(const Scene&) {
 }
 
 }  // namespace
-
-std::vector<methods::MethodEntry> greedy() {
-  return {beast<leak>("leak"),
-          beast<allocate_without_end>("allocate_without_end"),
-          beast<allocate_in_child>("allocate_in_child"),
-          beast<flood_output>("flood_output"),
-          beast<flood_errors>("flood_errors")};
-}
-
 }  // namespace loopbench::zoo

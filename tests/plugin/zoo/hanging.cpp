@@ -1,3 +1,4 @@
+/// Methods that never return.
 #include <unistd.h>
 
 #include <atomic>
@@ -13,37 +14,27 @@ namespace {
   for (;;) pause();
 }
 
-void spin(const Scene&) {
+BEAST(spin) {
   for (std::atomic<unsigned> turns = 0;; ++turns) {
   }
 }
 /// A program that inherits all descriptors that are not closed on exec.
-void sleep_in_shell(const Scene&) {
+BEAST(sleep_in_shell) {
   if (std::system("exec sleep 1000") != 0) wait_for_ever();
 }
-void close_all_and_wait(const Scene&) {
+BEAST(close_all_and_wait) {
   for (int file = 0; file < 1024; ++file) close(file);
   wait_for_ever();
 }
-void block_signals_and_wait(const Scene&) {
+BEAST(block_signals_and_wait) {
   sigset_t all;
   sigfillset(&all);
   sigprocmask(SIG_SETMASK, &all, nullptr);
   wait_for_ever();
 }
 /// Honest, but slow.
-void nap(const Scene&) { usleep(500000); }
-void stop_itself(const Scene&) { raise(SIGSTOP); }
+BEAST(nap) { usleep(500000); }
+BEAST(stop_itself) { raise(SIGSTOP); }
 
 }  // namespace
-
-std::vector<methods::MethodEntry> hanging() {
-  return {beast<spin>("spin"),
-          beast<sleep_in_shell>("sleep_in_shell"),
-          beast<close_all_and_wait>("close_all_and_wait"),
-          beast<block_signals_and_wait>("block_signals_and_wait"),
-          beast<stop_itself>("stop_itself"),
-          beast<nap>("nap")};
-}
-
 }  // namespace loopbench::zoo

@@ -1,3 +1,4 @@
+/// Methods that change the state of their process.
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -18,41 +19,41 @@
 namespace loopbench::zoo {
 namespace {
 
-void round_upward(const Scene&) { std::fesetround(FE_UPWARD); }
-void flush_denormals(const Scene&) {
+BEAST(round_upward) { std::fesetround(FE_UPWARD); }
+BEAST(flush_denormals) {
 #ifdef __SSE2__
   _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
 #endif
 }
-void trap_division(const Scene&) { feenableexcept(FE_DIVBYZERO); }
-void change_input(const Scene& scene) {
+BEAST(trap_division) { feenableexcept(FE_DIVBYZERO); }
+BEAST(change_input) {
   const_cast<Problem&>(scene.problem).keyframes.back().world_from_body.translation.x() += 1.0;
 }
-void change_directory(const Scene&) { require(chdir("/"), "chdir"); }
-void change_umask(const Scene&) { umask(0777); }
-void change_environment(const Scene&) {
+BEAST(change_directory) { require(chdir("/"), "chdir"); }
+BEAST(change_umask) { umask(0777); }
+BEAST(change_environment) {
   setenv("OMP_NUM_THREADS", "7", 1);
   setenv("LC_ALL", "de_DE.UTF-8", 1);
 }
-void change_locale(const Scene&) { std::setlocale(LC_ALL, "C.UTF-8"); }
-void ignore_signals(const Scene&) {
+BEAST(change_locale) { std::setlocale(LC_ALL, "C.UTF-8"); }
+BEAST(ignore_signals) {
   for (int signal = 1; signal < 32; ++signal) std::signal(signal, SIG_IGN);
 }
-void set_alarm(const Scene&) { alarm(20); }
-void leave_threads(const Scene&) {
+BEAST(set_alarm) { alarm(20); }
+BEAST(leave_threads) {
   for (int i = 0; i < 4; ++i) std::thread([] { pause(); }).detach();
 }
-void close_all(const Scene&) {
+BEAST(close_all) {
   for (int file = 0; file < 1024; ++file) close(file);
 }
-void write_to_descriptors(const Scene&) {
+BEAST(write_to_descriptors) {
   const std::string noise(4096, 'x');
   for (int file = 3; file < 64; ++file) {
     [[maybe_unused]] const ssize_t written = write(file, noise.data(), noise.size());
   }
 }
 /// All memory that this process shares with others.
-void write_to_shared_memory(const Scene&) {
+BEAST(write_to_shared_memory) {
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
     unsigned long begin = 0;
@@ -65,22 +66,4 @@ void write_to_shared_memory(const Scene&) {
 }
 
 }  // namespace
-
-std::vector<methods::MethodEntry> meddling() {
-  return {beast<round_upward>("round_upward"),
-          beast<flush_denormals>("flush_denormals"),
-          beast<trap_division>("trap_division"),
-          beast<change_input>("change_input"),
-          beast<change_directory>("change_directory"),
-          beast<change_umask>("change_umask"),
-          beast<change_environment>("change_environment"),
-          beast<change_locale>("change_locale"),
-          beast<ignore_signals>("ignore_signals"),
-          beast<set_alarm>("set_alarm"),
-          beast<leave_threads>("leave_threads"),
-          beast<close_all>("close_all"),
-          beast<write_to_descriptors>("write_to_descriptors"),
-          beast<write_to_shared_memory>("write_to_shared_memory")};
-}
-
 }  // namespace loopbench::zoo
