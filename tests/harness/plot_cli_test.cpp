@@ -11,10 +11,6 @@ namespace {
 
 using harness::kFigureFormats;
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 class PlotCli : public testing::Test {
  protected:
   void SetUp() override {

@@ -154,17 +154,5 @@ TEST_F(RunSweep, AStoreKeepsTheOneBefore) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out" / "results.sqlite-wal"));
 }
 
-TEST_F(RunSweep, WhatIsNotAStoreIsRefused) {
-  EXPECT_THROW(read_records(folder_.path() / "nothing"), InputError);
-  const std::filesystem::path text = folder_.path() / "text.sqlite";
-  {
-    std::ofstream(text)
-        << "this is not a database, and long enough not to be taken for an empty one";
-  }
-  EXPECT_THROW(read_records(text), InputError);
-  { std::ofstream(text, std::ios::trunc); }
-  EXPECT_THROW(read_records(text), InputError);
-}
-
 }  // namespace
 }  // namespace loopbench::run_test

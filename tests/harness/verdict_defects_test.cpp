@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "harness/compare/derived.hpp"
 #include "tests/studies/synthetic_records.hpp"
@@ -114,22 +113,6 @@ TEST(Defect5, TheOrderOfEqualMethodsOnOneSequenceIsInTheSentence) {
   EXPECT_TRUE(has(text, "all of it on sparse (17.")) << text;
 }
 
-TEST(Defect6, AFailedRunCostsARunAndNotItsGroup) {
-  std::vector<Record> records;
-  for (int run = 0; run < 160; ++run) {
-    const std::string sequence = std::to_string(run);
-    records.push_back(score(sequence, 0, "raw", size_of(run)));
-    records.push_back(run % 20 == 3 ? failed(sequence, 0, "dual")
-                                    : score(sequence, 0, "dual", 0.5 * size_of(run)));
-    for (Record* r : {&records[records.size() - 2], &records.back()}) {
-      r->group = "route " + std::to_string(run / 20);
-    }
-  }
-  const Comparison c = compared(records, kAgainstRaw);
-  EXPECT_EQ(c.groups, 8u);
-  EXPECT_TRUE(c.is_best) << verdict(c);
-}
-
 TEST(Defect7, AFailureIsALossWhateverAThirdMethodsErrors) {
   std::vector<Record> records = pairs(about(0.6, 20));
   for (const std::size_t run : {3u, 11u}) records[2 * run + 1] = failed("room", int(run), "dual");
@@ -142,18 +125,6 @@ TEST(Defect7, AFailureIsALossWhateverAThirdMethodsErrors) {
   EXPECT_EQ(find(c, "dual").losses, alone.losses);
   EXPECT_TRUE(alone.beats_baseline);
   EXPECT_TRUE(c.is_best) << verdict(c);
-}
-
-TEST(Defect8, HalfOfThePathIsNeverBest) {
-  std::vector<Record> records = pairs(about(0.68, 12));
-  for (Record& r : records) {
-    r.pairs = r.possible = 100;
-    r.span = r.method == "dual" ? 0.52 : 1.0;
-  }
-  const Comparison c = compared(records, kAgainstRaw);
-  EXPECT_FALSE(c.is_best);
-  EXPECT_TRUE(verdict(c).starts_with("no method is called best: dual covers 52 % of the reference"))
-      << verdict(c);
 }
 
 TEST(Defect12, TheLeadersIntervalHoldsAmongTwentyOneEqualMethods) {

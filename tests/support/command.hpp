@@ -32,6 +32,10 @@ inline std::string read_all(const std::filesystem::path& file) {
   return out.str();
 }
 
+inline bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 /// `loopbench ARGUMENTS` through a shell, standard input closed, in `folder`.
 inline CommandResult loopbench_command(const std::string& arguments,
                                        const TemporaryFolder& folder) {
