@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -27,10 +25,6 @@ using namespace metrics;
 using namespace harness;
 
 namespace {
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// A sweep with awkward names, a failure and a decline, computed once.
 class OfASweep : public testing::Test {
@@ -73,13 +67,10 @@ class OfASweep : public testing::Test {
     return nlohmann::json::parse(html_->substr(begin, html_->find("</script>", begin) - begin));
   }
 
-  static TemporaryFolder* folder_;
-  static ReportContent* content_;
-  static std::string* html_;
+  static inline TemporaryFolder* folder_ = nullptr;
+  static inline ReportContent* content_ = nullptr;
+  static inline std::string* html_ = nullptr;
 };
-TemporaryFolder* OfASweep::folder_ = nullptr;
-ReportContent* OfASweep::content_ = nullptr;
-std::string* OfASweep::html_ = nullptr;
 
 const char* const kAwkward = "</script><b>\"a\" & 'b'";
 
