@@ -20,12 +20,35 @@ namespace {
 
 using compared_sweep::ate;
 
-TEST(Pivot, MarksAlongRowsWhereTheColumnsAreMethods) {
-  std::vector<Record> records;
-  for (int repeat = 0; repeat < 8; ++repeat) {
-    records.push_back(ate("raw", 2.0, repeat));
-    records.push_back(ate("dm", 1.0, repeat));
+const double kNone = std::nan("");
+
+/// Errors by method and repeat; nan: the method failed there.
+std::vector<Record> errors(const std::vector<std::pair<std::string, std::vector<double>>>& all) {
+  std::vector<Record> out;
+  for (const auto& [method, values] : all) {
+    for (std::size_t repeat = 0; repeat < values.size(); ++repeat) {
+      out.push_back(ate(method, values[repeat], static_cast<int>(repeat)));
+      if (!std::isnan(values[repeat])) continue;
+      out.back().status = Status::failed;
+      out.back().metric.clear();
+    }
   }
+  return out;
+}
+
+/// Adds the gains over raw.
+std::vector<Record> with_gains(std::vector<Record> records) {
+  for (const Record& gain : gains(records, "raw")) records.push_back(gain);
+  return records;
+}
+
+Table table_of(const std::vector<Record>& records) {
+  return pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
+}
+
+TEST(Pivot, MarksAlongRowsWhereTheColumnsAreMethods) {
+  const std::vector<double> ones(8, 1.0), twos(8, 2.0);
+  const std::vector<Record> records = errors({{"raw", twos}, {"dm", ones}});
   const TableSpec spec{
       .rows = {"metric"}, .columns = {"method"}, .split = {}, .show = {}, .where = {}};
   const std::vector<Table> tables = pivot(records, spec);
@@ -69,13 +92,8 @@ TEST(Pivot, MarksNoStatisticWithoutADirection) {
 }
 
 TEST(Pivot, AveragesGainsByTheirRatios) {
-  std::vector<Record> records;  // ratios 0.5 and 4: their geometric mean is sqrt 2
-  for (int repeat = 0; repeat < 2; ++repeat) {
-    records.push_back(ate("raw", 1.0, repeat));
-    records.push_back(ate("dm", repeat == 0 ? 0.5 : 4.0, repeat));
-  }
-  for (const Record& gain : gains(records, "raw")) records.push_back(gain);
-  const Table table = pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
+  // Ratios 0.5 and 4: their geometric mean is sqrt 2.
+  const Table table = table_of(with_gains(errors({{"raw", {1.0, 1.0}}, {"dm", {0.5, 4.0}}})));
   EXPECT_NEAR(*table.lines[1][2].mean->value, 100.0 * (1.0 - std::sqrt(2.0)), 1e-12);
   EXPECT_EQ(*table.lines[0][2].mean->value, 0.0);
   EXPECT_EQ(table.notes[0],
@@ -84,16 +102,8 @@ TEST(Pivot, AveragesGainsByTheirRatios) {
 }
 
 TEST(Pivot, StatesTheNumberOfRunsWhereAMethodFails) {
-  std::vector<Record> records;
-  for (int repeat = 0; repeat < 4; ++repeat) {
-    records.push_back(ate("raw", 1.5 + repeat, repeat));
-    records.push_back(ate("dm", 1.0, repeat));
-    if (repeat == 0) continue;
-    records.back().status = Status::failed;
-    records.back().metric.clear();
-  }
-  const std::vector<Table> tables =
-      pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}});
+  const std::vector<Table> tables{
+      table_of(errors({{"raw", {1.5, 2.5, 3.5, 4.5}}, {"dm", {1.0, kNone, kNone, kNone}}}))};
   EXPECT_EQ(tables[0].lines[0][1].text, "1.500");  // repeat 0, not 3.000
   EXPECT_EQ(tables[0].lines[1][1].text, "1.000 (1 of 4)");
   EXPECT_EQ(tables[0].notes[0], "means over the 1 run that every method finished");
@@ -121,30 +131,11 @@ TEST(Pivot, ListsAFailureOnlyUnderItsOwnSequence) {
   EXPECT_EQ(tables[2].lines[0][0].text, "raw");
 }
 
-/// Errors by method and repeat; nan: the method failed there.
-std::vector<Record> errors(const std::vector<std::pair<std::string, std::vector<double>>>& all) {
-  std::vector<Record> out;
-  for (const auto& [method, values] : all) {
-    for (std::size_t repeat = 0; repeat < values.size(); ++repeat) {
-      out.push_back(ate(method, values[repeat], static_cast<int>(repeat)));
-      if (!std::isnan(values[repeat])) continue;
-      out.back().status = Status::failed;
-      out.back().metric.clear();
-    }
-  }
-  return out;
-}
-
-Table table_of(const std::vector<Record>& records) {
-  return pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
-}
-
 TEST(Pivot, AveragesOverTheRunsThatEveryMethodFinished) {
-  const double none = std::nan("");
   const Table table = table_of(errors({{"raw", {1.0, 2.0, 3.0, 40.0}},
-                                       {"dm", {0.5, 1.5, 1.0, none}},
-                                       {"gp", {none, 1.0, 4.0, 9.0}},
-                                       {"bad", {none, none, none, none}}}));
+                                       {"dm", {0.5, 1.5, 1.0, kNone}},
+                                       {"gp", {kNone, 1.0, 4.0, 9.0}},
+                                       {"bad", {kNone, kNone, kNone, kNone}}}));
   EXPECT_EQ(*table.lines[0][1].mean->value, 2.5);  // repeats 1 and 2 only
   EXPECT_EQ(*table.lines[1][1].mean->value, 1.25);
   EXPECT_EQ(*table.lines[2][1].mean->value, 2.5);
@@ -156,8 +147,7 @@ TEST(Pivot, AveragesOverTheRunsThatEveryMethodFinished) {
 }
 
 TEST(Pivot, HasNoMeanWithoutACommonRun) {
-  const double none = std::nan("");
-  const Table table = table_of(errors({{"raw", {1.0, none}}, {"dm", {none, 2.0}}}));
+  const Table table = table_of(errors({{"raw", {1.0, kNone}}, {"dm", {kNone, 2.0}}}));
   EXPECT_EQ(table.lines[0][1].text, "- (1 of 2)");
   EXPECT_EQ(table.lines[1][1].text, "- (1 of 2)");
   EXPECT_EQ(table.notes[0], "no means (-): no run was finished by every method");
@@ -166,18 +156,16 @@ TEST(Pivot, HasNoMeanWithoutACommonRun) {
 }
 
 TEST(Pivot, AveragesGainsOverCommonRuns) {
-  const double none = std::nan("");  // ratios 0.5 and 0.125 of dm, 2 of gp
-  std::vector<Record> records =
-      errors({{"raw", {1.0, 1.0, 1.0}}, {"dm", {0.5, 0.125, 7.0}}, {"gp", {2.0, 2.0, none}}});
-  for (const Record& gain : gains(records, "raw")) records.push_back(gain);
-  const Table table = table_of(records);
+  // ratios 0.5 and 0.125 of dm, 2 of gp
+  const Table table = table_of(with_gains(
+      errors({{"raw", {1.0, 1.0, 1.0}}, {"dm", {0.5, 0.125, 7.0}}, {"gp", {2.0, 2.0, kNone}}})));
   EXPECT_NEAR(*table.lines[1][2].mean->value, 75.0, 1e-12);
   EXPECT_NEAR(*table.lines[2][2].mean->value, -100.0, 1e-12);
 }
 
 TEST(Pivot, ComparesOnlyCellsThatTriedTheSameRuns) {
   std::vector<Record> records =
-      errors({{"raw", {1.0, 3.0}}, {"dm", {2.0, std::nan("")}}, {"gp", {5.0, 7.0}}});
+      errors({{"raw", {1.0, 3.0}}, {"dm", {2.0, kNone}}, {"gp", {5.0, 7.0}}});
   for (Record& r : records) {
     if (r.method == "gp") r.sequence = "hall";
   }
@@ -187,13 +175,11 @@ TEST(Pivot, ComparesOnlyCellsThatTriedTheSameRuns) {
 }
 
 TEST(Pivot, MarksNothingAmongDescriptions) {
-  std::vector<Record> records;
-  for (int repeat = 0; repeat < 8; ++repeat) {
-    for (const char* method : {"raw", "dm"}) {
-      records.push_back(ate(method, method[0] == 'r' ? 2.0 : 1.0, repeat));
-      records.back().metric = "pairs";
-      records.back().better = Better::neither;
-    }
+  const std::vector<double> ones(8, 1.0), twos(8, 2.0);
+  std::vector<Record> records = errors({{"raw", twos}, {"dm", ones}});
+  for (Record& r : records) {
+    r.metric = "pairs";
+    r.better = Better::neither;
   }
   const std::vector<Table> tables = pivot(records, TableSpec{});
   for (const auto& line : tables[0].lines) EXPECT_EQ(line[1].mark, Mark::none);

@@ -29,6 +29,11 @@ std::string config(const std::string& datasets = "- line",
          "\n" + rest;
 }
 
+/// A valid config with one more setting, in line 7.
+std::string with_setting(const std::string& setting) {
+  return config("- line", "- shift", "- ate", setting + "\n");
+}
+
 TEST(ReadSweep, FillsInDefaults) {
   const Sweep sweep = parse(config());
   EXPECT_EQ(sweep.name, "c");
@@ -82,21 +87,21 @@ TEST(ReadSweep, RefusesWithPlaceAndSuggestion) {
 }
 
 TEST(ReadSweep, RefusesUnknownAndBrokenSettings) {
-  EXPECT_EQ(why(config("- line", "- shift", "- ate", "repaets: 3\n")),
+  EXPECT_EQ(why(with_setting("repaets: 3")),
             "c.yaml:7: no setting is named 'repaets'; did you mean 'repeats'?");
-  EXPECT_EQ(why(config("- line", "- shift", "- ate", "repeats: 0\n")),
+  EXPECT_EQ(why(with_setting("repeats: 0")),
             "c.yaml:7: repeats: expected a whole number, 1 to 1000000");
-  EXPECT_EQ(why(config("- line", "- shift", "- ate", "times: [keyframes, sometimes]\n")),
+  EXPECT_EQ(why(with_setting("times: [keyframes, sometimes]")),
             "c.yaml:7: times: expected keyframes | dense");
   EXPECT_EQ(
-      why(config("- line", "- shift", "- ate", "protocol:\n  align: se4\n")),
+      why(with_setting("protocol:\n  align: se4")),
       "c.yaml:8: protocol: align = se4: expected one of se3 | sim3 | scale | posyaw | origin | "
       "posyaw_origin | none; did you mean 'se3'?");
-  EXPECT_EQ(why(config("- line", "- shift", "- ate", "baseline: shifd\n")),
+  EXPECT_EQ(why(with_setting("baseline: shifd")),
             "c.yaml:7: baseline: no method is named 'shifd'; did you mean 'shift'?");
-  EXPECT_EQ(why(config("- line", "- shift", "- ate", "exclude: [{method: '('}]\n")),
+  EXPECT_EQ(why(with_setting("exclude: [{method: '('}]")),
             "c.yaml:7: method: '(' is not a regular expression (missing ): ()");
-  EXPECT_EQ(why(config("- line", "- shift", "- ate", "min_coverage: 80\n")),
+  EXPECT_EQ(why(with_setting("min_coverage: 80")),
             "c.yaml:7: min_coverage = 80.0: expected 0 <= min_coverage <= 1");
   EXPECT_EQ(why("methods: [shift]\nmetrics: [ate]\n"), "c.yaml:1: 'datasets' is missing");
   EXPECT_EQ(why("- 1\n"), "c.yaml:1: expected a map with datasets, methods and metrics");
@@ -105,9 +110,8 @@ TEST(ReadSweep, RefusesUnknownAndBrokenSettings) {
 TEST(ReadSweep, ProtocolsAreNamedChangedAndListed) {
   const auto labels = [](const std::string& text) {
     std::vector<std::string> out;
-    const std::string config_text =
-        config("- line", "- shift", "- ate", "protocol: " + text + "\n");
-    for (const NamedProtocol& p : parse(config_text).protocols) out.push_back(p.label());
+    for (const NamedProtocol& p : parse(with_setting("protocol: " + text)).protocols)
+      out.push_back(p.label());
     return out;
   };
   using Labels = std::vector<std::string>;
@@ -122,7 +126,7 @@ TEST(ReadSweep, ProtocolsAreNamedChangedAndListed) {
 
 TEST(ReadSweep, RefusesProtocolsThatCannotBe) {
   const auto refusal = [](const std::string& text) {
-    return why(config("- line", "- shift", "- ate", "protocol: " + text + "\n"));
+    return why(with_setting("protocol: " + text));
   };
   EXPECT_EQ(refusal("evoo"),
             "c.yaml:7: protocol: no protocol is named 'evoo'; did you mean 'evo'?");
@@ -135,8 +139,7 @@ TEST(ReadSweep, RefusesProtocolsThatCannotBe) {
 
 TEST(ReadSweep, MemorySizesAreReadAsPeopleWriteThem) {
   const auto bytes = [](const std::string& text) {
-    return parse(config("- line", "- shift", "- ate", "limits: {memory: " + text + "}\n"))
-        .limits.memory;
+    return parse(with_setting("limits: {memory: " + text + "}")).limits.memory;
   };
   EXPECT_EQ(bytes("2GiB"), 2147483648);
   EXPECT_EQ(bytes("1.5 kB"), 1500);

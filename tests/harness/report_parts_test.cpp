@@ -14,6 +14,7 @@
 #include "harness/report/packed.hpp"
 #include "harness/report/report.hpp"
 #include "tests/studies/synthetic_store.hpp"
+#include "tests/support/ate_record.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::report_parts_test {
@@ -85,17 +86,10 @@ TEST(Thinning, TakesPointsThenRepeatsThenPoints) {
 TEST(Report, LeavesOutSequencesThatDoNotFit) {
   std::vector<Record> records;
   for (int i = 0; i < 400; ++i) {
-    Record& r = records.emplace_back();
+    Record& r = records.emplace_back(test::ate("m" + std::to_string(i % 40), 1.0 + i % 40));
     r.cell = i;
     r.sequence = "sequence " + std::to_string(i / 40);
-    r.method = "m" + std::to_string(i % 40);
-    r.protocol = "p";
-    r.times = "dense";
-    r.metric = "ate";
-    r.relation = "translation";
-    r.axis = "3d";
-    r.unit = "m";
-    r.statistics.rmse = r.statistics.mean = 1.0 + i % 40;
+    r.statistics.mean = r.statistics.rmse;
   }
   const TemporaryFolder folder;
   synthetic::write_store(records, folder.path());

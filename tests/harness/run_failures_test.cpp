@@ -78,30 +78,22 @@ class RunFailures : public TinyStore {
   }
 };
 
-TEST_F(RunFailures, OutputThatIsNotFiniteAtAKeyframeFailsTheCell) {
-  const std::vector<Record> records = records_of("{method: gappy, bad: 3.0}");
-  ASSERT_EQ(records.size(), 1u);
-  EXPECT_EQ(records[0].status, Status::failed);
-  EXPECT_EQ(records[0].metric, "");
-  EXPECT_EQ(records[0].why, "the curve at 3.0 s: the position is not finite");
-}
-
-TEST_F(RunFailures, OutputThatIsNotFiniteBetweenKeyframesFailsTheCell) {
-  const std::string method = "{method: gappy, bad: 0.5}";
-  const std::vector<Record> records = records_of(method);
-  ASSERT_EQ(records.size(), 1u);
-  EXPECT_EQ(records[0].status, Status::failed);
-  EXPECT_EQ(records[0].why, "the curve at 0.5 s: the position is not finite");
-  const std::vector<Record> unseen = records_of(method, "metrics: [ate]\ntimes: keyframes\n");
+TEST_F(RunFailures, OutputThatIsNotFiniteFailsItsCellAndNotTheSweep) {
+  const std::string between = "{method: gappy, bad: 0.5}";
+  for (const auto& [method, why] :
+       {std::pair<std::string, std::string>{"{method: gappy, bad: 3.0}",
+                                            "the curve at 3.0 s: the position is not finite"},
+        {between, "the curve at 0.5 s: the position is not finite"},
+        {"bad_section", "section 2 ('window') is from 1.0 to nan s, expected finite stamps"}}) {
+    const std::vector<Record> records = records_of(method);
+    ASSERT_EQ(records.size(), 1u) << method;
+    EXPECT_EQ(records[0].status, Status::failed) << method;
+    EXPECT_EQ(records[0].metric, "");
+    EXPECT_EQ(records[0].why, why);
+  }
+  const std::vector<Record> unseen = records_of(between, "metrics: [ate]\ntimes: keyframes\n");
   ASSERT_EQ(unseen.size(), 1u);
   EXPECT_EQ(unseen[0].status, Status::ok) << "nobody looks between";
-}
-
-TEST_F(RunFailures, ASectionThatIsNotFiniteFailsItsCellAndNotTheSweep) {
-  const std::vector<Record> records = records_of("bad_section");
-  ASSERT_EQ(records.size(), 1u);
-  EXPECT_EQ(records[0].status, Status::failed);
-  EXPECT_EQ(records[0].why, "section 2 ('window') is from 1.0 to nan s, expected finite stamps");
 }
 
 TEST_F(RunFailures, AFailedMetricFailsTheScoresThatItGivesElsewhereAndNoOther) {
