@@ -23,7 +23,19 @@ namespace {
 
 using testing::HasSubstr;
 
-using CommandProcesses = test::ProgramSweep;
+class CommandProcesses : public test::ProgramSweep {
+ protected:
+  /// Writes c.yaml with a recorded trajectory and these method entries.
+  void write_recorded_sweep(const std::string& entries) {
+    const Problem problem = test::circle(41);
+    write_tum(folder_.path() / "estimate.txt", problem.keyframes);
+    write_tum(folder_.path() / "reference.txt", problem.keyframes);
+    folder_.file("c.yaml",
+                 "datasets: [{dataset: trajectory, estimate: estimate.txt, reference: "
+                 "reference.txt}]\ntimes: keyframes\nmetrics: [ate]\nmethods:\n" +
+                     entries);
+  }
+};
 
 /// Whether a process has this command line, with blanks between its words.
 bool is_running(const std::string& command_line) {
@@ -86,19 +98,13 @@ TEST_F(CommandProcesses, AHangingProgramIsKilledWithItsTreeAndItsFiles) {
 
 TEST_F(CommandProcesses, WritesInItsFolderOnlyAndCannotReadTheReference) {
   if (!has_bubblewrap()) GTEST_SKIP() << "no bubblewrap";
-  const Problem problem = test::circle(41);
-  write_tum(folder_.path() / "estimate.txt", problem.keyframes);
-  write_tum(folder_.path() / "reference.txt", problem.keyframes);
   folder_.file("curious.sh",
                "cat reference.txt >/dev/null && echo has read the reference\n"
                "echo x >outside && echo has written beside the config\n"
                "echo x >$TMPDIR/inside && cp $1/keyframes.txt $2\n");
-  folder_.file("c.yaml",
-               "datasets: [{dataset: trajectory, estimate: estimate.txt, reference: reference.txt}]"
-               "\ntimes: keyframes\nmethods:\n" +
-                   entry("curious", "'sh curious.sh {problem} {result}'") +
-                   "  - {method: command, label: served, serve: '" LOOPBENCH_SERVING
-                   " curious'}\nmetrics: [ate]\n");
+  write_recorded_sweep(entry("curious", "'sh curious.sh {problem} {result}'") +
+                       "  - {method: command, label: served, serve: '" LOOPBENCH_SERVING
+                       " curious'}\n");
   for (const char* option : {"", " --no-sandbox"}) {
     loopbench_command("run c.yaml --fresh --out r" + std::string(option), folder_);
     const auto done = read_cells(folder_.path() / "r");
@@ -114,21 +120,15 @@ TEST_F(CommandProcesses, WritesInItsFolderOnlyAndCannotReadTheReference) {
 }
 
 TEST_F(CommandProcesses, ProgramsOfSeveralFilesRunBesideTheirDataAndResults) {
-  const Problem problem = test::circle(41);
-  write_tum(folder_.path() / "estimate.txt", problem.keyframes);
-  write_tum(folder_.path() / "reference.txt", problem.keyframes);
   folder_.file("helper.py",
                "import shutil\n\ndef correct(folder, result):\n"
                "    shutil.copy(folder + '/keyframes.txt', result)\n");
   folder_.file("mine.py", "import sys\nfrom helper import correct\ncorrect(*sys.argv[1:])\n");
   folder_.file("lists.sh", "ls >/dev/null && cp $1/keyframes.txt $2\n");  // as Octave
   folder_.file("fails.sh", "exit 3\n");
-  folder_.file("c.yaml",
-               "datasets: [{dataset: trajectory, estimate: estimate.txt, reference: reference.txt}]"
-               "\ntimes: keyframes\nmethods:\n" +
-                   entry("mine", "'python3 mine.py {problem} {result}'") +
-                   entry("lists", "'sh lists.sh {problem} {result}'") +
-                   entry("fails", "'sh fails.sh {problem} {result}'") + "metrics: [ate]\n");
+  write_recorded_sweep(entry("mine", "'python3 mine.py {problem} {result}'") +
+                       entry("lists", "'sh lists.sh {problem} {result}'") +
+                       entry("fails", "'sh fails.sh {problem} {result}'"));
   for (const char* option : {"", " --retry all"}) {
     loopbench_command("run c.yaml --data . --out r" + std::string(option), folder_);
     const auto done = read_cells(folder_.path() / "r");
