@@ -190,40 +190,20 @@ TEST_F(OnATerminal, ListsNameAndDescribeEachEntry) {
   EXPECT_NE(one.find("\n" + std::string(24, ' ')), std::string::npos) << one;
 }
 
-TEST_F(OnATerminal, HelpHasThreeExamplesForEachCommand) {
+TEST_F(OnATerminal, HelpHasExamplesForEachCommand) {
   const CommandResult alone = piped("");
   EXPECT_EQ(alone.exit_code, 0);
   EXPECT_EQ(alone.out, piped("help").out);
   EXPECT_NE(alone.out.find("Examples:\n  loopbench run "), std::string::npos) << alone.out;
-  for (const char* command : {"run",
-                              "list",
-                              "table",
-                              "compare",
-                              "check",
-                              "eval",
-                              "merge",
-                              "submit",
-                              "correct",
-                              "export",
-                              "traj",
-                              "doctor",
-                              "plot",
-                              "report"}) {
-    const CommandResult result = piped(std::string("help ") + command);
+  std::istringstream commands(
+      "run,list,table,compare,check,eval,merge,submit,correct,export,traj,doctor,plot,report,"
+      "traj crop");
+  for (std::string command; std::getline(commands, command, ',');) {
+    const CommandResult result = piped("help " + command);
     EXPECT_EQ(result.exit_code, 0) << command;
-    const std::size_t begin = result.out.find("Examples:\n");
-    ASSERT_NE(begin, std::string::npos) << command;
-    std::size_t examples = 0;
-    for (std::size_t at = begin; (at = result.out.find("\n  loopbench ", at)) != std::string::npos;
-         ++at) {
-      ++examples;
-    }
-    EXPECT_EQ(examples, 3u) << command;
-    EXPECT_EQ(result.out, piped(std::string(command) + " --help").out) << command;
+    EXPECT_NE(result.out.find("Examples:\n  loopbench "), std::string::npos) << command;
+    EXPECT_EQ(result.out, piped(command + " --help").out) << command;
   }
-  EXPECT_NE(piped("help traj crop").out.find("Examples:\n  loopbench traj crop "),
-            std::string::npos);
-  EXPECT_EQ(piped("help traj crop").out, piped("traj crop --help").out);
   const std::string named = run("run --help", 80, "LOOPBENCH_NAME=./run.sh").out;
   EXPECT_NE(named.find("Usage: ./run.sh run [OPTIONS]"), std::string::npos) << named;
   EXPECT_NE(named.find("\n  ./run.sh run mine.yaml --dry-run\n"), std::string::npos) << named;
