@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "harness/tables/pivot.hpp"
 #include "tests/studies/synthetic_records.hpp"

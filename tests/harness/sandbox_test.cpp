@@ -17,9 +17,7 @@ namespace {
 class Sandboxed : public testing::Test {
  protected:
   Sandboxed() {
-    for (const char* name : {"data/room", "data/tools", "own", "own/data", "scratch"}) {
-      std::filesystem::create_directories(folder_.path() / name);
-    }
+    std::filesystem::create_directory(folder_.path() / "scratch");
     for (const char* name : {"data/room/truth.txt",
                              "data/room/est.txt",
                              "data/tools/helper.txt",

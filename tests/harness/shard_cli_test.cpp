@@ -1,10 +1,7 @@
 /// Shards through the command line: run, merge, complete.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <fstream>
-#include <thread>
 
 #include "tests/support/command.hpp"
 #include "tests/support/store_text.hpp"

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <fstream>
 
 #include "harness/commands/slurm_scripts.hpp"
 #include "tests/support/command.hpp"
@@ -59,7 +58,6 @@ TEST_F(Submit, NoTextBecomesACommand) {
                 "\n--data\n" + (hostile_ / "data").string() + "\n--shard\n2/3\n--jobs\n4\n");
   folder_.file("words", "");
   EXPECT_EQ(bash(slurm_merge_script(sweep())), 2) << "no shard has a store";
-  std::filesystem::create_directories(folder_.path() / "out/shards/1-of-3");
   folder_.file("out/shards/1-of-3/results.sqlite", "");
   EXPECT_EQ(bash(slurm_merge_script(sweep())), 0) << read("out.txt");
   EXPECT_EQ(read("words"),

@@ -53,16 +53,8 @@ TEST_F(TrajStamps, ConvertAndAlignWriteStampsWithTheOffset) {
   traj({"convert", est, "--offset", "3.5", "-o", path("out.txt")});
   EXPECT_THAT(nanoseconds("out.txt"), ElementsAre(1700000003600000001, 1700000003700000001));
   EXPECT_EQ(nanoseconds("ref.txt"), nanoseconds("out.txt"));
-  traj({"align",
-        est,
-        "--ref",
-        ref,
-        "--t_offset",
-        "3.5",
-        "--align",
-        "origin",
-        "-o",
-        path("aligned.txt")});
+  const std::string out = path("aligned.txt");
+  traj({"align", est, "--ref", ref, "--t_offset", "3.5", "--align", "origin", "-o", out});
   EXPECT_THAT(nanoseconds("aligned.txt"), ElementsAre(1700000003600000001, 1700000003700000001));
 }
 

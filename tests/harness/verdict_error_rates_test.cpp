@@ -1,8 +1,6 @@
 /// A short form of tests/studies/verdict_error_rates: error rates and coverage with known truth.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "tests/studies/error_rates.hpp"
 
 namespace loopbench::synthetic::verdict_error_rates_test {

@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
-#include <set>
 #include <string_view>
 
 #include "metrics/doctor/diagnose.hpp"

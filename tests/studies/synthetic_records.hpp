@@ -1,7 +1,6 @@
 /// Records with known true effects, to measure error rates of verdicts.
 #pragma once
 
-#include <functional>
 #include <random>
 #include <string>
 #include <vector>
