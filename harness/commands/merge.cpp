@@ -19,7 +19,7 @@ std::string mixed_text(const Merged& merged) {
   if (merged.instruction_sets.size() < 2) return "";
   std::string out = "computed on processors with different instruction sets:\n";
   for (const std::string& set : merged.instruction_sets) out += "  " + printable(set) + "\n";
-  return out + "`run --pin-instructions` avoids differences\n";
+  return out + "the last digits of scores can depend on them\n";
 }
 
 /// Lines about the cells that no store has; empty if none is known to be missing.

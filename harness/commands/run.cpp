@@ -44,7 +44,6 @@ struct RunArguments {
   bool failed_cells_ok = false;
   bool no_sandbox = false;
   bool save_trajectories = false;
-  bool pin_instructions = false;
 };
 
 /// Larger sweeps get no tables and no summary after each run, because they take longer than
@@ -82,7 +81,6 @@ std::string protocol_names(const Sweep& sweep) {
 
 /// Returns the exit code. Throws InputError, MissingPart.
 int run_config(const RunArguments& arguments, const Source& source) {
-  if (arguments.pin_instructions) pin_instructions();
   const Catalogue known =
       catalogue(with_config_plugins(arguments.plugins, config_path(arguments.config)));
   const Sweep sweep = read_sweep(config_path(arguments.config), known, arguments.data);
@@ -249,10 +247,6 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
   command->add_flag("--save-trajectories",
                     arguments->save_trajectories,
                     "Save every cell's estimate at full length, see `export --what trajectories`");
-  command->add_flag("--pin-instructions",
-                    arguments->pin_instructions,
-                    "Use the code paths of old processors in the C library and OpenCV, so that "
-                    "results are bit-identical on all nodes");
   command->add_flag("--failed-cells-ok",
                     arguments->failed_cells_ok,
                     "Exit with 0 if cells failed: they are results, too, and have their reasons");

@@ -23,17 +23,8 @@ std::map<std::string, std::string> provenance(const Source& source,
                                               const Sweep& sweep,
                                               const Catalogue& catalogue);
 
-/// Environment variable set by `run --pin-instructions`.
-inline constexpr const char* kPinnedVariable = "LOOPBENCH_PINNED_INSTRUCTIONS";
-
 /// Extensions by which libraries choose code paths, on which last digits of results can depend:
-/// "sse4_2 avx avx2 fma avx512f"; "pinned" if kPinnedVariable is set, "unknown" without
-/// /proc/cpuinfo.
+/// "sse4_2 avx avx2 fma avx512f"; "unknown" without /proc/cpuinfo.
 std::string instruction_set();
-
-/// Restarts the program with settings that make the C library and OpenCV use the code paths of the
-/// oldest supported processors (without AVX, AVX2, FMA and AVX-512), unless it was started so.
-/// Eigen's paths are fixed when the program is built. Throws InputError if the restart fails.
-void pin_instructions();
 
 }  // namespace loopbench::harness
