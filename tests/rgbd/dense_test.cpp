@@ -1,6 +1,7 @@
 // Tests of depth surfaces, their alignment and the refinement of edges.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "datasets/derive/odometry.hpp"
@@ -47,18 +48,9 @@ Pose still() { return {Rotation::Identity(), Vector3::Zero()}; }
 
 TEST(Surface, BlocksAreTheMeanOfWhatLiesNearTheirMedian) {
   DepthImage depth(6, 2);
-  depth.pixels = {1.0f,
-                  1.01f,
-                  0.0f,
-                  2.0f,
-                  1.0f,
-                  3.0f,  //
-                  1.0f,
-                  1.02f,
-                  0.0f,
-                  0.0f,
-                  1.0f,
-                  1.0f};
+  const std::vector<float> upper{1.0f, 1.01f, 0.0f, 2.0f, 1.0f, 3.0f};
+  const std::vector<float> lower{1.0f, 1.02f, 0.0f, 0.0f, 1.0f, 1.0f};
+  std::ranges::copy(lower, std::ranges::copy(upper, depth.pixels.begin()).out);
   const Camera camera{.width = 6, .height = 2, .fx = 10.0, .fy = 10.0, .cx = 2.5, .cy = 0.5};
   const DownsampledDepth small = downsample_depth(depth, camera, 3, 5.0);
   ASSERT_EQ(small.depth.width, 3);

@@ -12,6 +12,13 @@ namespace {
 
 RenderOptions tiny() { return {.width = 80, .rate = 2.0, .laps = 0.1}; }
 
+RenderOptions exact() {
+  RenderOptions out = tiny();
+  out.depth_noise = 0.0;
+  out.dropouts = 0.0;
+  return out;
+}
+
 RgbdFrame frame(const RenderOptions& options, std::size_t index) {
   std::string why;
   return *rendered_room(options)->read(index, why);
@@ -71,11 +78,8 @@ TEST(Render, TexturesAreFullOfContrastAndFollowTheSeed) {
 }
 
 TEST(Sensor, WithoutNoiseDepthIsExactToTheMillimetre) {
-  RenderOptions options = tiny();
-  options.depth_noise = 0.0;
-  options.dropouts = 0.0;
-  const auto source = rendered_room(options);
-  const RgbdFrame image = frame(options, 3);
+  const auto source = rendered_room(exact());
+  const RgbdFrame image = frame(exact(), 3);
   const Camera camera = source->camera();
   const Pose pose = source->reference()[12].world_from_body;  // four times the rate
   std::size_t on_wall = 0;
@@ -93,16 +97,13 @@ TEST(Sensor, WithoutNoiseDepthIsExactToTheMillimetre) {
 }
 
 TEST(Sensor, NoiseGrowsWithTheSquareOfDepthAndHolesAppear) {
-  RenderOptions clean = tiny();
-  clean.depth_noise = 0.0;
-  clean.dropouts = 0.0;
-  const RgbdFrame exact = frame(clean, 2);
+  const RgbdFrame clean = frame(exact(), 2);
   const RgbdFrame noisy = frame(tiny(), 2);
   std::size_t holes = 0;
   std::size_t near = 0;
   std::size_t pixels = 0;
-  for (std::size_t i = 0; i < exact.depth.pixels.size(); ++i) {
-    const float z = exact.depth.pixels[i];
+  for (std::size_t i = 0; i < clean.depth.pixels.size(); ++i) {
+    const float z = clean.depth.pixels[i];
     if (z == 0.0f) continue;
     ++pixels;
     if (noisy.depth.pixels[i] == 0.0f) {

@@ -48,11 +48,6 @@ TEST(CameraPose, IsFoundAmongOutliersAndThenExact) {
   EXPECT_FALSE(refined.inlier[0]);
 }
 
-TEST(CameraPose, IsTheSameToTheBitAtEveryCall) {
-  const std::vector<Observation> all = observe(60, 4);
-  EXPECT_EQ(pose_by_ransac(all, {})->translation, pose_by_ransac(all, {})->translation);
-}
-
 TEST(CameraPose, IsNotFoundFromThreePoints) {
   EXPECT_FALSE(pose_by_ransac(observe(3, 0), {}));
   EXPECT_EQ(refine_pose(observe(3, 0), {}, kTruth).information, Matrix6::Zero());
