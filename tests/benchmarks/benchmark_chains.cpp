@@ -1,9 +1,6 @@
 // Maximum likelihood on chains with nine loops, as in KITTI 00: the closed form against sparse
 // least squares, from a thousand keyframes to a million.
-#include <benchmark/benchmark.h>
-
 #include <cmath>
-#include <map>
 #include <random>
 
 #include "methods/correctors/dual.hpp"
@@ -59,18 +56,9 @@ Problem chain(std::size_t n) {
   return out;
 }
 
-const Problem& kept_chain(std::size_t n) {
-  static std::map<std::size_t, Problem> kept;
-  if (!kept.contains(n)) {
-    kept.clear();  // one size at a time is large enough
-    kept[n] = chain(n);
-  }
-  return kept[n];
-}
-
 template <class Method>
 void correct(std::size_t n, benchmark::State& state) {
-  const Problem& problem = kept_chain(n);
+  const Problem& problem = test::kept<chain>(n);
   const Method method({});
   double iterations = 0.0;
   const double before = test::reset_peak();
@@ -91,19 +79,7 @@ void correct(std::size_t n, benchmark::State& state) {
 
 int main(int argc, char** argv) {
   using namespace loopbench;
-  const auto time = [](const char* name, void (*run)(std::size_t, benchmark::State&)) {
-    benchmark::RegisterBenchmark(name,
-                                 [run](benchmark::State& state) {
-                                   run(static_cast<std::size_t>(state.range(0)), state);
-                                   state.SetComplexityN(state.range(0));
-                                 })
-        ->RangeMultiplier(10)
-        ->Range(1'000, 1'000'000)
-        ->MeasureProcessCPUTime()
-        ->Unit(benchmark::kMillisecond)
-        ->Complexity();
-  };
-  time("dual", correct<Dual>);
-  time("pose_graph", correct<PoseGraphOptimizer>);
+  test::register_sizes("dual", 1'000'000, correct<Dual>);
+  test::register_sizes("pose_graph", 1'000'000, correct<PoseGraphOptimizer>);
   return test::run_benchmarks(argc, argv);
 }

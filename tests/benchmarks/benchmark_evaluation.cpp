@@ -1,10 +1,8 @@
 // Time of each step of an evaluation, from a thousand poses to ten million.
-#include <benchmark/benchmark.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
-#include <map>
 
 #include "datasets/formats/formats.hpp"
 #include "metrics/errors/ate.hpp"
@@ -20,9 +18,11 @@ using namespace metrics;
 
 namespace {
 
-/// A car at 10 m/s on a spiral, ten poses per second; the estimate has drift, noise of centimetres
-/// and stamp errors up to 2 ms.
-Trajectory drive(std::size_t size, double amplitude) {
+/// A car at 10 m/s on a spiral, ten poses per second; with the amplitude 1, it has drift, noise of
+/// centimetres and stamp errors up to 2 ms.
+template <int kAmplitude>
+Trajectory drive(std::size_t size) {
+  constexpr double amplitude = kAmplitude;
   Trajectory out(size);
   for (std::size_t i = 0; i < size; ++i) {
     const auto k = static_cast<double>(i);
@@ -36,19 +36,9 @@ Trajectory drive(std::size_t size, double amplitude) {
   return out;
 }
 
-const Trajectory& reference(std::size_t size) {
-  static std::map<std::size_t, Trajectory> kept;
-  if (kept.contains(size)) return kept[size];
-  kept.clear();  // one size at a time is large enough
-  return kept[size] = drive(size, 0.0);
-}
+const Trajectory& reference(std::size_t size) { return test::kept<drive<0>>(size); }
 
-const Trajectory& estimate(std::size_t size) {
-  static std::map<std::size_t, Trajectory> kept;
-  if (kept.contains(size)) return kept[size];
-  kept.clear();
-  return kept[size] = drive(size, 1.0);
-}
+const Trajectory& estimate(std::size_t size) { return test::kept<drive<1>>(size); }
 
 /// A file name unique to this process.
 std::filesystem::path written(const std::string& name, const Trajectory& poses) {
@@ -126,39 +116,24 @@ void files_to_scores(std::size_t size, benchmark::State& state) {
   std::filesystem::remove(guess);
 }
 
-struct Step {
-  const char* name;
-  void (*run)(std::size_t, benchmark::State&);
-};
-
-constexpr Step kSteps[] = {{"parse_tum", parse_tum},
-                           {"associate_nearest", pair_up<Association::nearest>},
-                           {"associate_evo", pair_up<Association::evo>},
-                           {"associate_interpolate", pair_up<Association::interpolate>},
-                           {"align_se3", align_se3},
-                           {"ate", score_ate},
-                           {"rpe_1_frame", score_rpe<1, DeltaUnit::frames>},
-                           {"rpe_1_s", score_rpe<1, DeltaUnit::s>},
-                           {"rpe_100_m", score_rpe<100, DeltaUnit::m>},
-                           {"segments", score_segments},
-                           {"files_to_scores", files_to_scores}};
-
 }  // namespace
 }  // namespace loopbench
 
 int main(int argc, char** argv) {
   using namespace loopbench;
-  for (const Step& step : kSteps) {
-    benchmark::RegisterBenchmark(step.name,
-                                 [&step](benchmark::State& state) {
-                                   step.run(static_cast<std::size_t>(state.range(0)), state);
-                                   state.SetComplexityN(state.range(0));
-                                 })
-        ->RangeMultiplier(10)
-        ->Range(1'000, 10'000'000)
-        ->MeasureProcessCPUTime()  // of all threads; independent of other processes
-        ->Unit(benchmark::kMillisecond)
-        ->Complexity();
-  }
+  const auto time = [](const char* name, void (*run)(std::size_t, benchmark::State&)) {
+    test::register_sizes(name, 10'000'000, run);
+  };
+  time("parse_tum", parse_tum);
+  time("associate_nearest", pair_up<Association::nearest>);
+  time("associate_evo", pair_up<Association::evo>);
+  time("associate_interpolate", pair_up<Association::interpolate>);
+  time("align_se3", align_se3);
+  time("ate", score_ate);
+  time("rpe_1_frame", score_rpe<1, DeltaUnit::frames>);
+  time("rpe_1_s", score_rpe<1, DeltaUnit::s>);
+  time("rpe_100_m", score_rpe<100, DeltaUnit::m>);
+  time("segments", score_segments);
+  time("files_to_scores", files_to_scores);
   return test::run_benchmarks(argc, argv);
 }

@@ -1,9 +1,7 @@
 // Time of smoothers: fitting a curve to a thousand to a million keyframes, and sampling a curve of
 // 200 keyframes at a thousand to a million stamps.
-#include <benchmark/benchmark.h>
-
+#include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "methods/method.hpp"
 #include "tests/benchmarks/markdown.hpp"
@@ -31,11 +29,8 @@ constexpr Timed kSmoothers[] = {{"polyline"},
 constexpr std::size_t kKeyframes = 200;  // of the sampled curve
 
 /// A hand-held walk without stops, three keyframes per second.
-const Problem& walk(std::size_t size) {
-  static std::map<std::size_t, Problem> kept;
-  if (kept.contains(size)) return kept[size];
-  kept.clear();  // one size at a time is large enough
-  Problem& out = kept[size];
+Problem walk(std::size_t size) {
+  Problem out;
   for (std::size_t i = 0; i < size; ++i) {
     const double t = 0.3 * static_cast<double>(i);
     out.keyframes.push_back(
@@ -50,8 +45,8 @@ std::unique_ptr<const Smoother> default_smoother(const MethodEntry& entry) {
   return std::get<std::unique_ptr<const Smoother>>(entry.make({}));
 }
 
-void smooth(const MethodEntry& entry, benchmark::State& state) {
-  const Problem& problem = walk(static_cast<std::size_t>(state.range(0)));
+void smooth(const MethodEntry& entry, std::size_t size, benchmark::State& state) {
+  const Problem& problem = test::kept<walk>(size);
   const auto smoother = default_smoother(entry);
   for (auto _ : state) {
     Report report;
@@ -59,10 +54,9 @@ void smooth(const MethodEntry& entry, benchmark::State& state) {
   }
 }
 
-void smooth_and_ask(const MethodEntry& entry, benchmark::State& state) {
-  const Problem& problem = walk(kKeyframes);
+void smooth_and_ask(const MethodEntry& entry, std::size_t count, benchmark::State& state) {
+  const Problem& problem = test::kept<walk>(kKeyframes);
   const auto smoother = default_smoother(entry);
-  const auto count = static_cast<std::size_t>(state.range(0));
   std::vector<double> times(count);
   for (std::size_t k = 0; k < count; ++k) {
     const double u = static_cast<double>(k) / static_cast<double>(count);
@@ -76,37 +70,24 @@ void smooth_and_ask(const MethodEntry& entry, benchmark::State& state) {
   }
 }
 
-using Work = void (*)(const MethodEntry&, benchmark::State&);
-
-void add(const std::string& name, const MethodEntry& entry, std::int64_t most, Work work) {
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [entry, work](benchmark::State& state) {
-                                 work(entry, state);
-                                 state.SetComplexityN(state.range(0));
-                               })
-      ->RangeMultiplier(10)
-      ->Range(1'000, most)
-      ->MeasureProcessCPUTime()
-      ->Unit(benchmark::kMillisecond)
-      ->Complexity();
-}
-
 }  // namespace
 }  // namespace loopbench
 
 int main(int argc, char** argv) {
   using namespace loopbench;
   const std::vector<MethodEntry> known = methods::methods();
-  for (const auto& [name, most] : kSmoothers) {
-    for (const MethodEntry& entry : known) {
-      if (entry.name == name) add("smooth " + entry.name, entry, most, smooth);
+  const auto time = [&](const std::string& what, bool is_limited, auto work) {
+    for (const auto& [name, most] : kSmoothers) {
+      const auto entry = std::ranges::find(known, name, &MethodEntry::name);
+      if (entry == known.end()) continue;
+      test::register_sizes(what + name,
+                           is_limited ? most : Timed{}.most,
+                           [work, method = *entry](std::size_t size, benchmark::State& state) {
+                             work(method, size, state);
+                           });
     }
-  }
-  for (const Timed& timed : kSmoothers) {
-    for (const MethodEntry& entry : known) {
-      if (entry.name != timed.name) continue;
-      add("200 keyframes asked " + entry.name, entry, Timed{}.most, smooth_and_ask);
-    }
-  }
+  };
+  time("smooth ", true, smooth);
+  time("200 keyframes asked ", false, smooth_and_ask);
   return test::run_benchmarks(argc, argv);
 }

@@ -1,13 +1,11 @@
 #include "tests/benchmarks/markdown.hpp"
 
-#include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include <cmath>
 #include <fstream>
 #include <iostream>
 #include <map>
-#include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
@@ -80,6 +78,21 @@ std::string processor() {
 }
 
 }  // namespace
+
+void register_sizes(const std::string& name,
+                    std::int64_t most,
+                    const std::function<void(std::size_t, benchmark::State&)>& run) {
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [run](benchmark::State& state) {
+                                 run(static_cast<std::size_t>(state.range(0)), state);
+                                 state.SetComplexityN(state.range(0));
+                               })
+      ->RangeMultiplier(10)
+      ->Range(1'000, most)
+      ->MeasureProcessCPUTime()
+      ->Unit(benchmark::kMillisecond)
+      ->Complexity();
+}
 
 int run_benchmarks(int argc, char** argv) {
   constexpr std::string_view kFlag = "--markdown=";
