@@ -69,22 +69,16 @@ class DmOnTum : public testing::Test {
   Report report_;
 };
 
-TEST_F(DmOnTum, SegmentCountsMatchTheDesign) {
-  load_setting(kRoom);
-  EXPECT_NEAR(path_length(problem_.keyframes), 15.836, 5e-4);
-  EXPECT_EQ(manifold::segments(manifold::Nodes(problem_.keyframes), options_.segment).size(), 27u);
-  load_setting(kOffice);
-  EXPECT_NEAR(path_length(problem_.keyframes), 21.955, 5e-4);
-  EXPECT_EQ(manifold::segments(manifold::Nodes(problem_.keyframes), options_.segment).size(), 46u);
-}
-
-TEST_F(DmOnTum, PolylineAndSplineErrorsMatchTheDesign) {
-  load_setting(kRoom);
-  EXPECT_NEAR(error(Polyline(problem_.keyframes)), 3.8, 0.05);
-  EXPECT_NEAR(error(0, 0), 1.3, 0.05);
-  load_setting(kOffice);
-  EXPECT_NEAR(error(Polyline(problem_.keyframes)), 4.9, 0.05);
-  EXPECT_NEAR(error(0, 0), 2.6, 0.06);
+TEST_F(DmOnTum, SegmentCountsAndErrorsOfPolylineAndSplineMatchTheDesign) {
+  for (const auto& [run, length, segments, polyline, spline, tolerance] :
+       {std::tuple{kRoom, 15.836, 27u, 3.8, 1.3, 0.05}, {kOffice, 21.955, 46u, 4.9, 2.6, 0.06}}) {
+    load_setting(run);
+    EXPECT_NEAR(path_length(problem_.keyframes), length, 5e-4);
+    const manifold::Nodes nodes(problem_.keyframes);
+    EXPECT_EQ(manifold::segments(nodes, options_.segment).size(), segments);
+    EXPECT_NEAR(error(Polyline(problem_.keyframes)), polyline, 0.05);
+    EXPECT_NEAR(error(0, 0), spline, tolerance);
+  }
 }
 
 // The design's prototype had neither guard nor blending: 2.4 / 4.0 mm for N = 3, 11 / 28 mm for N =

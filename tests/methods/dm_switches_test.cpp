@@ -97,17 +97,7 @@ TEST_P(EverySwitch, KeepsUniformMotion) {
 }
 
 TEST_P(EverySwitch, MotionIsTheDerivativeOfTheSamples) {
-  const Problem problem = keyframes_only(wandering(40, 6));
-  const auto curve = smoothed(problem);
-  const auto& pieces = dynamic_cast<const manifold::ManifoldCurve&>(*curve);
-  const double h = 1e-5;
-  for (std::size_t edge = 0; edge + 1 < pieces.knots().size(); ++edge) {
-    const double t = std::lerp(pieces.knots()[edge], pieces.knots()[edge + 1], 0.37);
-    const auto motion = pieces.motion(edge, t);
-    const Vector3 slope = (curve->at(t + h).translation - curve->at(t - h).translation) / (2 * h);
-    EXPECT_LT((motion.value - curve->at(t).translation).norm(), 1e-12);
-    EXPECT_LT((motion.first - slope).norm(), 1e-5 * (1.0 + motion.second.norm())) << edge;
-  }
+  expect_motion_is_the_derivative(*smoothed(keyframes_only(wandering(40, 6))));
 }
 
 TEST_P(EverySwitch, JumpsAtNodesMatchTheJointType) {
@@ -162,29 +152,6 @@ TEST(DmSwitches, ParabolaAndCubicReproduceTheirKeyframesInEveryFrame) {
       }
     }
   }
-}
-
-TEST(DmSwitches, LiteralVariantFitsInWorldAxesAndDependsOnThem) {
-  // y = x^2 in world axes: an exact parabola in this frame only.
-  std::vector<Vector3> points;
-  for (const double x : {0.0, 0.4, 1.0, 1.3, 2.0}) points.push_back({x, x * x, 0.0});
-  const Problem problem = keyframes_only(through(points));
-  Dm::Options options{.planar = 3};
-  options.frame = manifold::Axes::world;
-  options.guard = false;
-  options.joint.kind = manifold::JointKind::none;
-  options.segment = {100.0, 3.2};
-  Report report;
-  const auto curve = Dm(options).smooth(problem, report);
-  double farthest = 0.0;
-  const Pose rotation{exp_so3({0, 0, 0.8}), Vector3::Zero()};
-  const auto rotated = Dm(options).smooth(test::moved_by(rotation, problem), report);
-  for (const double t : times_over(problem.keyframes, 60)) {
-    const Vector3 p = curve->at(t).translation;
-    EXPECT_NEAR(p.y(), p.x() * p.x(), 1e-12);
-    farthest = std::max(farthest, (rotated->at(t).translation - rotation.rotation * p).norm());
-  }
-  EXPECT_GT(farthest, 1e-3);
 }
 
 TEST(DmSwitches, RejectsContradictoryOptions) {

@@ -1,11 +1,15 @@
-/// Small test trajectories for the manifold smoother.
+/// Small test trajectories for the manifold smoother, and the derivatives of its curves.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <cmath>
 #include <functional>
 #include <random>
 #include <vector>
 
 #include "datasets/core/problem.hpp"
+#include "methods/smoothers/manifold/curve.hpp"
 
 namespace loopbench {
 
@@ -61,6 +65,19 @@ inline std::vector<double> times_over(const Trajectory& poses, std::size_t count
   }
   out.push_back(end);
   return out;
+}
+
+/// Compares the analytic motion of the manifold smoother's curve with differences of its samples.
+inline void expect_motion_is_the_derivative(const Curve& curve) {
+  const auto& pieces = dynamic_cast<const methods::manifold::ManifoldCurve&>(curve);
+  const double h = 1e-5;
+  for (std::size_t edge = 0; edge + 1 < pieces.knots().size(); ++edge) {
+    const double t = std::lerp(pieces.knots()[edge], pieces.knots()[edge + 1], 0.37);
+    const auto motion = pieces.motion(edge, t);
+    const Vector3 slope = (curve.at(t + h).translation - curve.at(t - h).translation) / (2 * h);
+    EXPECT_LT((motion.value - curve.at(t).translation).norm(), 1e-12);
+    EXPECT_LT((motion.first - slope).norm(), 1e-5 * (1.0 + motion.second.norm())) << edge;
+  }
 }
 
 }  // namespace loopbench
