@@ -10,6 +10,7 @@
 #include "methods/correctors/uniform.hpp"
 #include "methods/solvers/anchor_residual.hpp"
 #include "tests/support/corrected.hpp"
+#include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::anchors_test {
@@ -24,20 +25,7 @@ Anchor anchor(std::size_t keyframe, const Vector3& position, double variance) {
   return {keyframe, position, variance * Matrix3::Identity()};
 }
 
-void expect_positions(const Trajectory& poses, const std::vector<double>& x, double tolerance) {
-  ASSERT_EQ(poses.size(), x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    EXPECT_NEAR(poses[i].world_from_body.translation.x(), x[i], tolerance) << i;
-    EXPECT_NEAR(poses[i].world_from_body.translation.tail<2>().norm(), 0.0, tolerance) << i;
-  }
-}
-
-double count_of(const Report& report, const std::string& name) {
-  for (const Count& count : report.counts) {
-    if (count.name == name) return count.value;
-  }
-  return std::nan("");
-}
+const Pose kElsewhere{exp_so3({0.4, -1.1, 2.0}), {30.0, -20.0, 10.0}};
 
 // Four unit steps of variance 1, the last position measured at 5 with variance 1. Five equal
 // variances share the gap of 1: each edge and the anchor take 0.2, chi2 = 5 * 0.04.
@@ -49,8 +37,8 @@ TEST(Anchors, OneAnchorIsSharedByVariance) {
   expect_positions(corrected<Dual>(problem, {}, &dual), expected, 1e-10);
   expect_positions(corrected<PoseGraphOptimizer>(problem, {}, &graph), expected, 1e-10);
   for (const Report* report : {&dual, &graph}) {
-    EXPECT_NEAR(count_of(*report, "chi2"), 0.2, 1e-10);
-    EXPECT_NEAR(count_of(*report, "chi2_per_dof"), 0.2 / 3.0, 1e-10);
+    EXPECT_NEAR(count(*report, "chi2"), 0.2, 1e-10);
+    EXPECT_NEAR(count(*report, "chi2_per_dof"), 0.2 / 3.0, 1e-10);
     ASSERT_FALSE(report->notes.empty());
     EXPECT_NE(report->notes.front().find("the first keyframe is held"), std::string::npos);
   }
@@ -108,13 +96,9 @@ Problem anchored(Problem problem, const Trajectory& truth) {
 }
 
 TEST(Anchors, DualAndPoseGraphFindTheSameMinimum) {
-  const Pose elsewhere{exp_so3({0.4, -1.1, 2.0}), {30.0, -20.0, 10.0}};
   for (const Problem& base : {hand_held(), planar()}) {
-    Problem problem = anchored(base, base.keyframes);
-    for (StampedPose& each : problem.keyframes) {  // the frame of the estimate is another one
-      each.world_from_body = normalized(elsewhere * each.world_from_body);
-    }
-    if (problem.planar) problem = anchored(base, base.keyframes);
+    // In space, the frame of the estimate is another one.
+    Problem problem = anchored(base.planar ? base : moved_by(kElsewhere, base), base.keyframes);
     ASSERT_TRUE(UsedAnchors(problem).is_first_free);
     for (const bool with_loops : {true, false}) {
       if (!with_loops) problem.closures.clear();
@@ -122,22 +106,18 @@ TEST(Anchors, DualAndPoseGraphFindTheSameMinimum) {
       const Trajectory a = corrected<Dual>(problem, {}, &dual);
       const Trajectory b = corrected<PoseGraphOptimizer>(problem, {}, &graph);
       expect_close(a, b, 1e-6);
-      const double chi2 = count_of(graph, "chi2");
-      EXPECT_NEAR(count_of(dual, "chi2"), chi2, 1e-7 * chi2);
-      EXPECT_LT(count_of(dual, "iterations"), 60.0);
+      const double chi2 = count(graph, "chi2");
+      EXPECT_NEAR(count(dual, "chi2"), chi2, 1e-7 * chi2);
+      EXPECT_LT(count(dual, "iterations"), 60.0);
     }
   }
 }
 
 TEST(Anchors, ExactOnesMoveAPerfectPathToTheirWorld) {
   const Problem truth = perfect();
-  Problem problem = truth;
+  Problem problem = moved_by(kElsewhere, truth);
   for (const std::size_t i : {std::size_t{5}, std::size_t{20}, std::size_t{33}, std::size_t{57}}) {
     problem.anchors.push_back(anchor(i, truth.keyframes[i].world_from_body.translation, 1e-4));
-  }
-  const Pose elsewhere{exp_so3({0.4, -1.1, 2.0}), {30.0, -20.0, 10.0}};
-  for (StampedPose& each : problem.keyframes) {
-    each.world_from_body = normalized(elsewhere * each.world_from_body);
   }
   expect_close(corrected<Dual>(problem), truth.keyframes, 1e-8);
   expect_close(corrected<PoseGraphOptimizer>(problem), truth.keyframes, 1e-8);

@@ -9,6 +9,7 @@
 #include "datasets/core/polyline.hpp"
 #include "methods/online/online.hpp"
 #include "methods/pipeline.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::conformance_test {
@@ -38,17 +39,6 @@ std::unique_ptr<const Estimator> build(const MethodEntry& entry, const Params& p
   return std::get<std::unique_ptr<const Estimator>>(std::move(stage));
 }
 
-/// Times of all keyframes, and `between` evenly spaced times in every interval.
-std::vector<double> query_times(const Trajectory& keyframes, int between = 3) {
-  std::vector<double> out;
-  for (std::size_t i = 0; i + 1 < keyframes.size(); ++i) {
-    const double step = (keyframes[i + 1].stamp - keyframes[i].stamp) / (between + 1);
-    for (int k = 0; k <= between; ++k) out.push_back(keyframes[i].stamp + k * step);
-  }
-  if (!keyframes.empty()) out.push_back(keyframes.back().stamp);
-  return out;
-}
-
 bool same_bits(const Trajectory& a, const Trajectory& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
 }
@@ -64,16 +54,7 @@ double size_of(const Problem& problem) {
   return out;
 }
 
-void expect_close(const Trajectory& a, const Trajectory& b, double metres, double radians) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    ASSERT_TRUE(is_close(a[i].world_from_body, b[i].world_from_body, metres, radians))
-        << "at " << a[i].stamp
-        << " s: " << (a[i].world_from_body.translation - b[i].world_from_body.translation).norm()
-        << " m, " << angle_between(a[i].world_from_body.rotation, b[i].world_from_body.rotation)
-        << " rad";
-  }
-}
+const Pose kElsewhere{exp_so3({0.4, -1.1, 2.0}), {30.0, -20.0, 10.0}};
 
 class Conformance : public ::testing::TestWithParam<MethodEntry> {
  protected:
@@ -82,6 +63,15 @@ class Conformance : public ::testing::TestWithParam<MethodEntry> {
   static Trajectory sampled(const Estimator& method, const Problem& problem) {
     Report report;
     return method.estimate(problem, report)->sample(query_times(problem.keyframes));
+  }
+
+  /// Sampled in another world frame and moved back.
+  Trajectory sampled_elsewhere(const Problem& problem) const {
+    Trajectory out = sampled(moved_by(kElsewhere, problem));
+    for (StampedPose& pose : out) {
+      pose.world_from_body = kElsewhere.inverse() * pose.world_from_body;
+    }
+    return out;
   }
 
   void expect_valid_curve(const Problem& problem) const {
@@ -168,16 +158,10 @@ TEST_P(Conformance, SamplesDoNotDependOnOrderOrOnOtherTimes) {
 }
 
 TEST_P(Conformance, IsIndependentOfTheWorldFrame) {
-  const Pose elsewhere{exp_so3({0.4, -1.1, 2.0}), {30.0, -20.0, 10.0}};
   for (const auto& [name, problem] : ordinary_problems()) {
     SCOPED_TRACE(name);
-    const Trajectory original = sampled(problem);
-    Trajectory moved = sampled(moved_by(elsewhere, problem));
-    for (StampedPose& pose : moved) {
-      pose.world_from_body = elsewhere.inverse() * pose.world_from_body;
-    }
-    const double size = size_of(problem) + elsewhere.translation.norm();
-    expect_close(original, moved, 1e-9 * size, 1e-9);
+    const double size = size_of(problem) + kElsewhere.translation.norm();
+    expect_close(sampled(problem), sampled_elsewhere(problem), 1e-9 * size, 1e-9);
   }
 }
 
@@ -206,7 +190,6 @@ TEST_P(Conformance, DeclinesOrSolvesAwkwardProblems) {
 
 TEST_P(Conformance, UsesAnchorsOrDeclinesThem) {
   const Vector3 error(0.2, -0.1, 0.0);
-  const Pose elsewhere{exp_so3({0.4, -1.1, 2.0}), {30.0, -20.0, 10.0}};
   for (const auto& [name, base] : ordinary_problems()) {
     SCOPED_TRACE(name);
     const Problem problem = with_anchors(base, error);
@@ -221,11 +204,7 @@ TEST_P(Conformance, UsesAnchorsOrDeclinesThem) {
         method_->estimate(problem, report)->sample(stamps(problem.keyframes));
     EXPECT_LT(anchor_chi2(problem.anchors, keyframes),
               0.5 * anchor_chi2(problem.anchors, problem.keyframes));
-    Trajectory moved = sampled(moved_by(elsewhere, problem));
-    for (StampedPose& pose : moved) {
-      pose.world_from_body = elsewhere.inverse() * pose.world_from_body;
-    }
-    expect_close(sampled(problem), moved, 1e-8 * size_of(problem), 1e-8);
+    expect_close(sampled(problem), sampled_elsewhere(problem), 1e-8 * size_of(problem), 1e-8);
   }
 }
 

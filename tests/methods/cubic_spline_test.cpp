@@ -64,22 +64,13 @@ class Textbook {
   Eigen::VectorXd M_;
 };
 
-std::vector<double> evenly_spaced(double begin, double end, int count) {
-  std::vector<double> out;
-  for (int k = 0; k < count; ++k) out.push_back(begin + (end - begin) * k / count);
-  out.push_back(end);
-  return out;
-}
-
 TEST(CubicSpline, PassesThroughTheKeyframes) {
   for (const std::size_t n : {1u, 2u, 3u, 4u, 5u, 200u}) {
     const Trajectory keyframes = wandering(n);
     const auto curve = smooth<CubicSpline>(keyframes);
     EXPECT_EQ(curve->start(), keyframes.front().stamp);
     EXPECT_EQ(curve->end(), keyframes.back().stamp);
-    for (const auto& [stamp, pose] : keyframes) {
-      EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-12, 1e-12)) << n << " at " << stamp;
-    }
+    expect_close(curve->sample(stamps(keyframes)), keyframes, 1e-12);
   }
 }
 
@@ -93,7 +84,7 @@ TEST(CubicSpline, EqualsTheTextbookNaturalSpline) {
         values.push_back(pose.world_from_body.translation(axis));
       }
       const Textbook textbook(stamps(keyframes), values);
-      for (const double time : evenly_spaced(curve->start(), curve->end(), 173)) {
+      for (const double time : query_times(keyframes, 49)) {
         EXPECT_NEAR(curve->at(time).translation(axis), textbook.at(time), 1e-11);
       }
     }
@@ -110,7 +101,7 @@ TEST(CubicSpline, RotationAboutOneAxisIsTheNaturalSplineOfTheAngle) {
   }
   const auto curve = smooth<CubicSpline>(keyframes);
   const Textbook textbook(times, angles);
-  for (const double time : evenly_spaced(0.0, 3.0, 97)) {
+  for (const double time : query_times(keyframes, 19)) {
     EXPECT_LT((log_so3(curve->at(time).rotation) - textbook.at(time) * axis).norm(), 1e-12);
   }
 }
@@ -122,67 +113,43 @@ TEST(CubicSpline, ReproducesUniformMotion) {
                 start.translation + time * Vector3(0.4, 0.3, -0.1)};
   };
   for (const std::size_t n : {2u, 3u, 4u, 12u}) {
-    Trajectory keyframes;
-    double time = 0.0;
-    for (std::size_t i = 0; i < n; ++i, time += i % 2 == 0 ? 0.9 : 0.2) {
-      keyframes.push_back({time, truth(time)});
-    }
+    const Trajectory keyframes = sampled_at(uneven(n), truth);
     const auto curve = smooth<CubicSpline>(keyframes);
-    for (const double at : evenly_spaced(curve->start(), curve->end(), 50)) {
-      EXPECT_TRUE(is_close(curve->at(at), truth(at), 1e-12, 1e-12)) << n << " at " << at;
-    }
+    expect_follows(*curve, keyframes, truth, 1e-12);
   }
 }
 
 /// One-sided finite differences of position and rotation; the sign of h selects the side.
-Vector3 acceleration(const Curve& curve, double time, double h) {
-  const auto position = [&](int k) { return curve.at(time + k * h).translation; };
-  return (2.0 * position(0) - 5.0 * position(1) + 4.0 * position(2) - position(3)) / (h * h);
-}
-Vector3 angular_acceleration(const Curve& curve, double time, double h) {
-  const Rotation current = curve.at(time).rotation;
-  const auto rotation_vector = [&](int k) {
-    return log_so3(current.conjugate() * curve.at(time + k * h).rotation);
-  };
-  return (-5.0 * rotation_vector(1) + 4.0 * rotation_vector(2) - rotation_vector(3)) / (h * h);
-}
-Vector3 velocity(const Curve& curve, double time, double h) {
-  const auto position = [&](int k) { return curve.at(time + k * h).translation; };
-  return (-3.0 * position(0) + 4.0 * position(1) - position(2)) / (2.0 * h);
-}
-Vector3 angular_velocity(const Curve& curve, double time, double h) {
-  const Rotation current = curve.at(time).rotation;
-  const auto rotation_vector = [&](int k) {
-    return log_so3(current.conjugate() * curve.at(time + k * h).rotation);
-  };
-  return (4.0 * rotation_vector(1) - rotation_vector(2)) / (2.0 * h);
-}
+struct Motion {
+  Twist first, second;
 
-TEST(CubicSpline, HasNoKinkInSpeedOrAccelerationAtTheKeyframes) {
+  Motion(const Curve& curve, double time, double h) {
+    const Rotation current = curve.at(time).rotation;
+    const auto at = [&](int k) {
+      const Pose pose = curve.at(time + k * h);
+      return twist(pose.translation, log_so3(current.conjugate() * pose.rotation));
+    };
+    first = (-3.0 * at(0) + 4.0 * at(1) - at(2)) / (2.0 * h);
+    second = (2.0 * at(0) - 5.0 * at(1) + 4.0 * at(2) - at(3)) / (h * h);
+  }
+};
+
+TEST(CubicSpline, HasNoKinkInSpeedOrAccelerationAndNoAccelerationAtItsEnds) {
   Trajectory keyframes = wandering(14);
   for (StampedPose& pose : keyframes) pose.stamp -= 1000.0;  // reduces rounding in the differences
   const auto curve = smooth<CubicSpline>(keyframes);
   const double h = 1e-4;
   for (std::size_t i = 1; i + 1 < keyframes.size(); ++i) {
-    const double time = keyframes[i].stamp;
+    const Motion after(*curve, keyframes[i].stamp, h), before(*curve, keyframes[i].stamp, -h);
     // The error of a one-sided stencil is h^2 times a higher derivative on its own side.
-    EXPECT_LT((velocity(*curve, time, h) - velocity(*curve, time, -h)).norm(), 1e-5);
-    EXPECT_LT((acceleration(*curve, time, h) - acceleration(*curve, time, -h)).norm(), 1e-3);
-    EXPECT_LT((angular_velocity(*curve, time, h) - angular_velocity(*curve, time, -h)).norm(),
-              1e-5);
-    EXPECT_LT(
-        (angular_acceleration(*curve, time, h) - angular_acceleration(*curve, time, -h)).norm(),
-        5e-3);
+    EXPECT_LT((after.first - before.first).head<3>().norm(), 1e-5);
+    EXPECT_LT((after.second - before.second).head<3>().norm(), 1e-3);
+    EXPECT_LT((after.first - before.first).tail<3>().norm(), 1e-5);
+    EXPECT_LT((after.second - before.second).tail<3>().norm(), 5e-3);
   }
-}
-
-TEST(CubicSpline, HasNoAccelerationAtItsEnds) {
-  Trajectory keyframes = wandering(9);
-  for (StampedPose& pose : keyframes) pose.stamp -= 1000.0;
-  const auto curve = smooth<CubicSpline>(keyframes);
-  for (const auto& [time, h] : {std::pair{curve->start(), 1e-4}, {curve->end(), -1e-4}}) {
-    EXPECT_LT(acceleration(*curve, time, h).norm(), 1e-3);
-    EXPECT_LT(angular_acceleration(*curve, time, h).norm(), 5e-3);
+  for (const Motion& end : {Motion(*curve, curve->start(), h), Motion(*curve, curve->end(), -h)}) {
+    EXPECT_LT(end.second.head<3>().norm(), 1e-3);
+    EXPECT_LT(end.second.tail<3>().norm(), 5e-3);
   }
 }
 

@@ -21,8 +21,7 @@ using namespace test;
 
 /// Two sequences of a hand-held camera, `gap` seconds apart.
 Problem with_gap(double gap) {
-  Problem out;
-  out.keyframes = hand_held_truth(40);
+  Problem out{.keyframes = hand_held_truth(40)};
   const double begin = out.keyframes.back().stamp + gap;
   for (const StampedPose& pose : hand_held_truth(40)) {
     out.keyframes.push_back(pose);
@@ -50,9 +49,7 @@ std::pair<double, double> chord_deviation(const Curve& curve,
 }
 
 void expect_near_keyframes(const Curve& curve, const Trajectory& keyframes, double tolerance) {
-  for (const StampedPose& pose : keyframes) {
-    EXPECT_TRUE(is_close(curve.at(pose.stamp), pose.world_from_body, tolerance, tolerance));
-  }
+  expect_close(curve.sample(stamps(keyframes)), keyframes, tolerance);
 }
 
 TEST(PoseRuns, AreSplitAtTheGivenIntervals) {
@@ -64,8 +61,7 @@ TEST(PoseRuns, AreSplitAtTheGivenIntervals) {
 
 // A spline through two poses 1 us and 1 cm apart would move at 10 km/s there.
 TEST(ShortInterval, IsBridgedByAChordInsteadOfOvershooting) {
-  Problem problem;
-  problem.keyframes = hand_held_truth(40);
+  Problem problem{.keyframes = hand_held_truth(40)};
   StampedPose copy = problem.keyframes[20];
   copy.stamp += 1e-6;
   copy.world_from_body.translation.x() += 0.01;
@@ -111,8 +107,7 @@ TEST(GaussianProcess, IntervalsBelowTheLimitAreSmoothed) {
 }
 
 TEST(GaussianProcess, AcceptsAPairOneMicrosecondApart) {
-  Problem problem;
-  problem.keyframes = hand_held_truth(60);
+  Problem problem{.keyframes = hand_held_truth(60)};
   problem.keyframes.insert(problem.keyframes.begin() + 31, problem.keyframes[30]);
   problem.keyframes[31].stamp += 1e-6;
   Report report;
@@ -123,8 +118,7 @@ TEST(GaussianProcess, AcceptsAPairOneMicrosecondApart) {
 
 /// Keyframes 30 and later are rotated by another 150 degrees.
 Problem with_large_step() {
-  Problem problem;
-  problem.keyframes = hand_held_truth(60);
+  Problem problem{.keyframes = hand_held_truth(60)};
   const Rotation step = exp_so3(Vector3(0.0, 0.0, 150.0 / 180.0 * std::numbers::pi));
   for (std::size_t i = 30; i < 60; ++i) {
     Rotation& rotation = problem.keyframes[i].world_from_body.rotation;
@@ -135,8 +129,7 @@ Problem with_large_step() {
 
 void expect_one_great_arc(const Smoother& smoother) {
   const Problem problem = with_large_step();
-  Problem plain;
-  plain.keyframes = hand_held_truth(60);
+  const Problem plain{.keyframes = hand_held_truth(60)};
   Report report, other;
   const auto curve = smoother.smooth(problem, report);
   const auto smooth = smoother.smooth(plain, other);

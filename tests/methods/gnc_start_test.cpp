@@ -3,7 +3,6 @@
 
 #include <cstdlib>
 
-#include "datasets/derive/poses_at.hpp"
 #include "datasets/pose_graph_dataset.hpp"
 #include "methods/correctors/plausibility.hpp"
 #include "methods/find_method.hpp"
@@ -34,12 +33,8 @@ Corrected corrected(const std::string& name, const Problem& problem) {
 Sequence drive(double false_share) { return test::simulated_drive({.false_share = false_share}); }
 
 double rmse(const Trajectory& keyframes, const Sequence& sequence) {
-  const auto truth = poses_at(sequence.reference, stamps(keyframes), {});
-  double sum = 0.0;  // not aligned: the first keyframe is fixed at its true position
-  for (std::size_t i = 0; i < keyframes.size(); ++i) {
-    sum += (keyframes[i].world_from_body.translation - truth[i]->translation).squaredNorm();
-  }
-  return std::sqrt(sum / static_cast<double>(keyframes.size()));
+  // Not aligned: the first keyframe is fixed at its true position.
+  return test::rmse(keyframes, test::at_stamps_of(keyframes, sequence.reference));
 }
 
 TEST(GncStart, KeepsTrueClosuresWhenKeyframesLieInAnotherMinimum) {

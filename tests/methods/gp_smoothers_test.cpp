@@ -25,9 +25,7 @@ TEST(GaussianProcess, ReproducesAConstantTwistExactly) {
   };
   const Trajectory keyframes = sampled_at(uneven(15), truth);
   const auto curve = smooth<GaussianProcess>(keyframes);
-  for (double time = 0.0; time < keyframes.back().stamp; time += 0.07) {
-    EXPECT_TRUE(is_close(curve->at(time), truth(time), 1e-9, 1e-9)) << time;
-  }
+  expect_follows(*curve, keyframes, truth, 1e-9);
 }
 
 /// A wave without rotation and with position noise `sigma` [m].
@@ -93,44 +91,28 @@ TEST(GaussianProcess, EvidenceAgreesWithTheDenseComputationForTwelvePoses) {
   }
 }
 
-/// The path with white noise of 2 cm and 0.01 rad.
-Trajectory noisy_path(std::uint64_t seed, const Trajectory& truth) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal(0.0, 1.0);
-  const auto random_vector = [&] {
-    return Vector3(normal(random), normal(random), normal(random));
-  };
-  Trajectory out = truth;
-  for (auto& [stamp, pose] : out) {
-    pose.translation += 0.02 * random_vector();
-    pose.rotation = (pose.rotation * exp_so3(0.01 * random_vector())).normalized();
-  }
-  return out;
-}
-
 TEST(GaussianProcess, EstimatesTheNoiseAndRemovesAThirdOfIt) {
   const Trajectory truth = hand_held_truth(120);
-  const Trajectory keyframes = noisy_path(1, truth);
+  const Trajectory keyframes = with_white_noise(truth, 0.02, 1, 0.5);
   Report report;
   const auto curve = smooth<GaussianProcess>(keyframes, {}, &report);
   EXPECT_NEAR(count(report, "sigma_t"), 0.02, 0.006);
   EXPECT_NEAR(count(report, "sigma_r"), 0.01, 0.003);
-  double before = 0.0, after = 0.0, rotation_before = 0.0, rotation_after = 0.0;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    const Pose& expected = truth[i].world_from_body;
-    const Pose estimated = curve->at(truth[i].stamp);
-    before += (keyframes[i].world_from_body.translation - expected.translation).squaredNorm();
-    after += (estimated.translation - expected.translation).squaredNorm();
-    rotation_before +=
-        std::pow(angle_between(keyframes[i].world_from_body.rotation, expected.rotation), 2);
-    rotation_after += std::pow(angle_between(estimated.rotation, expected.rotation), 2);
-  }
-  EXPECT_LT(std::sqrt(after), 0.67 * std::sqrt(before));
-  EXPECT_LT(std::sqrt(rotation_after), 0.67 * std::sqrt(rotation_before));
+  const Trajectory smoothed = curve->sample(stamps(truth));
+  EXPECT_LT(rmse(smoothed, truth), 0.67 * rmse(keyframes, truth));
+  const auto rotation_error = [&](const Trajectory& poses) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const Rotation& expected = truth[i].world_from_body.rotation;
+      sum += std::pow(angle_between(poses[i].world_from_body.rotation, expected), 2);
+    }
+    return std::sqrt(sum);
+  };
+  EXPECT_LT(rotation_error(smoothed), 0.67 * rotation_error(keyframes));
 }
 
 TEST(GaussianProcess, HasNoKink) {
-  const Trajectory keyframes = noisy_path(2, hand_held_truth(20));
+  const Trajectory keyframes = with_white_noise(hand_held_truth(20), 0.02, 2, 0.5);
   const auto curve = smooth<GaussianProcess>(keyframes);
   expect_no_kink(*curve, keyframes);
 }

@@ -22,6 +22,7 @@ using namespace methods;
 namespace {
 
 using test::at_x;
+using test::expect_positions;
 
 /// Keyframes at 0, 1, 2, 3, 4 m, a second apart; a closure measures 2 m between the first and the
 /// fourth.
@@ -36,13 +37,6 @@ std::vector<double> positions(const Trajectory& poses) {
   std::vector<double> out;
   for (const StampedPose& pose : poses) out.push_back(pose.world_from_body.translation.x());
   return out;
-}
-
-void expect_positions(const Trajectory& poses, const std::vector<double>& expected) {
-  ASSERT_EQ(poses.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_NEAR(positions(poses)[i], expected[i], 1e-12) << i;
-  }
 }
 
 struct Replayed {

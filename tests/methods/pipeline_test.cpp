@@ -5,6 +5,7 @@
 #include "methods/correctors/uniform.hpp"
 #include "methods/function_method.hpp"
 #include "methods/smoothers/interpolating_splines.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::pipeline_test {
@@ -20,10 +21,7 @@ TEST(WithKeyframes, FramesFollowARigidMotion) {
   const Pose motion{exp_so3({0.5, 0.2, -0.9}), {3.0, 2.0, 1.0}};
   const Problem moved = moved_by(motion, before);
   const Problem after = with_keyframes(before, moved.keyframes);
-  for (std::size_t i = 0; i < before.frames.size(); ++i) {
-    EXPECT_TRUE(
-        is_close(after.frames[i].world_from_body, moved.frames[i].world_from_body, 1e-12, 1e-12));
-  }
+  expect_close(after.frames, moved.frames, 1e-12);
 }
 
 TEST(WithKeyframes, FramesInterpolateTheirNeighboursByTime) {
@@ -68,14 +66,12 @@ TEST(Compose, RejectsACorrectorThatDropsAKeyframeOrChangesAStamp) {
 
 TEST(Compose, SmoothsTheCorrectedKeyframes) {
   const Problem problem = hand_held();
-  const Uniform uniform({});
   const auto both = compose(std::make_unique<Uniform>(Uniform::Options{}),
                             std::make_unique<CubicSpline>(CubicSpline::Options{}));
-  Report report, ignored;
+  Report report;
   const auto curve = both->estimate(problem, report);
-  for (const auto& [stamp, pose] : uniform.correct(problem, ignored)) {
-    EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-10, 1e-10));
-  }
+  const Trajectory expected = corrected<Uniform>(problem);
+  expect_close(curve->sample(stamps(expected)), expected, 1e-10);
   ASSERT_EQ(report.phases.size(), 2u);
   EXPECT_EQ(report.phases[0].name, "correct");
   EXPECT_EQ(report.phases[1].name, "smooth");

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "datasets/simulated/simulated.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "tests/support/corrected.hpp"
+#include "tests/support/simulated_drive.hpp"
 
 namespace loopbench::plausibility_test {
 
@@ -17,12 +17,8 @@ namespace {
 using test::count;
 
 Problem simulated(SimulatedPath path, bool planar, std::int64_t seed) {
-  SimulatedOptions options;
-  options.path = path;
-  options.planar = planar;
-  options.seed = seed;
-  options.closures.max = 10;
-  return load_simulated(options).problem;
+  return test::simulated_drive({.path = path, .closures = 10, .seed = seed, .planar = planar})
+      .problem;
 }
 
 /// The problem with all covariances multiplied by `factor`.
@@ -33,6 +29,13 @@ Problem with_covariances(Problem problem, double factor) {
   return problem;
 }
 
+template <class Method>
+Report reported(const Problem& problem) {
+  Report out;
+  Method({}).correct(problem, out);
+  return out;
+}
+
 TEST(Plausibility, SimulatedDatasetsStateTheirTrueNoise) {
   for (const auto& [path, planar] : {std::pair{SimulatedPath::driving, true},
                                      std::pair{SimulatedPath::driving, false},
@@ -40,8 +43,7 @@ TEST(Plausibility, SimulatedDatasetsStateTheirTrueNoise) {
     double mean = 0.0;
     constexpr int kSeeds = 8;
     for (int seed = 1; seed <= kSeeds; ++seed) {
-      Report report;
-      Dual({}).correct(simulated(path, planar, seed), report);
+      const Report report = reported<Dual>(simulated(path, planar, seed));
       mean += count(report, "chi2_per_dof") / kSeeds;
       EXPECT_TRUE(report.notes.empty()) << report.notes.front();
     }
@@ -52,10 +54,9 @@ TEST(Plausibility, SimulatedDatasetsStateTheirTrueNoise) {
 TEST(Plausibility, DualAndPoseGraphReportTheSameChi2) {
   for (const bool planar : {true, false}) {
     const Problem problem = simulated(SimulatedPath::driving, planar, 3);
-    Report dual, graph;
-    Dual({}).correct(problem, dual);
-    PoseGraphOptimizer({}).correct(problem, graph);
-    EXPECT_NEAR(count(dual, "chi2_per_dof"), count(graph, "chi2_per_dof"), 1e-6);
+    EXPECT_NEAR(count(reported<Dual>(problem), "chi2_per_dof"),
+                count(reported<PoseGraphOptimizer>(problem), "chi2_per_dof"),
+                1e-6);
   }
 }
 
@@ -63,10 +64,7 @@ TEST(Plausibility, ImplausibleCovariancesAreReported) {
   const Problem problem = simulated(SimulatedPath::room, false, 2);
   for (const double factor : {1e-2, 1e2}) {
     const Problem wrong = with_covariances(problem, factor);
-    Report dual, graph;
-    Dual({}).correct(wrong, dual);
-    PoseGraphOptimizer({}).correct(wrong, graph);
-    for (const Report& report : {dual, graph}) {
+    for (const Report& report : {reported<Dual>(wrong), reported<PoseGraphOptimizer>(wrong)}) {
       ASSERT_EQ(report.notes.size(), 1u) << factor;
       EXPECT_NE(report.notes[0].find(factor < 1.0 ? "too small" : "too large"), std::string::npos)
           << report.notes[0];

@@ -36,10 +36,16 @@ Eigen::MatrixXd hat_matrix(const std::vector<double>& t, double lambda) {
   return (I + lambda * Q * R.inverse() * Q.transpose()).inverse();
 }
 
+/// One point a row.
+Eigen::MatrixXd rows(const std::vector<Vector3>& points) {
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) out.row(static_cast<Eigen::Index>(i)) = points[i];
+  return out;
+}
+
 TEST(Reinsch, AgreesWithTheDenseComputationForTwelvePoints) {
   const std::vector<Vector3> y = wavy(kTwelve);
-  Eigen::MatrixXd Y(12, 3);
-  for (int i = 0; i < 12; ++i) Y.row(i) = y[static_cast<std::size_t>(i)];
+  const Eigen::MatrixXd Y = rows(y);
   const Reinsch reinsch(kTwelve);
   double offset = std::nan("");
   for (const double lambda : {1e-4, 1e-2, 1.0, 100.0}) {
@@ -47,9 +53,7 @@ TEST(Reinsch, AgreesWithTheDenseComputationForTwelvePoints) {
     const Eigen::MatrixXd A = hat_matrix(kTwelve, lambda);
     const Eigen::MatrixXd I_A = Eigen::MatrixXd::Identity(12, 12) - A;
     const Eigen::MatrixXd X = A * Y;
-    for (int i = 0; i < 12; ++i) {
-      EXPECT_LT((X.row(i).transpose() - fit.values[static_cast<std::size_t>(i)]).norm(), 1e-9);
-    }
+    EXPECT_LT((X - rows(fit.values)).rowwise().norm().maxCoeff(), 1e-9);
     EXPECT_NEAR(fit.free, I_A.trace(), 1e-8);
     const double residual = (I_A * Y).squaredNorm();
     EXPECT_NEAR(fit.residual.sum(), residual, 1e-9 * residual + 1e-12);
@@ -71,19 +75,14 @@ TEST(Reinsch, GoesFromInterpolationToTheStraightLine) {
   const std::vector<Vector3> y = wavy(kTwelve);
   const Reinsch reinsch(kTwelve);
   const Reinsch::Fit rough = reinsch.fit(y, 1e-12);
-  for (std::size_t i = 0; i < 12; ++i) EXPECT_LT((rough.values[i] - y[i]).norm(), 1e-8);
+  EXPECT_LT((rows(rough.values) - rows(y)).rowwise().norm().maxCoeff(), 1e-8);
   EXPECT_NEAR(12.0 - rough.free, 12.0, 1e-6);
 
   const Reinsch::Fit stiff = reinsch.fit(y, 1e10);
-  Eigen::MatrixXd T(12, 2), Y(12, 3);
-  for (int i = 0; i < 12; ++i) {
-    T.row(i) << 1.0, kTwelve[static_cast<std::size_t>(i)];
-    Y.row(i) = y[static_cast<std::size_t>(i)];
-  }
-  const Eigen::MatrixXd line = T * (T.transpose() * T).inverse() * T.transpose() * Y;
-  for (int i = 0; i < 12; ++i) {
-    EXPECT_LT((line.row(i).transpose() - stiff.values[static_cast<std::size_t>(i)]).norm(), 1e-6);
-  }
+  Eigen::MatrixXd T(12, 2);
+  for (int i = 0; i < 12; ++i) T.row(i) << 1.0, kTwelve[static_cast<std::size_t>(i)];
+  const Eigen::MatrixXd line = T * (T.transpose() * T).inverse() * T.transpose() * rows(y);
+  EXPECT_LT((line - rows(stiff.values)).rowwise().norm().maxCoeff(), 1e-6);
   EXPECT_NEAR(12.0 - stiff.free, 2.0, 1e-6);
 }
 
@@ -122,9 +121,7 @@ TEST(SmoothingSpline, ReproducesUniformMotionForAnyPenalty) {
   const Trajectory keyframes = sampled_at(kTwelve, truth);
   for (const Params& params : {Params{}, Params{{"lambda_t", 1e3}, {"lambda_r", 1e3}}}) {
     const auto curve = smooth<SmoothingSpline>(keyframes, params);
-    for (double time = 0.0; time <= 4.4; time += 0.05) {
-      EXPECT_TRUE(is_close(curve->at(time), truth(time), 1e-9, 1e-9)) << time;
-    }
+    expect_follows(*curve, keyframes, truth, 1e-9);
   }
 }
 
@@ -137,9 +134,7 @@ TEST(SmoothingSpline, WithASmallPenaltyIsTheNaturalCubicSpline) {
     // Two different curves on SO(3) through the same rotations.
     EXPECT_LT(angle_between(curve->at(time).rotation, cubic->at(time).rotation), 5e-3);
   }
-  for (const auto& [stamp, pose] : keyframes) {
-    EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-8, 1e-8));
-  }
+  expect_close(curve->sample(stamps(keyframes)), keyframes, 1e-8);
 }
 
 TEST(SmoothingSpline, WithALargePenaltyAngularVelocityIsConstant) {

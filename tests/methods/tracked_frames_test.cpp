@@ -4,6 +4,7 @@
 
 #include "methods/correctors/uniform.hpp"
 #include "methods/pipeline.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::tracked_frames_test {
@@ -23,9 +24,7 @@ TEST(TrackedFrames, AreInterpolatedBetweenKeyframes) {
   Report report;
   const auto curve = tracked()->estimate(problem, report);
   for (const Trajectory* part : {&problem.keyframes, &problem.frames}) {
-    for (const auto& [stamp, pose] : *part) {
-      EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-12, 1e-12)) << stamp;
-    }
+    expect_close(curve->sample(stamps(*part)), *part, 1e-12);
   }
   ASSERT_FALSE(report.counts.empty());
   EXPECT_EQ(report.counts.front().name, "frames");
@@ -34,24 +33,16 @@ TEST(TrackedFrames, AreInterpolatedBetweenKeyframes) {
 
 TEST(TrackedFrames, StayAttachedToCorrectedKeyframes) {
   const Problem problem = hand_held();
-  const Uniform uniform{Uniform::Options{}};
+  const Trajectory keyframes = corrected<Uniform>(problem);
+  const Problem moved_problem = with_keyframes(problem, keyframes);
   Report report;
-  const Trajectory corrected = uniform.correct(problem, report);
-  const Problem moved_problem = with_keyframes(problem, corrected);
   const auto curve =
       tracked(std::make_unique<Uniform>(Uniform::Options{}))->estimate(problem, report);
-  for (const auto& [stamp, pose] : corrected) {
-    EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-12, 1e-12)) << stamp;
+  for (const Trajectory& part : {keyframes, moved_problem.frames}) {
+    expect_close(curve->sample(stamps(part)), part, 1e-12);
   }
   ASSERT_EQ(moved_problem.frames.size(), problem.frames.size());
-  double moved = 0.0;
-  for (std::size_t i = 0; i < moved_problem.frames.size(); ++i) {
-    const auto& [stamp, pose] = moved_problem.frames[i];
-    EXPECT_TRUE(is_close(curve->at(stamp), pose, 1e-12, 1e-12)) << stamp;
-    moved =
-        std::max(moved, (pose.translation - problem.frames[i].world_from_body.translation).norm());
-  }
-  EXPECT_GT(moved, 0.01);
+  EXPECT_GT(largest_distance(moved_problem.frames, problem.frames), 0.01);
 }
 
 }  // namespace

@@ -82,11 +82,55 @@ inline Trajectory at_stamps_of(const Trajectory& keyframes, const Trajectory& re
   return out;
 }
 
-/// Expects equal poses up to the tolerance, in [m] and [rad].
-inline void expect_close(const Trajectory& a, const Trajectory& b, double tolerance) {
+inline void expect_close(const Trajectory& a, const Trajectory& b, double metres, double radians) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_TRUE(is_close(a[i].world_from_body, b[i].world_from_body, tolerance, tolerance)) << i;
+    const Pose& p = a[i].world_from_body;
+    const Pose& q = b[i].world_from_body;
+    EXPECT_TRUE(is_close(p, q, metres, radians))
+        << "pose " << i << " at " << a[i].stamp << " s: " << (p.translation - q.translation).norm()
+        << " m, " << angle_between(p.rotation, q.rotation) << " rad";
+  }
+}
+
+/// Expects equal poses up to the tolerance, in [m] and [rad].
+inline void expect_close(const Trajectory& a, const Trajectory& b, double tolerance) {
+  expect_close(a, b, tolerance, tolerance);
+}
+
+/// Expects positions on the x axis [m].
+inline void expect_positions(const Trajectory& poses,
+                             const std::vector<double>& x,
+                             double tolerance = 1e-12) {
+  ASSERT_EQ(poses.size(), x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_NEAR(poses[i].world_from_body.translation.x(), x[i], tolerance) << i;
+    EXPECT_NEAR(poses[i].world_from_body.translation.tail<2>().norm(), 0.0, tolerance) << i;
+  }
+}
+
+/// Error of the loop on the trajectory, [m] + [rad].
+inline double closing_error(const Edge& loop, const Trajectory& poses) {
+  const Pose target = poses[loop.from].world_from_body * loop.from_from_to;
+  const Pose& end = poses[loop.to].world_from_body;
+  return (target.translation - end.translation).norm() +
+         angle_between(target.rotation, end.rotation);
+}
+
+/// Expects that the cost rises in all directions from the poses, with zero slope; the first pose is
+/// fixed.
+inline void expect_minimum(const Problem& problem, const std::vector<Pose>& poses) {
+  const double minimum = chain_cost(problem, poses);
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    for (int d = 0; d < 6; ++d) {
+      const auto cost = [&](double step) {
+        std::vector<Pose> moved = poses;
+        moved[i] = poses[i] * exp_se3(step * Twist::Unit(d));
+        return chain_cost(problem, moved);
+      };
+      EXPECT_NEAR((cost(1e-5) - cost(-1e-5)) / 2e-5, 0.0, 1e-4) << i << " " << d;
+      EXPECT_GT(cost(1e-5), minimum) << i << " " << d;
+    }
   }
 }
 

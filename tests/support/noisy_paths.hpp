@@ -6,6 +6,7 @@
 #include <random>
 
 #include "methods/method.hpp"
+#include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::test {
@@ -14,25 +15,6 @@ using namespace methods;
 
 inline const std::vector<double> kTwelve{
     0.0, 0.3, 0.5, 1.1, 1.3, 2.0, 2.2, 2.9, 3.1, 3.5, 4.2, 4.4};
-
-/// Stamps 0.1 to 0.7 s apart.
-inline std::vector<double> uneven(std::size_t n, double begin = 0.0) {
-  std::vector<double> out;
-  double time = begin;
-  for (std::size_t i = 0; i < n; ++i) {
-    out.push_back(time);
-    time += 0.1 + 0.6 * std::pow(std::sin(1.7 * static_cast<double>(i)), 2);
-  }
-  return out;
-}
-
-/// The poses of the path `truth` at the stamps.
-template <class Truth>
-Trajectory sampled_at(const std::vector<double>& stamps, Truth truth) {
-  Trajectory out;
-  for (const double stamp : stamps) out.push_back({stamp, truth(stamp)});
-  return out;
-}
 
 inline std::vector<Vector3> wavy(const std::vector<double>& stamps) {
   std::vector<Vector3> out;
@@ -44,24 +26,34 @@ inline std::vector<Vector3> wavy(const std::vector<double>& stamps) {
   return out;
 }
 
-/// White noise with standard deviation sigma on positions [m] and sigma / 10 on rotations [rad].
-inline Trajectory with_white_noise(Trajectory keyframes, double sigma, std::uint64_t seed) {
+/// White noise with standard deviation sigma on positions [m], and on rotations `ratio` times as
+/// many [rad].
+inline Trajectory with_white_noise(Trajectory keyframes,
+                                   double sigma,
+                                   std::uint64_t seed,
+                                   double ratio = 0.1) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal(0.0, sigma);
   const auto any = [&] { return Vector3(normal(random), normal(random), normal(random)); };
   for (auto& [stamp, pose] : keyframes) {
     pose.translation += any();
-    pose.rotation = (pose.rotation * exp_so3(0.1 * any())).normalized();
+    pose.rotation = (pose.rotation * exp_so3(ratio * any())).normalized();
   }
   return keyframes;
 }
 
 inline double rms_error(const Curve& curve, const Trajectory& truth) {
-  double sum = 0.0;
-  for (const auto& [stamp, pose] : truth) {
-    sum += (curve.at(stamp).translation - pose.translation).squaredNorm();
-  }
-  return std::sqrt(sum / static_cast<double>(truth.size()));
+  return rmse(curve.sample(stamps(truth)), truth);
+}
+
+/// Expects the poses of the path `truth` ten times per interval.
+template <class Truth>
+void expect_follows(const Curve& curve,
+                    const Trajectory& keyframes,
+                    Truth truth,
+                    double tolerance) {
+  const std::vector<double> times = query_times(keyframes, 9);
+  expect_close(curve.sample(times), sampled_at(times, truth), tolerance);
 }
 
 template <class T>
@@ -69,8 +61,7 @@ std::unique_ptr<const Curve> smooth(const Trajectory& keyframes,
                                     const Params& params = {},
                                     Report* report = nullptr) {
   Report own;
-  Problem problem;
-  problem.keyframes = keyframes;
+  const Problem problem{.keyframes = keyframes};
   const T smoother(with(typename T::Options{}, params));
   EXPECT_EQ(smoother.why_declined(problem), "");
   auto curve = smoother.smooth(problem, report ? *report : own);

@@ -67,6 +67,17 @@ inline void add_frames(Problem& problem, int count) {
   }
 }
 
+/// Times of all keyframes, and `between` evenly spaced times in every interval.
+inline std::vector<double> query_times(const Trajectory& keyframes, int between = 3) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i + 1 < keyframes.size(); ++i) {
+    const double step = (keyframes[i + 1].stamp - keyframes[i].stamp) / (between + 1);
+    for (int k = 0; k <= between; ++k) out.push_back(keyframes[i].stamp + k * step);
+  }
+  if (!keyframes.empty()) out.push_back(keyframes.back().stamp);
+  return out;
+}
+
 inline Pose at_x(double x) { return {Rotation::Identity(), {x, 0.0, 0.0}}; }
 
 /// Keyframes at the given positions along x [m], a second apart by default, and the exact odometry
@@ -99,18 +110,32 @@ inline Problem circle(std::size_t n = 41, double bias = 0.01) {
       truth, twist({0.0, 0.0, 0.002}, {0.0, 0.0, bias}), n > 1 ? Pairs{{0, n - 1}} : Pairs{});
 }
 
-/// A hand-held loop through a room with motion in all six dimensions, keyframes 0.1 to 0.7 s apart.
-inline Trajectory hand_held_truth(std::size_t n = 60) {
-  Trajectory out;
-  double time = 100.0;
+/// Stamps 0.1 to 0.7 s apart.
+inline std::vector<double> uneven(std::size_t n, double begin = 0.0) {
+  std::vector<double> out;
+  double time = begin;
   for (std::size_t i = 0; i < n; ++i) {
-    const double s = 0.11 * (time - 100.0);
-    out.push_back({time,
-                   {exp_so3({0.3 * std::sin(3.0 * s), 0.2 * std::cos(2.0 * s), 2.0 * s}),
-                    {2.0 * std::cos(2.0 * s), 1.5 * std::sin(2.0 * s), 0.4 * std::sin(5.0 * s)}}});
+    out.push_back(time);
     time += 0.1 + 0.6 * std::pow(std::sin(1.7 * static_cast<double>(i)), 2);
   }
   return out;
+}
+
+/// The poses of the path `truth` at the stamps.
+template <class Truth>
+Trajectory sampled_at(const std::vector<double>& stamps, Truth truth) {
+  Trajectory out;
+  for (const double stamp : stamps) out.push_back({stamp, truth(stamp)});
+  return out;
+}
+
+/// A hand-held loop through a room with motion in all six dimensions, keyframes 0.1 to 0.7 s apart.
+inline Trajectory hand_held_truth(std::size_t n = 60) {
+  return sampled_at(uneven(n, 100.0), [](double time) {
+    const double s = 0.11 * (time - 100.0);
+    return Pose{exp_so3({0.3 * std::sin(3.0 * s), 0.2 * std::cos(2.0 * s), 2.0 * s}),
+                {2.0 * std::cos(2.0 * s), 1.5 * std::sin(2.0 * s), 0.4 * std::sin(5.0 * s)}};
+  });
 }
 
 /// Two overlapping loops, frames between the keyframes, and drift in all six dimensions.

@@ -6,6 +6,7 @@
 namespace loopbench::test {
 
 struct Drive {
+  SimulatedPath path = SimulatedPath::driving;
   std::int64_t closures = 20;  ///< true ones
   std::int64_t seed = 1;
   bool planar = true;
@@ -14,7 +15,7 @@ struct Drive {
 
 inline Sequence simulated_drive(const Drive& drive) {
   SimulatedOptions options;
-  options.path = SimulatedPath::driving;
+  options.path = drive.path;
   options.planar = drive.planar;
   options.seed = drive.seed;
   options.closures.max = drive.closures;
