@@ -114,6 +114,18 @@ Covariances dense(const Problem& problem,
 const std::vector<Eigen::Index> kSpace{0, 1, 2, 3, 4, 5};
 const std::vector<Eigen::Index> kPlane{0, 1, 5};
 
+/// Expects the dense inverse at the solution of `dual`, by both methods.
+void expect_dense(const Problem& problem,
+                  const std::vector<Eigen::Index>& axes,
+                  double tolerance,
+                  std::size_t first = 1) {
+  Trajectory solved;
+  const Covariances dual = of_dual(problem, &solved);
+  const Covariances expected = dense(problem, poses_of(solved), axes, first);
+  expect_equal(dual, expected, tolerance);
+  expect_equal(of_graph(problem), expected, tolerance);
+}
+
 // Steps of variance 1 and a closure of variance 1 over four of them: a Brownian bridge, i - i^2 / 5
 // along the path. Across it, rotations of variance 1 move later positions.
 TEST(Covariances, OfOneLoopWorkedByHand) {
@@ -133,27 +145,18 @@ TEST(Covariances, OfOneLoopWorkedByHand) {
 
 TEST(Covariances, OfChainsEqualTheDenseInverse) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Problem problem =
-        moved_by({exp_so3({0.4, -0.8, 1.1}), {30.0, -20.0, 5.0}}, walk(seed, 14, 0.05));
-    Trajectory solved;
-    const Covariances dual = of_dual(problem, &solved);
-    const Covariances expected = dense(problem, poses_of(solved), kSpace);
-    expect_equal(dual, expected, 1e-6);
-    expect_equal(of_graph(problem), expected, 1e-6);
+    const Pose elsewhere{exp_so3({0.4, -0.8, 1.1}), {30.0, -20.0, 5.0}};
+    expect_dense(moved_by(elsewhere, walk(seed, 14, 0.05)), kSpace, 1e-6);
   }
 }
 
 TEST(Covariances, InThePlaneHaveNoOtherErrors) {
-  const Problem problem = moved_by(turned_about_z(0.7, {5.0, -3.0, 0.0}), planar());
-  Trajectory solved;
-  const Covariances dual = of_dual(problem, &solved);
-  const Covariances expected = dense(problem, poses_of(solved), kPlane);
-  expect_equal(dual, expected, 1e-6);
-  expect_equal(of_graph(problem), expected, 1e-6);
+  expect_dense(moved_by(turned_about_z(0.7, {5.0, -3.0, 0.0}), planar()), kPlane, 1e-6);
 }
 
 TEST(Covariances, OfAGraphThatIsNoChain) {
-  Problem problem = walk(7, 12, 0.02);
+  const Pairs closures{{0, 9}, {3, 14}, {1, 16}, {8, 18}, {5, 20}, {2, 21}, {0, 23}, {13, 24}};
+  Problem problem = with_closures(walk(7, 25, 0.02), walk(7, 25, 0.0).keyframes, closures);
   problem.odometry.erase(problem.odometry.begin() + 5);  // closures connect both parts
   Trajectory solved;
   const Covariances graph = of_graph(problem, &solved);
@@ -162,12 +165,8 @@ TEST(Covariances, OfAGraphThatIsNoChain) {
 
 TEST(Covariances, WithAnchorsIncludeTheFirstPose) {
   const Problem problem = with_anchors(hand_held(), {0.02, -0.01, 0.03});
-  Trajectory solved;
-  const Covariances graph = of_graph(problem, &solved);
-  const Covariances expected = dense(problem, poses_of(solved), kSpace, 0);
-  expect_equal(graph, expected, 1e-5);
-  expect_equal(of_dual(problem), expected, 1e-5);
-  EXPECT_GT(graph.front()(0, 0), 0.0);
+  expect_dense(problem, kSpace, 1e-5, 0);
+  EXPECT_GT(of_graph(problem).front()(0, 0), 0.0);
   const Problem flat = with_anchors(planar(), {0.02, -0.01, 0.0});
   expect_equal(of_dual(flat), of_graph(flat), 1e-5);
 }
@@ -242,11 +241,9 @@ TEST(Covariances, CoverErrorsAsStatedIfAndOnlyIfTheModelIsRight) {
 TEST(GaussianProcess, StatesTheCovariancesOfItsLinearPosterior) {
   const std::vector<double> times = uneven(20);
   const double sigma = 0.1, power = 0.5;
-  Trajectory keyframes;
-  for (const double t : times)
-    keyframes.push_back({t, {Rotation::Identity(), {std::sin(t), t, 0}}});
-  Problem problem;
-  problem.keyframes = keyframes;
+  const Problem problem{.keyframes = sampled_at(times, [](double t) {
+                          return Pose{Rotation::Identity(), {std::sin(t), t, 0}};
+                        })};
   GaussianProcess::Options options{.sigma_t = sigma, .sigma_r = 1e-3};
   options.power_t = power;
   options.power_r = 1e-6;
