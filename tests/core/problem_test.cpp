@@ -4,6 +4,8 @@
 
 #include <functional>
 
+#include "tests/support/refusal_of.hpp"
+
 namespace loopbench::problem_test {
 namespace {
 
@@ -26,12 +28,7 @@ Problem square() {
 std::string refusal(const std::function<void(Problem&)>& spoil) {
   Problem problem = square();
   spoil(problem);
-  try {
-    check(problem, "p");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of<InputError>([&] { check(problem, "p"); });
 }
 
 TEST(Problem, CheckAcceptsGoodOnes) {

@@ -5,6 +5,8 @@
 #include <functional>
 #include <limits>
 
+#include "tests/support/refusal_of.hpp"
+
 namespace loopbench::trajectory_test {
 namespace {
 
@@ -19,12 +21,7 @@ Trajectory corner() {
 std::string refusal(const std::function<void(Trajectory&)>& spoil) {
   Trajectory poses = corner();
   spoil(poses);
-  try {
-    check(poses, "walk");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of<InputError>([&] { check(poses, "walk"); });
 }
 
 TEST(Trajectory, LengthAndStamps) {

@@ -74,9 +74,7 @@ TEST(BadFiles, AbsurdSizesAreRefusedUnread) {
 TEST(BadFiles, TimesMustMatchThePoses) {
   const auto poses = sample("good/kitti.txt");
   const auto refuse = [&](const std::string& name) {
-    ReadOptions options;
-    options.times = sample("bad/" + name);
-    return refusal([&] { read_trajectory(poses, options); });
+    return refusal([&] { read_trajectory(poses, {.times = sample("bad/" + name)}); });
   };
   EXPECT_EQ(refuse("times_two.txt"),
             poses.string() + ": has 3 poses, but " + sample("bad/times_two.txt").string() +
@@ -92,10 +90,8 @@ TEST(BadFiles, TimesMustMatchThePoses) {
 
 TEST(BadFiles, AFormatGivenByHandIsHeldTo) {
   const auto refuse = [&](const std::string& name, Format format) {
-    ReadOptions options;
-    options.format = format;
     const std::string path = sample("good/" + name).string();
-    const std::string text = refusal([&] { read_trajectory(path, options); });
+    const std::string text = refusal([&] { read_trajectory(path, {.format = format}); });
     return text.starts_with(path) ? text.substr(path.size()) : text;
   };
   EXPECT_EQ(refuse("kitti.txt", Format::tum),

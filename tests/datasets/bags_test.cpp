@@ -54,10 +54,8 @@ TEST(Bags, ATruncatedBagYieldsItsIntactPartAndStatesTheRest) {
   for (const bool is_mcap : {false, true}) {
     const std::string all = is_mcap ? mcap(messages(10, true)) : ros1_bag(messages(10, false));
     const auto file = scratch.file("cut", all.substr(0, all.size() * 6 / 10));
-    ReadOptions options;
     ReadFindings findings;
-    options.findings = &findings;
-    const Trajectory poses = read_trajectory(file, options);
+    const Trajectory poses = read_trajectory(file, {.findings = &findings});
     EXPECT_GE(poses.size(), 4u);
     EXPECT_LE(poses.size(), 6u);
     EXPECT_THAT(findings.damage, HasSubstr(" bytes are ")) << is_mcap;
@@ -68,10 +66,8 @@ TEST(Bags, ADamagedChunkCostsOnlyItself) {
   const TemporaryFolder scratch;
   std::string bytes = ros1_bag(messages(5, false));
   bytes[bytes.rfind("conn=")] = 'X';  // in the last message's header
-  ReadOptions options;
   ReadFindings findings;
-  options.findings = &findings;
-  EXPECT_EQ(read_trajectory(scratch.file("a.bag", bytes), options).size(), 4u);
+  EXPECT_EQ(read_trajectory(scratch.file("a.bag", bytes), {.findings = &findings}).size(), 4u);
   EXPECT_EQ(findings.damage, "1 of 5 chunks are missing or damaged");
 }
 
@@ -79,10 +75,9 @@ TEST(Bags, PosesThatAreNoneAreSkippedAndCounted) {
   const TemporaryFolder scratch;
   std::vector<std::string> all = messages(3, false);
   all.push_back(ros1_pose_stamped(kStart + 900'000'000, {Rotation(0, 0, 0, 0), {}}));
-  ReadOptions options;
   ReadFindings findings;
-  options.findings = &findings;
-  EXPECT_EQ(read_trajectory(scratch.file("a.bag", ros1_bag(all)), options).size(), 3u);
+  EXPECT_EQ(read_trajectory(scratch.file("a.bag", ros1_bag(all)), {.findings = &findings}).size(),
+            3u);
   EXPECT_EQ(findings.damage, "1 messages without a valid pose were skipped");
 }
 
@@ -95,9 +90,9 @@ TEST(Bags, RepeatedStampsFollowTheRuleUnlessThePosesAreEqual) {
   all.push_back(ros1_pose_stamped(kStart, {Rotation::Identity(), {5, 5, 5}}));
   const auto other = scratch.file("b.bag", ros1_bag(all));
   EXPECT_THAT(refusal([&] { read_trajectory(other); }), HasSubstr("has two poses"));
-  ReadOptions options;
-  options.repeats = Repeats::keep_last;
-  EXPECT_EQ(read_trajectory(other, options)[0].world_from_body.translation.x(), 5.0);
+  EXPECT_EQ(
+      read_trajectory(other, {.repeats = Repeats::keep_last})[0].world_from_body.translation.x(),
+      5.0);
 }
 
 TEST(Bags, NamesAreSplitAtTheLastHash) {
@@ -132,13 +127,18 @@ TEST(TransformTree, InterpolatesAlongTheConnectionWhereAllAreKnown) {
               HasSubstr("has two parents"));
 }
 
-std::string recording(const char* name) {
-  const char* const data = std::getenv("LOOPBENCH_DATA");
-  return data == nullptr ? "" : std::string(data) + "/bags/" + name;
-}
+class RealBags : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::getenv("LOOPBENCH_DATA") == nullptr) GTEST_SKIP() << "needs LOOPBENCH_DATA";
+  }
 
-TEST(RealBags, FramesAreListedWhateverIsMissing) {
-  if (recording("").empty()) GTEST_SKIP() << "needs LOOPBENCH_DATA";
+  static std::string recording(const std::string& name) {
+    return std::getenv("LOOPBENCH_DATA") + ("/bags/" + name);
+  }
+};
+
+TEST_F(RealBags, FramesAreListedWhateverIsMissing) {
   const std::string file = recording("tf_example.bag");
   for (const std::string& name : {file, "bag:" + file + "#/odom", "bag:" + file + "#/tf"}) {
     EXPECT_THAT(refusal([&] { read_trajectory(name); }),
@@ -146,8 +146,7 @@ TEST(RealBags, FramesAreListedWhateverIsMissing) {
   }
 }
 
-TEST(RealBags, TheSameTransformsComeFromBothRosVersions) {
-  if (recording("").empty()) GTEST_SKIP() << "needs LOOPBENCH_DATA";
+TEST_F(RealBags, TheSameTransformsComeFromBothRosVersions) {
   const auto one =
       read_trajectory_file("bag:" + recording("tf_example.bag") + "#tf:odom.base_link");
   const auto two =
@@ -162,8 +161,7 @@ TEST(RealBags, TheSameTransformsComeFromBothRosVersions) {
 }
 
 // Numbers of messages as stated in the index of the bag.
-TEST(RealBags, EveryMessageOfTheRecordingsIsRead) {
-  if (recording("").empty()) GTEST_SKIP() << "needs LOOPBENCH_DATA";
+TEST_F(RealBags, EveryMessageOfTheRecordingsIsRead) {
   const auto read = [](const char* file, const char* topic) {
     return read_trajectory_file("bag:" + recording(file) + "#" + topic);
   };
@@ -175,8 +173,7 @@ TEST(RealBags, EveryMessageOfTheRecordingsIsRead) {
             read("nav2_turtlebot.mcap", "/amcl_pose").poses.size());
 }
 
-TEST(RealBags, CompressedDatabasesAndPipesAreRead) {
-  if (recording("").empty()) GTEST_SKIP() << "needs LOOPBENCH_DATA";
+TEST_F(RealBags, CompressedDatabasesAndPipesAreRead) {
   const TemporaryFolder scratch;
   std::string database = content(recording("tf_example.db3"));
   database[18] = database[19] = '\2';  // has a write-ahead log, as ROS 2 bags can have
@@ -196,15 +193,13 @@ TEST(RealBags, CompressedDatabasesAndPipesAreRead) {
   EXPECT_EQ(poses_of(Pipe(database).path()), poses);
 }
 
-TEST(RealBags, ATruncatedDatabaseYieldsItsIntactPart) {
-  if (recording("").empty()) GTEST_SKIP() << "needs LOOPBENCH_DATA";
+TEST_F(RealBags, ATruncatedDatabaseYieldsItsIntactPart) {
   const TemporaryFolder scratch;
   const std::string all = content(recording("tf_example.db3"));
   const auto file = scratch.file("cut.db3", all.substr(0, all.size() / 2));
-  ReadOptions options;
   ReadFindings findings;
-  options.findings = &findings;
-  const Trajectory poses = read_trajectory("bag:" + file.string() + "#tf:odom.base_link", options);
+  const Trajectory poses =
+      read_trajectory("bag:" + file.string() + "#tf:odom.base_link", {.findings = &findings});
   EXPECT_GT(poses.size(), 50u);
   EXPECT_THAT(findings.damage, HasSubstr("stops after "));
 }

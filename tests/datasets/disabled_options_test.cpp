@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "datasets/dataset.hpp"
+#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::disabled_options_test {
 namespace {
@@ -14,13 +15,7 @@ using testing::IsEmpty;
 
 std::string refusal(const std::string& dataset, const Params& given) {
   for (const DatasetEntry& entry : datasets()) {
-    if (entry.name != dataset) continue;
-    try {
-      entry.check(given);
-    } catch (const OptionError& error) {
-      return error.what();
-    }
-    return "";
+    if (entry.name == dataset) return refusal_of<OptionError>([&] { entry.check(given); });
   }
   throw std::logic_error("no such dataset");
 }

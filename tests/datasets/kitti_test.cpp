@@ -44,9 +44,8 @@ TEST(Kitti, WritingAndReadingKeepsPosesToRounding) {
   const Trajectory poses = random_trajectory(1000);
   write_trajectory(
       scratch.path() / "poses.txt", {poses}, Format::kitti, scratch.path() / "times.txt");
-  ReadOptions options;
-  options.times = scratch.path() / "times.txt";
-  const Trajectory back = read_trajectory(scratch.path() / "poses.txt", options);
+  const Trajectory back =
+      read_trajectory(scratch.path() / "poses.txt", {.times = scratch.path() / "times.txt"});
   ASSERT_EQ(back.size(), poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     EXPECT_EQ(back[i].stamp, poses[i].stamp);

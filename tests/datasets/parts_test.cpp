@@ -56,9 +56,7 @@ TEST(Parts, ErrorsNameTheLineOfTheWholeFile) {
   const TemporaryFolder scratch;
   for (const int row : {0, 49'999, 60'000, kRows - 1}) {
     const auto file = scratch.file("a.txt", tum(row, "1 2 3\n"));
-    ReadOptions options;
-    options.format = Format::tum;
-    EXPECT_EQ(refusal([&] { read_trajectory(file, options); }),
+    EXPECT_EQ(refusal([&] { read_trajectory(file, {.format = Format::tum}); }),
               fmt::format("{}:{}: has 3 columns, expected 8: stamp tx ty tz qx qy qz qw",
                           file.string(),
                           row + 3));

@@ -12,10 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 Trajectory read(const std::filesystem::path& file, ReadFindings* findings = nullptr) {
-  ReadOptions options;
-  options.positions = true;
-  options.findings = findings;
-  return read_trajectory(file, options);
+  return read_trajectory(file, {.positions = true, .findings = findings});
 }
 
 std::string reason(const std::string& text) {

@@ -7,23 +7,13 @@
 
 #include "datasets/core/polyline.hpp"
 #include "tests/datasets/scratch.hpp"
+#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::simulated_test {
 namespace {
 
-const DatasetEntry& entry() {
-  static const std::vector<DatasetEntry> all = datasets();
-  return *std::find_if(
-      all.begin(), all.end(), [](const DatasetEntry& e) { return e.name == "simulated"; });
-}
-
 std::string refusal(const Params& given) {
-  try {
-    entry().load(given, {});
-  } catch (const OptionError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of<OptionError>([&] { load_dataset("simulated", given); });
 }
 
 using loopbench::same_bits;  // of trajectories
@@ -247,7 +237,8 @@ TEST(Simulated, ShakesEveryFrameAndNothingElse) {
   Params with_white_noise = still;
   with_white_noise["white_noise.sigma_t"] = 0.02;
   with_white_noise["white_noise.sigma_r"] = 0.005;
-  const Sequence before = entry().load(still, {}), after = entry().load(with_white_noise, {});
+  const Sequence before = load_dataset("simulated", still),
+                 after = load_dataset("simulated", with_white_noise);
   EXPECT_TRUE(same_bits(before.problem.odometry, after.problem.odometry));
   EXPECT_TRUE(same_bits(before.problem.closures, after.problem.closures));
   EXPECT_TRUE(same_bits(before.reference, after.reference));

@@ -104,9 +104,8 @@ TEST(Tum, StampsInNanosecondsAreSeconds) {
   const auto complete = scratch.file("b.txt", "1403636579763555584 1 2 3 0 0 0.6 0.8\n");
   EXPECT_EQ(read_trajectory(complete)[0].world_from_body.rotation.w(), 0.8);
   EXPECT_EQ(read_trajectory(complete)[0].stamp, 1403636579.763555584);
-  ReadOptions options;
-  options.format = Format::euroc;
-  EXPECT_EQ(read_trajectory(complete, options)[0].world_from_body.rotation.z(), 0.8);
+  EXPECT_EQ(read_trajectory(complete, {.format = Format::euroc})[0].world_from_body.rotation.z(),
+            0.8);
 }
 
 TEST(Euroc, StampsOfASimulatorAreNanosecondsToo) {
@@ -148,9 +147,7 @@ TEST(Tum, WholeSecondsStaySeconds) {
 TEST(Tum, GoingBackIsRefusedEvenWhenRepeatsAreDropped) {
   const TemporaryFolder scratch;
   const auto file = scratch.file("a.txt", "1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n0 0 0 0 0 0 0 1\n");
-  ReadOptions options;
-  options.repeats = Repeats::keep_first;
-  EXPECT_EQ(refusal([&] { read_trajectory(file, options); }),
+  EXPECT_EQ(refusal([&] { read_trajectory(file, {.repeats = Repeats::keep_first}); }),
             file.string() +
                 ":3: stamp 0.0 is smaller than stamp 1.0 on line 1, expected increasing "
                 "stamps");

@@ -37,8 +37,7 @@ std::vector<Score> scores(const MetricEntry& entry, int ddof) {
   const Problem problem = test::hand_held();
   const test::EvaluatedCell cell(finely(test::hand_held_truth()),
                                  problem,
-                                 std::make_unique<Polyline>(half_corrected(problem.keyframes)),
-                                 Times::keyframes,
+                                 half_corrected(problem.keyframes),
                                  {.tolerance = 0.9, .ddof = ddof});
   return entry.score(cell.evaluation, {});
 }

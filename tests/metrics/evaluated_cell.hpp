@@ -35,6 +35,13 @@ struct EvaluatedCell {
                           .times = times,
                           .protocol = protocol};
   }
+  /// The polyline through poses at the keyframes.
+  EvaluatedCell(Trajectory truth, Problem given, Trajectory poses, const Protocol& protocol = {})
+      : EvaluatedCell(std::move(truth),
+                      std::move(given),
+                      std::make_unique<Polyline>(std::move(poses)),
+                      Times::keyframes,
+                      protocol) {}
   EvaluatedCell(const EvaluatedCell&) = delete;
 
   Trajectory reference;

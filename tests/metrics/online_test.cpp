@@ -89,8 +89,7 @@ TEST(UpdateTime, HasNoGrowthOverAFewKeyframes) {
 TEST(Online, IsUndefinedForMethodsThatWereNotReplayed) {
   const EvaluatedCell cell(poses_along_x({0, 1, 2}),
                            test::along_x({0, 1, 2}),
-                           std::make_unique<Polyline>(poses_along_x({0, 1, 2})),
-                           Times::keyframes,
+                           poses_along_x({0, 1, 2}),
                            {.align = Align::none});
   for (const MetricEntry& metric : metrics::metrics()) {
     if (metric.summary.find("replay") == std::string::npos) continue;

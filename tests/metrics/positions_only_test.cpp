@@ -60,12 +60,10 @@ TEST(PositionsOnly, AlignmentsFromPositionsEqualThoseOfTheFullReference) {
         expected);
   }
   for (const Align align : {Align::origin, Align::posyaw_origin}) {
-    try {
-      evaluate(without_rotations(full), without_rotations(estimate), {.align = align});
-      FAIL();
-    } catch (const std::runtime_error& error) {
-      EXPECT_THAT(error.what(), HasSubstr("the reference has positions without rotation"));
-    }
+    EXPECT_THAT(why<std::runtime_error>([&] {
+                  evaluate(without_rotations(full), without_rotations(estimate), {.align = align});
+                }),
+                HasSubstr("the reference has positions without rotation"));
   }
 }
 
