@@ -74,14 +74,6 @@ void expect_same(const Statistics& got,
   if (wanted.contains("sse")) expect_same(got.sse, wanted["sse"], what + " sse", zero);
 }
 
-/// The score called "relation axis unit".
-const Statistics& named(const std::vector<Score>& scores, const std::string& name) {
-  for (const Score& score : scores) {
-    if (score.relation + " " + score.axis + " " + score.unit == name) return score.statistics;
-  }
-  throw std::runtime_error("no score " + name);
-}
-
 std::string label(Json row) {
   for (const char* numbers : {"stats", "rel", "abs_trans", "abs_rot_deg", "trans", "rot_rad"}) {
     row.erase(numbers);
@@ -232,7 +224,7 @@ double statistic(const Json& row, const Evaluation& evaluation) {
   const auto metric =
       std::ranges::find(known, row["metric"].get<std::string>(), &MetricEntry::name);
   const std::vector<Score> scores = metric->score(evaluation, params(row["options"]));
-  const Statistics& got = named(scores, row["score"]);
+  const Statistics got = named(scores, row["score"]);
   if (name == "count") return static_cast<double>(got.count);
   return name == "rmse" ? got.rmse : got.mean;
 }

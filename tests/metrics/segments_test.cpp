@@ -103,24 +103,17 @@ TEST(Segments, OfAStraightRoadByHand) {
   changes["segments.lengths"] = std::string("10 20%");
   changes["segments.tolerance"] = std::string("0.5");
   const std::vector<Score> got = segments(road(named_protocol("loopbench", changes).rules), {});
-  const auto score = [&](const char* relation, const char* axis, const char* unit) {
-    for (const Score& s : got) {
-      if (s.relation == relation && s.axis == axis && s.unit == unit) return s.statistics;
-    }
-    ADD_FAILURE() << relation << axis << unit;
-    return Statistics{};
-  };
-  EXPECT_EQ(score("rotation", "10 m", "deg").count, 991u);
-  EXPECT_EQ(score("rotation", "20%", "deg").count, 801u);
-  EXPECT_EQ(score("rotation", "all", "deg/m").count, 1792u);
+  EXPECT_EQ(named(got, "rotation 10 m deg").count, 991u);
+  EXPECT_EQ(named(got, "rotation 20% deg").count, 801u);
+  EXPECT_EQ(named(got, "rotation all deg/m").count, 1792u);
   const double degree = 180.0 / M_PI;
-  EXPECT_NEAR(score("rotation", "10 m", "deg").max, 0.01 * degree, 1e-12);
-  EXPECT_NEAR(score("yaw", "10 m", "deg").max, 0.01 * degree, 1e-12);
-  EXPECT_NEAR(score("gravity", "10 m", "deg").max, 0.0, 1e-12);
-  EXPECT_NEAR(score("rotation", "all", "deg/m").mean, 0.001 * degree, 1e-12);
+  EXPECT_NEAR(named(got, "rotation 10 m deg").max, 0.01 * degree, 1e-12);
+  EXPECT_NEAR(named(got, "yaw 10 m deg").max, 0.01 * degree, 1e-12);
+  EXPECT_NEAR(named(got, "gravity 10 m deg").max, 0.0, 1e-12);
+  EXPECT_NEAR(named(got, "rotation all deg/m").mean, 0.001 * degree, 1e-12);
   // From pose 0, where the estimate's orientation is correct: 10.1 m instead of 10 m.
-  EXPECT_NEAR(score("translation", "10 m", "m").min, 0.1, 1e-12);
-  EXPECT_NEAR(score("translation", "10 m", "%").min, 1.0, 1e-11);
+  EXPECT_NEAR(named(got, "translation 10 m m").min, 0.1, 1e-12);
+  EXPECT_NEAR(named(got, "translation 10 m %").min, 1.0, 1e-11);
 }
 
 /// Errors of sub-trajectories of 8 to 48 m, to half a metre, of 1 m steps along x.

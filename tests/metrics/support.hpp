@@ -62,6 +62,14 @@ inline Statistics find(const std::vector<Score>& scores,
   throw std::runtime_error("no score " + relation + " " + axis);
 }
 
+/// The statistics of the score called "relation axis unit".
+inline Statistics named(const std::vector<Score>& scores, const std::string& name) {
+  for (const Score& score : scores) {
+    if (score.relation + " " + score.axis + " " + score.unit == name) return score.statistics;
+  }
+  throw std::runtime_error("no score " + name);
+}
+
 /// The message of the exception that `action` must throw.
 template <class Error, class Action>
 std::string why(Action action) {
