@@ -9,11 +9,6 @@ namespace {
 
 constexpr double kShares[] = {0.0, 1e-9, 0.25, 0.5, 0.9, 1.0};
 
-double distance(const Pose& a, const Pose& b) {
-  return (a.translation - b.translation).norm() +
-         (a.rotation.toRotationMatrix() - b.rotation.toRotationMatrix()).norm();
-}
-
 /// Steps whose shortest arc is unique.
 std::vector<Twist> steps() {
   std::vector<Twist> out;

@@ -72,6 +72,11 @@ inline std::vector<Pose> general_poses() {
           exp_se3((Twist() << 0.0, 0.0, 100.0, 0.0, 0.0, 3.1).finished())};
 }
 
+inline double distance(const Pose& a, const Pose& b) {
+  return (a.translation - b.translation).norm() +
+         (a.rotation.toRotationMatrix() - b.rotation.toRotationMatrix()).norm();
+}
+
 /// Column k is (f(h e_k) - f(-h e_k)) / 2h, for f from R^n to R^m around zero.
 template <int n, class Function>
 auto numeric_jacobian(const Function& f, double h = 1e-5) {

@@ -9,11 +9,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-double distance(const Pose& a, const Pose& b) {
-  return (a.translation - b.translation).norm() +
-         (a.rotation.toRotationMatrix() - b.rotation.toRotationMatrix()).norm();
-}
-
 TEST(Se3, LogUndoesExp) {
   for (const Twist& xi : awkward_twists()) {
     if (xi.tail<3>().norm() > kPi - 1e-15) continue;  // either sign is right there

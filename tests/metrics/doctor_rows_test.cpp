@@ -91,6 +91,13 @@ std::vector<double> loop_stamps(double factor = 1.0, double offset = 0.0) {
   return out;
 }
 
+/// Value of the finding, which must be of that fault.
+double value_of(Fault::Name fault, const std::vector<double>& loops, const Trajectory& poses) {
+  const auto found = check_loop_stamps(loops, poses);
+  EXPECT_TRUE(found && found->fault == fault) << (found ? text(*found) : "no finding");
+  return found ? found->value : 0.0;
+}
+
 TEST(DoctorOfLoopStamps, ThoseOfPosesAreRight) {
   EXPECT_FALSE(check_loop_stamps(loop_stamps(), sampled(20)));
   EXPECT_FALSE(check_loop_stamps({}, sampled(20)));
@@ -98,18 +105,13 @@ TEST(DoctorOfLoopStamps, ThoseOfPosesAreRight) {
 }
 
 TEST(DoctorOfLoopStamps, Milliseconds) {
-  const auto found = check_loop_stamps(loop_stamps(1e3), sampled(20));
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->fault, Fault::stamp_unit);
-  EXPECT_DOUBLE_EQ(found->value, 1e3);
+  EXPECT_DOUBLE_EQ(value_of(Fault::stamp_unit, loop_stamps(1e3), sampled(20)), 1e3);
 }
 
 TEST(DoctorOfLoopStamps, NumbersOfPoses) {
   Trajectory poses = sampled(20);
   for (StampedPose& pose : poses) pose.stamp += 1e9;
-  const auto found = check_loop_stamps({3, 500, 7, 510, 12, 511}, poses);
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->fault, Fault::frame_indices);
+  value_of(Fault::frame_indices, {3, 500, 7, 510, 12, 511}, poses);
 }
 
 TEST(DoctorOfLoopStamps, AnotherClock) {
@@ -119,13 +121,8 @@ TEST(DoctorOfLoopStamps, AnotherClock) {
   }
   std::vector<double> loops;
   for (std::size_t i = 0; i < 20; ++i) loops.push_back(keyframes[4 * i].stamp - 1.23);
-  const auto found = check_loop_stamps(loops, keyframes);
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->fault, Fault::time_offset);
-  EXPECT_NEAR(found->value, 1.23, 1e-9);
-  const auto other = check_loop_stamps(loop_stamps(1.0, 5000.0), sampled(20));
-  ASSERT_TRUE(other);
-  EXPECT_EQ(other->fault, Fault::no_overlap);
+  EXPECT_NEAR(value_of(Fault::time_offset, loops, keyframes), 1.23, 1e-9);
+  value_of(Fault::no_overlap, loop_stamps(1.0, 5000.0), sampled(20));
 }
 
 }  // namespace
