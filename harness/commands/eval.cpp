@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <set>
 
 #include "harness/base/printable.hpp"
 #include "harness/base/wrap.hpp"
@@ -19,7 +18,6 @@
 #include "harness/eval/recorded_store.hpp"
 #include "harness/eval/run_summary.hpp"
 #include "harness/report/report.hpp"
-#include "harness/report/store_figures.hpp"
 #include "harness/run/build.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/store.hpp"
@@ -38,9 +36,9 @@ std::optional<TerminalStyle> terminal_style() {
 /// Statistics over runs and the verdict, or why there is none.
 std::string verdict_of(const EvalArguments& a,
                        const std::vector<EvaluationResult>& results,
-                       const std::optional<TerminalStyle>& style = std::nullopt) {
+                       const std::optional<TerminalStyle>& style) {
   try {
-    recorded_runs(file_pairs(a), a.sequence);
+    recorded_runs(a.reference, a.estimates, a.sequence);
   } catch (const InputError& error) {
     std::string out = "\n";
     const std::string why = "no verdict: " + std::string(error.what());
@@ -66,8 +64,7 @@ std::string below_reference_error(const EvalArguments& a,
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t k = i + 1; k < all.size(); ++k) {
       const auto first = ate_of(all[i]), second = ate_of(all[k]);
-      const bool is_pair = all[i].reference == all[k].reference &&
-                           all[i].protocol.label() == all[k].protocol.label();
+      const bool is_pair = all[i].protocol.label() == all[k].protocol.label();
       if (!first || !second || !is_pair) continue;
       ++pairs;
       if (std::abs(*first - *second) < a.reference_sigma) ++below;
@@ -99,14 +96,9 @@ std::string result_text(const EvalArguments& a, const std::vector<EvaluationResu
   return out + verdict_of(a, all, style) + below_reference_error(a, all);
 }
 
-/// `text`, after the label of the sequence if there are several.
-std::string with_sequence(const DrawnRuns& runs, const std::string& text) {
-  return runs.sequence.empty() ? text : runs.sequence + ": " + text;
-}
-
 /// Runs with the names of --labels: one for each file, or else one for each method.
 std::vector<RecordedRun> named_runs(const EvalArguments& a) {
-  std::vector<RecordedRun> runs = labelled_runs(file_pairs(a), a.sequence);
+  std::vector<RecordedRun> runs = labelled_runs(a.reference, a.estimates, a.sequence);
   std::vector<std::string> methods;
   for (const RecordedRun& run : runs) {
     const bool is_known = std::ranges::count(methods, run.method) > 0;
@@ -123,29 +115,18 @@ std::vector<RecordedRun> named_runs(const EvalArguments& a) {
 /// Figures of the estimates under the first protocol.
 void write_figures(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
   if (a.plot.empty()) return;
-  const std::vector<DrawnRuns> drawn = drawn_sequences(all, named_runs(a));
-  if (drawn.empty()) throw InputError("--plot: no estimate could be evaluated");
-  for (const DrawnRuns& each : drawn) {
-    if (each.note.empty()) continue;
-    const std::string note = "loopbench: note: figures: " + with_sequence(each, each.note);
-    fmt::print(stderr, "{}\n", printable(note));
+  const DrawnRuns drawn = drawn_runs(all, named_runs(a));
+  if (drawn.drawn.empty()) throw InputError("--plot: no estimate could be evaluated");
+  if (!drawn.note.empty()) {
+    fmt::print(stderr, "{}\n", printable("loopbench: note: figures: " + drawn.note));
   }
   std::filesystem::path plot = a.plot;
   const std::vector<std::string> suffixes = take_suffixes(plot);
-  std::set<std::string> prefixes;
-  std::vector<FigureData> figures;
-  for (const DrawnRuns& each : drawn) {
-    FigureData& data = figures.emplace_back(figure_data(each));
-    std::string prefix = plot.string();
-    if (!each.sequence.empty()) prefix += "_" + file_stem(each.sequence);
-    while (!prefixes.insert(prefix).second) prefix += "_";  // labels that differ in punctuation
-    data.figures = figures_for_paper(prefix, suffixes, a.figures);
-  }
-  draw(figures);
-  for (const FigureData& data : figures) {
-    for (const DrawnFigure& figure : data.figures) {
-      fmt::print(stderr, "{}", printable(file_list(figure)));
-    }
+  FigureData data = figure_data(drawn);
+  data.figures = figures_for_paper(plot.string(), suffixes, a.figures);
+  draw({data});
+  for (const DrawnFigure& figure : data.figures) {
+    fmt::print(stderr, "{}", printable(file_list(figure)));
   }
 }
 
@@ -189,7 +170,8 @@ void check_store_options(const EvalArguments& a, const std::vector<RecordedRun>&
 
 int eval_to_store(const EvalArguments& a, const Source& source) {
   reject_standard_output("--store", a.store);
-  std::vector<RecordedRun> runs = recorded_runs(file_pairs(a), a.sequence);
+  check_estimates(a);
+  std::vector<RecordedRun> runs = recorded_runs(a.reference, a.estimates, a.sequence);
   for (RecordedRun& run : runs) run.group = a.group;
   check_store_options(a, runs);
   const StoredRuns stored = store_runs(runs, a, source);

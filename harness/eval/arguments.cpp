@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -185,16 +184,11 @@ ReferenceBody reference_body(const EvalArguments& a) {
   return out;
 }
 
-std::vector<FilePair> file_pairs(const EvalArguments& a) {
+void check_estimates(const EvalArguments& a) {
   if (!a.covariances.empty() && a.estimates.size() != 1) {
     throw InputError("--cov " + a.covariances + ": expected one EST");
   }
-  std::vector<FilePair> out;
-  for (const std::string& estimate : a.estimates) {
-    reject_folder(estimate, a);
-    out.push_back({a.reference, estimate});
-  }
-  return out;
+  for (const std::string& estimate : a.estimates) reject_folder(estimate, a);
 }
 
 }  // namespace loopbench::harness

@@ -10,7 +10,6 @@
 #include "datasets/formats/formats.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/eval/eval_figures.hpp"
-#include "harness/eval/recorded_runs.hpp"
 #include "harness/model/sweep.hpp"
 
 namespace loopbench::harness {
@@ -87,7 +86,7 @@ EvaluatedRange evaluated_range(const EvalArguments& arguments);
 /// Throws InputError unless the text has three or seven numbers, with a unit quaternion.
 ReferenceBody reference_body(const EvalArguments& arguments);
 
-/// Pairs REF with each EST. Throws InputError.
-std::vector<FilePair> file_pairs(const EvalArguments& arguments);
+/// Throws InputError for a folder among the estimates, and for covariances of several estimates.
+void check_estimates(const EvalArguments& arguments);
 
 }  // namespace loopbench::harness

@@ -156,42 +156,35 @@ DrawnEvaluation drawn_evaluation(const Trajectory& reference,
   return out;
 }
 
-std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
-                                       const std::vector<RecordedRun>& runs) {
-  std::vector<DrawnRuns> out;
-  NameNumbers methods, references;
-  std::map<std::pair<std::string, std::string>, std::size_t> count;  // by reference and method
+DrawnRuns drawn_runs(const std::vector<EvaluationResult>& all,
+                     const std::vector<RecordedRun>& runs) {
+  DrawnRuns out;
+  NameNumbers methods;
+  std::map<std::string, std::size_t> count, before;  // by method
   for (const RecordedRun& run : runs) {
     methods.number(run.method);
-    references.number(run.reference);
-    ++count[{run.reference, run.method}];
+    ++count[run.method];
   }
   const std::size_t protocols = runs.empty() ? 1 : all.size() / runs.size();
-  std::map<std::pair<std::string, std::string>, std::size_t> before;
-  std::vector<std::vector<RatedRun>> candidates;
-  std::map<std::string, std::size_t> place;  // in `out`, of a reference
+  std::vector<RatedRun> candidates;
   for (std::size_t i = 0; i < all.size(); i += protocols) {
     const RecordedRun& run = runs[i / protocols];
-    const std::size_t repeat = before[{run.reference, run.method}]++;
+    const std::size_t repeat = before[run.method]++;
     if (!all[i].why_failed.empty()) continue;
-    if (place.emplace(run.reference, out.size()).second) {
+    if (candidates.empty()) {
       const metrics::Align align = all[i].alignment.type;
       const std::string how = align == metrics::Align::none ? "no" : to_text(align);
-      out.push_back({references.names.size() > 1 ? run.sequence : "",
-                     run.sequence + ", " + how + " alignment (ATE as RMSE)",
-                     {},
-                     ""});
-      candidates.emplace_back();
+      out.title = run.sequence + ", " + how + " alignment (ATE as RMSE)";
     }
-    RatedRun& candidate = candidates[place[run.reference]].emplace_back(
+    RatedRun& candidate = candidates.emplace_back(
         RatedRun{all[i].drawn, run.method, all[i].incomplete_reason.empty()});
     DrawnCurve& curve = candidate.drawn.estimate;
-    const bool has_repeats = count[{run.reference, run.method}] > 1;
+    const bool has_repeats = count[run.method] > 1;
     curve.name = run.method + (has_repeats ? " " + run.run : "");
     curve.style = methods.names.size() > 1 ? methods.number(run.method) : repeat;
     if (methods.names.size() > 1 && has_repeats) curve.dash = 1 + static_cast<int>(repeat % 5);
   }
-  for (std::size_t i = 0; i < out.size(); ++i) choose_drawn(candidates[i], out[i]);
+  choose_drawn(candidates, out);
   return out;
 }
 

@@ -15,24 +15,23 @@ namespace loopbench::harness {
 DrawnEvaluation drawn_evaluation(const Trajectory& reference,
                                  const metrics::Evaluation& evaluation);
 
-/// Evaluations with the same reference, which share figures.
+/// Evaluations that share figures.
 struct DrawnRuns {
-  std::string sequence;  ///< label; empty if there is only one
-  std::string title;     ///< sequence, alignment and score in the legend
+  std::string title;  ///< sequence, alignment and score in the legend
   std::vector<DrawnEvaluation> drawn;
   std::string note;  ///< how many estimates are not drawn; empty: all are
 };
 
 inline constexpr std::size_t kMostDrawnEstimates = 6;  ///< in a figure; more hide each other
 
-/// The estimates evaluated under the first protocol, by reference. `runs[i / protocols]` belongs to
-/// `all[i]`. The name of an estimate is its method, or method and run if a method has several. A
-/// method has the same colour in all figures; its further runs are dashed, or have colours of their
-/// own if there is only one method. Of more than kMostDrawnEstimates, the run of median ATE of each
-/// method is drawn, for the first methods, or the best, median and worst of a single method;
-/// incomplete ones only if there are no others.
-std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
-                                       const std::vector<RecordedRun>& runs);
+/// The estimates evaluated under the first protocol; none if all failed. `runs[i / protocols]`
+/// belongs to `all[i]`. The name of an estimate is its method, or method and run if a method has
+/// several. The further runs of a method are dashed, or have colours of their own if there is only
+/// one method. Of more than kMostDrawnEstimates, the run of median ATE of each method is drawn, for
+/// the first methods, or the best, median and worst of a single method; incomplete ones only if
+/// there are no others.
+DrawnRuns drawn_runs(const std::vector<EvaluationResult>& all,
+                     const std::vector<RecordedRun>& runs);
 
 /// - trajectories: the plane of the largest extent and space, start and end marked, coloured by
 ///   position error for a single estimate;
@@ -40,7 +39,7 @@ std::vector<DrawnRuns> drawn_sequences(const std::vector<EvaluationResult>& all,
 /// - axes: x, y, z, roll, pitch and yaw over time, with the complete reference.
 inline constexpr std::array kErrorFigures{"trajectories", "errors", "axes"};
 
-/// The curves of estimates of one reference, without figures.
+/// The curves of the estimates and the reference, without figures.
 FigureData figure_data(const DrawnRuns& runs);
 
 /// kErrorFigures as PREFIX_NAME and each suffix (".svg"), by default as wide as one column of a

@@ -18,18 +18,18 @@ namespace loopbench::harness {
 namespace {
 
 /// With the names as given.
-std::vector<RecordedRun> runs_of(const std::vector<FilePair>& files, const EvalArguments& a) {
-  std::vector<RecordedRun> out = labelled_runs(files, a.sequence);
+std::vector<RecordedRun> runs_of(const EvalArguments& a) {
+  std::vector<RecordedRun> out = labelled_runs(a.reference, a.estimates, a.sequence);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i].reference = files[i].reference;
-    out[i].estimate = files[i].estimate;
+    out[i].reference = a.reference;
+    out[i].estimate = a.estimates[i];
   }
   return out;
 }
 
-/// Reason if the coverage is less than half of the `best` of an estimate with the same reference
-/// and protocol, or less than a tenth: too little is evaluated, or stamps meet by chance. A sparse
-/// reference pairs few poses of an estimate, hence the share of either file's poses counts.
+/// Reason if the coverage is less than half of the `best` of an estimate under the same protocol,
+/// or less than a tenth: too little is evaluated, or stamps meet by chance. A sparse reference
+/// pairs few poses of an estimate, hence the share of either file's poses counts.
 std::string why_low_coverage(const EvaluationResult& own, double best) {
   constexpr double kMuchLess = 0.5;
   constexpr double kLeast = 0.1;
@@ -50,18 +50,17 @@ std::string why_low_coverage(const EvaluationResult& own, double best) {
 
 /// Marks evaluations as incomplete whose coverage is small; their scores remain.
 void check_coverage(std::vector<EvaluatedFile>& all) {
-  std::map<std::pair<std::string, std::size_t>, double> most;  // by reference and protocol
+  std::map<std::size_t, double> most;  // by protocol
   for (const EvaluatedFile& file : all) {
     for (std::size_t p = 0; p < file.protocols.size(); ++p) {
-      double& best = most[{file.protocols[p].reference, p}];
-      best = std::max(best, file.protocols[p].coverage.least());
+      most[p] = std::max(most[p], file.protocols[p].coverage.least());
     }
   }
   for (EvaluatedFile& file : all) {
     for (std::size_t p = 0; p < file.protocols.size(); ++p) {
       EvaluationResult& own = file.protocols[p];
       if (!own.why_failed.empty()) continue;
-      own.incomplete_reason = why_low_coverage(own, most.at({own.reference, p}));
+      own.incomplete_reason = why_low_coverage(own, most.at(p));
       if (own.incomplete_reason.empty()) continue;
       for (ScoreResult& score : file.result.scores) {
         if (score.protocol != p || score.status != Status::ok) continue;
@@ -74,15 +73,13 @@ void check_coverage(std::vector<EvaluatedFile>& all) {
 
 /// Runs are one observation only if the outputs of all methods are equal.
 void join_contents(std::vector<EvaluationResult>& results) {
-  using Run = std::pair<std::string, std::int64_t>;  // sequence and repeat
-  std::map<Run, std::map<std::string, std::string>> contents;
+  std::map<std::int64_t, std::map<std::string, std::string>> contents;  // by repeat and method
   for (const EvaluationResult& result : results) {
     const Record& first = result.records.front();
-    contents[{first.sequence, first.repeat}][first.method] = std::string(first.content);
+    contents[first.repeat][first.method] = std::string(first.content);
   }
   for (EvaluationResult& result : results) {
-    const Record& first = result.records.front();
-    const std::string content = recorded_content(contents.at({first.sequence, first.repeat}));
+    const std::string content = recorded_content(contents.at(result.records.front().repeat));
     for (Record& record : result.records) record.content = content;
   }
 }
@@ -182,25 +179,20 @@ void require_evaluated(const std::vector<EvaluatedFile>& all) {
 std::vector<EvaluationResult> evaluate_files(
     const EvalArguments& a,
     const std::function<void(const RecordedSweep&, const std::vector<EvaluatedFile>&)>& visit) {
-  const std::vector<FilePair> files = file_pairs(a);
-  std::vector<std::filesystem::path> inputs{a.times};
-  for (const FilePair& pair : files) inputs.insert(inputs.end(), {pair.reference, pair.estimate});
+  check_estimates(a);
+  std::vector<std::filesystem::path> inputs{a.times, a.reference};
+  inputs.insert(inputs.end(), a.estimates.begin(), a.estimates.end());
   reject_overwriting(inputs, a.per_pose);
-  std::vector<RecordedRun> labelled = runs_of(files, a);
+  std::vector<RecordedRun> labelled = runs_of(a);
   if (a.common.value_or(false)) set_common_times(labelled, a);
   const RecordedSweep sweep = recorded_sweep(std::move(labelled), a);
-  const std::vector<RecordedRun>& runs = sweep.runs;
-  check_stamp_options(a, runs);
+  check_stamp_options(a, sweep.runs);
   std::vector<Cell> cells = sweep.cells;
   std::ranges::sort(cells, {}, &Cell::dataset);
+  const SharedReference reference = shared_reference(a.reference, sweep);
   std::vector<EvaluatedFile> all(cells.size());
-  for (std::size_t begin = 0, end = 0; begin < runs.size(); begin = end) {
-    while (end < runs.size() && runs[end].reference == runs[begin].reference) ++end;
-    const SharedReference reference = shared_reference(runs[begin].reference, sweep);
-    parallel_for_tasks(end - begin, [&](std::size_t i) {
-      all[begin + i] = evaluate_recorded(cells[begin + i], sweep, reference);
-    });
-  }
+  parallel_for_tasks(
+      cells.size(), [&](std::size_t i) { all[i] = evaluate_recorded(cells[i], sweep, reference); });
   require_evaluated(all);
   if (!a.min_coverage) check_coverage(all);
   if (visit) visit(sweep, all);

@@ -64,7 +64,7 @@ std::string text(const EvaluationResult& result,
                  Detail detail = Detail::all,
                  const std::vector<std::string>& columns = {});
 
-/// One table for each reference and protocol, one row for each estimate: the protocol's statistic
+/// One table for each protocol, one row for each estimate: the protocol's statistic
 /// of the combined errors (axis 3d or all), not of single axes or lengths, and the coverage.
 std::vector<Table> comparison(const std::vector<EvaluationResult>& results,
                               Detail detail = Detail::all,

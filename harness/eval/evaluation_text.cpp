@@ -165,7 +165,7 @@ std::string estimate_name_of(const EvaluationResult* result) {
   return std::filesystem::path(result->estimate).filename().string();
 }
 
-/// Results with one reference and one protocol.
+/// Results under one protocol.
 Table comparison_of(const std::vector<const EvaluationResult*>& results,
                     Detail detail,
                     bool has_totals,
@@ -266,8 +266,7 @@ std::vector<Table> comparison(const std::vector<EvaluationResult>& results,
   std::vector<Group> groups;
   for (const EvaluationResult& result : results) {
     const auto same = std::ranges::find_if(groups, [&](const Group& group) {
-      return group.front()->reference == result.reference &&
-             group.front()->protocol.label() == result.protocol.label();
+      return group.front()->protocol.label() == result.protocol.label();
     });
     if (same == groups.end()) {
       groups.push_back({&result});

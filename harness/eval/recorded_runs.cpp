@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
-#include <tuple>
+#include <utility>
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/error.hpp"
@@ -92,11 +92,13 @@ bool is_sequence_folder(const std::filesystem::path& folder, const RecordedRun& 
          is_run_number(plain_stem(run.estimate));
 }
 
-/// `pair`: with absolute names.
-RecordedRun labelled(const FilePair& pair, const std::string& sequence) {
-  RecordedRun out{sequence, "", "0", pair.reference, pair.estimate};
-  const std::string stem = plain_stem(pair.estimate);
-  const std::filesystem::path folder = parent_folder(pair.estimate);
+/// With absolute names of the files.
+RecordedRun labelled(const std::string& reference,
+                     const std::string& estimate,
+                     const std::string& sequence) {
+  RecordedRun out{sequence, "", "0", reference, estimate};
+  const std::string stem = plain_stem(estimate);
+  const std::filesystem::path folder = parent_folder(estimate);
   if (is_sequence_folder(folder, out)) {  // METHOD/SEQUENCE/RUN.txt
     out.method = folder.parent_path().filename().string();
     out.run = stem;
@@ -118,30 +120,34 @@ std::string method_with_folder(const RecordedRun& run) {
   return is_numbered ? name : name + "/" + run.method;
 }
 
-auto labels_of(const RecordedRun& run) { return std::tie(run.sequence, run.method, run.run); }
+using Labels = std::pair<std::string, std::string>;  // method and run
+
+Labels labels_of(const RecordedRun& run) { return {run.method, run.run}; }
 
 }  // namespace
 
-std::vector<RecordedRun> recorded_runs(const std::vector<FilePair>& files,
+std::vector<RecordedRun> recorded_runs(const std::string& reference,
+                                       const std::vector<std::string>& estimates,
                                        const std::string& sequence) {
+  const std::string name = absolute_name(reference);
+  const std::string label = sequence.empty() ? sequence_of(name) : sequence;
   std::vector<RecordedRun> out;
-  for (const FilePair& pair : files) {
-    const FilePair names{absolute_name(pair.reference), absolute_name(pair.estimate)};
-    out.push_back(labelled(names, sequence.empty() ? sequence_of(names.reference) : sequence));
+  for (const std::string& estimate : estimates) {
+    out.push_back(labelled(name, absolute_name(estimate), label));
   }
-  std::set<std::tuple<std::string, std::string, std::string>> labels;
-  std::set<std::pair<std::string, std::string>> ambiguous;  // sequence and method
+  std::set<Labels> labels;
+  std::set<std::string> ambiguous;  // methods
   for (const RecordedRun& run : out) {
-    if (!labels.insert(labels_of(run)).second) ambiguous.emplace(run.sequence, run.method);
+    if (!labels.insert(labels_of(run)).second) ambiguous.insert(run.method);
   }
   for (RecordedRun& run : out) {
-    if (ambiguous.contains({run.sequence, run.method})) run.method = method_with_folder(run);
+    if (ambiguous.contains(run.method)) run.method = method_with_folder(run);
   }
-  std::map<std::tuple<std::string, std::string, std::string>, const RecordedRun*> taken;
+  std::map<Labels, const RecordedRun*> taken;
   for (const RecordedRun& run : out) {
     const auto [other, is_new] = taken.emplace(labels_of(run), &run);
     if (is_new) continue;
-    if (run.estimate == other->second->estimate && run.reference == other->second->reference) {
+    if (run.estimate == other->second->estimate) {
       throw InputError(run.estimate + ": is listed twice");
     }
     throw InputError(run.estimate + ": has the same sequence '" + run.sequence + "', method '" +
@@ -151,15 +157,16 @@ std::vector<RecordedRun> recorded_runs(const std::vector<FilePair>& files,
   return out;
 }
 
-std::vector<RecordedRun> labelled_runs(const std::vector<FilePair>& files,
+std::vector<RecordedRun> labelled_runs(const std::string& reference,
+                                       const std::vector<std::string>& estimates,
                                        const std::string& sequence) {
   try {
-    return recorded_runs(files, sequence);
+    return recorded_runs(reference, estimates, sequence);
   } catch (const InputError&) {
+    const std::string stem = std::filesystem::path(reference).stem().string();
     std::vector<RecordedRun> out;
-    for (const auto& [reference, estimate] : files) {
-      const std::string sequence_name = std::filesystem::path(reference).stem().string();
-      out.push_back({sequence_name, estimate, "0", reference, estimate});
+    for (const std::string& estimate : estimates) {
+      out.push_back({stem, estimate, "0", reference, estimate});
     }
     return out;
   }

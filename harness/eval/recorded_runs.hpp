@@ -6,12 +6,6 @@
 
 namespace loopbench::harness {
 
-/// A reference and one of its estimates.
-struct FilePair {
-  std::string reference;
-  std::string estimate;
-};
-
 /// One output of a system on one sequence.
 struct RecordedRun {
   std::string sequence;
@@ -33,12 +27,14 @@ struct RecordedRun {
 /// The sequence is the name of the reference file, or of its folder for names such as
 /// groundtruth.txt, or `sequence` if not empty. Topics of bags are names, too. Throws InputError if
 /// two files have the same labels. Files of equal content are not detected here.
-std::vector<RecordedRun> recorded_runs(const std::vector<FilePair>& files,
+std::vector<RecordedRun> recorded_runs(const std::string& reference,
+                                       const std::vector<std::string>& estimates,
                                        const std::string& sequence);
 
 /// Labels for estimates: those of recorded_runs(), or the names as given if recorded_runs() rejects
 /// them.
-std::vector<RecordedRun> labelled_runs(const std::vector<FilePair>& files,
+std::vector<RecordedRun> labelled_runs(const std::string& reference,
+                                       const std::vector<std::string>& estimates,
                                        const std::string& sequence);
 
 }  // namespace loopbench::harness

@@ -14,7 +14,6 @@ namespace {
 using namespace harness;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::SizeIs;
 
 /// 1 m/s along x with a bend in z, from `first` to `last` [s], one pose per second.
 Trajectory path(double first, double last, double error = 0.0) {
@@ -73,66 +72,53 @@ TEST(Figures, OfATrajectoryHaveNoSpeedOfOnePose) {
   EXPECT_FALSE(columns().contains("speed"));
 }
 
-std::vector<EvaluationResult> results(const std::vector<FilePair>& files,
-                                      const std::vector<double>& errors) {
-  std::vector<EvaluationResult> out;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    EvaluationResult& each = out.emplace_back();
-    each.estimate = files[i].estimate;
+/// Drawn evaluations of estimates with these errors.
+DrawnRuns drawn(const std::string& reference,
+                const std::vector<std::string>& estimates,
+                const std::vector<double>& errors = {}) {
+  std::vector<EvaluationResult> results;
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    EvaluationResult& each = results.emplace_back();
+    each.estimate = estimates[i];
     each.drawn.position_rmse = errors.empty() ? 0.1 : errors[i];
   }
-  return out;
+  return drawn_runs(results, labelled_runs(reference, estimates, ""));
 }
 
-std::vector<std::string> names(const DrawnRuns& sequence) {
+std::vector<std::string> names(const DrawnRuns& runs) {
   std::vector<std::string> out;
-  for (const DrawnEvaluation& each : sequence.drawn) out.push_back(each.estimate.name);
+  for (const DrawnEvaluation& each : runs.drawn) out.push_back(each.estimate.name);
   return out;
 }
 
 TEST(Figures, NamesAreTheShortestThatDiffer) {
-  const std::vector<FilePair> files{{"t/V.csv", "ba/V/0.txt"}, {"t/V.csv", "rp/V/0.txt"}};
-  const auto all = drawn_sequences(results(files, {}), labelled_runs(files, ""));
-  ASSERT_THAT(all, SizeIs(1));
-  EXPECT_THAT(names(all[0]), ElementsAre("ba", "rp"));
-  EXPECT_NE(all[0].drawn[0].estimate.style, all[0].drawn[1].estimate.style);
-  const std::vector<FilePair> unusual{{"t.csv", "x/a/e.txt"}, {"t.csv", "y/a/e.txt"}};
-  EXPECT_THAT(names(drawn_sequences(results(unusual, {}), labelled_runs(unusual, ""))[0]),
+  const DrawnRuns all = drawn("t/V.csv", {"ba/V/0.txt", "rp/V/0.txt"});
+  EXPECT_THAT(names(all), ElementsAre("ba", "rp"));
+  EXPECT_NE(all.drawn[0].estimate.style, all.drawn[1].estimate.style);
+  EXPECT_THAT(names(drawn("t.csv", {"x/a/e.txt", "y/a/e.txt"})),
               ElementsAre("x/a/e.txt", "y/a/e.txt"));
 }
 
 TEST(Figures, ManyRunsAreRepresentedByTheMedianOfEachMethod) {
-  std::vector<FilePair> files;
+  std::vector<std::string> files;
   std::vector<double> errors;
-  for (const char* const sequence : {"V", "W"}) {
-    for (const char* const method : {"ba", "rp"}) {
-      for (const int run : {0, 1, 2, 3, 4}) {
-        files.push_back(
-            {std::string(sequence) + ".csv",
-             std::string(method) + "/" + sequence + "/" + std::to_string(run) + ".txt"});
-        errors.push_back(0.1 * ((run + 2) % 5));  // the median 0.2 is run 0
-      }
+  for (const char* const method : {"ba", "rp"}) {
+    for (const int run : {0, 1, 2, 3, 4}) {
+      files.push_back(std::string(method) + "/W/" + std::to_string(run) + ".txt");
+      errors.push_back(0.1 * ((run + 2) % 5));  // the median 0.2 is run 0
     }
   }
-  const auto all = drawn_sequences(results(files, errors), labelled_runs(files, ""));
-  ASSERT_THAT(all, SizeIs(2));
-  EXPECT_EQ(all[1].sequence, "W");
-  EXPECT_THAT(names(all[1]), ElementsAre("ba 0 (median)", "rp 0 (median)"));
-  EXPECT_EQ(all[1].note, "8 of 10 estimates are not drawn (chosen by ATE)");
-  for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(all[0].drawn[i].estimate.style, all[1].drawn[i].estimate.style);
-    EXPECT_EQ(all[0].drawn[i].estimate.dash, 0);
-  }
+  const DrawnRuns all = drawn("W.csv", files, errors);
+  EXPECT_THAT(names(all), ElementsAre("ba 0 (median)", "rp 0 (median)"));
+  EXPECT_EQ(all.note, "8 of 10 estimates are not drawn (chosen by ATE)");
+  for (const DrawnEvaluation& each : all.drawn) EXPECT_EQ(each.estimate.dash, 0);
 }
 
 TEST(Figures, ManyRunsOfOneMethodAreRepresentedByBestMedianAndWorst) {
-  std::vector<FilePair> files;
-  for (int run = 0; run < 7; ++run)
-    files.push_back({"V.csv", "ba_" + std::to_string(run) + ".txt"});
-  const auto all = drawn_sequences(results(files, {0.3, 0.1, 0.7, 0.2, 0.5, 0.6, 0.4}),
-                                   labelled_runs(files, ""));
-  ASSERT_THAT(all, SizeIs(1));
-  EXPECT_THAT(names(all[0]), ElementsAre("ba 1 (best)", "ba 6 (median)", "ba 2 (worst)"));
+  std::vector<std::string> files;
+  for (int run = 0; run < 7; ++run) files.push_back("ba_" + std::to_string(run) + ".txt");
+  EXPECT_THAT(names(drawn("V.csv", files, {0.3, 0.1, 0.7, 0.2, 0.5, 0.6, 0.4})),
+              ElementsAre("ba 1 (best)", "ba 6 (median)", "ba 2 (worst)"));
 }
 
 class DrawnFigures : public testing::Test {

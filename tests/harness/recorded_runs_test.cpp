@@ -17,7 +17,7 @@ using namespace harness;
 
 TEST(RecordedRuns, NamesGiveMethodAndRun) {
   const auto label = [](const std::string& reference, const std::string& estimate) {
-    const RecordedRun run = recorded_runs({{reference, estimate}}, "")[0];
+    const RecordedRun run = recorded_runs(reference, {estimate}, "")[0];
     return run.sequence + "|" + run.method + "|" + run.run;
   };
   EXPECT_EQ(label("t/V102.csv", "vislam/V102/7.txt"), "V102|vislam|7");
@@ -31,10 +31,8 @@ TEST(RecordedRuns, NamesGiveMethodAndRun) {
 TEST(RecordedRuns, FoldersOfASequenceAreNotMethods) {
   const auto methods = [](const std::string& reference, const std::string& sequence) {
     std::vector<std::string> out;
-    for (const RecordedRun& run : recorded_runs({{reference, "est/A/seq1/0.txt"},
-                                                 {reference, "est/A/seq1/1.txt"},
-                                                 {reference, "est/B/seq1/0.txt"}},
-                                                sequence)) {
+    for (const RecordedRun& run : recorded_runs(
+             reference, {"est/A/seq1/0.txt", "est/A/seq1/1.txt", "est/B/seq1/0.txt"}, sequence)) {
       out.push_back(run.method);
     }
     return out;
@@ -44,32 +42,30 @@ TEST(RecordedRuns, FoldersOfASequenceAreNotMethods) {
   EXPECT_EQ(methods("lay/groundtruth.txt", ""), expected);
   EXPECT_EQ(methods("seq1/groundtruth.txt", ""), expected);
   // One file for each method, next to the reference or in a folder of results.
-  EXPECT_EQ(recorded_runs({{"s/groundtruth.txt", "s/orb.txt"}}, "")[0].method, "orb");
-  EXPECT_EQ(recorded_runs({{"s/groundtruth.txt", "out/s/orb.txt"}}, "")[0].method, "orb");
-  EXPECT_EQ(recorded_runs({{"s/groundtruth.txt", "s/0.txt"}}, "")[0].method, "s");
+  EXPECT_EQ(recorded_runs("s/groundtruth.txt", {"s/orb.txt"}, "")[0].method, "orb");
+  EXPECT_EQ(recorded_runs("s/groundtruth.txt", {"out/s/orb.txt"}, "")[0].method, "orb");
+  EXPECT_EQ(recorded_runs("s/groundtruth.txt", {"s/0.txt"}, "")[0].method, "s");
 }
 
 TEST(RecordedRuns, OneFileIsNotTwoMethods) {
-  EXPECT_THROW(recorded_runs({{"t/a.txt", "one/odom.txt"}, {"t/a.txt", "one/./odom.txt"}}, ""),
-               InputError);
-  const auto runs = recorded_runs({{"t/a.txt", "a_1.txt"}, {"t/a.txt", "a_01.txt"}}, "");
+  EXPECT_THROW(recorded_runs("t/a.txt", {"one/odom.txt", "one/./odom.txt"}, ""), InputError);
+  const auto runs = recorded_runs("t/a.txt", {"a_1.txt", "a_01.txt"}, "");
   const auto cells = recorded_sweep(runs, EvalArguments{}).cells;
   EXPECT_NE(cells[0].repeat, cells[1].repeat);
-  EXPECT_EQ(recorded_runs({{"a.txt", "bag:b.bag#/odom"}}, "")[0].estimate,
+  EXPECT_EQ(recorded_runs("a.txt", {"bag:b.bag#/odom"}, "")[0].estimate,
             "bag:" + std::filesystem::absolute("b.bag").string() + "#/odom");
 }
 
 TEST(RecordedRuns, RunsAreOrderedByTheirNumbers) {
-  const auto runs = recorded_runs({{"t/a.txt", "x_10.txt"}, {"t/a.txt", "x_9.txt"}}, "");
+  const auto runs = recorded_runs("t/a.txt", {"x_10.txt", "x_9.txt"}, "");
   EXPECT_EQ(recorded_sweep(runs, EvalArguments{}).cells.front().dataset, 1u);
 }
 
 TEST(RecordedRuns, EqualNamesInOtherFoldersAreOtherMethods) {
-  const auto runs = recorded_runs({{"t/a.txt", "one/odom.txt"}, {"t/a.txt", "two/odom.txt"}}, "s");
+  const auto runs = recorded_runs("t/a.txt", {"one/odom.txt", "two/odom.txt"}, "s");
   EXPECT_EQ(runs[0].method, "one/odom");
   EXPECT_EQ(runs[1].method, "two/odom");
-  EXPECT_THROW(recorded_runs({{"t/a.txt", "one/odom.txt"}, {"t/a.txt", "one/odom.txt"}}, ""),
-               InputError);
+  EXPECT_THROW(recorded_runs("t/a.txt", {"one/odom.txt", "one/odom.txt"}, ""), InputError);
   EXPECT_EQ(runs_of_manifest(recorded_sweep(runs, EvalArguments{}).sweep.text), runs);
 }
 
