@@ -27,7 +27,7 @@ struct Thinning {
 /// one repeat with kLeastPoints (drawn.cpp).
 Thinning thinning_for(const ReportContent& content, double bytes);
 
-/// {points, sequences, grids, cells} from the traces. Sequences: reference, and closures by repeat.
+/// {sequences, grids, cells} from the traces. Sequences: reference, and closures by repeat.
 /// Cells: grid, errors and sections of the path; the evaluation times of a cell are in its grid,
 /// which cells share.
 nlohmann::json traces_json(const ReportContent& content, const Thinning& thinning);

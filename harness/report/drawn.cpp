@@ -208,10 +208,7 @@ nlohmann::json traces_json(const ReportContent& content, const Thinning& thinnin
     const auto found = sequences.find(name);
     all.push_back(found == sequences.end() ? nullptr : std::move(found->second));
   }
-  return {{"points", thinning.points},
-          {"sequences", std::move(all)},
-          {"grids", std::move(grids)},
-          {"cells", std::move(cells)}};
+  return {{"sequences", std::move(all)}, {"grids", std::move(grids)}, {"cells", std::move(cells)}};
 }
 
 }  // namespace loopbench::harness

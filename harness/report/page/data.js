@@ -10,7 +10,6 @@
     label: raw.scores.oracle[m] ? name + " (oracle)" : name,
   }));
   R.baseline = R.methods.find((m) => m.name === raw.scores.baseline) || null;
-  R.drawnPoints = raw.traces.points;
   R.defaultPlane = raw.plane;
 
   R.unpack = (packed) => {
