@@ -73,6 +73,6 @@ void put_covariance(const TextFile& file,
 /// Whether a symmetric matrix is positive definite in the axes that are not zero: the first pose
 /// can be exact, and planar poses have no errors of z, roll and pitch. Rotations do not count for
 /// positions without rotation.
-bool is_covariance(const Matrix6& matrix, bool has_rotation = true);
+bool is_covariance(const Matrix6& matrix, bool has_rotation);
 
 }  // namespace loopbench

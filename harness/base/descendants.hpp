@@ -22,7 +22,7 @@ struct TreeUsage {
 /// its growth again. Stops counting after `most_processes` of them.
 TreeUsage descendants_usage(std::int64_t at_fork,
                             std::int64_t most_processes,
-                            const std::vector<pid_t>& keep_alive = {});
+                            const std::vector<pid_t>& keep_alive);
 
 /// Memory of a process and all its descendants [bytes].
 std::int64_t tree_memory(pid_t process);

@@ -57,8 +57,7 @@ inline std::string read_until_end(int descriptor) {
 
 /// Starts `words` (searched in PATH, without a shell) and sends `input` while it reads the output,
 /// so neither blocks. Throws std::system_error if the program cannot be started.
-inline FilterResult run_filter(const std::vector<std::string>& words,
-                               const std::string& input = "") {
+inline FilterResult run_filter(const std::vector<std::string>& words, const std::string& input) {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     throw std::system_error(errno, std::generic_category());

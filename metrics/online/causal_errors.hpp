@@ -12,8 +12,7 @@ namespace loopbench::metrics {
 /// time, including closures that arrived with it; paired and aligned by the rules of the protocol
 /// like any other estimate, with an alignment of its own. The replay must outlive the result.
 /// Throws Undefined if the method was not replayed; `metric` is named in the reason. O(n log n).
-inline Evaluation causal_evaluation(const Evaluation& evaluation,
-                                    const std::string& metric = "causal") {
+inline Evaluation causal_evaluation(const Evaluation& evaluation, const std::string& metric) {
   const Replay& replay = replay_of(evaluation, metric);
   const Trajectory& reference = needed(evaluation.context.reference, metric, "a reference");
   Evaluation out = evaluate(reference, replay.causal, evaluation.protocol);

@@ -72,13 +72,12 @@ struct SmoothedRotations {
 /// with `values`, one per rotation), and rolls the result back as the next base, until the base
 /// converges. At convergence the fit minimises the cost on the manifold with the penalty along its
 /// own path. Linear convergence, faster for smaller noise. `converged` is false when a rotation
-/// still changes by more than `tolerance` [rad] after 30 rounds.
+/// still changes by more than 1e-11 rad after 30 rounds.
 template <class FitPoints>
-auto smoothed_rotations(const std::vector<Rotation>& rotations,
-                        FitPoints fit_points,
-                        double tolerance = 1e-11)
+auto smoothed_rotations(const std::vector<Rotation>& rotations, FitPoints fit_points)
     -> SmoothedRotations<decltype(fit_points(std::vector<Vector3>{}))> {
   constexpr int kMaxRounds = 30;
+  constexpr double kTolerance = 1e-11;  // [rad]
   UnrolledRotations path(rotations);
   for (int round = 1;; ++round) {
     std::vector<Vector3> points;
@@ -94,7 +93,7 @@ auto smoothed_rotations(const std::vector<Rotation>& rotations,
       next.push_back(path.roll(i, 0.0, fit.values[i]));
       change = std::max(change, angle_between(path.base()[i], next[i]));
     }
-    const bool converged = change <= tolerance;
+    const bool converged = change <= kTolerance;
     if (converged || round == kMaxRounds)
       return {std::move(path), std::move(fit), round, converged};
     path = UnrolledRotations(std::move(next));

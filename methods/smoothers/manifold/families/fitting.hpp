@@ -23,18 +23,16 @@ using Slopes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxNode
 /// Minimises the sum of squares. `evaluate(parameters, residuals, slopes)` sets both outputs, with
 /// slopes = d residual / d parameter. Marquardt scaling of the damping; a step is accepted only if
 /// it lowers the sum of squares, so the result is never worse than `start`. Stops after
-/// `iterations` or at a relative decrease below 1e-14.
+/// 50 iterations or at a relative decrease below 1e-14.
 template <class Evaluate>
-Parameters levenberg_marquardt(Parameters start,
-                               Eigen::Index count,
-                               Evaluate evaluate,
-                               int iterations = 50) {
+Parameters levenberg_marquardt(Parameters start, Eigen::Index count, Evaluate evaluate) {
+  constexpr int kMostIterations = 50;
   FamilyResiduals r(count), trial_residuals(count);
   Slopes J(count, start.size()), slopes(count, start.size());
   evaluate(start, r, J);
   double cost = r.squaredNorm();
   double damping = 1e-3;
-  for (int i = 0; i < iterations && damping < 1e12 && cost > 0.0; ++i) {
+  for (int i = 0; i < kMostIterations && damping < 1e12 && cost > 0.0; ++i) {
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxParameters, kMaxParameters> H =
         J.transpose() * J;
     const double floor = 1e-15 * std::max(H.diagonal().maxCoeff(), 1e-300);
