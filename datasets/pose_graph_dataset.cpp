@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "datasets/core/disabled_options.hpp"
 #include "datasets/derive/closures.hpp"
 #include "datasets/derive/graph_parts.hpp"

@@ -2,7 +2,6 @@
 // Source: mcap.dev/spec.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 
 #include "datasets/bags/byte_reader.hpp"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <optional>
 
 #include "datasets/bags/byte_reader.hpp"
 #include "datasets/bags/messages.hpp"

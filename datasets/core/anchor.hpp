@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Cholesky>
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>

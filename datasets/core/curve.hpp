@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 #include "datasets/core/trajectory.hpp"

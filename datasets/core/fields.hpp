@@ -13,7 +13,6 @@
 /// (written `none` when empty) and enums with `choices(Enum)`, an array of name-value pairs.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <concepts>
 #include <limits>

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "datasets/core/fields.hpp"
 #include "datasets/core/problem.hpp"

@@ -1,6 +1,5 @@
 #include "datasets/derive/keyframes.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "datasets/core/params.hpp"

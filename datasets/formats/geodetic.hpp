@@ -1,7 +1,6 @@
 /// WGS 84 coordinates, and local ones in metres. Only here is GeographicLib.
 #pragma once
 
-#include <cstddef>
 #include <string>
 
 #include "datasets/core/trajectory.hpp"

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <optional>
 
 #include "datasets/bags/bag_trajectory.hpp"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
 
 #include "datasets/core/pose.hpp"
 #include "datasets/formats/csv_header.hpp"

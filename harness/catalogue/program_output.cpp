@@ -10,7 +10,6 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
-#include <sstream>
 
 #include "datasets/core/error.hpp"
 #include "harness/base/hash.hpp"

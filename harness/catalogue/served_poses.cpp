@@ -2,7 +2,6 @@
 #include <chrono>
 
 #include "harness/catalogue/message.hpp"
-#include "harness/catalogue/scratch.hpp"
 #include "harness/catalogue/server.hpp"
 #include "metrics/evaluation/evaluation.hpp"
 

@@ -18,7 +18,6 @@
 
 #include "harness/base/program.hpp"
 #include "harness/catalogue/message.hpp"
-#include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench::harness {
 namespace {

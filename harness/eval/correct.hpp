@@ -1,7 +1,6 @@
 /// Corrects one trajectory or pose graph with one method, without a sweep.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,7 +1,6 @@
 /// Trajectory files as arguments of a command.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>

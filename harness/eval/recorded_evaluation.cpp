@@ -7,7 +7,6 @@
 #include <iterator>
 #include <memory>
 
-#include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/parallel.hpp"
 #include "harness/eval/common_parts.hpp"
 #include "harness/eval/eval_figures.hpp"

@@ -1,7 +1,6 @@
 /// Stores the evaluation of files like a sweep: systems are methods, their runs are repeats.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 

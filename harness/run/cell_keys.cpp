@@ -1,7 +1,5 @@
 #include "harness/run/cell_keys.hpp"
 
-#include <algorithm>
-
 #include "harness/base/hash.hpp"
 #include "harness/catalogue/external_methods.hpp"
 #include "harness/catalogue/load_sequence.hpp"

@@ -1,7 +1,5 @@
 #include "harness/run/summarise_sequence.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "datasets/derive/poses_at.hpp"

@@ -1,7 +1,6 @@
 #include "harness/store/record_reader.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <future>
 #include <set>
 #include <tuple>

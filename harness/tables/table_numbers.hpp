@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -14,7 +13,6 @@
 #include "datasets/core/hash.hpp"
 #include "harness/model/name_order.hpp"
 #include "harness/model/record.hpp"
-#include "harness/model/sweep.hpp"
 #include "harness/tables/mark_best.hpp"
 #include "harness/tables/notes.hpp"
 

@@ -1,7 +1,6 @@
 #include "methods/correctors/anchored_chain.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace loopbench::methods {
 namespace {

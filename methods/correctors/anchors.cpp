@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 #include "methods/correctors/scale_drift.hpp"
 #include "methods/correctors/shares.hpp"

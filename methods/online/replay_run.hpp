@@ -1,7 +1,6 @@
 /// One replay of a problem by an incremental method.
 #pragma once
 
-#include <memory>
 #include <span>
 
 #include "datasets/core/replay.hpp"

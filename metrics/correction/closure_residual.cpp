@@ -1,7 +1,6 @@
 #include "metrics/correction/closure_residual.hpp"
 
 #include <cmath>
-#include <stdexcept>
 
 #include "metrics/numerics/angle.hpp"
 

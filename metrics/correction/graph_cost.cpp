@@ -1,7 +1,5 @@
 #include "metrics/correction/graph_cost.hpp"
 
-#include <cmath>
-
 #include "metrics/correction/chordal_weights.hpp"
 
 namespace loopbench::metrics {

@@ -1,7 +1,5 @@
 #include "metrics/correction/interpolation_floor.hpp"
 
-#include <stdexcept>
-
 #include "datasets/core/cubic.hpp"
 #include "datasets/core/interpolate.hpp"
 #include "metrics/numerics/angle.hpp"

@@ -1,6 +1,5 @@
 #include "metrics/correction/jumps.hpp"
 
-#include <cmath>
 #include <stdexcept>
 
 #include "metrics/numerics/divided_differences.hpp"

@@ -1,7 +1,5 @@
 #include "metrics/correction/path_length.hpp"
 
-#include <stdexcept>
-
 namespace loopbench::metrics {
 
 std::vector<Score> path_length_ratio(const Evaluation& evaluation) {

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -9,7 +8,6 @@
 #include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/graph_checks.hpp"
 #include "metrics/doctor/loop_likelihood.hpp"
-#include "metrics/numerics/angle.hpp"
 #include "metrics/numerics/spread.hpp"
 
 namespace loopbench::metrics {

@@ -7,7 +7,6 @@
 
 #include "metrics/doctor/clock.hpp"
 #include "metrics/doctor/pair_checks.hpp"
-#include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {
 namespace {

@@ -1,7 +1,6 @@
 #include "metrics/errors/along_cross.hpp"
 
 #include <cmath>
-#include <stdexcept>
 
 #include "metrics/trajectory/heading.hpp"
 

@@ -1,7 +1,6 @@
 /// Absolute pose error in evo's pose relations.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 
 #include "datasets/core/parallel.hpp"

@@ -1,6 +1,5 @@
 #include "metrics/evaluation/evaluation.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "datasets/core/params.hpp"

@@ -1,6 +1,5 @@
 #include "metrics/pairing/tum_motions.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 
 #include "datasets/core/fields.hpp"
 #include "datasets/rgbd/images/rgbd_source.hpp"

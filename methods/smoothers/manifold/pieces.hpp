@@ -11,7 +11,6 @@
 #include "methods/smoothers/manifold/families/graph.hpp"
 #include "methods/smoothers/manifold/families/implicit.hpp"
 #include "methods/smoothers/manifold/families/jet.hpp"
-#include "methods/smoothers/manifold/families/nodes.hpp"
 #include "methods/smoothers/manifold/spline.hpp"
 
 namespace loopbench::methods::manifold {

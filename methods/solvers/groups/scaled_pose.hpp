@@ -1,8 +1,6 @@
 /// A similarity transform of space: a pose and a scale.
 #pragma once
 
-#include <vector>
-
 #include "datasets/core/problem.hpp"
 
 namespace loopbench::methods {
