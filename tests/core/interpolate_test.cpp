@@ -22,8 +22,8 @@ TEST(Interpolate, EndsAreTheGivenPoses) {
   for (const Pose& a : general_poses()) {
     for (const Twist& xi : awkward_twists()) {
       const Pose b = a * exp_se3(xi);
-      EXPECT_LE(distance(interpolate(a, b, 0.0), a), 2e-15);
-      EXPECT_LE(distance(interpolate(a, b, 1.0), b), 1e-13) << xi.transpose();
+      EXPECT_NEAR(distance(interpolate(a, b, 0.0), a), 0.0, 2e-15);
+      EXPECT_NEAR(distance(interpolate(a, b, 1.0), b), 0.0, 1e-13) << xi.transpose();
     }
   }
 }
@@ -35,7 +35,8 @@ TEST(Interpolate, BackwardsIsForwardsFromTheOtherEnd) {
       for (const double u : kShares) {
         // Near pi the arc's direction is only known to rounding / (pi - angle).
         const double room = std::numbers::pi - xi.tail<3>().norm();
-        EXPECT_LE(distance(interpolate(a, b, u), interpolate(b, a, 1.0 - u)), 1e-12 + 1e-14 / room);
+        EXPECT_NEAR(
+            distance(interpolate(a, b, u), interpolate(b, a, 1.0 - u)), 0.0, 1e-12 + 1e-14 / room);
       }
     }
   }
@@ -48,9 +49,10 @@ TEST(Interpolate, DoesNotCareWhereTheWorldIs) {
       const Pose b = a * exp_se3(xi);
       const double room = std::numbers::pi - xi.tail<3>().norm();
       for (const double u : kShares) {
-        EXPECT_LE(distance(elsewhere * interpolate(a, b, u),
-                           interpolate(elsewhere * a, elsewhere * b, u)),
-                  1e-12 + 1e-13 / room);
+        EXPECT_NEAR(distance(elsewhere * interpolate(a, b, u),
+                             interpolate(elsewhere * a, elsewhere * b, u)),
+                    0.0,
+                    1e-12 + 1e-13 / room);
       }
     }
   }
@@ -61,7 +63,7 @@ TEST(Interpolate, IgnoresTheSignOfAQuaternion) {
   const Pose b = a * exp_se3((Twist() << 1.0, 2.0, 3.0, 0.5, -1.0, 2.0).finished());
   Pose minus = b;
   minus.rotation.coeffs() *= -1.0;
-  EXPECT_LE(distance(interpolate(a, b, 0.3), interpolate(a, minus, 0.3)), 1e-14);
+  EXPECT_NEAR(distance(interpolate(a, b, 0.3), interpolate(a, minus, 0.3)), 0.0, 1e-14);
 }
 
 TEST(Interpolate, KeepsToTheChord) {
@@ -69,9 +71,9 @@ TEST(Interpolate, KeepsToTheChord) {
   const Pose a;
   const Pose b{exp_so3(Vector3(0.0, 0.0, 0.5 * std::numbers::pi)), Vector3(2.0, 2.0, 0.0)};
   const Pose half = interpolate(a, b, 0.5);
-  EXPECT_LE((half.translation - Vector3(1.0, 1.0, 0.0)).norm(), 1e-15);
+  EXPECT_NEAR((half.translation - Vector3(1.0, 1.0, 0.0)).norm(), 0.0, 1e-15);
   const Rotation eighth = exp_so3(Vector3(0.0, 0.0, 0.25 * std::numbers::pi));
-  EXPECT_LE(angle_between(half.rotation, eighth), 1e-15);
+  EXPECT_NEAR(angle_between(half.rotation, eighth), 0.0, 1e-15);
 }
 
 TEST(Interpolate, TurnsAtConstantRate) {

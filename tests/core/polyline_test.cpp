@@ -29,7 +29,7 @@ TEST(Polyline, ReturnsItsNodesToTheBit) {
 TEST(Polyline, InterpolatesByTime) {
   const Trajectory nodes = three_poses();
   const Pose wanted = interpolate(nodes[1].world_from_body, nodes[2].world_from_body, 0.25);
-  EXPECT_TRUE(is_close(Polyline(nodes).at(2.5), wanted, 1e-14, 1e-14));
+  EXPECT_POSE_NEAR(Polyline(nodes).at(2.5), wanted, 1e-14, 1e-14);
 }
 
 TEST(Polyline, TakesTimesInAnyOrder) {

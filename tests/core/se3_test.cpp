@@ -12,14 +12,16 @@ constexpr double kPi = std::numbers::pi;
 TEST(Se3, LogUndoesExp) {
   for (const Twist& xi : awkward_twists()) {
     if (xi.tail<3>().norm() > kPi - 1e-15) continue;  // either sign is right there
-    EXPECT_LE((log_se3(exp_se3(xi)) - xi).norm(), 1e-14 * (1.0 + xi.norm())) << xi.transpose();
+    EXPECT_NEAR((log_se3(exp_se3(xi)) - xi).norm(), 0.0, 1e-14 * (1.0 + xi.norm()))
+        << xi.transpose();
   }
 }
 
 TEST(Se3, ExpUndoesLog) {
   for (const Twist& xi : awkward_twists()) {
     const Pose pose = exp_se3(xi);
-    EXPECT_LE(distance(exp_se3(log_se3(pose)), pose), 1e-14 * (1.0 + xi.norm())) << xi.transpose();
+    EXPECT_NEAR(distance(exp_se3(log_se3(pose)), pose), 0.0, 1e-14 * (1.0 + xi.norm()))
+        << xi.transpose();
   }
 }
 
@@ -31,21 +33,22 @@ TEST(Se3, ExpAgreesWithTheMatrixPowerSeries) {
     Eigen::Matrix4d sum = Eigen::Matrix4d::Identity(), term = sum;
     for (int k = 1; k < 40; ++k) sum += term = (term * generator / k).eval();
     const Pose pose = exp_se3(xi);
-    EXPECT_LE((pose.rotation.toRotationMatrix() - sum.topLeftCorner<3, 3>()).norm(), 1e-14);
-    EXPECT_LE((pose.translation - sum.topRightCorner<3, 1>()).norm(), 1e-14 * (1.0 + xi.norm()));
+    EXPECT_NEAR((pose.rotation.toRotationMatrix() - sum.topLeftCorner<3, 3>()).norm(), 0.0, 1e-14);
+    EXPECT_NEAR(
+        (pose.translation - sum.topRightCorner<3, 1>()).norm(), 0.0, 1e-14 * (1.0 + xi.norm()));
   }
 }
 
 TEST(Se3, GroupLawsHold) {
   const Vector3 point(0.3, -0.7, 2.0);
   for (const Pose& a : general_poses()) {
-    EXPECT_LE(distance(a * a.inverse(), Pose{}), 1e-13);
-    EXPECT_LE(distance(a.inverse() * a, Pose{}), 1e-13);
+    EXPECT_NEAR(distance(a * a.inverse(), Pose{}), 0.0, 1e-13);
+    EXPECT_NEAR(distance(a.inverse() * a, Pose{}), 0.0, 1e-13);
     for (const Pose& b : general_poses()) {
-      EXPECT_LE(((a * b) * point - a * (b * point)).norm(), 1e-13);
-      EXPECT_LE(distance((a * b).inverse(), b.inverse() * a.inverse()), 1e-12);
+      EXPECT_NEAR(((a * b) * point - a * (b * point)).norm(), 0.0, 1e-13);
+      EXPECT_NEAR(distance((a * b).inverse(), b.inverse() * a.inverse()), 0.0, 1e-12);
       for (const Pose& c : general_poses()) {
-        EXPECT_LE(distance((a * b) * c, a * (b * c)), 1e-12);
+        EXPECT_NEAR(distance((a * b) * c, a * (b * c)), 0.0, 1e-12);
       }
     }
   }
@@ -54,12 +57,13 @@ TEST(Se3, GroupLawsHold) {
 TEST(Se3, AdjointCarriesATwistAcrossAPose) {
   for (const Pose& a : general_poses()) {
     for (const Twist& xi : awkward_twists()) {
-      EXPECT_LE(distance(a * exp_se3(xi), exp_se3(adjoint(a) * xi) * a), 1e-12 * (1.0 + xi.norm()));
+      EXPECT_NEAR(
+          distance(a * exp_se3(xi), exp_se3(adjoint(a) * xi) * a), 0.0, 1e-12 * (1.0 + xi.norm()));
     }
     for (const Pose& b : general_poses()) {
-      EXPECT_LE((adjoint(a * b) - adjoint(a) * adjoint(b)).norm(), 1e-11);
+      EXPECT_NEAR((adjoint(a * b) - adjoint(a) * adjoint(b)).norm(), 0.0, 1e-11);
     }
-    EXPECT_LE((adjoint(a) * adjoint(a.inverse()) - Matrix6::Identity()).norm(), 1e-11);
+    EXPECT_NEAR((adjoint(a) * adjoint(a.inverse()) - Matrix6::Identity()).norm(), 0.0, 1e-11);
   }
 }
 
@@ -102,8 +106,10 @@ TEST(Se3, JacobianTimesInverseIsIdentity) {
   for (const Twist& xi : awkward_twists()) {
     const Matrix6 left = left_jacobian_se3(xi) * inverse_left_jacobian_se3(xi);
     const Matrix6 right = inverse_right_jacobian_se3(xi) * right_jacobian_se3(xi);
-    EXPECT_LE((left - Matrix6::Identity()).norm(), 1e-14 * (1.0 + xi.norm())) << xi.transpose();
-    EXPECT_LE((right - Matrix6::Identity()).norm(), 1e-14 * (1.0 + xi.norm())) << xi.transpose();
+    EXPECT_NEAR((left - Matrix6::Identity()).norm(), 0.0, 1e-14 * (1.0 + xi.norm()))
+        << xi.transpose();
+    EXPECT_NEAR((right - Matrix6::Identity()).norm(), 0.0, 1e-14 * (1.0 + xi.norm()))
+        << xi.transpose();
   }
 }
 
@@ -114,7 +120,7 @@ TEST(Se3, CouplingBlockDoesNotJumpWhereSeriesMeetClosedForms) {
       const Matrix3 below = coupling_block_se3(rho, angle * (1.0 - 1e-14) * axis);
       const Matrix3 above = coupling_block_se3(rho, angle * (1.0 + 1e-14) * axis);
       // angle - sin(angle) has lost eps / angle^2 = 1e-13 there, and stands beside angle |rho|.
-      EXPECT_LE((below - above).norm(), 2e-14) << angle << " about " << axis.transpose();
+      EXPECT_NEAR((below - above).norm(), 0.0, 2e-14) << angle << " about " << axis.transpose();
     }
   }
 }
@@ -124,7 +130,7 @@ TEST(Se3, NormalizedAndCloseness) {
   pose.rotation.coeffs() *= 1.5;
   EXPECT_DOUBLE_EQ(normalized(pose).rotation.norm(), 1.0);
   const Pose off{exp_so3(Vector3(0.0, 0.0, 0.1)), Vector3(0.0, 0.2, 0.0)};
-  EXPECT_TRUE(is_close(Pose{}, off, 0.21, 0.11));
+  EXPECT_POSE_NEAR(Pose{}, off, 0.21, 0.11);
   EXPECT_FALSE(is_close(Pose{}, off, 0.19, 0.11));
   EXPECT_FALSE(is_close(Pose{}, off, 0.21, 0.09));
   pose.translation.x() = std::nan("");

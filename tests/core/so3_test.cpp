@@ -14,7 +14,8 @@ TEST(So3, ExpIsUnitAndTurnsByTheAngleAboutTheAxis) {
     const Rotation R = exp_so3(phi);
     EXPECT_NEAR(R.norm(), 1.0, 4e-16) << phi.transpose();
     const Eigen::AngleAxisd wanted(phi.norm(), phi.stableNormalized());
-    EXPECT_LE((R.toRotationMatrix() - wanted.toRotationMatrix()).norm(), 1e-15) << phi.transpose();
+    EXPECT_NEAR((R.toRotationMatrix() - wanted.toRotationMatrix()).norm(), 0.0, 1e-15)
+        << phi.transpose();
   }
 }
 
@@ -23,7 +24,7 @@ TEST(So3, LogUndoesExp) {
     const Vector3 back = log_so3(exp_so3(phi));
     // At pi both signs are the same rotation, and rounding of pi may pick either.
     const double other = phi.norm() > kPi - 1e-15 ? (back + phi).norm() : 1.0;
-    EXPECT_LE(std::min((back - phi).norm(), other), 2e-15) << phi.transpose();
+    EXPECT_NEAR(std::min((back - phi).norm(), other), 0.0, 2e-15) << phi.transpose();
   }
 }
 
@@ -40,7 +41,7 @@ TEST(So3, ExpUndoesLogForBothSignsOfTheQuaternion) {
     for (const Rotation& q : {R, minus}) {
       const Vector3 log = log_so3(q);
       EXPECT_LE(log.norm(), kPi + 1e-15);
-      EXPECT_LE((exp_so3(log).toRotationMatrix() - R.toRotationMatrix()).norm(), 2e-15);
+      EXPECT_NEAR((exp_so3(log).toRotationMatrix() - R.toRotationMatrix()).norm(), 0.0, 2e-15);
     }
   }
 }
@@ -52,8 +53,8 @@ TEST(So3, LogOfAHalfTurnHasLengthPi) {
 
 TEST(So3, ExpTakesAnglesBeyondPi) {
   const Vector3 axis(0.6, 0.0, 0.8);
-  EXPECT_LE((log_so3(exp_so3(1.5 * kPi * axis)) + 0.5 * kPi * axis).norm(), 2e-15);
-  EXPECT_LE(log_so3(exp_so3(2.0 * kPi * axis)).norm(), 1e-15);
+  EXPECT_NEAR((log_so3(exp_so3(1.5 * kPi * axis)) + 0.5 * kPi * axis).norm(), 0.0, 2e-15);
+  EXPECT_NEAR(log_so3(exp_so3(2.0 * kPi * axis)).norm(), 0.0, 1e-15);
 }
 
 TEST(So3, HatIsTheCrossProduct) {
@@ -91,7 +92,7 @@ TEST(So3, InverseLeftJacobianIsTheDerivativeOfLog) {
 TEST(So3, JacobianTimesInverseIsIdentity) {
   for (const Vector3& phi : awkward_rotations()) {
     const Matrix3 left = left_jacobian_so3(phi) * inverse_left_jacobian_so3(phi);
-    EXPECT_LE((left - Matrix3::Identity()).norm(), 3e-15) << phi.transpose();
+    EXPECT_NEAR((left - Matrix3::Identity()).norm(), 0.0, 3e-15) << phi.transpose();
   }
 }
 
@@ -99,9 +100,10 @@ TEST(So3, NothingJumpsWhereSeriesMeetClosedForms) {
   for (const Vector3& axis : awkward_axes()) {
     const Vector3 below = kSmallAngle * (1.0 - 1e-14) * axis;
     const Vector3 above = kSmallAngle * (1.0 + 1e-14) * axis;
-    EXPECT_LE((exp_so3(below).coeffs() - exp_so3(above).coeffs()).norm(), 1e-16);
-    EXPECT_LE((left_jacobian_so3(below) - left_jacobian_so3(above)).norm(), 1e-15);
-    EXPECT_LE((inverse_left_jacobian_so3(below) - inverse_left_jacobian_so3(above)).norm(), 1e-15);
+    EXPECT_NEAR((exp_so3(below).coeffs() - exp_so3(above).coeffs()).norm(), 0.0, 1e-16);
+    EXPECT_NEAR((left_jacobian_so3(below) - left_jacobian_so3(above)).norm(), 0.0, 1e-15);
+    EXPECT_NEAR(
+        (inverse_left_jacobian_so3(below) - inverse_left_jacobian_so3(above)).norm(), 0.0, 1e-15);
   }
 }
 

@@ -66,7 +66,7 @@ TEST(ClosureFile, BecomesEdgesBetweenNearestPosesInOrder) {
   ASSERT_EQ(edges.size(), 2u);
   EXPECT_EQ(edges[0].from, 0u);
   EXPECT_EQ(edges[0].to, 3u);
-  EXPECT_TRUE(is_close(edges[0].from_from_to, pose.inverse(), 1e-12, 1e-12));
+  EXPECT_POSE_NEAR(edges[0].from_from_to, pose.inverse(), 1e-12, 1e-12);
   EXPECT_EQ(edges[1].from, 1u);
   EXPECT_EQ(edges[1].to, 4u);
   EXPECT_EQ(edges[1].information, isotropic_information(0.25, 0.0625));
@@ -143,7 +143,7 @@ TEST(MeasuredClosures, AreTheRunsOwnRelativePoses) {
   ASSERT_EQ(closures.size(), 26u);  // all keyframes of the second round: 10 s to 20 s
   for (const Edge& closure : closures) {
     EXPECT_EQ(closure.to - closure.from, 25u);
-    EXPECT_TRUE(is_close(closure.from_from_to, {}, 1e-9, 1e-9));
+    EXPECT_POSE_NEAR(closure.from_from_to, {}, 1e-9, 1e-9);
     EXPECT_NEAR(closure.information(0, 0), 1.0 / (0.02 * 0.02), 1e-9);
     EXPECT_NEAR(closure.information(3, 3), 1.0 / (0.01 * 0.01), 1e-9);
   }

@@ -45,7 +45,7 @@ TEST(ComposeEdges, JoinKeptPosesAsTheChainDoes) {
     EXPECT_EQ(bridged[k].from, k);
     EXPECT_EQ(bridged[k].to, k + 1);
     const Pose expected = poses[kept[k]].inverse() * poses[kept[k + 1]];
-    EXPECT_TRUE(is_close(bridged[k].from_from_to, expected, 1e-12, 1e-12)) << k;
+    EXPECT_POSE_NEAR(bridged[k].from_from_to, expected, 1e-12, 1e-12) << k;
     EXPECT_TRUE(bridged[k].information.isApprox(bridged[k].information.transpose(), 0.0));
   }
   EXPECT_EQ(bridged[0].information, edges[0].information);
@@ -56,7 +56,7 @@ TEST(ComposeEdges, DoNotCareWhereTheyAreCut) {
   const Edge at_once = bridge(edges, {0, 11})[0];
   const std::vector<Edge> halves = bridge(edges, {0, 5, 11});
   const Edge in_two = composed(halves[0], halves[1]);
-  EXPECT_TRUE(is_close(at_once.from_from_to, in_two.from_from_to, 1e-12, 1e-12));
+  EXPECT_POSE_NEAR(at_once.from_from_to, in_two.from_from_to, 1e-12, 1e-12);
   EXPECT_TRUE(at_once.information.isApprox(in_two.information, 1e-9));
 }
 

@@ -65,7 +65,7 @@ TEST(G2o, ReadsVerticesInOrderOfIds) {
   EXPECT_TRUE(graph.planar);
   EXPECT_FALSE(graph.similarity);
   EXPECT_EQ(graph.ids, (std::vector<std::int64_t>{10, 20, 30}));
-  EXPECT_TRUE(is_close(graph.vertices[1], planar(1, 0, kQuarter), 1e-15, 1e-15));
+  EXPECT_POSE_NEAR(graph.vertices[1], planar(1, 0, kQuarter), 1e-15, 1e-15);
   EXPECT_EQ(graph.lines, (std::vector<std::size_t>{7, 8, 9}));
 }
 
@@ -84,7 +84,7 @@ TEST(G2o, EdgesWrittenBackwardsAreInverted) {
   EXPECT_EQ(loop.to, 2u);
   // Vertex 10 in the frame of 30 is (1, 1) with a rotation of pi, so 30 in the frame of 10 is (1,
   // 1).
-  EXPECT_TRUE(is_close(loop.from_from_to, planar(1, 1, M_PI), 1e-15, 1e-15));
+  EXPECT_POSE_NEAR(loop.from_from_to, planar(1, 1, M_PI), 1e-15, 1e-15);
 }
 
 TEST(G2o, InversionKeepsTheCostOfEveryError) {
@@ -141,7 +141,7 @@ TEST(G2o, SimilarityScaleIsUnitOfFirstOverSecondId) {
   EXPECT_EQ(loop.from, 0u);
   EXPECT_EQ(loop.to, 2u);
   EXPECT_EQ(loop.scale, 4.0);
-  EXPECT_TRUE(is_close(loop.from_from_to, planar(2, 0, 0), 1e-15, 1e-15));
+  EXPECT_POSE_NEAR(loop.from_from_to, planar(2, 0, 0), 1e-15, 1e-15);
 }
 
 TEST(G2o, SimilarityInformationMayHoldTheScaleToo) {
@@ -165,7 +165,7 @@ TEST(G2o, ToroAnglesAreRollPitchYawAboutFixedAxes) {
   const Eigen::Quaterniond q = Eigen::AngleAxisd(0.3, Vector3::UnitZ()) *
                                Eigen::AngleAxisd(0.2, Vector3::UnitY()) *
                                Eigen::AngleAxisd(0.1, Vector3::UnitX());
-  EXPECT_LT(angle_between(graph.edges[0].from_from_to.rotation, Rotation(q)), 1e-15);
+  EXPECT_NEAR(angle_between(graph.edges[0].from_from_to.rotation, Rotation(q)), 0.0, 1e-15);
   Twist diagonal;
   diagonal << 10, 10, 10, 100, 81, 25;
   EXPECT_EQ(graph.edges[0].information.diagonal(), diagonal);
@@ -195,8 +195,8 @@ TEST(Chain, PutsConsecutiveEdgesBehindEachOther) {
   const std::vector<Pose> poses = chain(graph);
   ASSERT_EQ(poses.size(), 3u);
   EXPECT_TRUE(is_close(poses[0], {}, 0.0, 0.0));
-  EXPECT_TRUE(is_close(poses[1], planar(1, 0, kQuarter), 1e-15, 1e-15));
-  EXPECT_TRUE(is_close(poses[2], planar(1, 1, 2 * kQuarter), 1e-15, 1e-15));
+  EXPECT_POSE_NEAR(poses[1], planar(1, 0, kQuarter), 1e-15, 1e-15);
+  EXPECT_POSE_NEAR(poses[2], planar(1, 1, 2 * kQuarter), 1e-15, 1e-15);
 }
 
 TEST(Chain, CarriesScaleAlong) {

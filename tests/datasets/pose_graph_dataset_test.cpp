@@ -68,7 +68,7 @@ TEST(PoseGraphDataset, LoopEndsStayKeyframes) {
   for (const Edge& edge : problem.odometry) {
     const Pose step = problem.keyframes[edge.from].world_from_body.inverse() *
                       problem.keyframes[edge.to].world_from_body;
-    EXPECT_TRUE(is_close(edge.from_from_to, step, 1e-9, 1e-9));
+    EXPECT_POSE_NEAR(edge.from_from_to, step, 1e-9, 1e-9);
   }
 }
 
@@ -77,8 +77,8 @@ TEST(PoseGraphDataset, ChainsOdometryWithoutVertices) {
   const Problem given = derive_problem(small_graph(true), every(4), "g");
   ASSERT_EQ(chained.keyframes.size(), given.keyframes.size());
   for (std::size_t i = 0; i < given.keyframes.size(); ++i) {
-    EXPECT_TRUE(is_close(
-        chained.keyframes[i].world_from_body, given.keyframes[i].world_from_body, 1e-9, 1e-9));
+    EXPECT_POSE_NEAR(
+        chained.keyframes[i].world_from_body, given.keyframes[i].world_from_body, 1e-9, 1e-9);
   }
 }
 
@@ -242,10 +242,10 @@ TEST(PoseGraphDataset, TurnsKittiCameraTruthIntoVehicleAxes) {
       folder.path(), {{"path", "vo.g2o"}, {"truth", "gt.txt"}, {"truth_axes", "kitti_camera"}});
   ASSERT_EQ(sequence.reference.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_TRUE(is_close(sequence.reference[i].world_from_body,
-                         sequence.problem.keyframes[i].world_from_body,
-                         1e-9,
-                         1e-9))
+    EXPECT_POSE_NEAR(sequence.reference[i].world_from_body,
+                     sequence.problem.keyframes[i].world_from_body,
+                     1e-9,
+                     1e-9)
         << i;
   }
 }

@@ -143,7 +143,7 @@ TEST_F(PublishedData, CopSlamKitti00EveryTenth) {
        sequence.problem.odometry) {  // the vertices of the file are the composed odometry
     const Pose step =
         keyframes[edge.from].world_from_body.inverse() * keyframes[edge.to].world_from_body;
-    EXPECT_TRUE(is_close(edge.from_from_to, step, 1e-4, 1e-4));
+    EXPECT_POSE_NEAR(edge.from_from_to, step, 1e-4, 1e-4);
   }
 }
 

@@ -178,7 +178,7 @@ TEST_F(RealFiles, ToroEdgesEqualTheirG2oTwins) {
     const Edge& b = twin.edges[i];
     ASSERT_EQ(a.from, b.from);
     ASSERT_EQ(a.to, b.to);
-    ASSERT_TRUE(is_close(a.from_from_to, b.from_from_to, 1e-12, 5e-6)) << i;  // six digits printed
+    ASSERT_POSE_NEAR(a.from_from_to, b.from_from_to, 1e-12, 5e-6) << i;  // six digits printed
     toro_sum += a.information.diagonal();
     twin_sum += b.information.diagonal();
   }
@@ -214,7 +214,7 @@ TEST_F(RealFiles, ChainingOdometryGivesTheWrittenVertices) {
   const PoseGraph graph = read_g2o(file);
   const std::vector<Pose> poses = chain(graph);
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    ASSERT_TRUE(is_close(poses[i], graph.vertices[i], 0.2, 0.002)) << i;  // six digits over 3.7 km
+    ASSERT_POSE_NEAR(poses[i], graph.vertices[i], 0.2, 0.002) << i;  // six digits over 3.7 km
   }
 }
 

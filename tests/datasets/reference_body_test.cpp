@@ -23,8 +23,8 @@ TEST(ReferenceBody, IsTakenBackToTheEstimatesBody) {
   ReferenceBody ahead;
   ahead.x = 2.0;
   const Trajectory vehicle = to_estimate_body(marker, ahead);
-  EXPECT_TRUE(is_close(vehicle[0].world_from_body, {}, 1e-12, 1e-12));
-  EXPECT_TRUE(is_close(vehicle[1].world_from_body, {left, {3.0, 0.0, 0.0}}, 1e-12, 1e-12));
+  EXPECT_POSE_NEAR(vehicle[0].world_from_body, {}, 1e-12, 1e-12);
+  EXPECT_POSE_NEAR(vehicle[1].world_from_body, {left, {3.0, 0.0, 0.0}}, 1e-12, 1e-12);
   EXPECT_EQ(vehicle[1].stamp, 1.0);
 }
 
@@ -39,7 +39,7 @@ TEST(ReferenceBody, UndoesEveryOffset) {
   for (auto& [stamp, pose] : reference) pose = normalized(pose * body_from_reference);
   reference = to_estimate_body(reference, body);
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    EXPECT_TRUE(is_close(reference[i].world_from_body, truth[i].world_from_body, 1e-9, 1e-9)) << i;
+    EXPECT_POSE_NEAR(reference[i].world_from_body, truth[i].world_from_body, 1e-9, 1e-9) << i;
   }
 }
 

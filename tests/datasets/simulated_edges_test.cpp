@@ -139,10 +139,10 @@ TEST(SimulatedOdometry, TurningErrorsMoveTheEndOfTheEdge) {
 TEST(SimulatedOdometry, SystematicDriftIsWhatItsNameSays) {
   SimulatedOptions line = quiet(SimulatedPath::line);
   line.drift.scale = 0.01;
-  EXPECT_LE((last(line).translation - Vector3(30.3, 0.0, 0.0)).norm(), 1e-6);
+  EXPECT_NEAR((last(line).translation - Vector3(30.3, 0.0, 0.0)).norm(), 0.0, 1e-6);
   line.drift = {};
   line.drift.yaw_per_metre = 0.01;
-  EXPECT_LE((log_so3(last(line).rotation) - Vector3(0.0, 0.0, 0.3)).norm(), 1e-9);
+  EXPECT_NEAR((log_so3(last(line).rotation) - Vector3(0.0, 0.0, 0.3)).norm(), 0.0, 1e-9);
   EXPECT_NEAR(last(line).translation.y(), (1.0 - std::cos(0.3)) / 0.01, 0.02) << "to the left";
   line.drift = {};
   line.drift.pitch_per_metre = -0.01;
@@ -150,10 +150,10 @@ TEST(SimulatedOdometry, SystematicDriftIsWhatItsNameSays) {
 
   SimulatedOptions still = quiet(SimulatedPath::still);
   still.drift.yaw_per_second = 0.01;
-  EXPECT_LE((log_so3(last(still).rotation) - Vector3(0.0, 0.0, 0.3)).norm(), 1e-9);
+  EXPECT_NEAR((log_so3(last(still).rotation) - Vector3(0.0, 0.0, 0.3)).norm(), 0.0, 1e-9);
   still.drift = {};
   still.drift.pitch_per_second = 0.01;
-  EXPECT_LE((log_so3(last(still).rotation) - Vector3(0.0, 0.3, 0.0)).norm(), 1e-9);
+  EXPECT_NEAR((log_so3(last(still).rotation) - Vector3(0.0, 0.3, 0.0)).norm(), 0.0, 1e-9);
 
   SimulatedOptions spin = quiet(SimulatedPath::spin);
   spin.drift.yaw_per_radian = 0.01;
@@ -165,7 +165,7 @@ TEST(SimulatedOdometry, EdgesAreTheKeyframesOwnSteps) {
   for (const Edge& edge : problem.odometry) {
     const Pose step = problem.keyframes[edge.from].world_from_body.inverse() *
                       problem.keyframes[edge.to].world_from_body;
-    EXPECT_TRUE(is_close(step, edge.from_from_to, 1e-12, 1e-12));
+    EXPECT_POSE_NEAR(step, edge.from_from_to, 1e-12, 1e-12);
   }
 }
 
@@ -183,8 +183,7 @@ TEST(SimulatedClosures, JoinSeparateVisitsOfOnePlace) {
       const double begin = problem.keyframes[edge.from].stamp;
       const double end = problem.keyframes[edge.to].stamp;
       EXPECT_GE(end - begin, 10.0);
-      EXPECT_TRUE(
-          is_close(path.at(begin), path.at(end), path.closure_radius, std::numbers::pi / 6.0));
+      EXPECT_POSE_NEAR(path.at(begin), path.at(end), path.closure_radius, std::numbers::pi / 6.0);
     }
   }
 }

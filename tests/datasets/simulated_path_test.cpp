@@ -120,8 +120,8 @@ TEST(SimulatedPath, DrivingIsAKilometreWithStopsAndFastRoads) {
 
 TEST(SimulatedPath, DrivingComesBackExactly) {
   const Path path = driving_path();
-  EXPECT_TRUE(is_close(path.at(0.0), path.at(path.duration - 1e-9), 1e-8, 1e-8));
-  EXPECT_TRUE(is_close(path.at(7.0), path.at(7.0 + path.duration), 1e-9, 1e-9));
+  EXPECT_POSE_NEAR(path.at(0.0), path.at(path.duration - 1e-9), 1e-8, 1e-8);
+  EXPECT_POSE_NEAR(path.at(7.0), path.at(7.0 + path.duration), 1e-9, 1e-9);
 }
 
 TEST(SimulatedPath, DrivingHeadsWhereItGoes) {
@@ -154,7 +154,7 @@ TEST(SimulatedPath, NothingJumps) {
 TEST(SimulatedPath, DegenerateOnesAreWhatTheyAreCalled) {
   const Statistics line = statistics(true_keyframes(SimulatedPath::line));
   EXPECT_NEAR(line.metres, 30.0, 1e-9);
-  EXPECT_LE(line.box.tail<2>().norm(), 1e-12);
+  EXPECT_NEAR(line.box.tail<2>().norm(), 0.0, 1e-12);
   EXPECT_EQ(line.turn_rate, 0.0);
   const Statistics still = statistics(true_keyframes(SimulatedPath::still));
   EXPECT_EQ(still.metres, 0.0);

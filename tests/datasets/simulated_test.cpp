@@ -107,13 +107,13 @@ TEST(Simulated, WithoutErrorTheKeyframesAreTheReference) {
     const Polyline reference(sequence.reference);
     for (const Trajectory* poses : {&sequence.problem.keyframes, &sequence.problem.frames}) {
       for (const auto& [stamp, pose] : *poses) {
-        ASSERT_TRUE(is_close(pose, reference.at(stamp), 1e-9, 1e-11)) << name << " at " << stamp;
+        ASSERT_POSE_NEAR(pose, reference.at(stamp), 1e-9, 1e-11) << name << " at " << stamp;
       }
     }
     for (const Edge& edge : sequence.problem.closures) {
       const Pose step = sequence.problem.keyframes[edge.from].world_from_body.inverse() *
                         sequence.problem.keyframes[edge.to].world_from_body;
-      EXPECT_TRUE(is_close(step, edge.from_from_to, 1e-9, 1e-11)) << name;
+      EXPECT_POSE_NEAR(step, edge.from_from_to, 1e-9, 1e-11) << name;
     }
   }
 }

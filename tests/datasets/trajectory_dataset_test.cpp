@@ -57,7 +57,7 @@ TEST(TrajectoryDataset, ClosuresOfTheReferenceAreNoisyAndSeeded) {
     const Pose exact = problem.keyframes[closure.from].world_from_body.inverse() *
                        problem.keyframes[closure.to].world_from_body;
     EXPECT_FALSE(is_close(closure.from_from_to, exact, 1e-9, 1e-9));
-    EXPECT_TRUE(is_close(closure.from_from_to, exact, 1e-2, 1e-2));
+    EXPECT_POSE_NEAR(closure.from_from_to, exact, 1e-2, 1e-2);
   }
   check(problem, "shuttle");
   const Problem again = derive_problem(in, options);
@@ -78,7 +78,7 @@ TEST(TrajectoryDataset, ClosuresOfAnotherRunAreItsMeasurement) {
   for (const Edge& closure : problem.closures) {
     const Pose exact = problem.keyframes[closure.from].world_from_body.inverse() *
                        problem.keyframes[closure.to].world_from_body;
-    EXPECT_TRUE(is_close(closure.from_from_to, exact, 1e-9, 1e-9));
+    EXPECT_POSE_NEAR(closure.from_from_to, exact, 1e-9, 1e-9);
   }
 }
 

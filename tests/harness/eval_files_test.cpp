@@ -93,8 +93,8 @@ TEST_F(EvalFiles, SaysWhenTheReferenceIsAnotherBodyAndTakesItsPlace) {
   const Json stated = eval_json({reference, estimate, "--ref-body=" + place});
   EXPECT_FALSE(stated.contains("other_body"));
   EXPECT_EQ(stated["reference_body"], place);
-  EXPECT_LT(find(stated, "ate", "translation")["rmse"].get<double>(), 1e-9);
-  EXPECT_LT(find(stated, "rpe", "rotation")["rmse"].get<double>(), 1e-6);
+  EXPECT_NEAR(find(stated, "ate", "translation")["rmse"].get<double>(), 0.0, 1e-9);
+  EXPECT_NEAR(find(stated, "rpe", "rotation")["rmse"].get<double>(), 0.0, 1e-6);
   EXPECT_THAT(eval({reference, estimate, "--ref-body=" + place}),
               HasSubstr("(100 poses), body offset " + place));
   for (const char* wrong :

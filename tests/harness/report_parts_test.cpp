@@ -14,7 +14,7 @@
 #include "harness/report/packed.hpp"
 #include "harness/report/report.hpp"
 #include "tests/studies/synthetic_store.hpp"
-#include "tests/support/ate_record.hpp"
+#include "tests/support/compared_sweep.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::report_parts_test {
@@ -86,7 +86,8 @@ TEST(Thinning, TakesPointsThenRepeatsThenPoints) {
 TEST(Report, LeavesOutSequencesThatDoNotFit) {
   std::vector<Record> records;
   for (int i = 0; i < 400; ++i) {
-    Record& r = records.emplace_back(test::ate("m" + std::to_string(i % 40), 1.0 + i % 40));
+    Record& r =
+        records.emplace_back(compared_sweep::ate("m" + std::to_string(i % 40), 1.0 + i % 40));
     r.cell = i;
     r.sequence = "sequence " + std::to_string(i / 40);
     r.statistics.mean = r.statistics.rmse;

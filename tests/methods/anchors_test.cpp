@@ -10,7 +10,6 @@
 #include "methods/correctors/uniform.hpp"
 #include "methods/solvers/anchor_residual.hpp"
 #include "tests/support/corrected.hpp"
-#include "tests/support/counts.hpp"
 #include "tests/support/problems.hpp"
 
 namespace loopbench::anchors_test {

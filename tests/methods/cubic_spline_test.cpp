@@ -102,7 +102,7 @@ TEST(CubicSpline, RotationAboutOneAxisIsTheNaturalSplineOfTheAngle) {
   const auto curve = smooth<CubicSpline>(keyframes);
   const Textbook textbook(times, angles);
   for (const double time : query_times(keyframes, 19)) {
-    EXPECT_LT((log_so3(curve->at(time).rotation) - textbook.at(time) * axis).norm(), 1e-12);
+    EXPECT_NEAR((log_so3(curve->at(time).rotation) - textbook.at(time) * axis).norm(), 0.0, 1e-12);
   }
 }
 
@@ -142,9 +142,9 @@ TEST(CubicSpline, HasNoKinkInSpeedOrAccelerationAndNoAccelerationAtItsEnds) {
   for (std::size_t i = 1; i + 1 < keyframes.size(); ++i) {
     const Motion after(*curve, keyframes[i].stamp, h), before(*curve, keyframes[i].stamp, -h);
     // The error of a one-sided stencil is h^2 times a higher derivative on its own side.
-    EXPECT_LT((after.first - before.first).head<3>().norm(), 1e-5);
+    EXPECT_NEAR((after.first - before.first).head<3>().norm(), 0.0, 1e-5);
     EXPECT_LT((after.second - before.second).head<3>().norm(), 1e-3);
-    EXPECT_LT((after.first - before.first).tail<3>().norm(), 1e-5);
+    EXPECT_NEAR((after.first - before.first).tail<3>().norm(), 0.0, 1e-5);
     EXPECT_LT((after.second - before.second).tail<3>().norm(), 5e-3);
   }
   for (const Motion& end : {Motion(*curve, curve->start(), h), Motion(*curve, curve->end(), -h)}) {

@@ -82,7 +82,7 @@ TEST_P(EverySwitch, IsIndependentOfTheWorldFrame) {
   const auto moved = smoothed(test::moved_by(there_from_here, problem));
   for (const double t : times_over(problem.keyframes, 313)) {
     const Pose expected = there_from_here * original->at(t);
-    EXPECT_LT((moved->at(t).translation - expected.translation).norm(), 1e-6) << t;
+    EXPECT_NEAR((moved->at(t).translation - expected.translation).norm(), 0.0, 1e-6) << t;
   }
 }
 
@@ -91,8 +91,9 @@ TEST_P(EverySwitch, KeepsUniformMotion) {
   for (int i = 0; i < 20; ++i) points.push_back(Vector3(5, 1, 2) + i * Vector3(0.3, -0.2, 0.1));
   const auto curve = smoothed(keyframes_only(through(points)));
   for (double t = 0.0; t <= 19.0; t += 0.13) {
-    EXPECT_LT((curve->at(t).translation - Vector3(5, 1, 2) - t * Vector3(0.3, -0.2, 0.1)).norm(),
-              1e-8);
+    EXPECT_NEAR((curve->at(t).translation - Vector3(5, 1, 2) - t * Vector3(0.3, -0.2, 0.1)).norm(),
+                0.0,
+                1e-8);
   }
 }
 
@@ -105,19 +106,19 @@ TEST_P(EverySwitch, JumpsAtNodesMatchTheJointType) {
   const Text joint = given("joint");
   const bool straight = given("abscissa") == "polyline" || given("spline_order") == "2";
   if (joint != "none") {
-    EXPECT_LT(counted("jump_position"), 1e-9);
+    EXPECT_NEAR(counted("jump_position"), 0.0, 1e-9);
   }
   if (straight || joint == "none" || joint == "c0" || !given("low_speed_c0_below").empty()) {
     EXPECT_GT(counted("jump_velocity"), 1e-3);
     return;
   }
-  EXPECT_LT(counted("jump_velocity"), 1e-7);
-  EXPECT_LT(counted("jump_slope"), 1e-6);
+  EXPECT_NEAR(counted("jump_velocity"), 0.0, 1e-7);
+  EXPECT_NEAR(counted("jump_slope"), 0.0, 1e-6);
   if (!given("psi").empty()) {
     EXPECT_GT(counted("jump_acceleration"), 1e-2);  // C1 only at clamped ends
     return;
   }
-  EXPECT_LT(counted("jump_acceleration"), 1e-6);
+  EXPECT_NEAR(counted("jump_acceleration"), 0.0, 1e-6);
   EXPECT_LT(counted("jump_curvature"), 1e-4);
 }
 
@@ -134,7 +135,7 @@ TEST(DmSwitches, QuinticBridgesAreC2AtTheirEnds) {
     for (const auto& [edge, at] : {std::pair{i - 1, t[i] - half}, std::pair{i, t[i] + half}}) {
       const auto before = pieces.motion(edge, at - 1e-9);
       const auto after = pieces.motion(edge, at + 1e-9);
-      EXPECT_LT((after.first - before.first).norm(), 1e-6);
+      EXPECT_NEAR((after.first - before.first).norm(), 0.0, 1e-6);
       EXPECT_LT((after.second - before.second).norm(), 1e-4);
     }
   }
@@ -148,7 +149,7 @@ TEST(DmSwitches, ParabolaAndCubicReproduceTheirKeyframesInEveryFrame) {
       const auto curve = Dm(with(Dm::Options{}, {{"frame", Text(frame)}, {"planar", N}}))
                              .smooth(keyframes_only(keyframes), report);
       for (const auto& [stamp, pose] : keyframes) {
-        EXPECT_LT((curve->at(stamp).translation - pose.translation).norm(), 1e-9) << frame;
+        EXPECT_NEAR((curve->at(stamp).translation - pose.translation).norm(), 0.0, 1e-9) << frame;
       }
     }
   }

@@ -44,8 +44,8 @@ INSTANTIATE_TEST_SUITE_P(Dm,
 
 TEST_P(EveryVariant, IsTwiceContinuouslyDifferentiable) {
   const Problem problem = keyframes_only(wandering(60, 5));
-  EXPECT_LT(counted(problem, GetParam(), "jump_velocity"), 1e-7);
-  EXPECT_LT(counted(problem, GetParam(), "jump_acceleration"), 1e-6);
+  EXPECT_NEAR(counted(problem, GetParam(), "jump_velocity"), 0.0, 1e-7);
+  EXPECT_NEAR(counted(problem, GetParam(), "jump_acceleration"), 0.0, 1e-6);
   expect_motion_is_the_derivative(*smoothed(problem, GetParam()));
 }
 
@@ -54,10 +54,10 @@ TEST_P(EveryVariant, KeepsTheOrientation) {
   const auto curve = smoothed(keyframes_only(keyframes), GetParam());
   for (std::size_t i = 0; i + 1 < keyframes.size(); ++i) {
     const auto& [stamp, pose] = keyframes[i];
-    EXPECT_LT(angle_between(curve->at(stamp).rotation, pose.rotation), 1e-12);
+    EXPECT_NEAR(angle_between(curve->at(stamp).rotation, pose.rotation), 0.0, 1e-12);
     const double middle = 0.5 * (stamp + keyframes[i + 1].stamp);
     const Rotation expected = slerp(pose.rotation, keyframes[i + 1].world_from_body.rotation, 0.5);
-    EXPECT_LT(angle_between(curve->at(middle).rotation, expected), 1e-9);
+    EXPECT_NEAR(angle_between(curve->at(middle).rotation, expected), 0.0, 1e-9);
   }
 }
 
@@ -166,7 +166,7 @@ TEST(Dm, GuardSplitsAHairpinAndCountsIt) {
       EXPECT_LT(position(*curve, t).x(), 2.3) << t;
     }
     for (const auto& [stamp, pose] : problem.keyframes) {
-      EXPECT_LT((position(*curve, stamp) - pose.translation).norm(), 1e-9);
+      EXPECT_NEAR((position(*curve, stamp) - pose.translation).norm(), 0.0, 1e-9);
     }
   }
 }

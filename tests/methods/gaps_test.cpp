@@ -90,8 +90,8 @@ TEST(GaussianProcess, AGapOf1000SecondsIsAChord) {
   EXPECT_EQ(count(report, "chords"), 1.0);
   ASSERT_EQ(report.notes.size(), 1u);
   const auto [metres, radians] = chord_deviation(*curve, problem.keyframes, 39);
-  EXPECT_LT(metres, 1e-9);
-  EXPECT_LT(radians, 1e-9);
+  EXPECT_NEAR(metres, 0.0, 1e-9);
+  EXPECT_NEAR(radians, 0.0, 1e-9);
   EXPECT_GT(chord_deviation(*curve, problem.keyframes, 20).first, 1e-4);  // smooth elsewhere
   expect_near_keyframes(*curve, problem.keyframes, 0.02);
 }
@@ -135,7 +135,7 @@ void expect_one_great_arc(const Smoother& smoother) {
   const auto smooth = smoother.smooth(plain, other);
   EXPECT_EQ(count(report, "great_arcs"), 1.0);
   ASSERT_EQ(report.notes.size(), 1u);
-  EXPECT_LT(chord_deviation(*curve, problem.keyframes, 29).second, 1e-9);
+  EXPECT_NEAR(chord_deviation(*curve, problem.keyframes, 29).second, 0.0, 1e-9);
   int curved = 0, curved_before = 0;
   for (std::size_t i = 0; i + 1 < 60; ++i) {
     curved += chord_deviation(*curve, problem.keyframes, i).second > 1e-6;
@@ -155,7 +155,7 @@ TEST(Dm, AGapWithoutFramesIsAChord) {
     Report report;
     const auto curve = Dm({.planar = planar}).smooth(problem, report);
     EXPECT_EQ(count(report, "chords"), 1.0);
-    EXPECT_LT(chord_deviation(*curve, problem.keyframes, 39).first, 1e-9);
+    EXPECT_NEAR(chord_deviation(*curve, problem.keyframes, 39).first, 0.0, 1e-9);
     EXPECT_GT(chord_deviation(*curve, problem.keyframes, 20).first, 1e-4);
     Report never;
     const auto literal = Dm({.planar = planar, .chord_above = std::nullopt}).smooth(problem, never);

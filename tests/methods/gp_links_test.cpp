@@ -23,7 +23,7 @@ TEST(BodyRate, SeriesEqualsTheInverseRightJacobian) {
     const BodyRateTerms c(xi.tail<3>().squaredNorm());
     const Matrix6 ad = small_adjoint(xi);
     const Matrix6 J = Matrix6::Identity() + 0.5 * ad + c.c2 * ad * ad + c.c4 * ad * ad * ad * ad;
-    EXPECT_LT((J - inverse_right_jacobian_se3(xi)).norm(), 1e-11) << angle;
+    EXPECT_NEAR((J - inverse_right_jacobian_se3(xi)).norm(), 0.0, 1e-11) << angle;
   }
 }
 
@@ -40,7 +40,7 @@ TEST(BodyRate, DerivativeAgreesWithDifferences) {
       const Twist numeric =
           (inverse_right_jacobian_se3(xi + d) * v - inverse_right_jacobian_se3(xi - d) * v) /
           (2.0 * step);
-      EXPECT_LT((numeric - analytic.col(k)).norm(), 1e-8) << angle << ", " << k;
+      EXPECT_NEAR((numeric - analytic.col(k)).norm(), 0.0, 1e-8) << angle << ", " << k;
     }
   }
 }
@@ -73,8 +73,8 @@ TEST(Link, JacobiansAgreeWithDifferences) {
           (link(from, moved(to, d), 1.7).error - link(from, moved(to, -d), 1.7).error) /
           (2.0 * step);
       const double size = analytic.by_from.norm();
-      EXPECT_LT((by_from - analytic.by_from.col(k)).norm(), 1e-8 * size) << k;
-      EXPECT_LT((by_to - analytic.by_to.col(k)).norm(), 1e-8 * size) << k;
+      EXPECT_NEAR((by_from - analytic.by_from.col(k)).norm(), 0.0, 1e-8 * size) << k;
+      EXPECT_NEAR((by_to - analytic.by_to.col(k)).norm(), 0.0, 1e-8 * size) << k;
     }
   }
 }
@@ -93,7 +93,7 @@ TEST(Link, IsWhiteForUnitPower) {
     const GpVector error = link(from, moved(from, d), h).error;
     for (int a = 0; a < 2; ++a) W(a, b) = error[6 * a];
   }
-  EXPECT_LT((W * Q * W.transpose() - Eigen::Matrix2d::Identity()).norm(), 1e-12);
+  EXPECT_NEAR((W * Q * W.transpose() - Eigen::Matrix2d::Identity()).norm(), 0.0, 1e-12);
 }
 
 TEST(Prior, BetweenTwoStatesConstantVelocityIsTheHermiteCubic) {

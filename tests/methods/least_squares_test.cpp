@@ -63,7 +63,7 @@ void expect_solves(const EliminationStructure& structure,
   assemble();
   ASSERT_TRUE(factor.factorise());
   factor.solve(right);
-  EXPECT_LT((right - expected).cwiseAbs().maxCoeff(), 1e-11) << "D = " << D;
+  EXPECT_NEAR((right - expected).cwiseAbs().maxCoeff(), 0.0, 1e-11) << "D = " << D;
 
   assemble();
   Eigen::VectorXd diagonal;
@@ -73,7 +73,7 @@ void expect_solves(const EliminationStructure& structure,
     EXPECT_NEAR(diagonal[place], dense(i, i), 1e-12);
   }
   dense.diagonal() *= 1.5;
-  EXPECT_LT((other - dense.llt().solve(second)).cwiseAbs().maxCoeff(), 1e-11) << "D = " << D;
+  EXPECT_NEAR((other - dense.llt().solve(second)).cwiseAbs().maxCoeff(), 0.0, 1e-11) << "D = " << D;
 }
 
 TEST(BlockCholesky, SolvesChainsWithLoopsAndCliques) {
@@ -173,7 +173,7 @@ void expect_the_minimum_of_ceres(Group group, bool has_anchors, bool is_first_fr
   EXPECT_NEAR(summary.cost, by_ceres.cost, 1e-9 * by_ceres.cost);
   EXPECT_LE(summary.iterations, by_ceres.iterations + 2);
   for (std::size_t i = 0; i < direct.size(); ++i) {
-    EXPECT_TRUE(is_close(direct[i].pose, ceres[i].pose, 1e-6, 1e-6)) << i;
+    EXPECT_POSE_NEAR(direct[i].pose, ceres[i].pose, 1e-6, 1e-6) << i;
     EXPECT_NEAR(direct[i].scale, ceres[i].scale, 1e-6) << i;
     EXPECT_EQ(direct[i].pose.translation, repeated[i].pose.translation) << i;
   }

@@ -48,7 +48,7 @@ TEST_P(EveryOrder, PassesThroughEverySite) {
   const auto values = values_of(smooth_function);
   const BSpline spline = BSpline::through(kSites, values, GetParam());
   for (std::size_t i = 0; i < kSites.size(); ++i) {
-    EXPECT_LT((spline.at(kSites[i]) - values[i]).norm(), 1e-12) << i;
+    EXPECT_NEAR((spline.at(kSites[i]) - values[i]).norm(), 0.0, 1e-12) << i;
   }
 }
 
@@ -57,7 +57,7 @@ TEST_P(EveryOrder, JetsAgreeWithDifferences) {
   const BSpline spline = BSpline::through(kSites, values_of(smooth_function), GetParam());
   const double h = 1e-4, u = 1.55;
   const Jet<Value> jet = spline.at(time_jet(u));
-  EXPECT_LT((jet.first - (spline.at(u + h) - spline.at(u - h)) / (2 * h)).norm(), 1e-5);
+  EXPECT_NEAR((jet.first - (spline.at(u + h) - spline.at(u - h)) / (2 * h)).norm(), 0.0, 1e-5);
   EXPECT_LT(
       (jet.second - (spline.at(u + h) - 2 * spline.at(u) + spline.at(u - h)) / (h * h)).norm(),
       1e-4);
@@ -67,7 +67,7 @@ TEST(BSpline, ReproducesCubicsFromOrderFourOn) {
   for (const std::size_t k : {4u, 5u, 6u}) {
     const BSpline spline = BSpline::through(kSites, values_of(cubic), k);
     for (double u = 0.0; u <= 4.0; u += 0.1) {
-      EXPECT_LT((spline.at(u) - cubic(u)).norm(), 1e-10) << k << " " << u;
+      EXPECT_NEAR((spline.at(u) - cubic(u)).norm(), 0.0, 1e-10) << k << " " << u;
     }
   }
 }

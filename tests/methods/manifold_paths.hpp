@@ -75,8 +75,8 @@ inline void expect_motion_is_the_derivative(const Curve& curve) {
     const double t = std::lerp(pieces.knots()[edge], pieces.knots()[edge + 1], 0.37);
     const auto motion = pieces.motion(edge, t);
     const Vector3 slope = (curve.at(t + h).translation - curve.at(t - h).translation) / (2 * h);
-    EXPECT_LT((motion.value - curve.at(t).translation).norm(), 1e-12);
-    EXPECT_LT((motion.first - slope).norm(), 1e-5 * (1.0 + motion.second.norm())) << edge;
+    EXPECT_NEAR((motion.value - curve.at(t).translation).norm(), 0.0, 1e-12);
+    EXPECT_NEAR((motion.first - slope).norm(), 0.0, 1e-5 * (1.0 + motion.second.norm())) << edge;
   }
 }
 

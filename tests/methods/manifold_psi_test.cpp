@@ -57,15 +57,16 @@ TEST(Psi, ClampedSplineHasTheGivenVelocityOnBothSides) {
   const auto velocity = [&](std::size_t edge, std::size_t node) {
     return spline.at(edge, time_jet(nodes.stamps[node])).point.first;
   };
-  EXPECT_LT((velocity(0, 0) - at[0].velocity).norm(), 1e-12);
-  EXPECT_LT((velocity(4, 5) - at[1].velocity).norm(), 1e-12);
-  EXPECT_LT((velocity(5, 5) - at[1].velocity).norm(), 1e-12);
-  EXPECT_LT((velocity(10, 11) - at[2].velocity).norm(), 1e-12);
+  EXPECT_NEAR((velocity(0, 0) - at[0].velocity).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((velocity(4, 5) - at[1].velocity).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((velocity(5, 5) - at[1].velocity).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((velocity(10, 11) - at[2].velocity).norm(), 0.0, 1e-12);
   for (std::size_t i = 0; i < 11; ++i) {
-    EXPECT_LT((spline.at(i, nodes.stamps[i]).point - nodes.points[i]).norm(), 1e-12);
+    EXPECT_NEAR((spline.at(i, nodes.stamps[i]).point - nodes.points[i]).norm(), 0.0, 1e-12);
     if (i > 0 && i != 5) {
       const Vector3 before = spline.at(i - 1, time_jet(nodes.stamps[i])).point.second;
-      EXPECT_LT((spline.at(i, time_jet(nodes.stamps[i])).point.second - before).norm(), 1e-10);
+      EXPECT_NEAR(
+          (spline.at(i, time_jet(nodes.stamps[i])).point.second - before).norm(), 0.0, 1e-10);
     }
   }
 }

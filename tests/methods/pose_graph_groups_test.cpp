@@ -46,7 +46,7 @@ TYPED_TEST_SUITE(PoseGroup, Groups);
 
 TYPED_TEST(PoseGroup, LogUndoesExp) {
   for (const auto& xi : this->twists()) {
-    EXPECT_LT((TypeParam::log(TypeParam::exp(xi)) - xi).norm(), 1e-12) << xi.transpose();
+    EXPECT_NEAR((TypeParam::log(TypeParam::exp(xi)) - xi).norm(), 0.0, 1e-12) << xi.transpose();
   }
 }
 
@@ -54,11 +54,11 @@ TYPED_TEST(PoseGroup, InverseAndStorageAreExact) {
   using G = TypeParam;
   for (const auto& xi : this->twists()) {
     const auto a = G::exp(xi);
-    EXPECT_LT(G::log(G::compose(a, G::inverse(a))).norm(), 1e-14);
+    EXPECT_NEAR(G::log(G::compose(a, G::inverse(a))).norm(), 0.0, 1e-14);
     double stored[G::kSize];
     G::write(a, stored);
-    EXPECT_LT(this->difference(a, G::read(stored)).norm(), 1e-14);
-    EXPECT_LT(this->difference(a, G::from(G::to_scaled_pose(a))).norm(), 1e-14);
+    EXPECT_NEAR(this->difference(a, G::read(stored)).norm(), 0.0, 1e-14);
+    EXPECT_NEAR(this->difference(a, G::from(G::to_scaled_pose(a))).norm(), 0.0, 1e-14);
   }
 }
 
@@ -68,7 +68,7 @@ TYPED_TEST(PoseGroup, AdjointTransformsTwists) {
     const auto a = G::exp(this->random(1.0));
     const auto left = G::compose(a, G::exp(xi));
     const auto right = G::compose(G::exp(G::adjoint(a) * xi), a);
-    EXPECT_LT(this->difference(left, right).norm(), 1e-12);
+    EXPECT_NEAR(this->difference(left, right).norm(), 0.0, 1e-12);
   }
 }
 
@@ -80,7 +80,7 @@ TYPED_TEST(PoseGroup, ResidualJacobiansAgreeWithDifferences) {
     const auto to = G::compose(G::compose(from, measured), G::exp(xi));
     const auto inverse_measured = G::inverse(measured);
     const auto at = edge_residual<G>(inverse_measured, from, to);
-    EXPECT_LT((at.error - xi).norm(), 1e-12);
+    EXPECT_NEAR((at.error - xi).norm(), 0.0, 1e-12);
     const auto error = [&](const auto& a, const auto& b) {
       return group_edge_error<G>(inverse_measured, G::compose(G::inverse(a), b));
     };
@@ -94,8 +94,8 @@ TYPED_TEST(PoseGroup, ResidualJacobiansAgreeWithDifferences) {
           (error(G::compose(from, up), to) - error(G::compose(from, down), to)) / (2.0 * h);
       const typename G::Tangent by_to =
           (error(from, G::compose(to, up)) - error(from, G::compose(to, down))) / (2.0 * h);
-      EXPECT_LT((at.by_from.col(d) - by_from).norm(), 1e-7) << xi.transpose() << " by " << d;
-      EXPECT_LT((at.by_to.col(d) - by_to).norm(), 1e-7) << xi.transpose() << " by " << d;
+      EXPECT_NEAR((at.by_from.col(d) - by_from).norm(), 0.0, 1e-7) << xi.transpose() << " by " << d;
+      EXPECT_NEAR((at.by_to.col(d) - by_to).norm(), 0.0, 1e-7) << xi.transpose() << " by " << d;
     }
   }
 }
@@ -103,12 +103,12 @@ TYPED_TEST(PoseGroup, ResidualJacobiansAgreeWithDifferences) {
 TEST(PoseGroups, Se2AndSim3AgreeWithSe3OnTheirIntersection) {
   const Eigen::Vector3d flat(0.3, -0.2, 0.7);
   const Pose lifted = exp_se3(twist({0.3, -0.2, 0.0}, {0.0, 0.0, 0.7}));
-  EXPECT_TRUE(is_close(Se2::to_scaled_pose(Se2::exp(flat)).pose, lifted, 1e-15, 1e-15));
+  EXPECT_POSE_NEAR(Se2::to_scaled_pose(Se2::exp(flat)).pose, lifted, 1e-15, 1e-15);
   Sim3::Tangent unscaled = Sim3::Tangent::Zero();
   unscaled.head<6>() = twist({0.3, -0.2, 0.9}, {0.4, -0.5, 0.7});
-  EXPECT_TRUE(is_close(Sim3::exp(unscaled).pose, exp_se3(unscaled.head<6>()), 1e-14, 1e-14));
+  EXPECT_POSE_NEAR(Sim3::exp(unscaled).pose, exp_se3(unscaled.head<6>()), 1e-14, 1e-14);
   const Sim3::Square J = Sim3::left_jacobian(unscaled);
-  EXPECT_LT((J.topLeftCorner<6, 6>() - left_jacobian_se3(unscaled.head<6>())).norm(), 1e-13);
+  EXPECT_NEAR((J.topLeftCorner<6, 6>() - left_jacobian_se3(unscaled.head<6>())).norm(), 0.0, 1e-13);
 }
 
 TEST(PoseGroups, AScaledStepAlongAStraightLineIsAGeometricSeries) {

@@ -53,7 +53,7 @@ TEST(Reinsch, AgreesWithTheDenseComputationForTwelvePoints) {
     const Eigen::MatrixXd A = hat_matrix(kTwelve, lambda);
     const Eigen::MatrixXd I_A = Eigen::MatrixXd::Identity(12, 12) - A;
     const Eigen::MatrixXd X = A * Y;
-    EXPECT_LT((X - rows(fit.values)).rowwise().norm().maxCoeff(), 1e-9);
+    EXPECT_NEAR((X - rows(fit.values)).rowwise().norm().maxCoeff(), 0.0, 1e-9);
     EXPECT_NEAR(fit.free, I_A.trace(), 1e-8);
     const double residual = (I_A * Y).squaredNorm();
     EXPECT_NEAR(fit.residual.sum(), residual, 1e-9 * residual + 1e-12);
@@ -75,14 +75,14 @@ TEST(Reinsch, GoesFromInterpolationToTheStraightLine) {
   const std::vector<Vector3> y = wavy(kTwelve);
   const Reinsch reinsch(kTwelve);
   const Reinsch::Fit rough = reinsch.fit(y, 1e-12);
-  EXPECT_LT((rows(rough.values) - rows(y)).rowwise().norm().maxCoeff(), 1e-8);
+  EXPECT_NEAR((rows(rough.values) - rows(y)).rowwise().norm().maxCoeff(), 0.0, 1e-8);
   EXPECT_NEAR(12.0 - rough.free, 12.0, 1e-6);
 
   const Reinsch::Fit stiff = reinsch.fit(y, 1e10);
   Eigen::MatrixXd T(12, 2);
   for (int i = 0; i < 12; ++i) T.row(i) << 1.0, kTwelve[static_cast<std::size_t>(i)];
   const Eigen::MatrixXd line = T * (T.transpose() * T).inverse() * T.transpose() * rows(y);
-  EXPECT_LT((line - rows(stiff.values)).rowwise().norm().maxCoeff(), 1e-6);
+  EXPECT_NEAR((line - rows(stiff.values)).rowwise().norm().maxCoeff(), 0.0, 1e-6);
   EXPECT_NEAR(12.0 - stiff.free, 2.0, 1e-6);
 }
 
@@ -92,10 +92,11 @@ TEST(UnrolledRotations, ConstantAngularVelocityIsAStraightLine) {
   for (int i = 0; i < 20; ++i) rotations.push_back(exp_so3({0.4, 1.0, -2.0}) * exp_so3(i * rate));
   const UnrolledRotations path(rotations);
   for (std::size_t i = 0; i < 20; ++i) {
-    EXPECT_LT((path.unroll(i, rotations[i]) - static_cast<double>(i) * rate).norm(), 1e-12);
+    EXPECT_NEAR((path.unroll(i, rotations[i]) - static_cast<double>(i) * rate).norm(), 0.0, 1e-12);
   }
-  EXPECT_LT(angle_between(path.roll(3, 0.25, 3.25 * rate), rotations[3] * exp_so3(0.25 * rate)),
-            1e-12);
+  EXPECT_NEAR(angle_between(path.roll(3, 0.25, 3.25 * rate), rotations[3] * exp_so3(0.25 * rate)),
+              0.0,
+              1e-12);
 }
 
 TEST(UnrolledRotations, RollingIsTheInverse) {
@@ -107,9 +108,9 @@ TEST(UnrolledRotations, RollingIsTheInverse) {
   }
   const UnrolledRotations flat(base);
   for (std::size_t i = 0; i < base.size(); ++i) {
-    EXPECT_LT(angle_between(flat.roll(i, 0.0, flat.unroll(i, near[i])), near[i]), 1e-12);
+    EXPECT_NEAR(angle_between(flat.roll(i, 0.0, flat.unroll(i, near[i])), near[i]), 0.0, 1e-12);
     if (i == 0) continue;  // also reached from the previous interval
-    EXPECT_LT(angle_between(flat.roll(i - 1, 1.0, flat.unroll(i, near[i])), near[i]), 1e-12);
+    EXPECT_NEAR(angle_between(flat.roll(i - 1, 1.0, flat.unroll(i, near[i])), near[i]), 0.0, 1e-12);
   }
 }
 
@@ -130,7 +131,7 @@ TEST(SmoothingSpline, WithASmallPenaltyIsTheNaturalCubicSpline) {
   const auto curve = smooth<SmoothingSpline>(keyframes, {{"lambda_t", 1e-12}, {"lambda_r", 1e-12}});
   const auto cubic = smooth<CubicSpline>(keyframes);
   for (double time = keyframes.front().stamp; time < keyframes.back().stamp; time += 0.05) {
-    EXPECT_LT((curve->at(time).translation - cubic->at(time).translation).norm(), 1e-8);
+    EXPECT_NEAR((curve->at(time).translation - cubic->at(time).translation).norm(), 0.0, 1e-8);
     // Two different curves on SO(3) through the same rotations.
     EXPECT_LT(angle_between(curve->at(time).rotation, cubic->at(time).rotation), 5e-3);
   }

@@ -36,9 +36,8 @@ TEST(TwoPass, RotatesTheLaterStepsAndThenDistributesTheShift) {
   const double r = std::sqrt(0.5);
   const Problem problem = straight(2, {exp_so3({0, 0, kPi / 2}), Vector3(1.0 + r, r, 0.0)});
   const Trajectory out = corrected<TwoPass>(problem);
-  EXPECT_TRUE(
-      is_close(out[1].world_from_body, {exp_so3({0, 0, kPi / 4}), {1, 0, 0}}, 1e-12, 1e-12));
-  EXPECT_TRUE(is_close(out[2].world_from_body, problem.closures[0].from_from_to, 1e-12, 1e-12));
+  EXPECT_POSE_NEAR(out[1].world_from_body, {exp_so3({0, 0, kPi / 4}), {1, 0, 0}}, 1e-12, 1e-12);
+  EXPECT_POSE_NEAR(out[2].world_from_body, problem.closures[0].from_from_to, 1e-12, 1e-12);
 
   // An additional shift of (0, 0, 3) is distributed evenly.
   Problem lifted = problem;
@@ -70,7 +69,7 @@ TEST(TwoPass, MovesTheTailRigidly) {
   Problem problem = straight(6, {});
   problem.closures = {{0, 2, {exp_so3({0, 0, kPi / 2}), Vector3(1, 1, 0)}, Matrix6::Identity()}};
   const Trajectory out = corrected<TwoPass>(problem);
-  EXPECT_TRUE(is_close(out[6].world_from_body, {exp_so3({0, 0, kPi / 2}), {1, 5, 0}}, 1e-9, 1e-9));
+  EXPECT_POSE_NEAR(out[6].world_from_body, {exp_so3({0, 0, kPi / 2}), {1, 5, 0}}, 1e-9, 1e-9);
 }
 
 TEST(TwoPass, OpenKeepsAllLoopsClosedWholeOnlyTheLast) {
@@ -78,9 +77,9 @@ TEST(TwoPass, OpenKeepsAllLoopsClosedWholeOnlyTheLast) {
                                          twist({0.002, -0.001, 0.003}, {0.001, 0.002, 0.01}),
                                          {{5, 30}, {10, 45}, {2, 57}});
   const Trajectory open = corrected<TwoPass>(problem, {.overlap = LoopOverlap::open});
-  for (const Edge& loop : problem.closures) EXPECT_LT(closing_error(loop, open), 1e-9);
+  for (const Edge& loop : problem.closures) EXPECT_NEAR(closing_error(loop, open), 0.0, 1e-9);
   const Trajectory whole = corrected<TwoPass>(problem);
-  EXPECT_LT(closing_error(problem.closures.back(), whole), 1e-9);
+  EXPECT_NEAR(closing_error(problem.closures.back(), whole), 0.0, 1e-9);
   EXPECT_GT(closing_error(problem.closures.front(), whole), 1e-3);
 }
 

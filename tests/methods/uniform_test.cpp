@@ -37,7 +37,7 @@ Edge closure(std::size_t from, std::size_t to, const Vector3& place, double yaw 
 }
 
 void expect_place(const Vector3& result, const Vector3& expected) {
-  EXPECT_LT((result - expected).norm(), 1e-12)
+  EXPECT_NEAR((result - expected).norm(), 0.0, 1e-12)
       << result.transpose() << " is not " << expected.transpose();
 }
 
@@ -49,7 +49,7 @@ TEST(Uniform, DistributesAPositionErrorByIndexAndMovesTheTail) {
     expect_place(result.place(i), static_cast<double>(i) * Vector3(1.0, 0.2, 0.0));
   }
   expect_place(result.place(5), {6.0, 0.8, 0.0});
-  EXPECT_LT(result.count("largest_closing_error"), 1e-12);
+  EXPECT_NEAR(result.count("largest_closing_error"), 0.0, 1e-12);
 }
 
 TEST(Uniform, RotatesAboutTheStartOfTheLoop) {
@@ -113,8 +113,9 @@ TEST(Uniform, ClosesSeparateLoopsExactly) {
     const Problem problem =
         with_closures(hand_held(), hand_held_truth(), {{2, 20}, {20, 30}, {35, 50}});
     const Result result = corrected(problem, option("overlap", overlap));
-    EXPECT_LT(result.count("largest_closing_error"), 1e-12);
-    for (const Edge& loop : problem.closures) EXPECT_LT(closing_error(loop, result.poses), 1e-12);
+    EXPECT_NEAR(result.count("largest_closing_error"), 0.0, 1e-12);
+    for (const Edge& loop : problem.closures)
+      EXPECT_NEAR(closing_error(loop, result.poses), 0.0, 1e-12);
   }
 }
 
@@ -131,7 +132,7 @@ TEST(Uniform, AnOverlappingLoopReopensTheEarlierOneOnlyWithWhole) {
   expect_place(open.place(2), {2.0, 0.0, 1.0});  // unchanged
   expect_place(open.place(3), {3.0, 0.0, 1.75});
   expect_place(open.place(4), {4.0, 0.0, 2.5});
-  EXPECT_LT(open.count("largest_closing_error"), 1e-12);
+  EXPECT_NEAR(open.count("largest_closing_error"), 0.0, 1e-12);
 }
 
 TEST(Uniform, OpenIgnoresALoopInsideAnEarlierOneAndReportsIt) {

@@ -45,12 +45,12 @@ TEST(Alignment, FindsTheMotionAndTheScale) {
     const Alignment se3 = align(reference, rigid, Align::se3);
     EXPECT_EQ(se3.scale, 1.0);
     EXPECT_EQ(se3.rank, 3);
-    EXPECT_LT(worst(reference, moved(se3, rigid)), 1e-11);
+    EXPECT_NEAR(worst(reference, moved(se3, rigid)), 0.0, 1e-11);
 
     const Trajectory similar = moved_by(elsewhere, scale, reference);
     const Alignment sim3 = align(reference, similar, Align::sim3);
     EXPECT_NEAR(sim3.scale * scale, 1.0, 1e-12);
-    EXPECT_LT(worst(reference, moved(sim3, similar)), 1e-11);
+    EXPECT_NEAR(worst(reference, moved(sim3, similar)), 0.0, 1e-11);
   }
 }
 
@@ -61,7 +61,7 @@ TEST(Alignment, HoldsFarFromTheOrigin) {
   const Trajectory estimate = moved_by(far, 1.0, reference);
   // Rounding of 5e6 m is 1e-9 m; the alignment must not lose more.
   const Alignment found = align(reference, estimate, Align::se3);
-  EXPECT_LT(worst(reference, moved(found, estimate)), 1e-7);
+  EXPECT_NEAR(worst(reference, moved(found, estimate)), 0.0, 1e-7);
 }
 
 TEST(Alignment, IsTheLeastSquaresOne) {
@@ -100,7 +100,7 @@ TEST(Alignment, OfAPlaneIsUnique) {
   EXPECT_EQ(found.rank, 2);
   const Trajectory there = moved(found, at_points(lifted));
   for (std::size_t i = 0; i < points.size(); ++i) {
-    EXPECT_LT((there[i].world_from_body.translation - points[i]).norm(), 1e-13);
+    EXPECT_NEAR((there[i].world_from_body.translation - points[i]).norm(), 0.0, 1e-13);
   }
   EXPECT_GT(found.reference_from_estimate.rotation.toRotationMatrix().determinant(), 0.0);
 }
@@ -164,7 +164,8 @@ TEST(Alignment, OriginPutsTheFirstPosesTogether) {
   std::mt19937_64 random(6);
   const Trajectory reference = random_walk(random, 20);
   const Trajectory estimate = moved_by(random_pose(random, 9.0, 2.0), 1.0, reference);
-  EXPECT_LT(worst(reference, moved(align(reference, estimate, Align::origin), estimate)), 1e-12);
+  EXPECT_NEAR(
+      worst(reference, moved(align(reference, estimate, Align::origin), estimate)), 0.0, 1e-12);
 }
 
 TEST(Alignment, PosyawTurnsAboutZOnly) {
@@ -174,7 +175,7 @@ TEST(Alignment, PosyawTurnsAboutZOnly) {
   const Trajectory estimate = moved_by(turned, 1.0, reference);
   for (const Align type : {Align::posyaw, Align::posyaw_origin}) {
     const Alignment found = align(reference, estimate, type);
-    EXPECT_LT(worst(reference, moved(found, estimate)), 1e-12);
+    EXPECT_NEAR(worst(reference, moved(found, estimate)), 0.0, 1e-12);
   }
   // A rotation about x is preserved, and the z axis stays vertical.
   const Trajectory tilted =
@@ -205,8 +206,9 @@ TEST(Alignment, FirstPairsDecideAloneWhenAsked) {
   estimate.back().world_from_body.translation += Vector3(100.0, 0.0, 0.0);
   const Alignment found = align(reference, estimate, Align::se3, 49);
   const Trajectory there = moved(found, estimate);
-  EXPECT_LT(
+  EXPECT_NEAR(
       (there[0].world_from_body.translation - reference[0].world_from_body.translation).norm(),
+      0.0,
       1e-12);
   // More pairs than exist means all pairs.
   EXPECT_TRUE(is_close(align(reference, estimate, Align::se3, 500).reference_from_estimate,

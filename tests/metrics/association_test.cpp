@@ -217,8 +217,8 @@ TEST(Association, InterpolatesTheReferenceAcrossSmallGapsOnly) {
   EXPECT_EQ(stamps(got.reference), (Stamps{0.0, 1.25, 5.0}));
   EXPECT_EQ(stamps(got.estimate), (Stamps{0.0, 1.25, 5.0}));
   for (std::size_t i = 0; i < got.reference.size(); ++i) {
-    EXPECT_TRUE(
-        is_close(got.reference[i].world_from_body, got.estimate[i].world_from_body, 1e-12, 1e-12));
+    EXPECT_POSE_NEAR(
+        got.reference[i].world_from_body, got.estimate[i].world_from_body, 1e-12, 1e-12);
   }
 }
 

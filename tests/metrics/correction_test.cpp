@@ -63,7 +63,7 @@ TEST(ClosureResidual, IsZeroForTheTruth) {
   const Problem problem = test::drifting(truth, twist({0.01, 0, 0}, {0, 0, 0}), {{0, 59}});
   const EvaluatedCell cell(truth, problem, truth);
   for (const Score& score : closure_residual(cell.evaluation)) {
-    EXPECT_LT(score.statistics.max, 1e-10) << score.relation;
+    EXPECT_NEAR(score.statistics.max, 0.0, 1e-10) << score.relation;
   }
 }
 
@@ -145,8 +145,8 @@ TEST(Jumps, SmoothCurvesHaveNone) {
     return {std::sin(t), std::cos(0.7 * t), std::exp(0.2 * t)};
   });
   const auto scores = jumps(cell.evaluation, {.reach = 0.02});
-  EXPECT_LT(find(scores, "position", "3d").max, 1e-12);
-  EXPECT_LT(find(scores, "velocity", "3d").max, 1e-7);
+  EXPECT_NEAR(find(scores, "position", "3d").max, 0.0, 1e-12);
+  EXPECT_NEAR(find(scores, "velocity", "3d").max, 0.0, 1e-7);
   EXPECT_LT(find(scores, "acceleration", "3d").max, 1e-4);
 }
 

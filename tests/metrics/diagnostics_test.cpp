@@ -50,7 +50,7 @@ TEST(Diagnostics, OfAHealthyPair) {
   EXPECT_EQ(d.possible, 151u);
   EXPECT_NEAR(d.longest_pair_interval, 0.1, 1e-12);
   EXPECT_EQ(d.repeated + d.crossing + d.tracking_gaps, 0u);
-  EXPECT_LT(d.off_unit, 1e-15);
+  EXPECT_NEAR(d.off_unit, 0.0, 1e-15);
   EXPECT_EQ(d.rank, 2);  // planar motion
   EXPECT_GT(d.condition, 1.0);
   // The window of 0.5 s on either side includes motion: at rest from 5.5 to 9.5 s.

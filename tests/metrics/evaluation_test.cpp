@@ -141,8 +141,7 @@ TEST(Evaluation, MovesTheEstimateOntoTheReference) {
   const Evaluation got = evaluate(reference, estimate, {.align = Align::sim3});
   EXPECT_NEAR(got.alignment.scale, 2.0, 1e-12);
   for (std::size_t i = 0; i < reference.size(); ++i) {
-    EXPECT_TRUE(
-        is_close(got.estimate[i].world_from_body, reference[i].world_from_body, 1e-12, 1e-12));
+    EXPECT_POSE_NEAR(got.estimate[i].world_from_body, reference[i].world_from_body, 1e-12, 1e-12);
   }
 }
 

@@ -213,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Laws, testing::Values(1e-6, 1e-3, 0.1, 1.0));
 void expect_zero(const Evaluation& e) {
   for (const MetricEntry& entry : pair_errors()) {
     for (const Score& score : entry.score(e, {})) {
-      EXPECT_LT(score.statistics.max, 1e-11) << entry.name << " " << score.relation;
+      EXPECT_NEAR(score.statistics.max, 0.0, 1e-11) << entry.name << " " << score.relation;
     }
   }
 }

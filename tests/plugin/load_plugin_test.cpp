@@ -95,10 +95,10 @@ TEST(LoadPlugin, ItsCorrectorAndSmootherRunInOurPipeline) {
   Report report;
   const auto curve = method->estimate(problem, report);
   const Edge& loop = problem.closures.back();
-  EXPECT_TRUE(is_close(curve->at(curve->end()),
-                       problem.keyframes[loop.from].world_from_body * loop.from_from_to,
-                       1e-12,
-                       1e-12));
+  EXPECT_POSE_NEAR(curve->at(curve->end()),
+                   problem.keyframes[loop.from].world_from_body * loop.from_from_to,
+                   1e-12,
+                   1e-12);
   EXPECT_THROW(curve->at(curve->end() + 1.0), std::out_of_range);
   Problem open = problem;
   open.closures.clear();

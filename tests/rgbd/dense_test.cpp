@@ -100,7 +100,7 @@ TEST(AlignSurface, FindsThePoseInACorner) {
   const Surface second = surface_from(truth, 3);
   const Pose off = truth * Pose{exp_so3({0.02, 0.02, -0.02}), {0.03, -0.02, 0.02}};
   const SurfaceAlignment found = align_surface(second, {{&first, still()}}, {off, Matrix6::Zero()});
-  EXPECT_TRUE(is_close(found.world_from_camera, truth, 1e-3, 1e-3));
+  EXPECT_POSE_NEAR(found.world_from_camera, truth, 1e-3, 1e-3);
   EXPECT_GT(found.share, 0.8);
   EXPECT_LT(found.residual_rms, 0.1);
   EXPECT_EQ(found.information.llt().info(), Eigen::Success);
@@ -135,7 +135,7 @@ TEST(AlignSurface, SaysThatNothingOverlaps) {
   const SurfaceAlignment found =
       align_surface(ahead, {{&ahead, still()}}, {back, 100.0 * Matrix6::Identity()});
   EXPECT_EQ(found.share, 0.0);
-  EXPECT_TRUE(is_close(found.world_from_camera, back, 1e-9, 1e-9));
+  EXPECT_POSE_NEAR(found.world_from_camera, back, 1e-9, 1e-9);
 }
 
 /// Six keyframes that observe the corner; image `missing` cannot be read.
@@ -197,10 +197,10 @@ TEST(RefineByDepth, MeasuresStepsAndLoopsAgain) {
   EXPECT_EQ(out.odometry_refined, 5u);
   EXPECT_EQ(out.closures_refined, 1u);
   for (const Edge& edge : out.odometry) {
-    EXPECT_TRUE(is_close(edge.from_from_to, walk.step(edge.from, edge.to), 2e-3, 2e-3));
+    EXPECT_POSE_NEAR(edge.from_from_to, walk.step(edge.from, edge.to), 2e-3, 2e-3);
   }
   ASSERT_EQ(out.closures.size(), 1u);
-  EXPECT_TRUE(is_close(out.closures[0].from_from_to, walk.step(0, 5), 2e-3, 2e-3));
+  EXPECT_POSE_NEAR(out.closures[0].from_from_to, walk.step(0, 5), 2e-3, 2e-3);
 }
 
 TEST(RefineByDepth, LeavesGuesses) {

@@ -88,7 +88,7 @@ TEST(Frontend, TracksAndClosesTheLoopOfARoomWalkedOutAndBack) {
   EXPECT_EQ(sequence.problem.shared_landmarks.size(), sequence.problem.odometry.size());
   ASSERT_FALSE(sequence.problem.closures.empty());
   for (const Edge& loop : sequence.problem.closures) {
-    EXPECT_TRUE(is_close(loop.from_from_to, source.truth(sequence.problem, loop), 0.1, 0.1));
+    EXPECT_POSE_NEAR(loop.from_from_to, source.truth(sequence.problem, loop), 0.1, 0.1);
   }
 }
 

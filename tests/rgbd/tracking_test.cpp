@@ -40,9 +40,9 @@ TEST(CameraPose, IsFoundAmongOutliersAndThenExact) {
   const std::vector<Observation> all = observe(90, 3);
   const std::optional<Pose> found = pose_by_ransac(all, {});
   ASSERT_TRUE(found);
-  EXPECT_TRUE(is_close(*found, kTruth, 0.02, 0.01));
+  EXPECT_POSE_NEAR(*found, kTruth, 0.02, 0.01);
   const RefinedPose refined = refine_pose(all, {}, *found);
-  EXPECT_TRUE(is_close(refined.world_from_camera, kTruth, 1e-9, 1e-9));
+  EXPECT_POSE_NEAR(refined.world_from_camera, kTruth, 1e-9, 1e-9);
   EXPECT_GE(refined.inliers, 60u);
   EXPECT_LE(refined.inliers, 63u);
   EXPECT_FALSE(refined.inlier[0]);

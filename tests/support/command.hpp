@@ -15,6 +15,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/refusal_of.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {
@@ -30,10 +31,6 @@ inline std::string read_all(const std::filesystem::path& file) {
   std::ostringstream out;
   out << in.rdbuf();  // does not throw if a file of /proc ends with its process
   return out.str();
-}
-
-inline bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 /// `loopbench ARGUMENTS` through a shell, standard input closed, in `folder`.

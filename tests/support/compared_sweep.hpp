@@ -2,6 +2,7 @@
 #pragma once
 
 #include "harness/compare/compare.hpp"
+#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::compared_sweep {
 
@@ -57,10 +58,6 @@ inline std::vector<Record> sweep() {
     out.push_back(score(sequence, repeat, "copy", size * (1.0 + 1e-13)));
   }
   return out;
-}
-
-inline bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 inline Comparison compared(const std::vector<Record>& records, CompareOptions options = {}) {

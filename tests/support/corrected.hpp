@@ -87,7 +87,7 @@ inline void expect_close(const Trajectory& a, const Trajectory& b, double metres
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Pose& p = a[i].world_from_body;
     const Pose& q = b[i].world_from_body;
-    EXPECT_TRUE(is_close(p, q, metres, radians))
+    EXPECT_POSE_NEAR(p, q, metres, radians)
         << "pose " << i << " at " << a[i].stamp << " s: " << (p.translation - q.translation).norm()
         << " m, " << angle_between(p.rotation, q.rotation) << " rad";
   }

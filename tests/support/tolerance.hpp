@@ -1,6 +1,7 @@
-/// Records how much of its limit each numerical comparison of the tests uses: with LOOPBENCH_TOLERANCES=FILE, a test
-/// program appends one line per call of EXPECT_NEAR or ASSERT_NEAR when it ends: used share of the limit, limit, file
-/// and line, and the test case with the largest share. tests/tolerances.sh compares builds by it.
+/// Records how much of its limit each numerical comparison of the tests uses: with
+/// LOOPBENCH_TOLERANCES=FILE, a test program appends one line per call of EXPECT_NEAR or
+/// ASSERT_NEAR when it ends: used share of the limit, limit, file and line, and the test case with
+/// the largest share. tests/tolerances.sh compares builds by it.
 #pragma once
 
 #include <gtest/gtest.h>
