@@ -45,7 +45,7 @@ TEST(Se3, GroupLawsHold) {
     EXPECT_NEAR(distance(a * a.inverse(), Pose{}), 0.0, 1e-13);
     EXPECT_NEAR(distance(a.inverse() * a, Pose{}), 0.0, 1e-13);
     for (const Pose& b : general_poses()) {
-      EXPECT_NEAR(((a * b) * point - a * (b * point)).norm(), 0.0, 1e-13);
+      EXPECT_NEAR(((a * b) * point - a * (b * point)).norm(), 0.0, 5e-13);
       EXPECT_NEAR(distance((a * b).inverse(), b.inverse() * a.inverse()), 0.0, 1e-12);
       for (const Pose& c : general_poses()) {
         EXPECT_NEAR(distance((a * b) * c, a * (b * c)), 0.0, 1e-12);
@@ -120,7 +120,7 @@ TEST(Se3, CouplingBlockDoesNotJumpWhereSeriesMeetClosedForms) {
       const Matrix3 below = coupling_block_se3(rho, angle * (1.0 - 1e-14) * axis);
       const Matrix3 above = coupling_block_se3(rho, angle * (1.0 + 1e-14) * axis);
       // angle - sin(angle) has lost eps / angle^2 = 1e-13 there, and stands beside angle |rho|.
-      EXPECT_NEAR((below - above).norm(), 0.0, 2e-14) << angle << " about " << axis.transpose();
+      EXPECT_NEAR((below - above).norm(), 0.0, 2e-13) << angle << " about " << axis.transpose();
     }
   }
 }

@@ -12,9 +12,9 @@ constexpr double kPi = std::numbers::pi;
 TEST(So3, ExpIsUnitAndTurnsByTheAngleAboutTheAxis) {
   for (const Vector3& phi : awkward_rotations()) {
     const Rotation R = exp_so3(phi);
-    EXPECT_NEAR(R.norm(), 1.0, 4e-16) << phi.transpose();
+    EXPECT_NEAR(R.norm(), 1.0, 2e-15) << phi.transpose();
     const Eigen::AngleAxisd wanted(phi.norm(), phi.stableNormalized());
-    EXPECT_NEAR((R.toRotationMatrix() - wanted.toRotationMatrix()).norm(), 0.0, 1e-15)
+    EXPECT_NEAR((R.toRotationMatrix() - wanted.toRotationMatrix()).norm(), 0.0, 1e-14)
         << phi.transpose();
   }
 }
@@ -24,7 +24,7 @@ TEST(So3, LogUndoesExp) {
     const Vector3 back = log_so3(exp_so3(phi));
     // At pi both signs are the same rotation, and rounding of pi may pick either.
     const double other = phi.norm() > kPi - 1e-15 ? (back + phi).norm() : 1.0;
-    EXPECT_NEAR(std::min((back - phi).norm(), other), 0.0, 2e-15) << phi.transpose();
+    EXPECT_NEAR(std::min((back - phi).norm(), other), 0.0, 1e-14) << phi.transpose();
   }
 }
 
@@ -41,7 +41,7 @@ TEST(So3, ExpUndoesLogForBothSignsOfTheQuaternion) {
     for (const Rotation& q : {R, minus}) {
       const Vector3 log = log_so3(q);
       EXPECT_LE(log.norm(), kPi + 1e-15);
-      EXPECT_NEAR((exp_so3(log).toRotationMatrix() - R.toRotationMatrix()).norm(), 0.0, 2e-15);
+      EXPECT_NEAR((exp_so3(log).toRotationMatrix() - R.toRotationMatrix()).norm(), 0.0, 2e-14);
     }
   }
 }
@@ -54,7 +54,7 @@ TEST(So3, LogOfAHalfTurnHasLengthPi) {
 TEST(So3, ExpTakesAnglesBeyondPi) {
   const Vector3 axis(0.6, 0.0, 0.8);
   EXPECT_NEAR((log_so3(exp_so3(1.5 * kPi * axis)) + 0.5 * kPi * axis).norm(), 0.0, 2e-15);
-  EXPECT_NEAR(log_so3(exp_so3(2.0 * kPi * axis)).norm(), 0.0, 1e-15);
+  EXPECT_NEAR(log_so3(exp_so3(2.0 * kPi * axis)).norm(), 0.0, 5e-15);
 }
 
 TEST(So3, HatIsTheCrossProduct) {
@@ -66,8 +66,8 @@ TEST(So3, AngleBetweenIsSymmetricAndIgnoresTheWorld) {
   for (const Vector3& phi : awkward_rotations()) {
     const Rotation a = exp_so3(Vector3(0.3, -1.0, 2.0));
     const Rotation b = a * exp_so3(phi);
-    EXPECT_NEAR(angle_between(a, b), phi.norm(), 1e-15);
-    EXPECT_NEAR(angle_between(b, a), phi.norm(), 1e-15);
+    EXPECT_NEAR(angle_between(a, b), phi.norm(), 5e-15);
+    EXPECT_NEAR(angle_between(b, a), phi.norm(), 5e-15);
   }
 }
 
@@ -92,7 +92,7 @@ TEST(So3, InverseLeftJacobianIsTheDerivativeOfLog) {
 TEST(So3, JacobianTimesInverseIsIdentity) {
   for (const Vector3& phi : awkward_rotations()) {
     const Matrix3 left = left_jacobian_so3(phi) * inverse_left_jacobian_so3(phi);
-    EXPECT_NEAR((left - Matrix3::Identity()).norm(), 0.0, 3e-15) << phi.transpose();
+    EXPECT_NEAR((left - Matrix3::Identity()).norm(), 0.0, 1e-14) << phi.transpose();
   }
 }
 
@@ -103,7 +103,7 @@ TEST(So3, NothingJumpsWhereSeriesMeetClosedForms) {
     EXPECT_NEAR((exp_so3(below).coeffs() - exp_so3(above).coeffs()).norm(), 0.0, 1e-16);
     EXPECT_NEAR((left_jacobian_so3(below) - left_jacobian_so3(above)).norm(), 0.0, 1e-15);
     EXPECT_NEAR(
-        (inverse_left_jacobian_so3(below) - inverse_left_jacobian_so3(above)).norm(), 0.0, 1e-15);
+        (inverse_left_jacobian_so3(below) - inverse_left_jacobian_so3(above)).norm(), 0.0, 5e-15);
   }
 }
 

@@ -145,8 +145,8 @@ TEST(Jumps, SmoothCurvesHaveNone) {
     return {std::sin(t), std::cos(0.7 * t), std::exp(0.2 * t)};
   });
   const auto scores = jumps(cell.evaluation, {.reach = 0.02});
-  EXPECT_NEAR(find(scores, "position", "3d").max, 0.0, 1e-12);
-  EXPECT_NEAR(find(scores, "velocity", "3d").max, 0.0, 1e-7);
+  EXPECT_NEAR(find(scores, "position", "3d").max, 0.0, 5e-12);
+  EXPECT_NEAR(find(scores, "velocity", "3d").max, 0.0, 1e-6);
   EXPECT_LT(find(scores, "acceleration", "3d").max, 1e-4);
 }
 

@@ -51,9 +51,9 @@ const Trajectory& file(const fs::path& name) {
 /// Relative tolerance 1e-9, absolute for values that are zero up to rounding (align origin).
 constexpr double kZero = 1e-12;
 /// The arccos of a trace near 3 amplifies rounding of 1e-16 to 1e-8 rad: for small relative
-/// rotations the original's own rounding dominates. So the tolerance is absolute: 1e-9 [rad or
+/// rotations the original's own rounding dominates. So the tolerance is absolute: 5e-9 [rad or
 /// deg].
-constexpr double kNearZeroByTrace = 1e-9;
+constexpr double kNearZeroByTrace = 5e-9;
 
 void expect_same(double got, double wanted, const std::string& what, double zero = kZero) {
   EXPECT_NEAR(got, wanted, std::max(1e-9 * std::abs(wanted), zero)) << what;
