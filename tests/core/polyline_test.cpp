@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/numeric.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::polyline_test {
 namespace {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/numeric.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::se3_test {
 namespace {

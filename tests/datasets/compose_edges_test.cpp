@@ -4,6 +4,7 @@
 #include "datasets/derive/odometry.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "tests/datasets/random_poses.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::compose_edges_test {
 namespace {

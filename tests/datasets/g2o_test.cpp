@@ -6,6 +6,7 @@
 
 #include "datasets/formats/formats.hpp"
 #include "tests/datasets/scratch.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::g2o_test {
 namespace {

@@ -9,6 +9,7 @@
 #include "datasets/dataset.hpp"
 #include "datasets/derive/poses_at.hpp"
 #include "tests/datasets/scratch.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::published_data_test {
 namespace {

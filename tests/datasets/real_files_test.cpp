@@ -7,6 +7,7 @@
 #include "datasets/formats/formats.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "tests/datasets/scratch.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::real_files_test {
 namespace {

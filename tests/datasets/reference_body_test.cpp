@@ -9,6 +9,7 @@
 #include "tests/datasets/random_poses.hpp"
 #include "tests/datasets/scratch.hpp"
 #include "tests/support/refusal_of.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::reference_body_test {
 namespace {

@@ -10,6 +10,7 @@
 #include "datasets/simulated/odometry.hpp"
 #include "datasets/simulated/path.hpp"
 #include "datasets/simulated/simulated.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::simulated_edges_test {
 namespace {

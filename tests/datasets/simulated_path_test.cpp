@@ -4,6 +4,7 @@
 
 #include "datasets/simulated/path.hpp"
 #include "datasets/simulated/simulated.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::simulated_path_test {
 namespace {

@@ -8,6 +8,7 @@
 #include "datasets/core/polyline.hpp"
 #include "tests/datasets/scratch.hpp"
 #include "tests/support/refusal_of.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::simulated_test {
 namespace {

@@ -8,6 +8,7 @@
 #include "tests/datasets/random_poses.hpp"
 #include "tests/datasets/scratch.hpp"
 #include "tests/support/refusal_of.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::trajectory_dataset_test {
 namespace {

@@ -9,6 +9,7 @@
 #include "methods/solvers/groups/se3.hpp"
 #include "methods/solvers/normal_equations.hpp"
 #include "methods/solvers/pose_graph_solver.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::least_squares_test {
 

@@ -7,6 +7,7 @@
 #include "methods/solvers/groups/se2.hpp"
 #include "methods/solvers/groups/se3.hpp"
 #include "methods/solvers/groups/sim3.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::pose_graph_groups_test {
 

@@ -9,6 +9,7 @@
 #include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/random_chain.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::pose_graph_test {
 

@@ -7,6 +7,7 @@
 #include "methods/correctors/dual.hpp"
 #include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::two_pass_test {
 

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "support.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::association_test {
 

@@ -4,6 +4,7 @@
 
 #include "datasets/core/polyline.hpp"
 #include "support.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::evaluation_test {
 

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "support.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::extrinsic_offset_test {
 

@@ -14,6 +14,7 @@
 #include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/refusal_of.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench {
 

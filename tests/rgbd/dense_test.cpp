@@ -7,6 +7,7 @@
 #include "datasets/derive/odometry.hpp"
 #include "datasets/rgbd/dense/refine_by_depth.hpp"
 #include "datasets/rgbd/dense/surface.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::dense_test {
 

@@ -2,6 +2,7 @@
 #include "datasets/rgbd/frontend.hpp"
 
 #include "tests/rgbd/recording.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::frontend_test {
 

@@ -11,6 +11,7 @@
 #include "datasets/rgbd/tracking/camera_pose.hpp"
 #include "datasets/rgbd/tracking/keyframe_rule.hpp"
 #include "datasets/rgbd/tracking/local_map.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::tracking_test {
 

@@ -10,6 +10,7 @@
 
 #include "methods/correctors/chain.hpp"
 #include "methods/method.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace loopbench::test {
 
