@@ -3,9 +3,9 @@
 /// Despite its title it does not detect loops. It splits a keyframe trajectory where speed or
 /// direction changes. On windows of N (planar) or M (spatial) nodes it replaces y' by a curve f(x')
 /// and z' by a surface q(x', y'). Orientation is not changed. The defaults are a robust
-/// interpretation of the article; the literal interpretation is a set of options (methods.cpp,
-/// paper_literal_*). The abscissa is always that of the estimate, because a method has no access to
-/// the reference.
+/// interpretation of the article; the literal interpretation is a set of options
+/// (results/paper/plugin). The abscissa is always that of the estimate, because a method has no
+/// access to the reference.
 #pragma once
 
 #include <string>
