@@ -41,7 +41,7 @@ read -r _ place kind hash url _ <<<"$row"
 target=${2:-${LOOPBENCH_DATA:-.}}/$place part=$target.part work=$target.unpacked code=0
 if [[ -e $target ]]; then
   [[ $kind != file || $(hash_of "$target") == "$hash" ]] || fail "$target: has another SHA-256; remove it to download it again"
-  printf '%s: is there\n' "$target" && exit
+  printf '%s: is already present\n' "$target" && exit
 fi
 mkdir -p "$(dirname "$target")"
 curl --fail --location --show-error --proto '=http,https,file' --continue-at - --output "$part" -- "$url" || code=$?

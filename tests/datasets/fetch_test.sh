@@ -54,7 +54,7 @@ END
 
 check 'a file' quiet plain out
 check 'its content' cmp numbers out/below/numbers.txt
-check 'a file that is there' grep -q 'is there' <("$fetch" plain out)
+check 'a file that is already present' grep -q 'is already present' <("$fetch" plain out)
 echo damaged >out/below/numbers.txt
 fails_with 'remove it to download it again' plain out
 check 'it stays' grep -q damaged out/below/numbers.txt
