@@ -15,7 +15,7 @@
 #include <sstream>
 #include <string>
 
-#include "tests/support/refusal_of.hpp"
+#include "tests/support/has.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace loopbench {

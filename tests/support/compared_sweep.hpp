@@ -2,7 +2,7 @@
 #pragma once
 
 #include "harness/compare/compare.hpp"
-#include "tests/support/refusal_of.hpp"
+#include "tests/support/has.hpp"
 
 namespace loopbench::compared_sweep {
 

@@ -8,10 +8,6 @@
 
 namespace loopbench {
 
-inline bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// The text of the exception that `act` throws, for example an InputError or OptionError; "" if it
 /// does not throw. Exceptions of other types than `Error` pass.
 template <class Error = std::exception, class Act>
