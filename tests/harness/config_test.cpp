@@ -105,6 +105,12 @@ std::string shortened(std::string text, bool has_baseline) {
   return std::regex_replace(text, std::regex("\\blaps: 10+\\b"), "laps: 2");
 }
 
+/// Whether a file or all files of a pattern are missing.
+bool lacks_data(const CommandResult& result) {
+  return result.err.find("no such file (looked in") != std::string::npos ||
+         result.err.find("no file matches") != std::string::npos;
+}
+
 // A config with a baseline is run completely and checked against it; other configs run every
 // dataset and every method once.
 TEST_P(ShippedConfig, RunsWithoutAFailedCell) {
@@ -119,7 +125,7 @@ TEST_P(ShippedConfig, RunsWithoutAFailedCell) {
   if (!has_baseline) {
     const CommandResult plan = loopbench_command(command + " --dry-run", folder_);
     patterns = every_dataset_and_method(plan.out);
-    if (plan.err.find("no such file (looked in") != std::string::npos) {
+    if (lacks_data(plan)) {
       GTEST_SKIP() << "its data is absent; set LOOPBENCH_DATA: " << plan.err;
     }
     ASSERT_FALSE(patterns.empty()) << plan.err << plan.out;
@@ -127,7 +133,7 @@ TEST_P(ShippedConfig, RunsWithoutAFailedCell) {
   for (const std::string& only : patterns) {
     const CommandResult result =
         loopbench_command(command + " --out out --only '" + only + "'", folder_);
-    if (result.err.find("no such file (looked in") != std::string::npos) {
+    if (lacks_data(result)) {
       GTEST_SKIP() << "its data is absent; set LOOPBENCH_DATA: " << result.err;
     }
     EXPECT_EQ(result.exit_code, 0) << only << result.err << result.out;
