@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "datasets/formats/csv_names.hpp"
 
@@ -36,24 +37,45 @@ struct PoseNames {
   std::vector<std::string> names;
   std::vector<std::optional<PoseColumn>> meanings;
 
-  /// Columns of the header with this meaning and rank.
-  std::vector<std::size_t> with(std::size_t column, NameRank rank) const {
+  const PoseColumn& meaning(std::size_t i) const { return *meanings[i]; }
+
+  /// Columns of the header with this role and rank.
+  std::vector<std::size_t> with(Role role, NameRank rank) const {
     std::vector<std::size_t> out;
     for (std::size_t i = 0; i < meanings.size(); ++i) {
-      if (meanings[i] && meanings[i]->column == column && meanings[i]->rank == rank) {
-        out.push_back(i);
-      }
+      if (meanings[i] && meanings[i]->role == role && meanings[i]->rank == rank) out.push_back(i);
     }
     return out;
   }
 
-  /// Columns of the lowest rank with this meaning.
-  std::vector<std::size_t> best(std::size_t column) const {
+  /// Columns of the lowest rank with this role.
+  std::vector<std::size_t> best(Role role) const {
     for (const NameRank rank :
          {NameRank::usual, NameRank::rare, NameRank::whole_seconds, NameRank::nanoseconds}) {
-      if (auto out = with(column, rank); !out.empty()) return out;
+      if (auto out = with(role, rank); !out.empty()) return out;
     }
     return {};
+  }
+
+  bool has(Role role) const { return !best(role).empty(); }
+
+  bool has_any(Role first, std::size_t count) const {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (has(after(first, i))) return true;
+    }
+    return false;
+  }
+
+  /// Whether the header has latitude, longitude and height instead of x, y and z.
+  bool is_geodetic() const { return !has_any(Role::x, 3) && has(Role::latitude); }
+
+  /// Roles of a pose, in the order of kPoseColumns.
+  std::vector<Role> roles(bool with_rotation) const {
+    std::vector<Role> out{Role::time};
+    const Role first = is_geodetic() ? Role::latitude : Role::x;
+    for (std::size_t i = 0; i < 3; ++i) out.push_back(after(first, i));
+    for (std::size_t i = 0; with_rotation && i < 4; ++i) out.push_back(after(Role::qw, i));
+    return out;
   }
 
   std::string unknown() const {
@@ -67,24 +89,6 @@ struct PoseNames {
     return out + (count > kMost ? ", ..." : "");
   }
 };
-
-/// Takes the first column as the time if it is the only one that is unknown.
-void assume_time(PoseNames& all) {
-  if (all.names.empty() || all.meanings[0]) return;
-  if (std::ranges::count_if(all.meanings, [](const auto& it) { return !it; }) != 1 ||
-      !all.best(0).empty())
-    return;
-  constexpr std::array kCounters{"id", "idx", "index", "frame", "frameid", "seq"};
-  const std::string& name = all.names[0];
-  NamedColumn first = named_column(name);
-  const bool is_counter = std::ranges::count(kCounters, first.base) > 0;
-  if (first.base.empty() || is_counter) return;
-  if (const std::size_t at = name.rfind('_'); first.unit.empty() && at != name.npos) {
-    const std::string suffix = plain_name(std::string_view(name).substr(at));
-    if (time_exponent(suffix)) first.unit = suffix;
-  }
-  all.meanings[0] = time_column({"t", first.unit});
-}
 
 /// Columns of the upper triangle of the covariance by rows, as write_trajectory() names them; sets
 /// `why_not` if some are missing.
@@ -109,41 +113,32 @@ std::vector<std::size_t> covariance_indices(const PoseNames& all,
   return out;
 }
 
-/// Whether the header has latitude, longitude and height instead of x, y and z.
-bool names_degrees(const PoseNames& all) {
-  const auto names = [&](std::size_t column) { return !all.best(column).empty(); };
-  return !names(1) && !names(2) && !names(3) && names(8);
-}
-
-/// Columns of the header that stand for x, y and z.
-std::size_t position_column(const PoseNames& all, std::size_t axis) {
-  return (names_degrees(all) ? 8 : 1) + axis;
-}
-
 std::string why_not_understood(const PoseNames& all, bool with_rotation) {
   constexpr const char* kAccepted =
       "expected time (t, timestamp, time_ns, secs with nsecs), position (x, tx, p_x, position.x) "
       "and quaternion (qw, q_w, orientation.w, or q0 q1 q2 q3 for w x y z)";
-  constexpr std::array kOthers{"latitude", "longitude", "height"};
   std::string missing;
-  for (std::size_t i = 0; i < (with_rotation ? kPoseColumns.size() : 4); ++i) {
-    const std::size_t column = 1 <= i && i < 4 ? position_column(all, i - 1) : i;
-    const char* const name = column < 8 ? kPoseColumns[column] : kOthers[column - 8];
-    const std::vector<std::size_t> found = all.best(column);
-    if (found.empty()) missing += (missing.empty() ? "" : ", ") + std::string(name);
+  for (const Role role : all.roles(with_rotation)) {
+    const char* const name = kRoleNames[static_cast<std::size_t>(role)];
+    const std::vector<std::size_t> found = all.best(role);
+    if (found.empty()) {
+      missing += (missing.empty() ? "" : ", ") + std::string(name);
+      continue;
+    }
     if (found.size() > 1) {
       return fmt::format("has a header with two columns for {}: {} and {}",
                          name,
                          shortened(all.names[found[0]]),
                          shortened(all.names[found[1]]));
     }
-    if (!found.empty() && !all.meanings[found[0]]->wrong_unit.empty()) {
+    if (const std::string& wrong = all.meaning(found[0]).wrong_unit; !wrong.empty()) {
+      const bool is_angle = role == Role::latitude || role == Role::longitude;
       return fmt::format("has a header with unit {} in '{}', expected {}",
-                         shortened(all.meanings[found[0]]->wrong_unit),
+                         shortened(wrong),
                          shortened(all.names[found[0]]),
-                         i == 0                       ? "s, ms, us or ns"
-                         : column == 8 || column == 9 ? "deg"
-                                                      : "m, cm or mm");
+                         role == Role::time ? "s, ms, us or ns"
+                         : is_angle         ? "deg"
+                                            : "m, cm or mm");
     }
   }
   if (missing.empty()) return "";
@@ -156,17 +151,15 @@ std::string why_not_understood(const PoseNames& all, bool with_rotation) {
 
 /// The column of nanoseconds after whole seconds. `why_not` is set if it has no such partner.
 std::optional<std::size_t> nanoseconds_column(const PoseNames& all, std::string& why_not) {
-  const std::size_t time = all.best(0).front();
-  const std::vector<std::size_t> partners = all.with(0, NameRank::nanoseconds);
-  if (all.meanings[time]->rank == NameRank::nanoseconds || partners.empty()) return std::nullopt;
-  const bool is_split = all.meanings[time]->rank == NameRank::whole_seconds;
-  if (!is_split && !all.with(0, NameRank::whole_seconds).empty())
+  const std::size_t time = all.best(Role::time).front();
+  const std::vector<std::size_t> partners = all.with(Role::time, NameRank::nanoseconds);
+  const auto [role, rank, exponent, per_metre, wrong_unit] = all.meaning(time);
+  if (rank == NameRank::nanoseconds || partners.empty()) return std::nullopt;
+  const bool is_split = rank == NameRank::whole_seconds;
+  if (!is_split && !all.with(Role::time, NameRank::whole_seconds).empty())
     return std::nullopt;  // stated twice
-  const bool is_nanoseconds = all.meanings[partners[0]]->time_exponent == -9;
-  if (is_split && partners.size() == 1 && is_nanoseconds &&
-      all.meanings[time]->time_exponent == 0) {
-    return partners[0];
-  }
+  const bool is_nanoseconds = all.meaning(partners[0]).time_exponent == -9;
+  if (is_split && partners.size() == 1 && is_nanoseconds && exponent == 0) return partners[0];
   why_not = fmt::format("has a header with time in '{}' and '{}', expected one, or secs and nsecs",
                         shortened(all.names[time]),
                         shortened(all.names[partners[0]]));
@@ -202,39 +195,35 @@ CsvHeader csv_header(std::string_view header) {
   for (const std::string& name : all.names) all.meanings.push_back(pose_column(name));
   CsvHeader out;
   out.width = all.names.size();
-  assume_time(all);
-  out.names_time = !all.best(0).empty();
-  for (std::size_t i = 1; i < kPoseColumns.size(); ++i) {
-    if (!all.best(i).empty()) (i < 4 ? out.names_position : out.names_quaternion) = true;
+  const bool lacks_one = std::ranges::count_if(all.meanings, std::logical_not{}) == 1;
+  if (lacks_one && !all.meanings[0] && !all.has(Role::time)) {
+    all.meanings[0] = assumed_time(all.names[0]);
   }
+  out.names_time = all.has(Role::time);
+  out.names_position = all.has_any(Role::x, 3);
+  out.names_quaternion = all.has_any(Role::qw, 4);
   out.why_not = why_not_understood(all, true);
   CsvColumns columns;
-  columns.has_rotation = out.names_quaternion || out.why_not.empty();
-  if (!out.why_not.empty() && columns.has_rotation) return out;
+  columns.has_rotation = out.names_quaternion;
   if (!why_not_understood(all, columns.has_rotation).empty()) return out;
-  columns.is_geodetic = names_degrees(all);
+  columns.is_geodetic = all.is_geodetic();
   out.names_position |= columns.is_geodetic;
-  const std::vector<std::size_t> fix = all.best(11);
-  if (columns.is_geodetic && !fix.empty()) columns.fix = fix.front();
+  if (columns.is_geodetic && all.has(Role::fix)) columns.fix = all.best(Role::fix).front();
   columns.width = out.width;
-  std::string why_not_split;
-  columns.nanoseconds = nanoseconds_column(all, why_not_split);
-  if (!why_not_split.empty()) {
-    out.why_not = why_not_split;
+  std::string why_not;
+  columns.nanoseconds = nanoseconds_column(all, why_not);
+  if (why_not.empty()) columns.covariance = covariance_indices(all, columns.has_rotation, why_not);
+  if (!why_not.empty()) {
+    out.why_not = why_not;
     return out;
   }
-  for (std::size_t i = 0; i < (columns.has_rotation ? columns.index.size() : 4); ++i) {
-    const bool is_position = 1 <= i && i < 4;
-    columns.index[i] = all.best(is_position ? position_column(all, i - 1) : i).front();
+  std::size_t count = 0;
+  for (const Role role : all.roles(columns.has_rotation)) {
+    columns.index[count++] = all.best(role).front();
   }
-  columns.covariance = covariance_indices(all, columns.has_rotation, why_not_split);
-  if (!why_not_split.empty()) {
-    out.why_not = why_not_split;
-    return out;
-  }
-  columns.time_exponent = all.meanings[columns.index[0]]->time_exponent;
+  columns.time_exponent = all.meaning(columns.index[0]).time_exponent;
   for (std::size_t i = 0; i < columns.per_metre.size(); ++i) {
-    columns.per_metre[i] = all.meanings[columns.index[1 + i]]->per_metre;
+    columns.per_metre[i] = all.meaning(columns.index[1 + i]).per_metre;
   }
   out.columns = columns;
   return out;

@@ -1,6 +1,7 @@
 /// Meaning of one column name in the header of a table.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -8,35 +9,30 @@
 
 namespace loopbench {
 
-/// Of several columns with the same meaning, the one of the lowest rank is taken.
+/// Meaning of a column. The first eight are those of kPoseColumns.
+enum class Role { time, x, y, z, qw, qx, qy, qz, latitude, longitude, height, fix };
+constexpr std::array kRoleNames{
+    "time", "x", "y", "z", "qw", "qx", "qy", "qz", "latitude", "longitude", "height", "fix"};
+
+inline Role after(Role first, std::size_t offset) {
+  return static_cast<Role>(static_cast<std::size_t>(first) + offset);
+}
+
+/// Of several columns with the same role, the one of the lowest rank is taken.
 enum class NameRank { usual, rare, whole_seconds, nanoseconds };
 
-/// One of the columns t, x, y, z, qw, qx, qy, qz, latitude, longitude, height, fix status.
 struct PoseColumn {
-  std::size_t column = 0;  ///< 0 to 11
+  Role role = Role::time;
   NameRank rank = NameRank::usual;
   std::optional<int> time_exponent = {};  ///< stated unit of time, 10^exponent [s]
   double per_metre = 1.0;                 ///< unit of a position
   std::string wrong_unit = {};            ///< stated, but not supported
 };
 
-struct NamedColumn {
-  std::string base;  ///< lower case, letters and digits only: "p_x [m]" -> "px"
-  std::string unit;  ///< in brackets: "m"
-};
-
-/// Lower case, letters and digits only.
-std::string plain_name(std::string_view name);
-
-NamedColumn named_column(std::string_view name);
-
-/// The unit 10^exponent [s] of a name such as ms; nothing for other texts.
-std::optional<int> time_exponent(std::string_view unit);
-
-/// The time column with this name; nothing for other names.
-std::optional<PoseColumn> time_column(const NamedColumn& name);
-
 /// The meaning of a name; nothing for other columns.
 std::optional<PoseColumn> pose_column(std::string_view name);
+
+/// The time in a column of another name, with the unit that it ends in; nothing for counters.
+std::optional<PoseColumn> assumed_time(std::string_view name);
 
 }  // namespace loopbench
