@@ -5,7 +5,6 @@
 
 #include "datasets/core/params.hpp"
 #include "datasets/formats/columns.hpp"
-#include "datasets/formats/definite_information.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/g2o_information.hpp"
 #include "datasets/formats/parts.hpp"

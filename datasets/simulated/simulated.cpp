@@ -9,8 +9,7 @@
 #include <tuple>
 
 #include "datasets/noise/random.hpp"
-#include "datasets/simulated/closures.hpp"
-#include "datasets/simulated/odometry.hpp"
+#include "datasets/simulated/edges.hpp"
 #include "datasets/simulated/options.hpp"
 #include "datasets/simulated/path.hpp"
 

@@ -16,7 +16,6 @@
 #include "harness/run/check_output.hpp"
 #include "harness/run/doctor_notes.hpp"
 #include "harness/run/run_cell.hpp"
-#include "metrics/correction/closure_residual.hpp"
 #include "metrics/correction/graph_cost.hpp"
 
 namespace loopbench::harness {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "metrics/doctor/pair_checks.hpp"
-#include "metrics/numerics/percentile.hpp"
+#include "metrics/numerics/average.hpp"
 #include "metrics/numerics/spread.hpp"
 
 namespace loopbench::metrics {

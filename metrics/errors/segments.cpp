@@ -12,7 +12,7 @@
 #include "metrics/pairing/motion.hpp"
 #include "metrics/pairing/pair_search.hpp"
 #include "metrics/pairing/segment_ends.hpp"
-#include "metrics/protocols/lengths.hpp"
+#include "metrics/protocols/protocol.hpp"
 
 namespace loopbench::metrics {
 namespace {

@@ -1,9 +1,12 @@
-/// Mean and standard deviation. (The median is in median.hpp.)
+/// Mean, standard deviation and percentiles. (The median is in median.hpp.)
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <span>
 #include <stdexcept>
+#include <vector>
 
 namespace loopbench::metrics {
 
@@ -22,6 +25,15 @@ inline double sample_deviation(std::span<const double> values) {
   double sum = 0.0;
   for (const double value : values) sum += (value - middle) * (value - middle);
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
+/// The value at `share` (0..1) of a sorted list that is not empty, interpolated linearly between
+/// neighbours (numpy's default).
+inline double percentile(const std::vector<double>& sorted, double share) {
+  const double rank = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(rank);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return std::lerp(sorted[below], sorted[above], rank - static_cast<double>(below));
 }
 
 }  // namespace loopbench::metrics

@@ -1,11 +1,34 @@
-/// The pairs of TUM's evaluate_rpe.py: with --fixed_delta, and random pairs.
+/// Pairs of relative motions as the scripts of TUM choose them.
 #pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <vector>
 
 #include "metrics/alignment/alignment.hpp"
 #include "metrics/pairing/association.hpp"
 #include "metrics/pairing/select_pairs.hpp"
 
 namespace loopbench::metrics {
+
+/// random.seed(0), then random.randint or random.sample: MT19937 seeded by the array {0}
+/// (Matsumoto and Nishimura's init_by_array), integers by rejection sampling (random.py,
+/// _randbelow_with_getrandbits). Identical in every Python from 3.2 on; Python 2 differs.
+class PythonRandom {
+ public:
+  PythonRandom();
+
+  /// Uniform integer in 0 .. size - 1, as randint(0, size - 1). 0 < size < 2^32.
+  std::size_t below(std::size_t size);
+
+  /// `count` distinct integers of 0 .. size - 1, as sample(range(size), count). count <= size <
+  /// 2^32. O(size) where Python copies the population, otherwise O(count).
+  std::vector<std::size_t> sample(std::size_t size, std::size_t count);
+
+ private:
+  std::mt19937 bits_;
+};
 
 /// Aligned estimate poses that some pair uses, each with the reference pose nearest in time; pairs
 /// of indices into them.

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "datasets/simulated/closures.hpp"
-#include "datasets/simulated/odometry.hpp"
+#include "datasets/simulated/edges.hpp"
 #include "datasets/simulated/path.hpp"
 #include "datasets/simulated/simulated.hpp"
 #include "tests/support/tolerance.hpp"

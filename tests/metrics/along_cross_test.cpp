@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "metrics/correction/path_length.hpp"
+#include "metrics/correction/smoothness.hpp"
 #include "metrics/errors/ate.hpp"
 #include "support.hpp"
 

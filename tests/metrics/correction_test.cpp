@@ -4,9 +4,8 @@
 #include <numbers>
 
 #include "evaluated_cell.hpp"
-#include "metrics/correction/closure_residual.hpp"
-#include "metrics/correction/jerk.hpp"
-#include "metrics/correction/jumps.hpp"
+#include "metrics/correction/graph_cost.hpp"
+#include "metrics/correction/smoothness.hpp"
 #include "support.hpp"
 #include "tests/support/problems.hpp"
 

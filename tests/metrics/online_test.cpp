@@ -3,9 +3,7 @@
 
 #include "evaluated_cell.hpp"
 #include "metrics/metric.hpp"
-#include "metrics/online/causal_errors.hpp"
-#include "metrics/online/closure_jumps.hpp"
-#include "metrics/online/update_time.hpp"
+#include "metrics/online/replayed.hpp"
 #include "replayed_polyline.hpp"
 #include "support.hpp"
 #include "tests/support/problems.hpp"

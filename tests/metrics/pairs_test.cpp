@@ -7,7 +7,6 @@
 
 #include "metrics/errors/rpe.hpp"
 #include "metrics/pairing/pair_search.hpp"
-#include "metrics/pairing/python_random.hpp"
 #include "metrics/pairing/tum_motions.hpp"
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"

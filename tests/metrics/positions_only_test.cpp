@@ -9,7 +9,6 @@
 #include "metrics/errors/accuracy.hpp"
 #include "metrics/errors/ape.hpp"
 #include "metrics/errors/ate.hpp"
-#include "metrics/errors/control_points.hpp"
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 

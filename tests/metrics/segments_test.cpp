@@ -8,7 +8,7 @@
 
 #include "metrics/numerics/angle.hpp"
 #include "metrics/pairing/segment_ends.hpp"
-#include "metrics/protocols/lengths.hpp"
+#include "metrics/protocols/protocol.hpp"
 #include "metrics/protocols/protocols.hpp"
 #include "support.hpp"
 
