@@ -1,7 +1,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "metrics/checks/coverage.hpp"
 #include "metrics/checks/diagnostics.hpp"
 #include "metrics/checks/extrinsic_offset.hpp"
 #include "metrics/correction/graph_cost.hpp"

@@ -28,14 +28,6 @@ std::vector<std::size_t> every(std::size_t size, std::size_t step) {
   return kept;
 }
 
-std::vector<std::size_t> evenly(std::size_t size, std::size_t count) {
-  std::vector<std::size_t> kept;
-  for (std::size_t k = 0; k < count; ++k) {
-    kept.push_back((2 * k * (size - 1) + count - 1) / (2 * (count - 1)));  // rounded half up
-  }
-  return kept;
-}
-
 /// Keeps each pose whose `distance` from the last kept pose is at least `minimum`.
 template <class Distance>
 std::vector<std::size_t> by_distance(const Trajectory& poses, double minimum, Distance distance) {
@@ -47,6 +39,14 @@ std::vector<std::size_t> by_distance(const Trajectory& poses, double minimum, Di
 }
 
 }  // namespace
+
+std::vector<std::size_t> even_indices(std::size_t size, std::size_t count) {
+  std::vector<std::size_t> out(count, 0);
+  for (std::size_t k = 1; k < count; ++k) {
+    out[k] = (2 * k * (size - 1) + count - 1) / (2 * (count - 1));  // rounded half up
+  }
+  return out;
+}
 
 std::vector<std::size_t> choose_keyframes(const Trajectory& poses, const KeyframeChoice& choice) {
   if (poses.empty()) return {};
@@ -63,7 +63,7 @@ std::vector<std::size_t> choose_keyframes(const Trajectory& poses, const Keyfram
         throw invalid_value(
             choice, "at most the " + std::to_string(poses.size()) + " poses of the estimate");
       }
-      return evenly(poses.size(), count);
+      return even_indices(poses.size(), count);
     }
     case KeyframeRule::seconds:
       if (!(choice.value > 0.0)) throw invalid_value(choice, "more than 0 seconds");

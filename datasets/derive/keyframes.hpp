@@ -24,6 +24,9 @@ struct KeyframeChoice {
   double value = 1.0;  ///< interval [poses], minimum spacing [s] or [m], or number of keyframes
 };
 
+/// `count` evenly spaced indices from 0 to size - 1.
+std::vector<std::size_t> even_indices(std::size_t size, std::size_t count);
+
 /// Returns ascending indices of the keyframes. The first and the last pose are always selected, so
 /// the last spacing may be smaller than required. `metres` uses the Euclidean distance to the
 /// previous keyframe. `count` distributes keyframes evenly by pose index. Throws OptionError if the

@@ -50,10 +50,8 @@ inline std::vector<std::optional<Pose>> poses_at(const Trajectory& run,
     const double time = times[k];
     if (run.size() > 1 && time >= knots.front() && time <= knots.back()) {
       const std::size_t i = span.find(time);
-      const double gap = knots[i + 1] - knots[i];
-      if (gap <= reach.max_gap + kRounding) {
-        out[k] = interpolate(
-            run[i].world_from_body, run[i + 1].world_from_body, (time - knots[i]) / gap);
+      if (knots[i + 1] - knots[i] <= reach.max_gap + kRounding) {
+        out[k] = interpolate(run[i], run[i + 1], time);
         continue;
       }
     }

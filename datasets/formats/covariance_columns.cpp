@@ -84,6 +84,18 @@ Part part_of(const TextFile& file, const Line& first, std::size_t before, int ax
 
 }  // namespace
 
+std::vector<std::string> covariance_names(bool has_rotation) {
+  constexpr std::array kAxes{"x", "y", "z", "roll", "pitch", "yaw"};
+  const std::size_t axes = has_rotation ? kAxes.size() : 3;
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < axes; ++i) {
+    for (std::size_t j = i; j < axes; ++j) {
+      out.push_back(std::string("cov_") + kAxes[i] + "_" + kAxes[j]);
+    }
+  }
+  return out;
+}
+
 void put_covariance(const TextFile& file,
                     const Matrix6& covariance,
                     std::size_t poses,

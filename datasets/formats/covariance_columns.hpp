@@ -63,6 +63,10 @@ std::vector<Matrix6> read_covariance_file(const std::filesystem::path& path,
                                           const Trajectory& poses,
                                           bool& assumed_axes);
 
+/// Names of the columns of a csv file with the upper triangle of a covariance, by rows:
+/// "cov_x_x", "cov_x_y" to "cov_yaw_yaw", or of a position to "cov_z_z".
+std::vector<std::string> covariance_names(bool has_rotation);
+
 /// Adds the covariance of the row after which the file has `poses` poses: StampOrder may have
 /// dropped it, or replaced the last one.
 void put_covariance(const TextFile& file,

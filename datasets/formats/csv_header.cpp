@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "datasets/formats/covariance_columns.hpp"
 #include "datasets/formats/csv_names.hpp"
 
 namespace loopbench {
@@ -90,23 +91,18 @@ struct PoseNames {
   }
 };
 
-/// Columns of the upper triangle of the covariance by rows, as write_trajectory() names them; sets
-/// `why_not` if some are missing.
+/// Columns with covariance_names(); sets `why_not` if some are missing.
 std::vector<std::size_t> covariance_indices(const PoseNames& all,
                                             bool has_rotation,
                                             std::string& why_not) {
-  constexpr std::array kAxes{"x", "y", "z", "roll", "pitch", "yaw"};
-  const std::size_t axes = has_rotation ? kAxes.size() : 3;
   std::vector<std::size_t> out;
   std::string missing;
-  for (std::size_t i = 0; i < axes; ++i) {
-    for (std::size_t j = i; j < axes; ++j) {
-      const std::string name = fmt::format("cov_{}_{}", kAxes[i], kAxes[j]);
-      const auto found = std::ranges::find(all.names, name);
-      if (found == all.names.end() && missing.empty()) missing = name;
-      if (found != all.names.end()) {
-        out.push_back(static_cast<std::size_t>(found - all.names.begin()));
-      }
+  for (const std::string& name : covariance_names(has_rotation)) {
+    const auto found = std::ranges::find(all.names, name);
+    if (found == all.names.end()) {
+      if (missing.empty()) missing = name;
+    } else {
+      out.push_back(static_cast<std::size_t>(found - all.names.begin()));
     }
   }
   if (!missing.empty() && !out.empty()) why_not = "has a header of a covariance without " + missing;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "datasets/core/fields.hpp"
+#include "datasets/formats/covariance_columns.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_writer.hpp"
@@ -52,18 +53,22 @@ void write_position(TextWriter& out, const Pose& pose) {
   for (const double value : pose.translation) out.number(value);
 }
 
+/// Stamp, x, y, z, and with a rotation qx, qy, qz, qw.
+void write_row(TextWriter& out, const TrajectoryFile& file, std::size_t i) {
+  const Pose& pose = file.poses[i].world_from_body;
+  write_stamp(out, file, i);
+  write_position(out, pose);
+  if (!has_rotation(pose)) return;
+  for (const double value : pose.rotation.coeffs()) out.number(value);
+}
+
 TextWriter tum_text(const TrajectoryFile& file, const std::vector<std::string>& comments) {
   TextWriter out;
   for (const std::string& comment : comments) out.comment(comment);
   const bool is_uncertain = has_covariances(file, Format::tum);
   if (is_uncertain) out.word("#%TANGENT_CONVENTION fixed_axes").end_line();
   for (std::size_t i = 0; i < file.poses.size(); ++i) {
-    const Pose& pose = file.poses[i].world_from_body;
-    write_stamp(out, file, i);
-    write_position(out, pose);
-    if (has_rotation(pose)) {
-      for (const double value : pose.rotation.coeffs()) out.number(value);  // x y z w
-    }
+    write_row(out, file, i);
     if (is_uncertain) {
       for (const double value : file.covariances[i].reshaped()) out.number(value);  // symmetric
     }
@@ -110,29 +115,21 @@ TextWriter euroc_text(const TrajectoryFile& file, const std::filesystem::path& p
 }
 
 TextWriter csv_text(const TrajectoryFile& file) {
-  constexpr std::array kAxes{"x", "y", "z", "roll", "pitch", "yaw"};
   TextWriter out(',');
+  const bool has_rotations = !lacks_rotations(file.poses);
   for (const char* name : {"timestamp", "x", "y", "z"}) out.word(name);
-  if (!lacks_rotations(file.poses)) {
+  if (has_rotations) {
     for (const char* name : {"qx", "qy", "qz", "qw"}) out.word(name);
   }
-  const std::size_t axes = file.covariances.empty() ? 0 : lacks_rotations(file.poses) ? 3 : 6;
-  for (std::size_t i = 0; i < axes; ++i) {
-    for (std::size_t j = i; j < axes; ++j) {
-      out.word(std::string("cov_") + kAxes[i] + "_" + kAxes[j]);
-    }
+  const Eigen::Index axes = file.covariances.empty() ? 0 : has_rotations ? 6 : 3;
+  if (axes > 0) {
+    for (const std::string& name : covariance_names(has_rotations)) out.word(name);
   }
   out.end_line();
   for (std::size_t i = 0; i < file.poses.size(); ++i) {
-    const Pose& pose = file.poses[i].world_from_body;
-    write_stamp(out, file, i);
-    write_position(out, pose);
-    if (has_rotation(pose)) {
-      for (const double value : pose.rotation.coeffs()) out.number(value);
-    }
-    const auto end = static_cast<Eigen::Index>(axes);
-    for (Eigen::Index a = 0; a < end; ++a) {
-      for (Eigen::Index b = a; b < end; ++b) out.number(file.covariances[i](a, b));
+    write_row(out, file, i);
+    for (Eigen::Index a = 0; a < axes; ++a) {
+      for (Eigen::Index b = a; b < axes; ++b) out.number(file.covariances[i](a, b));
     }
     out.end_line();
   }

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "datasets/derive/keyframes.hpp"
 #include "datasets/noise/random.hpp"
 #include "datasets/simulated/edges.hpp"
 #include "datasets/simulated/options.hpp"
@@ -99,27 +100,6 @@ Trajectory frames_of(const Trajectory& reference) {
   return out;
 }
 
-/// Returns `count` evenly spaced indices from 0 to size - 1. Throws OptionError if count > size.
-std::vector<std::size_t> even_indices(std::size_t count, std::size_t size) {
-  if (count > size) {
-    throw OptionError(
-        "keyframes",
-        fmt::format("keyframes = {}: expected keyframes <= {}, the number of frames", count, size));
-  }
-  std::vector<std::size_t> out(count, 0);
-  for (std::size_t k = 1; k < count; ++k) {
-    out[k] = (2 * k * (size - 1) + (count - 1)) / (2 * (count - 1));  // rounded to nearest
-  }
-  return out;
-}
-
-Trajectory at(const std::vector<std::size_t>& indices, const Trajectory& poses) {
-  Trajectory out;
-  out.reserve(indices.size());
-  for (const std::size_t index : indices) out.push_back(poses[index]);
-  return out;
-}
-
 /// Adds independent noise to each pose, in x, y and yaw only if `planar`.
 void add_white_noise(Trajectory& poses, const SimulatedOptions& options) {
   const auto [sigma_t, sigma_r] = options.white_noise;
@@ -143,16 +123,21 @@ Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
   const Path path = path_of(options.path);
   const Sampling sampling = sampling_of(options, path);
   const bool default_rate = options.reference_rate == 0.0;
-  const std::int64_t keyframe_count =
-      options.keyframes > 0 ? options.keyframes : path.keyframes * options.laps;
+  const auto count = static_cast<std::size_t>(
+      options.keyframes > 0 ? options.keyframes : path.keyframes * options.laps);
 
   Trajectory reference =
       sampled(options.path, sampling.reference_rate, sampling.seconds, options.planar);
   const Trajectory truth =
       default_rate ? frames_of(reference)
                    : sampled(options.path, sampling.frame_rate, sampling.seconds, options.planar);
-  const std::vector<std::size_t> keyframes =
-      even_indices(static_cast<std::size_t>(keyframe_count), truth.size());
+  if (count > truth.size()) {
+    throw OptionError(
+        "keyframes",
+        fmt::format(
+            "keyframes = {}: expected keyframes <= {}, the number of frames", count, truth.size()));
+  }
+  const std::vector<std::size_t> keyframes = even_indices(truth.size(), count);
   Odometry odometry = simulate_odometry(truth, keyframes, options);
   add_white_noise(odometry.frames, options);
   const SimulatedClosures& closures = options.closures;
@@ -162,10 +147,11 @@ Sequence load_simulated(const SimulatedOptions& options, const DataRoot&) {
 
   Sequence out;
   out.name = "simulated_" + to_text(options.path);
-  out.problem.keyframes = at(keyframes, odometry.frames);
+  out.problem.keyframes = split(odometry.frames, keyframes).keyframes;
   out.problem.odometry = std::move(odometry.edges);
-  out.problem.closures = simulate_closures(at(keyframes, truth), same, options);
-  out.problem.anchors = simulate_anchors(at(keyframes, truth), options);
+  const Trajectory true_keyframes = split(truth, keyframes).keyframes;
+  out.problem.closures = simulate_closures(true_keyframes, same, options);
+  out.problem.anchors = simulate_anchors(true_keyframes, options);
   out.problem.frames = std::move(odometry.frames);
   out.problem.planar = options.planar;
   out.reference = std::move(reference);

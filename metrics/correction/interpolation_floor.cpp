@@ -13,17 +13,10 @@ std::vector<Trajectory> keyframe_runs(const Trajectory& reference,
                                       const std::vector<double>& keyframe_stamps,
                                       double max_gap) {
   std::vector<Trajectory> out(1);
-  std::size_t after = 0;  // first reference pose not before the keyframe
+  std::size_t after = 0;
   for (const double stamp : keyframe_stamps) {
-    while (after < reference.size() && reference[after].stamp < stamp) ++after;
-    const bool is_inside = after < reference.size() && (after > 0 || reference[0].stamp == stamp);
-    if (is_inside && reference[after].stamp == stamp) {
-      out.back().push_back(reference[after]);
-    } else if (is_inside &&
-               reference[after].stamp - reference[after - 1].stamp <= max_gap + kStampRounding) {
-      const auto& [t0, pose0] = reference[after - 1];
-      const auto& [t1, pose1] = reference[after];
-      out.back().push_back({stamp, interpolate(pose0, pose1, (stamp - t0) / (t1 - t0))});
+    if (const auto pose = pose_at(reference, stamp, max_gap + kStampRounding, after)) {
+      out.back().push_back({stamp, *pose});
     } else if (!out.back().empty()) {
       out.emplace_back();
     }
@@ -58,8 +51,7 @@ void add_run(Floor& floor,
     while (i + 2 < nodes.size() && nodes[i + 1].stamp <= stamp) ++i;
     const StampedPose& a = nodes[i];
     const StampedPose& b = nodes[i + 1];
-    const Pose line =
-        interpolate(a.world_from_body, b.world_from_body, (stamp - a.stamp) / (b.stamp - a.stamp));
+    const Pose line = interpolate(a, b, stamp);
     floor.polyline.push_back((line.translation - truth.translation).norm());
     const auto cubic = cubic_between<Vector3>(knot(i), knot(i + 1), stamp);
     floor.cubic.push_back((cubic - truth.translation).norm());

@@ -116,7 +116,7 @@ std::optional<InputFinding> remove_unmeasured(std::vector<Edge>& closures, const
       measured.push_back(edge);
       continue;
     }
-    const Pose gap = gap_of(edge, chain);
+    const Pose gap = loop_residual(edge, chain);
     gaps.push_back(gap.translation.norm());
     angles.push_back(log_so3(gap.rotation).norm());
     has_positions |= edge.from_from_to.translation.norm() > kExact;

@@ -126,7 +126,7 @@ std::optional<InputFinding> check_information(const Problem& problem) {
   const GroupFits as_read(problem);
   std::vector<double> gaps;
   for (const Edge& closure : problem.closures)
-    gaps.push_back(gap_of(closure, as_read.chain).translation.norm());
+    gaps.push_back(loop_residual(closure, as_read.chain).translation.norm());
   if (median_value(std::move(gaps)) < kExactGap) return std::nullopt;
   struct Gain {
     double fitted = 0.0, stated = 0.0;  // with factors of the variances, and without

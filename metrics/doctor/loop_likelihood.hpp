@@ -41,12 +41,19 @@ inline Chain chain_of(const Problem& problem) {
   return out;
 }
 
-/// The end of the odometry along a loop, in the frame where the closure ends.
-inline Pose gap_of(const Edge& closure, const Chain& chain) {
+/// Residual of a loop: the end of the odometry along it, in the frame where the closure ends.
+inline Pose loop_residual(const Edge& closure, const Chain& chain) {
   return closure.from_from_to.inverse() * chain.between(closure.from, closure.to);
 }
 
-/// Noise with which the gaps of a group are likeliest.
+inline std::vector<const Edge*> sorted_by_ends(const std::vector<Edge>& closures) {
+  std::vector<const Edge*> out;
+  for (const Edge& edge : closures) out.push_back(&edge);
+  std::ranges::stable_sort(out, {}, [](const Edge* e) { return std::max(e->from, e->to); });
+  return out;
+}
+
+/// Noise with which the residuals of a group are likeliest.
 struct LoopFit {
   std::array<double, 2> factors{};  ///< of the variances of odometry and closures, as logarithms
   double log_likelihood = -std::numeric_limits<double>::infinity();
@@ -54,8 +61,8 @@ struct LoopFit {
   std::vector<double> metres = {}, radians = {};
 };
 
-/// A few closures with the odometry that their loops share, which explains a part of their gaps
-/// together.
+/// A few closures with the odometry that their loops share, which explains a part of their
+/// residuals together.
 class LoopGroup {
  public:
   LoopGroup(std::vector<const Edge*> closures, const Chain& chain)
@@ -90,12 +97,12 @@ class LoopGroup {
     return out;
   }
 
-  /// The Gaussian log likelihood of the gaps if the closures were `measured`, with the factors that
-  /// fit best. O(closures^3).
+  /// The Gaussian log likelihood of the residuals if the closures were `measured`, with the factors
+  /// that fit best. O(closures^3).
   LoopFit fit(const std::vector<Pose>& measured) const {
-    const Eigen::VectorXd values = gaps(measured);
+    const Eigen::VectorXd values = residuals(measured);
     LoopFit out;
-    // Each kind of edges can explain large gaps.
+    // Each kind of edges can explain large residuals.
     for (const Logarithms& start : {Logarithms{0.0, 0.0}, {0.0, 4.0}, {12.0, 0.0}}) {
       LoopFit found = pattern_search(values, start);
       if (found.log_likelihood > out.log_likelihood) out = std::move(found);
@@ -112,13 +119,13 @@ class LoopGroup {
 
   /// The same as read, with given factors.
   double log_likelihood(const std::array<double, 2>& factors) const {
-    return log_likelihood_of(gaps(as_read()), factors);
+    return log_likelihood_of(residuals(as_read()), factors);
   }
 
  private:
   using Logarithms = std::array<double, 2>;
 
-  Eigen::VectorXd gaps(const std::vector<Pose>& measured) const {
+  Eigen::VectorXd residuals(const std::vector<Pose>& measured) const {
     Eigen::VectorXd out(static_cast<Eigen::Index>(6 * closures_.size()));
     for (std::size_t i = 0; i < closures_.size(); ++i) {
       out.segment<6>(static_cast<Eigen::Index>(6 * i)) =
@@ -175,9 +182,7 @@ inline std::vector<LoopGroup> loop_groups(const std::vector<Edge>& closures,
                                           const Chain& chain,
                                           std::size_t most = 5) {
   constexpr std::size_t kMostGroups = 14;
-  std::vector<const Edge*> sorted;
-  for (const Edge& edge : closures) sorted.push_back(&edge);
-  std::ranges::stable_sort(sorted, {}, [](const Edge* e) { return std::max(e->from, e->to); });
+  std::vector<const Edge*> sorted = sorted_by_ends(closures);
   // A closure that is listed twice has the same error, which does not show how large errors are.
   const auto is_copy = [](const Edge* a, const Edge* b) {
     return a->from == b->from && a->to == b->to &&

@@ -8,7 +8,6 @@
 
 #include "metrics/doctor/pair_checks.hpp"
 #include "metrics/numerics/average.hpp"
-#include "metrics/numerics/spread.hpp"
 
 namespace loopbench::metrics {
 namespace {

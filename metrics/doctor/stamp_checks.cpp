@@ -43,31 +43,38 @@ std::optional<InputFinding> repair_stamp_unit(Trajectory& reference, Trajectory&
 
 namespace {
 
-/// A drift that three parts of the estimate show, or jumps between five.
-std::optional<InputFinding> repair_clock_of_parts(std::size_t count,
-                                                  const Trajectory& reference,
-                                                  Trajectory& estimate,
-                                                  bool has_stamps) {
-  constexpr double kLeast = 0.015, kOfInterval = 0.1, kDeviations = 3.0;  // of the change [s]
-  constexpr double kLeastJump = 0.2, kUsual = 3.0, kSearched = 12.0;      // [s]
-  constexpr double kAgrees = 0.9, kFits = 0.4;  // correlation; of the reference's spread
-  constexpr double kLeastRate = 5e-4;           // clocks of computers differ by 1e-4 at most
-  constexpr double kSmallRate = 0.01, kMostRate = 0.06, kOfChange = 0.3;
-  constexpr double kMostOfRotation = 0.98, kMostOfPosition = 0.5;  // of the error before
-  constexpr double kMostOfLargeChange = 0.8;
-  constexpr std::size_t kPartsOfDrift = 3;
-  const std::size_t n = estimate.size();
-  if (n < count * kFewestCommonPoses || reference.empty() || overlap(reference, estimate) <= 0.0) {
-    return std::nullopt;
+constexpr double kMostRate = 0.06;  // of a drifting clock [s/s]
+
+/// Time offsets of consecutive parts of the estimate, of those where one is found.
+struct PartOffsets {
+  std::vector<double> centres, offsets;  ///< [s]
+  double deviation = 0.0;                ///< largest standard deviation of an offset [s]
+  Trajectory shifted;                    ///< each part with its own offset
+
+  double change() const { return offsets.back() - offsets.front(); }
+  double rate() const { return change() / (centres.back() - centres.front()); }
+  double range() const { return std::ranges::max(offsets) - std::ranges::min(offsets); }
+  double drifted(double stamp) const { return offsets[0] + rate() * (stamp - centres[0]); }
+
+  /// Largest difference from a constant drift [s].
+  double residual() const {
+    double out = 0.0;
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      out = std::max(out, std::abs(offsets[i] - drifted(centres[i])));
+    }
+    return out;
   }
-  const double missing = has_stamps ? 0.0 : duration(reference) - duration(estimate);
-  const double searched = std::max({kSearched, kMostRate * duration(estimate), missing});
-  std::vector<double> centres, offsets;
-  double deviation = 0.0;
-  Trajectory jumped;  // each part with its own offset
+};
+
+PartOffsets part_offsets(std::size_t count,
+                         const Trajectory& reference,
+                         const Trajectory& estimate,
+                         double searched) {
+  constexpr double kUsual = 3.0, kAgrees = 0.9;  // [s]; correlation
+  PartOffsets out;
   for (std::size_t i = 0; i < count; ++i) {
     const auto at = [&](std::size_t part) {
-      return estimate.begin() + static_cast<std::ptrdiff_t>(part * n / count);
+      return estimate.begin() + static_cast<std::ptrdiff_t>(part * estimate.size() / count);
     };
     const Trajectory part(at(i), at(i + 1));
     auto found = estimate_time_offset(reference, part, kUsual);
@@ -75,33 +82,52 @@ std::optional<InputFinding> repair_clock_of_parts(std::size_t count,
       found = estimate_time_offset(reference, part, searched);
     }
     if (!found || !found->has_common_time) continue;
-    centres.push_back(0.5 * (part.front().stamp + part.back().stamp));
-    offsets.push_back(found->offset);
-    deviation = std::max(deviation, found->deviation);
+    out.centres.push_back(0.5 * (part.front().stamp + part.back().stamp));
+    out.offsets.push_back(found->offset);
+    out.deviation = std::max(out.deviation, found->deviation);
     for (const StampedPose& pose : restamped(part, 1.0, found->offset)) {
-      if (jumped.empty() || pose.stamp > jumped.back().stamp) jumped.push_back(pose);
+      if (out.shifted.empty() || pose.stamp > out.shifted.back().stamp) out.shifted.push_back(pose);
     }
   }
-  if (offsets.size() < kPartsOfDrift) return std::nullopt;
-  const double change = offsets.back() - offsets.front();
-  const double rate = change / (centres.back() - centres.front());
-  const auto drifted = [&](double stamp) { return offsets[0] + rate * (stamp - centres[0]); };
-  double error = 0.0;
-  for (std::size_t i = 0; i < offsets.size(); ++i) {
-    error = std::max(error, std::abs(offsets[i] - drifted(centres[i])));
-  }
-  const bool is_drift = error <= kOfChange * std::abs(change) && std::abs(rate) <= kMostRate;
-  const auto [smallest, largest] = std::ranges::minmax(offsets);
-  if (is_drift ? std::abs(change) < std::max({kLeast,
-                                              kOfInterval * median_interval(estimate),
-                                              kDeviations * deviation}) ||
-                     std::abs(rate) < kLeastRate
-               : largest - smallest < kLeastJump) {
+  return out;
+}
+
+/// Whether a change of the offsets is as small as their uncertainty, or as usual clocks have it.
+bool is_negligible(const PartOffsets& parts, bool is_drift, double interval) {
+  constexpr double kLeast = 0.015, kOfInterval = 0.1, kDeviations = 3.0;  // of the change [s]
+  constexpr double kLeastJump = 0.2;                                      // [s]
+  constexpr double kLeastRate = 5e-4;  // clocks of computers differ by 1e-4 at most
+  if (!is_drift) return parts.range() < kLeastJump;
+  const double least = std::max({kLeast, kOfInterval * interval, kDeviations * parts.deviation});
+  return std::abs(parts.change()) < least || std::abs(parts.rate()) < kLeastRate;
+}
+
+/// A drift that three parts of the estimate show, or jumps between five.
+std::optional<InputFinding> repair_clock_of_parts(std::size_t count,
+                                                  const Trajectory& reference,
+                                                  Trajectory& estimate,
+                                                  bool has_stamps) {
+  constexpr double kSearched = 12.0, kOfChange = 0.3, kSmallRate = 0.01;  // [s]; [-]; [s/s]
+  constexpr double kMostOfRotation = 0.98, kMostOfPosition = 0.5;         // of the error before
+  constexpr double kMostOfLargeChange = 0.8;
+  constexpr double kFits = 0.4;  // of the reference's spread
+  constexpr std::size_t kPartsOfDrift = 3;
+  if (estimate.size() < count * kFewestCommonPoses || reference.empty() ||
+      overlap(reference, estimate) <= 0.0) {
     return std::nullopt;
   }
-  Trajectory corrected = is_drift ? restamped(estimate, 1.0 + rate, drifted(0.0)) : jumped;
-  const double offset = median_value(offsets);
-  const Agreement before = agreement(common_poses(reference, estimate, offset));
+  const double missing = has_stamps ? 0.0 : duration(reference) - duration(estimate);
+  const double searched = std::max({kSearched, kMostRate * duration(estimate), missing});
+  const PartOffsets parts = part_offsets(count, reference, estimate, searched);
+  const std::vector<double>& offsets = parts.offsets;
+  if (offsets.size() < kPartsOfDrift) return std::nullopt;
+  const double change = std::abs(parts.change()), rate = parts.rate(), error = parts.residual();
+  const bool is_drift = error <= kOfChange * change && std::abs(rate) <= kMostRate;
+  if (is_negligible(parts, is_drift, median_interval(estimate))) return std::nullopt;
+
+  Trajectory corrected =
+      is_drift ? restamped(estimate, 1.0 + rate, parts.drifted(0.0)) : parts.shifted;
+  const Agreement before = agreement(common_poses(reference, estimate, median_value(offsets)));
   const Agreement after = agreement(common_poses(reference, corrected));
   const bool by_rotation = before.has_rotations;
   const double was = by_rotation ? 100.0 * before.turning : before.similarity;
@@ -128,7 +154,7 @@ std::optional<InputFinding> repair_clock_of_parts(std::size_t count,
                                     change_of_error),
                         "add its offset to the stamps of each part, or write all poses",
                         1.0 - is / was,
-                        largest - smallest};
+                        parts.range()};
   }
   return InputFinding{
       Fault::clock_drift,
@@ -138,8 +164,8 @@ std::optional<InputFinding> repair_clock_of_parts(std::size_t count,
                   offsets.front(),
                   offsets.back(),
                   change_of_error),
-      stamps_command(1.0 + rate, drifted(0.0)),
-      1.0 - error / std::abs(change),
+      stamps_command(1.0 + rate, parts.drifted(0.0)),
+      1.0 - error / change,
       rate};
 }
 

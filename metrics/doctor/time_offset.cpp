@@ -96,15 +96,9 @@ class SpeedMatch {
   };
 
   std::optional<Pose> reference_at(double stamp) const {
-    const auto after = std::ranges::lower_bound(reference_, stamp, {}, &StampedPose::stamp);
-    if (after == reference_.end()) return std::nullopt;
-    if (after->stamp == stamp) return after->world_from_body;
-    if (after == reference_.begin()) return std::nullopt;
-    const StampedPose& before = *(after - 1);
-    const double gap = after->stamp - before.stamp;
-    if (gap > longest_gap_) return std::nullopt;
-    return interpolate(
-        before.world_from_body, after->world_from_body, (stamp - before.stamp) / gap);
+    const auto found = std::ranges::lower_bound(reference_, stamp, {}, &StampedPose::stamp);
+    auto after = static_cast<std::size_t>(found - reference_.begin());
+    return pose_at(reference_, stamp, longest_gap_, after);
   }
 
   const Trajectory& reference_;

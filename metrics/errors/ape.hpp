@@ -7,7 +7,6 @@
 #include "metrics/errors/ate.hpp"
 #include "metrics/errors/printed_motion.hpp"
 #include "metrics/errors/relation.hpp"
-#include "metrics/errors/rpy.hpp"
 #include "metrics/metric.hpp"
 
 namespace loopbench::metrics {

@@ -1,10 +1,15 @@
 /// Quantities measured on an error transform: evo's pose relations, and Euler angles.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "metrics/metric.hpp"
 #include "metrics/numerics/angle.hpp"
+#include "metrics/numerics/euler.hpp"
 #include "metrics/pairing/motion.hpp"
 
 namespace loopbench::metrics {
@@ -73,5 +78,30 @@ inline double measure(Relation relation, const Pose& E, AngleFormula formula) {
                              " needs more than the error transform");
   }
 }
+
+/// Magnitudes of the Euler angles of many rotations [deg].
+class Rpy {
+ public:
+  explicit Rpy(std::size_t size) {
+    for (std::vector<double>& angle : degrees_) angle.resize(size);
+  }
+
+  void set(std::size_t i, const Rotation& rotation) {
+    const auto [roll, pitch, yaw] = euler(rotation);
+    degrees_[0][i] = kDegrees * std::abs(roll);
+    degrees_[1][i] = kDegrees * std::abs(pitch);
+    degrees_[2][i] = kDegrees * std::abs(yaw);
+  }
+
+  /// rotation roll, pitch, yaw [deg]. Moves the values out; call once.
+  std::vector<Score> scores(int ddof) {
+    return {{"rotation", "roll", "deg", statistics(std::move(degrees_[0]), ddof)},
+            {"rotation", "pitch", "deg", statistics(std::move(degrees_[1]), ddof)},
+            {"rotation", "yaw", "deg", statistics(std::move(degrees_[2]), ddof)}};
+  }
+
+ private:
+  std::array<std::vector<double>, 3> degrees_;
+};
 
 }  // namespace loopbench::metrics

@@ -5,7 +5,7 @@
 
 #include "datasets/core/parallel.hpp"
 #include "metrics/errors/printed_motion.hpp"
-#include "metrics/errors/rpy.hpp"
+#include "metrics/errors/relation.hpp"
 #include "metrics/numerics/angle.hpp"
 #include "metrics/pairing/tum_motions.hpp"
 

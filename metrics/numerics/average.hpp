@@ -1,4 +1,4 @@
-/// Mean, standard deviation and percentiles. (The median is in median.hpp.)
+/// Mean, standard deviation, percentiles and spread of positions. (The median is in median.hpp.)
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,8 @@
 #include <span>
 #include <stdexcept>
 #include <vector>
+
+#include "datasets/core/so3.hpp"
 
 namespace loopbench::metrics {
 
@@ -34,6 +36,17 @@ inline double percentile(const std::vector<double>& sorted, double share) {
   const auto below = static_cast<std::size_t>(rank);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
   return std::lerp(sorted[below], sorted[above], rank - static_cast<double>(below));
+}
+
+/// Standard deviation [m] of `count` > 0 positions: of position(0), position(1), ... O(count).
+template <typename Position>
+double spread_of(std::size_t count, const Position& position) {
+  Vector3 mean = Vector3::Zero();
+  for (std::size_t i = 0; i < count; ++i) mean += position(i);
+  mean /= static_cast<double>(count);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < count; ++i) squares += (position(i) - mean).squaredNorm();
+  return std::sqrt(squares / static_cast<double>(count));
 }
 
 }  // namespace loopbench::metrics

@@ -88,9 +88,9 @@ Statistics statistics(std::vector<double> errors, int ddof) {
     for (const double value : values) total += (value - mean) * (value - mean);
     return total;
   };
-  const double free = n - ddof;
+  const double degrees_of_freedom = n - ddof;
   const double squares = pairwise<double>(errors, squares_about_mean);
-  out.std = free > 0.0 ? std::sqrt(squares / free) : 0.0;
+  out.std = degrees_of_freedom > 0.0 ? std::sqrt(squares / degrees_of_freedom) : 0.0;
   out.median = median(errors);
   set_percentiles(errors, out);
   return out;

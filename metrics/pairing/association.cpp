@@ -86,20 +86,12 @@ Paired interpolate_reference(const Trajectory& reference,
   Paired out;
   out.reference.reserve(estimate.size());
   out.estimate.reserve(estimate.size());
-  std::size_t after = 0;  // first reference pose not before the requested stamp
+  std::size_t after = 0;
   for (const StampedPose& pose : estimate) {
     const double stamp = pose.stamp + offset;
-    while (after < reference.size() && reference[after].stamp < stamp) ++after;
-    if (after == reference.size()) break;
-    const auto& [t1, pose1] = reference[after];
-    if (t1 == stamp) {
-      out.reference.push_back({stamp, pose1});
-    } else {
-      if (after == 0) continue;
-      const auto& [t0, pose0] = reference[after - 1];
-      if (t1 - t0 > max_gap + kStampRounding) continue;
-      out.reference.push_back({stamp, interpolate(pose0, pose1, (stamp - t0) / (t1 - t0))});
-    }
+    const auto found = pose_at(reference, stamp, max_gap + kStampRounding, after);
+    if (!found) continue;
+    out.reference.push_back({stamp, *found});
     out.estimate.push_back(pose);
   }
   return out;

@@ -224,7 +224,7 @@ TEST(DoctorOfClosures, LoopsPredictEachOther) {
   const LoopGroup group(pair, chain);
   const std::vector<double> errors = group.fit(group.as_read()).metres;
   ASSERT_EQ(errors.size(), 2u);
-  EXPECT_GT(gap_of(*pair[0], chain).translation.norm(), 5.0);
+  EXPECT_GT(loop_residual(*pair[0], chain).translation.norm(), 5.0);
   EXPECT_LT(errors[0], 0.5);
   EXPECT_LT(errors[1], 0.5);
 }

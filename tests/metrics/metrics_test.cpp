@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "metrics/checks/coverage.hpp"
+#include "metrics/checks/diagnostics.hpp"
 #include "metrics/errors/ate.hpp"
 #include "metrics/errors/axis_error.hpp"
 #include "metrics/errors/rpe.hpp"

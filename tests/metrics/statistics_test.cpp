@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "metrics/numerics/average.hpp"
 #include "metrics/numerics/median.hpp"
-#include "metrics/numerics/spread.hpp"
 
 namespace loopbench::statistics_test {
 

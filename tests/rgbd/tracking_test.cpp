@@ -9,8 +9,8 @@
 #include "datasets/rgbd/loops/retrieval.hpp"
 #include "datasets/rgbd/loops/vocabulary.hpp"
 #include "datasets/rgbd/tracking/camera_pose.hpp"
-#include "datasets/rgbd/tracking/keyframe_rule.hpp"
 #include "datasets/rgbd/tracking/local_map.hpp"
+#include "datasets/rgbd/tracking/tracker.hpp"
 #include "tests/support/tolerance.hpp"
 
 namespace loopbench::tracking_test {
