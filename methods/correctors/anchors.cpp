@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "methods/correctors/scale_drift.hpp"
+#include "methods/correctors/chain.hpp"
 #include "methods/correctors/shares.hpp"
 
 namespace loopbench::methods {
@@ -107,7 +107,7 @@ Pose UsedAnchors::alignment(const Trajectory& poses) const {
   return normalized(first * Pose{Rotation(R), t} * first.inverse());
 }
 
-std::size_t UsedAnchors::freedom() const {
+std::size_t UsedAnchors::degrees_of_freedom() const {
   const std::size_t coordinates = (planar ? 2 : 3) * anchors.size();
   return coordinates - (!is_first_free ? 0 : planar ? 3 : 6);
 }

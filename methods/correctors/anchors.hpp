@@ -32,7 +32,7 @@ struct UsedAnchors {
 
   /// Degrees of freedom that anchors add to those of the edges: their coordinates, minus the first
   /// pose if it is estimated.
-  std::size_t freedom() const;
+  std::size_t degrees_of_freedom() const;
 
   /// Adds a note if there are anchors and the first pose is held.
   void report_held_pose(Report& report) const;

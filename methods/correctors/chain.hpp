@@ -1,6 +1,7 @@
-/// A keyframe chain: one odometry edge between every two neighbouring keyframes.
+/// Properties of problems on which correctors depend: a chain of keyframes, rigid edges.
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "datasets/core/problem.hpp"
@@ -39,6 +40,13 @@ inline std::string loops_fault(const Problem& problem,
            option + " = " + std::to_string(max_closures);
   }
   return why_no_chain(problem);
+}
+
+/// Whether an edge changes the scale (a Sim(3) problem), as in monocular chains.
+inline bool has_scale_drift(const Problem& problem) {
+  const auto scaled = [](const Edge& edge) { return edge.scale != 1.0; };
+  return std::ranges::any_of(problem.odometry, scaled) ||
+         std::ranges::any_of(problem.closures, scaled);
 }
 
 /// Returns Log(measured^-1 (from^-1 to)), the residual of an edge as a twist [rho; phi].

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "methods/correctors/max_clique.hpp"
+#include "methods/correctors/plausibility.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -71,7 +72,7 @@ ConsistentClosures consistent_closures(const Problem& problem) {
   const std::vector<Edge>& closures = problem.closures;
   if (closures.size() < 2) return {std::vector<std::size_t>(closures.size(), 0), true};
   const CheckedChain chain(problem);
-  const double threshold = problem.planar ? 11.345 : 16.812;  // 99 % quantile
+  const double threshold = inlier_chi2(problem.planar ? 3 : 6);
   BitGraph agree(closures.size());
   for (std::size_t k = 0; k < closures.size(); ++k) {
     for (std::size_t l = 0; l < k; ++l) {

@@ -2,65 +2,105 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
-#include "methods/correctors/anchored_chain.hpp"
+#include "methods/correctors/anchors.hpp"
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/looped_chain.hpp"
 #include "methods/correctors/plausibility.hpp"
-#include "methods/correctors/scale_drift.hpp"
 #include "methods/correctors/variance_components.hpp"
 
 namespace loopbench::methods {
 namespace {
 
-Dual::Options with_all(Dual::Options options) {
-  options.use = Dual::Use::all;
-  return options;
-}
-
-}  // namespace
-
-Problem Dual::used_part(const Problem& problem) const {
-  Problem out = problem;
-  if (options_.use == Use::closures) out.anchors.clear();
-  if (options_.use == Use::anchors) out.closures.clear();
+/// Edge from the first keyframe to that of the anchor.
+Edge edge_of(const Anchor& anchor, const Pose& world_from_first) {
+  const Matrix3 R = world_from_first.rotation.toRotationMatrix();
+  Edge out{0, anchor.keyframe, {}};
+  out.from_from_to.translation = world_from_first.inverse() * anchor.position;
+  out.information.topLeftCorner<3, 3>() = R.transpose() * anchor.covariance.inverse() * R;
   return out;
 }
 
-std::string Dual::why_declined(const Problem& problem) const {
-  if (options_.use != Use::all) return Dual(with_all(options_)).why_declined(used_part(problem));
-  if (std::string fault = anchors_fault(problem); !fault.empty()) return fault;
-  if (has_scale_drift(problem)) {
-    return "edges change the scale, which this method does not estimate: use pose_graph";
+/// Largest distance from the first keyframe, at least 1 [m].
+double size_of(const Trajectory& keyframes) {
+  double out = 1.0;
+  for (const StampedPose& each : keyframes) {
+    const Vector3 offset =
+        each.world_from_body.translation - keyframes.front().world_from_body.translation;
+    out = std::max(out, offset.norm());
   }
-  return loops_fault(problem, options_.max_closures);
+  return out;
 }
 
-Trajectory Dual::correct(const Problem& problem, Report& report) const {
-  if (options_.use != Use::all) {
-    return Dual(with_all(options_)).correct(used_part(problem), report);
+/// An anchor is a loop from a keyframe that does not move, in which only a position is measured. If
+/// the first pose is held, that is the first keyframe. If it is free, a keyframe is put in front of
+/// it, at the same pose, and joined to it by an edge with a wide covariance: the size of the chain
+/// [m] (at least 1 m) and 1 rad. This edge costs nothing once the first pose no longer moves, so
+/// solve again from each solution until it does not (a proximal point iteration).
+struct AnchoredChain {
+  Problem problem;                             ///< odometry and loops; closures, then anchors
+  std::vector<std::optional<Vector3>> points;  ///< of LoopedChain, one per closure
+  bool has_front;                              ///< a keyframe was put in front
+  double size;  ///< largest distance from the first keyframe, >= 1 [m]
+
+  AnchoredChain(const Problem& of, const UsedAnchors& used)
+      : problem{of.keyframes, of.odometry, of.closures, {}, of.planar},
+        points(of.closures.size()),
+        has_front(used.is_first_free),
+        size(size_of(of.keyframes)) {
+    const Pose& first = of.keyframes.front().world_from_body;
+    for (const Anchor& anchor : used.anchors) {
+      problem.closures.push_back(edge_of(anchor, first));
+      points.emplace_back(anchor.point_in_body);
+    }
+    if (!has_front) return;
+    for (std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
+      for (Edge& edge : *edges) ++edge.from, ++edge.to;
+    }
+    for (std::size_t k = of.closures.size(); k < problem.closures.size(); ++k) {
+      problem.closures[k].from = 0;
+    }
+    problem.keyframes.insert(problem.keyframes.begin(), problem.keyframes.front());
+    Edge wide{0, 1, {}};
+    wide.information.topLeftCorner<3, 3>() /= size * size;
+    problem.odometry.insert(problem.odometry.begin(), wide);
   }
-  if (!problem.anchors.empty()) return correct_anchored(options_, problem, report);
-  return correct_rigid(options_, problem, report);
+
+  /// Returns the keyframes of the original problem. O(keyframes).
+  Trajectory without_front(Trajectory keyframes) const {
+    if (has_front) keyframes.erase(keyframes.begin());
+    return keyframes;
+  }
+};
+
+/// The problem without the measurements that are not used; nullopt: all are used.
+std::optional<Problem> used_part(const Problem& problem, Dual::Use use) {
+  if (use == Dual::Use::all) return std::nullopt;
+  Problem out = problem;
+  if (use == Dual::Use::closures) out.anchors.clear();
+  if (use == Dual::Use::anchors) out.closures.clear();
+  return out;
 }
 
-Trajectory Dual::correct_rigid(const Options& options, const Problem& stated, Report& report) {
+Trajectory correct_rigid(const Dual::Options& options, const Problem& stated, Report& report) {
   std::optional<Problem> scaled;
   if (options.rescale) scaled = with_estimated_factors(stated, report);
   const Problem& problem = scaled ? *scaled : stated;
   const NoiseModel noise_model = stated_noise_model(problem);
-  const std::size_t degrees = freedom(problem);
+  const std::size_t dof = degrees_of_freedom(problem);
   LoopedChain first(problem, noise_model);
   report.count("chi2_before", 2.0 * first.cost());
   if (!std::isfinite(first.cost())) throw std::runtime_error("dual: the cost is not finite");
   int iterations = first.minimise(options.max_iterations, options.tolerance);
   const LoopedChain* best = &first;
-  const bool is_implausible = is_too_large(2.0 * first.cost(), degrees);
-  std::optional<LoopedChain> second = options.start == Start::automatic && is_implausible
+  const bool is_implausible = is_too_large(2.0 * first.cost(), dof);
+  std::optional<LoopedChain> second = options.start == Dual::Start::automatic && is_implausible
                                           ? chordal_chain(problem, noise_model)
                                           : std::nullopt;
   if (second) {
@@ -77,14 +117,14 @@ Trajectory Dual::correct_rigid(const Options& options, const Problem& stated, Re
   }
   report.count("iterations", iterations);
   report.count("chi2", 2.0 * best->cost());
-  report_chi2(2.0 * best->cost(), degrees, report);
+  report_chi2(2.0 * best->cost(), dof, report);
   if (options.covariances) {
     report.covariances = report.time("covariances", [&] { return best->covariances(); });
   }
   return best->keyframes();
 }
 
-Trajectory Dual::correct_anchored(const Options& options, const Problem& stated, Report& report) {
+Trajectory correct_anchored(const Dual::Options& options, const Problem& stated, Report& report) {
   constexpr int kMaxRounds = 100;
   constexpr double kAtRest = 1e-10;  // of the first pose [rad], and of the chain's size [m]
   const UsedAnchors used(stated);
@@ -107,7 +147,7 @@ Trajectory Dual::correct_anchored(const Options& options, const Problem& stated,
     const Pose& before = problem.keyframes.front().world_from_body;
     const Twist moved = log_se3(before.inverse() * solved.front().world_from_body);
     is_at_rest = !anchored.has_front || (moved.tail<3>().norm() < kAtRest &&
-                                         moved.head<3>().norm() < kAtRest * anchored.size());
+                                         moved.head<3>().norm() < kAtRest * anchored.size);
     problem.keyframes = std::move(solved);
     chi2 = 2.0 * chain.cost();
     if (options.covariances && is_at_rest) {
@@ -119,8 +159,27 @@ Trajectory Dual::correct_anchored(const Options& options, const Problem& stated,
   if (!is_at_rest) report.notes.push_back("the first pose was still moving when iterations ended");
   report.count("iterations", iterations);
   report.count("chi2", chi2);
-  report_chi2(chi2, freedom(problem) + used.freedom(), report);
+  report_chi2(chi2, degrees_of_freedom(problem) + used.degrees_of_freedom(), report);
   return problem.keyframes;
+}
+
+}  // namespace
+
+std::string Dual::why_declined(const Problem& stated) const {
+  const std::optional<Problem> part = used_part(stated, options_.use);
+  const Problem& problem = part ? *part : stated;
+  if (std::string fault = anchors_fault(problem); !fault.empty()) return fault;
+  if (has_scale_drift(problem)) {
+    return "edges change the scale, which this method does not estimate: use pose_graph";
+  }
+  return loops_fault(problem, options_.max_closures);
+}
+
+Trajectory Dual::correct(const Problem& stated, Report& report) const {
+  const std::optional<Problem> part = used_part(stated, options_.use);
+  const Problem& problem = part ? *part : stated;
+  return problem.anchors.empty() ? correct_rigid(options_, problem, report)
+                                 : correct_anchored(options_, problem, report);
 }
 
 }  // namespace loopbench::methods

@@ -26,13 +26,11 @@ namespace loopbench::methods {
 /// is returned. `rescale` first multiplies the odometry's stated covariances by two factors
 /// estimated from the loops (variance_components.hpp).
 ///
-/// Anchors are loops from a fixed world in which only a position is measured (anchored_chain.hpp):
-/// three rows of the same equations. Their start is the keyframes, aligned to the anchors, alone.
+/// Anchors are loops from a fixed world in which only a position is measured: three rows of the
+/// same equations. Their start is the keyframes, aligned to the anchors, alone.
 ///
 /// Odometry edges must join all neighbouring keyframes. Full information matrices are used.
-/// Source: generalised least squares with few constraints. With the gaps c of the closures, their
-/// Jacobian G by the errors of the edges, and the covariances S (odometry) and S_L (closures), a
-/// step solves (G S G^T + S_L) lambda = c and sets the errors of the edges to -S G^T lambda.
+/// Source: generalised least squares with few constraints.
 class Dual final : public Corrector {
  public:
   enum class Start { automatic, keyframes };
@@ -62,11 +60,6 @@ class Dual final : public Corrector {
   Trajectory correct(const Problem& problem, Report& report) const override;
 
  private:
-  /// The problem without the measurements that are not used.
-  Problem used_part(const Problem& problem) const;
-  static Trajectory correct_anchored(const Options& options, const Problem& stated, Report& report);
-  static Trajectory correct_rigid(const Options& options, const Problem& problem, Report& report);
-
   Options options_;
 };
 

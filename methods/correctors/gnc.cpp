@@ -7,7 +7,6 @@
 
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/consistency.hpp"
-#include "methods/correctors/scale_drift.hpp"
 #include "methods/solvers/initial_values.hpp"
 
 namespace loopbench::methods {
@@ -26,6 +25,46 @@ std::vector<std::size_t> indices_of_consistent(const Problem& problem) {
   std::vector<std::size_t> found = consistent_closures(problem).kept;
   if (found.size() < 2) found.clear();
   return found;
+}
+
+/// Weight of a closure with squared error `squared` at convexity mu. c2 is the largest squared
+/// error of an inlier (Yang et al., RA-L 2020, equation 14).
+double gnc_weight(double squared, double c2, double mu) {
+  if (squared <= mu / (mu + 1.0) * c2) return 1.0;
+  if (squared >= (mu + 1.0) / mu * c2) return 0.0;
+  return std::sqrt(c2 * mu * (mu + 1.0) / squared) - mu;
+}
+
+struct GncResult {
+  std::vector<double> weights;
+  int rounds = 0;
+};
+
+/// Alternates between weights and solutions. `squared` holds the squared errors of the closures at
+/// the initial solution. Without `mu`, that solution uses all closures with weight 1 and the
+/// initial convexity is computed from the largest error; with `mu`, the solution is more reliable
+/// and the schedule starts at that convexity. `solve` takes weights and returns the squared errors
+/// at their solution. Ends when every weight is 0 or 1, at most after 100 rounds.
+GncResult graduate_weights(
+    double c2,
+    std::vector<double> squared,
+    std::optional<double> mu,
+    const std::function<std::vector<double>(const std::vector<double>&)>& solve) {
+  GncResult out;
+  out.weights.assign(squared.size(), 1.0);
+  const double largest = *std::ranges::max_element(squared);
+  if (largest <= c2) return out;
+  double convexity = mu.value_or(c2 / (2.0 * largest - c2));
+  constexpr int kMaxRounds = 100;
+  for (bool converged = false; !converged && out.rounds < kMaxRounds; ++out.rounds) {
+    for (std::size_t k = 0; k < squared.size(); ++k) {
+      out.weights[k] = gnc_weight(squared[k], c2, convexity);
+    }
+    squared = solve(out.weights);
+    converged = std::ranges::all_of(out.weights, [](double w) { return w == 0.0 || w == 1.0; });
+    convexity = 1.4 * convexity;  // less convex
+  }
+  return out;
 }
 
 struct GncStartPoint {
@@ -65,7 +104,7 @@ class GncRuns {
     GncSolution out{start.poses, start.weights};
     const auto solve = [&] {
       const PoseGraphSummary summary = solve_pose_graph(
-          out.poses, of_.problem.odometry, of_.problem.closures, out.weights, rough);
+          out.poses, {of_.problem.odometry, of_.problem.closures, out.weights}, rough, of_.cache);
       out.iterations += summary.iterations;
       return summary.cost_before;
     };
@@ -116,34 +155,6 @@ class GncRuns {
 std::size_t kept_count(const std::vector<double>& weights) {
   return static_cast<std::size_t>(
       std::ranges::count_if(weights, [](double weight) { return weight > 0.5; }));
-}
-
-double gnc_weight(double squared, double c2, double mu) {
-  if (squared <= mu / (mu + 1.0) * c2) return 1.0;
-  if (squared >= (mu + 1.0) / mu * c2) return 0.0;
-  return std::sqrt(c2 * mu * (mu + 1.0) / squared) - mu;
-}
-
-GncResult graduate_weights(
-    double c2,
-    std::vector<double> squared,
-    std::optional<double> begin,
-    const std::function<std::vector<double>(const std::vector<double>&)>& solve) {
-  GncResult out;
-  out.weights.assign(squared.size(), 1.0);
-  const double largest = *std::ranges::max_element(squared);
-  if (largest <= c2) return out;
-  double mu = begin.value_or(c2 / (2.0 * largest - c2));
-  constexpr int kMaxRounds = 100;
-  for (bool converged = false; !converged && out.rounds < kMaxRounds; ++out.rounds) {
-    for (std::size_t k = 0; k < squared.size(); ++k) {
-      out.weights[k] = gnc_weight(squared[k], c2, mu);
-    }
-    squared = solve(out.weights);
-    converged = std::ranges::all_of(out.weights, [](double w) { return w == 0.0 || w == 1.0; });
-    mu = 1.4 * mu;  // less convex
-  }
-  return out;
 }
 
 GncSolution solve_gnc(const GncProblem& of, Report& report) {

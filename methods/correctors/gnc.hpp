@@ -17,32 +17,13 @@ inline auto choices(Gnc) {
   return std::array{std::pair{"off", Gnc::off}, std::pair{"tls", Gnc::tls}};
 }
 
-/// Weight of a closure with squared error `squared` at convexity mu. c2 is the largest squared
-/// error of an inlier (Yang et al., RA-L 2020, equation 14).
-double gnc_weight(double squared, double c2, double mu);
-
-struct GncResult {
-  std::vector<double> weights;
-  int rounds = 0;
-};
-
-/// Alternates between weights and solutions. `squared` holds the squared errors of the closures at
-/// the initial solution. Without `mu`, that solution uses all closures with weight 1 and the
-/// initial convexity is computed from the largest error; with `mu`, the solution is more reliable
-/// and the schedule starts at that convexity. `solve` takes weights and returns the squared errors
-/// at their solution. Ends when every weight is 0 or 1, at most after 100 rounds.
-GncResult graduate_weights(
-    double c2,
-    std::vector<double> squared,
-    std::optional<double> mu,
-    const std::function<std::vector<double>(const std::vector<double>&)>& solve);
-
 struct GncProblem {
   const Problem& problem;
   PoseGraphSettings settings;
   double inlier_chi2 = 0.0;  ///< largest squared error of an inlier closure [-]
   /// Computes the initial values of a problem. A relaxation treats all its closures as inliers.
   std::function<std::vector<ScaledPose>(const Problem&)> initial;
+  EliminationCache& cache;  ///< of the solves
 };
 
 struct GncSolution {

@@ -4,6 +4,19 @@
 
 namespace loopbench::methods {
 
+NoiseModel stated_noise_model(const Problem& problem) {
+  NoiseModel out;
+  for (const Edge& edge : problem.odometry) {
+    out.information.push_back(edge.information);
+    out.covariance.push_back(edge.information.inverse());
+  }
+  for (const Edge& loop : problem.closures) {
+    out.closure_information.push_back(loop.information);
+    out.closure_covariance.push_back(loop.information.inverse());
+  }
+  return out;
+}
+
 LoopEquations loop_equations(LoopJacobian jacobian,
                              const LoopSums& sums,
                              const NoiseModel& noise_model) {
@@ -40,9 +53,9 @@ std::vector<Twist> minimum_cost_corrections(const LoopEquations& equations,
   return out;
 }
 
-Eigen::VectorXd loop_error_change(const LoopJacobian& jacobian,
-                                  const LoopSums& sums,
-                                  const std::vector<Twist>& errors) {
+Eigen::VectorXd loop_residual_change(const LoopJacobian& jacobian,
+                                     const LoopSums& sums,
+                                     const std::vector<Twist>& errors) {
   const std::vector<Twist> running =
       running_sum(sums, [&](std::size_t i) -> Twist { return jacobian.edge[i] * errors[i]; });
   Eigen::VectorXd out(static_cast<Eigen::Index>(6 * sums.loops()));

@@ -63,6 +63,9 @@ struct NoiseModel {
   std::vector<Matrix6> closure_information;  ///< inverse of closure_covariance
 };
 
+/// Returns the stated covariances of the problem's edges and closures.
+NoiseModel stated_noise_model(const Problem& problem);
+
 /// Jacobian of the closure errors with respect to the edge errors at the current poses: eta = c + A
 /// e, where A_ki = loop[k] edge[i] for every edge i inside loop k and 0 outside. O(edges +
 /// closures).
@@ -98,9 +101,9 @@ std::vector<Twist> minimum_cost_corrections(const LoopEquations& equations,
                                             const NoiseModel& noise_model);
 
 /// Returns A e. O(edges + closures).
-Eigen::VectorXd loop_error_change(const LoopJacobian& jacobian,
-                                  const LoopSums& sums,
-                                  const std::vector<Twist>& errors);
+Eigen::VectorXd loop_residual_change(const LoopJacobian& jacobian,
+                                     const LoopSums& sums,
+                                     const std::vector<Twist>& errors);
 
 /// Returns increments of A' lambda along the chain: A' lambda at edge i is edge[i]' times the sum
 /// of out[0] to out[i]. The size is the number of edges + 1. O(edges + closures).

@@ -43,7 +43,7 @@ class NewtonSystem {
     Twists out(v.size());
     for (std::size_t i = 0; i < edges_; ++i) out[i] = noise_model_.covariance[i] * v[i];
     const Eigen::VectorXd lambda =
-        equations_.factor.solve(loop_error_change(jacobian_, sums_, out));
+        equations_.factor.solve(loop_residual_change(jacobian_, sums_, out));
     const Twists pull = constraint_force_increments(jacobian_.loop, edges_, closures_, lambda);
     Twist sum = Twist::Zero();
     for (std::size_t i = 0; i < edges_; ++i) {

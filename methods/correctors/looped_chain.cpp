@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "datasets/core/covariance.hpp"
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/loop_newton.hpp"
 #include "methods/solvers/initial_values.hpp"
@@ -19,29 +20,16 @@ std::vector<Twist> add_scaled(std::vector<Twist> a, double share, const std::vec
 }
 
 /// Returns the sum of eta' S_L^-1 eta over the loops.
-double loop_squares(const Eigen::VectorXd& loop_errors, const NoiseModel& noise_model) {
+double loop_squares(const Eigen::VectorXd& loop_residuals, const NoiseModel& noise_model) {
   double sum = 0.0;
   for (std::size_t k = 0; k < noise_model.closure_information.size(); ++k) {
-    const Twist eta = of_closure(loop_errors, k);
+    const Twist eta = of_closure(loop_residuals, k);
     sum += eta.dot(noise_model.closure_information[k] * eta);
   }
   return sum;
 }
 
 }  // namespace
-
-NoiseModel stated_noise_model(const Problem& problem) {
-  NoiseModel out;
-  for (const Edge& edge : problem.odometry) {
-    out.information.push_back(edge.information);
-    out.covariance.push_back(edge.information.inverse());
-  }
-  for (const Edge& loop : problem.closures) {
-    out.closure_information.push_back(loop.information);
-    out.closure_covariance.push_back(loop.information.inverse());
-  }
-  return out;
-}
 
 LoopedChain::LoopedChain(const Problem& problem,
                          NoiseModel noise_model,
@@ -67,31 +55,31 @@ LoopedChain::LoopedChain(const Problem& problem,
 
 void LoopedChain::set_noise_model(NoiseModel noise_model) {
   noise_model_ = std::move(noise_model);
-  cost_ = cost_of(errors_, loop_errors(poses_));
+  cost_ = cost_of(errors_, loop_residuals(poses_));
   is_near_minimum_ = false;
 }
 
 void LoopedChain::set_errors(std::vector<Twist> errors) {
   errors_ = std::move(errors);
   poses_ = integrate(errors_);
-  cost_ = cost_of(errors_, loop_errors(poses_));
+  cost_ = cost_of(errors_, loop_residuals(poses_));
   is_near_minimum_ = false;
 }
 
 double LoopedChain::cost_of(const std::vector<Twist>& errors,
-                            const Eigen::VectorXd& loop_errors) const {
+                            const Eigen::VectorXd& loop_residuals) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     sum += errors[i].dot(noise_model_.information[i] * errors[i]);
   }
-  return 0.5 * (sum + loop_squares(loop_errors, noise_model_));
+  return 0.5 * (sum + loop_squares(loop_residuals, noise_model_));
 }
 
 LoopedChain::Candidate LoopedChain::candidate(std::vector<Twist> errors) const {
   Candidate out{std::move(errors), {}, {}};
   out.poses = integrate(out.errors);
-  out.loop_errors = loop_errors(out.poses);
-  out.cost = cost_of(out.errors, out.loop_errors);
+  out.loop_residuals = loop_residuals(out.poses);
+  out.cost = cost_of(out.errors, out.loop_residuals);
   return out;
 }
 
@@ -99,9 +87,10 @@ void LoopedChain::close_loops(Candidate& trial, const LoopEquations& equations) 
   constexpr int kRounds = 3;
   constexpr double kClosed = 1e-6;  // residual loop error, as a fraction of the cost
   const LoopJacobian& jacobian = equations.jacobian;
-  const Eigen::VectorXd predicted = jacobian.gap + loop_error_change(jacobian, sums_, trial.errors);
+  const Eigen::VectorXd predicted =
+      jacobian.gap + loop_residual_change(jacobian, sums_, trial.errors);
   for (int round = 0; round < kRounds; ++round) {
-    const Eigen::VectorXd remaining = trial.loop_errors - predicted;
+    const Eigen::VectorXd remaining = trial.loop_residuals - predicted;
     if (!(loop_squares(remaining, noise_model_) > kClosed * cost_)) return;
     trial = candidate(add_scaled(
         trial.errors,
@@ -130,7 +119,7 @@ bool LoopedChain::step_towards(const std::vector<Twist>& target,
 }
 
 std::vector<Twist> LoopedChain::gradient(const LoopJacobian& jacobian) const {
-  Eigen::VectorXd weighted = loop_errors(poses_);
+  Eigen::VectorXd weighted = loop_residuals(poses_);
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
     auto each = of_closure(weighted, k);
     each = (noise_model_.closure_information[k] * each).eval();
@@ -170,7 +159,7 @@ int LoopedChain::minimise(int max_iterations, double tolerance) {
   return iterations;
 }
 
-Eigen::VectorXd LoopedChain::loop_errors(const std::vector<Pose>& poses) const {
+Eigen::VectorXd LoopedChain::loop_residuals(const std::vector<Pose>& poses) const {
   Eigen::VectorXd out(static_cast<Eigen::Index>(6 * problem_.closures.size()));
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
     const Edge& loop = problem_.closures[k];
@@ -206,11 +195,11 @@ LoopJacobian LoopedChain::linearise() const {
   LoopJacobian out;
   out.edge.resize(errors_.size());
   for (std::size_t i = 0; i < errors_.size(); ++i) out.edge[i] = edge_jacobian(i);
-  out.gap = loop_errors(poses_);
+  out.gap = loop_residuals(poses_);
   for (std::size_t k = 0; k < problem_.closures.size(); ++k) {
     out.loop.push_back(loop_jacobian(k, of_closure(out.gap, k)));
   }
-  out.gap -= loop_error_change(out, sums_, errors_);
+  out.gap -= loop_residual_change(out, sums_, errors_);
   return out;
 }
 
@@ -232,10 +221,64 @@ Trajectory LoopedChain::keyframes() const {
   return out;
 }
 
+/// An error e_i moves all later poses by the twist edge[i] e_i in the axes of the chain. With the
+/// sum P_j of edge[i] S_i edge[i]' up to keyframe j and M = A S A' + S_L = F F', the covariance of
+/// its twist is P_j - C_j' M^-1 C_j = P_j - Y_j' Y_j, where C_j is that of all gaps with the twist
+/// and Y_j = F^-1 C_j. Along an edge, the rows of C of the loops that contain it grow by loop[k]
+/// edge[i] S_i edge[i]'. The information of the first edge is removed by Woodbury's identity: with
+/// X = P_1 - Y_j' Y_1, the covariance of the twists j and 1, it grows by X (Y_1' Y_1)^-1 X'.
+std::vector<Matrix6> LoopedChain::covariances(bool has_front) const {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+  const LoopEquations at = equations();
+  const std::vector<Edge>& closures = problem_.closures;
+  const auto size = static_cast<Eigen::Index>(6 * closures.size());
+  Eigen::MatrixXd by_loop = Eigen::MatrixXd::Zero(size, size);  // F^-1 loop[k], one per loop
+  for (std::size_t k = 0; k < closures.size(); ++k) {
+    const auto begin = static_cast<Eigen::Index>(6 * k);
+    by_loop.block<6, 6>(begin, begin) = at.jacobian.loop[k];
+  }
+  at.factor.matrixL().solveInPlace(by_loop);
+  const auto of_loop = [&](std::size_t k) {
+    return by_loop.middleCols<6>(static_cast<Eigen::Index>(6 * k));
+  };
+  std::vector<std::vector<std::size_t>> begin(poses_.size()), end(poses_.size());
+  for (std::size_t k = 0; k < closures.size(); ++k) {
+    begin[closures[k].from].push_back(k);
+    end[closures[k].to].push_back(k);
+  }
+  std::vector<Matrix6> out(poses_.size(), Matrix6::Zero());
+  Rows active = Rows::Zero(size, 6);   // sum of F^-1 loop[k] over the loops that contain the edge
+  Rows shared = Rows::Zero(size, 6);   // Y_j
+  Matrix6 open = Matrix6::Zero();      // P_j
+  Rows front = Rows::Zero(size, 6);    // Y_1
+  Matrix6 of_front = Matrix6::Zero();  // P_1
+  for (std::size_t j = 1; j < poses_.size(); ++j) {
+    for (const std::size_t k : begin[j - 1]) active += of_loop(k);
+    for (const std::size_t k : end[j - 1]) active -= of_loop(k);
+    const Matrix6& edge = at.jacobian.edge[j - 1];
+    const Matrix6 added = edge * noise_model_.covariance[j - 1] * edge.transpose();
+    open += added;
+    shared.noalias() += active * added;
+    Matrix6 of_twist = open;
+    of_twist.noalias() -= shared.transpose() * shared;
+    if (has_front) {
+      if (j == 1) front = shared, of_front = open;
+      const Matrix6 cross = of_front - shared.transpose() * front;
+      // In the plane, other axes may be free.
+      const Matrix6 known = front.transpose() * front;
+      of_twist += cross * known.completeOrthogonalDecomposition().solve(cross.transpose());
+    }
+    out[j] = displaced(0.5 * (of_twist + of_twist.transpose()), poses_[j].translation);
+    if (problem_.planar) out[j] = planar_covariance(out[j], poses_[j].rotation.toRotationMatrix());
+  }
+  return out;
+}
+
 std::optional<LoopedChain> chordal_chain(const Problem& problem, const NoiseModel& noise_model) {
   std::vector<ScaledPose> start;
   try {
-    start = chordal_values(problem, 1.0);
+    EliminationCache cache;
+    start = chordal_values(problem, 1.0, cache);
   } catch (const std::runtime_error&) {
     return std::nullopt;
   }

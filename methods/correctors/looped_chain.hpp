@@ -9,9 +9,6 @@
 
 namespace loopbench::methods {
 
-/// Returns the stated covariances of the problem's edges and closures.
-NoiseModel stated_noise_model(const Problem& problem);
-
 /// State of the chain at its current corrections: poses and errors e_i. Positions are relative to
 /// the chain's centroid, because adjoints grow with the distance from the origin and lose
 /// precision. Keeps references to the problem, and does not use its anchors.
@@ -19,7 +16,7 @@ class LoopedChain {
  public:
   /// `points`: empty, or one entry per closure. A closure with a point b measures only a position:
   /// eta = [R_from' (p_to + R_to b - p_from) - t; 0], and its information of the rotation has no
-  /// effect. See anchored_chain.hpp.
+  /// effect. See AnchoredChain (dual.cpp).
   LoopedChain(const Problem& problem,
               NoiseModel noise_model,
               std::vector<std::optional<Vector3>> points = {});
@@ -57,19 +54,18 @@ class LoopedChain {
   Trajectory keyframes() const;
 
   /// Covariance of each keyframe in fixed axes (datasets/core/covariance.hpp) to first order at the
-  /// current poses: that of the open chain minus the reduction by the loops. It
-  /// equals graph_covariances() at the same poses; zero for the first keyframe, and out of the
-  /// plane if the problem is planar. `has_front`: the first edge is that of an AnchoredChain, which
-  /// is no measurement. Throws as step(). O(edges closures + (6 closures)^3), and one
-  /// factorisation.
-  std::vector<Matrix6> covariances(bool has_front = false) const;  // chain_covariance.cpp
+  /// current poses: that of the open chain minus the reduction by the loops. It equals
+  /// graph_covariances() at the same poses; zero for the first keyframe, and out of the plane if
+  /// the problem is planar. `has_front`: the first edge is that of an AnchoredChain, which is no
+  /// measurement. Throws as step(). O(edges closures + (6 closures)^3), and one factorisation.
+  std::vector<Matrix6> covariances(bool has_front = false) const;
 
  private:
   /// State after a trial step.
   struct Candidate {
     std::vector<Twist> errors;
     std::vector<Pose> poses;
-    Eigen::VectorXd loop_errors;  ///< eta, six numbers per closure
+    Eigen::VectorXd loop_residuals;  ///< eta, six numbers per closure
     double cost = 0.0;
   };
 
@@ -86,9 +82,9 @@ class LoopedChain {
   /// Gradient of the cost with respect to the errors e_i of the edges.
   std::vector<Twist> gradient(const LoopJacobian& jacobian) const;
   std::vector<Pose> integrate(const std::vector<Twist>& errors) const;
-  Eigen::VectorXd loop_errors(const std::vector<Pose>& poses) const;
+  Eigen::VectorXd loop_residuals(const std::vector<Pose>& poses) const;
   bool measures_position(std::size_t closure) const { return points_[closure].has_value(); }
-  double cost_of(const std::vector<Twist>& errors, const Eigen::VectorXd& loop_errors) const;
+  double cost_of(const std::vector<Twist>& errors, const Eigen::VectorXd& loop_residuals) const;
 
   const Problem& problem_;
   std::vector<Pose> motions_;  ///< measured by the odometry: an Edge has six times the size

@@ -12,8 +12,8 @@ namespace {
 constexpr double kNormalQuantile = 3.2905;  // 99.95 %
 
 /// Quantile of chi2 per degree of freedom at `z` standard deviations.
-double quantile(double z, std::size_t freedom) {
-  const double variance = 2.0 / (9.0 * static_cast<double>(freedom));
+double quantile(double z, std::size_t dof) {
+  const double variance = 2.0 / (9.0 * static_cast<double>(dof));
   return std::pow(std::max(0.0, 1.0 - variance + z * std::sqrt(variance)), 3);
 }
 
@@ -34,33 +34,35 @@ Twist bound_of(std::span<const Edge> odometry) {
 
 }  // namespace
 
-std::size_t freedom(std::size_t keyframes, std::size_t edges, std::size_t dimensions) {
+double inlier_chi2(std::size_t dof) { return dof == 3 ? 11.345 : dof == 6 ? 16.812 : 18.475; }
+
+std::size_t degrees_of_freedom(std::size_t keyframes, std::size_t edges, std::size_t dimensions) {
   return edges + 1 > keyframes ? dimensions * (edges + 1 - keyframes) : 0;
 }
 
-std::size_t freedom(const Problem& problem) {
-  return freedom(problem.keyframes.size(),
-                 problem.odometry.size() + problem.closures.size(),
-                 problem.planar ? 3 : 6);
+std::size_t degrees_of_freedom(const Problem& problem) {
+  return degrees_of_freedom(problem.keyframes.size(),
+                            problem.odometry.size() + problem.closures.size(),
+                            problem.planar ? 3 : 6);
 }
 
-bool is_too_large(double chi2, std::size_t freedom) {
-  return freedom > 0 && chi2 > static_cast<double>(freedom) * quantile(kNormalQuantile, freedom);
+bool is_too_large(double chi2, std::size_t dof) {
+  return dof > 0 && chi2 > static_cast<double>(dof) * quantile(kNormalQuantile, dof);
 }
 
-void report_chi2(double chi2, std::size_t freedom, Report& report) {
+void report_chi2(double chi2, std::size_t dof, Report& report) {
   constexpr double kFar = 4.0;
-  if (freedom == 0 || !std::isfinite(chi2)) return;
-  const double ratio = chi2 / static_cast<double>(freedom);
+  if (dof == 0 || !std::isfinite(chi2)) return;
+  const double ratio = chi2 / static_cast<double>(dof);
   report.count("chi2_per_dof", ratio);
-  const bool is_high = ratio > kFar && is_too_large(chi2, freedom);
-  const bool is_low = ratio < 1.0 / kFar && ratio < quantile(-kNormalQuantile, freedom);
+  const bool is_high = ratio > kFar && is_too_large(chi2, dof);
+  const bool is_low = ratio < 1.0 / kFar && ratio < quantile(-kNormalQuantile, dof);
   if (!is_high && !is_low) return;
   report.notes.push_back(
       fmt::format("chi2 per degree of freedom is {:.3g} with {} degrees of freedom: the stated "
                   "covariances are too {}",
                   ratio,
-                  freedom,
+                  dof,
                   is_high ? "small, or some closures are false" : "large"));
 }
 

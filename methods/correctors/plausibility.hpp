@@ -9,21 +9,24 @@
 
 namespace loopbench::methods {
 
+/// 99 % quantile of the chi-squared distribution with 3, 6 or 7 degrees of freedom.
+double inlier_chi2(std::size_t dof);
+
 /// Degrees of freedom of the residuals: `dimensions` per edge beyond a spanning tree, or 0 when
 /// there are no such edges.
-std::size_t freedom(std::size_t keyframes, std::size_t edges, std::size_t dimensions);
+std::size_t degrees_of_freedom(std::size_t keyframes, std::size_t edges, std::size_t dimensions);
 
 /// Degrees of freedom of a chain with poses in SE(2) (planar) or SE(3).
-std::size_t freedom(const Problem& problem);
+std::size_t degrees_of_freedom(const Problem& problem);
 
 /// Whether chi2 is above the 99.95 % quantile of its distribution (approximation of Wilson and
 /// Hilferty 1931).
-bool is_too_large(double chi2, std::size_t freedom);
+bool is_too_large(double chi2, std::size_t dof);
 
 /// Adds the count `chi2_per_dof` [-]. Adds a note if chi2 is outside the central 99.9 % of its
 /// distribution and chi2_per_dof differs from 1 by more than a factor of 4 (standard deviations
 /// wrong by a factor of 2). Adds nothing without degrees of freedom.
-void report_chi2(double chi2, std::size_t freedom, Report& report);
+void report_chi2(double chi2, std::size_t dof, Report& report);
 
 /// Whether a closure's information exceeds 1e6 times the largest information of the odometry, for
 /// translation or rotation. A closure with a thousandth of an odometry edge's deviation takes a

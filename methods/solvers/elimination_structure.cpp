@@ -12,21 +12,6 @@ namespace {
 
 auto at(int i) { return static_cast<std::size_t>(i); }
 
-/// Returns for each block its place in the order of elimination.
-std::vector<int> minimum_degree(int blocks, const std::vector<std::pair<int, int>>& pairs) {
-  std::vector<Eigen::Triplet<char>> entries;
-  entries.reserve(pairs.size() + at(blocks));
-  for (int i = 0; i < blocks; ++i) entries.emplace_back(i, i, 1);
-  for (const auto& [i, j] : pairs) entries.emplace_back(std::max(i, j), std::min(i, j), 1);
-  Eigen::SparseMatrix<char> pattern(blocks, blocks);
-  pattern.setFromTriplets(entries.begin(), entries.end(), [](char, char) -> char { return 1; });
-  Eigen::AMDOrdering<int>::PermutationType order;
-  Eigen::AMDOrdering<int>()(pattern.selfadjointView<Eigen::Lower>(), order);
-  std::vector<int> out(at(blocks));
-  for (int k = 0; k < blocks; ++k) out[at(order.indices()[k])] = k;
-  return out;
-}
-
 /// Lists of numbers, one after the other in memory.
 class Lists {
  public:
@@ -127,6 +112,20 @@ bool is_dense_enough(int columns, double zeros) {
 }
 
 }  // namespace
+
+std::vector<int> minimum_degree(int blocks, const std::vector<std::pair<int, int>>& pairs) {
+  std::vector<Eigen::Triplet<char>> entries;
+  entries.reserve(pairs.size() + at(blocks));
+  for (int i = 0; i < blocks; ++i) entries.emplace_back(i, i, 1);
+  for (const auto& [i, j] : pairs) entries.emplace_back(std::max(i, j), std::min(i, j), 1);
+  Eigen::SparseMatrix<char> pattern(blocks, blocks);
+  pattern.setFromTriplets(entries.begin(), entries.end(), [](char, char) -> char { return 1; });
+  Eigen::AMDOrdering<int>::PermutationType order;
+  Eigen::AMDOrdering<int>()(pattern.selfadjointView<Eigen::Lower>(), order);
+  std::vector<int> out(at(blocks));
+  for (int k = 0; k < blocks; ++k) out[at(order.indices()[k])] = k;
+  return out;
+}
 
 EliminationStructure::EliminationStructure(int blocks,
                                            const std::vector<std::pair<int, int>>& pairs)

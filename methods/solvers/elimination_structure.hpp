@@ -2,10 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace loopbench::methods {
+
+/// Returns for each block its position in the order of approximate minimum degree (Eigen). `pairs`
+/// are the blocks off the diagonal, in any order; repeated pairs are allowed. Deterministic.
+std::vector<int> minimum_degree(int blocks, const std::vector<std::pair<int, int>>& pairs);
 
 /// Order in which the blocks of a matrix are eliminated, and where its factor has blocks. Blocks
 /// whose columns of the factor have nearly the same rows form a supernode, which is stored and
@@ -25,9 +30,8 @@ class EliminationStructure {
     int rows() const { return columns() + below; }
   };
 
-  /// `pairs` are the blocks off the diagonal, in any order; repeated pairs are allowed. Approximate
-  /// minimum degree (Eigen), then a postorder of the elimination tree. Near linear in the blocks of
-  /// the factor. Deterministic.
+  /// `pairs` as in minimum_degree(), whose order is followed by a postorder of the elimination
+  /// tree. Near linear in the blocks of the factor. Deterministic.
   EliminationStructure(int blocks, const std::vector<std::pair<int, int>>& pairs);
 
   int blocks() const { return static_cast<int>(position_.size()); }
@@ -45,6 +49,23 @@ class EliminationStructure {
   std::vector<int> owner_;
   std::vector<int> rows_;
   std::vector<Supernode> supernodes_;
+};
+
+/// Computes a structure once for consecutive graphs with the same edges in the same order.
+class EliminationCache {
+ public:
+  /// The result is valid until the next call with other arguments.
+  const EliminationStructure& of(int blocks, std::vector<std::pair<int, int>> pairs) {
+    if (!last_ || last_->blocks() != blocks || pairs_ != pairs) {
+      last_.emplace(blocks, pairs);
+      pairs_ = std::move(pairs);
+    }
+    return *last_;
+  }
+
+ private:
+  std::optional<EliminationStructure> last_;
+  std::vector<std::pair<int, int>> pairs_;
 };
 
 }  // namespace loopbench::methods

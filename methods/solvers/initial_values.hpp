@@ -4,11 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "methods/solvers/elimination_structure.hpp"
 #include "methods/solvers/groups/scaled_pose.hpp"
 
 namespace loopbench::methods {
-
-class SharedStructure;
 
 /// Integrates poses from keyframe 0 along a spanning tree that prefers odometry to closures and
 /// takes closures in their order; scales are integrated as well. A keyframe that no edge reaches
@@ -24,11 +23,10 @@ std::optional<std::size_t> first_unconnected(const Problem& problem);
 /// then the log scales and then the positions by linear least squares given the results so far.
 /// kappa and tau are the inverse mean variances of rotation and translation. Three sparse
 /// factorisations. All closures have full weight, so they must be free of outliers. Throws
-/// std::runtime_error when a system is singular (the graph is not connected). `structure`: of the
-/// elimination; null: a new one. Source: Martinec and
+/// std::runtime_error when a system is singular (the graph is not connected). Source: Martinec and
 /// Pajdla, CVPR 2007; Carlone, Tron, Daniilidis, Dellaert, ICRA 2015.
 std::vector<ScaledPose> chordal_values(const Problem& problem,
                                        double scale_sigma,
-                                       SharedStructure* structure = nullptr);
+                                       EliminationCache& cache);
 
 }  // namespace loopbench::methods

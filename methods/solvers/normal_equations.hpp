@@ -2,16 +2,13 @@
 #pragma once
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 #include <vector>
 
-#include "methods/solvers/anchor_residual.hpp"
 #include "methods/solvers/block_cholesky.hpp"
-#include "methods/solvers/edge_residual.hpp"
+#include "methods/solvers/elimination_structure.hpp"
 #include "methods/solvers/pose_graph_solver.hpp"
-#include "methods/solvers/shared_structure.hpp"
-#include "methods/solvers/weighted_graph.hpp"
+#include "methods/solvers/residuals.hpp"
 
 namespace loopbench::methods {
 
@@ -24,12 +21,14 @@ class NormalEquations {
   using Tangent = typename G::Tangent;
   using Square = typename G::Square;
 
-  /// Of `settings`, the structure is used.
-  NormalEquations(const WeightedGraph& graph, const PoseGraphSettings& settings)
-      : first_(graph.is_first_free ? 0 : 1),
-        terms_(terms_of(graph)),
-        shared_(structure_of(graph, settings)),
-        structure_(*shared_),
+  /// `cache` must outlive this object and not be used for other edges meanwhile.
+  NormalEquations(std::size_t poses,
+                  const WeightedEdges& edges,
+                  const PoseGraphSettings& settings,
+                  EliminationCache& cache)
+      : first_(settings.is_first_free ? 0 : 1),
+        terms_(terms_of(edges, settings.scale_sigma)),
+        structure_(cache.of(static_cast<int>(poses) - first_, pairs())),
         factor_(structure_) {
     diagonal_places_.reserve(static_cast<std::size_t>(structure_.blocks()));
     for (int i = 0; i < structure_.blocks(); ++i) diagonal_places_.push_back(factor_.place(i, i));
@@ -37,7 +36,7 @@ class NormalEquations {
       const int from = block(term.from), to = block(term.to);
       if (std::min(from, to) >= 0) term.between = factor_.place(from, to);
     }
-    for (const Anchor& anchor : graph.anchors) {
+    for (const Anchor& anchor : settings.anchors) {
       anchors_.push_back({anchor, anchor.covariance.inverse().llt().matrixU()});
     }
     gradient_.resize(structure_.blocks() * G::kDof);
@@ -90,9 +89,8 @@ class NormalEquations {
       const int anchored = block(each.anchor.keyframe);
       if (anchored < 0) continue;
       Eigen::Matrix<double, 3, G::kDof> J = Eigen::Matrix<double, 3, G::kDof>::Zero();
-      constexpr int kPlane[] = {0, 1, 5};
       for (int i = 0; i < std::min(G::kDof, 6); ++i) {
-        J.col(i) = each.root * residual.by_pose.col(G::kDof == 3 ? kPlane[i] : i);
+        J.col(i) = each.root * residual.by_pose.col(twist_axis<G>(i));
       }
       add(anchored, J.transpose() * J, J.transpose() * whitened);
     }
@@ -133,30 +131,28 @@ class NormalEquations {
     Matrix3 root;
   };
 
-  static std::vector<Term> terms_of(const WeightedGraph& graph) {
+  static std::vector<Term> terms_of(const WeightedEdges& edges, double scale_sigma) {
     std::vector<Term> out;
-    out.reserve(graph.odometry.size() + graph.closures.size());
-    graph.for_each_edge([&](const Edge& edge, double weight, bool) {
+    out.reserve(edges.odometry.size() + edges.closures.size());
+    edges.for_each([&](const Edge& edge, double weight, bool) {
       out.push_back({edge.from,
                      edge.to,
                      G::inverse(G::from(measured(edge))),
-                     information_root<G>(edge, weight, graph.scale_sigma),
+                     information_root<G>(edge, weight, scale_sigma),
                      {}});
     });
     return out;
   }
 
-  using Structure = std::shared_ptr<const EliminationStructure>;
-  Structure structure_of(const WeightedGraph& graph, const PoseGraphSettings& settings) const {
-    std::vector<std::pair<int, int>> pairs;
-    pairs.reserve(terms_.size());
+  /// Pairs of estimated poses that a term connects.
+  std::vector<std::pair<int, int>> pairs() const {
+    std::vector<std::pair<int, int>> out;
+    out.reserve(terms_.size());
     for (const Term& term : terms_) {
       const int i = block(term.from), j = block(term.to);
-      if (std::min(i, j) >= 0) pairs.emplace_back(i, j);
+      if (std::min(i, j) >= 0) out.emplace_back(i, j);
     }
-    const int blocks = static_cast<int>(graph.poses) - first_;
-    SharedStructure unshared;
-    return (settings.structure ? *settings.structure : unshared).of(blocks, std::move(pairs));
+    return out;
   }
 
   /// -1: the fixed pose.
@@ -168,7 +164,6 @@ class NormalEquations {
 
   int first_;
   std::vector<Term> terms_;
-  Structure shared_;
   const EliminationStructure& structure_;
   BlockCholesky<G::kDof> factor_;
   std::vector<typename BlockCholesky<G::kDof>::Place> diagonal_places_;

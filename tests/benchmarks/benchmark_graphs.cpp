@@ -13,9 +13,9 @@
 #include "datasets/pose_graph_dataset.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
-#include "methods/solvers/edge_residual.hpp"
 #include "methods/solvers/groups/se2.hpp"
 #include "methods/solvers/groups/se3.hpp"
+#include "methods/solvers/residuals.hpp"
 #include "metrics/correction/optimality.hpp"
 #include "tests/benchmarks/peak_memory.hpp"
 

@@ -8,7 +8,7 @@
 #include "methods/correctors/pose_graph.hpp"
 #include "methods/correctors/two_pass.hpp"
 #include "methods/correctors/uniform.hpp"
-#include "methods/solvers/anchor_residual.hpp"
+#include "methods/solvers/residuals.hpp"
 #include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
 

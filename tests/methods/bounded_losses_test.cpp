@@ -36,12 +36,13 @@ struct Direct {
 Direct solved_directly(const Problem& problem, double width) {
   std::vector<ScaledPose> poses;
   for (const StampedPose& each : problem.keyframes) poses.push_back({each.world_from_body});
+  const std::vector<double> weights(problem.closures.size(), 1.0);
+  EliminationCache cache;
   const PoseGraphSummary summary =
       solve_pose_graph(poses,
-                       problem.odometry,
-                       problem.closures,
-                       std::vector<double>(problem.closures.size(), 1.0),
-                       {.group = Group::se2, .loss = RobustLoss::dcs, .loss_width = width});
+                       {problem.odometry, problem.closures, weights},
+                       {.group = Group::se2, .loss = RobustLoss::dcs, .loss_width = width},
+                       cache);
   Direct out{problem.keyframes, 2.0 * summary.cost};
   for (std::size_t i = 0; i < poses.size(); ++i) out.keyframes[i].world_from_body = poses[i].pose;
   return out;

@@ -160,8 +160,10 @@ void expect_the_minimum_of_ceres(Group group, bool has_anchors, bool is_first_fr
   PoseGraphSettings settings{.group = group};
   if (has_anchors) settings.anchors = graph.anchors;
   settings.is_first_free = is_first_free;
+  EliminationCache cache;
   const auto solve = [&](std::vector<ScaledPose>& poses) {
-    return solve_pose_graph(poses, graph.odometry, graph.closures, graph.weights, settings);
+    return solve_pose_graph(
+        poses, {graph.odometry, graph.closures, graph.weights}, settings, cache);
   };
   std::vector<ScaledPose> direct = graph.poses, repeated = graph.poses, ceres = graph.poses;
   const PoseGraphSummary summary = solve(direct);
@@ -195,9 +197,11 @@ TEST(LeastSquares, ReachesTheMinimumOfCeres) {
 template <class G>
 void expect_slope(Group group) {
   const Graph graph = random_graph(group);
-  const WeightedGraph weighted{
-      graph.poses.size(), graph.odometry, graph.closures, graph.weights, graph.anchors, true};
-  NormalEquations<G> equations(weighted, PoseGraphSettings{});
+  EliminationCache cache;
+  NormalEquations<G> equations(graph.poses.size(),
+                               {graph.odometry, graph.closures, graph.weights},
+                               {.anchors = graph.anchors, .is_first_free = true},
+                               cache);
   std::vector<typename G::Element> x;
   for (const ScaledPose& pose : graph.poses) x.push_back(G::from(pose));
   const double cost = equations.linearise(x);

@@ -3,10 +3,10 @@
 
 #include <random>
 
-#include "methods/solvers/edge_residual.hpp"
 #include "methods/solvers/groups/se2.hpp"
 #include "methods/solvers/groups/se3.hpp"
 #include "methods/solvers/groups/sim3.hpp"
+#include "methods/solvers/residuals.hpp"
 #include "tests/support/tolerance.hpp"
 
 namespace loopbench::pose_graph_groups_test {

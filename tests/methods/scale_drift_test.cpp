@@ -1,5 +1,5 @@
 // Chains whose scale drifts: which methods estimate it.
-#include "methods/correctors/scale_drift.hpp"
+#include "methods/correctors/chain.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

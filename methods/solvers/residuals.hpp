@@ -1,10 +1,12 @@
-/// Residual of a pose-graph edge and its derivatives with respect to both poses, in any group.
+/// Residuals of the edges and anchors of a pose graph and their derivatives with respect to the
+/// poses.
 #pragma once
 
 #include <Eigen/Cholesky>
 #include <stdexcept>
 #include <string>
 
+#include "datasets/core/anchor.hpp"
 #include "methods/solvers/groups/scaled_pose.hpp"
 
 namespace loopbench::methods {
@@ -47,6 +49,27 @@ typename G::Square information_root(const Edge& edge, double weight, double scal
                              " is not positive definite");
   }
   return factor.matrixU();
+}
+
+/// e = anchor_error() and its derivative with respect to d in X Exp(d), with d = [rho; phi].
+struct AnchorResidual {
+  Vector3 error;
+  Eigen::Matrix<double, 3, 6> by_pose;
+};
+
+inline AnchorResidual anchor_residual(const Anchor& anchor, const Pose& world_from_body) {
+  const Matrix3 R = world_from_body.rotation.toRotationMatrix();
+  AnchorResidual out;
+  out.error = anchor_error(anchor, world_from_body);
+  out.by_pose << R, -R * hat(anchor.point_in_body);
+  return out;
+}
+
+/// Index in [rho; phi] of component `i` < 6 of a twist of the group.
+template <class G>
+int twist_axis(int i) {
+  constexpr int kPlane[] = {0, 1, 5};
+  return G::kDof == 3 ? kPlane[i] : i;
 }
 
 }  // namespace loopbench::methods
