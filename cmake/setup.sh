@@ -4,7 +4,8 @@
 
 packages=(
   clang cmake ninja-build
-  libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev libre2-dev libceres-dev
+  libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libsqlite3-dev libre2-dev libxxhash-dev
+  libceres-dev
 )
 sandbox_packages=(bubblewrap)  # hides files from external programs; the default comparison has none
 

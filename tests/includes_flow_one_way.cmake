@@ -61,7 +61,7 @@ set(order
 )
 
 # Only files that match folder_<library> may include the headers that match header_<library>.
-set(libraries ceres yaml sqlite re2 cli json opencv stb compression pybind11)
+set(libraries ceres yaml sqlite re2 xxhash cli json opencv stb compression pybind11)
 set(header_ceres "ceres/")
 set(folder_ceres "methods/solvers/")
 set(header_yaml "yaml-cpp/")
@@ -70,6 +70,8 @@ set(header_sqlite "sqlite3")
 set(folder_sqlite "harness/store/|datasets/bags/sqlite_file\\.cpp")  # stores, and files of others
 set(header_re2 "re2/")
 set(folder_re2 "harness/base/pattern\\.")
+set(header_xxhash "xxhash")
+set(folder_xxhash "harness/base/hash\\.cpp")
 set(header_cli "CLI/")
 set(folder_cli "harness/commands/")
 set(header_json "nlohmann/")

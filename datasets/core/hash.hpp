@@ -1,4 +1,4 @@
-/// Hash functions for noise (independent of the order of draws) and for checksums.
+/// Hash functions for noise, independent of the order of draws.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,4 @@
-/// Hashes of inputs and results; not cryptographic.
-///
-/// Source: MurmurHash3_x64_128, A. Appleby, SMHasher (public domain), on little-endian machines.
+/// Hashes of inputs and results by xxHash (XXH3); not cryptographic.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +15,17 @@ struct Hash {
   bool operator==(const Hash&) const = default;
 };
 
-/// Hash of the bytes. O(n), some gigabytes per second.
-Hash hash_of(std::string_view bytes, std::uint32_t seed = 0);
+/// XXH3 of 128 bits. O(n), some gigabytes per second.
+Hash hash_of(std::string_view bytes);
 
-/// Hash of a regular file, always read completely, since date and size are not reliable. Throws
-/// InputError.
+/// XXH3 of 64 bits that continues a hash: that of all bytes `before` is the seed.
+std::uint64_t hash_after(std::uint64_t before, std::string_view bytes);
+
+/// XXH3 of 128 bits of a regular file, always read completely, since date and size are not
+/// reliable. Throws InputError.
 Hash hash_of_file(const std::filesystem::path& file);
 
-/// 32 lower-case hexadecimal digits.
+/// 32 lower-case hexadecimal digits, as `xxhsum -H2 FILE` prints them.
 std::string hex(const Hash& hash);
 
 /// Serialises fields unambiguously: different lists of fields give different bytes.

@@ -177,7 +177,7 @@ std::string provenance_html(const ReportContent& content) {
   for (const auto& [key, value] : content.provenance) provenance.lines.push_back({key, value});
   out += html_text_table(provenance);
   if (!content.inputs.empty()) {
-    Table files{"input files", {"sequence", "file", "bytes", "MurmurHash3 x64 128"}, {}, {}};
+    Table files{"input files", {"sequence", "file", "bytes", "XXH3 128"}, {}, {}};
     for (const auto& [sequence, inputs] : content.inputs) {
       for (const InputFile& input : inputs) {
         files.lines.push_back({sequence, input.path, std::to_string(input.bytes), input.hash});

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "datasets/core/hash.hpp"
+#include "harness/base/hash.hpp"
 
 namespace loopbench::harness {
 
@@ -30,7 +30,7 @@ class RowHash {
   void clear() { bytes_.clear(); }
 
   /// `before`: hash of the rows before this one; 0: it is the first.
-  std::uint64_t after(std::uint64_t before) const { return hash_combine(before, bytes_); }
+  std::uint64_t after(std::uint64_t before) const { return hash_after(before, bytes_); }
 
  private:
   template <class Value>

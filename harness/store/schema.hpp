@@ -4,7 +4,7 @@
 namespace loopbench::harness {
 
 /// Incremented when the meaning of a table or column changes; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 14;
+inline constexpr int kSchemaVersion = 15;
 
 /// Creates the tables of a store, readable with any SQLite tool.
 inline constexpr const char* kSchema = R"sql(
@@ -24,7 +24,7 @@ inline constexpr const char* kSchema = R"sql(
     option TEXT NOT NULL,              -- dataset option with its name; '': found by the dataset
     path TEXT NOT NULL,
     bytes INTEGER NOT NULL,
-    hash TEXT NOT NULL,                -- of the content (MurmurHash3 x64 128), or `missing`
+    hash TEXT NOT NULL,                -- of the content (XXH3, 128 bits), or `missing`
     row_hash INTEGER NOT NULL,
     PRIMARY KEY (sequence_key, number)) WITHOUT ROWID;
   CREATE TABLE sequence (              -- metadata and sizes of each sequence

@@ -55,7 +55,7 @@ ProvenanceJson json_of(const StoreProvenance& provenance) {
   for (const auto& [sequence, files] : provenance.inputs) {
     ProvenanceJson list = ProvenanceJson::array();
     for (const InputFile& file : files) {
-      list.push_back({{"path", file.path}, {"bytes", file.bytes}, {"murmur3_x64_128", file.hash}});
+      list.push_back({{"path", file.path}, {"bytes", file.bytes}, {"xxh3_128", file.hash}});
     }
     inputs[sequence] = std::move(list);
   }

@@ -19,7 +19,7 @@ struct StoreProvenance {
 /// Throws InputError if it is not a store.
 StoreProvenance read_store_provenance(const std::filesystem::path& store);
 
-/// {run, provenance, inputs: {SEQUENCE: [{path, bytes, murmur3_x64_128}]}}, for the file next to a
+/// {run, provenance, inputs: {SEQUENCE: [{path, bytes, xxh3_128}]}}, for the file next to a
 /// CSV.
 std::string json(const StoreProvenance& provenance);
 
