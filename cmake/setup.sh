@@ -9,8 +9,8 @@ packages=(
 )
 sandbox_packages=(bubblewrap)  # hides files from external programs; the default comparison has none
 
-# Compressed files and bags; each is optional: without it, files that need it are rejected (exit code 4), and run.sh
-# installs all of them.
+# Compressed files and bags; optional: unless all are installed, such files are rejected (exit code 4), and run.sh
+# installs them.
 compression_packages=(zlib1g-dev libbz2-dev libzstd-dev liblz4-dev liblzma-dev)
 geodetic_packages=(libgeographiclib-dev)  # latitudes and longitudes; optional in the same way
 # OpenCV's development packages depend on some 280 others, so run.sh installs them when first needed.

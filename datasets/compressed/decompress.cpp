@@ -5,34 +5,23 @@
 
 #include "datasets/core/error.hpp"
 
-#ifdef LOOPBENCH_HAS_ZLIB
-#include <zlib.h>
-#endif
-#ifdef LOOPBENCH_HAS_BZIP2
+#ifdef LOOPBENCH_HAS_COMPRESSION
 #include <bzlib.h>
-#endif
-#ifdef LOOPBENCH_HAS_ZSTD
-#include <zstd.h>
-#endif
-#ifdef LOOPBENCH_HAS_LZ4
 #include <lz4frame.h>
-#endif
-#ifdef LOOPBENCH_HAS_LZMA
 #include <lzma.h>
+#include <zlib.h>
+#include <zstd.h>
 #endif
 
 namespace loopbench {
+
+using Sink = std::function<void(std::string_view)>;
+
+#ifdef LOOPBENCH_HAS_COMPRESSION
 namespace {
 
 constexpr std::size_t kStep = std::size_t{256} << 10;     // output per call of a library [bytes]
 constexpr std::size_t kMostInput = std::size_t{1} << 30;  // per call of zlib or bzip2 [bytes]
-
-[[noreturn]] [[maybe_unused]] void lack(const char* codec, const char* package) {
-  throw MissingPart(std::string("this build cannot read ") + codec + " data: install the package " +
-                    package + " and build again");
-}
-
-using Sink = std::function<void(std::string_view)>;
 
 /// Calls step(in, size, out, room), which returns the bytes read and written and whether a frame
 /// has ended, until all input is used.
@@ -63,7 +52,6 @@ struct Progress {
   bool frame_ended = false;
 };
 
-#ifdef LOOPBENCH_HAS_ZLIB
 constexpr int kGzipHeader = 15 + 16, kNoHeader = -15;  // window bits of zlib
 
 void expand_zlib(std::string_view bytes, std::size_t limit, const Sink& sink, int window) {
@@ -85,12 +73,7 @@ void expand_zlib(std::string_view bytes, std::size_t limit, const Sink& sink, in
     return done;
   });
 }
-#else
-constexpr int kGzipHeader = 0, kNoHeader = 0;
-void expand_zlib(std::string_view, std::size_t, const Sink&, int) { lack("gzip", "zlib1g-dev"); }
-#endif
 
-#ifdef LOOPBENCH_HAS_LZMA
 void expand_xz(std::string_view bytes, std::size_t limit, const Sink& sink) {
   lzma_stream s = LZMA_STREAM_INIT;
   constexpr std::uint64_t kMostMemory = std::uint64_t{1} << 30;  // [bytes]
@@ -108,11 +91,7 @@ void expand_xz(std::string_view bytes, std::size_t limit, const Sink& sink) {
     return Progress{in.size() - s.avail_in, room - s.avail_out, code == LZMA_STREAM_END};
   });
 }
-#else
-void expand_xz(std::string_view, std::size_t, const Sink&) { lack("xz", "liblzma-dev"); }
-#endif
 
-#ifdef LOOPBENCH_HAS_BZIP2
 void expand_bzip2(std::string_view bytes, std::size_t limit, const Sink& sink) {
   bz_stream s{};
   const auto start = [&] {
@@ -137,11 +116,7 @@ void expand_bzip2(std::string_view bytes, std::size_t limit, const Sink& sink) {
     return done;
   });
 }
-#else
-void expand_bzip2(std::string_view, std::size_t, const Sink&) { lack("bzip2", "libbz2-dev"); }
-#endif
 
-#ifdef LOOPBENCH_HAS_ZSTD
 void expand_zstd(std::string_view bytes, std::size_t limit, const Sink& sink) {
   const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> state(ZSTD_createDStream(),
                                                                          ZSTD_freeDStream);
@@ -154,11 +129,7 @@ void expand_zstd(std::string_view bytes, std::size_t limit, const Sink& sink) {
     return Progress{input.pos, output.pos, code == 0};
   });
 }
-#else
-void expand_zstd(std::string_view, std::size_t, const Sink&) { lack("zstd", "libzstd-dev"); }
-#endif
 
-#ifdef LOOPBENCH_HAS_LZ4
 void expand_lz4(std::string_view bytes, std::size_t limit, const Sink& sink) {
   LZ4F_dctx* created = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&created, LZ4F_VERSION)) != 0) {
@@ -174,23 +145,8 @@ void expand_lz4(std::string_view bytes, std::size_t limit, const Sink& sink) {
     return Progress{read, written, code == 0};
   });
 }
-#else
-void expand_lz4(std::string_view, std::size_t, const Sink&) { lack("lz4", "liblz4-dev"); }
-#endif
 
 }  // namespace
-
-std::optional<Codec> codec_of(std::string_view bytes) {
-  if (bytes.starts_with("\x1f\x8b")) return Codec::gzip;
-  if (bytes.starts_with("BZh")) return Codec::bzip2;
-  if (bytes.starts_with("\x28\xb5\x2f\xfd")) return Codec::zstd;
-  if (bytes.starts_with("\x04\x22\x4d\x18")) return Codec::lz4;
-  if (bytes.starts_with(std::string_view("\xfd"
-                                         "7zXZ\0",
-                                         6)))
-    return Codec::xz;
-  return std::nullopt;
-}
 
 void decompress(Codec codec, std::string_view bytes, std::size_t limit, const Sink& sink) {
   switch (codec) {
@@ -208,6 +164,25 @@ void decompress(Codec codec, std::string_view bytes, std::size_t limit, const Si
       return expand_lz4(bytes, limit, sink);
   }
   throw std::logic_error("unknown codec");
+}
+#else
+void decompress(Codec, std::string_view, std::size_t, const Sink&) {
+  throw MissingPart(
+      "this build cannot read compressed data: install the packages zlib1g-dev, libbz2-dev, "
+      "libzstd-dev, liblz4-dev and liblzma-dev and build again");
+}
+#endif
+
+std::optional<Codec> codec_of(std::string_view bytes) {
+  if (bytes.starts_with("\x1f\x8b")) return Codec::gzip;
+  if (bytes.starts_with("BZh")) return Codec::bzip2;
+  if (bytes.starts_with("\x28\xb5\x2f\xfd")) return Codec::zstd;
+  if (bytes.starts_with("\x04\x22\x4d\x18")) return Codec::lz4;
+  if (bytes.starts_with(std::string_view("\xfd"
+                                         "7zXZ\0",
+                                         6)))
+    return Codec::xz;
+  return std::nullopt;
 }
 
 std::string decompress(Codec codec, std::string_view bytes, std::size_t limit) {

@@ -29,7 +29,7 @@ std::optional<Codec> codec_of(std::string_view bytes);
 
 /// Passes the content of all concatenated frames of `bytes` to `sink`, at most 256 KiB at a time.
 /// Throws DamagedStream with the reason if they are damaged or end early, ExpandsTooFar if they
-/// expand to more than `limit` bytes, MissingPart if the build lacks the library. O(result).
+/// expand to more than `limit` bytes, MissingPart if the build lacks the libraries. O(result).
 void decompress(Codec codec,
                 std::string_view bytes,
                 std::size_t limit,

@@ -32,7 +32,7 @@ bool is_named_pipe(const std::filesystem::path& file);
 /// of another kind (also a named pipe, where opening would wait for a writer), unreadable, larger
 /// than 8 GiB (`limit` bytes) or damaged, where `expected` states what is accepted ("a text file");
 /// for pipes and decompressed files of more than 2 GiB, and for compressed files that expand to
-/// more than 64 MiB and 50 times their size. Throws MissingPart if the build lacks a codec.
+/// more than 64 MiB and 50 times their size. Throws MissingPart if the build lacks the libraries.
 /// Thread-safe.
 OpenedFile open_input(const std::filesystem::path& file,
                       const std::string& expected = "a text file",
