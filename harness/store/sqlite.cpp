@@ -28,9 +28,6 @@ void add_value(RowHash& row, sqlite3_value* value) {
 
 }  // namespace
 
-void Database::Close::operator()(sqlite3* handle) const { sqlite3_close(handle); }
-void Statement::Finalize::operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
-
 Database::Database(const std::filesystem::path& file, Mode mode) : file_(file.string()) {
   sqlite3* handle = nullptr;
   // Used by one thread at a time; a WAL left by a killed process is merged on opening for writing.
@@ -135,14 +132,13 @@ bool Statement::is_null() const {
   return sqlite3_column_type(handle_.get(), column_) == SQLITE_NULL;
 }
 
+void Statement::read_one(double& value) { value = sqlite3_column_double(handle_.get(), column_++); }
+
 std::int64_t Statement::integer() { return sqlite3_column_int64(handle_.get(), column_++); }
-double Statement::real() { return sqlite3_column_double(handle_.get(), column_++); }
 std::string Statement::text() { return std::string(view()); }
 
 std::string_view Statement::view() {
-  const auto* bytes = static_cast<const char*>(sqlite3_column_blob(handle_.get(), column_));
-  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column_++));
-  return bytes == nullptr ? std::string_view{} : std::string_view(bytes, size);
+  return bytes_of(sqlite3_column_value(handle_.get(), column_++));
 }
 
 std::uint64_t Statement::hashed(std::uint64_t before, int first) const {

@@ -4,16 +4,13 @@
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "datasets/bags/sqlite_file.hpp"
 #include "harness/base/shared_text.hpp"
 #include "harness/store/row_hash.hpp"
-
-struct sqlite3;
-struct sqlite3_stmt;
 
 namespace loopbench::harness {
 
@@ -41,11 +38,8 @@ class Database {
   [[noreturn]] void fail(const std::string& doing) const;
 
  private:
-  struct Close {
-    void operator()(sqlite3* handle) const;
-  };
   std::string file_;
-  std::unique_ptr<sqlite3, Close> handle_;
+  SqliteFile handle_;
 };
 
 /// A blob to bind; not copied: must live until the statement has run.
@@ -87,7 +81,6 @@ class Statement {
     (read_one(values), ...);
   }
   std::int64_t integer();
-  double real();
   std::string text();       ///< text or blob
   std::string_view view();  ///< the same, valid until the next step
 
@@ -96,9 +89,6 @@ class Statement {
 
  private:
   friend class Database;
-  struct Finalize {
-    void operator()(sqlite3_stmt* handle) const;
-  };
   Statement(Database& database, sqlite3_stmt* handle) : database_(&database), handle_(handle) {}
   void expect(int code, const char* doing) const;
 
@@ -120,7 +110,7 @@ class Statement {
   void read_one(Integer& value) {
     value = static_cast<Integer>(integer());
   }
-  void read_one(double& value) { value = real(); }
+  void read_one(double& value);
   void read_one(std::string& value) { value = view(); }
   void read_one(SharedText& value) {
     const std::string_view now = view();
@@ -135,7 +125,7 @@ class Statement {
   bool is_null() const;
 
   Database* database_;
-  std::unique_ptr<sqlite3_stmt, Finalize> handle_;
+  SqliteQuery handle_;
   int parameter_ = 0;
   int column_ = 0;
 };
