@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "datasets/core/fields.hpp"
 #include "harness/base/suggest.hpp"
 
 namespace loopbench::harness {
@@ -19,16 +18,6 @@ CLI::Validator number_between(double low, double high);
 
 /// A number above zero.
 CLI::Validator positive_number();
-
-/// Type of an option with the words of an enum: the help lists and shells complete them.
-template <NamedEnum Enum>
-std::string choice_type() {
-  std::string out = "WORD";
-  for (const auto& [name, value] : choices(Enum{})) {
-    out += (out == "WORD" ? ":" : "|") + std::string(name);
-  }
-  return out;
-}
 
 /// Adds --tie and --relevant: when methods share a place.
 void declare_ties(CLI::App& command, double& tie, double& relevant);

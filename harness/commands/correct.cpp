@@ -9,7 +9,7 @@
 #include "harness/base/write_file.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/figure_options.hpp"
+#include "harness/commands/options.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/commands/traj_options.hpp"
 
@@ -94,10 +94,14 @@ void add_correct(CLI::App& app, int& exit_code) {
       ->check(finite_number())
       ->check(positive_number());
   file("--frames", c.frames, "All tracked poses of the run, if ESTIMATE contains only keyframes");
+  const auto set = [&c](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) c.settings.push_back({text});
+  };
   command
-      ->add_option("--set",
-                   c.settings,
-                   "Option of dataset trajectory (or pose_graph for a graph), see `list datasets`")
+      ->add_option_function<std::vector<std::string>>(
+          "--set",
+          set,
+          "Option of dataset trajectory (or pose_graph for a graph), see `list datasets`")
       ->type_name("OPTION=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -119,7 +123,7 @@ void add_correct(CLI::App& app, int& exit_code) {
                    "Map of the keyframes before and after, as PREFIX.svg, .pdf and .png, or as one "
                    "of these or .pgf if PREFIX ends in it")
       ->type_name("PREFIX");
-  declare_figure_options(*command, a->figure, "--plot");
+  declare_figures(*command, a->figure, "--plot");
   command->add_option("--plugin", a->plugins, "Shared object with additional methods")
       ->type_name("FILE")
       ->allow_extra_args(false);

@@ -9,6 +9,7 @@
 #include "datasets/formats/g2o.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/options.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/eval/correct.hpp"
 #include "harness/eval/named_trajectory.hpp"
@@ -22,8 +23,8 @@ struct DoctorArguments {
   std::string reference;
   std::vector<std::string> estimates;
   ReadArguments reading;
-  std::string reference_format;  ///< empty: same as that of the estimates
-  std::string loops;             ///< closures of a trajectory; empty: none
+  std::optional<Format> reference_format;  ///< none: same as that of the estimates
+  std::string loops;                       ///< closures of a trajectory; empty: none
   bool json = false;
 };
 
@@ -140,12 +141,12 @@ int doctor(const DoctorArguments& a) {
   std::vector<Diagnosed> all;
   if (!a.estimates.empty()) {
     ReadArguments reading = a.reading;
-    if (reading.repeats.empty()) reading.repeats = to_text(Repeats::keep_first);
+    reading.repeats = reading.repeats.value_or(Repeats::keep_first);
     ReadArguments of_reference = reading;
-    if (!a.reference_format.empty()) of_reference.format = a.reference_format;
+    of_reference.format = a.reference_format.value_or(reading.format);
     const NamedTrajectory reference = read_named(a.reference, of_reference);
     for (const NamedTrajectory& estimate : read_all_named(a.estimates, reading)) {
-      all.push_back(of_pair(reference, estimate, !a.reading.repeats.empty()));
+      all.push_back(of_pair(reference, estimate, a.reading.repeats.has_value()));
     }
   }
   if (!a.loops.empty()) {
@@ -184,19 +185,12 @@ void add_doctor(CLI::App& app, int& exit_code) {
                    a->loops,
                    "Loop closures of EST (or of REF, if there is no EST), see `correct --help`")
       ->type_name("FILE");
-  command
-      ->add_option("--format", a->reading.format, "Format of the files: " + choice_list<Format>())
-      ->type_name("WORD");
+  declare_reading(*command, a->reading, {"--times", "--period", "--all-topics"});
   command
       ->add_option(
           "--ref-format", a->reference_format, "File format of REF, if different from --format")
-      ->type_name("WORD");
-  command
-      ->add_option(
-          "--repeats", a->reading.repeats, "Handling of equal stamps: " + choice_list<Repeats>())
-      ->type_name("WORD");
-  command->add_option("--tf", a->reading.tf, "Frames in the TF tree of bags without a topic")
-      ->type_name("PARENT.CHILD");
+      ->type_name("WORD")
+      ->transform(words_of<Format>("ref-format"));
   command->add_flag("--json", a->json, "Print JSON");
   command->callback([a, &exit_code] { exit_code = doctor(*a); });
 }

@@ -3,25 +3,24 @@
 #include <CLI/CLI.hpp>
 
 #include "harness/commands/checks.hpp"
-#include "harness/commands/figure_options.hpp"
+#include "harness/commands/options.hpp"
 
 namespace loopbench::harness {
 namespace {
 
 void declare_files(CLI::App& command, EvalArguments& a) {
+  command.option_defaults()->group("Files");
   command.add_option("reference", a.reference, "Reference trajectory file")
       ->required()
       ->type_name("REF");
   command.add_option("estimates", a.estimates, "Trajectory files to evaluate")
       ->required()
       ->type_name("EST");
-  command.add_option("--format", a.format, "File format")
-      ->type_name(choice_type<Format>())
-      ->capture_default_str();
+  declare_reading(command, a, {"--tf", "--all-topics"});
   command
-      .add_option(
-          "--ref-format", a.reference_format, "File format of REF, if different from --format")
-      ->type_name(choice_type<Format>());
+      .add_option("--ref-format", a.reference_format, "Format of REF, if different from --format")
+      ->type_name("WORD")
+      ->transform(words_of<Format>("ref-format"));
   command
       .add_option("--ref-body",
                   a.reference_body,
@@ -46,18 +45,6 @@ void declare_files(CLI::App& command, EvalArguments& a) {
   };
   file("--cov", a.covariances, "EST");
   file("--ref-cov", a.reference_covariances, "REF");
-  command
-      .add_option("--repeats",
-                  a.repeats,
-                  "Handling of equal stamps; default: refuse, or all are kept if every protocol "
-                  "pairs as evo does")
-      ->type_name(choice_type<Repeats>());
-  command.add_option("--times", a.times, "Times file for KITTI poses, one stamp per line [s]")
-      ->type_name("FILE");
-  command.add_option("--period", a.period, "Time between KITTI or g2o poses without stamps [s]")
-      ->type_name("S")
-      ->check(finite_number())
-      ->default_str(to_text(ReadOptions{}.period));
   const auto seconds = [&](const char* name, std::optional<double>& value, const char* help) {
     command.add_option(name, value, help)->type_name("S")->check(finite_number());
   };
@@ -66,48 +53,28 @@ void declare_files(CLI::App& command, EvalArguments& a) {
   declare_pose_filters(command, a.downsample, a.motion_filter);
 }
 
-void declare_rules(CLI::App& command, EvalArguments& a) {
-  command.add_option("--protocol", a.protocols, "Evaluation protocols, see `list protocols`")
-      ->type_name("PROTOCOL")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->capture_default_str();
-  command.add_option("--set", a.settings, "Field of the protocol to change")
-      ->type_name("FIELD=VALUE")
-      ->allow_extra_args(false);
-  // As evo's flag, or with a value: --align, --align sim3, --align=sim3.
-  auto* align = command.add_option("--align", a.align, "Alignment (without value: se3)")
-                    ->expected(0, 1)
-                    ->default_str("se3")
-                    ->type_name(choice_type<metrics::Align>());
-  auto* rigid = command.add_flag_callback(
-      "-a", [&a] { a.align = "se3"; }, "Short for --align se3");
-  command
-      .add_flag_callback(
-          "--align_origin", [&a] { a.align = "origin"; }, "Short for --align origin")
-      ->excludes(align)
-      ->excludes(rigid);
-  command.add_flag("-s,--correct_scale",
-                   a.correct_scale,
-                   "Also align the scale; without --align only the scale");
-  const auto field = [&](const char* option, const char* name, const std::string& help) {
-    const auto set = [&a, name](const std::string& value) {
-      a.fields.push_back(std::string(name) + "=" + value);
-    };
-    return command.add_option_function<std::string>(option, set, help)->type_name("WORD");
-  };
-  const auto seconds = [&](const char* option, const char* name, const char* help) {
-    field(option, name, help)->type_name("S")->check(finite_number());
-  };
-  field("--n_to_align", "align_first", "Number of first pairs used for the alignment")
-      ->type_name("INT");
-  field("--association", "association", "Association in time")
-      ->type_name(choice_type<metrics::Association>());
-  field("--project_to_plane", "project", "Plane to project onto")
-      ->type_name(choice_type<metrics::ProjectionPlane>());
-  seconds(
-      "--max-diff,--t_max_diff", "max_diff", "Maximum time difference between paired poses [s]");
-  seconds("--max-gap", "max_gap", "Longest reference gap to interpolate across [s]");
+/// A flag that sets a field of the protocol.
+void declare_setting(CLI::App& command,
+                     EvalArguments& a,
+                     const std::string& option,
+                     const std::string& setting,
+                     const std::string& help) {
+  command.add_flag_callback(
+      option,
+      [&a, setting, option] {
+        a.settings.push_back({setting, option});
+      },
+      help);
+}
+
+void declare_pairing(CLI::App& command, EvalArguments& a) {
+  command.option_defaults()->group("Pairing");
+  declare_fields(command,
+                 {{"association", "--association"},
+                  {"max_diff", "--max-diff,--t_max_diff"},
+                  {"max_gap", "--max-gap"},
+                  {"offset", "--offset,--t_offset"}},
+                 a.settings);
   command
       .add_option("--min-coverage",
                   a.min_coverage,
@@ -117,31 +84,47 @@ void declare_rules(CLI::App& command, EvalArguments& a) {
       ->type_name("SHARE")
       ->check(finite_number())
       ->check(CLI::Range(0.0, 1.0));
-  seconds("--offset,--t_offset", "offset", "Time offset added to the estimates' stamps [s]");
-}
-
-}  // namespace
-
-void declare_pose_filters(CLI::App& command,
-                          std::optional<std::size_t>& downsample,
-                          std::vector<double>& motion_filter) {
-  command.add_option("--downsample", downsample, "Evenly spaced poses to keep of each file")
-      ->type_name("N")
-      ->check(positive_number());
   command
-      .add_option("--motion_filter",
-                  motion_filter,
-                  "Keep only poses that are this path length [m] or this angle [deg] from the "
-                  "pose kept before, in each file")
-      ->type_name("M DEG")
-      ->expected(2)
-      ->allow_extra_args(false)
-      ->check(number_between(0.0, 1e9));
+      .add_option("--common",
+                  a.common,
+                  "Evaluate only the times that all estimates of REF cover: yes or no (default: "
+                  "yes with --store)")
+      ->transform(one_of<bool>("answer", {{"yes", true}, {"no", false}}))
+      ->type_name("WORD");
 }
 
-void declare(CLI::App& command, EvalArguments& a) {
-  declare_files(command, a);
-  declare_rules(command, a);
+void declare_alignment(CLI::App& command, EvalArguments& a) {
+  command.option_defaults()->group("Alignment");
+  declare_fields(
+      command,
+      {{"align", "--align"}, {"align_first", "--n_to_align"}, {"project", "--project_to_plane"}},
+      a.settings);
+  // As evo's flag, or with a value: --align, --align sim3, --align=sim3.
+  CLI::Option* align = command.get_option("--align");
+  align->expected(0, 1)->default_str("se3");
+  align->description(align->get_description() + " (without value: se3)");
+  declare_setting(command, a, "-a", "align=se3", "Short for --align se3");
+  declare_setting(command, a, "--align_origin", "align=origin", "Short for --align origin");
+  command.add_flag("-s,--correct_scale",
+                   a.correct_scale,
+                   "Also align the scale; without --align only the scale");
+}
+
+void declare_metrics(CLI::App& command, EvalArguments& a) {
+  command.option_defaults()->group("Metrics");
+  command.add_option("--protocol", a.protocols, "Evaluation protocols, see `list protocols`")
+      ->type_name("PROTOCOL")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  const auto set = [&a](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) a.settings.push_back({text});
+  };
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set", set, "Field of the protocol to change, see `list protocols`")
+      ->type_name("FIELD=VALUE")
+      ->allow_extra_args(false);
   auto* metric =
       command
           .add_option("--metric",
@@ -167,10 +150,16 @@ void declare(CLI::App& command, EvalArguments& a) {
   command.add_option("-u,--delta_unit", a.delta_unit, "Unit of --delta (frames, s, m, deg, rad)")
       ->type_name("WORD:f|s|m|d|r")
       ->excludes(metric);
-  const auto flag = [&](const char* option, const char* setting, const char* help) {
-    command.add_flag_callback(
-        option, [&a, setting] { a.fields.emplace_back(setting); }, help);
-  };
+  declare_setting(command, a, "--all_pairs", "pairs=all", "Use all pairs for rpe");
+  declare_setting(command,
+                  a,
+                  "--pairs_from_reference",
+                  "pairs_from=reference",
+                  "Measure --delta along REF instead of the estimate");
+}
+
+void declare_output(CLI::App& command, EvalArguments& a) {
+  command.option_defaults()->group("Output");
   command
       .add_option("--unit,--change_unit",
                   a.unit,
@@ -185,10 +174,7 @@ void declare(CLI::App& command, EvalArguments& a) {
       ->allow_extra_args(false)
       ->type_name("NAMES");
   command.add_flag("--full", a.full, "Print all statistics, single axes and the diagnosis");
-  flag("--all_pairs", "pairs=all", "Use all pairs for rpe");
-  flag("--pairs_from_reference",
-       "pairs_from=reference",
-       "Measure --delta along REF instead of the estimate");
+  command.add_flag("--paired", a.paired, "Pair runs of equal names in verdicts");
   command.add_flag("--json", a.json, "Print JSON in full precision, one list entry per evaluation")
       ->excludes("--columns");
   command
@@ -206,10 +192,10 @@ void declare(CLI::App& command, EvalArguments& a) {
           "--plot,--save_plot",
           a.plot,
           "Figures PREFIX_trajectories, PREFIX_errors and PREFIX_axes as .svg, .pdf and .png, or "
-          "as .pgf for PREFIX.pgf (likewise .svg, .pdf, .png), by default as wide as one column "
-          "of a paper (3.5 in)")
+          "as .pgf for PREFIX.pgf (likewise .svg, .pdf, .png), as wide as one column of a paper "
+          "(3.5 in); for other sizes and styles see `plot`")
       ->type_name("PREFIX");
-  declare_figure_options(command, a.figures, "--plot");
+  declare_curves(command, a.figures);
   command
       .add_option("--report",
                   a.report,
@@ -237,14 +223,16 @@ void declare(CLI::App& command, EvalArguments& a) {
                   "the poses of the references)")
       ->type_name("NAME")
       ->needs("--store");
-  command
-      .add_option("--common",
-                  a.common,
-                  "Evaluate only the times that all estimates of REF cover: yes or no (default: "
-                  "yes with --store)")
-      ->transform(one_of<bool>("answer", {{"yes", true}, {"no", false}}))
-      ->type_name("WORD");
-  command.add_flag("--paired", a.paired, "Pair runs of equal names in verdicts");
+}
+
+}  // namespace
+
+void declare(CLI::App& command, EvalArguments& a) {
+  declare_files(command, a);
+  declare_pairing(command, a);
+  declare_alignment(command, a);
+  declare_metrics(command, a);
+  declare_output(command, a);
 }
 
 }  // namespace loopbench::harness

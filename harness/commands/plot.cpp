@@ -8,7 +8,7 @@
 #include "harness/base/suggest.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/figure_options.hpp"
+#include "harness/commands/options.hpp"
 #include "harness/model/where.hpp"
 #include "harness/report/report.hpp"
 #include "harness/report/store_figures.hpp"
@@ -136,7 +136,7 @@ void add_plot(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>(kFigureFormats.begin(), kFigureFormats.end())))
       ->default_str("svg,pdf");
-  declare_figure_options(*command, arguments->figures, "");
+  declare_figures(*command, arguments->figures);
   command->callback([arguments, &exit_code] { exit_code = write_figures(*arguments); });
 }
 

@@ -3,13 +3,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "datasets/core/covariance.hpp"
 #include "harness/base/counted.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/traj_output.hpp"
+#include "harness/commands/traj_options.hpp"
 #include "harness/eval/evaluation_result.hpp"
 #include "harness/eval/trajectory_figures.hpp"
 #include "harness/eval/trajectory_selection.hpp"
@@ -21,6 +24,78 @@
 
 namespace loopbench::harness {
 namespace {
+
+using NamedTrajectories = std::vector<NamedTrajectory>;
+
+std::vector<std::string> names_of(const NamedTrajectories& all) {
+  std::vector<std::string> out;
+  for (const NamedTrajectory& each : all) out.push_back(each.name);
+  return out;
+}
+
+/// Rejects output files that are among the inputs.
+void protect_inputs(const TrajArguments& a, const std::vector<std::string>& outputs) {
+  std::vector<std::filesystem::path> inputs(a.files.begin(), a.files.end());
+  inputs.emplace_back(a.reference);
+  for (const std::string& file : outputs) {
+    if (!is_dash(file)) reject_overwriting(inputs, file);
+  }
+}
+
+/// Writes them to the files of the arguments (with --json none without -o), and says what a format
+/// loses. Returns the exit code.
+int write_all(const TrajArguments& a, const NamedTrajectories& all) {
+  const Format format = written_format(a);
+  if (a.json && is_dash(a.out)) return kExitOk;  // standard output is for JSON
+  const std::vector<std::string> files = output_files(names_of(all), a.out, format);
+  protect_inputs(a, files);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool loses_stamps =
+        (format == Format::kitti || format == Format::g2o) && a.times_out.empty();
+    const std::string assumed = assumed_period(all[i].file, a.reading);
+    if (!loses_stamps && !assumed.empty()) {
+      fmt::print(stderr,
+                 "loopbench: {} has no stamps: {} (--period S)\n",
+                 printable(all[i].name),
+                 assumed);
+    }
+    if (loses_stamps && all[i].file.has_stamps) {
+      fmt::print(stderr,
+                 "loopbench: {} does not contain stamps{}\n",
+                 to_text(format),
+                 format == Format::kitti ? "; --times-out FILE writes them" : "");
+    }
+    if (!all[i].file.covariances.empty() && !has_covariances(all[i].file, format)) {
+      fmt::print(stderr,
+                 "loopbench: {} has covariances, which are not written: expected --to csv{}\n",
+                 printable(all[i].name),
+                 lacks_rotations(all[i].file.poses) ? "" : " or tum");
+    }
+    std::optional<std::filesystem::path> times;
+    if (!a.times_out.empty()) times = a.times_out;
+    if (times && all.size() > 1) throw InputError("--times-out: expected one trajectory");
+    write_trajectory(files[i], all[i].file, format, times);
+    if (!is_dash(files[i]) && !a.json) {
+      fmt::print("{}: {}\n", printable(files[i]), counted(all[i].file.poses.size(), "pose"));
+    }
+  }
+  return kExitOk;
+}
+
+/// Reads, changes and writes the files; exact stamps stay valid only if no stamp has changed.
+int write_changed(const TrajArguments& a,
+                  const std::function<void(NamedTrajectory&)>& change,
+                  const NamedTrajectory* reference = nullptr) {
+  NamedTrajectories all = read_all_named(a.files, a.reading, reference);
+  for (NamedTrajectory& each : all) {
+    const bool is_uncertain = !each.file.covariances.empty();
+    change(each);
+    if (is_uncertain && each.file.covariances.empty()) {
+      fmt::print(stderr, "loopbench: {}: covariances are removed\n", printable(each.name));
+    }
+  }
+  return write_all(a, all);
+}
 
 /// Indices of paired poses. Throws InputError if there are none, or no common clock.
 std::vector<metrics::IndexPair> paired_indices(const TrajArguments& a,
@@ -66,10 +141,6 @@ int info(const TrajArguments& a) {
 
 /// Selects, shifts and projects in the order of evo_traj.
 int convert(const TrajArguments& a) {
-  auto plane = metrics::ProjectionPlane::none;
-  if (!a.plane.empty()) {
-    FieldType<metrics::ProjectionPlane>::assign("project_to_plane", plane, a.plane);
-  }
   return write_changed(a, [&](NamedTrajectory& each) {
     TrajectoryFile& file = each.file;
     if (a.downsample) file = selected(file, evenly_spaced(file.poses.size(), *a.downsample));
@@ -77,8 +148,8 @@ int convert(const TrajArguments& a) {
       file = selected(file, by_motion(file.poses, a.motion_filter[0], a.motion_filter[1]));
     }
     shift_stamps(file, a.offset);
-    if (plane == metrics::ProjectionPlane::none) return;
-    metrics::project(file.poses, plane);
+    if (a.plane == metrics::ProjectionPlane::none) return;
+    metrics::project(file.poses, a.plane);
     file.covariances.clear();
   });
 }
@@ -88,10 +159,7 @@ int merge_files(const TrajArguments& a) {
   std::vector<TrajectoryFile> files;
   for (const NamedTrajectory& each : all) reject_two_clocks(all.front(), each, a.reading);
   for (NamedTrajectory& each : all) files.push_back(std::move(each.file));
-  Repeats repeats = Repeats::keep_first;
-  if (!a.reading.repeats.empty()) {
-    FieldType<Repeats>::assign("repeats", repeats, a.reading.repeats);
-  }
+  const Repeats repeats = a.reading.repeats.value_or(Repeats::keep_first);
   std::vector<std::size_t> dropped;
   const NamedTrajectory out{"merged", merged(files, repeats, dropped), {}};
   const bool had_covariances = std::ranges::any_of(
@@ -145,8 +213,6 @@ int transform(const TrajArguments& a) {
 
 int align_files(const TrajArguments& a) {
   const NamedTrajectory reference = read_named(a.reference, a.reading);
-  metrics::Align type{};
-  FieldType<metrics::Align>::assign("align", type, a.align);
   std::vector<AlignedFile> aligned;
   const auto change = [&](NamedTrajectory& each) {
     const auto pairs = paired_indices(a, reference, each);
@@ -155,7 +221,8 @@ int align_files(const TrajArguments& a) {
     const Trajectory of_estimate =
         paired_part(each.file, pairs, &metrics::IndexPair::estimate).poses;
     try {
-      const metrics::Alignment fit = metrics::align(of_reference, of_estimate, type, a.align_first);
+      const metrics::Alignment fit =
+          metrics::align(of_reference, of_estimate, a.align, a.align_first);
       each.file.poses = metrics::moved(fit, std::move(each.file.poses));
       rotate(each.file.covariances, fit.reference_from_estimate, fit.scale);
       const auto& [rotation, position] = fit.reference_from_estimate;

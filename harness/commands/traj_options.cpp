@@ -5,9 +5,7 @@
 
 #include "datasets/core/fields.hpp"
 #include "harness/commands/checks.hpp"
-#include "harness/commands/eval_options.hpp"
-#include "harness/commands/figure_options.hpp"
-#include "metrics/protocols/protocol.hpp"
+#include "harness/commands/options.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -19,17 +17,7 @@ void declare_inputs(CLI::App& verb, TrajArguments& a) {
                   "bag:FILE#/topic or bag:FILE#tf:PARENT.CHILD")
       ->required()
       ->expected(1, -1);
-  verb.add_option("-f,--format", a.reading.format, "Format of the files")
-      ->type_name(choice_type<Format>());
-  verb.add_option("--times", a.reading.times, "Times of KITTI poses, one per line [s]")
-      ->type_name("FILE");
-  verb.add_option("--period", a.reading.period, "Time between poses without stamps [s]")
-      ->check(finite_number());
-  verb.add_option("--repeats", a.reading.repeats, "Poses with a repeated stamp")
-      ->type_name(choice_type<Repeats>());
-  verb.add_option("--tf", a.reading.tf, "Frames in the TF tree of bags without a topic")
-      ->type_name("PARENT.CHILD");
-  verb.add_flag("--all-topics", a.reading.all_topics, "All trajectories of bags without a topic");
+  declare_reading(verb, a.reading);
 }
 
 void declare_output(CLI::App& verb, TrajArguments& a) {
@@ -50,7 +38,8 @@ void declare_changes(CLI::App& verb, TrajArguments& a) {
   declare_pose_filters(verb, a.downsample, a.motion_filter);
   declare_offset(verb, a);
   verb.add_option("--project_to_plane", a.plane, "Plane to project onto")
-      ->type_name(choice_type<metrics::ProjectionPlane>());
+      ->type_name("WORD")
+      ->transform(words_of<metrics::ProjectionPlane>("project_to_plane"));
 }
 
 void declare_pairing(CLI::App& verb, TrajArguments& a) {
@@ -103,7 +92,9 @@ void declare_transform(CLI::App& verb, TrajArguments& a) {
 }
 
 void declare_alignment(CLI::App& verb, TrajArguments& a) {
-  verb.add_option("--align", a.align, "Alignment")->type_name(choice_type<metrics::Align>());
+  verb.add_option("--align", a.align, "Alignment")
+      ->type_name("WORD")
+      ->transform(words_of<metrics::Align>("align"));
   verb.add_option("--align-first,--n_to_align", a.align_first, "Number of first pairs, 0 for all");
   verb.add_flag(
       "--json", a.json, "Print the transforms as JSON, as eval does, and poses only to -o FILE");
@@ -156,7 +147,7 @@ const std::vector<VerbInfo>& verb_infos() {
                                     "yaw",
                                     "speed"}))
              ->type_name("WORDS");
-         declare_figure_options(verb, a.figures, "");
+         declare_figures(verb, a.figures);
        }}}};
   return all;
 }

@@ -11,6 +11,7 @@
 #include "harness/eval/named_trajectory.hpp"
 #include "harness/eval/trajectory_figures.hpp"
 #include "harness/eval/transformation.hpp"
+#include "metrics/protocols/protocol.hpp"
 
 namespace CLI {
 class App;
@@ -41,10 +42,10 @@ struct TrajArguments {
   std::string association = "evo";
   double max_diff = 0.01;  ///< [s]
   double offset = 0.0;     ///< added to the stamps of the files [s]
-  std::string align = "se3";
+  metrics::Align align = metrics::Align::se3;
   std::size_t align_first = 0;
-  std::string plane;                                              ///< of `convert`; empty: none
-  std::vector<std::string> panels = default_trajectory_panels();  ///< of `plot`
+  metrics::ProjectionPlane plane = metrics::ProjectionPlane::none;  ///< of `convert`
+  std::vector<std::string> panels = default_trajectory_panels();    ///< of `plot`
   FigureOptions figures;
 };
 

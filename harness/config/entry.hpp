@@ -97,6 +97,7 @@ inline ConfigEntry parse_entry(const std::string& text, const std::string& where
       out.points.front().settings.push_back(std::move(setting));
     }
   }
+  reject_repeats(out.points.front());
   return out;
 }
 
@@ -117,17 +118,30 @@ inline Params to_params(const std::vector<Setting>& settings) {
   return out;
 }
 
-/// The values of `--set NAME=VALUE`, whose names and ranges are checked by whoever applies them.
-/// Throws InputError.
-inline Params parse_settings(const std::vector<std::string>& texts,
+/// A setting of the command line.
+struct GivenSetting {
+  std::string text;              ///< NAME=VALUE
+  std::string option = "--set";  ///< that states it
+};
+
+/// The values of settings, whose names and ranges are checked by whoever applies them. Throws
+/// InputError, also if two of them have the same name.
+inline Params parse_settings(const std::vector<GivenSetting>& given,
                              const std::vector<OptionInfo>& options) {
   std::vector<Setting> out;
-  for (const std::string& text : texts) {
-    out.push_back(parse_setting(text, "--set"));
-    const double* const real = std::get_if<double>(&out.back().value);
+  for (const GivenSetting& each : given) {
+    Setting setting = parse_setting(each.text, each.option);
+    const double* const real = std::get_if<double>(&setting.value);
     if (real != nullptr && !std::isfinite(*real)) {
-      throw InputError("--set: " + text + ": expected a finite number");
+      throw setting.place.error(each.text + ": expected a finite number");
     }
+    const auto before = std::ranges::find(out, setting.name, &Setting::name);
+    if (before != out.end()) {
+      throw InputError(setting.name + ": is set to " + to_text(before->value) + " by " +
+                       *before->place.file + " and to " + to_text(setting.value) + " by " +
+                       each.option);
+    }
+    out.push_back(std::move(setting));
   }
   restore_text_options(out, options);
   return to_params(out);

@@ -129,6 +129,8 @@ std::vector<GridPoint> product(const std::vector<GridPoint>& points, const Axis&
   return out;
 }
 
+}  // namespace
+
 void reject_repeats(const GridPoint& point) {
   std::set<std::string> seen;
   for (const Setting& setting : point.settings) {
@@ -136,8 +138,6 @@ void reject_repeats(const GridPoint& point) {
     throw setting.place.error(setting.name + ": is set twice in this entry");
   }
 }
-
-}  // namespace
 
 std::vector<GridPoint> expand(const YamlNode& entry, const std::vector<std::string>& reserved) {
   std::vector<GridPoint> points(1);

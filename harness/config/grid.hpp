@@ -23,6 +23,9 @@ struct GridPoint {
   std::vector<std::string> matched = {};  ///< texts of the wildcards in paths, see paths.hpp
 };
 
+/// Throws InputError `file:line:` if two settings of the point have the same name.
+void reject_repeats(const GridPoint& point);
+
 /// Every combination of `entry`'s scalar keys (except those in `reserved`), its `sweep` (each key a
 /// list or {from, to, steps, log}) and its `zip` (lists of equal length, advanced together). The
 /// first swept key varies slowest. `from: 1, to: 3, steps: 3` is 1 2 3; with `log: true` evenly

@@ -25,8 +25,6 @@ std::string scaled(const std::string& align) {
 
 Params changes(const EvalArguments& a, const metrics::Protocol& base) {
   Params out = parse_settings(a.settings, describe(base));
-  for (auto& [name, value] : parse_settings(a.fields, describe(base))) out[name] = value;
-  if (!a.align.empty()) out["align"] = a.align;
   if (a.correct_scale) {
     const auto given = out.find("align");
     out["align"] = scaled(given == out.end() ? to_text(base.align) : to_text(given->second));

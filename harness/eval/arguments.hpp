@@ -9,34 +9,31 @@
 #include "datasets/derive/reference_body.hpp"
 #include "datasets/formats/formats.hpp"
 #include "harness/catalogue/catalogue.hpp"
+#include "harness/config/entry.hpp"
 #include "harness/eval/eval_figures.hpp"
+#include "harness/eval/named_trajectory.hpp"
 #include "harness/model/sweep.hpp"
 
 namespace loopbench::harness {
 
-/// Empty strings and optionals mean the protocol's value.
-struct EvalArguments {
+/// Empty strings and optionals mean the protocol's value. Without `repeats` equal stamps are
+/// refused, or all are kept if every protocol pairs as evo does.
+struct EvalArguments : ReadArguments {
   std::string reference;
   std::vector<std::string> estimates;
-  std::string format = "auto";
-  std::string reference_format;      ///< empty: same as `format`
+  std::optional<Format> reference_format;  ///< none: same as `format`
   bool diagnose = true;              ///< likely mistakes in the files, notes and the diagnosis
   double reference_sigma = 0.0;      ///< of its positions, per axis [m]; 0: not stated
   bool reference_positions = false;  ///< ignore the rotations of the reference
   std::optional<std::string> reference_body;  ///< x,y,z[,qx,qy,qz,qw]; none: no offset
   std::string covariances;                    ///< file of the only estimate's; empty: none
   std::string reference_covariances;          ///< file of the reference's; empty: none
-  std::string times;                          ///< empty: none
-  std::string repeats;           ///< empty: refuse, or keep all if every protocol pairs as evo does
-  std::optional<double> period;  ///< [s]; none: default of ReadOptions
-  std::optional<std::size_t> downsample;  ///< most poses of each file
-  std::vector<double> motion_filter;      ///< thresholds [m, deg] between poses; empty: none
-  std::optional<double> start;            ///< time range of the reference [s]; none: all
+  std::optional<std::size_t> downsample;      ///< most poses of each file
+  std::vector<double> motion_filter;          ///< thresholds [m, deg] between poses; empty: none
+  std::optional<double> start;                ///< time range of the reference [s]; none: all
   std::optional<double> end;
   std::vector<std::string> protocols{"loopbench"};
-  std::vector<std::string> settings;  ///< FIELD=VALUE of the protocol
-  std::vector<std::string> fields;    ///< the same, of fields with an option of their own
-  std::string align;
+  std::vector<GivenSetting> settings;  ///< FIELD=VALUE of the protocol
   bool correct_scale = false;
   std::optional<double> min_coverage;  ///< none: a tenth, and half of the best of another estimate
   std::string relation;
@@ -49,10 +46,10 @@ struct EvalArguments {
   bool full = false;                 ///< print all scores and the diagnosis
   bool json = false;
   bool csv = false;
-  std::string per_pose;      ///< output file; empty: none
-  bool pose_errors = false;  ///< keep EvaluationResult::poses
-  std::string plot;          ///< prefix of figure files; empty: none
-  FigureOptions figures;
+  std::string per_pose;        ///< output file; empty: none
+  bool pose_errors = false;    ///< keep EvaluationResult::poses
+  std::string plot;            ///< prefix of figure files; empty: none
+  FigureOptions figures;       ///< labels and plane
   std::string report;          ///< HTML file; empty: none
   std::string store;           ///< folder of a store for the results; empty: none
   std::string sequence;        ///< label of the reference in the store; empty: from its file name
@@ -64,8 +61,8 @@ struct EvalArguments {
   bool keeps_traces() const { return !store.empty() || !report.empty(); }
 };
 
-/// Throws InputError for an unknown or repeated protocol or a malformed setting, OptionError for an
-/// invalid one.
+/// Throws InputError for an unknown or repeated protocol or a malformed or repeated setting,
+/// OptionError for an invalid one.
 std::vector<metrics::NamedProtocol> protocols(const EvalArguments& arguments);
 
 /// The listed metrics. As in evo, a relation selects ape and rpe in that relation; a delta or unit

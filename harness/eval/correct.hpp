@@ -8,6 +8,7 @@
 #include "datasets/core/problem.hpp"
 #include "datasets/formats/formats.hpp"
 #include "harness/catalogue/catalogue.hpp"
+#include "harness/config/entry.hpp"
 #include "harness/model/sweep.hpp"
 #include "harness/report/draw.hpp"
 #include "methods/report.hpp"
@@ -21,11 +22,11 @@ struct CorrectArguments {
   std::string anchors;                ///< measured positions for a trajectory; empty: none
   std::optional<double> start_equals_end = {};  ///< deviation of a closure of the ends [m]
   std::string frames;                           ///< all tracked poses of the run; empty: none
-  std::vector<std::string> settings;  ///< OPTION=VALUE of dataset `trajectory` or `pose_graph`
-  std::string at;                     ///< trajectory file whose stamps are used; empty: keyframes
-  bool dense = false;                 ///< output keyframes and frames
-  std::string out;                    ///< empty: no file; "-": standard output
-  Format format = Format::tum;        ///< of the file; g2o: a graph with all edges
+  std::vector<GivenSetting> settings;  ///< OPTION=VALUE of dataset `trajectory` or `pose_graph`
+  std::string at;                      ///< trajectory file whose stamps are used; empty: keyframes
+  bool dense = false;                  ///< output keyframes and frames
+  std::string out;                     ///< empty: no file; "-": standard output
+  Format format = Format::tum;         ///< of the file; g2o: a graph with all edges
 };
 
 /// Disagreement of poses with the edges of their problem.

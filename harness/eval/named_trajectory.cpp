@@ -55,10 +55,8 @@ NamedTrajectory read_named(const std::string& name, const ReadArguments& argumen
   NamedTrajectory out;
   out.name = name;
   ReadOptions options;
-  FieldType<Format>::assign("format", options.format, arguments.format);
-  if (!arguments.repeats.empty()) {
-    FieldType<Repeats>::assign("repeats", options.repeats, arguments.repeats);
-  }
+  options.format = arguments.format;
+  options.repeats = arguments.repeats.value_or(options.repeats);
   if (!arguments.times.empty()) options.times = arguments.times;
   if (arguments.period) options.period = *arguments.period;
   options.positions = true;

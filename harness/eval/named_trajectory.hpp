@@ -9,14 +9,14 @@
 
 namespace loopbench::harness {
 
-/// How all files of a command are read; strings as on the command line.
+/// How all files of a command are read.
 struct ReadArguments {
-  std::string format = "auto";
-  std::string times = {};
-  std::optional<double> period = {};
-  std::string repeats = {};  ///< empty: refuse within a file, keep_first across merged files
-  std::string tf = {};       ///< PARENT.CHILD for bags named without a topic; empty: none
-  bool all_topics = false;   ///< every trajectory of bags named without a topic
+  Format format = Format::automatic;
+  std::string times = {};               ///< of KITTI poses; empty: none
+  std::optional<double> period = {};    ///< [s]; none: default of ReadOptions
+  std::optional<Repeats> repeats = {};  ///< none: refuse in a file, keep_first across merged files
+  std::string tf = {};                  ///< PARENT.CHILD for bags without a topic; empty: none
+  bool all_topics = false;              ///< every trajectory of bags named without a topic
 };
 
 struct NamedTrajectory {

@@ -16,15 +16,7 @@
 namespace loopbench::harness {
 namespace {
 
-Format format_of(const char* option, const std::string& word) {
-  Format out{};
-  FieldType<Format>::assign(option, out, word);
-  return out;
-}
-
-const std::string& reference_format(const EvalArguments& a) {
-  return a.reference_format.empty() ? a.format : a.reference_format;
-}
+Format reference_format(const EvalArguments& a) { return a.reference_format.value_or(a.format); }
 
 /// Keeps the poses with these indices.
 void keep(RecordedFile& file, const std::vector<std::size_t>& indices) {
@@ -92,30 +84,24 @@ bool has_poses_of(Format wanted, const EvalArguments& a, const std::vector<Recor
     }
     return detect_format(file) == wanted;
   };
-  const Format of_references = format_of("ref-format", reference_format(a));
-  const Format of_estimates = format_of("format", a.format);
   return std::ranges::any_of(runs, [&](const RecordedRun& run) {
-    return is_wanted(run.reference, of_references) || is_wanted(run.estimate, of_estimates);
+    return is_wanted(run.reference, reference_format(a)) || is_wanted(run.estimate, a.format);
   });
 }
 
 }  // namespace
 
 Repeats repeats_of(const EvalArguments& a) {
-  Repeats out = Repeats::refuse;
-  if (a.repeats.empty()) {
-    const auto is_evo = [](const metrics::NamedProtocol& each) {
-      return each.rules.association == metrics::Association::evo;
-    };
-    return std::ranges::all_of(protocols(a), is_evo) ? Repeats::keep_all : out;
-  }
-  FieldType<Repeats>::assign("repeats", out, a.repeats);
-  return out;
+  if (a.repeats) return *a.repeats;
+  const auto is_evo = [](const metrics::NamedProtocol& each) {
+    return each.rules.association == metrics::Association::evo;
+  };
+  return std::ranges::all_of(protocols(a), is_evo) ? Repeats::keep_all : Repeats::refuse;
 }
 
 RecordedFile recorded_reference(const std::string& file, const EvalArguments& a, bool with_digits) {
-  RecordedFile out = read_recorded(
-      file, format_of("ref-format", reference_format(a)), a.reference_covariances, a, with_digits);
+  RecordedFile out =
+      read_recorded(file, reference_format(a), a.reference_covariances, a, with_digits);
   if (a.start || a.end) {
     const EvaluatedRange range = evaluated_range(a);
     keep(out, within(out.poses, range.start, range.end));
@@ -136,12 +122,8 @@ RecordedFile recorded_estimate(const std::string& file,
                                bool with_digits,
                                const RecordedFile* reference) {
   const std::optional<GeodeticOrigin> none;
-  RecordedFile out = read_recorded(file,
-                                   format_of("format", a.format),
-                                   a.covariances,
-                                   a,
-                                   with_digits,
-                                   reference ? reference->findings.origin : none);
+  RecordedFile out = read_recorded(
+      file, a.format, a.covariances, a, with_digits, reference ? reference->findings.origin : none);
   const ReferenceBody body = reference_body(a);
   if (reference == nullptr || !lacks_rotations(reference->poses) || !has_offset(body)) return out;
   if (metrics::is_position_only(out.poses)) {
@@ -170,8 +152,8 @@ Params reading_options(const EvalArguments& a) {
   if (!(period > 0.0)) {
     throw OptionError("period", "period = " + to_text(period) + ": expected period > 0");
   }
-  Params out{{"format", to_text(format_of("format", a.format))},
-             {"reference_format", to_text(format_of("ref-format", reference_format(a)))},
+  Params out{{"format", to_text(a.format)},
+             {"reference_format", to_text(reference_format(a))},
              {"repeats", repeats_of(a) == Repeats::keep_all ? "keep_all" : to_text(repeats_of(a))},
              {"times", a.times},
              {"reference_body", a.reference_body.value_or("")},

@@ -62,6 +62,25 @@ py::tuple evaluate_files(harness::EvalArguments arguments,
   return to_python(results);
 }
 
+/// `setting`: FIELD=VALUE of the protocol, stated by this argument.
+void set(harness::EvalArguments& arguments, const std::string& setting, const std::string& by) {
+  arguments.settings.push_back({setting, by});
+}
+
+/// Words of Format and Repeats; empty: the default.
+void read_as(harness::EvalArguments& arguments,
+             const std::string& format,
+             const std::string& reference_format,
+             const std::string& repeats) {
+  FieldType<Format>::assign("format", arguments.format, format);
+  if (!reference_format.empty()) {
+    FieldType<Format>::assign("ref-format", arguments.reference_format.emplace(), reference_format);
+  }
+  if (!repeats.empty()) {
+    FieldType<Repeats>::assign("repeats", arguments.repeats.emplace(), repeats);
+  }
+}
+
 /// check(), which accepts equal stamps where `eval` keeps those of files.
 void check_array(Trajectory poses,
                  const std::string& name,
@@ -244,8 +263,7 @@ PYBIND11_MODULE(_core, module) {
   py::class_<Arguments>(module, "EvalArguments")
       .def(py::init<>())
       .def_readwrite("protocols", &Arguments::protocols)
-      .def_readwrite("settings", &Arguments::settings)
-      .def_readwrite("align", &Arguments::align)
+      .def("set", &python::set)
       .def_readwrite("diagnose", &Arguments::diagnose)
       .def_readwrite("correct_scale", &Arguments::correct_scale)
       .def_readwrite("metrics", &Arguments::metrics)
@@ -255,9 +273,7 @@ PYBIND11_MODULE(_core, module) {
       .def_readwrite("delta_unit", &Arguments::delta_unit)
       .def_readwrite("min_coverage", &Arguments::min_coverage)
       .def_readwrite("reference_body", &Arguments::reference_body)
-      .def_readwrite("format", &Arguments::format)
-      .def_readwrite("reference_format", &Arguments::reference_format)
-      .def_readwrite("repeats", &Arguments::repeats)
+      .def("read_as", &python::read_as)
       .def_readwrite("times", &Arguments::times)
       .def_readwrite("period", &Arguments::period);
   py::class_<Problem>(module, "Problem").def(py::init(&python::problem_of));

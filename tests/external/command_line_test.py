@@ -59,7 +59,7 @@ class CommandLine(unittest.TestCase):
         files = ("a.txt", "b.txt", "c.txt")
         for labels in (("--labels", "A,B"), ("--labels", "A", "--labels", "B")):
             self.assertIn("c.txt", self.call("eval", *labels, *files))
-        self.assertIn("--size requires --plot", self.call("eval", "--size", "3,2", *files, code=2))
+        self.assertIn("--size requires --plot", self.call("correct", "--size", "3,2", "a.txt", code=2))
         self.assertIn("B: no such file", self.call("eval", "--labels", "A", "B", "a.txt", "b.txt", code=2))
         self.sweep()
         self.assertIn("raw", self.call("table", "--rows", "method,times", "r"))

@@ -64,10 +64,13 @@ void fuzz_eval(const std::filesystem::path& file) {
   EvalArguments arguments;
   arguments.reference_body = line(0);
   arguments.protocols = {line(1)};
-  arguments.settings = {line(2)};
-  if (!line(3).empty()) arguments.fields.push_back("association=" + line(3));
-  if (!line(5).empty()) arguments.fields.push_back("project=" + line(5));
-  arguments.align = line(4);
+  arguments.settings = {{line(2)}};
+  const auto set = [&](const std::string& field, const std::string& value) {
+    if (!value.empty()) arguments.settings.push_back({field + "=" + value, "--" + field});
+  };
+  set("association", line(3));
+  set("align", line(4));
+  set("project", line(5));
   arguments.relation = line(6);
   arguments.delta_unit = line(7);
   arguments.times = line(8);

@@ -271,6 +271,8 @@ TEST_F(Correct, BadArgumentsAreNamed) {
   EXPECT_THAT(error("--method uniform absent.txt"), HasSubstr("absent.txt"));
   EXPECT_THAT(error("--method dual est.txt --loops loops.txt -o est.txt"), HasSubstr("est.txt"));
   EXPECT_THAT(error("--method dual est.txt --loops loops.txt --set a=1"), HasSubstr("a: unknown"));
+  EXPECT_THAT(error("est.txt --set a=1 --set a=2"),
+              HasSubstr("a: is set to 1 by --set and to 2 by --set"));
 }
 
 }  // namespace

@@ -94,6 +94,22 @@ TEST(Eval, RefusesProtocolsThatCannotBe) {
             "align = origin: has no variant with scale; use se3 or none");
 }
 
+TEST(Eval, RefusesAFieldThatIsSetTwice) {
+  const auto why = [](const std::vector<std::string>& options) {
+    return refusal<InputError>(drift(options));
+  };
+  EXPECT_EQ(why({"--set=align=sim3", "--align=none"}),
+            "align: is set to none by --align and to sim3 by --set");
+  EXPECT_EQ(why({"--align=none", "-a"}), "align: is set to none by --align and to se3 by -a");
+  EXPECT_EQ(why({"--set=max_diff=1", "--set=max_diff=2"}),
+            "max_diff: is set to 1 by --set and to 2 by --set");
+  EXPECT_EQ(why({"--t_max_diff=1", "--set=max_diff=1"}),
+            "max_diff: is set to 1 by --max-diff and to 1 by --set");
+  EXPECT_EQ(why({"--all_pairs", "--set=pairs=tum"}),
+            "pairs: is set to tum by --set and to all by --all_pairs");
+  EXPECT_EQ(why({"--metric=rpe:delta=1,delta=2"}), "--metric: delta: is set twice in this entry");
+}
+
 Json evaluated(const std::vector<std::string>& options) {
   return eval_json(with(drift({"--protocol=evo", "-a"}), options));
 }

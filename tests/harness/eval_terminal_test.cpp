@@ -64,6 +64,18 @@ TEST_F(EvalOnATerminal, HelpBreaksListsOfChoices) {
   }
 }
 
+TEST_F(EvalOnATerminal, HelpHasAtMostFiftyOptionsInGroups) {
+  const std::string help = loopbench_command("eval --help", folder_).out;
+  for (const char* const group : {"Files", "Pairing", "Alignment", "Metrics", "Output"}) {
+    EXPECT_THAT(help, HasSubstr("\n\n" + std::string(group) + ":\n  -"));
+  }
+  std::size_t options = 0;
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) options += line.starts_with("  -") ? 1 : 0;
+  EXPECT_LE(options, 50u) << help;
+  EXPECT_GT(options, 40u) << help;
+}
+
 TEST_F(EvalOnATerminal, ColumnsAreChosen) {
   const auto last = [&](const std::string& arguments) {
     const CommandResult result = loopbench_command("eval gt.txt a.txt " + arguments, folder_);

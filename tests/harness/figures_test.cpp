@@ -130,7 +130,7 @@ class DrawnFigures : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(DrawnFigures, EvalFiguresAreOneColumnWideUnlessASizeIsGiven) {
+TEST_F(DrawnFigures, EvalFiguresAreOneColumnWide) {
   write_tum(folder_.path() / "gt.txt", path(0.0, 50.0));
   write_tum(folder_.path() / "est.txt", path(5.0, 50.0, 0.1));
   const std::string eval = "eval gt.txt est.txt --align none ";
@@ -139,10 +139,6 @@ TEST_F(DrawnFigures, EvalFiguresAreOneColumnWideUnlessASizeIsGiven) {
   for (const char* const name : {"a_trajectories.svg", "a_errors.svg", "a_axes.svg"}) {
     EXPECT_THAT(svg(name), HasSubstr("width=\"252pt\"")) << name;  // 3.5 in of 72 points
   }
-  successful_command(eval + "--plot b --size 2,1.5 --panel-columns 3 --font 9", folder_);
-  EXPECT_THAT(svg("b_errors.svg"), HasSubstr("width=\"432pt\""));
-  EXPECT_THAT(svg("b_errors.svg"), HasSubstr("font: 9px"));
-  EXPECT_EQ(loopbench_command(eval + "--size 2,1.5", folder_).exit_code, 2);
 }
 
 TEST_F(DrawnFigures, EvalStatesSequenceAlignmentAndScoreAndTakesLabels) {

@@ -55,8 +55,10 @@ def _arguments(
 ) -> _core.EvalArguments:
     out = _core.EvalArguments()
     out.protocols = [protocol]
-    out.align = align
-    out.settings = [f"{name}={_text(value)}" for name, value in (settings or {}).items()]
+    for name, value in (settings or {}).items():
+        out.set(f"{name}={_text(value)}", "--set")
+    if align:
+        out.set(f"align={align}", "align")
     return out
 
 
@@ -160,9 +162,7 @@ def evaluate(
         raise ValueError(f"min_coverage: found {min_coverage}, expected a number from 0 to 1")
     arguments.min_coverage = min_coverage
     arguments.reference_body = reference_body
-    arguments.format = format
-    arguments.reference_format = reference_format
-    arguments.repeats = repeats
+    arguments.read_as(format, reference_format, repeats)
     arguments.times = os.fspath(times)
     arguments.period = period
     arguments.diagnose = diagnose

@@ -1,0 +1,60 @@
+/// Options that several commands share, each declared once.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datasets/core/fields.hpp"
+#include "harness/config/entry.hpp"
+#include "harness/eval/named_trajectory.hpp"
+#include "harness/report/draw.hpp"
+
+namespace loopbench::harness {
+
+/// Accepts the words of an enum, which the help lists and shells complete. `option` names it in the
+/// OptionError that other words throw, as in configs.
+template <NamedEnum Enum>
+CLI::Validator words_of(const std::string& option) {
+  std::string all;
+  for (const auto& [name, value] : choices(Enum{}))
+    all += (all.empty() ? "" : "|") + std::string(name);
+  const auto translate = [option](std::string& text) {
+    Enum value{};
+    FieldType<Enum>::assign(option, value, text);
+    text = std::to_string(static_cast<int>(value));  // CLI11 parses enums as numbers
+    return std::string();
+  };
+  return CLI::Validator(translate, all);
+}
+
+/// Declares how trajectory files are read: all options of ReadArguments but those in `without`.
+void declare_reading(CLI::App& command,
+                     ReadArguments& reading,
+                     const std::vector<std::string>& without = {});
+
+/// A field of a protocol with an option of its own, besides --set.
+struct FieldOption {
+  std::string field;
+  std::string names;  ///< of the option: "--max-diff,--t_max_diff"
+};
+
+/// Declares an option with the help and the type of its field for each of these. Values are
+/// appended to `given`; whoever applies them checks their ranges.
+void declare_fields(CLI::App& command,
+                    const std::vector<FieldOption>& options,
+                    std::vector<GivenSetting>& given);
+
+/// Declares --downsample and --motion_filter.
+void declare_pose_filters(CLI::App& command,
+                          std::optional<std::size_t>& downsample,
+                          std::vector<double>& motion_filter);
+
+/// Declares --labels and --plane of figures.
+void declare_curves(CLI::App& command, FigureOptions& options);
+
+/// Declares the style of figures, too. `needs`: option without which it has no effect; empty: none.
+void declare_figures(CLI::App& command, FigureOptions& options, const std::string& needs = "");
+
+}  // namespace loopbench::harness
