@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <thread>
 
 #include "harness/base/counted.hpp"
@@ -70,67 +71,66 @@ DataRoot data_root(const Sweep& sweep, const std::string& data) {
   return root;
 }
 
-std::string protocol_names(const Sweep& sweep) {
-  std::string out;
-  for (const metrics::NamedProtocol& protocol : sweep.protocols) {
-    out += fmt::format("{}{} [{}]", out.empty() ? "" : ", ", protocol.label(), protocol.version);
-  }
+/// What to run, and where the results go.
+struct RunPlan {
+  Catalogue known;
+  Sweep sweep;
+  DataRoot root;
+  std::vector<Cell> all;
+  std::vector<Cell> selected;  ///< of --only
+  std::vector<Cell> planned;   ///< of those, the shard's
+  std::optional<Shard> shard;
+  std::filesystem::path given;  ///< folder of the sweep's results
+  std::filesystem::path out;    ///< folder of the store
+
+  std::filesystem::path store() const { return out / "results.sqlite"; }
+};
+
+/// Throws InputError.
+RunPlan plan(const RunArguments& arguments) {
+  RunPlan out;
+  const std::filesystem::path config = config_path(arguments.config);
+  out.known = catalogue(with_config_plugins(arguments.plugins, config));
+  out.sweep = read_sweep(config, out.known, arguments.data);
+  out.root = data_root(out.sweep, arguments.data);
+  const std::vector<bool> with_seed = seeded(out.sweep, out.known);
+  out.all = cells(out.sweep, with_seed, "");
+  out.selected = cells(out.sweep, with_seed, arguments.only);
+  if (out.selected.empty()) throw InputError(arguments.config + ": no cells to run");
+  reject_standard_output("--out", arguments.out);
+  out.given = arguments.out.empty() ? "results/" + out.sweep.name : arguments.out;
+  if (!arguments.shard.empty()) out.shard = parse_shard(arguments.shard);
+  out.planned = cells_of(out.shard.value_or(Shard{}), out.selected);
+  out.out = out.shard ? out.given / "shards" / out.shard->folder() : out.given;
   return out;
 }
 
-/// Returns the exit code. Throws InputError, MissingPart.
-int run_config(const RunArguments& arguments, const Source& source) {
-  const Catalogue known =
-      catalogue(with_config_plugins(arguments.plugins, config_path(arguments.config)));
-  const Sweep sweep = read_sweep(config_path(arguments.config), known, arguments.data);
-  const DataRoot root = data_root(sweep, arguments.data);
-  const std::vector<bool> with_seed = seeded(sweep, known);
-  const std::vector<Cell> all = cells(sweep, with_seed, "");
-  const std::vector<Cell> selected = cells(sweep, with_seed, arguments.only);
-  if (selected.empty()) throw InputError(arguments.config + ": no cells to run");
-  reject_standard_output("--out", arguments.out);
-  const std::filesystem::path given(arguments.out.empty() ? "results/" + sweep.name
-                                                          : arguments.out);
-  CellKeys keys(sweep, known, root, build_id(source.code));
-  const bool is_shard = !arguments.shard.empty();
-  const Shard shard = is_shard ? parse_shard(arguments.shard) : Shard{};
-  const std::vector<Cell> planned = cells_of(shard, selected);
-  const std::filesystem::path out = is_shard ? given / "shards" / shard.folder() : given;
-  if (arguments.dry_run) {
-    print_plan(sweep, planned);
-    try {
-      require_parts(sweep, planned, known);
-    } catch (const MissingPart& missing) {  // the inputs can be checked without it
-      print_error("loopbench: this build cannot run it: {}\n", missing.what());
-    }
-    return report_bad_inputs(sweep, planned, known, root);
+/// First note of a nondeterministic method, and the number of its cells.
+using Unsteady = std::map<std::string, std::pair<std::string, int>>;
+
+void count(const CellResult& result,
+           const std::string& method,
+           CellCounts& out,
+           Unsteady& unsteady) {
+  ++out.done;
+  if (has_failure(result)) ++out.failed;
+  if (result.status == Status::incomplete) ++out.incomplete;
+  for (const std::string& note : result.report.notes) {
+    if (!note.starts_with(kNondeterministic)) continue;
+    auto& [first, number] = unsteady[method];
+    if (number++ == 0) first = note;
   }
-  require_parts(sweep, planned, known);
-  if (planned.empty() && is_shard) {
-    fmt::print("shard {} has no cells\n", arguments.shard);
-    return kExitOk;
-  }
-  const std::filesystem::path file = out / "results.sqlite";
-  SandboxOptions sandbox;
-  sandbox.enabled = !arguments.no_sandbox;
-  sandbox.hidden = {given, given / "results.sqlite"};
-  if (!arguments.data.empty()) sandbox.hidden.emplace_back(arguments.data);
-  std::map<std::string, std::string> run_provenance = provenance(source, sweep, known);
-  if (arguments.save_trajectories) {
-    set_estimate_folder(out / "trajectories");
-  }
-  if (uses_programs(sweep)) {
-    run_provenance["sandbox"] = sandbox.enabled && has_bubblewrap() ? "bubblewrap" : "none";
-  }
-  std::optional<Store> store(std::in_place, file, keys, run_provenance, arguments.fresh);
-  if (is_shard) store->set_shard(shard.name() + " " + division_hash(selected));
-  const Resumed resumed = store->resume(all, planned, *from_text<Retry>(arguments.retry));
-  report_damage(resumed, file);
-  const std::vector<Cell>& missing = resumed.missing;
-  std::size_t done = 0;
-  std::size_t failed = resumed.failed;
-  std::size_t incomplete = resumed.incomplete;
-  std::size_t abandoned = 0;
+}
+
+/// Runs the cells that the store lacks and writes them to it.
+CellCounts compute(const RunPlan& plan,
+                   const RunArguments& arguments,
+                   CellKeys& keys,
+                   Store& store) {
+  const Sweep& sweep = plan.sweep;
+  const Resumed resumed = store.resume(plan.all, plan.planned, *from_text<Retry>(arguments.retry));
+  report_damage(resumed, plan.store());
+  CellCounts out{resumed.there, resumed.there, resumed.failed, resumed.incomplete};
   const StopRequests& interrupted = install_interrupt_handler();
   if (arguments.save_trajectories && resumed.there > 0) {
     print_error(
@@ -138,87 +138,104 @@ int run_config(const RunArguments& arguments, const Source& source) {
         "--retry all recomputes them\n",
         counted(resumed.there, "cell"));
   }
-  if (!missing.empty()) {
-    Progress progress(missing.size());
-    const std::vector<InputFile> no_inputs;
-    std::map<std::string, std::pair<std::string, int>> unsteady;  // first note of a method, count
-    const auto finished = [&](const CellResult& r) {
-      if (r.status == Status::interrupted) {
-        ++abandoned;
-        return;
-      }
-      store->write(r);
-      keep_estimate(r.cell, keys.key(r.cell, r.metadata ? r.metadata->inputs : no_inputs));
-      ++done;
-      if (has_failure(r)) ++failed;
-      if (r.status == Status::incomplete) ++incomplete;
-      for (const std::string& note : r.report.notes) {
-        if (!note.starts_with(kNondeterministic)) continue;
-        auto& [first, count] = unsteady[sweep.methods[r.cell.method].label];
-        if (count++ == 0) first = note;
-      }
-      progress.step(sweep.datasets[r.cell.dataset].label + " / " +
-                    sweep.methods[r.cell.method].label);
-    };
-    run_isolated(sweep, missing, known, root, arguments.jobs, sandbox, interrupted, finished);
-    for (const auto& [method, note] : unsteady) {
-      const int others = note.second - 1;
-      const std::string more = others == 0 ? "" : fmt::format(" (and {} more cells)", others);
-      print_error("{}\n", printable(method + ": " + note.first + more));
+  if (resumed.missing.empty()) return out;
+  Progress progress(resumed.missing.size());
+  const std::vector<InputFile> no_inputs;
+  Unsteady unsteady;
+  const auto finished = [&](const CellResult& r) {
+    if (r.status == Status::interrupted) {
+      ++out.abandoned;
+      return;
     }
-  }
-  if (done + resumed.there == 0) return kExitInterrupted;
-
-  const bool is_failure = failed > 0 && !arguments.failed_cells_ok;
-  const int exit_code = interrupted > 0 ? kExitInterrupted
-                        : is_failure    ? kExitSomeCellsFailed
-                                        : kExitOk;
-  const auto report_interruption = [&] {
-    if (interrupted == 0) return;
-    print_error("loopbench: interrupted{}; finished cells are kept, the others run next time\n",
-                abandoned == 0 ? "" : fmt::format(", {} running cells abandoned", abandoned));
+    store.write(r);
+    keep_estimate(r.cell, keys.key(r.cell, r.metadata ? r.metadata->inputs : no_inputs));
+    const std::string& method = sweep.methods[r.cell.method].label;
+    count(r, method, out, unsteady);
+    progress.step(sweep.datasets[r.cell.dataset].label + " / " + method);
   };
-  if (is_shard) {
+  SandboxOptions sandbox;
+  sandbox.enabled = !arguments.no_sandbox;
+  sandbox.hidden = {plan.given, plan.given / "results.sqlite"};
+  if (!arguments.data.empty()) sandbox.hidden.emplace_back(arguments.data);
+  run_isolated(sweep,
+               resumed.missing,
+               plan.known,
+               plan.root,
+               arguments.jobs,
+               sandbox,
+               interrupted,
+               finished);
+  for (const auto& [method, note] : unsteady) {
+    const int others = note.second - 1;
+    const std::string more = others == 0 ? "" : fmt::format(" (and {} more cells)", others);
+    print_error("{}\n", printable(method + ": " + note.first + more));
+  }
+  return out;
+}
+
+/// Prints the results, and writes the tables of a complete sweep. Closes the store.
+void tell(const RunPlan& plan, const CellCounts& counts, std::optional<Store>& store) {
+  if (plan.shard) {
     store->close();
     fmt::print("shard {}: {} of {} cells done, {} failed\n{}\nnext, with all shards:\n  {}\n",
-               arguments.shard,
-               done + resumed.there,
-               planned.size(),
-               failed,
-               printable(file.string()),
-               merge_command(given));
-    report_interruption();
-    return exit_code;
+               plan.shard->name(),
+               counts.done,
+               plan.planned.size(),
+               counts.failed,
+               printable(plan.store().string()),
+               merge_command(plan.given));
+  } else {
+    const bool has_tables = plan.all.size() <= kMostCellsInTables;
+    if (has_tables) {
+      const std::vector<Record> records = all_records(plan.store());
+      fmt::print("{}", summary_text(records, plan.sweep));  // even if a table of it fails
+      write_tables(plan.store(), plan.sweep, records, plan.out);
+    }
+    store->close();
+    store.reset();
+    const char* const files =
+        has_tables ? "{results.sqlite,table.md,table.csv,rows.csv}" : "results.sqlite";
+    const std::string no_tables =
+        has_tables ? ""
+                   : fmt::format("more than {} cells: no tables and summary\n", kMostCellsInTables);
+    fmt::print("{}\n{}{}\n{}",
+               fitted(status_text(counts, plan.planned.size(), plan.sweep)),
+               no_tables,
+               printable((plan.out / files).string()),
+               next_commands(plan.out));
   }
+  if (stop_requests == 0) return;
+  print_error(
+      "loopbench: interrupted{}; finished cells are kept, the others run next time\n",
+      counts.abandoned == 0 ? "" : fmt::format(", {} running cells abandoned", counts.abandoned));
+}
 
-  const bool has_tables = all.size() <= kMostCellsInTables;
-  const std::vector<Record> records = has_tables ? all_records(file) : std::vector<Record>{};
-  if (has_tables) fmt::print("{}", summary_text(records, sweep));  // even if a table of it fails
-  if (has_tables) write_tables(file, sweep, records, out);
-  store->close();
-  store.reset();
-  const std::string earlier =
-      resumed.there == 0 ? "" : fmt::format(" ({} of them in earlier runs)", resumed.there);
-  const std::string status =
-      fmt::format("{} of {} cells done{}, {} failed{}; value: {}; protocol: {}",
-                  done + resumed.there,
-                  planned.size(),
-                  earlier,
-                  failed,
-                  incomplete == 0 ? "" : fmt::format(", {} incomplete", incomplete),
-                  sweep.table.value,
-                  protocol_names(sweep));
-  fmt::print(
-      "{}\n{}{}\n{}",
-      fitted(status),
-      has_tables ? ""
-                 : fmt::format("more than {} cells: no tables and summary\n", kMostCellsInTables),
-      printable(
-          (out / (has_tables ? "{results.sqlite,table.md,table.csv,rows.csv}" : "results.sqlite"))
-              .string()),
-      next_commands(out));
-  report_interruption();
-  return exit_code;
+/// Returns the exit code. Throws InputError, MissingPart.
+int run_config(const RunArguments& arguments, const Source& source) {
+  const RunPlan planned = plan(arguments);
+  if (arguments.dry_run) {
+    return dry_run(planned.sweep, planned.planned, planned.known, planned.root);
+  }
+  require_parts(planned.sweep, planned.planned, planned.known);
+  if (planned.planned.empty() && planned.shard) {
+    fmt::print("shard {} has no cells\n", planned.shard->name());
+    return kExitOk;
+  }
+  std::map<std::string, std::string> facts = provenance(source, planned.sweep, planned.known);
+  if (arguments.save_trajectories) set_estimate_folder(planned.out / "trajectories");
+  if (uses_programs(planned.sweep)) {
+    facts["sandbox"] = !arguments.no_sandbox && has_bubblewrap() ? "bubblewrap" : "none";
+  }
+  CellKeys keys(planned.sweep, planned.known, planned.root, build_id(source.code));
+  std::optional<Store> store(std::in_place, planned.store(), keys, facts, arguments.fresh);
+  if (planned.shard) {
+    store->set_shard(planned.shard->name() + " " + division_hash(planned.selected));
+  }
+  const CellCounts counts = compute(planned, arguments, keys, *store);
+  if (counts.done == 0) return kExitInterrupted;
+  tell(planned, counts, store);
+  const bool is_failure = counts.failed > 0 && !arguments.failed_cells_ok;
+  return stop_requests > 0 ? kExitInterrupted : is_failure ? kExitSomeCellsFailed : kExitOk;
 }
 
 }  // namespace

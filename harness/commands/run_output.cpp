@@ -110,6 +110,8 @@ void Progress::step(const std::string& label) {
   std::fflush(stderr);
 }
 
+namespace {
+
 void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
   for (const Cell& cell : planned) {
     const std::string repeat = cell.repeat > 0 ? fmt::format(" (repeat {})", cell.repeat) : "";
@@ -127,6 +129,8 @@ void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
              metrics == 1 ? "" : "s");
 }
 
+}  // namespace
+
 void require_parts(const Sweep& sweep, const std::vector<Cell>& cells, const Catalogue& catalogue) {
   for (const Cell& cell : cells) {
     const DatasetChoice& choice = sweep.datasets[cell.dataset];
@@ -135,10 +139,16 @@ void require_parts(const Sweep& sweep, const std::vector<Cell>& cells, const Cat
   }
 }
 
-int report_bad_inputs(const Sweep& sweep,
-                      const std::vector<Cell>& cells,
-                      const Catalogue& catalogue,
-                      const DataRoot& root) {
+int dry_run(const Sweep& sweep,
+            const std::vector<Cell>& cells,
+            const Catalogue& catalogue,
+            const DataRoot& root) {
+  print_plan(sweep, cells);
+  try {
+    require_parts(sweep, cells, catalogue);
+  } catch (const MissingPart& missing) {  // the inputs can be checked without it
+    print_error("loopbench: this build cannot run it: {}\n", missing.what());
+  }
   const std::vector<std::string> reasons = bad_inputs(sweep, cells, catalogue, root);
   if (reasons.empty()) return kExitOk;
   for (const std::string& reason : reasons) {
@@ -147,6 +157,25 @@ int report_bad_inputs(const Sweep& sweep,
   print_error("loopbench: {} of the sequences above cannot be loaded; their cells would fail\n",
               reasons.size());
   return kExitBadInput;
+}
+
+std::string status_text(const CellCounts& counts, std::size_t planned, const Sweep& sweep) {
+  std::string protocols;
+  for (const metrics::NamedProtocol& each : sweep.protocols) {
+    protocols +=
+        fmt::format("{}{} [{}]", protocols.empty() ? "" : ", ", each.label(), each.version);
+  }
+  const std::string earlier =
+      counts.earlier == 0 ? "" : fmt::format(" ({} of them in earlier runs)", counts.earlier);
+  return fmt::format(
+      "{} of {} cells done{}, {} failed{}; value: {}; protocol: {}",
+      counts.done,
+      planned,
+      earlier,
+      counts.failed,
+      counts.incomplete == 0 ? "" : fmt::format(", {} incomplete", counts.incomplete),
+      sweep.table.value,
+      protocols);
 }
 
 void report_damage(const Resumed& resumed, const std::filesystem::path& store) {

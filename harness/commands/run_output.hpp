@@ -38,18 +38,26 @@ class Progress {
   Clock::time_point drawn_{};
 };
 
-/// Prints the list of cells.
-void print_plan(const Sweep& sweep, const std::vector<Cell>& planned);
-
 /// Throws MissingPart when a sequence of the cells needs a part that this build was made without.
 void require_parts(const Sweep& sweep, const std::vector<Cell>& cells, const Catalogue& catalogue);
 
-/// Prints to standard error which sequences of the cells cannot be loaded, and why; returns the
-/// exit code. Throws MissingPart if this build cannot read a file.
-int report_bad_inputs(const Sweep& sweep,
-                      const std::vector<Cell>& cells,
-                      const Catalogue& catalogue,
-                      const DataRoot& root);
+/// Prints the list of cells, and to standard error which of their sequences cannot be loaded, and
+/// why; returns the exit code. Throws MissingPart if this build cannot read a file.
+int dry_run(const Sweep& sweep,
+            const std::vector<Cell>& cells,
+            const Catalogue& catalogue,
+            const DataRoot& root);
+
+struct CellCounts {
+  std::size_t earlier = 0;  ///< done in earlier runs
+  std::size_t done = 0;     ///< all of them
+  std::size_t failed = 0;
+  std::size_t incomplete = 0;
+  std::size_t abandoned = 0;
+};
+
+/// "12 of 12 cells done (3 of them in earlier runs), 0 failed; value: rmse; protocol: ...".
+std::string status_text(const CellCounts& counts, std::size_t planned, const Sweep& sweep);
 
 /// Prints to standard error which damaged cells are recomputed, if any.
 void report_damage(const Resumed& resumed, const std::filesystem::path& store);
