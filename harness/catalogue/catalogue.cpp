@@ -88,8 +88,7 @@ bool is_joint(const Catalogue& catalogue,
 }
 
 bool has_foreign_code(const Catalogue& catalogue, const Choice& dataset) {
-  return dataset.name == kCommandDataset ||
-         !plugin_version(catalogue, "dataset", dataset.name).empty();
+  return is_program(dataset) || !plugin_version(catalogue, "dataset", dataset.name).empty();
 }
 
 std::string plugin_version(const Catalogue& catalogue,

@@ -9,6 +9,9 @@
 
 namespace loopbench::harness {
 
+/// Name of the method, the dataset and the metric that run a program.
+inline constexpr const char* kCommand = "command";
+
 struct CommandOptions {
   std::string run;
   std::string serve;

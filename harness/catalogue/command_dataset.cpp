@@ -268,7 +268,7 @@ Sequence load_command(const CommandDatasetOptions& o,
 }  // namespace
 
 Limits loading_limits(const Choice& dataset, Limits of_cells) {
-  if (dataset.name != kCommandDataset) return of_cells;
+  if (dataset.name != kCommand) return of_cells;
   const auto options = with(CommandDatasetOptions{}, dataset.options);
   if (options.seconds > 0.0) of_cells.seconds = options.seconds;
   if (options.memory > 0.0) {
@@ -279,7 +279,7 @@ Limits loading_limits(const Choice& dataset, Limits of_cells) {
 
 DatasetEntry command_dataset(const std::filesystem::path& cache) {
   return dataset<CommandDatasetOptions>(
-      kCommandDataset,
+      kCommand,
       "any program as a SLAM system; see methods/bring_a_method.md",
       [cache](const CommandDatasetOptions& options, const DataRoot& root) {
         return load_command(options, root, cache);

@@ -13,8 +13,6 @@
 
 namespace loopbench::harness {
 
-inline constexpr const char* kCommandDataset = "command";
-
 /// Its entry. Outputs of programs are kept in `cache`; empty: in TMPDIR, which ends with a worker.
 DatasetEntry command_dataset(const std::filesystem::path& cache);
 

@@ -126,11 +126,7 @@ void require_distinct(const std::vector<metrics::Score>& scores) {
 
 metrics::MetricEntry command_metric() {
   return metrics::metric<CommandMetricOptions>(
-      kCommandMetric, "any program; see methods/exchange.md", score_here);
-}
-
-CommandOptions program_of_metric(const Params& options) {
-  return with(CommandMetricOptions{}, options).program;
+      kCommand, "any program; see methods/exchange.md", score_here);
 }
 
 std::vector<metrics::Score> parse_scores(const std::string& text, int ddof, std::size_t pairs) {
@@ -154,7 +150,7 @@ std::vector<metrics::Score> parse_scores(const std::string& text, int ddof, std:
 std::vector<metrics::Score> command_scores(const metrics::Evaluation& evaluation,
                                            const Params& options,
                                            const CommandSetting& setting) {
-  const CommandOptions program = program_of_metric(options);
+  const CommandOptions program = with(CommandMetricOptions{}, options).program;
   const int ddof = evaluation.protocol.ddof;
   const std::size_t pairs = evaluation.reference.size();
   if (program.serve.empty()) {

@@ -16,13 +16,8 @@
 
 namespace loopbench::harness {
 
-inline constexpr const char* kCommandMetric = "command";
-
 /// Its entry; programs run in the current folder.
 metrics::MetricEntry command_metric();
-
-/// The program of the metric.
-CommandOptions program_of_metric(const Params& options);
 
 /// Scores of a program that runs in the folder of the setting. Throws as MetricEntry::score.
 std::vector<metrics::Score> command_scores(const metrics::Evaluation& evaluation,

@@ -1,22 +1,16 @@
 #include "harness/catalogue/external_methods.hpp"
 
 #include <algorithm>
+#include <utility>
 
-#include "harness/catalogue/command_dataset.hpp"
-#include "harness/catalogue/command_metric.hpp"
 #include "harness/catalogue/server.hpp"
+#include "methods/pipeline.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-constexpr const char* kCommand = "command";
-
-/// Options of a stage that runs a program.
+/// Options of what runs a program: the metric has those of the method without `output`.
 CommandOptions command_options(const Params& given) { return with(CommandOptions{}, given); }
-
-bool has_program(const MethodChoice& choice) {
-  return std::ranges::any_of(choice.stages, is_program);
-}
 
 }  // namespace
 
@@ -28,14 +22,10 @@ methods::MethodEntry command_entry() {
           [](const Params& given) { return make_command(command_options(given), {}); }};
 }
 
-bool is_program(const Choice& stage) { return stage.name == kCommand; }
+bool is_program(const Choice& choice) { return choice.name == kCommand; }
 
-methods::Stage make_program(const Choice& stage, const CommandSetting& setting) {
-  return make_command(command_options(stage.options), setting);
-}
-
-std::string program_version(const Choice& stage, const CommandSetting& setting) {
-  return command_version(command_options(stage.options), setting);
+std::string program_version(const Choice& choice, const CommandSetting& setting) {
+  return command_version(command_options(choice.options), setting);
 }
 
 CommandSetting command_setting(const Sweep& sweep) {
@@ -44,15 +34,11 @@ CommandSetting command_setting(const Sweep& sweep) {
 }
 
 bool uses_programs(const Sweep& sweep) {
-  const auto is_program_dataset = [](const DatasetChoice& choice) {
-    return choice.dataset.name == kCommandDataset;
-  };
-  const auto is_program_metric = [](const MetricChoice& choice) {
-    return choice.metric.name == kCommandMetric;
-  };
-  return std::ranges::any_of(sweep.datasets, is_program_dataset) ||
-         std::ranges::any_of(sweep.methods, has_program) ||
-         std::ranges::any_of(sweep.metrics, is_program_metric);
+  return std::ranges::any_of(sweep.datasets, is_program, &DatasetChoice::dataset) ||
+         std::ranges::any_of(sweep.metrics, is_program, &MetricChoice::metric) ||
+         std::ranges::any_of(sweep.methods, [](const MethodChoice& method) {
+           return std::ranges::any_of(method.stages, is_program);
+         });
 }
 
 std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep) {
@@ -60,24 +46,43 @@ std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep) {
 }
 
 void prepare_programs(const MethodChoice& choice, const Sweep& sweep) {
-  const auto prepare = [&](const CommandOptions& options) {
+  const auto prepare = [&](const Choice& each) {
+    if (!is_program(each)) return;
+    const CommandOptions options = command_options(each.options);
     if (options.serve.empty()) return;
     try {
       prepare_server(options, command_setting(sweep));
     } catch (const std::exception&) {  // asking fails for the same reason and reports it
     }
   };
-  for (const Choice& stage : choice.stages) {
-    if (is_program(stage)) prepare(command_options(stage.options));
-  }
-  for (const MetricChoice& metric : sweep.metrics) {
-    if (metric.metric.name == kCommandMetric) prepare(program_of_metric(metric.metric.options));
-  }
+  std::ranges::for_each(choice.stages, prepare);
+  std::ranges::for_each(sweep.metrics, prepare, &MetricChoice::metric);
 }
 
-std::string metric_program_version(const Choice& metric, const CommandSetting& setting) {
-  if (metric.name != kCommandMetric) return "";
-  return command_version(program_of_metric(metric.options), setting);
+std::unique_ptr<const methods::Estimator> make_method(const MethodChoice& choice,
+                                                      const Catalogue& catalogue,
+                                                      const Trajectory& reference,
+                                                      const CommandSetting& setting) {
+  std::unique_ptr<const methods::Corrector> corrector;
+  std::unique_ptr<const methods::Smoother> smoother;
+  std::unique_ptr<const methods::Estimator> joint;
+  std::unique_ptr<const methods::Replayer> replayer;
+  for (const Choice& part : choice.stages) {
+    const methods::MethodEntry& entry = find_method(catalogue, part.name);
+    methods::Stage stage = entry.make_oracle  ? entry.make_oracle(part.options, reference)
+                           : is_program(part) ? make_command(command_options(part.options), setting)
+                                              : entry.make(part.options);
+    const auto take = [&stage](auto& to) {
+      using Held = std::remove_reference_t<decltype(to)>;
+      if (auto* held = std::get_if<Held>(&stage)) to = std::move(*held);
+    };
+    take(corrector);
+    take(smoother);
+    take(joint);
+    take(replayer);
+  }
+  if (joint == nullptr) joint = methods::compose(std::move(corrector), std::move(smoother));
+  return replayer == nullptr ? std::move(joint) : replayer->replayed(std::move(joint));
 }
 
 }  // namespace loopbench::harness

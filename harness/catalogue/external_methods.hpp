@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "harness/catalogue/catalogue.hpp"
 #include "harness/catalogue/command.hpp"
 #include "harness/catalogue/scratch.hpp"
 #include "harness/model/sweep.hpp"
@@ -12,14 +13,11 @@ namespace loopbench::harness {
 /// The method `command`; its make() uses the current folder.
 methods::MethodEntry command_entry();
 
-/// Whether a stage of a method runs a program.
-bool is_program(const Choice& stage);
+/// Whether a dataset, a metric or a stage of a method runs a program.
+bool is_program(const Choice& choice);
 
-/// Throws OptionError.
-methods::Stage make_program(const Choice& stage, const CommandSetting& setting);
-
-/// Changes with the program. Throws InputError.
-std::string program_version(const Choice& stage, const CommandSetting& setting);
+/// Changes with the program of a stage or metric. Throws InputError.
+std::string program_version(const Choice& choice, const CommandSetting& setting);
 
 /// Programs of a sweep run in the folder of its config.
 CommandSetting command_setting(const Sweep& sweep);
@@ -34,7 +32,11 @@ std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep);
 /// not throw: asking reports what fails.
 void prepare_programs(const MethodChoice& choice, const Sweep& sweep);
 
-/// Changes with the program of a metric; empty if it has none. Throws InputError.
-std::string metric_program_version(const Choice& metric, const CommandSetting& setting);
+/// Combines the stages of a choice into one method; only an oracle has access to `reference`, and
+/// only a program uses `setting`. Throws InputError, OptionError.
+std::unique_ptr<const methods::Estimator> make_method(const MethodChoice& choice,
+                                                      const Catalogue& catalogue,
+                                                      const Trajectory& reference,
+                                                      const CommandSetting& setting = {});
 
 }  // namespace loopbench::harness

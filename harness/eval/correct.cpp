@@ -14,7 +14,7 @@
 #include "harness/catalogue/external_methods.hpp"
 #include "harness/config/choices.hpp"
 #include "harness/run/check_output.hpp"
-#include "harness/run/doctor_notes.hpp"
+#include "harness/run/evaluation_notes.hpp"
 #include "harness/run/run_cell.hpp"
 #include "metrics/correction/graph_cost.hpp"
 

@@ -14,9 +14,8 @@
 #include "harness/eval/recorded_identity.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/run/add_scores.hpp"
-#include "harness/run/catch_errors.hpp"
-#include "harness/run/doctor_notes.hpp"
-#include "harness/run/sequence_identity.hpp"
+#include "harness/run/check_output.hpp"
+#include "harness/run/evaluation_notes.hpp"
 #include "harness/run/summarise_sequence.hpp"
 
 namespace loopbench::harness {

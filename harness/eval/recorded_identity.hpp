@@ -8,7 +8,6 @@
 #include "harness/eval/recorded_evaluation.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/model/sequence_metadata.hpp"
-#include "harness/run/sequence_identity.hpp"
 #include "harness/run/summarise_sequence.hpp"
 
 namespace loopbench::harness {

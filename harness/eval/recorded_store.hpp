@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/eval/recorded_sweep.hpp"
-#include "harness/run/collect_provenance.hpp"
+#include "harness/run/build.hpp"
 
 namespace loopbench::harness {
 

@@ -11,8 +11,8 @@
 #include "harness/catalogue/command_metric.hpp"
 #include "harness/catalogue/external_methods.hpp"
 #include "harness/catalogue/floating_point_guard.hpp"
-#include "harness/run/activity.hpp"
-#include "harness/run/catch_errors.hpp"
+#include "harness/run/check_output.hpp"
+#include "harness/run/watched_process.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -57,7 +57,7 @@ std::vector<metrics::Score> scores_of_metric(const metrics::MetricEntry& metric,
                                              const metrics::Evaluation& evaluation,
                                              const Sweep& sweep,
                                              const Catalogue& catalogue) {
-  if (metric.name == kCommandMetric) {
+  if (metric.name == kCommand) {
     return command_scores(evaluation, options, command_setting(sweep));
   }
   if (plugin_version(catalogue, "metric", metric.name).empty()) {

@@ -57,8 +57,9 @@ std::string evaluation_fields(const Sweep& sweep, const Catalogue& catalogue) {
         .add(hashed(
             in_full(find_metric(catalogue, metric.metric.name).options, metric.metric.options)))
         .add(plugin_version(catalogue, "metric", metric.metric.name));
-    const std::string program = metric_program_version(metric.metric, command_setting(sweep));
-    if (!program.empty()) fields.add(program);
+    if (is_program(metric.metric)) {
+      fields.add(program_version(metric.metric, command_setting(sweep)));
+    }
   }
   for (const metrics::Times times : sweep.times) fields.add(to_text(times));
   fields.add(to_text(sweep.min_coverage)).add(std::to_string(sweep.timing));

@@ -1,14 +1,18 @@
-/// Checks of what a method returns, before it is evaluated or stored.
+/// Checks of what methods and metrics return or throw, before it is evaluated or stored.
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <mutex>
+#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "datasets/core/curve.hpp"
+#include "datasets/core/error.hpp"
 #include "datasets/core/trajectory.hpp"
+#include "harness/model/status.hpp"
 #include "methods/report.hpp"
 #include "metrics/metric.hpp"
 
@@ -65,5 +69,32 @@ void check_scores(const std::vector<metrics::Score>& scores);
 /// Text of an exception or a reason as it is stored: one line of printable(), at most kLongestNote
 /// bytes and the number of omitted ones.
 std::string stored_reason(std::string_view text);
+
+/// what() of a plugin's exception can be null or empty.
+inline const char* message_of(const std::exception& error) {
+  const char* out = error.what();
+  return out != nullptr && *out != '\0' ? out : "threw an exception without a message";
+}
+
+/// Runs `work` and sets status and why of `result` for any exception: declined for an exception
+/// Declined, otherwise failed.
+template <class Result, class Work>
+void catch_errors(Result& result, Work work) {
+  try {
+    work();
+  } catch (const Declined& reason) {
+    result.status = Status::declined;
+    result.why = stored_reason(message_of(reason));
+  } catch (const std::bad_alloc&) {
+    result.status = Status::out_of_memory;
+    result.why = "memory allocation failed";
+  } catch (const std::exception& error) {
+    result.status = Status::failed;
+    result.why = stored_reason(message_of(error));
+  } catch (...) {
+    result.status = Status::failed;
+    result.why = "threw an exception that is not a std::exception";
+  }
+}
 
 }  // namespace loopbench::harness

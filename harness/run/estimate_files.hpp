@@ -12,7 +12,7 @@
 #include "datasets/formats/trajectory_file.hpp"
 #include "harness/model/cells.hpp"
 #include "harness/model/sweep.hpp"
-#include "harness/run/sequence_identity.hpp"
+#include "harness/run/summarise_sequence.hpp"
 
 namespace loopbench::harness {
 

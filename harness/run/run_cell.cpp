@@ -14,10 +14,9 @@
 #include "harness/catalogue/floating_point_guard.hpp"
 #include "harness/catalogue/server.hpp"
 #include "harness/run/add_scores.hpp"
-#include "harness/run/catch_errors.hpp"
 #include "harness/run/check_output.hpp"
 #include "harness/run/estimate_files.hpp"
-#include "harness/run/sequence_identity.hpp"
+#include "harness/run/summarise_sequence.hpp"
 #include "metrics/trajectory/tracking_gaps.hpp"
 
 namespace loopbench::harness {

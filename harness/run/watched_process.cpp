@@ -3,12 +3,16 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <linux/close_range.h>
+#include <malloc.h>
 #include <poll.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
+#include <cstdint>
+#include <cstdlib>
 #include <iterator>
 #include <optional>
 #include <stdexcept>
@@ -16,11 +20,9 @@
 #include "harness/base/child_process.hpp"
 #include "harness/base/descendants.hpp"
 #include "harness/base/printable.hpp"
+#include "harness/base/sanitized.hpp"
 #include "harness/base/system_file.hpp"
 #include "harness/catalogue/server.hpp"
-#include "harness/run/active_clock.hpp"
-#include "harness/run/activity.hpp"
-#include "harness/run/warm_heap.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -30,68 +32,81 @@ constexpr int kMemoryTick = 20;  // [ms], between checks of memory and processes
 /// Writable memory beyond the limit that a cell may reserve without using it [bytes].
 constexpr std::int64_t kReserve = std::int64_t{1} << 30;
 
+constexpr std::size_t kHugePage = std::size_t{2} << 20;  // [bytes]
+constexpr int kMapped = 32 << 20;  // [bytes], larger blocks have mappings of their own
+
+/// In a cell. Every page that a forked process touches first costs as much as microseconds of
+/// computing, which would be counted as time of fast methods. Lets malloc keep the memory it gets
+/// and take the next megabytes from huge pages (Linux's transparent ones, where enabled), the first
+/// of which is ready afterwards. Does nothing under a sanitizer.
+void warm_heap() {
+#ifndef LOOPBENCH_SANITIZED
+  mallopt(M_MMAP_THRESHOLD, kMapped);  // the largest value that malloc accepts
+  mallopt(M_TRIM_THRESHOLD, 8 * kMapped);
+  // An unused block up to the next huge page, so that the blocks after it are in huge pages.
+  const auto end = reinterpret_cast<std::uintptr_t>(sbrk(0));
+  const std::uintptr_t first = (end + kHugePage - 1) / kHugePage * kHugePage;
+  // Volatile, so that the compiler does not leave out allocations.
+  [[maybe_unused]] void* volatile const unused = std::malloc(first - end);
+  void* volatile const reserve = std::malloc(kMapped - kHugePage);
+  std::free(reserve);  // the heap keeps the address space
+  const std::uintptr_t last = reinterpret_cast<std::uintptr_t>(sbrk(0)) / kHugePage * kHugePage;
+  if (last <= first) return;  // malloc does not use this heap
+  madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+  *reinterpret_cast<volatile char*>(first + kHugePage / 2) = 0;  // free memory
+#endif
+}
+
 /// Forwards the beginning of what a cell prints to standard error and counts the rest.
 class CellOutput {
  public:
   static constexpr std::int64_t kForwarded = std::int64_t{64} << 10;  // [bytes]
   static constexpr std::int64_t kMost = std::int64_t{16} << 20;       // [bytes], more is an error
 
-  CellOutput();  ///< throws std::runtime_error if no pipe can be created
-  ~CellOutput();
+  /// Throws std::runtime_error if no pipe can be created.
+  CellOutput() {
+    if (pipe2(ends_, O_CLOEXEC) != 0) throw std::runtime_error("cannot create a pipe");
+    fcntl(ends_[0], F_SETFL, O_NONBLOCK);
+  }
+  ~CellOutput() {
+    close_end(0);
+    close_end(1);
+  }
   CellOutput(const CellOutput&) = delete;
   CellOutput& operator=(const CellOutput&) = delete;
 
   int write_end() const { return ends_[1]; }
   int read_end() const { return ends_[0]; }  ///< -1 after everybody has closed the other end
-  void close_write_end();
+  void close_write_end() { close_end(1); }
 
   /// Reads what is there without waiting; false if it was more than kMost in all.
-  bool forward();
+  bool forward() {
+    char buffer[1 << 14];
+    while (total_ <= kMost && ends_[0] >= 0) {
+      const ssize_t size = read(ends_[0], buffer, sizeof buffer);
+      if (size < 0) break;  // nothing now
+      if (size == 0) close_end(0);
+      const std::int64_t shown = std::clamp<std::int64_t>(kForwarded - total_, 0, size);
+      if (shown > 0) {
+        make_printable({buffer, static_cast<std::size_t>(shown)}, last_);
+        [[maybe_unused]] const ssize_t written =
+            write(STDERR_FILENO, buffer, static_cast<std::size_t>(shown));
+      }
+      total_ += size;
+    }
+    return total_ <= kMost;
+  }
 
  private:
-  void close_read_end();
+  void close_end(std::size_t end) {
+    if (ends_[end] >= 0) close(ends_[end]);
+    ends_[end] = -1;
+  }
 
   int ends_[2] = {-1, -1};
   std::int64_t total_ = 0;
   char last_ = '\0';  ///< forwarded
 };
-
-CellOutput::CellOutput() {
-  if (pipe2(ends_, O_CLOEXEC) != 0) throw std::runtime_error("cannot create a pipe");
-  fcntl(ends_[0], F_SETFL, O_NONBLOCK);
-}
-
-CellOutput::~CellOutput() {
-  close_read_end();
-  close_write_end();
-}
-
-void CellOutput::close_read_end() {
-  if (ends_[0] >= 0) close(ends_[0]);
-  ends_[0] = -1;
-}
-
-void CellOutput::close_write_end() {
-  if (ends_[1] >= 0) close(ends_[1]);
-  ends_[1] = -1;
-}
-
-bool CellOutput::forward() {
-  char buffer[1 << 14];
-  while (total_ <= kMost && ends_[0] >= 0) {
-    const ssize_t size = read(ends_[0], buffer, sizeof buffer);
-    if (size < 0) break;  // nothing now
-    if (size == 0) close_read_end();
-    const std::int64_t shown = std::clamp<std::int64_t>(kForwarded - total_, 0, size);
-    if (shown > 0) {
-      make_printable({buffer, static_cast<std::size_t>(shown)}, last_);
-      [[maybe_unused]] const ssize_t written =
-          write(STDERR_FILENO, buffer, static_cast<std::size_t>(shown));
-    }
-    total_ += size;
-  }
-  return total_ <= kMost;
-}
 
 /// The reason why a worker ends a process.
 struct Verdict {

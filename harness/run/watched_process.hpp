@@ -2,17 +2,97 @@
 /// they started.
 #pragma once
 
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <chrono>
 #include <functional>
+#include <new>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "harness/base/printable.hpp"
 #include "harness/base/result_area.hpp"
 #include "harness/catalogue/scratch.hpp"
 #include "harness/model/status.hpp"
 #include "harness/model/sweep.hpp"
 
 namespace loopbench::harness {
+
+/// Call seconds() several times per second. A longer interval between two calls means that the
+/// process was stopped (Ctrl-Z, a suspended container): only kLongestStep of it counts.
+class ActiveClock {
+ public:
+  /// Ask at least this often [ms].
+  static constexpr int kTick = 200;
+
+  void restart() {
+    last_ = Clock::now();
+    total_ = 0.0;
+  }
+  /// Time since restart() [s].
+  double seconds() {
+    const auto now = Clock::now();
+    total_ += std::min(std::chrono::duration<double>(now - last_).count(), kLongestStep);
+    last_ = now;
+    return total_;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr double kLongestStep = 1.0;  // [s], more than any delay by a busy system
+
+  Clock::time_point last_ = Clock::now();
+  double total_ = 0.0;
+};
+
+/// What a process is doing, for the reason that its worker gives if it ends early. States a text
+/// until destroyed, in memory that a worker shares with the processes it forks; does nothing before
+/// share(). One at a time.
+class Activity {
+ public:
+  /// In the worker, before it forks; further calls have no effect. Throws std::runtime_error if no
+  /// memory can be mapped.
+  static void share() {
+    if (text_ != nullptr) return;
+    constexpr int kFlags = MAP_SHARED | MAP_ANONYMOUS;
+    void* memory = mmap(nullptr, sizeof(Text), PROT_READ | PROT_WRITE, kFlags, -1, 0);
+    if (memory == MAP_FAILED) throw std::runtime_error("cannot map the memory for activities");
+    text_ = new (memory) Text{};
+  }
+
+  /// Printable, since a method can have written there; "" if nothing is stated.
+  static std::string current() {
+    if (text_ == nullptr) return "";
+    return printable({text_->bytes, std::min(text_->size, kMost)});
+  }
+
+  static void clear() {
+    if (text_ != nullptr) text_->size = 0;
+  }
+
+  explicit Activity(std::string_view text) {
+    if (text_ == nullptr) return;
+    const std::string_view kept = beginning(text, kMost);
+    std::ranges::copy(kept, text_->bytes);
+    text_->size = kept.size();
+  }
+  ~Activity() { clear(); }
+  Activity(const Activity&) = delete;
+  Activity& operator=(const Activity&) = delete;
+
+ private:
+  static constexpr std::size_t kMost = 200;  // [bytes]
+
+  struct Text {
+    std::size_t size = 0;
+    char bytes[kMost] = {};
+  };
+
+  inline static Text* text_ = nullptr;
+};
 
 /// What a process does and how reasons describe it.
 struct WatchedWork {

@@ -22,7 +22,7 @@
 
 #include "harness/base/child_process.hpp"
 #include "harness/base/system_file.hpp"
-#include "harness/run/active_clock.hpp"
+#include "harness/run/watched_process.hpp"
 #include "harness/run/worker.hpp"
 
 namespace loopbench::harness {
@@ -37,26 +37,80 @@ class WorkerProcess {
  public:
   /// Forks. Only from a process without threads that is a subreaper. Throws std::runtime_error on
   /// failure.
-  WorkerProcess(const WorkerContext& context, int core);
-  ~WorkerProcess();  ///< kills it if it is running
+  WorkerProcess(const WorkerContext& context, int core) {
+    const auto error = [](const std::string& why) {
+      return std::runtime_error("cannot create a worker process: " + why);
+    };
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+      throw error(std::string("socket pair: ") + std::strerror(errno));
+    }
+    socket_ = ends[0];
+    std::fflush(nullptr);  // otherwise the worker would print buffered output again
+    try {
+      child_.emplace(ProcessGroup::shared, [&] { return run_child(context, core, ends[1]); });
+    } catch (const std::runtime_error& reason) {
+      close(ends[0]);
+      close(ends[1]);
+      throw error(reason.what());
+    }
+    close(ends[1]);
+  }
+  /// Kills it if it is running.
+  ~WorkerProcess() {
+    child_.reset();
+    close(socket_);
+  }
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
   /// Does not block: a few jobs fit into the socket buffer. An error shows as the worker's end.
-  void send(const Job& job) const;
+  void send(const Job& job) const {
+    [[maybe_unused]] const ssize_t sent = ::send(socket_, &job, sizeof job, MSG_NOSIGNAL);
+  }
 
   /// Reads what is there, a few megabytes at most.
-  void receive();
+  void receive() {
+    constexpr std::size_t kMost = std::size_t{4} << 20;  // [bytes], more than a socket holds
+    char buffer[1 << 16];
+    for (std::size_t count = 0; count < kMost;) {
+      const ssize_t got = recv(socket_, buffer, sizeof buffer, MSG_DONTWAIT);
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) return;
+      bytes_.append(buffer, static_cast<std::size_t>(got));
+      count += static_cast<std::size_t>(got);
+    }
+  }
 
   /// The first received answer that is complete.
-  std::optional<Answer> next_answer();
+  std::optional<Answer> next_answer() {
+    Header header;
+    if (bytes_.size() < sizeof header) return std::nullopt;
+    std::memcpy(&header, bytes_.data(), sizeof header);
+    if (header.size > bytes_.size() - sizeof header) return std::nullopt;
+    Answer out{header.kind, bytes_.substr(sizeof header, header.size)};
+    bytes_.erase(0, sizeof header + header.size);
+    return out;
+  }
 
   int socket() const { return socket_; }
   ChildProcess& child() { return *child_; }
   const ChildProcess& child() const { return *child_; }
 
  private:
-  int run_child(const WorkerContext& context, int core, int socket) const;
+  int run_child(const WorkerContext& context, int core, int socket) const {
+    // Close the sweep's files: the store, its lock and the other workers' sockets.
+    const auto number = static_cast<unsigned>(socket);
+    close_range(STDERR_FILENO + 1, number - 1, 0);
+    close_range(number + 1, ~0u, 0);
+    prctl(PR_SET_CHILD_SUBREAPER, 1);
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    // If the system runs out of memory, it should kill the worker, not the sweep.
+    write_system_file("/proc/self/oom_score_adj", "500");
+    run_worker(context, socket, core);
+    return 0;
+  }
 
   int socket_ = -1;
   std::string bytes_;  ///< received, not yet taken
@@ -74,71 +128,6 @@ struct WorkerSlot {
 
 inline constexpr double kGrace =
     5.0;  // [s], for the worker to end loading and a cell at their limits
-
-inline WorkerProcess::WorkerProcess(const WorkerContext& context, int core) {
-  const auto error = [](const std::string& why) {
-    return std::runtime_error("cannot create a worker process: " + why);
-  };
-  int ends[2];
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-    throw error(std::string("socket pair: ") + std::strerror(errno));
-  }
-  socket_ = ends[0];
-  std::fflush(nullptr);  // otherwise the worker would print buffered output again
-  try {
-    child_.emplace(ProcessGroup::shared, [&] { return run_child(context, core, ends[1]); });
-  } catch (const std::runtime_error& reason) {
-    close(ends[0]);
-    close(ends[1]);
-    throw error(reason.what());
-  }
-  close(ends[1]);
-}
-
-inline WorkerProcess::~WorkerProcess() {
-  child_.reset();
-  close(socket_);
-}
-
-inline int WorkerProcess::run_child(const WorkerContext& context, int core, int socket) const {
-  // Close the sweep's files: the store, its lock and the other workers' sockets.
-  const auto number = static_cast<unsigned>(socket);
-  close_range(STDERR_FILENO + 1, number - 1, 0);
-  close_range(number + 1, ~0u, 0);
-  prctl(PR_SET_CHILD_SUBREAPER, 1);
-  const rlimit no_core{0, 0};
-  setrlimit(RLIMIT_CORE, &no_core);
-  // If the system runs out of memory, it should kill the worker, not the sweep.
-  write_system_file("/proc/self/oom_score_adj", "500");
-  run_worker(context, socket, core);
-  return 0;
-}
-
-inline void WorkerProcess::send(const Job& job) const {
-  [[maybe_unused]] const ssize_t sent = ::send(socket_, &job, sizeof job, MSG_NOSIGNAL);
-}
-
-inline void WorkerProcess::receive() {
-  constexpr std::size_t kMost = std::size_t{4} << 20;  // [bytes], more than a socket holds
-  char buffer[1 << 16];
-  for (std::size_t count = 0; count < kMost;) {
-    const ssize_t got = recv(socket_, buffer, sizeof buffer, MSG_DONTWAIT);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return;
-    bytes_.append(buffer, static_cast<std::size_t>(got));
-    count += static_cast<std::size_t>(got);
-  }
-}
-
-inline std::optional<Answer> WorkerProcess::next_answer() {
-  Header header;
-  if (bytes_.size() < sizeof header) return std::nullopt;
-  std::memcpy(&header, bytes_.data(), sizeof header);
-  if (header.size > bytes_.size() - sizeof header) return std::nullopt;
-  Answer out{header.kind, bytes_.substr(sizeof header, header.size)};
-  bytes_.erase(0, sizeof header + header.size);
-  return out;
-}
 
 /// The highest core this process may use, since the first ones handle most interrupts.
 inline int last_core() {

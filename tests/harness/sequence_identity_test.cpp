@@ -1,4 +1,3 @@
-#include "harness/run/sequence_identity.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
