@@ -1,5 +1,8 @@
 #include "harness/compare/compare.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <regex>
@@ -112,7 +115,9 @@ void add_compare(CLI::App& app, int& exit_code) {
       ->type_name("SENTENCE")
       ->allow_extra_args(false);
   command
-      ->add_option("--value", arguments->options.value, "Statistic: rmse mean median std min max")
+      ->add_option("--value",
+                   arguments->options.value,
+                   fmt::format("Statistic: {}", fmt::join(directed_statistics(), " ")))
       ->capture_default_str();
   command
       ->add_option("--alpha",

@@ -122,7 +122,7 @@ void export_rows(const std::filesystem::path& store, const std::filesystem::path
     if (pending) return pending->write(bytes);
     std::fwrite(bytes.data(), 1, bytes.size(), stdout);  // main() reports write errors
   };
-  std::string text = kRowsHeader;
+  std::string text = rows_header();
   const auto flush = [&] {
     write(text);
     text.clear();

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <set>
@@ -155,7 +158,7 @@ void add_table(CLI::App& app, int& exit_code) {
   command
       ->add_option("--value",
                    arguments->spec.value,
-                   "Statistic: rmse mean median p90 p95 p99 std min max sse count")
+                   fmt::format("Statistic: {}", fmt::join(statistic_names(), " ")))
       ->capture_default_str();
   command->add_flag("--plus-minus",
                     arguments->spec.plus_minus,

@@ -1,5 +1,8 @@
 #include "harness/compare/compare.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -273,9 +276,10 @@ std::vector<Comparison> compare(const std::vector<Record>& records, const Compar
 
 std::vector<Comparison> compare(std::vector<Observations> all, const CompareOptions& options) {
   if (!has_direction(options.value)) {
-    throw InputError("value: '" + options.value +
-                     "' depends on the number of errors: no value is better than another; expected "
-                     "rmse, mean, median, p90, p95, p99, std, min or max");
+    throw InputError(fmt::format(
+        "value: '{}' depends on the number of errors: no value is better than another; expected {}",
+        options.value,
+        fmt::join(directed_statistics(), ", ")));
   }
   if (all.empty()) throw InputError("no scores to compare");
   if (std::ranges::count(all[0].methods, options.baseline) == 0) {

@@ -59,7 +59,10 @@ Record one_number(const Record& r,
   one.better = better;
   one.relation = one.axis = {};
   one.unit = unit;
-  one.statistics = {1, x, x, x, 0.0, x, x, x * x, x, x, x};
+  for (const auto& each : metrics::kStatisticFields) one.statistics.*each.member = x;
+  one.statistics.count = 1;
+  one.statistics.std = 0.0;
+  one.statistics.sse = x * x;
   return one;
 }
 
@@ -82,17 +85,8 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
     g.label = metric_label(r) == "ate" ? "" : "gain (" + metric_label(r) + ")";
     g.better = metrics::Better::higher;
     g.unit = unit;
-    for (double metrics::Statistics::*number : {&metrics::Statistics::rmse,
-                                                &metrics::Statistics::mean,
-                                                &metrics::Statistics::median,
-                                                &metrics::Statistics::std,
-                                                &metrics::Statistics::min,
-                                                &metrics::Statistics::max,
-                                                &metrics::Statistics::sse,
-                                                &metrics::Statistics::p90,
-                                                &metrics::Statistics::p95,
-                                                &metrics::Statistics::p99}) {
-      g.statistics.*number = gain(r.statistics.*number, b.*number);
+    for (const auto& each : metrics::kStatisticFields) {
+      g.statistics.*each.member = gain(r.statistics.*each.member, b.*each.member);
     }
     if (!std::isfinite(g.statistics.rmse)) {
       g.status = Status::declined;

@@ -1,9 +1,14 @@
 /// Keys of the maps of a config: what is accepted, and what `list --json` describes.
 #pragma once
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <map>
 #include <string>
 #include <vector>
+
+#include "harness/model/record.hpp"
 
 namespace loopbench::harness {
 
@@ -44,7 +49,7 @@ inline const std::vector<ConfigKey>& config_keys(const std::string& map) {
        {{"rows", "columns of the long table that name a row"},
         {"columns", "columns of the long table that name a column"},
         {"split", "columns of the long table with one table for each value"},
-        {"value", "statistic: rmse, mean, median, p90, p95, p99, std, min, max, sse or count"},
+        {"value", fmt::format("statistic: {}", fmt::join(statistic_names(), ", "))},
         {"show", "scores to show, by their short names"},
         {"where", "filters of rows: column=value or column!=value"},
         {"plus_minus", "whether means have their standard deviations"}}},

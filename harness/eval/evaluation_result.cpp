@@ -46,17 +46,11 @@ Json to_json(const Record& record) {
     return out;
   }
   const metrics::Statistics& s = record.statistics;
-  out.update({{"unit", std::string(record.unit)},
-              {"rmse", s.rmse},
-              {"mean", s.mean},
-              {"median", s.median},
-              {"std", s.std},
-              {"min", s.min},
-              {"max", s.max},
-              {"p90", s.p90},
-              {"p95", s.p95},
-              {"p99", s.p99},
-              {"count", s.count}});
+  out["unit"] = std::string(record.unit);
+  for (const auto& each : metrics::kStatisticFields) {
+    if (has_direction(each.name)) out[each.name] = s.*each.member;
+  }
+  out["count"] = s.count;
   return out;
 }
 
@@ -172,10 +166,8 @@ void change_unit(std::vector<EvaluationResult>& results, const std::string& unit
       is_used = true;
       record.unit = unit;
       metrics::Statistics& s = record.statistics;
-      for (double* each :
-           {&s.rmse, &s.mean, &s.median, &s.std, &s.min, &s.max, &s.p90, &s.p95, &s.p99})
-        *each *= factor;
-      s.sse *= factor * factor;
+      for (const auto& each : metrics::kStatisticFields) s.*each.member *= factor;
+      s.sse *= factor;
     }
   }
   if (is_used) return;

@@ -35,28 +35,6 @@ constexpr std::pair<const char*, FieldText> kFields[] = {
     {"status", [](const Record& r) { return to_text(r.status); }},
     {"score", short_score}};
 
-using StatisticNumber = double (*)(const metrics::Statistics&);
-constexpr std::pair<const char*, StatisticNumber> kStatistics[] = {
-    {"rmse", [](const metrics::Statistics& s) { return s.rmse; }},
-    {"mean", [](const metrics::Statistics& s) { return s.mean; }},
-    {"median", [](const metrics::Statistics& s) { return s.median; }},
-    {"p50", [](const metrics::Statistics& s) { return s.median; }},
-    {"p90", [](const metrics::Statistics& s) { return s.p90; }},
-    {"p95", [](const metrics::Statistics& s) { return s.p95; }},
-    {"p99", [](const metrics::Statistics& s) { return s.p99; }},
-    {"std", [](const metrics::Statistics& s) { return s.std; }},
-    {"min", [](const metrics::Statistics& s) { return s.min; }},
-    {"max", [](const metrics::Statistics& s) { return s.max; }},
-    {"sse", [](const metrics::Statistics& s) { return s.sse; }},
-    {"count", [](const metrics::Statistics& s) { return static_cast<double>(s.count); }}};
-
-template <class Table>
-std::vector<std::string> known_names(const Table& table) {
-  std::vector<std::string> out;
-  for (const auto& entry : table) out.emplace_back(entry.first);
-  return out;
-}
-
 }  // namespace
 
 const SharedText& metric_label(const Record& record) {
@@ -67,14 +45,32 @@ std::string field(const Record& record, const std::string& name) {
   for (const auto& [known, text] : kFields) {
     if (name == known) return text(record);
   }
-  throw InputError(unknown_name("column", name, known_names(kFields)));
+  std::vector<std::string> all;
+  for (const auto& entry : kFields) all.emplace_back(entry.first);
+  throw InputError(unknown_name("column", name, all));
 }
 
 double value(const Record& record, const std::string& name) {
-  for (const auto& [known, number] : kStatistics) {
-    if (name == known) return number(record.statistics);
+  if (name == "count") return static_cast<double>(record.statistics.count);
+  for (const auto& [known, member, share] : metrics::kStatisticFields) {
+    if (name == known || (name == "p50" && member == &metrics::Statistics::median)) {
+      return record.statistics.*member;
+    }
   }
-  throw InputError(unknown_name("statistic", name, known_names(kStatistics)));
+  throw InputError(unknown_name("statistic", name, statistic_names()));
+}
+
+std::vector<std::string> statistic_names() {
+  std::vector<std::string> out;
+  for (const auto& field : metrics::kStatisticFields) out.emplace_back(field.name);
+  out.emplace_back("count");
+  return out;
+}
+
+std::vector<std::string> directed_statistics() {
+  std::vector<std::string> out = statistic_names();
+  std::erase_if(out, [](const std::string& name) { return !has_direction(name); });
+  return out;
 }
 
 bool has_direction(const std::string& statistic) {

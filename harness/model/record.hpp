@@ -90,13 +90,19 @@ const SharedText& metric_label(const Record& record);
 /// InputError with a suggestion for another name.
 std::string field(const Record& record, const std::string& name);
 
-/// Value of a record's named statistic: rmse, mean, median (p50), p90, p95, p99, std, min, max,
-/// sse, count. Throws InputError with a suggestion for another name.
+/// Value of a record's named statistic; p50 is the median. Throws InputError with a suggestion for
+/// another name.
 double value(const Record& record, const std::string& name);
+
+/// Names of all statistics: rmse, mean, ..., count.
+std::vector<std::string> statistic_names();
 
 /// Whether values of a statistic can be better than others: not those of count, nor of sse, which
 /// is smaller for an estimate with fewer poses.
 bool has_direction(const std::string& statistic);
+
+/// Names of the statistics that have a direction.
+std::vector<std::string> directed_statistics();
 
 /// Direction and unit of value(): neither without a direction; no unit for count, the squared unit
 /// for sse.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
@@ -18,10 +19,8 @@ namespace loopbench::harness {
 namespace {
 
 bool is_finite(const metrics::Statistics& s) {
-  return std::isfinite(s.rmse) && std::isfinite(s.mean) && std::isfinite(s.median) &&
-         std::isfinite(s.std) && std::isfinite(s.min) && std::isfinite(s.max) &&
-         std::isfinite(s.sse) && std::isfinite(s.p90) && std::isfinite(s.p95) &&
-         std::isfinite(s.p99);
+  return std::ranges::all_of(metrics::kStatisticFields,
+                             [&](const auto& field) { return std::isfinite(s.*field.member); });
 }
 
 /// A copy of all that a metric reads: that of a plugin can write through `const`, and the other

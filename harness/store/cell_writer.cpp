@@ -1,6 +1,7 @@
 #include "harness/store/cell_writer.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "harness/store/hashes.hpp"
 #include "harness/store/stored_cells.hpp"
@@ -166,10 +167,10 @@ void CellWriter::write_scores(std::int64_t id, const CellResult& result, const S
     score_.bind(id, number++, definition_of(score, sweep.protocols[score.protocol]));
     const metrics::Statistics& s = score.score.statistics;
     if (has_numbers(score.status)) {
-      score_.bind(
-          s.count, s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse, s.p90, s.p95, s.p99);
+      score_.bind(s.count);
+      for (const auto& field : metrics::kStatisticFields) score_.bind(s.*field.member);
     } else {
-      for (int i = 0; i < 11; ++i) score_.bind(nullptr);
+      for (std::size_t i = 0; i <= std::size(metrics::kStatisticFields); ++i) score_.bind(nullptr);
     }
     const metrics::Coverage& coverage = score.coverage;
     score_.bind(coverage.pairs, coverage.possible, coverage.span);

@@ -188,8 +188,8 @@ void RecordReader::add_cell(const StoredCell& cell, std::vector<Record>& out) {
     Record& r = out.emplace_back(definitions_.at(scores_->integer()));
     set_cell(r, cell);
     metrics::Statistics& s = r.statistics;
-    scores_->read(
-        s.count, s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse, s.p90, s.p95, s.p99);
+    scores_->read(s.count);
+    for (const auto& each : metrics::kStatisticFields) scores_->read(s.*each.member);
     scores_->read(r.pairs, r.possible, r.span);
     const std::string_view status = scores_->view();
     if (has_status) r.status = from_text<Status>(std::string(status)).value_or(Status::failed);

@@ -1,13 +1,32 @@
 /// Tables of a store.
 #pragma once
 
+#include <string>
+
+#include "metrics/numerics/statistics.hpp"
+
 namespace loopbench::harness {
 
 /// Incremented when the meaning of a table or column changes; stored as SQLite's user_version.
 inline constexpr int kSchemaVersion = 15;
 
+/// The columns of statistics but count: "rmse,", with texts before and after each name, in one
+/// line, or percentiles after `gap`.
+inline std::string statistic_columns(const std::string& before,
+                                     const std::string& after,
+                                     const std::string& gap = " ") {
+  std::string out;
+  double last_share = 0.0;
+  for (const auto& [name, member, share] : metrics::kStatisticFields) {
+    if (!out.empty()) out += share > 0.0 && last_share == 0.0 ? gap : " ";
+    last_share = share;
+    out += before + name + after;
+  }
+  return out;
+}
+
 /// Creates the tables of a store, readable with any SQLite tool.
-inline constexpr const char* kSchema = R"sql(
+inline const std::string kSchema = R"sql(
   CREATE TABLE run (                   -- config and settings of the last run
     key TEXT PRIMARY KEY,
     value TEXT NOT NULL,
@@ -88,8 +107,8 @@ inline constexpr const char* kSchema = R"sql(
     number INTEGER NOT NULL,           -- of the score in its cell, from 0
     definition INTEGER NOT NULL REFERENCES score_definition(id),
     count INTEGER,                     -- these eight are NULL if the status is not ok or incomplete
-    rmse REAL, mean REAL, median REAL, std REAL, min REAL, max REAL, sse REAL,
-    p90 REAL, p95 REAL, p99 REAL,
+    )sql" + statistic_columns("", " REAL,", "\n    ") +
+                                   R"sql(
     pairs INTEGER NOT NULL,            -- evaluated pose pairs
     possible INTEGER NOT NULL,         -- possible pose pairs
     span REAL NOT NULL,                -- evaluated share of the reference's time, 0..1
@@ -98,8 +117,9 @@ inline constexpr const char* kSchema = R"sql(
     PRIMARY KEY (cell, number)) WITHOUT ROWID;
   CREATE VIEW score AS
     SELECT v.cell, d.protocol, d.protocol_version, d.times, d.metric, d.label, d.relation, d.axis,
-      d.unit, d.better, d.target, v.count, v.rmse, v.mean, v.median, v.std, v.min, v.max, v.sse,
-      v.p90, v.p95, v.p99, v.pairs, v.possible, v.span, v.status, v.why, v.number
+      d.unit, d.better, d.target, v.count, )sql" +
+                                   statistic_columns("v.", ",", "\n      ") +
+                                   R"sql( v.pairs, v.possible, v.span, v.status, v.why, v.number
     FROM score_value v JOIN score_definition d ON d.id = v.definition;
   CREATE TABLE phase (                 -- reported by the method, as are the next three
     cell INTEGER NOT NULL REFERENCES cell(id), number INTEGER NOT NULL,
@@ -148,21 +168,19 @@ inline constexpr const char* kSchema = R"sql(
 /// A table with rows of cells: column `cell`, and these columns.
 struct CellTable {
   const char* name;
-  const char* columns;
+  std::string columns;
   bool is_trace = false;  ///< covered by `trace_hash`, otherwise by `hash`
 };
-inline constexpr CellTable kScoreTable{
-    "score_value",
-    "number, definition, count, rmse, mean, median, std, min, max, sse, p90, p95, p99, "
-    "pairs, possible, span, "
-    "status, why"};
-inline constexpr CellTable kPhaseTable{"phase", "number, name, seconds"};
-inline constexpr CellTable kCountTable{"count", "number, name, value"};
-inline constexpr CellTable kNoteTable{"note", "number, text"};
-inline constexpr CellTable kSectionTable{"section", "number, kind, begin_stamp, end_stamp, what"};
-inline constexpr CellTable kTraceTable{"trace", "times, samples", true};
-inline constexpr CellTable kPoseValueTable{"pose_value", "number, name, unit, value", true};
-inline constexpr CellTable kCellTables[] = {
+inline const CellTable kScoreTable{"score_value",
+                                   "number, definition, count, " + statistic_columns("", ",") +
+                                       " pairs, possible, span, status, why"};
+inline const CellTable kPhaseTable{"phase", "number, name, seconds"};
+inline const CellTable kCountTable{"count", "number, name, value"};
+inline const CellTable kNoteTable{"note", "number, text"};
+inline const CellTable kSectionTable{"section", "number, kind, begin_stamp, end_stamp, what"};
+inline const CellTable kTraceTable{"trace", "times, samples", true};
+inline const CellTable kPoseValueTable{"pose_value", "number, name, unit, value", true};
+inline const CellTable kCellTables[] = {
     kScoreTable, kPhaseTable, kCountTable, kNoteTable, kSectionTable, kTraceTable, kPoseValueTable};
 
 /// Columns of the table cell between `id` and `hash`.

@@ -15,7 +15,7 @@
 namespace loopbench::harness {
 namespace {
 
-/// The fields of kRowsHeader, quoted where necessary.
+/// The fields of rows_header(), quoted where necessary.
 std::vector<std::string> fields_of(const Record& r) {
   const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; };
   const auto boolean = [](bool x) { return fmt::format("{}", x); };
@@ -41,10 +41,7 @@ std::vector<std::string> fields_of(const Record& r) {
   const auto score = [&](const std::string& text) { out.push_back(has_scores ? text : ""); };
   const metrics::Statistics& s = r.statistics;
   score(fmt::format("{}", s.count));
-  for (const double x :
-       {s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse, s.p90, s.p95, s.p99}) {
-    score(number(x));
-  }
+  for (const auto& field : metrics::kStatisticFields) score(number(s.*field.member));
   score(fmt::format("{}", r.pairs));
   score(fmt::format("{}", r.possible));
   out.insert(out.end(), {number(r.milliseconds), quoted(to_text(r.status)), quoted(r.why)});
@@ -76,18 +73,20 @@ std::string quoted(const std::string& raw) {
   return out + "\"";
 }
 
-const char* const kRowsHeader =
-    "sequence,repeat,method,closures,oracle_closures,oracle_method,protocol,protocol_version,"
-    "times,metric,label,"
-    "relation,axis,unit,better,target,count,rmse,"
-    "mean,median,std,min,max,sse,p90,p95,p99,pairs,possible,milliseconds,status,why\n";
+std::string rows_header() {
+  std::string out =
+      "sequence,repeat,method,closures,oracle_closures,oracle_method,protocol,protocol_version,"
+      "times,metric,label,relation,axis,unit,better,target,count,";
+  for (const auto& each : metrics::kStatisticFields) out += std::string(each.name) + ",";
+  return out + "pairs,possible,milliseconds,status,why\n";
+}
 
 std::string csv_row(const Record& record) {
   return fmt::format("{}\n", fmt::join(fields_of(record), ","));
 }
 
 std::string csv(const std::vector<Record>& records, const std::vector<std::string>& columns) {
-  std::string out = kRowsHeader;
+  std::string out = rows_header();
   if (columns.empty()) {
     for (const Record& r : records) out += csv_row(r);
     return out;

@@ -13,12 +13,12 @@ namespace loopbench::harness {
 /// with + or - and is no number) gets a leading apostrophe, which spreadsheets hide.
 std::string quoted(const std::string& text);
 
-/// The long table: one line per record, with these columns of kRowsHeader; none: all. Throws
+/// The long table: one line per record, with these columns of rows_header(); none: all. Throws
 /// InputError for an unknown column.
 std::string csv(const std::vector<Record>& records, const std::vector<std::string>& columns = {});
 
 /// Its first line, and the line of one record.
-extern const char* const kRowsHeader;
+std::string rows_header();
 std::string csv_row(const Record& record);
 
 }  // namespace loopbench::harness

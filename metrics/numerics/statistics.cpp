@@ -4,7 +4,6 @@
 #include <cmath>
 #include <span>
 #include <stdexcept>
-#include <utility>
 
 #include "datasets/core/parallel.hpp"
 #include "metrics/numerics/median.hpp"
@@ -53,12 +52,11 @@ Sums sums_of_block(std::span<const double> values) {
   return out;
 }
 
-/// Sets p90, p95 and p99; reorders the values. O(n).
+/// Reorders the values. O(n).
 void set_percentiles(std::vector<double>& values, Statistics& out) {
   auto from = values.begin();
-  for (const auto& [share, percentile] : {std::pair{0.90, &Statistics::p90},
-                                          std::pair{0.95, &Statistics::p95},
-                                          std::pair{0.99, &Statistics::p99}}) {
+  for (const auto& [name, percentile, share] : kStatisticFields) {
+    if (share == 0.0) continue;
     const double rank = share * static_cast<double>(values.size() - 1);
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(from, at, values.end());

@@ -20,6 +20,26 @@ struct Statistics {
   double p90 = 0.0, p95 = 0.0, p99 = 0.0;
 };
 
+/// A statistic with its name in stores, tables and options.
+struct StatisticField {
+  const char* name;
+  double Statistics::*member;
+  double share = 0.0;  ///< of the errors below a percentile; 0: it is none
+};
+
+/// All but `count`, in the order of columns; the percentiles last, in ascending order. Whoever adds
+/// one increments the version of stores.
+inline constexpr StatisticField kStatisticFields[] = {{"rmse", &Statistics::rmse},
+                                                      {"mean", &Statistics::mean},
+                                                      {"median", &Statistics::median},
+                                                      {"std", &Statistics::std},
+                                                      {"min", &Statistics::min},
+                                                      {"max", &Statistics::max},
+                                                      {"sse", &Statistics::sse},
+                                                      {"p90", &Statistics::p90, 0.90},
+                                                      {"p95", &Statistics::p95, 0.95},
+                                                      {"p99", &Statistics::p99, 0.99}};
+
 /// Throws std::invalid_argument for an empty list and std::runtime_error if the sum of squares is
 /// not finite. Pairwise summation, O(n).
 Statistics statistics(std::vector<double> errors, int ddof = 0);

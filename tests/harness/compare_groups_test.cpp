@@ -201,7 +201,7 @@ TEST(Remarks, RejectsStatisticsWithoutADirection) {
     EXPECT_EQ(refusal_of([&] { compare(sweep(), {.baseline = "raw", .value = value}); }),
               "value: '" + value +
                   "' depends on the number of errors: no value is better than another; expected "
-                  "rmse, mean, median, p90, p95, p99, std, min or max");
+                  "rmse, mean, median, std, min, max, p90, p95, p99");
   }
 }
 
