@@ -20,10 +20,10 @@
 
 namespace loopbench::methods {
 
-/// Stage 1: corrects the keyframe poses.
-class Corrector {
+/// What correctors and joint methods have in common.
+class Solver {
  public:
-  virtual ~Corrector() = default;
+  virtual ~Solver() = default;
 
   /// Returns the reason why the method cannot process this problem; empty if it can.
   virtual std::string why_declined(const Problem&) const { return ""; }
@@ -32,16 +32,20 @@ class Corrector {
   /// others decline problems with anchors, see reason_to_decline().
   virtual bool accepts_anchors() const { return false; }
 
-  /// Returns one pose per keyframe, in the same order and with the same stamps. Throws
-  /// std::runtime_error on failure.
-  virtual Trajectory correct(const Problem& problem, Report& report) const = 0;
-
   /// Returns the method as one that extends its solution while data arrive; null if it has no such
   /// form: a replay then solves the problem again at every update. `planar` as in Problem.
   virtual std::unique_ptr<Incremental> incremental(bool planar) const {
     static_cast<void>(planar);
     return nullptr;
   }
+};
+
+/// Stage 1: corrects the keyframe poses.
+class Corrector : public Solver {
+ public:
+  /// Returns one pose per keyframe, in the same order and with the same stamps. Throws
+  /// std::runtime_error on failure.
+  virtual Trajectory correct(const Problem& problem, Report& report) const = 0;
 };
 
 /// Stage 2: fits a curve through or near the keyframes.
@@ -56,28 +60,14 @@ class Smoother {
 };
 
 /// From a problem to a curve. What derives from it in the catalogue is a joint method.
-class Estimator {
+class Estimator : public Solver {
  public:
-  virtual ~Estimator() = default;
-
-  virtual std::string why_declined(const Problem&) const { return ""; }
-
-  /// As Corrector::accepts_anchors().
-  virtual bool accepts_anchors() const { return false; }
-
   virtual std::unique_ptr<const Curve> estimate(const Problem& problem, Report& report) const = 0;
-
-  /// As Corrector::incremental().
-  virtual std::unique_ptr<Incremental> incremental(bool planar) const {
-    static_cast<void>(planar);
-    return nullptr;
-  }
 };
 
 /// Returns the reason why a corrector or estimator cannot process the problem, empty if it can: its
 /// own, or anchors that it would ignore.
-template <class Method>
-std::string reason_to_decline(const Method& method, const Problem& problem) {
+inline std::string reason_to_decline(const Solver& method, const Problem& problem) {
   if (!problem.anchors.empty() && !method.accepts_anchors()) {
     return "the problem has anchors (" + std::to_string(problem.anchors.size()) +
            "), which the method does not use";
@@ -149,5 +139,13 @@ MethodEntry method(std::string name, std::string summary) {
 
 /// Returns all built-in methods in the order in which tables list them.
 std::vector<MethodEntry> methods();
+
+/// Returns the built-in method. Throws InputError with all names if no method has this one.
+MethodEntry find_method(const std::string& name);
+
+/// Returns the keyframes as moved by the built-in corrector `name`. Throws OptionError, InputError
+/// if there is no such corrector or it is not applicable to this problem, and std::runtime_error if
+/// it fails.
+Trajectory correct(const Problem& problem, const std::string& name, const Params& options = {});
 
 }  // namespace loopbench::methods

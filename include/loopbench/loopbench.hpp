@@ -4,7 +4,7 @@
 #include "datasets/formats/formats.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "datasets/trajectory_dataset.hpp"
-#include "methods/find_method.hpp"
+#include "methods/method.hpp"
 #include "metrics/errors/ate.hpp"
 #include "metrics/errors/rpe.hpp"
 #include "metrics/protocols/protocols.hpp"

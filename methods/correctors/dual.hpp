@@ -16,8 +16,8 @@ namespace loopbench::methods {
 ///     (A S A' + S_L) lambda = c,   e_i = -S_i sum_k A_ki' lambda_k,
 ///
 /// The system is relinearised until convergence, about ten times; near the minimum the step
-/// includes the curvature of the loops (loop_newton.hpp). Every block of A S A' is a difference of
-/// one prefix sum over the chain, so an iteration costs O(n + (6 K)^3) time and O(n + (6 K)^2)
+/// includes the curvature of the loops (newton_direction()). Every block of A S A' is a difference
+/// of one prefix sum over the chain, so an iteration costs O(n + (6 K)^3) time and O(n + (6 K)^2)
 /// memory for n keyframes and K closures, without a sparse solver. For many loops a pose graph is
 /// the better choice.
 ///

@@ -3,6 +3,124 @@
 #include <stdexcept>
 
 namespace loopbench::methods {
+namespace {
+
+using Twists = std::vector<Twist>;  // one per edge
+
+double inner_product(const Twists& a, const Twists& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
+  return sum;
+}
+
+/// Returns B(q) y: the c with x' c = q' [x, y] for every x.
+Twist bracket(const Twist& q, const Twist& y) {
+  const Vector3 force = q.head<3>(), moment = q.tail<3>();
+  const Vector3 rho = y.head<3>(), phi = y.tail<3>();
+  return twist(phi.cross(force), rho.cross(force) + phi.cross(moment));
+}
+
+class NewtonSystem {
+ public:
+  NewtonSystem(const LoopEquations& equations,
+               const LoopSums& sums,
+               const std::vector<Edge>& closures,
+               const NoiseModel& noise_model)
+      : jacobian_(equations.jacobian),
+        equations_(equations),
+        sums_(sums),
+        closures_(closures),
+        noise_model_(noise_model),
+        edges_(jacobian_.edge.size()) {
+    const Eigen::VectorXd lambda = equations.factor.solve(jacobian_.gap);
+    for (std::size_t k = 0; k < closures.size(); ++k) {
+      wrench_of_.push_back(jacobian_.loop[k].transpose() * of_closure(lambda, k));
+    }
+    wrench_ = constraint_force_increments(jacobian_.loop, edges_, closures, lambda);
+    for (std::size_t i = 1; i < wrench_.size(); ++i) wrench_[i] += wrench_[i - 1];
+  }
+
+  /// Returns M^-1 v = S v - S A' (A S A' + S_L)^-1 A S v.
+  Twists preconditioned(const Twists& v) const {
+    Twists out(v.size());
+    for (std::size_t i = 0; i < edges_; ++i) out[i] = noise_model_.covariance[i] * v[i];
+    const Eigen::VectorXd lambda =
+        equations_.factor.solve(loop_residual_change(jacobian_, sums_, out));
+    const Twists pull = constraint_force_increments(jacobian_.loop, edges_, closures_, lambda);
+    Twist sum = Twist::Zero();
+    for (std::size_t i = 0; i < edges_; ++i) {
+      sum += pull[i];
+      out[i] -= noise_model_.covariance[i] * (jacobian_.edge[i].transpose() * sum);
+    }
+    return out;
+  }
+
+  /// Returns N v. In each loop, edges j after edge i enter as +x_j and edges before it as -x_j.
+  Twists curvature_product(const Twists& v) const {
+    Twists before(edges_ + 1);  // sum of x_j, j < i
+    before[0].setZero();
+    for (std::size_t i = 0; i < edges_; ++i) {
+      before[i + 1] = before[i] + jacobian_.edge[i] * v[i];
+    }
+    Twists change(edges_ + 1, Twist::Zero());  // at the first and last keyframe of each loop
+    for (std::size_t k = 0; k < closures_.size(); ++k) {
+      const Edge& loop = closures_[k];
+      const Twist ends = bracket(wrench_of_[k], before[loop.to] + before[loop.from]);
+      change[loop.from] += ends;
+      change[loop.to] -= ends;
+    }
+    Twists out(v.size(), Twist::Zero());
+    Twist sum = Twist::Zero();
+    for (std::size_t i = 0; i < edges_; ++i) {
+      sum += change[i];
+      out[i] = 0.5 * (jacobian_.edge[i].transpose() *
+                      (sum - bracket(wrench_[i], before[i + 1] + before[i])));
+    }
+    return out;
+  }
+
+ private:
+  const LoopJacobian& jacobian_;
+  const LoopEquations& equations_;
+  const LoopSums& sums_;
+  const std::vector<Edge>& closures_;
+  const NoiseModel& noise_model_;
+  std::size_t edges_;
+  Twists wrench_of_;  ///< of each loop
+  Twists wrench_;     ///< sum over the loops that enclose each edge
+};
+
+/// Solves (M + N) d = r with preconditioned conjugate gradients.
+Twists solved(const NewtonSystem& system, Twists r) {
+  constexpr int kMaxIterations = 50;
+  constexpr double kForcing = 0.03;  // relative residual in the norm of M^-1
+  Twists d(r.size(), Twist::Zero());
+  Twists z = system.preconditioned(r);
+  Twists p = z, Mp = r;  // M z = r, so products with M are never computed
+  double rz = inner_product(r, z);
+  const double threshold = kForcing * kForcing * rz;
+  for (int k = 0; k < kMaxIterations && rz > threshold; ++k) {
+    Twists Hp = system.curvature_product(p);
+    for (std::size_t i = 0; i < Hp.size(); ++i) Hp[i] += Mp[i];
+    const double curvature = inner_product(p, Hp);
+    if (!(curvature > 0.0)) return k == 0 ? z : d;
+    const double length = rz / curvature;
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      d[i] += length * p[i];
+      r[i] -= length * Hp[i];
+    }
+    z = system.preconditioned(r);
+    const double before = rz;
+    rz = inner_product(r, z);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      p[i] = z[i] + rz / before * p[i];
+      Mp[i] = r[i] + rz / before * Mp[i];
+    }
+  }
+  return d;
+}
+
+}  // namespace
 
 NoiseModel stated_noise_model(const Problem& problem) {
   NoiseModel out;
@@ -91,6 +209,17 @@ Eigen::MatrixXd propagate_covariance(const LoopJacobian& jacobian,
     }
   }
   return out;
+}
+
+std::vector<Twist> newton_direction(const LoopEquations& equations,
+                                    const std::vector<Twist>& gradient,
+                                    const LoopSums& sums,
+                                    const std::vector<Edge>& closures,
+                                    const NoiseModel& noise_model) {
+  Twists downhill;
+  downhill.reserve(gradient.size());
+  for (const Twist& each : gradient) downhill.push_back(-each);
+  return solved(NewtonSystem(equations, sums, closures, noise_model), std::move(downhill));
 }
 
 }  // namespace loopbench::methods

@@ -5,7 +5,6 @@
 
 #include "datasets/core/covariance.hpp"
 #include "methods/correctors/chain.hpp"
-#include "methods/correctors/loop_newton.hpp"
 #include "methods/solvers/initial_values.hpp"
 
 namespace loopbench::methods {
@@ -85,7 +84,7 @@ LoopedChain::Candidate LoopedChain::candidate(std::vector<Twist> errors) const {
 
 void LoopedChain::close_loops(Candidate& trial, const LoopEquations& equations) const {
   constexpr int kRounds = 3;
-  constexpr double kClosed = 1e-6;  // residual loop error, as a fraction of the cost
+  constexpr double kClosed = 1e-6;  // remaining residual of the loops, as a fraction of the cost
   const LoopJacobian& jacobian = equations.jacobian;
   const Eigen::VectorXd predicted =
       jacobian.gap + loop_residual_change(jacobian, sums_, trial.errors);

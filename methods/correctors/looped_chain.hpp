@@ -32,11 +32,11 @@ class LoopedChain {
   void set_errors(std::vector<Twist> errors);
 
   /// Takes one step that lowers the cost, or keeps it to rounding; returns false when none is
-  /// found. Uses Gauss-Newton with step halving, and Newton (loop_newton.hpp) once a step no longer
-  /// halves the cost. A linear step leaves a nonlinear residual in the loops, and stiff loops would
-  /// reject almost every step. Each candidate therefore first gets a second-order correction that
-  /// closes this residual. Throws std::runtime_error when the loop equations are not positive
-  /// definite. O(edges + (6 closures)^3).
+  /// found. Uses Gauss-Newton with step halving, and Newton (newton_direction()) once a step no
+  /// longer halves the cost. A linear step leaves a nonlinear residual in the loops, and stiff
+  /// loops would reject almost every step. Each candidate therefore first gets a second-order
+  /// correction that closes this residual. Throws std::runtime_error when the loop equations are
+  /// not positive definite. O(edges + (6 closures)^3).
   bool step();
 
   /// The equations at the current poses. Throws std::runtime_error when they are not positive

@@ -94,7 +94,7 @@ struct Optimisation {
 /// Replaces the poses of a chain with few loops by the minimum that the equations of its loops
 /// reach from the chordal relaxation, and adds their iterations. Gauss-Newton overestimates the
 /// curvature of such chains (16 times on KITTI 00) and takes hundreds of steps; these equations
-/// include the curvature of the loops (loop_newton.hpp). Returns the cost at the start; 0: poses
+/// include the curvature of the loops (newton_direction()). Returns the cost at the start; 0: poses
 /// are unchanged.
 double solve_loops(const Problem& problem, std::vector<ScaledPose>& poses, int& iterations) {
   constexpr int kFewLoops = 20;  // the time of an iteration grows with the cube

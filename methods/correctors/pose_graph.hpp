@@ -20,13 +20,10 @@ namespace loopbench::methods {
 /// error stays above the group's 99 % quantile. (3) Pairwise consistency (Checked). Odometry is
 /// assumed to have no outliers.
 ///
-/// With complete odometry, GNC starts from the largest consistent set of closures
-/// (gnc.hpp), and the initial values are computed from these closures only; otherwise it
-/// starts from all closures. A closure's own information does not describe the
-/// odometry drift between its keyframes, so starting from all closures rejects true closures where
-/// drift is large; the consistency check takes that drift into account. All closures are weighted
-/// in either case. Closures that are stated as almost exact are solved with bounded information
-/// (plausibility.hpp).
+/// With complete odometry, GNC starts from the largest consistent set of closures (solve_gnc()): a
+/// closure's own information does not describe the odometry drift between its keyframes, so
+/// starting from all closures rejects true closures where drift is large. Closures that are stated
+/// as almost exact are solved with bounded information (plausibility.hpp).
 ///
 /// Anchors have no loss. The start is aligned to them if they determine the frame (anchors.hpp).
 ///

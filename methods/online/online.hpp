@@ -6,14 +6,13 @@
 
 #include "datasets/core/polyline.hpp"
 #include "methods/method.hpp"
-#include "methods/online/arrivals.hpp"
 #include "methods/online/batch_updates.hpp"
 #include "methods/online/replay_run.hpp"
 
 namespace loopbench::methods {
 
-/// Keyframes and odometry arrive at the stamps of the keyframes, closures as in arrivals.hpp. The
-/// method is called when closures have arrived or were withdrawn, at the next keyframe; between
+/// Keyframes and odometry arrive at the stamps of the keyframes, closures as in closure_arrivals().
+/// The method is called when closures have arrived or were withdrawn, at the next keyframe; between
 /// these updates the last solution is extended by odometry. A last update contains what is left, so
 /// that the replay ends with the result of the method on the complete problem.
 ///

@@ -10,7 +10,6 @@
 #include "methods/smoothers/gp/posterior.hpp"
 #include "methods/smoothers/penalised/reinsch.hpp"
 #include "methods/smoothers/penalised/unrolled.hpp"
-#include "methods/smoothers/runs/parts.hpp"
 #include "methods/smoothers/runs/pose_runs.hpp"
 
 namespace loopbench::methods {

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "datasets/core/polyline.hpp"
-#include "methods/smoothers/runs/pose_runs.hpp"
 #include "methods/smoothers/spline/curve.hpp"
 
 namespace loopbench::methods {

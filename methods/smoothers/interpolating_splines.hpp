@@ -10,7 +10,7 @@
 #include "datasets/core/curve.hpp"
 #include "methods/method.hpp"
 #include "methods/report.hpp"
-#include "methods/smoothers/runs/parts.hpp"
+#include "methods/smoothers/runs/pose_runs.hpp"
 #include "methods/smoothers/spline/interpolate.hpp"
 
 namespace loopbench::methods {

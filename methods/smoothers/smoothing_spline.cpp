@@ -4,20 +4,21 @@
 
 #include "datasets/core/knot_curve.hpp"
 #include "methods/smoothers/penalised/unrolled.hpp"
-#include "methods/smoothers/runs/parts.hpp"
+#include "methods/smoothers/runs/pose_runs.hpp"
 
 namespace loopbench::methods {
 namespace {
 
 /// Knot of a natural cubic spline: value and second derivative.
 struct Knot {
-  Vector3 value, bend;
+  Vector3 value, curvature;
 };
 
 std::vector<Knot> knots_of(const Reinsch::Fit& fit) {
   std::vector<Knot> out;
   out.reserve(fit.values.size());
-  for (std::size_t i = 0; i < fit.values.size(); ++i) out.push_back({fit.values[i], fit.bends[i]});
+  for (std::size_t i = 0; i < fit.values.size(); ++i)
+    out.push_back({fit.values[i], fit.curvatures[i]});
   return out;
 }
 
@@ -25,7 +26,7 @@ Vector3 between(const Knot* knot, double u, double interval) {
   const double v = 1.0 - u;
   const double sixth = interval * interval / 6.0;
   return v * knot[0].value + u * knot[1].value -
-         sixth * (v * u * ((1.0 + v) * knot[0].bend + (1.0 + u) * knot[1].bend));
+         sixth * (v * u * ((1.0 + v) * knot[0].curvature + (1.0 + u) * knot[1].curvature));
 }
 
 class SmoothedCurve final : public KnotCurve {
@@ -69,7 +70,7 @@ std::unique_ptr<const Curve> SmoothingSpline::smooth(const Problem& problem, Rep
                               : select_lambda(reinsch, times, points, options_.criterion);
   report.count("lambda_t", lambda_t);
   const Reinsch::Fit positions = reinsch.fit(points, lambda_t);
-  report.count("dof_t", size - positions.free);
+  report.count("dof_t", size - positions.residual_dof);
 
   // The first rounds change the unrolled data; after kChoices rounds lambda is kept.
   double lambda = options_.lambda_r.value_or(0.0);
@@ -83,7 +84,7 @@ std::unique_ptr<const Curve> SmoothingSpline::smooth(const Problem& problem, Rep
         return reinsch.fit(flat, lambda);
       });
   report.count("lambda_r", lambda);
-  report.count("dof_r", size - rotation.fit.free);
+  report.count("dof_r", size - rotation.fit.residual_dof);
   report.count("iterations", rotation.iterations);
   if (!rotation.converged) report.notes.push_back("the rotation fit did not converge");
   return std::make_unique<SmoothedCurve>(

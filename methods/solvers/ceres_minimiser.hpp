@@ -102,37 +102,35 @@ class AnchorCost final : public ceres::SizedCostFunction<3, G::kSize> {
   Matrix3 root_;
 };
 
-/// rho and its first two derivatives; x is the squared residual.
-class DynamicCovarianceScaling final : public ceres::LossFunction {
+/// A loss of a width; `rho(width, x, out)` computes it and its first two derivatives, where x is
+/// the squared residual.
+class LossOfWidth final : public ceres::LossFunction {
  public:
-  explicit DynamicCovarianceScaling(double width) : width_(width) {}
-  void Evaluate(double x, double rho[3]) const override {
-    if (x <= width_) {
-      rho[0] = x, rho[1] = 1.0, rho[2] = 0.0;
-      return;
-    }
-    const double sum = width_ + x;
-    const double four = 4.0 * width_ * width_;
-    rho[0] = 3.0 * width_ - four / sum, rho[1] = four / (sum * sum);
-    rho[2] = -2.0 * four / (sum * sum * sum);
-  }
+  using Rho = void (*)(double width, double x, double* out);
+  LossOfWidth(double width, Rho rho) : width_(width), rho_(rho) {}
+  void Evaluate(double x, double out[3]) const override { rho_(width_, x, out); }
 
  private:
   double width_;
+  Rho rho_;
 };
 
-class SwitchableConstraint final : public ceres::LossFunction {
- public:
-  explicit SwitchableConstraint(double width) : width_(width) {}
-  void Evaluate(double x, double rho[3]) const override {
-    const double sum = width_ + x;
-    const double s = width_ / sum;  // the switch
-    rho[0] = s * x, rho[1] = s * s, rho[2] = -2.0 * s * s / sum;
+inline void dynamic_covariance_scaling(double width, double x, double* rho) {
+  if (x <= width) {
+    rho[0] = x, rho[1] = 1.0, rho[2] = 0.0;
+    return;
   }
+  const double sum = width + x;
+  const double four = 4.0 * width * width;
+  rho[0] = 3.0 * width - four / sum, rho[1] = four / (sum * sum);
+  rho[2] = -2.0 * four / (sum * sum * sum);
+}
 
- private:
-  double width_;
-};
+inline void switchable_constraint(double width, double x, double* rho) {
+  const double sum = width + x;
+  const double s = width / sum;  // the switch
+  rho[0] = s * x, rho[1] = s * s, rho[2] = -2.0 * s * s / sum;
+}
 
 inline std::unique_ptr<ceres::LossFunction> make_loss(const PoseGraphSettings& settings) {
   const double width = settings.loss_width;
@@ -144,8 +142,8 @@ inline std::unique_ptr<ceres::LossFunction> make_loss(const PoseGraphSettings& s
     case RobustLoss::cauchy:
       return std::make_unique<ceres::CauchyLoss>(std::sqrt(width));
     case RobustLoss::dcs:
-      if (settings.is_smoothed) return std::make_unique<SwitchableConstraint>(width);
-      return std::make_unique<DynamicCovarianceScaling>(width);
+      return std::make_unique<LossOfWidth>(
+          width, settings.is_smoothed ? switchable_constraint : dynamic_covariance_scaling);
   }
   return nullptr;
 }

@@ -1,16 +1,21 @@
 // Properties required of every method in the catalogue. Methods added to methods.cpp are tested
 // automatically.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstring>
 #include <thread>
 
+#include "datasets/core/error.hpp"
 #include "datasets/core/polyline.hpp"
+#include "methods/correctors/dual.hpp"
+#include "methods/method.hpp"
 #include "methods/online/online.hpp"
 #include "methods/pipeline.hpp"
 #include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"
+#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::conformance_test {
 
@@ -239,6 +244,27 @@ TEST(Catalogue, NamesAreUnique) {
   for (const MethodEntry& entry : methods::methods()) names.push_back(entry.name);
   std::ranges::sort(names);
   EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
+}
+
+using testing::HasSubstr;
+
+TEST(FindMethod, CorrectsWithTheMethodOfTheName) {
+  const Problem problem = test::circle();
+  const Trajectory expected = test::corrected<methods::Dual>(problem);
+  const Trajectory found = methods::correct(problem, "dual");
+  ASSERT_EQ(found.size(), expected.size());
+  EXPECT_EQ(test::largest_distance(found, expected), 0.0);
+}
+
+TEST(FindMethod, RejectsWhatCannotCorrect) {
+  Problem problem = test::circle();
+  const auto why = [&](const std::string& name) {
+    return refusal_of([&] { methods::correct(problem, name); });
+  };
+  EXPECT_THAT(why("duel"), HasSubstr("no method is named 'duel', expected one of raw, uniform"));
+  EXPECT_EQ(why("polyline"), "polyline: is a smoother, expected a corrector");
+  problem.odometry.clear();
+  EXPECT_THAT(why("dual"), HasSubstr("dual: is not applicable: "));
 }
 
 }  // namespace

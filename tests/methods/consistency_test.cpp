@@ -7,7 +7,6 @@
 
 #include "methods/correctors/checked.hpp"
 #include "methods/correctors/dual.hpp"
-#include "methods/correctors/max_clique.hpp"
 #include "methods/correctors/pose_graph.hpp"
 #include "tests/support/corrected.hpp"
 #include "tests/support/problems.hpp"

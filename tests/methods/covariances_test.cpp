@@ -171,13 +171,6 @@ TEST(Covariances, WithAnchorsIncludeTheFirstPose) {
   expect_equal(of_dual(flat), of_graph(flat), 1e-5);
 }
 
-TEST(Covariances, OfDualEqualThoseOfThePoseGraph) {
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    const Problem problem = walk(seed, 200, 0.01);
-    expect_equal(of_dual(problem), of_graph(problem), 1e-6);
-  }
-}
-
 // Graduated non-convexity gives the false closure no weight.
 TEST(Covariances, IgnoreRejectedClosures) {
   Problem problem = walk(5, 30, 0.01);

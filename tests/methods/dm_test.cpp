@@ -76,27 +76,6 @@ TEST_P(EveryVariant, HandlesFewKeyframesRestAndPureRotation) {
   for (const double t : times_over(spin, 50)) EXPECT_EQ(position(*curve, t), Vector3(1e5, 2, 3));
 }
 
-TEST(Dm, ExactFamiliesInterpolateEveryNodeInTheFittingFrame) {
-  const manifold::Nodes nodes(wandering(120, 21));
-  const manifold::NodeSpline spline(nodes);
-  for (const std::size_t N : {3u, 4u}) {
-    const auto fit = manifold::fit_planar(
-        nodes, manifold::segments(nodes, {}), spline, Vector3::UnitZ(), {.size = N});
-    std::size_t graphs = 0;
-    for (std::size_t k = 0; k < fit.pieces.size(); ++k) {
-      const auto* graph = std::get_if<manifold::GraphPiece<manifold::Polynomial>>(&fit.pieces[k]);
-      if (graph == nullptr) continue;
-      ++graphs;
-      const manifold::NodeRange& fitted = fit.windows[k].fitted;
-      for (std::size_t i = fitted.first; i <= fitted.last; ++i) {
-        const manifold::Vector2 point = graph->frame.local(nodes.points[i]);
-        EXPECT_NEAR(graph->curve(point.x()), point.y(), 1e-9);
-      }
-    }
-    EXPECT_GT(graphs, 20u);
-  }
-}
-
 TEST(Dm, LeastSquaresFamiliesMoveKeyframes) {
   const Trajectory keyframes = wandering(60, 2);
   double moved = 0.0;

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "datasets/core/fields.hpp"
-#include "methods/smoothers/manifold/family.hpp"
 #include "methods/smoothers/manifold/planar.hpp"
 
 namespace loopbench::methods::manifold::manifold_curves_test {

@@ -54,7 +54,7 @@ TEST(Reinsch, AgreesWithTheDenseComputationForTwelvePoints) {
     const Eigen::MatrixXd I_A = Eigen::MatrixXd::Identity(12, 12) - A;
     const Eigen::MatrixXd X = A * Y;
     EXPECT_NEAR((X - rows(fit.values)).rowwise().norm().maxCoeff(), 0.0, 1e-9);
-    EXPECT_NEAR(fit.free, I_A.trace(), 1e-8);
+    EXPECT_NEAR(fit.residual_dof, I_A.trace(), 1e-8);
     const double residual = (I_A * Y).squaredNorm();
     EXPECT_NEAR(fit.residual.sum(), residual, 1e-9 * residual + 1e-12);
     const double energy = (Y.transpose() * I_A * Y).trace();
@@ -76,14 +76,14 @@ TEST(Reinsch, GoesFromInterpolationToTheStraightLine) {
   const Reinsch reinsch(kTwelve);
   const Reinsch::Fit rough = reinsch.fit(y, 1e-12);
   EXPECT_NEAR((rows(rough.values) - rows(y)).rowwise().norm().maxCoeff(), 0.0, 1e-8);
-  EXPECT_NEAR(12.0 - rough.free, 12.0, 1e-6);
+  EXPECT_NEAR(12.0 - rough.residual_dof, 12.0, 1e-6);
 
   const Reinsch::Fit stiff = reinsch.fit(y, 1e10);
   Eigen::MatrixXd T(12, 2);
   for (int i = 0; i < 12; ++i) T.row(i) << 1.0, kTwelve[static_cast<std::size_t>(i)];
   const Eigen::MatrixXd line = T * (T.transpose() * T).inverse() * T.transpose() * rows(y);
   EXPECT_NEAR((line - rows(stiff.values)).rowwise().norm().maxCoeff(), 0.0, 1e-6);
-  EXPECT_NEAR(12.0 - stiff.free, 2.0, 1e-6);
+  EXPECT_NEAR(12.0 - stiff.residual_dof, 2.0, 1e-6);
 }
 
 TEST(UnrolledRotations, ConstantAngularVelocityIsAStraightLine) {

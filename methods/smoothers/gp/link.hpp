@@ -20,18 +20,23 @@ inline Matrix6 small_adjoint(const Twist& a) {
   return out;
 }
 
-/// J_r^-1(xi) = I + ad / 2 + c2 ad^2 + c4 ad^4 with ad = small_adjoint(xi). The series is exact,
-/// because ad has only the eigenvalues 0 and +-i phi, each with multiplicity two. c2 and c4 are
-/// functions of s = phi^2.
+/// J_r^-1(xi) = I + ad / 2 + c2 ad^2 + c4 ad^4 with ad = small_adjoint(xi): the closed form of the
+/// series f(ad) = sum of B_n (-ad)^n / n! with Bernoulli numbers B_n, where f(z) = z / (1 - e^-z)
+/// (Barfoot, State Estimation for Robotics, chapter 7). ad has the eigenvalues 0 and +-i phi, each
+/// with multiplicity two, so a polynomial with the values and first derivatives of f there equals
+/// f(ad). With s = phi^2 and C = (phi / 2) cot(phi / 2), f(i phi) = C + i phi / 2, so
+///
+///     -s c2 + s^2 c4 = C - 1,   -c2 + 2 s c4 = dC/ds.
 struct BodyRateTerms {
-  double c2, c4, c2_by_s, c4_by_s;
+  double c2, c4, c2_by_s, c4_by_s;  ///< and their derivatives with respect to s
 
   /// Requires s < (2 pi)^2.
   explicit BodyRateTerms(double s) {
     const double phi = std::sqrt(s);
     if (s < 2.0) {
-      // C = (phi / 2) cot(phi / 2) = 1 - 2 sum zeta(2 n) (s / 4 pi^2)^n. The twelfth term is below
-      // 1e-15 of the first.
+      // C = 1 - 2 sum zeta(2 n) (s / 4 pi^2)^n = 1 + sum b_n s^n (Abramowitz and Stegun, 4.3.70
+      // with 23.2.16), and by the two equations above c2 = sum (n - 2) b_n s^(n - 1) and c4 = sum
+      // (n - 1) b_n s^(n - 2). The twelfth term is below 1e-15 of the first.
       constexpr double kZeta[] = {1.6449340668482264,
                                   1.0823232337111382,
                                   1.0173430619844491,

@@ -61,13 +61,13 @@ class ManifoldCurve final : public KnotCurve {
  private:
   Pose evaluate(std::size_t edge, double time) const override {
     const RotationStep& step = rotation_steps_[edge];
-    return {step.start * exp_so3(fraction(edge, time) * step.turn),
+    return {step.start * exp_so3(fraction(edge, time) * step.rotation),
             parts_.base + parts_.point(edge, time)};
   }
 
   struct RotationStep {
     Rotation start;
-    Vector3 turn;  ///< rotation vector from `start` to the next node [rad]
+    Vector3 rotation;  ///< rotation vector from `start` to the next node [rad]
   };
   std::vector<RotationStep> rotation_steps_;  ///< one per edge, so each logarithm is computed once
   Parts parts_;

@@ -17,7 +17,6 @@
 #include "methods/smoothers/manifold/joints.hpp"
 #include "methods/smoothers/manifold/planar.hpp"
 #include "methods/smoothers/manifold/psi.hpp"
-#include "methods/smoothers/manifold/quasi_keyframes.hpp"
 #include "methods/smoothers/manifold/segments.hpp"
 #include "methods/smoothers/manifold/spatial.hpp"
 

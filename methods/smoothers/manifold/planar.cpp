@@ -1,15 +1,110 @@
 #include "methods/smoothers/manifold/planar.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <sstream>
+
+#include "datasets/core/fields.hpp"
 
 namespace loopbench::methods::manifold {
 namespace {
+
+int degree(Family family, std::size_t nodes) {
+  if (family == Family::line) return 1;
+  if (family == Family::by_n) return nodes > 3 ? 3 : 2;
+  return family == Family::poly2 ? 2 : 3;
+}
+
+// Unpivoted QR divides by zero for equal x: such a fit is invalid.
+bool is_valid(const Polynomial& curve) {
+  return curve.scale > 0.0 && curve.coefficients.allFinite();
+}
+
+template <class Function>
+std::optional<PlanarPiece> graph(const Frame& frame, const std::optional<Function>& curve) {
+  if (!curve) return std::nullopt;
+  return GraphPiece<Function>{frame, *curve};
+}
 
 // Near a pole or a turning point a curve leaves the spline between nodes by multiples of the chord;
 // valid curves of a window that passes the guard stay below a quarter.
 constexpr double kMaxDeviation = 0.25;  // fraction of the chord
 
+constexpr std::size_t kSmallest = 3;  // [nodes] smaller windows are not split; two nodes are a line
+constexpr std::array kPolynomial{Family::by_n};
+
+PlanarPiece fallback_piece(const Nodes& nodes,
+                           NodeRange range,
+                           const NodeSpline& spline,
+                           Fallback fallback) {
+  if (fallback == Fallback::spline || range.nodes() != 3) return SplinePiece{};
+  const std::size_t i = range.first;
+  const std::array points{nodes.points[i], nodes.points[i + 1], nodes.points[i + 2]};
+  const std::array arc_lengths{spline.distance(i), spline.distance(i + 1), spline.distance(i + 2)};
+  const auto arc = fit_arc(points, arc_lengths);
+  return arc ? PlanarPiece(ArcPiece{*arc}) : PlanarPiece(SplinePiece{});
+}
+
+void keep_chords(const Nodes& nodes, NodeRange segment, PlanarFit& out) {
+  for (std::size_t i = segment.first; i < segment.last; ++i) {
+    ++out.chords;
+    out.keep(
+        {{i, i + 1}, {i, i + 1}},
+        ChordPiece{nodes.stamps[i], nodes.stamps[i + 1], nodes.points[i], nodes.points[i + 1]});
+  }
+}
+
 }  // namespace
+
+std::vector<Family> read_families(const std::string& names) {
+  std::string words = names;
+  std::replace(words.begin(), words.end(), ',', ' ');
+  std::istringstream in(words);
+  std::vector<Family> out;
+  for (std::string word; in >> word;) {
+    const auto family = from_text<Family>(word);
+    if (!family) {
+      throw OptionError("families",
+                        "families = " + names + ": unknown family " + word + ", expected " +
+                            choice_list<Family>());
+    }
+    out.push_back(*family);
+  }
+  if (out.empty())
+    throw OptionError("families", "families: expected at least one of " + choice_list<Family>());
+  return out;
+}
+
+bool is_polynomial(Family family) {
+  return family == Family::by_n || family == Family::line || family == Family::poly2 ||
+         family == Family::poly3;
+}
+
+std::size_t unknowns(Family family, std::size_t nodes) {
+  if (is_polynomial(family)) return static_cast<std::size_t>(degree(family, nodes)) + 1;
+  return family == Family::implicit ? kImplicitPowers.size() - 1 : 3;
+}
+
+std::optional<PlanarPiece> fit_family(Family family,
+                                      const Frame& frame,
+                                      std::span<const Vector2> points) {
+  switch (family) {
+    case Family::sin1:
+      return graph(frame, fit_sine(points));
+    case Family::rat02:
+      return graph(frame, fit_rational(points));
+    case Family::hyperbola:
+      return graph(frame, fit_hyperbola(points));
+    case Family::implicit: {
+      const auto curve = fit_implicit(points);
+      return curve ? std::optional<PlanarPiece>(ImplicitPiece{frame, *curve}) : std::nullopt;
+    }
+    default: {
+      const Polynomial curve = fit_polynomial(points, degree(family, points.size()));
+      return is_valid(curve) ? graph(frame, std::optional(curve)) : std::nullopt;
+    }
+  }
+}
 
 bool WindowFitter::admits(const Window& window) const {
   const auto frame = fitting_frame(rule.axes, nodes, window.fitted, up);
@@ -80,45 +175,10 @@ double WindowFitter::squared_error(const PlanarPiece& piece, std::size_t node) c
 bool WindowFitter::stays_near_spline(const PlanarPiece& piece, const Window& window) const {
   const Vector3 chord = nodes.points[window.fitted.last] - nodes.points[window.fitted.first];
   const double max_deviation = kMaxDeviation * chord.norm();
-  const std::size_t begin = window.owned.first > 0 ? window.owned.first - 1 : 0;
-  const std::size_t end = std::min(window.owned.last + 1, nodes.size() - 1);
-  for (std::size_t edge = begin; edge < end; ++edge) {
-    for (const double u : {0.25, 0.5, 0.75}) {
-      const SplinePoint position = spline.at(edge, nodes.stamps[edge] + u * nodes.duration(edge));
-      if (!((value_of_piece(piece, position) - position.point).norm() <= max_deviation))
-        return false;
-    }
-  }
-  return true;
+  return holds_along(nodes, spline, window, [&](const SplinePoint& position) {
+    return (value_of_piece(piece, position) - position.point).norm() <= max_deviation;
+  });
 }
-
-namespace {
-
-constexpr std::size_t kSmallest = 3;  // [nodes] smaller windows are not split; two nodes are a line
-constexpr std::array kPolynomial{Family::by_n};
-
-PlanarPiece fallback_piece(const Nodes& nodes,
-                           NodeRange range,
-                           const NodeSpline& spline,
-                           Fallback fallback) {
-  if (fallback == Fallback::spline || range.nodes() != 3) return SplinePiece{};
-  const std::size_t i = range.first;
-  const std::array points{nodes.points[i], nodes.points[i + 1], nodes.points[i + 2]};
-  const std::array arc_lengths{spline.distance(i), spline.distance(i + 1), spline.distance(i + 2)};
-  const auto arc = fit_arc(points, arc_lengths);
-  return arc ? PlanarPiece(ArcPiece{*arc}) : PlanarPiece(SplinePiece{});
-}
-
-void keep_chords(const Nodes& nodes, NodeRange segment, PlanarFit& out) {
-  for (std::size_t i = segment.first; i < segment.last; ++i) {
-    ++out.chords;
-    out.keep(
-        {{i, i + 1}, {i, i + 1}},
-        ChordPiece{nodes.stamps[i], nodes.stamps[i + 1], nodes.points[i], nodes.points[i + 1]});
-  }
-}
-
-}  // namespace
 
 PlanarFit fit_planar(const Nodes& nodes,
                      std::span<const NodeRange> segments,

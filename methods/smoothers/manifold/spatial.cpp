@@ -23,15 +23,10 @@ bool stays_near_spline(const Height::Surface& surface,
     high = std::max(high, up.dot(nodes.points[i]));
   }
   const double max_deviation = high - low + kRounding * surface.quadric.scale;
-  const std::size_t begin = window.owned.first > 0 ? window.owned.first - 1 : 0;
-  const std::size_t end = std::min(window.owned.last + 1, nodes.size() - 1);
-  for (std::size_t edge = begin; edge < end; ++edge) {
-    for (const double u : {0.25, 0.5, 0.75}) {
-      const Vector3 point = spline.at(edge, nodes.stamps[edge] + u * nodes.duration(edge)).point;
-      if (std::abs(surface.height(point) - up.dot(point)) > max_deviation) return false;
-    }
-  }
-  return true;
+  return holds_along(nodes, spline, window, [&](const SplinePoint& position) {
+    const double deviation = surface.height(position.point) - up.dot(position.point);
+    return !(std::abs(deviation) > max_deviation);
+  });
 }
 
 std::optional<Height::Surface> fit_surface(const Nodes& nodes,

@@ -1,7 +1,9 @@
 /// Step 6: windows of nodes that are fitted together, and the part of the curve each fit covers.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "methods/smoothers/manifold/families/nodes.hpp"
 
@@ -38,5 +40,19 @@ std::vector<Window> windows(NodeRange segment,
 
 /// Indices of the nodes that the window is fitted to. O(their number).
 std::vector<std::size_t> picked(const Window& window);
+
+/// Whether `holds(point)` for three points of `spline` on each edge that the window owns, and on
+/// one edge on either side.
+template <class Spline, class Holds>
+bool holds_along(const Nodes& nodes, const Spline& spline, const Window& window, Holds holds) {
+  const std::size_t begin = window.owned.first > 0 ? window.owned.first - 1 : 0;
+  const std::size_t end = std::min(window.owned.last + 1, nodes.size() - 1);
+  for (std::size_t edge = begin; edge < end; ++edge) {
+    for (const double u : {0.25, 0.5, 0.75}) {
+      if (!holds(spline.at(edge, nodes.stamps[edge] + u * nodes.duration(edge)))) return false;
+    }
+  }
+  return true;
+}
 
 }  // namespace loopbench::methods::manifold

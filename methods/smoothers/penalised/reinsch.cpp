@@ -60,18 +60,19 @@ Reinsch::Fit Reinsch::fit(const std::vector<Vector3>& y, double lambda) const {
   for (const Vector3& residual : residuals) out.residual += residual.cwiseAbs2();
   out.values = y;
   for (std::size_t i = 0; i < y.size(); ++i) out.values[i] -= residuals[i];
-  out.free = lambda * trace_of_product(outer_, factor.inverse_bands());
+  out.residual_dof = lambda * trace_of_product(outer_, factor.inverse_bands());
   out.log_determinant =
       static_cast<double>(gamma.size()) * std::log(lambda) - factor.log_determinant();
-  out.bends = std::move(gamma);
-  out.bends.insert(out.bends.begin(), Vector3::Zero());
-  out.bends.push_back(Vector3::Zero());
+  out.curvatures = std::move(gamma);
+  out.curvatures.insert(out.curvatures.begin(), Vector3::Zero());
+  out.curvatures.push_back(Vector3::Zero());
   return out;
 }
 
 double score(Criterion criterion, const Reinsch::Fit& fit, std::size_t n) {
   const auto size = static_cast<double>(n);
-  if (criterion == Criterion::gcv) return size * fit.residual.sum() / (fit.free * fit.free);
+  if (criterion == Criterion::gcv)
+    return size * fit.residual.sum() / (fit.residual_dof * fit.residual_dof);
   constexpr double kTiny = 1e-300;  // keeps the logarithm finite for a straight line
   // REML with a variance common to three axes: 3 (n - 2) log(sum) - 3 log det, divided by three.
   return (size - 2.0) * std::log(fit.energy.sum() + kTiny) - fit.log_determinant;

@@ -1,14 +1,37 @@
-/// Splits trajectories at intervals that no smooth curve should bridge, and joins curves by chords.
+/// Parts of trajectories: positions, rotations, and runs between intervals that no smooth curve
+/// should bridge, joined by chords.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "datasets/core/curve.hpp"
+#include "datasets/core/trajectory.hpp"
 #include "methods/report.hpp"
 
 namespace loopbench::methods {
+
+inline std::vector<Vector3> positions_of(const Trajectory& poses) {
+  std::vector<Vector3> out;
+  out.reserve(poses.size());
+  for (const StampedPose& pose : poses) out.push_back(pose.world_from_body.translation);
+  return out;
+}
+
+inline std::vector<Rotation> rotations_of(const Trajectory& poses) {
+  std::vector<Rotation> out;
+  out.reserve(poses.size());
+  for (const StampedPose& pose : poses) out.push_back(pose.world_from_body.rotation);
+  return out;
+}
+
+/// Returns why a method that requires `least` keyframes declines, or an empty text.
+inline std::string too_few_keyframes(const Trajectory& keyframes, std::size_t least) {
+  if (keyframes.size() >= least) return "";
+  return std::to_string(keyframes.size()) + " keyframes, fewer than " + std::to_string(least);
+}
 
 /// Segment of consecutive poses first .. last, both included.
 struct PoseRun {

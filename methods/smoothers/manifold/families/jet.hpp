@@ -73,8 +73,8 @@ Jet<typename Derived::PlainObject> operator*(const Jet<double>& s,
 }
 
 /// Chain rule: g(x(t)) from g and its first two derivatives at x.
-inline Jet<double> chained(const Jet<double>& x, double g, double slope, double bend) {
-  return {g, slope * x.first, bend * x.first * x.first + slope * x.second};
+inline Jet<double> chained(const Jet<double>& x, double g, double slope, double curvature) {
+  return {g, slope * x.first, curvature * x.first * x.first + slope * x.second};
 }
 inline Jet<double> operator/(double s, const Jet<double>& a) {
   const double inverse = 1.0 / a.value;
