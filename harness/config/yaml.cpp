@@ -1,11 +1,11 @@
 #include "harness/config/yaml.hpp"
 
+#include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <charconv>
-#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -51,151 +51,105 @@ void merge_keys(YamlNode& node) {
   }
 }
 
-/// Builds the tree of the only document, with all aliases expanded.
-class TreeBuilder final : public YAML::EventHandler {
- public:
-  TreeBuilder(const std::string& text, const std::string& file) : file_(file), root_(file_) {
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) lines_.push_back(line);
-    bytes_ = text.size();
-  }
-
-  bool is_empty() const { return documents_ == 0; }
-  YamlNode take() { return std::move(root_); }
-
-  void OnDocumentStart(const YAML::Mark&) override {
-    if (++documents_ > 1) throw file_.error("has more than one YAML document");
-  }
+/// To read past a document. YAML::LoadAll does not terminate for some texts.
+struct IgnoredDocument final : YAML::EventHandler {
+  using Mark = YAML::Mark;
+  using Anchor = YAML::anchor_t;
+  using Style = YAML::EmitterStyle::value;
+  void OnDocumentStart(const Mark&) override {}
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    YamlNode node(at(mark));
-    if (!open_.empty() && open_.back().node.type == YamlNode::Type::list) {
-      node.line = line_before(mark);
-    }
-    spend(node, node);
-    add(std::move(node), anchor);
-  }
-  void OnScalar(const YAML::Mark& mark,
-                const std::string& tag,
-                YAML::anchor_t anchor,
-                const std::string& text) override {
-    YamlNode node(at(mark), YamlNode::Type::scalar);
-    node.scalar = to_param(tag, text);
-    node.text = text;
-    spend(node, node);
-    add(std::move(node), anchor);
-  }
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    const auto found = anchored_.find(anchor);
-    if (found == anchored_.end()) throw at(mark).error("is a recursive alias");
-    spend(found->second, at(mark));
-    add(found->second, YAML::NullAnchor);
-  }
-  void OnSequenceStart(const YAML::Mark& mark,
-                       const std::string&,
-                       YAML::anchor_t anchor,
-                       YAML::EmitterStyle::value) override {
-    open(YamlNode(at(mark), YamlNode::Type::list), anchor);
-  }
-  void OnMapStart(const YAML::Mark& mark,
-                  const std::string&,
-                  YAML::anchor_t anchor,
-                  YAML::EmitterStyle::value) override {
-    open(YamlNode(at(mark), YamlNode::Type::map), anchor);
-  }
-  void OnSequenceEnd() override { close(); }
-  void OnMapEnd() override { close(); }
+  void OnNull(const Mark&, Anchor) override {}
+  void OnAlias(const Mark&, Anchor) override {}
+  void OnScalar(const Mark&, const std::string&, Anchor, const std::string&) override {}
+  void OnSequenceStart(const Mark&, const std::string&, Anchor, Style) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const Mark&, const std::string&, Anchor, Style) override {}
+  void OnMapEnd() override {}
+};
+
+/// Copies the tree of a document, with all aliases expanded.
+class TreeCopy {
+ public:
+  TreeCopy(const std::string& text, const std::string& file) : text_(text), file_(file) {}
+
+  YamlNode copy(const YAML::Node& node) { return copy(node, place(node.Mark())); }
 
  private:
-  /// A list or map that has not ended.
-  struct Open {
-    YamlNode node;
-    YAML::anchor_t anchor;
-    std::set<std::string> keys;   ///< so far
-    std::optional<YamlNode> key;  ///< whose value comes next
-  };
+  /// `parent` is where too large expansions are reported.
+  YamlNode copy(const YAML::Node& node, const Place& parent) {
+    constexpr std::size_t kMostLevels = 100;
+    YamlNode out(place(node.Mark()));
+    if (std::ranges::any_of(open_, [&](const YAML::Node& each) { return each.is(node); })) {
+      throw out.error("is a recursive alias");
+    }
+    if (node.IsScalar()) {
+      out.type = YamlNode::Type::scalar;
+      out.text = node.Scalar();
+      out.scalar = to_param(node.Tag(), out.text);
+    }
+    spend(out.text.size(), parent);
+    if (!node.IsSequence() && !node.IsMap()) return out;
+    if (open_.size() == kMostLevels) throw out.error("has too many levels");
+    open_.push_back(node);
+    out.type = node.IsMap() ? YamlNode::Type::map : YamlNode::Type::list;
+    std::set<std::string> keys;
+    for (const auto& item : node) {
+      if (node.IsMap()) {
+        const YamlNode key = copy(item.first, out);
+        if (key.type != YamlNode::Type::scalar) throw key.error("a key must be a string");
+        if (!keys.insert(key.text).second) throw key.error("'" + key.text + "' is set twice");
+        YamlNode value = copy(item.second, out);
+        value.line = key.line;
+        value.is_anchored = open_.size() == 1 && has_anchor(item.first, item.second);
+        out.map.push_back({key.text, std::move(value)});
+      } else {
+        out.list.push_back(copy(item, out));
+        if (item.IsNull()) out.list.back().line = line_before(item.Mark());
+      }
+    }
+    open_.pop_back();
+    merge_keys(out);
+    return out;
+  }
 
-  Place at(const YAML::Mark& mark) const {
+  /// Whether the value is not an alias, whose mark is that of its anchor, and has an anchor.
+  bool has_anchor(const YAML::Node& key, const YAML::Node& value) const {
+    const auto begin = static_cast<std::size_t>(value.Mark().pos);
+    return value.Mark().pos > key.Mark().pos && begin < text_.size() && text_[begin] == '&';
+  }
+
+  Place place(const YAML::Mark& mark) const {
     Place out = file_;
     out.line = static_cast<std::size_t>(mark.line + 1);
     return out;
   }
 
-  /// The line of an empty item of a list: that of the last text before `mark`, which is the next
-  /// token or the end.
+  /// The line of an empty item of a list, whose mark is the next token or the end: that of the last
+  /// text before it.
   std::size_t line_before(const YAML::Mark& mark) const {
-    const bool is_end = static_cast<std::size_t>(mark.pos) >= bytes_;  // its column is 0
-    auto number = is_end ? lines_.size() : static_cast<std::size_t>(mark.line) + 1;
-    auto columns = is_end ? std::string::npos : static_cast<std::size_t>(mark.column);
-    for (; number > 1; --number, columns = std::string::npos) {
-      if (number > lines_.size()) continue;
-      const std::string text = lines_[number - 1].substr(0, columns);
-      const std::size_t begin = text.find_first_not_of(" \t\r");
-      if (begin != std::string::npos && text[begin] != '#') break;
+    auto end = std::min(static_cast<std::size_t>(mark.pos), text_.size());
+    const bool is_end = end == text_.size();  // its line is not that of the text
+    auto number = 1 + (is_end ? std::ranges::count(text_, '\n') : mark.line);
+    for (; number > 1; --number) {
+      const std::size_t newline = text_.rfind('\n', end - 1);
+      const std::size_t begin = text_.find_first_not_of(" \t\r", newline + 1);
+      if (begin < end && text_[begin] != '#') break;
+      end = newline;
     }
-    return number;
-  }
-
-  void open(YamlNode node, YAML::anchor_t anchor) {
-    constexpr std::size_t kMostLevels = 100;
-    if (open_.size() == kMostLevels) throw node.error("has too many levels");
-    spend(node, node);
-    open_.push_back({std::move(node), anchor, {}, {}});
-  }
-
-  void close() {
-    Open ended = std::move(open_.back());
-    open_.pop_back();
-    merge_keys(ended.node);
-    add(std::move(ended.node), ended.anchor);
-  }
-
-  void add(YamlNode node, YAML::anchor_t anchor) {
-    node.is_anchored = anchor != YAML::NullAnchor && open_.size() == 1;
-    if (anchor != YAML::NullAnchor) {
-      spend(node, node);  // of the copy
-      anchored_.insert_or_assign(anchor, node).first->second.is_anchored = false;
-    }
-    if (open_.empty()) {
-      root_ = std::move(node);
-    } else if (open_.back().node.type == YamlNode::Type::list) {
-      open_.back().node.list.push_back(std::move(node));
-    } else {
-      add_to_map(open_.back(), std::move(node));
-    }
-  }
-
-  static void add_to_map(Open& parent, YamlNode node) {
-    if (!parent.key) {
-      if (node.type != YamlNode::Type::scalar) throw node.error("a key must be a string");
-      if (!parent.keys.insert(node.text).second) {
-        throw node.error("'" + node.text + "' is set twice");
-      }
-      parent.key = std::move(node);
-      return;
-    }
-    node.line = parent.key->line;
-    parent.node.map.push_back({parent.key->text, std::move(node)});
-    parent.key.reset();
+    return static_cast<std::size_t>(number);
   }
 
   /// Limits the size with all aliases expanded: a few lines can expand beyond memory.
-  void spend(const YamlNode& node, const Place& place) {
-    if (values_left_ == 0) throw place.error("has too many values after expanding aliases");
-    if (node.text.size() > bytes_left_) throw place.error("is too long after expanding aliases");
+  void spend(std::size_t bytes, const Place& parent) {
+    if (values_left_ == 0) throw parent.error("has too many values after expanding aliases");
+    if (bytes > bytes_left_) throw parent.error("is too long after expanding aliases");
     --values_left_;
-    bytes_left_ -= node.text.size();
-    for (const YamlNode& item : node.list) spend(item, place);
-    for (const YamlEntry& entry : node.map) spend(entry.value, place);
+    bytes_left_ -= bytes;
   }
 
-  std::vector<std::string> lines_;
-  std::size_t bytes_ = 0;  // of all lines
+  const std::string& text_;
   Place file_;
-  YamlNode root_;
-  std::size_t documents_ = 0;
-  std::vector<Open> open_;  // from the root to the innermost
-  std::map<YAML::anchor_t, YamlNode> anchored_;
+  std::vector<YAML::Node> open_;  // from the root to the innermost
   std::size_t values_left_ = 100'000;
   std::size_t bytes_left_ = 10'000'000;  // of text
 };
@@ -245,13 +199,18 @@ YamlNode parse_yaml(const std::string& text, const std::string& file) {
   }
   expect_utf8(text, file);
   try {
+    const YAML::Node root = YAML::Load(text);
+    if (root.Mark().is_null()) throw InputError(file + ": is empty, expected a map of settings");
     std::istringstream in(text);
     YAML::Parser parser(in);
-    TreeBuilder tree(text, file);
-    while (parser.HandleNextDocument(tree)) {
+    IgnoredDocument first;
+    parser.HandleNextDocument(first);
+    if (parser.HandleNextDocument(first)) {
+      throw InputError(file + ": has more than one YAML document");
     }
-    if (tree.is_empty()) throw InputError(file + ": is empty, expected a map of settings");
-    return tree.take();
+    return TreeCopy(text, file).copy(root);
+  } catch (const YAML::DeepRecursion& error) {
+    throw input_error(file, static_cast<std::size_t>(error.mark.line + 1), "has too many levels");
   } catch (const YAML::Exception& error) {
     if (const std::size_t line = line_with_tab(text); line > 0) {
       throw input_error(file, line, "is indented with a tab; YAML accepts only spaces");
