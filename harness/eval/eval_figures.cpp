@@ -207,13 +207,11 @@ std::vector<DrawnFigure> figures_for_paper(const std::string& prefix,
   for (std::size_t i = 0; i < kErrorFigures.size(); ++i) {
     const bool is_map = i == 0;
     DrawnFigure& figure = out.emplace_back(DrawnFigure{{}, panels()[i], options});
-    const std::size_t columns = options.columns.value_or(is_map ? 2 : 1);
+    const std::size_t columns = is_map ? 2 : 1;
+    const double width = kColumnWidth / static_cast<double>(columns);
     figure.options.columns = columns;
-    if (options.size.empty()) {
-      const double width = kColumnWidth / static_cast<double>(columns);
-      figure.options.size = {width, width * (is_map || columns > 1 ? kMapShape : kCurveShape)};
-    }
-    if (!options.font && options.style.empty()) figure.options.font = 7.0;
+    figure.options.size = {width, width * (is_map ? kMapShape : kCurveShape)};
+    figure.options.font = 7.0;
     for (const std::string& suffix : suffixes) {
       figure.files.emplace_back(prefix + "_" + kErrorFigures[i] + suffix);
     }

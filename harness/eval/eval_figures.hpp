@@ -42,8 +42,8 @@ inline constexpr std::array kErrorFigures{"trajectories", "errors", "axes"};
 /// The curves of the estimates and the reference, without figures.
 FigureData figure_data(const DrawnRuns& runs);
 
-/// kErrorFigures as PREFIX_NAME and each suffix (".svg"), by default as wide as one column of a
-/// paper, with 2 maps or 1 panel of curves in a row.
+/// kErrorFigures as PREFIX_NAME and each suffix (".svg"), as wide as one column of a paper, with 2
+/// maps or 1 panel of curves in a row. `options`: labels and plane.
 std::vector<DrawnFigure> figures_for_paper(const std::string& prefix,
                                            const std::vector<std::string>& suffixes,
                                            const FigureOptions& options);
