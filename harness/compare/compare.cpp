@@ -70,7 +70,11 @@ std::vector<std::size_t> joined(const std::vector<std::vector<std::string>>& key
     for (const std::string& key : keys[run]) {
       const std::size_t other = group[first.emplace(key, run).first->second];
       const std::size_t own = group[run];
-      if (own != other) std::ranges::replace(group, own, other);
+      if (own == run) {
+        group[run] = other;  // without others yet
+      } else if (own != other) {
+        std::ranges::replace(group, own, other);
+      }
     }
   }
   NameOrder order;
@@ -231,44 +235,66 @@ void sort_methods(std::vector<MethodVerdict>& methods, metrics::Better better) {
   std::ranges::stable_sort(methods, {}, key);
 }
 
-Comparison compare_one(Observations& all, const CompareOptions& options) {
-  Comparison out;
+/// Sets what does not depend on a ranking; drops duplicates.
+KeptRuns kept_runs(Observations& all, Comparison& out) {
   out.kind = all.kind;
-  out.options = options;
   out.oracles = all.oracles;
   out.copies = drop_duplicates(all);
   out.unstable.assign(all.unstable.begin(), all.unstable.end());
-  const KeptRuns kept = select_runs(all, out);
-  std::vector<std::string> names;
-  for (const std::size_t m : kept.methods) names.push_back(all.methods[m]);
-  const auto found = std::ranges::find(names, options.baseline);
-  if (out.groups == 0 || names.size() < 2 || found == names.end()) return out;
-  const auto baseline = static_cast<std::size_t>(found - names.begin());
-  const Levels levels(kept.values, options.tie);
-  const Ranking ranking = rank_methods(levels, {options.alpha, options.tie, options.relevant});
+  return select_runs(all, out);
+}
+
+/// Sets counts, standings and whether the leading methods are best.
+Ranking rank(const Levels& levels, const Observations& all, const KeptRuns& kept, Comparison& out) {
+  const CompareOptions& options = out.options;
+  Ranking ranking = rank_methods(levels, {options.alpha, options.tie, options.relevant});
   out.tests = ranking.tests;
   out.can_show = ranking.can_show;
   out.groups_needed = ranking.groups_needed;
-  for (std::size_t m = 0; m < names.size(); ++m) {
-    MethodVerdict& method = out.methods.emplace_back(counts_of(all, kept, m));
+  for (std::size_t m = 0; m < kept.methods.size(); ++m) {
+    out.methods.push_back(counts_of(all, kept, m));
+    out.methods.back().standing = ranking.standings[m];
+  }
+  out.is_best = ranking.is_best() && leaders_with_less_coverage(out).empty();
+  return ranking;
+}
+
+Comparison compare_one(Observations& all, const CompareOptions& options) {
+  Comparison out;
+  out.options = options;
+  const KeptRuns kept = kept_runs(all, out);
+  const auto is_baseline = [&](std::size_t m) { return all.methods[m] == options.baseline; };
+  const auto found = std::ranges::find_if(kept.methods, is_baseline);
+  if (out.groups == 0 || kept.methods.size() < 2 || found == kept.methods.end()) return out;
+  const auto baseline = static_cast<std::size_t>(found - kept.methods.begin());
+  const Levels levels(kept.values, options.tie);
+  const Ranking ranking = rank(levels, all, kept, out);
+  for (std::size_t m = 0; m < out.methods.size(); ++m) {
+    MethodVerdict& method = out.methods[m];
     const Pair pair = compared(levels, m, baseline);
     out.is_ratio = out.is_ratio && pair.is_ratio;
     out.has_strata = out.has_strata || !pair.strata.empty();
     add_baseline(method, pair, kept, out);
-    method.standing = ranking.standings[m];
     if (m != ranking.leader) method.from_leader = ratio_of(ranking.from_leader[m], kept, out);
   }
   sort_methods(out.methods, out.kind.better);
-  const auto short_of_others = methods_with_less_coverage(out);
-  out.is_best = ranking.is_best() && std::ranges::none_of(out.methods, [&](const MethodVerdict& m) {
-                  return is_leading(m) && std::ranges::count(short_of_others, m.method) > 0;
-                });
   return out;
 }
 
 }  // namespace
 
 bool is_leading(const MethodVerdict& method) { return method.standing < Standing::behind; }
+
+Comparison standings(Observations all, const CompareOptions& options) {
+  Comparison out;
+  out.options = options;
+  const KeptRuns kept = kept_runs(all, out);
+  if (out.groups == 0 || kept.methods.size() < 2) return out;
+  const Ranking ranking = rank(Levels(kept.values, options.tie), all, kept, out);
+  out.has_strata = std::ranges::any_of(ranking.from_leader,
+                                       [](const Pair& pair) { return !pair.strata.empty(); });
+  return out;
+}
 
 std::vector<Comparison> compare(const std::vector<Record>& records, const CompareOptions& options) {
   return compare(observations(records, options.value), options);

@@ -109,8 +109,13 @@ std::vector<Comparison> compare(const std::vector<Record>& records, const Compar
 /// The same for observations of `options.value`.
 std::vector<Comparison> compare(std::vector<Observations> all, const CompareOptions& options);
 
-/// Methods that cover clearly less of the reference than another one.
+/// Which methods are best, as in compare(), but without a baseline: no ratios to it, wins and p;
+/// the methods are in the order of the observations.
+Comparison standings(Observations all, const CompareOptions& options);
+
+/// Methods that cover clearly less of the reference than another one, and those of them that lead.
 std::vector<std::string> methods_with_less_coverage(const Comparison& comparison);
+std::vector<std::string> leaders_with_less_coverage(const Comparison& comparison);
 
 /// "half covers 53 % of the reference, others up to 100 %"; empty for no methods.
 std::string coverage_text(const Comparison& comparison, const std::vector<std::string>& methods);

@@ -224,6 +224,12 @@ std::vector<std::string> methods_with_less_coverage(const Comparison& c) {
       c, [&](const MethodVerdict& m) { return m.coverage < kLess * largest_coverage(c); });
 }
 
+std::vector<std::string> leaders_with_less_coverage(const Comparison& c) {
+  std::vector<std::string> out = methods_with_less_coverage(c);
+  std::erase_if(out, [&](const std::string& m) { return !is_leading(*find(c, m)); });
+  return out;
+}
+
 std::string coverage_text(const Comparison& c, const std::vector<std::string>& methods) {
   std::string out;
   for (const std::string& method : methods) {
@@ -242,9 +248,7 @@ std::string verdict(const Comparison& c) {
     return m.standing == Standing::leader || m.standing == Standing::equal;
   };
   if (std::ranges::all_of(c.methods, is_equal)) return "all methods are equal" + over;
-  std::vector<std::string> partial = methods_with_less_coverage(c);
-  std::erase_if(partial, [&](const std::string& m) { return std::ranges::count(leaders, m) == 0; });
-  const std::string covered = coverage_text(c, partial);
+  const std::string covered = coverage_text(c, leaders_with_less_coverage(c));
   if (c.can_show && !covered.empty()) {
     return "no method is called best: " + covered + "; " + leaders_text(c) +
            result_text(c, c.methods.front()) + over;
