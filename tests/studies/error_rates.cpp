@@ -4,8 +4,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "harness/tables/pivot.hpp"
-
 namespace loopbench::synthetic {
 
 using namespace methods;
@@ -54,18 +52,6 @@ bool has_false_claim(const Comparison& c, const Truth& truth) {
   });
 }
 
-/// The method that a table of the records marks as best; the number of methods if none is marked.
-std::size_t marked(const std::vector<Record>& all, std::size_t methods) {
-  const Table table = pivot(all, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
-  for (const auto& line : table.lines) {
-    for (const TableCell& cell : line) {
-      if (cell.mark == Mark::best)
-        return static_cast<std::size_t>(std::stoi(line[0].text.substr(1)));
-    }
-  }
-  return methods;
-}
-
 }  // namespace
 
 ErrorRates error_rates(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed) {
@@ -73,16 +59,13 @@ ErrorRates error_rates(const Truth& truth, const Shape& shape, int repeats, std:
   ErrorRates out;
   const std::size_t best = truly_best(truth);
   for (int i = 0; i < repeats; ++i) {
-    const std::vector<Record> all = records(truth, shape, bits);
-    const Comparison c = compare(all, {.baseline = "m0"}).at(0);
+    const Comparison c = compare(records(truth, shape, bits), {.baseline = "m0"}).at(0);
     const bool is_right = c.is_best && c.methods[0].method == "m" + std::to_string(best);
     out.found += is_right ? 1.0 : 0.0;
     out.false_best += c.is_best && !is_right ? 1.0 : 0.0;
     out.false_better += has_false_claim(c, truth) ? 1.0 : 0.0;
-    const std::size_t mark = marked(all, truth.effects.size());
-    out.marked_wrong += mark != truth.effects.size() && mark != best ? 1.0 : 0.0;
   }
-  for (double* rate : {&out.found, &out.false_best, &out.false_better, &out.marked_wrong}) {
+  for (double* rate : {&out.found, &out.false_best, &out.false_better}) {
     *rate /= repeats;
   }
   return out;

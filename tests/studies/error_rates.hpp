@@ -12,7 +12,6 @@ struct ErrorRates {
   double false_best = 0.0;    ///< a method is reported as best that is not
   double false_better = 0.0;  ///< a method is wrongly better or worse than the baseline
   double found = 0.0;         ///< the truly best method is reported as best
-  double marked_wrong = 0.0;  ///< a table marks a method as best that is not
 };
 
 /// Rates over `repeats` draws. Equal effects are true ties: none of them is best.
