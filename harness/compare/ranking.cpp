@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "harness/compare/signed_rank.hpp"
@@ -22,15 +21,15 @@ std::size_t count_tests(const Levels& levels) {
 
 /// Of the methods that were run on half of the groups or more, a method that is ahead of all others
 /// is found in any order of them.
-std::size_t find_leader(const Levels& levels, const std::vector<std::size_t>& methods) {
+std::size_t find_leader(const Levels& levels) {
   constexpr double kMost = 0.5;
   std::vector<std::size_t> known;  // groups of each method
-  for (const std::size_t m : methods) known.push_back(levels.known_groups(m));
+  for (std::size_t m = 0; m < levels.methods(); ++m) known.push_back(levels.known_groups(m));
   const auto most = static_cast<double>(std::ranges::max(known));
   std::optional<std::size_t> leader;
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    if (static_cast<double>(known[i]) < kMost * most) continue;
-    if (!leader || compared(levels, methods[i], *leader).is_first_ahead()) leader = methods[i];
+  for (std::size_t m = 0; m < known.size(); ++m) {
+    if (static_cast<double>(known[m]) < kMost * most) continue;
+    if (!leader || compared(levels, m, *leader).is_first_ahead()) leader = m;
   }
   return *leader;
 }
@@ -55,30 +54,6 @@ double least_p_of(std::size_t groups, std::size_t strata) {
   return 2.0 * rank_sum_tail(std::vector<Stratum>(strata, {groups, groups}), 0);
 }
 
-Ranking rank(const Levels& levels,
-             const std::vector<std::size_t>& methods,
-             std::size_t tests,
-             const RankingOptions& options) {
-  Ranking out;
-  out.tests = tests;
-  out.leader = find_leader(levels, methods);
-  out.standings.assign(levels.methods(), Standing::behind);
-  out.from_leader.resize(levels.methods());
-  std::size_t strata = 0;
-  for (const std::size_t m : methods) {
-    if (m == out.leader) continue;
-    out.from_leader[m] = compared(levels, out.leader, m);
-    out.standings[m] = standing_of(out.from_leader[m], tests, options);
-    strata = std::max(strata, out.from_leader[m].strata.size());
-    out.can_show = out.can_show || corrected(out.from_leader[m].least_p, tests) <= options.alpha;
-  }
-  out.standings[out.leader] = Standing::leader;
-  while (corrected(least_p_of(out.groups_needed, strata), tests) > options.alpha) {
-    ++out.groups_needed;
-  }
-  return out;
-}
-
 }  // namespace
 
 bool Ranking::is_best() const {
@@ -88,17 +63,25 @@ bool Ranking::is_best() const {
 }
 
 Ranking rank_methods(const Levels& levels, const RankingOptions& options) {
-  std::vector<std::size_t> all(levels.methods());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  return rank(levels, all, count_tests(levels), options);
-}
-
-Ranking rank_rest(const Levels& levels, const Ranking& before, const RankingOptions& options) {
-  std::vector<std::size_t> rest;
+  Ranking out;
+  out.tests = count_tests(levels);
+  out.leader = find_leader(levels);
+  out.standings.resize(levels.methods());
+  out.from_leader.resize(levels.methods());
+  std::size_t strata = 0;
   for (std::size_t m = 0; m < levels.methods(); ++m) {
-    if (!before.is_leading(m)) rest.push_back(m);
+    if (m == out.leader) continue;
+    out.from_leader[m] = compared(levels, out.leader, m);
+    out.standings[m] = standing_of(out.from_leader[m], out.tests, options);
+    strata = std::max(strata, out.from_leader[m].strata.size());
+    out.can_show =
+        out.can_show || corrected(out.from_leader[m].least_p, out.tests) <= options.alpha;
   }
-  return rank(levels, rest, before.tests, options);
+  out.standings[out.leader] = Standing::leader;
+  while (corrected(least_p_of(out.groups_needed, strata), out.tests) > options.alpha) {
+    ++out.groups_needed;
+  }
+  return out;
 }
 
 }  // namespace loopbench::harness

@@ -47,7 +47,4 @@ struct Ranking {
 /// Deterministic. O(methods * (runs log runs + groups^3)), groups^3 for up to 50 groups only.
 Ranking rank_methods(const Levels& levels, const RankingOptions& options);
 
-/// The same without the methods that lead `before`, for a second place.
-Ranking rank_rest(const Levels& levels, const Ranking& before, const RankingOptions& options);
-
 }  // namespace loopbench::harness

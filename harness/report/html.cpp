@@ -30,10 +30,8 @@ std::string lines_of(const Table& table) {
       const std::string text = html_text(line[c].text);
       if (c == 0) {
         out += "<th scope=\"row\">" + text + "</th>";
-      } else if (line[c].mark == Mark::none) {
-        out += "<td>" + text + "</td>";
       } else {
-        out += std::string("<td class=\"") + mark_name(line[c].mark) + "\">" + text + "</td>";
+        out += (line[c].is_best ? "<td class=\"best\">" : "<td>") + text + "</td>";
       }
     }
     out += "</tr>\n";

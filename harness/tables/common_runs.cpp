@@ -7,30 +7,63 @@
 namespace loopbench::harness {
 namespace {
 
+/// Removes the runs that are not in `others`.
+void keep_only(RunSet& runs, const RunSet& others) {
+  std::erase_if(runs, [&](std::size_t run) { return !others.contains(run); });
+}
+
 /// One entry of a column (or a row) of a table.
 struct EntryRuns {
   RunSet tried;     ///< runs with any outcome
   RunSet finished;  ///< runs with a number; subset of `tried`
+  RunSet known;     ///< finished, or failed where another entry has finished; empty for an oracle
 };
 
+struct LaneRuns {
+  std::vector<EntryRuns> entries;
+  RunSet finished;  ///< of any entry but those of oracles
+};
+
+/// The entries of one column (or row).
+std::vector<TablePosition> entry_indices(const TableNumbers& table,
+                                         std::size_t index,
+                                         bool along_columns) {
+  const std::size_t entries = (along_columns ? table.rows : table.columns).names().size();
+  std::vector<TablePosition> out;
+  for (std::size_t i = 0; i < entries; ++i) {
+    out.push_back(along_columns ? TablePosition{i, index} : TablePosition{index, i});
+  }
+  return out;
+}
+
 /// Runs that the entries of a column (or a row) tried and finished.
-std::vector<EntryRuns> entry_runs(const TableNumbers& table,
-                                  const std::vector<TablePosition>& positions,
-                                  bool along_columns) {
-  std::vector<EntryRuns> out;
+LaneRuns lane_runs(const TableNumbers& table,
+                   const std::vector<TablePosition>& positions,
+                   bool along_columns) {
+  LaneRuns out;
   for (const TablePosition& position : positions) {
-    EntryRuns& own = out.emplace_back();
+    EntryRuns& own = out.entries.emplace_back();
     const EntryContents* entry = table.find(position);
     if (entry == nullptr || entry->numbers.size() == 0) continue;
     own.finished = entry->numbers.finished();
     own.tried = entry->tried;
+    own.known = entry->lost;
     const auto add = [&](const auto& losses, const auto& key) {
-      if (const auto lost = losses.find(key); lost != losses.end())
-        own.tried.insert(lost->second.begin(), lost->second.end());
+      const auto lost = losses.find(key);
+      if (lost == losses.end()) return;
+      own.tried.insert(lost->second.begin(), lost->second.end());
+      own.known.insert(lost->second.begin(), lost->second.end());
     };
     if (along_columns) add(table.lost_by_row, position.first);
     if (!along_columns) add(table.lost_by_method, entry->numbers.method());
+    if (entry->numbers.is_oracle()) {
+      own.known.clear();
+      continue;
+    }
+    out.finished.insert(own.finished.begin(), own.finished.end());
+    own.known.insert(own.finished.begin(), own.finished.end());
   }
+  for (EntryRuns& own : out.entries) keep_only(own.known, out.finished);
   return out;
 }
 
@@ -62,6 +95,18 @@ std::vector<RunSet> common_runs(const std::vector<EntryRuns>& entries) {
     for (const std::size_t i : compared) out[i] = common;
   }
   return out;
+}
+
+/// Number of runs that entry `i` lacks of those of all entries that have a known run in common with
+/// it.
+std::size_t count_missing(const LaneRuns& lane, std::size_t i) {
+  const EntryRuns& own = lane.entries[i];
+  if (own.finished.size() == lane.finished.size()) return 0;
+  RunSet all;
+  for (const EntryRuns& other : lane.entries) {
+    if (intersect(other.known, own.known)) all.insert(other.known.begin(), other.known.end());
+  }
+  return all.empty() ? 0 : all.size() - own.finished.size();
 }
 
 std::string runs_text(const std::set<std::size_t>& runs) {
@@ -98,9 +143,12 @@ std::string keep_common_runs(TableNumbers& table, bool along_columns) {
   std::map<std::string, std::set<std::size_t>> counts;
   for (std::size_t l = 0; l < names.size(); ++l) {
     const std::vector<TablePosition> positions = entry_indices(table, l, along_columns);
-    const std::vector<EntryRuns> entries = entry_runs(table, positions, along_columns);
+    const LaneRuns lane = lane_runs(table, positions, along_columns);
+    const std::vector<EntryRuns>& entries = lane.entries;
     const std::vector<RunSet> common = common_runs(entries);
     for (std::size_t i = 0; i < entries.size(); ++i) {
+      if (entries[i].finished.empty()) continue;
+      table.entries.at(positions[i]).missing = count_missing(lane, i);
       if (entries[i].finished == common[i]) continue;
       counts[names[l]].insert(common[i].size());
       table.entries.at(positions[i]).numbers.keep(common[i]);

@@ -77,10 +77,6 @@ std::optional<double> typical_of(const std::optional<Ratio>& ratio) {
   return ratio ? std::optional(ratio->typical.estimate) : std::nullopt;
 }
 
-Mark mark_of(const Comparison& c, const MethodVerdict& m) {
-  return c.is_best && is_leading(m) ? Mark::best : Mark::none;
-}
-
 }  // namespace
 
 std::string title(const Comparison& c) {
@@ -112,7 +108,7 @@ Table table_view(const Comparison& c) {
     const bool is_baseline = m.method == c.options.baseline;
     const auto unless_baseline = [&](const std::string& text) { return is_baseline ? "" : text; };
     out.lines.push_back(
-        {{m.method, mark_of(c, m)},
+        {{m.method, c.is_best && is_leading(m)},
          {median_text(c, m, decimals(largest))},
          {m.ratio ? fixed(m.ratio->typical.estimate, 4) : "-"},
          {unless_baseline(m.ratio ? interval_text(*m.ratio) : "-")},

@@ -20,7 +20,7 @@ std::string csv(const std::vector<Table>& tables) {
                            mean.records,
                            mean.averaged,
                            mean.value ? "ok" : mean.status,
-                           mark_name(line[c].mark));
+                           line[c].is_best ? "best" : "");
       }
     }
   }

@@ -23,7 +23,7 @@ std::string json(const std::vector<Table>& tables) {
                          {"deviation", or_null(mean.deviation)},
                          {"possible", std::max(mean.records, mean.possible)},
                          {"status", mean.value ? "ok" : mean.status},
-                         {"mark", mark_name(line[c].mark)}});
+                         {"mark", line[c].is_best ? "best" : ""}});
       }
     }
     out.push_back({{"title", table.title},

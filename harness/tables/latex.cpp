@@ -36,9 +36,7 @@ std::string escaped_latex(const std::string& text) {
 
 std::string marked_latex(const TableCell& cell) {
   const std::string text = escaped_latex(cell.text);
-  if (cell.mark == Mark::best) return "\\textbf{" + text + "}";
-  if (cell.mark == Mark::second) return "\\underline{" + text + "}";
-  return text;
+  return cell.is_best ? "\\textbf{" + text + "}" : text;
 }
 
 }  // namespace

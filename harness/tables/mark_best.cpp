@@ -1,87 +1,112 @@
 #include "harness/tables/mark_best.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <map>
 #include <optional>
-#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "harness/compare/ratio_text.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-struct MarkContest {
-  std::vector<std::size_t> entries;  // competitors with a value
-  std::vector<bool> is_complete;     // per entry: has a value or failure on every run
-  GroupedValues values;
-  std::size_t groups = 0;
+/// A column or a row.
+struct Lane {
+  std::optional<ObservationsBuilder> observed = {};  ///< none without a score that has a direction
+  std::map<SharedText, std::size_t> entries = {};    ///< column or row by method
+  std::set<SharedText> several = {};                 ///< methods with more entries
 };
 
-MarkContest mark_contest(const MarkInput& input) {
-  MarkContest out;
-  std::set<std::size_t> runs;
-  for (std::size_t i = 0; i < input.competitors.size(); ++i) {
-    const ByRun& own = input.competitors[i];
-    if (std::ranges::none_of(own, [](const auto& one) { return one.second.has_value(); })) continue;
-    out.entries.push_back(i);
-    for (const auto& [run, value] : own) runs.insert(run);
-  }
-  std::map<std::size_t, std::size_t> groups;
-  for (const std::size_t run : runs) {
-    out.values.group.push_back(groups.emplace(input.group[run], groups.size()).first->second);
-    if (!input.sequence.empty()) out.values.sequence.push_back(input.sequence[run]);
-  }
-  for (const std::size_t i : out.entries) {
-    const ByRun& own = input.competitors[i];
-    out.is_complete.push_back(!input.is_paired || own.size() == runs.size());
-    std::vector<std::optional<double>>& values = out.values.values.emplace_back();
-    values.reserve(runs.size());
-    auto next = own.begin();
-    for (const std::size_t run : runs) {
-      const bool is_known = next != own.end() && next->first == run;
-      values.push_back(is_known ? std::optional(next->second.value_or(kFailed)) : std::nullopt);
-      if (is_known) ++next;
+/// The fields that records of cells without scores have, too.
+std::vector<std::string> fields_of_cells(std::vector<std::string> names) {
+  std::erase_if(names, [](const std::string& name) {
+    return name != "sequence" && name != "repeat" && name != "method" && name != "closures" &&
+           name != "status";
+  });
+  return names;
+}
+
+std::vector<Lane> lanes_of(const TableNumbers& table, const TableSpec& spec, bool along_columns) {
+  std::vector<Lane> out((along_columns ? table.columns : table.rows).names().size());
+  const std::vector<std::string> names = fields_of_cells(along_columns ? spec.columns : spec.rows);
+  std::unordered_map<std::string, std::vector<std::size_t>> by_cell;
+  for (const PlacedRecord& placed : table.records) {
+    const Record& r = *placed.record;
+    if (!placed.column || direction_of(r, spec.value) == metrics::Better::neither) continue;
+    const auto [row, column] = std::pair(placed.row, *placed.column);
+    const std::size_t number = along_columns ? column : row;
+    Lane& lane = out[number];
+    if (!lane.observed) {
+      lane.observed.emplace(spec.value);
+      by_cell[fields_joined(r, names, "\n")].push_back(number);
     }
+    const std::size_t entry = along_columns ? row : column;
+    if (lane.entries.emplace(r.method, entry).first->second != entry) lane.several.insert(r.method);
   }
-  out.values.better = input.better;
-  out.values.target = input.target;
-  out.values.is_paired = input.is_paired;
-  out.groups = groups.size();
+  // In the order of the records, because the last one of a run counts.
+  for (const PlacedRecord& placed : table.records) {
+    const Record& r = *placed.record;
+    if (placed.column) {
+      Lane& lane = out[along_columns ? *placed.column : placed.row];
+      if (lane.observed) lane.observed->add(r);
+      continue;
+    }
+    const auto found = by_cell.find(fields_joined(r, names, "\n"));
+    if (found == by_cell.end()) continue;
+    for (const std::size_t number : found->second) out[number].observed->add(r);
+  }
   return out;
+}
+
+/// Empty if a value is best, all are equal, or nothing is compared.
+std::string why_none_is_best(const Comparison& c) {
+  const bool is_equal = std::ranges::all_of(c.methods, [](const MethodVerdict& m) {
+    return m.standing == Standing::leader || m.standing == Standing::equal;
+  });
+  if (c.is_best || is_equal) return "";
+  return c.can_show ? coverage_text(c, leaders_with_less_coverage(c)) : cannot_show_text(c);
 }
 
 }  // namespace
 
-const char* mark_name(Mark mark) {
-  return mark == Mark::best ? "best" : mark == Mark::second ? "second" : "";
-}
-
-Marks mark_best(const MarkInput& input, const RankingOptions& options) {
-  Marks out{std::vector<Mark>(input.competitors.size(), Mark::none), ""};
-  const MarkContest all = mark_contest(input);
-  if (all.entries.size() < 2 || all.groups == 0) return out;
-  const Levels levels(all.values, options.tie);
-  const Ranking ranking = rank_methods(levels, options);
-  const bool has_difference = std::ranges::any_of(
-      ranking.from_leader, [](const Pair& pair) { return pair.has_difference(); });
-  if (has_difference && !ranking.can_show) {
-    out.why_none = fmt::format("{} independent run{} per entry cannot show a difference at {:g}",
-                               all.groups,
-                               all.groups == 1 ? "" : "s",
-                               options.alpha);
-    return out;
-  }
-  if (!ranking.is_best()) return out;
-  const auto mark = [&](const Ranking& place, Mark value) {
-    for (std::size_t m = 0; m < all.entries.size(); ++m) {
-      if (place.is_leading(m) && all.is_complete[m]) out.marks[all.entries[m]] = value;
+void mark_best(Table& out,
+               const TableNumbers& table,
+               const TableSpec& spec,
+               bool along_columns,
+               const RankingOptions& options) {
+  CompareOptions how;
+  how.value = spec.value;
+  how.alpha = options.alpha;
+  how.tie = options.tie;
+  how.relevant = options.relevant;
+  bool is_marked = false;
+  std::string why_none;
+  std::vector<Lane> lanes = lanes_of(table, spec, along_columns);
+  for (std::size_t l = 0; l < lanes.size(); ++l) {
+    Lane& lane = lanes[l];
+    if (lane.entries.size() < 2) continue;
+    std::vector<Observations> scores = lane.observed->build();
+    const bool is_one = scores.size() == 1 &&
+                        std::ranges::none_of(scores[0].methods, [&](const std::string& method) {
+                          return lane.several.contains(method);
+                        });
+    if (!is_one) continue;
+    const Comparison c = standings(std::move(scores[0]), how);
+    if (const std::string why = why_none_is_best(c); !why.empty()) why_none = why;
+    for (const MethodVerdict& m : c.methods) {
+      if (!c.is_best || !is_leading(m)) continue;
+      const std::size_t entry = lane.entries.at(m.method);
+      out.lines[along_columns ? entry : l][1 + (along_columns ? l : entry)].is_best = true;
+      is_marked = true;
     }
-  };
-  mark(ranking, Mark::best);
-  const auto rest = std::ranges::count(ranking.standings, Standing::behind);
-  if (rest == 0 || all.entries.size() == 2) return out;
-  const Ranking others = rank_rest(levels, ranking, options);
-  if (rest == 1 || others.is_best()) mark(others, Mark::second);
-  return out;
+  }
+  if (is_marked) {
+    out.notes.insert(out.notes.begin(), "marked: the methods that compare calls best");
+  } else if (!why_none.empty()) {
+    out.notes.push_back("no best value is marked: " + why_none);
+  }
 }
 
 }  // namespace loopbench::harness

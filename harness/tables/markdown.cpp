@@ -34,7 +34,7 @@ std::string escaped_markdown(const std::string& text) {
 }
 
 std::string marked_markdown(const TableCell& cell) {
-  const char* around = cell.mark == Mark::best ? "**" : cell.mark == Mark::second ? "_" : "";
+  const char* around = cell.is_best ? "**" : "";
   return around + escaped_markdown(cell.text) + around;
 }
 

@@ -7,6 +7,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/observations.hpp"
+#include "harness/tables/mark_best.hpp"
 #include "harness/tables/table_numbers.hpp"
 
 namespace loopbench::harness {
@@ -59,6 +60,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   const std::size_t run = table.runs.index(run_key(record));
   if (run == table.group_of_run.size())
     table.group_of_run.push_back(table.groups.index(group_name(record)));
+  table.records.push_back({&record, row});
   const bool is_ok = record.status == Status::ok;
   if (!is_ok) {
     // Low coverage concerns all metrics; an undefined score is listed by its name.
@@ -77,6 +79,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
     return;
   }
   const std::size_t column = table.columns.index(column_name(record, spec.columns, spec.value));
+  table.records.back().column = column;
   const std::size_t kind = table.kinds.index(kind_of(record));
   const auto [place, is_new] = table.entries.try_emplace({row, column});
   EntryContents& entry = place->second;
@@ -99,42 +102,6 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   entry.is_gap = record.metric == "optimality" && record.relation == "gap" && spec.value != "count";
   add_error_count(table, column, record);
   entry.numbers.add(record, run, table.group_of_run[run], spec.value);
-}
-
-/// Marks the best along every column (or every row) of the finished table.
-void mark(Table& out,
-          const TableNumbers& table,
-          bool along_columns,
-          const RankingOptions& options) {
-  const std::size_t lanes = (along_columns ? table.columns : table.rows).names().size();
-  bool is_marked = false;
-  std::string why_none;
-  for (std::size_t l = 0; l < lanes; ++l) {
-    const std::vector<TablePosition> entries = entry_indices(table, l, along_columns);
-    const MarkInput all = mark_input(table, entries, along_columns);
-    const Marks marks = all.better == metrics::Better::neither || entries.size() < 2
-                            ? Marks{std::vector<Mark>(entries.size(), Mark::none), ""}
-                            : mark_best(all, options);
-    if (!marks.why_none.empty()) why_none = marks.why_none;
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      TableCell& cell = out.lines[entries[i].first][entries[i].second + 1];
-      cell.mark = marks.marks[i];
-      is_marked = is_marked || cell.mark != Mark::none;
-      const auto values = static_cast<std::size_t>(std::ranges::count_if(
-          all.competitors[i], [](const auto& one) { return one.second.has_value(); }));
-      if (cell.mean->records == 0) continue;
-      const std::size_t most = possible(all, i);
-      if (values < most) cell.mean->possible = cell.mean->records + most - values;
-    }
-  }
-  if (is_marked) {
-    out.notes.insert(
-        out.notes.begin(),
-        "marked: best and second best, if significantly better than all others by the tests of "
-        "compare");
-  } else if (!why_none.empty()) {
-    out.notes.push_back("no best value is marked: " + why_none);
-  }
 }
 
 /// Adds a note on how the numbers were averaged.
@@ -168,6 +135,7 @@ TableMean mean_at(const TableNumbers& table, const TablePosition& position, bool
   out.is_gap = entry->is_gap;
   out.records = entry->numbers.size();
   out.averaged = entry->numbers.averaged();
+  if (entry->missing > 0) out.possible = out.records + entry->missing;
   if (!out.value) out.status = out.averaged == 0 ? kNoCommonRun : "undefined";
   return out;
 }
@@ -196,6 +164,7 @@ Table finish(TableNumbers& table,
     if (!text.empty()) out.notes.insert(out.notes.begin(), text);
   }
   explain_averages(out, table, spec);
+  std::ranges::sort(table.records, {}, &PlacedRecord::record);  // as given
   for (std::size_t r = 0; r < table.rows.names().size(); ++r) {
     std::vector<TableCell>& line = out.lines.emplace_back();
     line.emplace_back(table.rows.names()[r]);
@@ -203,8 +172,8 @@ Table finish(TableNumbers& table,
       line.emplace_back().mean = mean_at(table, {r, c}, spec.plus_minus);
     }
   }
-  if (down_columns) mark(out, table, true, options);
-  if (along_rows) mark(out, table, false, options);
+  if (down_columns) mark_best(out, table, spec, true, options);
+  if (along_rows) mark_best(out, table, spec, false, options);
   format_means(out);
   return out;
 }

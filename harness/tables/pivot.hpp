@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <vector>
 
+#include "harness/compare/ranking.hpp"
 #include "harness/model/record.hpp"
 #include "harness/model/sweep.hpp"
 #include "harness/tables/table.hpp"
@@ -13,8 +14,8 @@ namespace loopbench::harness {
 inline constexpr const char* kEmptyTable = "the table is empty: no rows to show";
 
 /// Each cell has the mean of its records. The title has the values of the split columns, the notes
-/// the reasons for missing values. If the rows are methods, marks the best value of each column
-/// (see mark_best.hpp); if the columns are methods, that of each row. Entries with fewer runs than
+/// the reasons for missing values. If the rows are methods, marks the best of each column (see
+/// mark_best.hpp); if the columns are methods, the best of each row. Entries with fewer runs than
 /// others state their number; means are then over common runs (common_runs.cpp), and a note reports
 /// it. Gains are averaged as geometric means of the ratios. Several protocols always result in
 /// separate tables. Rows, columns and tables are in order of first appearance in the records.

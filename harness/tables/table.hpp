@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "harness/tables/mark_best.hpp"
-
 namespace loopbench::harness {
 
 /// The mean behind a cell. If several methods finished different runs, it is over the runs that all
@@ -28,10 +26,10 @@ struct TableMean {
 struct TableCell {
   TableCell() = default;
   template <std::convertible_to<std::string> Text>
-  TableCell(const Text& own_text, Mark own_mark = Mark::none) : text(own_text), mark(own_mark) {}
+  TableCell(const Text& own_text, bool marked = false) : text(own_text), is_best(marked) {}
 
   std::string text;
-  Mark mark = Mark::none;  ///< significantly best or second best of its column or row
+  bool is_best = false;  ///< marked: its method is best in its column or row, see mark_best.hpp
   std::optional<TableMean> mean = {};
 
   friend bool operator==(const TableCell&, const TableCell&) = default;
@@ -82,24 +80,24 @@ Table with_common_unit(Table table);
 /// names, for one that no table has.
 std::vector<Table> with_columns(std::vector<Table> tables, const std::vector<std::string>& names);
 
-/// GitHub Markdown, padded for reading on a terminal. Best in bold, second best in italics.
+/// GitHub Markdown, padded for reading on a terminal. Best in bold.
 /// Markdown and HTML markup is escaped.
 std::string markdown(const Table& table);
 std::string markdown(const std::vector<Table>& tables);
 
-/// Aligned columns without markup: `*` after the best, `+` after the second best. If the table is
+/// Aligned columns without markup: `*` after the best. If the table is
 /// wider than the terminal, headings are broken into lines, row names shortened, and the columns
 /// distributed over several blocks that each repeat the row names. Notes are wrapped.
 std::string terminal(const Table& table, const TerminalStyle& style = {});
 
 /// A booktabs tabular, in a table with a caption if it has a title; notes as comments. Best in
-/// bold, second best underlined. Escaped; needs \usepackage{booktabs} and UTF-8.
+/// bold. Escaped; needs \usepackage{booktabs} and UTF-8.
 std::string latex(const Table& table);
 
 /// The texts of the cells (RFC 4180), with the title as first column and without marks and notes.
 std::string text_csv(const Table& table);
 
-/// The means, one line each (RFC 4180), in full precision; `mark` is best, second or empty.
+/// The means, one line each (RFC 4180), in full precision; `mark` is best or empty.
 std::string csv(const std::vector<Table>& tables);
 
 /// Array of {title, row_names, columns, rows, notes, cells[row][column] {value, records, averaged,

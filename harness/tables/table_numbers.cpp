@@ -6,26 +6,9 @@
 #include <utility>
 
 #include "harness/compare/observations.hpp"
-#include "harness/model/recorded_run.hpp"
 #include "metrics/numerics/average.hpp"
 
 namespace loopbench::harness {
-namespace {
-
-/// Runs of recorded files are independent; their sequence is the recording.
-void add_recordings(MarkInput& out, const TableNumbers& table) {
-  std::map<std::string_view, std::size_t> numbers;
-  std::vector<std::size_t> of_group;
-  for (const std::string& group : table.groups.names()) {
-    const std::string_view recording = recording_of(group);
-    if (recording.empty()) return;
-    of_group.push_back(numbers.emplace(recording, numbers.size()).first->second);
-  }
-  for (const std::size_t group : table.group_of_run) out.sequence.push_back(of_group[group]);
-  out.is_paired = false;
-}
-
-}  // namespace
 
 std::string fields_joined(const Record& record,
                           const std::vector<std::string>& names,
@@ -38,62 +21,6 @@ std::string fields_joined(const Record& record,
   return out;
 }
 
-std::vector<TablePosition> entry_indices(const TableNumbers& table,
-                                         std::size_t index,
-                                         bool along_columns) {
-  const std::size_t entries = (along_columns ? table.rows : table.columns).names().size();
-  std::vector<TablePosition> out;
-  for (std::size_t i = 0; i < entries; ++i) {
-    out.push_back(along_columns ? TablePosition{i, index} : TablePosition{index, i});
-  }
-  return out;
-}
-
-MarkInput mark_input(const TableNumbers& table,
-                     const std::vector<TablePosition>& positions,
-                     bool along_columns) {
-  MarkInput out{{}, table.group_of_run, metrics::Better::neither, 0.0};
-  add_recordings(out, table);
-  std::vector<bool> is_tried(table.group_of_run.size(), false);
-  for (const TablePosition& position : positions) {
-    ByRun& own = out.competitors.emplace_back();
-    const EntryContents* entry = table.find(position);
-    if (entry != nullptr) own = entry->numbers.runs();
-    if (own.empty()) continue;
-    out.better = entry->numbers.better();
-    out.target = entry->numbers.target();
-    for (const auto& [run, value] : own) is_tried[run] = true;
-  }
-  const auto lose = [&](ByRun& own, const RunSet& lost) {
-    for (const std::size_t run : lost) {
-      if (is_tried[run]) own.try_emplace(run);
-    }
-  };
-  const auto lose_any = [&](ByRun& own, const auto& losses, const auto& key) {
-    if (const auto found = losses.find(key); found != losses.end()) lose(own, found->second);
-  };
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    ByRun& own = out.competitors[i];
-    if (own.empty()) continue;
-    const EntryContents& entry = *table.find(positions[i]);
-    lose(own, entry.lost);
-    if (along_columns) lose_any(own, table.lost_by_row, positions[i].first);
-    if (!along_columns) lose_any(own, table.lost_by_method, entry.numbers.method());
-  }
-  return out;
-}
-
-std::size_t possible(const MarkInput& input, std::size_t i) {
-  std::vector<bool> is_there(input.group.size(), false);
-  for (const ByRun& other : input.competitors) {
-    const bool shares = std::ranges::any_of(
-        other, [&](const auto& one) { return input.competitors[i].contains(one.first); });
-    if (!shares) continue;
-    for (const auto& [run, value] : other) is_there[run] = true;
-  }
-  return static_cast<std::size_t>(std::ranges::count(is_there, true));
-}
-
 std::string run_key(const Record& r) { return r.content.empty() ? run_name(r) : r.content.text(); }
 
 void EntryNumbers::add(const Record& record,
@@ -104,9 +31,6 @@ void EntryNumbers::add(const Record& record,
   method_ = record.method;
   is_gain_ = record.metric == "gain" && statistic != "count";
   is_oracle_ = record.oracle;
-  if (record.oracle) return;
-  better_ = direction_of(record, statistic);
-  target_ = record.target;
 }
 
 std::size_t EntryNumbers::averaged() const {
@@ -118,13 +42,6 @@ RunSet EntryNumbers::finished() const {
   for (const Value& one : values_) {
     if (one.is_kept) out.insert(one.run);
   }
-  return out;
-}
-
-ByRun EntryNumbers::runs() const {
-  ByRun out;
-  if (is_oracle_) return out;
-  for (const Value& one : values_) out[one.run] = one.value;
   return out;
 }
 

@@ -1,4 +1,4 @@
-/// Numbers of a table before averaging, and the comparisons between its entries.
+/// Numbers of a table before averaging.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,11 @@
 #include "datasets/core/hash.hpp"
 #include "harness/model/name_order.hpp"
 #include "harness/model/record.hpp"
-#include "harness/tables/mark_best.hpp"
 #include "harness/tables/notes.hpp"
 
 namespace loopbench::harness {
+
+using RunSet = std::set<std::size_t>;  ///< numbers of runs
 
 /// Key of a run within an entry: the content of its data if known, otherwise its name.
 std::string run_key(const Record& record);
@@ -43,10 +44,8 @@ class EntryNumbers {
   /// Sample standard deviation of the averaged values; nullopt for fewer than two.
   std::optional<double> deviation() const;
 
-  ByRun runs() const;  ///< added values; none of an oracle
   const SharedText& method() const { return method_; }
-  metrics::Better better() const { return better_; }
-  double target() const { return target_; }
+  bool is_oracle() const { return is_oracle_; }
   bool is_gain() const { return is_gain_; }
 
  private:
@@ -63,8 +62,6 @@ class EntryNumbers {
 
   std::vector<Value> values_;
   SharedText method_;
-  metrics::Better better_ = metrics::Better::neither;
-  double target_ = 0.0;
   bool is_gain_ = false;
   bool is_oracle_ = false;
 };
@@ -86,6 +83,14 @@ struct EntryContents {
   bool is_gap = false;      ///< a gap of the metric optimality
   RunSet tried = {};        ///< runs with a score of any status
   RunSet lost = {};         ///< runs on which a score failed
+  /// Number of runs without a number on which a compared entry has one, or failed.
+  std::size_t missing = 0;
+};
+
+struct PlacedRecord {
+  const Record* record = nullptr;
+  std::size_t row = 0;
+  std::optional<std::size_t> column = {};  ///< none without a score
 };
 
 /// Contents of a table under construction.
@@ -106,6 +111,7 @@ struct TableNumbers {
   NameOrder runs;
   NameOrder groups;
   std::vector<std::size_t> group_of_run;
+  std::vector<PlacedRecord> records;
   std::unordered_map<TablePosition, EntryContents, TablePositionHash> entries;
   std::map<std::size_t, RunSet> lost_by_row;  // runs without any score
   std::map<SharedText, RunSet> lost_by_method;
@@ -123,22 +129,8 @@ std::string fields_joined(const Record& record,
                           const std::vector<std::string>& names,
                           const char* glue);
 
-/// The entries of one column (or row).
-std::vector<TablePosition> entry_indices(const TableNumbers& table,
-                                         std::size_t index,
-                                         bool along_columns);
-
-/// The entries of a column (or a row) that compete, with the runs on which they failed.
-MarkInput mark_input(const TableNumbers& table,
-                     const std::vector<TablePosition>& entries,
-                     bool along_columns);
-
-/// Restricts means to runs that all entries compared with them finished. Returns the note about it;
-/// empty if all entries finished the same runs.
+/// Restricts means to runs that all entries compared with them finished, and counts the missing
+/// runs. Returns the note about it; empty if all entries finished the same runs.
 std::string keep_common_runs(TableNumbers& table, bool along_columns);
-
-/// Maximum number of runs for the mean of competitor `i`: those of all competitors that have a run
-/// in common with it.
-std::size_t possible(const MarkInput& input, std::size_t i);
 
 }  // namespace loopbench::harness

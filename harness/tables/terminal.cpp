@@ -14,7 +14,7 @@ constexpr std::size_t kGap = 2;  ///< spaces between columns
 struct PrintedColumn {
   Lines heading;
   Lines entries;
-  std::vector<Mark> marks;
+  std::vector<bool> is_best;
   std::size_t wide = 3;
 };
 
@@ -29,15 +29,12 @@ std::vector<PrintedColumn> columns_of(const Table& table) {
     PrintedColumn& column = out.emplace_back();
     column.heading = {one_line(table.headings[c])};
     bool has_mark = false;
-    for (const auto& line : table.lines) has_mark = has_mark || line[c].mark != Mark::none;
+    for (const auto& line : table.lines) has_mark = has_mark || line[c].is_best;
     for (const auto& line : table.lines) {
       // The mark has its own column, so that digits are aligned.
-      const char* sign = line[c].mark == Mark::best     ? "*"
-                         : line[c].mark == Mark::second ? "+"
-                         : has_mark && c > 0            ? " "
-                                                        : "";
+      const char* sign = line[c].is_best ? "*" : has_mark && c > 0 ? " " : "";
       column.entries.push_back(one_line(line[c].text) + sign);
-      column.marks.push_back(line[c].mark);
+      column.is_best.push_back(line[c].is_best);
     }
     if (has_mark && c > 0) column.heading[0] += " ";
     column.wide = widest(column.entries, widest(column.heading, 3));
@@ -90,11 +87,9 @@ std::vector<std::vector<std::size_t>> blocks(const std::vector<PrintedColumn>& c
   return out;
 }
 
-std::string colored(const std::string& text, Mark mark, bool color) {
-  if (!color || mark == Mark::none) return text;
+std::string highlighted(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(' ');
-  const std::string code = mark == Mark::best ? "\033[1;32m" : "\033[32m";
-  return text.substr(0, begin) + code + text.substr(begin) + "\033[0m";
+  return text.substr(0, begin) + "\033[1;32m" + text.substr(begin) + "\033[0m";
 }
 
 void add_line(std::string& out, std::string line) {
@@ -127,7 +122,7 @@ std::string block_text(const std::vector<PrintedColumn>& columns,
     std::string line;
     for (const std::size_t c : shown) {
       const std::string text = padded(columns[c].entries[r], columns[c].wide, c == 0);
-      line += (c == 0 ? "" : gap) + colored(text, columns[c].marks[r], color);
+      line += (c == 0 ? "" : gap) + (color && columns[c].is_best[r] ? highlighted(text) : text);
     }
     add_line(out, line);
   }

@@ -174,7 +174,7 @@ TEST(Csv, EscapesControlCharactersAndFormulas) {
 
 TEST(Tables, PrintNothingButUtf8WithoutControlCharacters) {
   const std::string bad = "a\x1b[31m\xff\xc2\x9b";
-  Table view{bad, {bad, bad}, {{{bad, Mark::none}, {bad, Mark::none}}}, {bad}};
+  Table view{bad, {bad, bad}, {{{bad}, {bad}}}, {bad}};
   const auto is_plain = [](std::string text) {
     std::erase(text, '\n');
     return first_unprintable(text) == text.size();

@@ -46,21 +46,6 @@ Table table_of(const std::vector<Record>& records) {
   return pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}}).at(0);
 }
 
-TEST(Pivot, MarksAlongRowsWhereTheColumnsAreMethods) {
-  const std::vector<double> ones(8, 1.0), twos(8, 2.0);
-  const std::vector<Record> records = errors({{"raw", twos}, {"dm", ones}});
-  const TableSpec spec{
-      .rows = {"metric"}, .columns = {"method"}, .split = {}, .show = {}, .where = {}};
-  const std::vector<Table> tables = pivot(records, spec);
-  ASSERT_EQ(tables[0].lines.size(), 1u);
-  EXPECT_EQ(tables[0].lines[0][1].mark, Mark::none);
-  EXPECT_EQ(tables[0].lines[0][2].mark, Mark::best);
-  const std::vector<Table> sequences =
-      pivot(records, TableSpec{.rows = {"sequence"}, .show = {}, .where = {}});
-  EXPECT_EQ(sequences[0].lines[0][1].mark, Mark::none);  // sequences do not compete
-  EXPECT_EQ(sequences[0].notes.size(), 1u);
-}
-
 TEST(Pivot, MarksNoStatisticWithoutADirection) {
   std::vector<Record> records;
   for (int repeat = 0; repeat < 8; ++repeat) {
@@ -80,10 +65,10 @@ TEST(Pivot, MarksNoStatisticWithoutADirection) {
         .columns = {"score"}, .split = {}, .value = value, .show = {}, .where = {}};
     return pivot(records, spec).at(0);
   };
-  EXPECT_EQ(table("rmse").lines[1][1].mark, Mark::best);
+  EXPECT_TRUE(table("rmse").lines[1][1].is_best);
   for (const std::string value : {"sse", "count"}) {
     for (const auto& line : table(value).lines) {
-      for (const TableCell& cell : line) EXPECT_EQ(cell.mark, Mark::none) << value;
+      for (const TableCell& cell : line) EXPECT_FALSE(cell.is_best) << value;
     }
   }
   EXPECT_EQ(table("sse").headings,
@@ -172,17 +157,6 @@ TEST(Pivot, ComparesOnlyCellsThatTriedTheSameRuns) {
   const Table table = table_of(records);
   EXPECT_EQ(*table.lines[0][1].mean->value, 1.0);
   EXPECT_EQ(*table.lines[2][1].mean->value, 6.0);  // of another sequence
-}
-
-TEST(Pivot, MarksNothingAmongDescriptions) {
-  const std::vector<double> ones(8, 1.0), twos(8, 2.0);
-  std::vector<Record> records = errors({{"raw", twos}, {"dm", ones}});
-  for (Record& r : records) {
-    r.metric = "pairs";
-    r.better = Better::neither;
-  }
-  const std::vector<Table> tables = pivot(records, TableSpec{});
-  for (const auto& line : tables[0].lines) EXPECT_EQ(line[1].mark, Mark::none);
 }
 
 TEST(Gain, IsMeasuredFromTheBaselineOfTheSameTimes) {

@@ -36,7 +36,7 @@ TEST(Html, NothingInAScriptEndsIt) {
 }
 
 TEST(Html, TablesEscapeAndMark) {
-  const Table table{"a<b", {"method", "x"}, {{{"m&m"}, {"1.0", Mark::best}}}, {"note <i>"}};
+  const Table table{"a<b", {"method", "x"}, {{{"m&m"}, {"1.0", true}}}, {"note <i>"}};
   const std::string html = html_table(table);
   EXPECT_NE(html.find("<caption>a&lt;b</caption>"), std::string::npos);
   EXPECT_NE(html.find("<th scope=\"row\">m&amp;m</th><td class=\"best\">1.0</td>"),

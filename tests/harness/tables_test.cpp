@@ -1,8 +1,7 @@
-/// Row filters, marks and output formats of tables. Averages: pivot_test.cpp.
+/// Row filters and output formats of tables. Averages: pivot_test.cpp, marks: mark_best_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
@@ -74,75 +73,6 @@ TEST(Where, RefusesByName) {
   EXPECT_NE(refusal_of([] { where({"metric!ate"}); }), "");
 }
 
-/// The error of each run is its number, from 1, times the factor.
-ByRun runs(double factor, std::size_t count = 8) {
-  ByRun out;
-  for (std::size_t i = 0; i < count; ++i) out[i] = factor * static_cast<double>(i + 1);
-  return out;
-}
-
-/// Every run is a group of its own.
-std::vector<std::size_t> own_groups(std::size_t count = 20) {
-  std::vector<std::size_t> out(count);
-  std::iota(out.begin(), out.end(), std::size_t{0});
-  return out;
-}
-
-Marks marks(const std::vector<ByRun>& competitors,
-            Better better = Better::lower,
-            double alpha = 0.05) {
-  return mark_best({competitors, own_groups(), better, 0.0}, {.alpha = alpha});
-}
-
-TEST(MarkBest, MarksOnlyWhatIsSignificant) {
-  const std::vector<ByRun> three{runs(2.0), runs(1.0), runs(3.0)};
-  EXPECT_EQ(marks(three).marks, (std::vector<Mark>{Mark::second, Mark::best, Mark::none}));
-  EXPECT_EQ(marks(three, Better::higher).marks,
-            (std::vector<Mark>{Mark::second, Mark::none, Mark::best}));
-  // 2^-7 is p = 0.0078, for each of two other methods: 0.0156.
-  EXPECT_EQ(marks(three, Better::lower, 0.015).marks, (std::vector<Mark>(3, Mark::none)));
-  // The two best do not differ significantly: no mark.
-  ByRun alike = runs(1.0);
-  alike[0] = 1.01;
-  EXPECT_EQ(marks({runs(1.0), alike, runs(3.0)}).marks, (std::vector<Mark>(3, Mark::none)));
-}
-
-TEST(MarkBest, ExplainsWhenNothingCanBeTested) {
-  EXPECT_EQ(marks({runs(1.0, 5), runs(2.0, 5)}).why_none,
-            "5 independent runs per entry cannot show a difference at 0.05");
-  EXPECT_EQ(marks({runs(1.0), {}}).why_none, "");  // a single competitor
-}
-
-TEST(MarkBest, NeverMarksACompetitorThatLacksARun) {
-  ByRun lucky = runs(0.5);
-  lucky.erase(7);
-  EXPECT_EQ(marks({lucky, runs(1.0), runs(2.0)}).marks[0], Mark::none);
-}
-
-TEST(MarkBest, CountsFailuresAsLosses) {
-  ByRun failing = runs(0.5, 10);
-  for (std::size_t i = 0; i < 6; ++i) failing[i] = std::nullopt;
-  EXPECT_EQ(marks({failing, runs(1.0, 10)}).marks, (std::vector<Mark>{Mark::none, Mark::none}));
-  ByRun better = runs(0.5, 20);
-  better[0] = std::nullopt;  // one loss against nineteen wins
-  EXPECT_EQ(marks({better, runs(1.0, 20)}).marks[0], Mark::best);
-}
-
-TEST(MarkBest, NeverMarksAMethodThatLosesNineteenOfTwenty) {
-  ByRun loser;  // slightly worse on nineteen runs; the one that it wins makes its mean the lowest
-  for (std::size_t i = 0; i < 19; ++i) loser[i] = 1.01 * static_cast<double>(i + 1);
-  loser[19] = 0.01;
-  EXPECT_NE(marks({loser, runs(1.0, 20)}).marks[0], Mark::best);
-}
-
-TEST(MarkBest, TakesRunsOfAGroupAsOne) {
-  MarkInput input{{runs(1.0), runs(2.0)}, own_groups(), Better::lower, 0.0};
-  EXPECT_EQ(mark_best(input, {}).marks[0], Mark::best);
-  for (std::size_t i = 0; i < 8; ++i) input.group[i] = i < 4 ? 0 : 1;
-  EXPECT_EQ(mark_best(input, {}).marks[0], Mark::none);
-  EXPECT_NE(mark_best(input, {}).why_none, "");
-}
-
 std::vector<Table> marked() {
   std::vector<Record> records;
   for (int repeat = 0; repeat < 8; ++repeat) {
@@ -155,15 +85,13 @@ std::vector<Table> marked() {
 
 TEST(Formats, EscapeNamesAndMarkTheBest) {
   const std::vector<Table> tables = marked();
-  const std::string notes =
-      "marked: best and second best, if significantly better than all others by the tests of "
-      "compare\n";
+  const std::string notes = "marked: the methods that compare calls best\n";
   EXPECT_EQ(markdown(tables),
             "### dense\n\n"
             "| method                  |   ate [m] |\n"
             "| ----------------------- | --------: |\n"
             "| a\\|b\\_&amp;%&lt;\"x\" \\_c | **0.135** |\n"
-            "| raw                     |   _1.035_ |\n"
+            "| raw                     |     1.035 |\n"
             "| dm_n3                   |     2.035 |\n\n"
             "- " +
                 notes + "- each number is the mean of up to 8 cells\n");
@@ -172,7 +100,7 @@ TEST(Formats, EscapeNamesAndMarkTheBest) {
             "method         ate [m]\n"
             "-------------  --------\n"
             "a|b_&%<\"x\" _c    0.135*\n"
-            "raw              1.035+\n"
+            "raw              1.035\n"
             "dm_n3            2.035\n" +
                 notes + "each number is the mean of up to 8 cells\n");
   EXPECT_EQ(latex(tables[0]),
@@ -181,7 +109,7 @@ TEST(Formats, EscapeNamesAndMarkTheBest) {
             "method & ate {[}m] \\\\\n\\midrule\n"
             "a\\textbar{}b\\_\\&\\%\\textless{}\\textquotedbl{}x\\textquotedbl{} \\_c & "
             "\\textbf{0.135} \\\\\n"
-            "raw & \\underline{1.035} \\\\\n"
+            "raw & 1.035 \\\\\n"
             "dm\\_n3 & 2.035 \\\\\n"
             "\\bottomrule\n\\end{tabular}\n\\end{table}\n"
             "% " +
@@ -205,7 +133,7 @@ TEST(Formats, KeepNamesAndNumbersForMachines) {
   EXPECT_NE(text.find(",8,8,ok,best\n"), std::string::npos);
   const std::string object = json(marked());
   EXPECT_NE(object.find("\"a|b_&%<\\\"x\\\"\\n_c\""), std::string::npos) << object;
-  EXPECT_NE(object.find("\"mark\": \"second\""), std::string::npos);
+  EXPECT_NE(object.find("\"mark\": \"best\""), std::string::npos);
 }
 
 TEST(Formats, KeepLessOrEqualReadable) {

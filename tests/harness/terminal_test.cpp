@@ -24,7 +24,7 @@ std::size_t widest_line(const std::string& text) {
 
 Table wide_table() {
   Table out{"a title of this table", {"method", "error x [m]", "error y [m]", "gain [%]"}, {}, {}};
-  out.lines.push_back({{"uniform"}, {"0.723"}, {"0.850", Mark::best}, {"44.45"}});
+  out.lines.push_back({{"uniform"}, {"0.723"}, {"0.850", true}, {"44.45"}});
   out.lines.push_back({{"raw"}, {"1.174"}, {"1.400"}, {"0.00"}});
   out.notes = {"a note that is longer than a narrow terminal"};
   return out;
