@@ -9,7 +9,6 @@
 #include "harness/base/printable.hpp"
 #include "harness/base/wrap.hpp"
 #include "harness/base/write_file.hpp"
-#include "harness/catalogue/scratch.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/eval_options.hpp"
 #include "harness/commands/standard_output.hpp"
@@ -18,9 +17,7 @@
 #include "harness/eval/recorded_store.hpp"
 #include "harness/eval/run_summary.hpp"
 #include "harness/report/report.hpp"
-#include "harness/run/build.hpp"
 #include "harness/store/read.hpp"
-#include "harness/store/store.hpp"
 #include "harness/tables/record_csv.hpp"
 
 namespace loopbench::harness {
@@ -35,7 +32,7 @@ std::optional<TerminalStyle> terminal_style() {
 
 /// Statistics over runs and the verdict, or why there is none.
 std::string verdict_of(const EvalArguments& a,
-                       const std::vector<EvaluationResult>& results,
+                       const std::vector<Record>& records,
                        const std::optional<TerminalStyle>& style) {
   try {
     recorded_runs(a.reference, a.estimates, a.sequence);
@@ -45,7 +42,7 @@ std::string verdict_of(const EvalArguments& a,
     for (const std::string& line : wrapped(why, style ? style->width : 0)) out += line + "\n";
     return out;
   }
-  return run_report(all_records(results), style, a.paired);
+  return run_report(records, style, a.paired);
 }
 
 std::optional<double> ate_of(const EvaluationResult& result) {
@@ -83,7 +80,8 @@ Detail detail_of(const EvalArguments& a) {
   return a.full ? Detail::all : is_chosen ? Detail::scores : Detail::summary;
 }
 
-std::string result_text(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
+std::string result_text(const EvalArguments& a, const Evaluations& evaluations) {
+  const std::vector<EvaluationResult>& all = evaluations.results;
   const std::optional<TerminalStyle> style = terminal_style();
   const Detail detail = detail_of(a);
   if (all.size() == 1) return text(all.front(), style, detail, a.columns);
@@ -93,29 +91,13 @@ std::string result_text(const EvalArguments& a, const std::vector<EvaluationResu
   for (std::size_t i = 0; style && i < tables.size(); ++i) {
     out += (i == 0 ? "" : "\n") + terminal(tables[i], *style);
   }
-  return out + verdict_of(a, all, style) + below_reference_error(a, all);
-}
-
-/// Runs with the names of --labels: one for each file, or else one for each method.
-std::vector<RecordedRun> named_runs(const EvalArguments& a) {
-  std::vector<RecordedRun> runs = labelled_runs(a.reference, a.estimates, a.sequence);
-  std::vector<std::string> methods;
-  for (const RecordedRun& run : runs) {
-    const bool is_known = std::ranges::count(methods, run.method) > 0;
-    if (!is_known || a.figures.labels.size() == runs.size()) methods.push_back(run.method);
-  }
-  const std::vector<std::string> labels = labels_of(a.figures, methods);
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const auto place = std::ranges::find(methods, runs[i].method) - methods.begin();
-    runs[i].method = labels[labels.size() == runs.size() ? i : static_cast<std::size_t>(place)];
-  }
-  return runs;
+  return out + verdict_of(a, evaluations.records, style) + below_reference_error(a, all);
 }
 
 /// Figures of the estimates under the first protocol.
-void write_figures(const EvalArguments& a, const std::vector<EvaluationResult>& all) {
+void write_figures(const EvalArguments& a, const Evaluations& all) {
   if (a.plot.empty()) return;
-  const DrawnRuns drawn = drawn_runs(all, named_runs(a));
+  const DrawnRuns drawn = drawn_runs(all.results, all.runs);
   if (drawn.drawn.empty()) throw InputError("--plot: no estimate could be evaluated");
   if (!drawn.note.empty()) {
     fmt::print(stderr, "{}\n", printable("loopbench: note: figures: " + drawn.note));
@@ -128,31 +110,6 @@ void write_figures(const EvalArguments& a, const std::vector<EvaluationResult>& 
   for (const DrawnFigure& figure : data.figures) {
     fmt::print(stderr, "{}", printable(file_list(figure)));
   }
-}
-
-/// Writes the page of --report, that of `report`, by way of a store in a temporary folder. Names of
-/// --labels replace those of the systems if there are as many.
-void write_evaluation_page(RecordedSweep files,
-                           const std::vector<EvaluatedFile>& evaluations,
-                           const Source& source) {
-  const EvalArguments& a = files.arguments;
-  Sweep& sweep = files.sweep;
-  if (a.figures.labels.size() == sweep.methods.size()) {
-    for (std::size_t i = 0; i < sweep.methods.size(); ++i) {
-      sweep.methods[i].label = a.figures.labels[i];
-    }
-    sweep.baseline = sweep.methods.front().label;
-  }
-  const ExchangeFolder folder;
-  const std::filesystem::path file = folder.path() / "results.sqlite";
-  CellKeys keys(sweep, files.catalogue, DataRoot{}, build_id(source.code));
-  Store store(file, keys, provenance(source, sweep, files.catalogue));
-  store.resume(files.cells, files.cells, Retry::failed);
-  for (const EvaluatedFile& each : evaluations) store.write(each.result);
-  store.close();
-  ReportContent content = read_report_content(file, kReportBytes);
-  content.plane = a.figures.plane;
-  write_file(a.report, report_html(std::move(content), kReportBytes));
 }
 
 /// Rejects options that have no effect on a store, before anything is evaluated.
@@ -196,24 +153,25 @@ int eval(const EvalArguments& a, const Source& source) {
   return_large_lists();
   if (!a.store.empty()) return eval_to_store(a, source);
   reject_standard_output("--report", a.report);
-  const auto write_page = [&](const RecordedSweep& files, const std::vector<EvaluatedFile>& done) {
-    write_evaluation_page(files, done, source);
+  const auto write_page = [&](const std::filesystem::path& store) {
+    ReportContent content = read_report_content(store, kReportBytes);
+    content.plane = a.figures.plane;
+    write_file(a.report, report_html(std::move(content), kReportBytes));
     fmt::print(stderr, "{}\n", printable(a.report));
   };
-  std::vector<EvaluationResult> all =
-      a.report.empty() ? evaluate_files(a) : evaluate_files(a, write_page);
-  if (!a.unit.empty()) change_unit(all, a.unit);
-  if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all));
+  const Evaluations all =
+      a.report.empty() ? evaluate_files(a) : evaluate_files(a, source, write_page);
+  if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all.results));
   write_figures(a, all);
   if (a.json) {
-    fmt::print("{}", json(all));
+    fmt::print("{}", json(all.results));
   } else if (a.csv) {
-    fmt::print("{}", csv(all_records(all), a.columns));
+    fmt::print("{}", csv(all.records, a.columns));
   } else {
     fmt::print("{}", printable(result_text(a, all)));
   }
   const bool all_ok = std::ranges::all_of(
-      all, [](const EvaluationResult& result) { return status(result) == "ok"; });
+      all.results, [](const EvaluationResult& result) { return status(result) == "ok"; });
   return all_ok ? kExitOk : kExitSomeCellsFailed;
 }
 

@@ -5,22 +5,32 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
-#include <limits>
 #include <map>
+#include <utility>
 
 #include "datasets/core/parallel.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/eval/common_parts.hpp"
-#include "harness/model/recorded_run.hpp"
-#include "metrics/numerics/median.hpp"
+#include "harness/run/build.hpp"
+#include "harness/store/read.hpp"
+#include "harness/store/store.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-/// With the names as given.
+/// With the names of files as given, and those of --labels: one for each file, or else one for each
+/// method.
 std::vector<RecordedRun> runs_of(const EvalArguments& a) {
   std::vector<RecordedRun> out = labelled_runs(a.reference, a.estimates, a.sequence);
+  std::vector<std::string> methods;
+  for (const RecordedRun& run : out) {
+    const bool is_known = std::ranges::count(methods, run.method) > 0;
+    if (!is_known || a.figures.labels.size() == out.size()) methods.push_back(run.method);
+  }
+  const std::vector<std::string> labels = labels_of(a.figures, methods);
   for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto place = std::ranges::find(methods, out[i].method) - methods.begin();
+    out[i].method = labels[labels.size() == out.size() ? i : static_cast<std::size_t>(place)];
     out[i].reference = a.reference;
     out[i].estimate = a.estimates[i];
   }
@@ -71,97 +81,6 @@ void check_coverage(std::vector<EvaluatedFile>& all) {
   }
 }
 
-/// Runs are one observation only if the outputs of all methods are equal.
-void join_contents(std::vector<EvaluationResult>& results) {
-  std::map<std::int64_t, std::map<std::string, std::string>> contents;  // by repeat and method
-  for (const EvaluationResult& result : results) {
-    const Record& first = result.records.front();
-    contents[first.repeat][first.method] = std::string(first.content);
-  }
-  for (EvaluationResult& result : results) {
-    const std::string content = recorded_content(contents.at(result.records.front().repeat));
-    for (Record& record : result.records) record.content = content;
-  }
-}
-
-/// The fields that all records of a cell have in common.
-Record record_of_cell(const CellResult& result, const Sweep& sweep) {
-  Record out;
-  out.cell = static_cast<std::int64_t>(result.cell.index);
-  out.sequence = sweep.datasets[result.cell.dataset].label;
-  out.repeat = result.cell.repeat;
-  out.method = sweep.methods[result.cell.method].label;
-  out.oracle = result.oracle_method;
-  out.milliseconds = result.seconds.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                            : 1e3 * metrics::median(result.seconds);
-  out.is_stated = result.worker.stated;
-  out.status = result.status;
-  out.why = result.why;
-  if (result.metadata) {
-    out.closures = result.metadata->closures;
-    out.oracle_closures = result.metadata->oracle_closures;
-    out.group = result.metadata->group;
-    out.content = result.metadata->content;
-  }
-  return out;
-}
-
-/// One record for each score of a cell of the sweep, or one without a metric if it has none.
-std::vector<Record> records_of(const CellResult& result, const Sweep& sweep) {
-  const Record cell = record_of_cell(result, sweep);
-  if (result.scores.empty()) return {cell};
-  std::vector<Record> out;
-  for (const ScoreResult& score : result.scores) {
-    Record& r = out.emplace_back(cell);
-    r.protocol = sweep.protocols[score.protocol].label();
-    r.protocol_version = sweep.protocols[score.protocol].version;
-    r.times = to_text(score.times);
-    r.metric = score.metric;
-    r.label = score.label;
-    r.relation = score.score.relation;
-    r.axis = score.score.axis;
-    r.unit = score.score.unit;
-    r.better = score.score.better;
-    r.target = score.score.target;
-    r.statistics = score.score.statistics;
-    r.pairs = static_cast<std::int64_t>(score.coverage.pairs);
-    r.possible = static_cast<std::int64_t>(score.coverage.possible);
-    r.span = score.coverage.span;
-    r.status = score.status;
-    r.why = score.why;
-  }
-  return out;
-}
-
-/// The only record of an evaluation that failed.
-Record failed_record(CellResult result, const EvaluationResult& own, const Sweep& sweep) {
-  result.scores.clear();
-  result.status = Status::failed;
-  result.why = own.why_failed;
-  Record out = records_of(result, sweep).front();
-  out.protocol = own.protocol.label();
-  out.protocol_version = own.protocol.version;
-  return out;
-}
-
-/// The results with their records.
-std::vector<EvaluationResult> results_of(std::vector<EvaluatedFile> all, const Sweep& sweep) {
-  std::vector<EvaluationResult> out;
-  for (EvaluatedFile& file : all) {
-    const std::vector<Record> records = records_of(file.result, sweep);
-    for (EvaluationResult& own : file.protocols) {
-      if (!own.why_failed.empty()) own.records = {failed_record(file.result, own, sweep)};
-      for (const Record& record : records) {
-        const bool is_own = own.why_failed.empty() && record.protocol == own.protocol.label();
-        if (is_own) own.records.push_back(record);
-      }
-      out.push_back(std::move(own));
-    }
-  }
-  if (sweep.datasets.size() > 1) join_contents(out);
-  return out;
-}
-
 /// Throws InputError if the only evaluation failed.
 void require_evaluated(const std::vector<EvaluatedFile>& all) {
   if (all.size() != 1 || all.front().protocols.size() != 1) return;
@@ -174,40 +93,69 @@ void require_evaluated(const std::vector<EvaluatedFile>& all) {
                        : own.estimate + " with reference " + own.reference + ": " + own.why_failed);
 }
 
+/// Writes the results to a store in memory, which `visit` gets, and reads its records.
+Evaluations stored(RecordedSweep files,
+                   std::vector<EvaluatedFile> all,
+                   const Source& source,
+                   const std::function<void(const std::filesystem::path&)>& visit) {
+  require_evaluated(all);
+  const EvalArguments& a = files.arguments;
+  if (!a.min_coverage) check_coverage(all);
+  const std::filesystem::path file = memory_store();
+  CellKeys keys(files.sweep, files.catalogue, DataRoot{}, build_id(source.code));
+  std::map<std::string, std::string> origin;
+  if (visit) origin = provenance(source, files.sweep, files.catalogue);
+  Store store(file, keys, std::move(origin));
+  store.resume(files.cells, files.cells, Retry::failed);
+  for (const EvaluatedFile& each : all) store.write(each.result);
+  if (visit) visit(file);
+  Evaluations out{{}, read_records(file), std::move(files.runs)};
+  std::ranges::stable_sort(out.records, {}, [&](const Record& record) {
+    return files.cells[static_cast<std::size_t>(record.cell)].dataset;  // the order of the files
+  });
+  if (!a.unit.empty()) change_unit(out.records, a.unit);
+  for (EvaluatedFile& each : all) {
+    for (EvaluationResult& own : each.protocols) {
+      std::ranges::copy_if(out.records, std::back_inserter(own.records), [&](const Record& r) {
+        return r.cell == static_cast<std::int64_t>(each.result.cell.index) &&
+               own.why_failed.empty() && r.protocol == own.protocol.label();
+      });
+      out.results.push_back(std::move(own));
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
-std::vector<EvaluationResult> evaluate_files(
-    const EvalArguments& a,
-    const std::function<void(const RecordedSweep&, const std::vector<EvaluatedFile>&)>& visit) {
+Evaluations evaluate_files(const EvalArguments& a,
+                           const Source& source,
+                           const std::function<void(const std::filesystem::path&)>& visit) {
   check_estimates(a);
   std::vector<std::filesystem::path> inputs{a.times, a.reference};
   inputs.insert(inputs.end(), a.estimates.begin(), a.estimates.end());
   reject_overwriting(inputs, a.per_pose);
   std::vector<RecordedRun> labelled = runs_of(a);
   if (a.common.value_or(false)) set_common_times(labelled, a);
-  const RecordedSweep sweep = recorded_sweep(std::move(labelled), a);
-  check_stamp_options(a, sweep.runs);
-  std::vector<Cell> cells = sweep.cells;
+  RecordedSweep files = recorded_sweep(std::move(labelled), a);
+  check_stamp_options(a, files.runs);
+  std::vector<Cell> cells = files.cells;
   std::ranges::sort(cells, {}, &Cell::dataset);
-  const SharedReference reference = shared_reference(a.reference, sweep);
+  const SharedReference reference = shared_reference(a.reference, files);
   std::vector<EvaluatedFile> all(cells.size());
   parallel_for_tasks(
-      cells.size(), [&](std::size_t i) { all[i] = evaluate_recorded(cells[i], sweep, reference); });
-  require_evaluated(all);
-  if (!a.min_coverage) check_coverage(all);
-  if (visit) visit(sweep, all);
-  return results_of(std::move(all), sweep.sweep);
+      cells.size(), [&](std::size_t i) { all[i] = evaluate_recorded(cells[i], files, reference); });
+  return stored(std::move(files), std::move(all), source, visit);
 }
 
-std::vector<EvaluationResult> evaluate_in_memory(const EvalArguments& a,
-                                                 RecordedFile reference,
-                                                 const RecordedFile& estimate) {
-  const RecordedSweep sweep =
+Evaluations evaluate_in_memory(const EvalArguments& a,
+                               RecordedFile reference,
+                               const RecordedFile& estimate) {
+  RecordedSweep files =
       recorded_sweep({{"reference", "estimate", "0", "reference", "estimate"}}, a);
   std::vector<EvaluatedFile> all;
-  all.push_back(evaluate_poses(sweep.cells.front(), sweep, {std::move(reference)}, estimate));
-  require_evaluated(all);
-  return results_of(std::move(all), sweep.sweep);
+  all.push_back(evaluate_poses(files.cells.front(), files, {std::move(reference)}, estimate));
+  return stored(std::move(files), std::move(all), {}, {});
 }
 
 }  // namespace loopbench::harness

@@ -74,7 +74,6 @@ Json to_json(const EvaluationResult& result) {
   Json undefined = Json::array();
   Json failed = Json::array();
   for (const Record& record : result.records) {
-    if (record.metric.empty()) continue;
     Json& list = has_numbers(record.status)  ? scores
                  : is_failure(record.status) ? failed
                                              : undefined;
@@ -141,15 +140,7 @@ std::string why_not_ok(const EvaluationResult& result) {
   return failed != nullptr ? failed->why : "none of the requested metrics is defined";
 }
 
-std::vector<Record> all_records(const std::vector<EvaluationResult>& results) {
-  std::vector<Record> out;
-  for (const EvaluationResult& result : results) {
-    out.insert(out.end(), result.records.begin(), result.records.end());
-  }
-  return out;
-}
-
-void change_unit(std::vector<EvaluationResult>& results, const std::string& unit) {
+void change_unit(std::vector<Record>& records, const std::string& unit) {
   static const std::map<std::string, double> kLengths{
       {"mm", 1e3}, {"cm", 1e2}, {"m", 1.0}, {"km", 1e-3}};
   static const std::map<std::string, double> kAngles{{"deg", metrics::kDegrees}, {"rad", 1.0}};
@@ -158,17 +149,15 @@ void change_unit(std::vector<EvaluationResult>& results, const std::string& unit
     throw InputError("--unit: found '" + unit + "', expected mm, cm, m, km, deg or rad");
   }
   bool is_used = false;
-  for (EvaluationResult& result : results) {
-    for (Record& record : result.records) {
-      const auto from = units.find(record.unit);
-      if (from == units.end()) continue;
-      const double factor = units.at(unit) / from->second;
-      is_used = true;
-      record.unit = unit;
-      metrics::Statistics& s = record.statistics;
-      for (const auto& each : metrics::kStatisticFields) s.*each.member *= factor;
-      s.sse *= factor;
-    }
+  for (Record& record : records) {
+    const auto from = units.find(record.unit);
+    if (from == units.end()) continue;
+    const double factor = units.at(unit) / from->second;
+    is_used = true;
+    record.unit = unit;
+    metrics::Statistics& s = record.statistics;
+    for (const auto& each : metrics::kStatisticFields) s.*each.member *= factor;
+    s.sse *= factor;  // has the squared unit
   }
   if (is_used) return;
   throw InputError("--unit " + unit + ": no score is " +

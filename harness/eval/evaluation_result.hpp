@@ -43,7 +43,7 @@ struct EvaluationResult {
   std::vector<PoseValues> pose_values;    ///< of metrics, for each of `poses`; with them
   DrawnEvaluation drawn;                  ///< only on request, without name
   std::string why_failed;                 ///< set if the evaluation failed
-  std::vector<Record> records;            ///< one without a metric if the evaluation failed
+  std::vector<Record> records;            ///< none if the evaluation failed
 };
 
 /// ok, incomplete, undefined (all requested metrics are) or failed (the evaluation, or metrics
@@ -100,9 +100,6 @@ std::string pose_csv(const std::vector<EvaluationResult>& results);
 
 /// Converts all scores in metres (to mm, cm or km) or in degrees (to rad). Throws InputError for
 /// another unit, or if there is no such score.
-void change_unit(std::vector<EvaluationResult>& results, const std::string& unit);
-
-/// The records of all results, in this order.
-std::vector<Record> all_records(const std::vector<EvaluationResult>& results);
+void change_unit(std::vector<Record>& records, const std::string& unit);
 
 }  // namespace loopbench::harness

@@ -80,7 +80,7 @@ std::string score_name(const Record& record) {
 std::vector<Missing> missing_scores(const EvaluationResult& result, const std::string& row) {
   std::vector<Missing> out;
   for (const Record& record : result.records) {
-    if (record.metric.empty() || has_numbers(record.status)) continue;
+    if (has_numbers(record.status)) continue;
     const std::string status = is_failure(record.status) ? "failed" : "undefined";
     out.push_back({row, score_name(record), status, record.why});
   }
@@ -124,10 +124,9 @@ Record coverage_record(const EvaluationResult& result) {
   return out;
 }
 
-/// Whether a summary shows the record: failures, ATE, RPE over 1 s or random pairs, and the
+/// Whether a summary shows the record: ATE, RPE over 1 s or random pairs, and the
 /// segments of protocols that set their lengths.
 bool is_in_summary(const Record& record, const metrics::Protocol& protocol) {
-  if (record.metric.empty()) return true;
   const SharedText& label = metric_label(record);
   return record.metric == "ate" || label == "rpe 1 s" || label == "rpe" ||
          (record.metric == "segments" && protocol.segments != metrics::SegmentErrorRule{});
@@ -145,7 +144,13 @@ std::vector<Record> compared_records(const EvaluationResult& result,
         detail != Detail::summary || is_in_summary(record, result.protocol.rules);
     if (is_shown && is_wanted) out.push_back(record);
   }
-  if (result.why_failed.empty()) out.push_back(coverage_record(result));
+  out.push_back(coverage_record(result));
+  if (!result.why_failed.empty()) {
+    out.front() = {};
+    out.front().status = Status::failed;
+    out.front().why = result.why_failed;
+    out.front().protocol = result.protocol.label();
+  }
   for (Record& record : out) {
     record.sequence = result.reference;
     record.method = name;

@@ -57,7 +57,7 @@ py::tuple evaluate_files(harness::EvalArguments arguments,
   std::vector<harness::EvaluationResult> results;
   {
     const py::gil_scoped_release unlocked;
-    results = harness::evaluate_files(arguments);
+    results = harness::evaluate_files(arguments).results;
   }
   return to_python(results);
 }
@@ -111,9 +111,10 @@ py::tuple evaluate_arrays(const harness::EvalArguments& arguments,
     }
     Trajectory in_body = to_estimate_body(std::move(reference.poses), body);
     results = harness::evaluate_in_memory(
-        arguments,
-        {.poses = std::move(in_body), .findings = {.off_unit = reference.off_unit}},
-        {.poses = std::move(estimate.poses), .findings = {.off_unit = estimate.off_unit}});
+                  arguments,
+                  {.poses = std::move(in_body), .findings = {.off_unit = reference.off_unit}},
+                  {.poses = std::move(estimate.poses), .findings = {.off_unit = estimate.off_unit}})
+                  .results;
   }
   return to_python(results);
 }

@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <map>
@@ -60,7 +61,17 @@ void sync_path(const std::filesystem::path& path) {
 
 }  // namespace
 
+std::filesystem::path memory_store() {
+  static std::atomic<int> count = 0;
+  return std::string(kMemoryPrefix) + std::to_string(count++) + "?vfs=memdb";
+}
+
+bool is_memory_store(const std::filesystem::path& file) {
+  return file.native().starts_with(kMemoryPrefix);
+}
+
 std::filesystem::path store_file(const std::filesystem::path& given) {
+  if (is_memory_store(given)) return given;
   const std::filesystem::path file =
       std::filesystem::is_directory(given) ? given / "results.sqlite" : given;
   if (!std::filesystem::exists(file)) {

@@ -7,6 +7,10 @@
 
 namespace loopbench::harness {
 
+/// A new name of a store in memory, which exists while a connection to it is open.
+std::filesystem::path memory_store();
+bool is_memory_store(const std::filesystem::path& file);
+
 /// `given`, or results.sqlite if it is a folder. Throws InputError if the file does not exist.
 std::filesystem::path store_file(const std::filesystem::path& given);
 

@@ -31,8 +31,9 @@ void add_value(RowHash& row, sqlite3_value* value) {
 Database::Database(const std::filesystem::path& file, Mode mode) : file_(file.string()) {
   sqlite3* handle = nullptr;
   // Used by one thread at a time; a WAL left by a killed process is merged on opening for writing.
-  const int flags =
-      SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_READWRITE | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
+  const int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_READWRITE |
+                    (mode == Mode::create ? SQLITE_OPEN_CREATE : 0) |
+                    (file_.starts_with(kMemoryPrefix) ? SQLITE_OPEN_URI : 0);
   int code = sqlite3_open_v2(file_.c_str(), &handle, flags, nullptr);
   if (code != SQLITE_OK && mode == Mode::read) {
     sqlite3_close(handle);

@@ -21,6 +21,9 @@ inline constexpr const char* kRecoverAdvice =
     "`sqlite3 FILE .recover | sqlite3 NEW_FILE` saves the readable rows, of which `run` recomputes "
     "incomplete cells; --fresh starts a new store";
 
+/// Names of databases in memory, which connections of this process share, begin with this.
+inline constexpr std::string_view kMemoryPrefix = "file:/loopbench-memory-";
+
 /// An open database file, in SQLite's defensive mode. Every failure throws InputError naming the
 /// file and SQLite's reason.
 class Database {

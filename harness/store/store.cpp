@@ -176,7 +176,7 @@ void Store::close() {
   }
 }
 
-void Store::create() {
+void Store::claim_folder() {
   const std::filesystem::path folder = folder_of(file_);
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
@@ -188,6 +188,10 @@ void Store::create() {
     }
   }
   if (!empty_) set_aside(file_);
+}
+
+void Store::create() {
+  if (!is_memory_store(file_)) claim_folder();
   database_ = std::make_unique<Database>(file_, Database::Mode::create);
   make_ready(*database_);
   Transaction transaction(*database_);
