@@ -1,14 +1,13 @@
 #include "harness/eval/run_summary.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <set>
 
 #include "harness/base/wrap.hpp"
 #include "harness/compare/compare.hpp"
-#include "harness/compare/signed_rank.hpp"
+#include "harness/model/name_order.hpp"
+#include "harness/tables/pivot.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -43,57 +42,21 @@ std::vector<SharedText> protocols_of(const std::vector<Record>& records) {
   return out;
 }
 
-/// Runs of one method on one sequence. Runs with equal data have the same content and count once.
-struct CountedRuns {
-  std::string sequence;
-  std::string method;
-  std::set<std::int64_t> repeats = {};
-  std::set<std::string> contents = {};
-  std::map<std::string, double> values = {};  ///< of the successes, by content
-
-  std::size_t copies() const { return repeats.size() - contents.size(); }
-};
-
-/// By sequence and method, in the order of the records.
-std::vector<CountedRuns> counted_runs(const std::vector<Record>& records, const Record& score) {
-  std::vector<CountedRuns> out;
-  using Key = std::pair<std::string, std::string>;
-  std::map<Key, std::size_t> places;
+/// The scores, and the runs without any, as if under the same protocol.
+std::vector<Record> of_score(const std::vector<Record>& records, const Record& score) {
+  std::vector<Record> out;
   for (const Record& r : records) {
-    const auto [place, is_new] = places.emplace(Key(r.sequence, r.method), out.size());
-    if (is_new) out.push_back({r.sequence, r.method});
-    CountedRuns& runs = out[place->second];
-    // Runs whose content is unknown are different.
-    const std::string content =
-        r.content.empty() ? "run " + std::to_string(r.repeat) : r.content.text();
-    runs.repeats.insert(r.repeat);
-    runs.contents.insert(content);
-    if (r.status == Status::ok && is_score(r, score)) {
-      runs.values.emplace(content, r.statistics.rmse);
-    }
+    if (r.metric.empty() || is_score(r, score)) out.push_back(r);
   }
+  for (Record& r : out) r.protocol = score.protocol;
   return out;
 }
 
-std::vector<TableCell> row(const CountedRuns& runs) {
-  const auto number = [](double value) { return fixed(value, std::max(4, decimals(value))); };
-  const auto range = [&](double low, double high) { return number(low) + " to " + number(high); };
-  std::vector<TableCell> out{{runs.sequence + " / " + runs.method},
-                             {fmt::format("{} of {}", runs.values.size(), runs.contents.size())}};
-  std::vector<double> values;
-  for (const auto& [content, value] : runs.values) values.push_back(value);
-  if (values.empty()) {
-    out.resize(6);
-    return out;
-  }
-  std::ranges::sort(values);
-  const metrics::Statistics all = metrics::statistics(values);
-  const std::optional<Interval> interval = shift_interval(values, 0.05);
-  out.push_back({number(all.mean)});
-  out.push_back({interval ? range(interval->low, interval->high) : "-"});
-  out.push_back({number(all.median)});
-  out.push_back({range(all.min, all.max)});
-  return out;
+/// Whether a method has several runs on a sequence.
+bool has_repeats(const std::vector<Record>& records) {
+  std::map<std::pair<SharedText, SharedText>, std::set<std::int64_t>> runs;
+  for (const Record& r : records) runs[{r.sequence, r.method}].insert(r.repeat);
+  return std::ranges::any_of(runs, [](const auto& each) { return each.second.size() > 1; });
 }
 
 /// Indented after the first line.
@@ -105,67 +68,36 @@ std::string lines_of(const std::string& text, const std::optional<TerminalStyle>
   return out;
 }
 
-std::string table_of(const std::vector<CountedRuns>& all,
-                     const std::string& subject,
-                     const std::string& unit,
-                     const std::optional<TerminalStyle>& style) {
-  Table view{"",
-             {"sequence / method",
-              "successful runs",
-              "mean " + subject + " [" + unit + "]",
-              "95 % interval",
-              "median [" + unit + "]",
-              "range [" + unit + "]"},
-             {},
-             {}};
-  for (const CountedRuns& each : all) view.lines.push_back(row(each));
-  std::size_t copies = 0;
-  for (const CountedRuns& each : all) copies += each.copies();
-  std::string out = style ? terminal(view, *style) : markdown(view);
-  if (copies > 0) {
-    out += "\n" + lines_of(fmt::format("- {} of the files {} the data of another run of {} method "
-                                       "and count{} once with it",
-                                       copies,
-                                       copies == 1 ? "repeats" : "repeat",
-                                       copies == 1 ? "its" : "their",
-                                       copies == 1 ? "s" : ""),
-                           style);
-  }
-  return out;
-}
-
-/// Table and verdict of one score; `subject` names it.
+/// Table and verdict of one score.
 std::string report_of(const std::vector<Record>& records,
-                      const Record& score,
-                      const std::string& subject,
+                      const std::string& title,
                       const std::optional<TerminalStyle>& style,
                       bool paired) {
-  const std::vector<CountedRuns> all = counted_runs(records, score);
-  std::set<std::string> methods;
-  for (const CountedRuns& each : all) methods.insert(each.method);
-  const bool has_repeats =
-      std::ranges::any_of(all, [](const CountedRuns& each) { return each.repeats.size() > 1; });
-  const bool has_values =
-      std::ranges::any_of(all, [](const CountedRuns& each) { return !each.values.empty(); });
-  if (!has_values || (methods.size() < 2 && !has_repeats)) return "";
-  std::string out;
-  if (has_repeats) out += "\n" + table_of(all, subject, score.unit, style);
-  if (methods.size() < 2) return out;
-  std::vector<Record> scores;
+  NameOrder methods;
+  std::set<SharedText> with_values;
   for (const Record& r : records) {
-    const bool is_failed_run =
-        r.metric.empty() && (r.protocol.empty() || r.protocol == score.protocol);
-    if (is_failed_run || is_score(r, score)) scores.push_back(r);
+    methods.index(r.method);
+    if (r.status == Status::ok) with_values.insert(r.method);
   }
+  const std::vector<std::string>& names = methods.names();
+  const bool is_several = has_repeats(records);
+  if (with_values.empty() || (names.size() < 2 && !is_several)) return "";
+  std::string out;
+  if (is_several) {
+    TableSpec spec;
+    spec.rows = {"sequence", "method"};
+    spec.split.clear();
+    spec.plus_minus = true;
+    Table table = pivot(records, spec).front();
+    table.title = title;
+    out += "\n" + (style ? terminal(table, *style) : markdown(table));
+  }
+  if (names.size() < 2) return out;
   CompareOptions options;
-  // The first method with a value.
-  options.baseline = std::ranges::find_if(all, [&](const CountedRuns& each) {
-                       return std::ranges::any_of(all, [&](const CountedRuns& other) {
-                         return other.method == each.method && !other.values.empty();
-                       });
-                     })->method;
+  options.baseline = *std::ranges::find_if(
+      names, [&](const std::string& name) { return with_values.contains(SharedText(name)); });
   options.paired = paired;
-  for (const Comparison& comparison : compare(scores, options)) {
+  for (const Comparison& comparison : compare(records, options)) {
     out += "\n" + lines_of("verdict: " + statement(comparison), style);
     for (const std::string& limit : conditions(comparison)) out += lines_of("- " + limit, style);
   }
@@ -182,10 +114,8 @@ std::string run_report(const std::vector<Record>& records,
   for (const SharedText& protocol : protocols) {
     const std::optional<Record> score = run_score(records, protocol);
     if (!score) continue;
-    std::string subject = metric_label(*score);
-    if (!is_total_score(*score)) subject += " " + score->axis;
-    if (protocols.size() > 1) subject += " (" + protocol + ")";
-    out += report_of(records, *score, subject, style, paired);
+    const std::string title = protocols.size() > 1 ? protocol.text() : "";
+    out += report_of(of_score(records, *score), title, style, paired);
   }
   return out;
 }

@@ -10,12 +10,11 @@
 
 namespace loopbench::harness {
 
-/// For each protocol a table with mean, interval, median and range over the runs of each method on
-/// each sequence (the interval is 95 % of the pseudo-median; none below six successful runs), and
-/// the verdict over all runs: which method is better, and whether that is proven. The score is the
-/// translational ATE or, if it was not requested, the first one with a direction, or an axis of it
-/// if there is no total. Empty below two methods and two runs. Equal runs count once, as in
-/// compare(). Markdown without a style.
+/// For each protocol a table with mean and standard deviation over the runs of each method on each
+/// sequence, as `table --plus-minus` prints it, and the verdict over all runs: which method is
+/// better, and whether that is proven. The score is the translational ATE or, if it was not
+/// requested, the first one with a direction, or an axis of it if there is no total. Empty below
+/// two methods and two runs. Markdown without a style.
 std::string run_report(const std::vector<Record>& records,
                        const std::optional<TerminalStyle>& style = std::nullopt,
                        bool paired = false);

@@ -109,14 +109,6 @@ TEST_F(EvalCopies, FailuresOnCopiesAreOneObservation) {
   EXPECT_THAT(stored(files, kExitSomeCellsFailed), HasSubstr(expected));
 }
 
-TEST_F(EvalCopies, EqualRunsOfOneMethodCountOnce) {
-  std::vector<std::string> arguments{path("truths/office.txt")};
-  for (int run = 0; run < 10; ++run) arguments.push_back(write_run("copies", "office", run, 0.01));
-  const std::string out = test::eval(arguments);
-  EXPECT_THAT(out, testing::ContainsRegex("\n\\| office / copies +\\| +1 of 1 \\|"));
-  EXPECT_THAT(out, HasSubstr("9 of the files repeat the data of another run"));
-}
-
 TEST_F(EvalCopies, RunsOfOneSystemAloneAreRunsOfTheSequence) {
   EXPECT_THAT(test::eval(office({"good/office/0", "good/office/1", "bad/office/0"})),
               HasSubstr("but 2 runs of 1 sequence cannot show a difference"));

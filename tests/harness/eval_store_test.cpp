@@ -24,7 +24,7 @@ class EvalStore : public test::RecordedFiles {};
 TEST_F(EvalStore, RunsAreRepeatsAndSystemsAreMethods) {
   const std::string out = store_systems("store");
   EXPECT_THAT(out, HasSubstr("40 runs in"));
-  EXPECT_THAT(out, ContainsRegex("\n\\| office / bad +\\| +10 of 10 \\|"));
+  EXPECT_THAT(out, ContainsRegex("\n\\| office, bad +\\| +0[.0-9]+ ± [.0-9]+ +\\|"));
   EXPECT_THAT(out, HasSubstr("good is"));  // the verdict
   EXPECT_THAT(out, HasSubstr("20 runs"));
   const auto cells = read_cells(path("store"));
@@ -75,13 +75,13 @@ TEST_F(EvalStore, ARunThatCannotBeReadIsAFailureUntilItIsRepaired) {
   std::ofstream(broken) << "1 2 3\n";
   for (int call = 0; call < 2; ++call) {
     const std::string out = store_systems("store", {}, kExitSomeCellsFailed);
-    EXPECT_THAT(out, ContainsRegex("\n\\| office / bad +\\| +9 of 10 \\|"));
+    EXPECT_THAT(out, ContainsRegex("\n\\| office, bad +\\| +0[.0-9]+ ± [.0-9]+ \\(9 of 10\\) \\|"));
     EXPECT_THAT(out, HasSubstr("1 failed\nfailed: " + broken));
   }
   write_run("systems/bad", "office", 3, 0.034);
   const std::string out = stored(files_of("office"));
   EXPECT_THAT(out, HasSubstr("(39 stored before)"));
-  EXPECT_THAT(out, ContainsRegex("\n\\| office / bad +\\| +10 of 10 \\|"));
+  EXPECT_THAT(out, ContainsRegex("\n\\| office, bad +\\| +0[.0-9]+ ± [.0-9]+ +\\|"));
 }
 
 /// Sets the current folder until its end.
