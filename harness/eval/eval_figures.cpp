@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 
+#include "harness/model/name_order.hpp"
 #include "metrics/numerics/angle.hpp"
 #include "metrics/trajectory/projection.hpp"
 
@@ -15,26 +16,6 @@ namespace {
 
 constexpr std::size_t kMostRowsOfErrors =
     1000;  // of a curve, without its peaks; more are not visible
-
-std::vector<double> path_lengths(const Trajectory& poses) {
-  std::vector<double> out(poses.size(), 0.0);
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    out[i] =
-        out[i - 1] +
-        (poses[i].world_from_body.translation - poses[i - 1].world_from_body.translation).norm();
-  }
-  return out;
-}
-
-/// Path length at a stamp, which interpolated associations place between two poses.
-double length_at(double stamp, const Trajectory& poses, const std::vector<double>& lengths) {
-  const auto after = std::ranges::upper_bound(poses, stamp, {}, &StampedPose::stamp);
-  if (after == poses.begin()) return 0.0;
-  if (after == poses.end()) return lengths.back();
-  const auto i = static_cast<std::size_t>(after - poses.begin());
-  const double share = (stamp - poses[i - 1].stamp) / (poses[i].stamp - poses[i - 1].stamp);
-  return lengths[i - 1] + share * (lengths[i] - lengths[i - 1]);
-}
 
 /// At most kMostRowsOfErrors values of equal distance in rank.
 std::vector<double> sorted_values(std::vector<double> values) {
@@ -98,17 +79,6 @@ void choose_drawn(const std::vector<RatedRun>& all, DrawnRuns& out) {
                          has_repeats ? " (chosen by ATE)" : "");
 }
 
-/// Numbers names in order of appearance.
-struct NameNumbers {
-  std::vector<std::string> names;
-  std::size_t number(const std::string& name) {
-    const auto known = std::ranges::find(names, name);
-    const auto out = static_cast<std::size_t>(known - names.begin());
-    if (known == names.end()) names.push_back(name);
-    return out;
-  }
-};
-
 /// Of each of kErrorFigures.
 const std::array<std::vector<std::string>, kErrorFigures.size()>& panels() {
   static const std::array<std::vector<std::string>, kErrorFigures.size()> all{
@@ -124,7 +94,6 @@ DrawnEvaluation drawn_evaluation(const Trajectory& reference,
                                  const metrics::Evaluation& evaluation) {
   Trajectory complete = reference;
   metrics::project(complete, evaluation.protocol.project);
-  const std::vector<double> lengths = path_lengths(complete);
   const double origin = complete.front().stamp;
   DrawnEvaluation out{{}, reference_curve(), 0.0};
   add_poses(out.reference, complete, origin);
@@ -138,7 +107,6 @@ DrawnEvaluation drawn_evaluation(const Trajectory& reference,
     const Pose& expected = evaluation.reference[i].world_from_body;
     const Pose& found = evaluation.estimate[i].world_from_body;
     columns["time"].push_back(evaluation.reference[i].stamp - origin);
-    columns["distance"].push_back(length_at(evaluation.reference[i].stamp, complete, lengths));
     columns["error"].push_back((found.translation - expected.translation).norm());
     if (has_angles) {
       columns["angle"].push_back(metrics::kDegrees *
@@ -159,10 +127,10 @@ DrawnEvaluation drawn_evaluation(const Trajectory& reference,
 DrawnRuns drawn_runs(const std::vector<EvaluationResult>& all,
                      const std::vector<RecordedRun>& runs) {
   DrawnRuns out;
-  NameNumbers methods;
+  NameOrder methods;
   std::map<std::string, std::size_t> count, before;  // by method
   for (const RecordedRun& run : runs) {
-    methods.number(run.method);
+    methods.index(run.method);
     ++count[run.method];
   }
   const std::size_t protocols = runs.empty() ? 1 : all.size() / runs.size();
@@ -181,8 +149,8 @@ DrawnRuns drawn_runs(const std::vector<EvaluationResult>& all,
     DrawnCurve& curve = candidate.drawn.estimate;
     const bool has_repeats = count[run.method] > 1;
     curve.name = run.method + (has_repeats ? " " + run.run : "");
-    curve.style = methods.names.size() > 1 ? methods.number(run.method) : repeat;
-    if (methods.names.size() > 1 && has_repeats) curve.dash = 1 + static_cast<int>(repeat % 5);
+    curve.style = methods.names().size() > 1 ? methods.index(run.method) : repeat;
+    if (methods.names().size() > 1 && has_repeats) curve.dash = 1 + static_cast<int>(repeat % 5);
   }
   choose_drawn(candidates, out);
   return out;

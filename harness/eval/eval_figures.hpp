@@ -11,7 +11,7 @@
 
 namespace loopbench::harness {
 
-/// `reference`: the complete one, ascending stamps. O(n log n + m).
+/// `reference`: the complete one, ascending stamps. O(n log n).
 DrawnEvaluation drawn_evaluation(const Trajectory& reference,
                                  const metrics::Evaluation& evaluation);
 

@@ -17,9 +17,9 @@ namespace loopbench::harness {
 
 /// One estimate, paired and aligned.
 struct DrawnEvaluation {
-  /// Without a name. Times count from the first pose of the reference file [s], distances along the
-  /// complete reference [m], so that the curves of all estimates of a reference have one origin.
-  /// Columns of the errors: error [m], angle [deg], and sorted_errors [m] of all poses.
+  /// Without a name. Times count from the first pose of the reference file [s], so that the curves
+  /// of all estimates of a reference have one origin. Columns of the errors: error [m], angle
+  /// [deg], and sorted_errors [m] of all poses.
   DrawnCurve estimate;
   DrawnCurve reference;        ///< the complete reference, subsampled
   double position_rmse = 0.0;  ///< [m]
