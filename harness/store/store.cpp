@@ -128,8 +128,10 @@ std::vector<std::string> remove_damaged(Database& database, std::vector<StoredCe
   }
   std::erase_if(cells, [](const StoredCell& cell) { return !cell.intact; });
   remove_damaged_rows(database, kProvenanceTable);
-  for (const std::string& key : remove_damaged_rows(database, kInputTable)) {
-    database.prepare("DELETE FROM sequence WHERE sequence_key = ?").bind(key).run();
+  remove_damaged_rows(database, kInputTable);
+  if (!out.empty()) {  // a row whose key has changed would hide others from a search by key
+    database.execute(
+        "DELETE FROM sequence WHERE sequence_key NOT IN (SELECT sequence_key FROM cell)");
   }
   remove_orphans(database);
   return out;
