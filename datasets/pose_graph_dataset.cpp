@@ -167,10 +167,7 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
         read_truth(sequence.provenance.reference, vertex_stamps(graph, o.period), o);
   }
 
-  const std::filesystem::path path(o.path);
-  const std::string folder = path.parent_path().filename().string();
-  sequence.name =
-      o.name.empty() ? (folder.empty() ? "" : folder + "_") + path.stem().string() : o.name;
+  sequence.name = o.name.empty() ? default_name(o.path) : o.name;
   sequence.provenance.sensor = o.sensor;
   sequence.provenance.licence = o.licence;
   sequence.provenance.body_from_reference = pose_of(o.reference_body);

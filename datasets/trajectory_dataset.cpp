@@ -47,11 +47,10 @@ std::size_t keyframe_index(const std::vector<std::size_t>& kept, std::size_t pos
   return static_cast<std::size_t>(std::lower_bound(kept.begin(), kept.end(), pose) - kept.begin());
 }
 
-std::string default_name(const std::string& estimate) {
+std::string name_of(const std::string& estimate) {
   const std::filesystem::path path(file_of(estimate));
-  if (names_bag(estimate)) return path.stem().string() + "_" + bag_name(estimate).topic;
-  const std::string folder = path.parent_path().filename().string();
-  return (folder.empty() ? "" : folder + "_") + path.stem().string();
+  return names_bag(estimate) ? path.stem().string() + "_" + bag_name(estimate).topic
+                             : default_name(path);
 }
 
 std::string closure_provenance(const TrajectoryOptions& o, std::size_t count) {
@@ -246,7 +245,7 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
     }
   }
 
-  sequence.name = o.name.empty() ? default_name(o.estimate) : o.name;
+  sequence.name = o.name.empty() ? name_of(o.estimate) : o.name;
   std::size_t false_closures = 0;
   sequence.problem = derive_problem(in, o, &false_closures);
   sequence.reference = std::move(in.reference);

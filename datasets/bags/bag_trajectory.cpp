@@ -21,16 +21,9 @@ bool has_poses(const BagTopic& topic) {
   return topic.type != MessageType::other && topic.type != MessageType::tf;
 }
 
-/// Normalises the quaternion; false for a pose that is not one. As for text files, a norm within
-/// 1e-2 of 1 is rounding, and unit quaternions are not changed.
-bool normalise(Pose& pose, double& off_unit) {
-  constexpr double kTolerance = 1e-2, kRounding = 4e-15;
-  const double square = pose.rotation.squaredNorm();
-  if (!is_finite(pose) || !(std::abs(std::sqrt(square) - 1.0) <= kTolerance)) return false;
-  if (std::abs(square - 1.0) <= kRounding) return true;
-  off_unit = std::max(off_unit, std::abs(std::sqrt(square) - 1.0));
-  pose.rotation.coeffs() /= std::sqrt(square);
-  return true;
+/// Normalises the quaternion; false for a pose that is not one.
+bool normalise_pose(Pose& pose, double& off_unit) {
+  return is_finite(pose) && normalise(pose.rotation, off_unit);
 }
 
 std::string known_topics(const std::vector<BagTopic>& topics) {
@@ -132,7 +125,7 @@ Decoded read_tf(const std::string& file, const std::string& frames) {
                        const std::vector<PoseMessage>& transforms,
                        std::vector<PoseMessage>&) {
     for (PoseMessage transform : transforms) {
-      if (normalise(transform.frame_from_child, off_unit)) {
+      if (normalise_pose(transform.frame_from_child, off_unit)) {
         tree.add(transform, topic.name.ends_with("static"));
       } else {
         ++invalid;
@@ -179,7 +172,7 @@ BagTrajectory read_bag_trajectory(const BagName& name) {
   out.is_geodetic = type == MessageType::nav_sat_fix;
   const auto invalid = std::erase_if(read.poses, [&](PoseMessage& pose) {
     if (has_only_positions(type)) return !pose.frame_from_child.translation.allFinite();
-    return !normalise(pose.frame_from_child, out.off_unit);
+    return !normalise_pose(pose.frame_from_child, out.off_unit);
   });
   out.poses = std::move(read.poses);
   std::ranges::stable_sort(out.poses, {}, &PoseMessage::nanoseconds);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -37,6 +38,21 @@ inline Rotation no_rotation() {
 
 inline bool has_rotation(const Pose& pose) { return !std::isnan(pose.rotation.w()); }
 
+/// Normalises a quaternion of a file; false if its norm differs from 1 by more than 1e-2: rounding
+/// in the file causes smaller deviations, a wrong column order larger ones. Quaternions that are
+/// unit up to rounding are not changed, so that round trips are bit-identical. `off_unit` becomes
+/// the largest deviation so far.
+inline bool normalise(Rotation& rotation, double& off_unit) {
+  constexpr double kTolerance = 1e-2, kRounding = 4e-15;
+  const double square = rotation.squaredNorm();
+  if (std::abs(square - 1.0) <= kRounding) return true;
+  const double norm = std::sqrt(square);
+  if (!(std::abs(norm - 1.0) <= kTolerance)) return false;
+  off_unit = std::max(off_unit, std::abs(norm - 1.0));
+  rotation.coeffs() /= norm;
+  return true;
+}
+
 /// Renormalises the quaternion, which long products move away from unit norm.
 inline Pose normalized(Pose pose) {
   pose.rotation.normalize();
@@ -57,5 +73,10 @@ inline bool is_close(const Pose& a, const Pose& b, double metres, double radians
 /// block is orthonormal only to the printed digits. It is needed to reproduce tools that use the
 /// matrix without normalising it (KITTI devkit); otherwise use Pose.
 using PoseMatrix = Eigen::AffineCompact3d;
+
+/// Pose with the exact translation and the rotation nearest to the left 3 x 3 block.
+inline Pose pose_of(const PoseMatrix& matrix) {
+  return {Rotation(Matrix3(matrix.linear())).normalized(), matrix.translation()};
+}
 
 }  // namespace loopbench

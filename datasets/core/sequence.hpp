@@ -48,4 +48,10 @@ struct Sequence {
   std::vector<LoopCandidate> loop_candidates = {};
 };
 
+/// Default name of the sequence of a file: its folder and its name without extension.
+inline std::string default_name(const std::filesystem::path& file) {
+  const std::string folder = file.parent_path().filename().string();
+  return (folder.empty() ? "" : folder + "_") + file.stem().string();
+}
+
 }  // namespace loopbench

@@ -11,6 +11,7 @@
 
 #include "datasets/formats/formats.hpp"
 #include "datasets/formats/short_number.hpp"
+#include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_file.hpp"
 
 namespace loopbench {
@@ -92,6 +93,14 @@ class Columns {
   const char* end_;
   std::size_t index_ = 0;
 };
+
+/// Returns the next column as a stamp in seconds or, if it is in nanoseconds, in these. Throws
+/// InputError.
+inline ReadStamp next_stamp(Columns& columns, bool small_nanoseconds = false) {
+  const std::string_view word = columns.peek();
+  const double number = columns.number("stamp");
+  return read_stamp(word, number, is_in_nanoseconds(number, small_nanoseconds) ? -9 : 0);
+}
 
 /// Returns the number of columns of a line.
 std::size_t count_columns(const TextFile& file, const Line& line);

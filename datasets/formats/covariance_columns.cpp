@@ -193,10 +193,7 @@ std::vector<Matrix6> read_covariance_file(const std::filesystem::path& path,
                            columns_text(1 + layout->count()) + " as in the first row");
     }
     Columns columns(file, line);
-    const std::string_view word = columns.peek();
-    const double number = columns.number("stamp");
-    const int exponent = is_in_nanoseconds(number, false) ? -9 : 0;
-    const double stamp = read_stamp(word, number, exponent).seconds;
+    const double stamp = next_stamp(columns).seconds;
     const std::size_t i = out.size();
     if (i == poses.size() || !(std::abs(stamp - poses[i].stamp) <= kSameStamp)) {
       throw file.error(line.number,

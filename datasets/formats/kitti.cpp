@@ -51,9 +51,7 @@ void each_row(TextFile& file, Visit visit) {
     Columns columns(file, line);
     double stamp = 0.0;
     if (is_stamped) {
-      const std::string_view word = columns.peek();
-      const double number = columns.number("stamp");
-      stamp = read_stamp(word, number, is_in_nanoseconds(number, false) ? -9 : 0).seconds;
+      stamp = next_stamp(columns).seconds;
     }
     for (std::size_t i = 0; i < v.size(); ++i) {
       if (columns.done()) throw wrong_columns(file, line, Format::kitti, expected);
@@ -62,10 +60,6 @@ void each_row(TextFile& file, Visit visit) {
     if (!columns.done()) throw wrong_columns(file, line, Format::kitti, expected);
     visit(stamp, matrix_of(file, line.number, v), line.number);
   } while (file.next(line));
-}
-
-Pose pose_of(const PoseMatrix& m) {
-  return {Rotation(Matrix3(m.linear())).normalized(), m.translation()};
 }
 
 /// Reads the poses of a part of a file; stamps are not set.

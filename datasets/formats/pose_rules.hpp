@@ -1,9 +1,6 @@
 /// Checks common to all trajectory formats: unit quaternions and increasing stamps.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "datasets/core/trajectory.hpp"
 #include "datasets/formats/formats.hpp"
 #include "datasets/formats/text_file.hpp"
@@ -25,19 +22,10 @@ Trajectory local_positions(Trajectory geodetic, const ReadOptions& options);
 /// Error for a row with a zero quaternion below rows with rotations, or the reverse.
 InputError mixed_rows(const TextFile& file, const Line& line, bool is_zero);
 
-/// Normalises a quaternion. Throws InputError if it is zero or its norm differs from 1 by more than
-/// 1e-2: rounding in the file causes smaller deviations, a wrong column order larger ones.
-inline Rotation normalized_rotation(const TextFile& file, std::size_t line, const Rotation& given) {
-  constexpr double kTolerance = 1e-2;
-  // Quaternions that are unit up to rounding are not changed, so that round trips are
-  // bit-identical.
-  constexpr double kRounding = 4e-15;
-  const double square = given.squaredNorm();
-  if (std::abs(square - 1.0) <= kRounding) return given;
-  const double norm = std::sqrt(square);
-  if (!(std::abs(norm - 1.0) <= kTolerance)) throw wrong_norm(file, line, norm);
-  file.repaired.off_unit = std::max(file.repaired.off_unit, std::abs(norm - 1.0));
-  return Rotation(given.coeffs() / norm);
+/// Normalises a quaternion. Throws InputError if it is not unit, see normalise().
+inline Rotation normalized_rotation(const TextFile& file, std::size_t line, Rotation given) {
+  if (normalise(given, file.repaired.off_unit)) return given;
+  throw wrong_norm(file, line, given.norm());
 }
 
 /// The rotation of a row below `above`. Files of positions can have a zero quaternion in every row:

@@ -118,10 +118,9 @@ TrajectoryFile from_text(const std::filesystem::path& path, const ReadOptions& o
 /// The stamp in the first column of a tum or euroc file.
 ReadStamp first_stamp(const TextFile& text, const Line& line, Format format, bool small) {
   Columns columns(text, line);
+  if (format != Format::euroc) return next_stamp(columns, small);
   const std::string_view word = columns.peek();
-  const double number = columns.number("stamp");
-  const bool is_in_units = format == Format::euroc || is_in_nanoseconds(number, small);
-  return read_stamp(word, number, is_in_units ? -9 : 0);
+  return read_stamp(word, columns.number("stamp"), -9);
 }
 
 /// Exact stamps of the poses in `file`, in order; empty if one is not a number of nanoseconds.

@@ -48,9 +48,4 @@ inline PoseMatrix printed_relative_pose(const PoseMatrix& world_from_a,
   return out;
 }
 
-/// Pose with the exact translation and the rotation nearest to the left 3 x 3 block.
-inline Pose pose_of(const PoseMatrix& matrix) {
-  return {Rotation(Matrix3(matrix.linear())).normalized(), matrix.translation()};
-}
-
 }  // namespace loopbench::metrics
