@@ -1,6 +1,7 @@
 #include "datasets/bags/messages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <limits>
 
@@ -63,19 +64,20 @@ BagSummary read_bag(const std::string& name, const WantsTopic& wants, const Visi
 }
 
 MessageType message_type(std::string_view name) {
+  static constexpr std::array<std::pair<std::string_view, MessageType>, 9> kTypes{
+      {{"geometry_msgs/PoseStamped", MessageType::pose_stamped},
+       {"geometry_msgs/PoseWithCovarianceStamped", MessageType::pose_with_covariance_stamped},
+       {"nav_msgs/Odometry", MessageType::odometry},
+       {"geometry_msgs/TransformStamped", MessageType::transform_stamped},
+       {"geometry_msgs/PointStamped", MessageType::point_stamped},
+       {"sensor_msgs/NavSatFix", MessageType::nav_sat_fix},
+       {"nav_msgs/Path", MessageType::path},
+       {"tf2_msgs/TFMessage", MessageType::tf},
+       {"tf/tfMessage", MessageType::tf}}};
   std::string plain(name);
   if (const std::size_t at = plain.find("/msg/"); at != plain.npos) plain.erase(at, 4);
-  if (plain == "geometry_msgs/PoseStamped") return MessageType::pose_stamped;
-  if (plain == "geometry_msgs/PoseWithCovarianceStamped") {
-    return MessageType::pose_with_covariance_stamped;
-  }
-  if (plain == "nav_msgs/Odometry") return MessageType::odometry;
-  if (plain == "geometry_msgs/TransformStamped") return MessageType::transform_stamped;
-  if (plain == "geometry_msgs/PointStamped") return MessageType::point_stamped;
-  if (plain == "sensor_msgs/NavSatFix") return MessageType::nav_sat_fix;
-  if (plain == "nav_msgs/Path") return MessageType::path;
-  if (plain == "tf2_msgs/TFMessage" || plain == "tf/tfMessage") return MessageType::tf;
-  return MessageType::other;
+  const auto found = std::ranges::find(kTypes, plain, [](const auto& type) { return type.first; });
+  return found == kTypes.end() ? MessageType::other : found->second;
 }
 
 void add_topic(BagSummary& summary, const BagTopic& topic) {
