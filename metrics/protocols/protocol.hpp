@@ -168,7 +168,7 @@ inline auto choices(Statistic) {
                     std::pair{"p99", Statistic::p99}};
 }
 
-/// Sub-trajectories by length. Lengths and tolerance are text: see metrics/protocols/lengths.hpp.
+/// Sub-trajectories by length. Lengths and tolerance are text, see Length.
 struct SegmentErrorRule {
   std::string lengths = "10% 20% 30% 40% 50%";
   std::string tolerance = "20%";
