@@ -10,8 +10,8 @@
 #include "harness/commands/commands.hpp"
 #include "harness/commands/options.hpp"
 #include "harness/model/where.hpp"
+#include "harness/report/draw.hpp"
 #include "harness/report/report.hpp"
-#include "harness/report/store_figures.hpp"
 #include "harness/tables/store_provenance.hpp"
 
 namespace loopbench::harness {

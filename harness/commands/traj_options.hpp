@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/eval/eval_figures.hpp"
 #include "harness/eval/named_trajectory.hpp"
-#include "harness/eval/trajectory_figures.hpp"
 #include "harness/eval/transformation.hpp"
 #include "metrics/protocols/protocol.hpp"
 

@@ -198,7 +198,6 @@ Problem load_problem(const CorrectArguments& a,
 }
 
 FigureData before_and_after(const Correction& done) {
-  constexpr std::size_t kMostRows = 2000;  // of a curve; more are not visible
   FigureData out{std::filesystem::path(done.estimate).filename().string(),
                  done.method,
                  {{.name = "before"}, {.name = "after", .style = 1}},
@@ -206,7 +205,7 @@ FigureData before_and_after(const Correction& done) {
   const Trajectory* const poses[] = {&done.problem.keyframes, &done.keyframes};
   for (std::size_t i = 0; i < out.curves.size(); ++i) {
     add_poses(out.curves[i], *poses[i], 0.0);
-    thin(out.curves[i], kMostRows);
+    thin(out.curves[i]);
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include "harness/model/name_order.hpp"
 #include "metrics/numerics/angle.hpp"
@@ -14,31 +15,16 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr std::size_t kMostRowsOfErrors =
-    1000;  // of a curve, without its peaks; more are not visible
-
-/// At most kMostRowsOfErrors values of equal distance in rank.
-std::vector<double> sorted_values(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t kept = std::min(values.size(), kMostRowsOfErrors);
-  std::vector<double> out(kept);
-  for (std::size_t i = 0; i < kept; ++i) {
-    out[i] = values[kept == 1 ? 0 : i * (values.size() - 1) / (kept - 1)];
-  }
-  return out;
-}
-
 /// A candidate for a figure.
 struct RatedRun {
   DrawnEvaluation drawn;
   std::string method;
   bool is_complete = true;
-  double ate() const { return drawn.position_rmse; }  ///< [m]
 };
 
 /// Best, median and worst of runs of one method, or only the median.
 std::vector<DrawnEvaluation> representative(std::vector<RatedRun> runs, bool is_only) {
-  std::ranges::stable_sort(runs, {}, &RatedRun::ate);
+  std::ranges::stable_sort(runs, {}, [](const RatedRun& run) { return run.drawn.position_rmse; });
   const auto named = [&](std::size_t i, const char* role) {
     DrawnEvaluation out = runs[i].drawn;
     out.estimate.name += role;
@@ -88,6 +74,33 @@ const std::array<std::vector<std::string>, kErrorFigures.size()>& panels() {
   return all;
 }
 
+/// Adds the columns of a trajectory.
+DrawnCurve drawn_trajectory(DrawnCurve out, const Trajectory& poses, double origin) {
+  add_poses(out, poses, origin);
+  std::vector<std::string> peaks;
+  if (poses.size() > 1) {
+    peaks = {"speed"};
+    std::vector<double>& speed = out.columns["speed"];
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+      const Vector3 step =
+          poses[i].world_from_body.translation - poses[i - 1].world_from_body.translation;
+      speed.push_back(step.norm() / (poses[i].stamp - poses[i - 1].stamp));
+    }
+    speed.insert(speed.begin(), speed.front());
+  }
+  thin(out, peaks);
+  return out;
+}
+
+std::vector<std::string> short_names(const std::vector<NamedTrajectory>& all) {
+  std::vector<std::string> stems, names;
+  for (const NamedTrajectory& each : all) {
+    names.push_back(each.name);
+    stems.push_back(output_stem(each.name));
+  }
+  return std::set(stems.begin(), stems.end()).size() == all.size() ? stems : names;
+}
+
 }  // namespace
 
 DrawnEvaluation drawn_evaluation(const Trajectory& reference,
@@ -97,7 +110,7 @@ DrawnEvaluation drawn_evaluation(const Trajectory& reference,
   const double origin = complete.front().stamp;
   DrawnEvaluation out{{}, reference_curve(), 0.0};
   add_poses(out.reference, complete, origin);
-  thin(out.reference, kMostRowsOfErrors);
+  thin(out.reference);
 
   add_poses(out.estimate, evaluation.estimate, origin);
   auto& columns = out.estimate.columns;
@@ -116,11 +129,13 @@ DrawnEvaluation drawn_evaluation(const Trajectory& reference,
   }
   const auto count = static_cast<double>(std::max<std::size_t>(1, evaluation.estimate.size()));
   out.position_rmse = std::sqrt(out.position_rmse / count);
-  std::vector<double> errors = sorted_values(columns["error"]);
+  std::vector<double> sorted = columns["error"];
+  std::ranges::sort(sorted);
   thin(out.estimate,
-       kMostRowsOfErrors,
        has_angles ? std::vector<std::string>{"error", "angle"} : std::vector<std::string>{"error"});
-  columns["sorted_errors"] = std::move(errors);
+  for (const std::size_t i : subsampled_indices(sorted.size(), kMostRows)) {
+    columns["sorted_errors"].push_back(sorted[i]);
+  }
   return out;
 }
 
@@ -183,6 +198,34 @@ std::vector<DrawnFigure> figures_for_paper(const std::string& prefix,
     for (const std::string& suffix : suffixes) {
       figure.files.emplace_back(prefix + "_" + kErrorFigures[i] + suffix);
     }
+  }
+  return out;
+}
+
+FigureData trajectory_figure(const std::vector<NamedTrajectory>& all,
+                             const std::optional<NamedTrajectory>& reference,
+                             const std::vector<std::string>& panels,
+                             const FigureOptions& options) {
+  double origin =
+      reference ? reference->file.poses.front().stamp : all.front().file.poses.front().stamp;
+  for (const NamedTrajectory& each : all) {
+    if (!reference) origin = std::min(origin, each.file.poses.front().stamp);
+  }
+  FigureData out;
+  if (reference) {
+    out.curves.push_back(drawn_trajectory(reference_curve(), reference->file.poses, origin));
+    out.title = "no alignment";
+  }
+  const std::vector<std::string> names = labels_of(options, short_names(all));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const DrawnCurve curve{.name = names[i], .style = i};
+    out.curves.push_back(drawn_trajectory(curve, all[i].file.poses, origin));
+  }
+  DrawnFigure& figure = out.figures.emplace_back(DrawnFigure{{}, {}, options});
+  if (!options.columns) figure.options.columns = 3;
+  for (const std::string& panel : panels) {
+    const bool is_map = panel == "plane" || panel.find_first_not_of("xyz") == std::string::npos;
+    figure.panels.push_back(is_map && panel.size() > 1 ? panel : panel + " by time");
   }
   return out;
 }

@@ -1,11 +1,13 @@
-/// Figures of one or several evaluations.
+/// Figures of evaluations and of trajectory files.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "harness/eval/evaluation_result.hpp"
+#include "harness/eval/named_trajectory.hpp"
 #include "harness/eval/recorded_runs.hpp"
 #include "harness/report/draw.hpp"
 
@@ -47,5 +49,19 @@ FigureData figure_data(const DrawnRuns& runs);
 std::vector<DrawnFigure> figures_for_paper(const std::string& prefix,
                                            const std::vector<std::string>& suffixes,
                                            const FigureOptions& options);
+
+/// The plane of the largest extent and space; x, y, z, roll, pitch, yaw and speed over time. Any
+/// panel can also be xy, xz or yz.
+inline std::vector<std::string> default_trajectory_panels() {
+  return {"plane", "xyz", "x", "y", "z", "roll", "pitch", "yaw", "speed"};
+}
+
+/// One figure without files. Names without a label are file names without folder and extension, if
+/// these differ. Times count from the first stamp of the reference, or of all
+/// trajectories.
+FigureData trajectory_figure(const std::vector<NamedTrajectory>& all,
+                             const std::optional<NamedTrajectory>& reference,
+                             const std::vector<std::string>& panels,
+                             const FigureOptions& options);
 
 }  // namespace loopbench::harness

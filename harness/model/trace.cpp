@@ -1,19 +1,11 @@
 #include "harness/model/trace.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-/// At most kTraceSamples evenly spaced indices of 0..count-1, including the first and the last.
-template <class Keep>
-void visit_thinned(std::size_t count, Keep keep) {
-  const std::size_t kept = std::min(count, kTraceSamples);
-  for (std::size_t i = 0; i < kept; ++i) keep(kept == 1 ? 0 : i * (count - 1) / (kept - 1));
-}
 
 TracePose small(double stamp, const Pose& pose, const TraceOrigin& origin) {
   const auto f = [](double value) { return static_cast<float>(value); };
@@ -31,15 +23,15 @@ TracePose small(double stamp, const Pose& pose, const TraceOrigin& origin) {
 
 std::vector<TracePose> poses(const Trajectory& trajectory, const TraceOrigin& origin) {
   std::vector<TracePose> out;
-  visit_thinned(trajectory.size(), [&](std::size_t i) {
+  for (const std::size_t i : subsampled_indices(trajectory.size(), kTraceSamples)) {
     out.push_back(small(trajectory[i].stamp, trajectory[i].world_from_body, origin));
-  });
+  }
   return out;
 }
 
 std::vector<TraceSample> samples(const metrics::Evaluation& evaluation, const TraceOrigin& origin) {
   std::vector<TraceSample> out;
-  visit_thinned(evaluation.reference.size(), [&](std::size_t i) {
+  for (const std::size_t i : subsampled_indices(evaluation.reference.size(), kTraceSamples)) {
     const StampedPose& reference = evaluation.reference[i];
     const Pose& estimate = evaluation.estimate[i].world_from_body;
     const Vector3 error = estimate.translation - reference.world_from_body.translation;
@@ -49,7 +41,7 @@ std::vector<TraceSample> samples(const metrics::Evaluation& evaluation, const Tr
                    static_cast<float>(error.y()),
                    static_cast<float>(error.z()),
                    static_cast<float>(angle * metrics::kDegrees)});
-  });
+  }
   return out;
 }
 
@@ -94,8 +86,9 @@ void add_values(CellTrace& trace,
   TraceValues& added = trace.values.emplace_back();
   added.name = std::move(name);
   added.unit = std::move(unit);
-  visit_thinned(per_pose.size(),
-                [&](std::size_t i) { added.values.push_back(static_cast<float>(per_pose[i])); });
+  for (const std::size_t i : subsampled_indices(per_pose.size(), kTraceSamples)) {
+    added.values.push_back(static_cast<float>(per_pose[i]));
+  }
 }
 
 }  // namespace loopbench::harness

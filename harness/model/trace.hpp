@@ -5,6 +5,7 @@
 /// sequence, so that float32 is sufficient far from zero.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,14 @@ namespace loopbench::harness {
 
 /// Maximum number of stored samples; longer lists are subsampled evenly, including both ends.
 inline constexpr std::size_t kTraceSamples = 2000;
+
+/// At most `most` evenly spaced indices of 0..count-1, including both ends.
+inline std::vector<std::size_t> subsampled_indices(std::size_t count, std::size_t most) {
+  const std::size_t kept = std::min(count, most);
+  std::vector<std::size_t> out(kept);
+  for (std::size_t i = 0; i < kept; ++i) out[i] = kept == 1 ? 0 : i * (count - 1) / (kept - 1);
+  return out;
+}
 
 /// 8 floats.
 struct TracePose {

@@ -4,7 +4,6 @@
 
 #include "harness/catalogue/exchange.hpp"
 #include "harness/model/name_order.hpp"
-#include "harness/report/html.hpp"
 #include "harness/report/sections.hpp"
 #include "metrics/numerics/median.hpp"
 
@@ -69,36 +68,26 @@ std::optional<double> iterations(const CellRecord& cell) {
   return found == cell.counts.end() ? std::nullopt : std::optional(found->value);
 }
 
-/// Values by name, names in order of first appearance.
-struct NamedValues {
-  NameOrder order;
-  std::vector<std::vector<double>> values;
-
-  void add(const std::string& name, double value) {
-    const std::size_t index = order.index(name);
-    values.resize(order.names().size());
-    values[index].push_back(value);
-  }
-};
-
 /// One row per phase and count that a method reports: medians over its cells.
 Table reported(const std::vector<CellRecord>& cells) {
   Table out{"reported by the methods", {"method", "what", "name", "median"}, {}, {}};
   for (const CellsOfMethod& method : by_method(cells)) {
-    NamedValues phases;
-    NamedValues counts;
-    for (const CellRecord* cell : method.timed) {
-      for (const methods::Phase& phase : cell->phases) phases.add(phase.name, phase.seconds);
-      for (const methods::Count& count : cell->counts) counts.add(count.name, count.value);
-    }
-    for (std::size_t i = 0; i < phases.values.size(); ++i) {
-      out.lines.push_back(
-          {method.name, "phase [ms]", phases.order.names()[i], milliseconds(phases.values[i])});
-    }
-    for (std::size_t i = 0; i < counts.values.size(); ++i) {
-      out.lines.push_back(
-          {method.name, "count", counts.order.names()[i], median_count(counts.values[i])});
-    }
+    const auto add = [&](const char* what, auto list, auto value, auto text) {
+      NameOrder names;
+      std::vector<std::vector<double>> values;
+      for (const CellRecord* cell : method.timed) {
+        for (const auto& item : cell->*list) {
+          const std::size_t index = names.index(item.name);
+          values.resize(names.names().size());
+          values[index].push_back(item.*value);
+        }
+      }
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        out.lines.push_back({method.name, what, names.names()[i], text(values[i])});
+      }
+    };
+    add("phase [ms]", &CellRecord::phases, &methods::Phase::seconds, milliseconds);
+    add("count", &CellRecord::counts, &methods::Count::value, median_count);
   }
   return out;
 }

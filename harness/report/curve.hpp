@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "datasets/core/trajectory.hpp"
+#include "harness/model/trace.hpp"
 #include "metrics/numerics/angle.hpp"
 #include "metrics/numerics/euler.hpp"
 
@@ -42,38 +43,19 @@ struct DrawnCurve {
 /// DrawnCurve "reference" without columns; this name determines its style.
 inline DrawnCurve reference_curve() { return {.name = "reference"}; }
 
-/// Ascending, without duplicates.
-inline std::vector<std::size_t> kept_rows(const DrawnCurve& curve,
-                                          std::size_t rows,
-                                          std::size_t step,
-                                          const std::vector<std::string>& peaks) {
-  std::vector<std::size_t> out;
-  for (std::size_t first = 0; first < rows; first += step) {
-    out.push_back(first);
-    for (const std::string& name : peaks) {
-      const std::vector<double>& values = curve.columns.at(name);
-      const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
-      const auto end = values.begin() + static_cast<std::ptrdiff_t>(std::min(first + step, rows));
-      const auto [low, high] = std::minmax_element(begin, end);
-      out.push_back(static_cast<std::size_t>(low - values.begin()));
-      out.push_back(static_cast<std::size_t>(high - values.begin()));
-    }
-  }
-  out.push_back(rows - 1);
-  std::ranges::sort(out);
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
+/// Adds x, y, z [m].
+inline void add_position(DrawnCurve& curve, const Vector3& position) {
+  curve.columns["x"].push_back(position.x());
+  curve.columns["y"].push_back(position.y());
+  curve.columns["z"].push_back(position.z());
 }
 
 /// Adds the columns time (stamps minus `origin` [s]), x, y, z [m], roll, pitch and yaw [deg].
 inline void add_poses(DrawnCurve& curve, const Trajectory& poses, double origin) {
   auto& columns = curve.columns;
   for (const StampedPose& pose : poses) {
-    const Vector3& position = pose.world_from_body.translation;
     columns["time"].push_back(pose.stamp - origin);
-    columns["x"].push_back(position.x());
-    columns["y"].push_back(position.y());
-    columns["z"].push_back(position.z());
+    add_position(curve, pose.world_from_body.translation);
     if (!has_rotation(pose.world_from_body)) continue;
     const metrics::Euler angles = metrics::euler(pose.world_from_body.rotation);
     columns["roll"].push_back(metrics::kDegrees * angles.roll);
@@ -82,17 +64,27 @@ inline void add_poses(DrawnCurve& curve, const Trajectory& poses, double origin)
   }
 }
 
-/// Keeps about `most` evenly chosen rows and, between two of them, the least and the greatest value
-/// of each column of `peaks`, so that no peak is lost; always the first and the last row. O(rows).
-inline void thin(DrawnCurve& curve, std::size_t most, const std::vector<std::string>& peaks = {}) {
+inline constexpr std::size_t kMostRows = 1000;  ///< of a curve, without peaks; more are not visible
+
+/// Keeps kMostRows evenly spaced rows and, between two of them, the least and the greatest value of
+/// each column of `peaks`, so that no peak is lost. O(rows).
+inline void thin(DrawnCurve& curve, const std::vector<std::string>& peaks = {}) {
   const std::size_t rows = curve.columns.empty() ? 0 : curve.columns.begin()->second.size();
-  if (rows <= most) return;
-  const std::vector<std::size_t> kept = kept_rows(curve, rows, (rows + most - 1) / most, peaks);
+  if (rows <= kMostRows) return;
+  std::vector<std::size_t> kept = subsampled_indices(rows, kMostRows);
+  for (std::size_t k = 0; k + 1 < kMostRows; ++k) {
+    for (const std::string& name : peaks) {
+      const double* values = curve.columns.at(name).data();
+      const auto [low, high] = std::minmax_element(values + kept[k], values + kept[k + 1]);
+      for (const double* peak : {low, high})
+        kept.push_back(static_cast<std::size_t>(peak - values));
+    }
+  }
+  std::ranges::sort(kept);
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
   for (auto& [name, values] : curve.columns) {
-    std::vector<double> fewer;
-    fewer.reserve(kept.size());
-    for (const std::size_t i : kept) fewer.push_back(values[i]);
-    values = std::move(fewer);
+    for (std::size_t k = 0; k < kept.size(); ++k) values[k] = values[kept[k]];
+    values.resize(kept.size());
   }
 }
 

@@ -4,7 +4,6 @@
 
 #include "harness/model/name_order.hpp"
 #include "harness/report/data.hpp"
-#include "harness/report/packed.hpp"
 #include "harness/store/traces.hpp"
 
 namespace loopbench::harness {
@@ -21,6 +20,13 @@ using Column = std::vector<double>;
 
 struct DrawnPath {
   Column t, x, y, z;
+
+  void add(double stamp, const Vector3& position) {
+    t.push_back(stamp);
+    x.push_back(position.x());
+    y.push_back(position.y());
+    z.push_back(position.z());
+  }
 };
 
 nlohmann::json path_json(const DrawnPath& path) {
@@ -28,23 +34,13 @@ nlohmann::json path_json(const DrawnPath& path) {
       {"t", packed(path.t)}, {"x", packed(path.x)}, {"y", packed(path.y)}, {"z", packed(path.z)}};
 }
 
-DrawnPath path_of(const std::vector<TracePose>& poses) {
-  DrawnPath out;
-  for (const TracePose& pose : poses) {
-    out.t.push_back(pose.stamp);
-    out.x.push_back(pose.x);
-    out.y.push_back(pose.y);
-    out.z.push_back(pose.z);
-  }
-  return out;
-}
-
 nlohmann::json reference_json(const SequenceTrace& trace, std::size_t most) {
-  std::vector<TracePose> drawn;
+  DrawnPath drawn;
   for (const std::size_t i : subsampled_indices(trace.reference.size(), most)) {
-    drawn.push_back(trace.reference[i]);
+    const TracePose& pose = trace.reference[i];
+    drawn.add(pose.stamp, {pose.x, pose.y, pose.z});
   }
-  return path_json(path_of(drawn));
+  return path_json(drawn);
 }
 
 nlohmann::json closures_json(const SequenceTrace& trace) {
@@ -66,10 +62,9 @@ CellErrors errors(const CellTrace& trace, std::size_t most) {
   CellErrors out;
   for (const std::size_t i : subsampled_indices(trace.samples.size(), most)) {
     const TraceSample& s = trace.samples[i];
-    out.reference.t.push_back(s.estimate.stamp);
-    out.reference.x.push_back(s.estimate.x - s.error_x);
-    out.reference.y.push_back(s.estimate.y - s.error_y);
-    out.reference.z.push_back(s.estimate.z - s.error_z);
+    // In single precision, as it is stored.
+    const float x = s.estimate.x - s.error_x, y = s.estimate.y - s.error_y;
+    out.reference.add(s.estimate.stamp, {x, y, s.estimate.z - s.error_z});
     out.x.push_back(s.error_x);
     out.y.push_back(s.error_y);
     out.z.push_back(s.error_z);

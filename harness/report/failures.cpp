@@ -4,7 +4,6 @@
 #include <set>
 #include <tuple>
 
-#include "harness/report/html.hpp"
 #include "harness/report/sections.hpp"
 
 namespace loopbench::harness {

@@ -1,8 +1,7 @@
-#include "harness/report/html.hpp"
-
 #include <algorithm>
 
 #include "harness/base/printable.hpp"
+#include "harness/report/sections.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -57,25 +56,12 @@ std::string figure(const Table& all, const std::string& attributes) {
 std::string html_text(std::string_view text) {
   std::string out;
   for (const char c : printable_text(text)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
+    out += c == '&'    ? "&amp;"
+           : c == '<'  ? "&lt;"
+           : c == '>'  ? "&gt;"
+           : c == '"'  ? "&quot;"
+           : c == '\'' ? "&#39;"
+                       : std::string(1, c);
   }
   return out;
 }
@@ -83,14 +69,7 @@ std::string html_text(std::string_view text) {
 std::string script_text(const std::string& json) {
   std::string out;
   out.reserve(json.size());
-  for (const char c : json) {
-    // In JSON, < occurs only in strings.
-    if (c == '<') {
-      out += "\\u003c";
-    } else {
-      out += c;
-    }
-  }
+  for (const char c : json) out += c == '<' ? "\\u003c" : std::string(1, c);  // only in strings
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 
 #include "datasets/core/error.hpp"
@@ -12,7 +13,6 @@
 #include "harness/model/recorded_run.hpp"
 #include "harness/report/assets.hpp"
 #include "harness/report/data.hpp"
-#include "harness/report/html.hpp"
 #include "harness/report/sections.hpp"
 #include "harness/tables/comparison.hpp"
 
@@ -49,20 +49,10 @@ std::string script_elements(const std::string& nonce) {
   // The licence requires its notice in all copies, so every report includes it.
   std::vector<std::string> scripts{"/*\n" + asset_text("assets/d3.LICENSE") + "*/\n" +
                                    asset_text("assets/d3.min.js")};
-  for (const char* name : {"data",
-                           "state",
-                           "chart",
-                           "map",
-                           "space",
-                           "along",
-                           "cut",
-                           "spread",
-                           "sweeps",
-                           "front",
-                           "pareto",
-                           "tables",
-                           "start"}) {
-    scripts.push_back("\n" + asset_text(std::string("page/") + name + ".js"));
+  std::istringstream names(
+      "data state chart map space along cut spread sweeps front pareto tables start");
+  for (std::string name; names >> name;) {
+    scripts.push_back("\n" + asset_text("page/" + name + ".js"));
   }
   std::string out;
   for (const std::string& script : scripts) {

@@ -4,7 +4,6 @@
 
 #include "harness/report/curve.hpp"
 #include "harness/report/data.hpp"
-#include "harness/report/packed.hpp"
 
 namespace loopbench::harness {
 namespace {

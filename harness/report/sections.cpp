@@ -7,7 +7,6 @@
 #include <map>
 #include <set>
 
-#include "harness/report/html.hpp"
 #include "harness/tables/comparison.hpp"
 #include "harness/tables/pivot.hpp"
 

@@ -5,7 +5,6 @@
 #include "datasets/core/so3.hpp"
 #include "datasets/formats/formats.hpp"
 #include "harness/eval/eval_figures.hpp"
-#include "harness/eval/trajectory_figures.hpp"
 #include "tests/support/command.hpp"
 
 namespace loopbench::figures_test {
