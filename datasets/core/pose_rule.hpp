@@ -1,6 +1,7 @@
 /// Rules that every estimated pose must satisfy.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
@@ -27,6 +28,13 @@ inline std::string violated_rule(const Pose& pose) {
   const double norm = pose.rotation.norm();
   if (std::abs(norm - 1.0) <= kUnitTolerance) return "";
   return "the quaternion has norm " + to_text(norm) + ", expected 1 within 1e-6";
+}
+
+/// normalise() for a quaternion from memory. Throws std::runtime_error with `name`.
+inline Rotation unit_rotation(Rotation given, const std::string& name, double& off_unit) {
+  if (normalise(given, off_unit)) return given;
+  throw std::runtime_error(name + ": quaternion has norm " + std::to_string(given.norm()) +
+                           ", expected 1 +- 0.01");
 }
 
 /// Throws std::runtime_error for poses that violate a rule. The message names the first pose, its

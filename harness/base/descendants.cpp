@@ -38,16 +38,22 @@ void append_children_of_process(pid_t process, std::vector<pid_t>& out) {
   closedir(folder);
 }
 
-/// Calls visit(number as text) for a process and its descendants.
+/// Calls visit(number as text) for processes and their descendants, until it returns false.
 template <class Visit>
-void for_each_in_tree(pid_t process, Visit visit) {
-  std::vector<pid_t> waiting{process};
+void for_each_in_tree(std::vector<pid_t> waiting, Visit visit) {
   while (!waiting.empty()) {
     const pid_t next = waiting.back();
     waiting.pop_back();
-    visit(std::to_string(next));
+    if (!visit(std::to_string(next))) return;
     append_children_of_process(next, waiting);
   }
+}
+
+/// Children of the calling thread, but those of `kept`.
+std::vector<pid_t> own_children_except(const std::vector<pid_t>& kept) {
+  std::vector<pid_t> out = own_children();
+  std::erase_if(out, [&](pid_t child) { return std::ranges::count(kept, child) > 0; });
+  return out;
 }
 
 /// The fields utime, stime, cutime and cstime, 12 to 15 after the name in parentheses, of the text
@@ -79,30 +85,29 @@ TreeUsage descendants_usage(std::int64_t at_fork,
                             std::int64_t most_processes,
                             const std::vector<pid_t>& keep_alive) {
   TreeUsage out;
-  std::vector<pid_t> waiting = own_children();
-  std::erase_if(waiting, [&](pid_t child) { return std::ranges::count(keep_alive, child) > 0; });
-  while (!waiting.empty() && out.processes <= most_processes) {
-    const pid_t process = waiting.back();
-    waiting.pop_back();
-    ++out.processes;
-    out.memory += std::max<std::int64_t>(0, process_memory(std::to_string(process)) - at_fork);
-    append_children_of_process(process, waiting);
-  }
+  for_each_in_tree(own_children_except(keep_alive), [&](const std::string& each) {
+    out.memory += std::max<std::int64_t>(0, process_memory(each) - at_fork);
+    return ++out.processes <= most_processes;
+  });
   return out;
 }
 
 std::int64_t tree_memory(pid_t process) {
   std::int64_t out = 0;
-  for_each_in_tree(process, [&](const std::string& each) { out += process_memory(each); });
+  for_each_in_tree({process}, [&](const std::string& each) {
+    out += process_memory(each);
+    return true;
+  });
   return out;
 }
 
 TreeCost tree_cost(pid_t process) {
   TreeCost out;
-  for_each_in_tree(process, [&](const std::string& each) {
+  for_each_in_tree({process}, [&](const std::string& each) {
     out.cpu_seconds += cpu_seconds_in(read_system_file("/proc/" + each + "/stat"));
     const std::string status = read_system_file("/proc/" + each + "/status");
     out.peak_memory = std::max(out.peak_memory, memory_in(status, "VmHWM:").value_or(0));
+    return true;
   });
   return out;
 }
@@ -112,8 +117,7 @@ void end_strays(const std::vector<pid_t>& keep_alive) {
   const int error = waitid(P_ALL, 0, &none, WEXITED | WNOHANG | WNOWAIT) == 0 ? 0 : errno;
   if (error == ECHILD) return;  // faster than reading the list
   for (;;) {
-    std::vector<pid_t> strays = own_children();
-    std::erase_if(strays, [&](pid_t child) { return std::ranges::count(keep_alive, child) > 0; });
+    const std::vector<pid_t> strays = own_children_except(keep_alive);
     if (strays.empty()) return;
     for (const pid_t stray : strays) kill(stray, SIGKILL);
     for (const pid_t stray : strays) {

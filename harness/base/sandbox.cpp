@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <system_error>
@@ -17,20 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<std::string> base_arguments() {
-  return {"bwrap",
-          "--die-with-parent",
-          "--unshare-pid",
-          "--unshare-ipc",
-          "--ro-bind",
-          "/",
-          "/",
-          "--dev-bind",
-          "/dev",
-          "/dev",
-          "--tmpfs",
-          "/dev/shm",
-          "--proc",
-          "/proc"};
+  std::istringstream words(
+      "bwrap --die-with-parent --unshare-pid --unshare-ipc --ro-bind / / --dev-bind /dev /dev "
+      "--tmpfs /dev/shm --proc /proc");
+  return {std::istream_iterator<std::string>(words), {}};
 }
 
 bool run_bubblewrap() {

@@ -121,24 +121,33 @@ void check_combination(const CommandOptions& o, const std::string& input) {
   }
 }
 
+ProgramStart start_on(const std::map<std::string, std::filesystem::path>& files,
+                      const std::filesystem::path& writable,
+                      const std::string& run,
+                      bool shell,
+                      std::map<std::string, std::string> values) {
+  ProgramStart out;
+  for (const auto& [name, file] : files) {
+    std::string variable = "LOOPBENCH_" + name;
+    std::ranges::transform(
+        variable, variable.begin(), [](unsigned char c) { return std::toupper(c); });
+    out.environment.emplace_back(variable, file.string());
+    values[name] = shell ? "${" + variable + "}" : file.string();
+  }
+  out.environment.emplace_back("TMPDIR", writable.string());
+  out.arguments = with_values(command_words("run", run, shell), values);
+  out.writable = writable;
+  return out;
+}
+
 ProgramRun run_in_folder(const CommandOptions& options,
                          const CommandSetting& setting,
                          const std::string& name,
                          const std::filesystem::path& folder) {
-  const std::string input = (folder / name).string();
-  const std::string result = (folder / "result").string();
-  std::string variable = "LOOPBENCH_" + name;
-  std::ranges::transform(
-      variable, variable.begin(), [](unsigned char c) { return std::toupper(c); });
-  ProgramStart start;
-  start.arguments = with_values(command_words("run", options.run, options.shell),
-                                {{name, options.shell ? "${" + variable + "}" : input},
-                                 {"result", options.shell ? "${LOOPBENCH_RESULT}" : result}});
+  ProgramStart start = start_on(
+      {{name, folder / name}, {"result", folder / "result"}}, folder, options.run, options.shell);
   start.folder = setting.folder;
-  start.environment = {
-      {variable, input}, {"LOOPBENCH_RESULT", result}, {"TMPDIR", folder.string()}};
   start.sandbox = &program_sandbox();
-  start.writable = folder;
   ProgramRun out;
   const auto started = ExchangeClock::now();
   RunningProgram tree(start);

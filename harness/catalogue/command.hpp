@@ -1,6 +1,8 @@
 /// The method `command`: any program as a corrector.
 #pragma once
 
+#include <filesystem>
+#include <map>
 #include <string>
 
 #include "harness/base/program.hpp"
@@ -46,6 +48,14 @@ struct CommandSetting {
 /// Throws OptionError unless exactly one of run and serve is set and can be split, run names
 /// {input} and {result}, and `updates` has a program that serves keyframes.
 void check_combination(const CommandOptions& options, const std::string& input = "problem");
+
+/// A start of `run`: {NAME} is the file of that name, also as variable LOOPBENCH_NAME, or one of
+/// `values`. It can write in `writable`, its TMPDIR. Throws OptionError.
+ProgramStart start_on(const std::map<std::string, std::filesystem::path>& files,
+                      const std::filesystem::path& writable,
+                      const std::string& run,
+                      bool shell,
+                      std::map<std::string, std::string> values = {});
 
 /// A program that was started for one input and has ended.
 struct ProgramRun {

@@ -129,19 +129,14 @@ ProgramCost run_program(const CommandDatasetOptions& o,
                         const std::filesystem::path& sequence,
                         const std::filesystem::path& trajectory) {
   const SandboxOptions sandbox = sandbox_of(o, root, sequence);
-  ProgramStart start;
+  ProgramStart start = start_on({{"sequence", sequence}, {"trajectory", trajectory}},
+                                trajectory.parent_path(),
+                                o.run,
+                                o.shell,
+                                {{"seed", std::to_string(o.trajectory.seed & kMostSeed)}});
   start.folder = folder;
   start.sandbox = &sandbox;
-  start.writable = trajectory.parent_path();
   if (!sequence.empty()) start.readable.push_back(sequence);
-  start.environment = {{"LOOPBENCH_SEQUENCE", sequence.string()},
-                       {"LOOPBENCH_TRAJECTORY", trajectory.string()},
-                       {"TMPDIR", trajectory.parent_path().string()}};
-  start.arguments =
-      with_values(command_words("run", o.run, o.shell),
-                  {{"sequence", o.shell ? "${LOOPBENCH_SEQUENCE}" : sequence.string()},
-                   {"trajectory", o.shell ? "${LOOPBENCH_TRAJECTORY}" : trajectory.string()},
-                   {"seed", std::to_string(o.trajectory.seed & kMostSeed)}});
   std::string output;
   // Without arguments in braces: their paths would fill the line.
   RunningLine line(o.run.substr(0, o.run.find(" {")));

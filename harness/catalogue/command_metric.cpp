@@ -161,6 +161,7 @@ std::vector<metrics::Score> command_scores(const metrics::Evaluation& evaluation
     const auto bytes = [&](std::uint64_t number) {
       return request(description(evaluation),
                      {{"reference", &evaluation.reference}, {"estimate", &evaluation.estimate}},
+                     {},
                      number);
     };
     return parse_scores(ask_served(program, setting, bytes, pairs, errors).text, ddof, pairs);

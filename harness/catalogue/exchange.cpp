@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "datasets/core/fields.hpp"
 #include "datasets/derive/problem_graph.hpp"
 #include "datasets/formats/formats.hpp"
+#include "harness/base/write_file.hpp"
 #include "metrics/evaluation/evaluation.hpp"
 
 namespace loopbench::harness {
@@ -20,12 +20,6 @@ namespace {
 constexpr double kSameStamp = 1e-4;                               // [s]
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{256} << 20;  // of a result
 constexpr std::uintmax_t kMostBytesPerPose = 4096;                // of a result
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  if (!out.flush()) throw InputError(file.string() + ": cannot be written");
-}
 
 Trajectory read_poses(const std::filesystem::path& file, const Problem& problem) {
   const Format format = detect_format(file);
@@ -108,7 +102,7 @@ void write_problem(const std::filesystem::path& folder, const Problem& problem) 
        {{"stamps", "s"},
         {"translation", "m"},
         {"information", "1/m^2, 1/m, 1 (g2o: vector part of quaternion)"}}}};
-  write_text(folder / "problem.json", out.dump() + "\n");
+  write_file(folder / "problem.json", out.dump() + "\n");
 }
 
 Trajectory checked_result(Trajectory poses,
@@ -203,16 +197,6 @@ ResultMetadata parse_metadata(const std::string& text) {
     }
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(std::string("result.json: ") + error.what());
-  }
-  const auto is_finite = [](const auto& item) {
-    if constexpr (requires { item.seconds; })
-      return std::isfinite(item.seconds);
-    else
-      return std::isfinite(item.value);
-  };
-  if (!std::isfinite(out.seconds) || !std::ranges::all_of(out.report.phases, is_finite) ||
-      !std::ranges::all_of(out.report.counts, is_finite)) {
-    throw std::runtime_error("result.json: has a number that is not finite");
   }
   return out;
 }

@@ -15,20 +15,13 @@ bool is_seed(const OptionInfo& option) {
   return option.name == "seed" || option.name.ends_with(".seed");
 }
 
-Params all_options(const DatasetChoice& choice, const DatasetEntry& entry) {
-  Params out;
-  for (const OptionInfo& option : entry.options) out.emplace(option.name, option.value);
-  for (const auto& [name, value] : choice.dataset.options) out.insert_or_assign(name, value);
-  return out;
-}
-
 /// Whether another seed changes the data; a component's seed does so only if the component is
 /// enabled.
 bool decides(const OptionInfo& seed, const Params& options) {
   if (!is_seed(seed)) return false;
   const auto share = options.find(seed.name.substr(0, seed.name.rfind("seed")) + "share");
   if (share == options.end()) return true;
-  return share->second != Param{0.0} && share->second != Param{std::int64_t{0}};
+  return share->second != Param{0.0};
 }
 
 /// What a dataset does to the floating-point mode must not change the results of methods. Replaces
@@ -51,11 +44,23 @@ Sequence loaded(const DatasetEntry& entry,
 
 }  // namespace
 
+Params in_full(const std::vector<OptionInfo>& options, const Params& given) {
+  Params out;
+  for (const OptionInfo& option : options) out.emplace(option.name, option.value);
+  for (const auto& [name, value] : given) {
+    const auto found = out.find(name);
+    const auto* integer = std::get_if<std::int64_t>(&value);
+    const bool real = found != out.end() && std::holds_alternative<double>(found->second);
+    out[name] = real && integer != nullptr ? Param(static_cast<double>(*integer)) : value;
+  }
+  return out;
+}
+
 std::vector<bool> seeded(const Sweep& sweep, const Catalogue& catalogue) {
   std::vector<bool> out;
   for (const DatasetChoice& choice : sweep.datasets) {
     const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
-    const Params options = all_options(choice, entry);
+    const Params options = in_full(entry.options, choice.dataset.options);
     out.push_back(std::ranges::any_of(
         entry.options, [&](const OptionInfo& option) { return decides(option, options); }));
   }
@@ -63,7 +68,7 @@ std::vector<bool> seeded(const Sweep& sweep, const Catalogue& catalogue) {
 }
 
 Params full_options(const DatasetChoice& choice, const DatasetEntry& entry, int repeat) {
-  Params out = all_options(choice, entry);
+  Params out = in_full(entry.options, choice.dataset.options);
   for (const OptionInfo& option : entry.options) {
     if (!is_seed(option)) continue;
     out[option.name] = derived_seed(std::get<std::int64_t>(out.at(option.name)), repeat);

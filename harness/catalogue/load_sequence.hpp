@@ -20,6 +20,10 @@ Sequence load_sequence(const Cell& cell,
                        const Catalogue& catalogue,
                        const DataRoot& root);
 
+/// All options including defaults, integers written as reals if the default is real: setting a
+/// default explicitly, or 1 instead of 1.0, makes no difference.
+Params in_full(const std::vector<OptionInfo>& options, const Params& given);
+
 /// The dataset's options in full, defaults included, with the seed of this repeat.
 Params full_options(const DatasetChoice& choice, const DatasetEntry& entry, int repeat);
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "datasets/core/fields.hpp"
-#include "harness/catalogue/unit_rotation.hpp"
+#include "datasets/core/pose_rule.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -29,14 +29,14 @@ void add_pose(Values& out, const Pose& pose) {
   for (const double x : pose.rotation.coeffs()) out.push_back(x);
 }
 
-void add_poses(Values& out, const Trajectory& poses) {
+void add_rows(Values& out, const Trajectory& poses) {
   for (const StampedPose& pose : poses) {
     out.push_back(pose.stamp);
     add_pose(out, pose.world_from_body);
   }
 }
 
-void add_edges(Values& out, const std::vector<Edge>& edges) {
+void add_rows(Values& out, const std::vector<Edge>& edges) {
   for (const Edge& edge : edges) {
     out.push_back(static_cast<double>(edge.from));
     out.push_back(static_cast<double>(edge.to));
@@ -59,75 +59,50 @@ std::string message(const std::string& text, const Values& values, std::uint64_t
   return out;
 }
 
-/// What a request about a problem contains.
-struct Arrays {
-  const Trajectory* keyframes;
-  const Trajectory* frames;
-  std::vector<std::pair<const char*, const std::vector<Edge>*>> edges;
-};
-
-/// `keys`: members of the JSON object in addition to those that follow from the arrays.
-std::string message_of(const Arrays& arrays, const std::string& keys, std::uint64_t number) {
-  const auto changes_scale = [](const Edge& edge) { return edge.scale != 1.0; };
-  bool similarity = false;
-  std::string shapes = fmt::format(R"(["keyframes",{},{}],["frames",{},{}])",
-                                   arrays.keyframes->size(),
-                                   kPoseColumns,
-                                   arrays.frames->size(),
-                                   kPoseColumns);
-  std::size_t size = kPoseColumns * (arrays.keyframes->size() + arrays.frames->size());
-  for (const auto& [name, edges] : arrays.edges) {
-    similarity = similarity || std::ranges::any_of(*edges, changes_scale);
-    shapes += fmt::format(R"(,["{}",{},{}])", name, edges->size(), kEdgeColumns);
-    size += kEdgeColumns * edges->size();
-  }
-  Values values;
-  values.reserve(size);
-  add_poses(values, *arrays.keyframes);
-  add_poses(values, *arrays.frames);
-  for (const auto& [name, edges] : arrays.edges) add_edges(values, *edges);
-  return message(fmt::format(R"({{"exchange":{},"similarity":{},{},"arrays":[{}]}})",
-                             kExchangeVersion,
-                             similarity,
-                             keys,
-                             shapes),
-                 values,
-                 number);
-}
-
 }  // namespace
 
 std::string request(nlohmann::json text,
-                    const std::vector<std::pair<std::string, const Trajectory*>>& arrays,
+                    const std::vector<std::pair<std::string, const Trajectory*>>& poses,
+                    const std::vector<std::pair<std::string, const std::vector<Edge>*>>& edges,
                     std::uint64_t number) {
+  std::size_t size = 0;
+  for (const auto& [name, each] : poses) size += kPoseColumns * each->size();
+  for (const auto& [name, each] : edges) size += kEdgeColumns * each->size();
   Values values;
-  for (const auto& [name, poses] : arrays) {
-    text["arrays"].push_back({name, poses->size(), kPoseColumns});
-    add_poses(values, *poses);
+  values.reserve(size);
+  for (const auto& [name, each] : poses) {
+    text["arrays"].push_back({name, each->size(), kPoseColumns});
+    add_rows(values, *each);
   }
+  bool similarity = false;
+  for (const auto& [name, each] : edges) {
+    text["arrays"].push_back({name, each->size(), kEdgeColumns});
+    add_rows(values, *each);
+    similarity = similarity ||
+                 std::ranges::any_of(*each, [](const Edge& edge) { return edge.scale != 1.0; });
+  }
+  text["exchange"] = kExchangeVersion;
+  if (!edges.empty()) text["similarity"] = similarity;
   return message(text.dump(), values, number);
 }
 
 std::string request(const Problem& problem, ResultPoses output, std::uint64_t number) {
-  return message_of(Arrays{&problem.keyframes,
-                           &problem.frames,
-                           {{"odometry", &problem.odometry}, {"closures", &problem.closures}}},
-                    fmt::format(R"("planar":{},"output":"{}")", problem.planar, to_text(output)),
-                    number);
+  return request({{"planar", problem.planar}, {"output", to_text(output)}},
+                 {{"keyframes", &problem.keyframes}, {"frames", &problem.frames}},
+                 {{"odometry", &problem.odometry}, {"closures", &problem.closures}},
+                 number);
 }
 
 std::string request(const methods::Increment& added,
                     std::size_t update,
                     bool planar,
                     std::uint64_t number) {
-  return message_of(
-      Arrays{&added.keyframes,
-             &added.frames,
-             {{"odometry", &added.odometry},
-              {"closures", &added.closures},
-              {"withdrawn", &added.withdrawn}}},
-      fmt::format(
-          R"("kind":"update","update":{},"planar":{},"output":"keyframes")", update, planar),
+  return request(
+      {{"kind", "update"}, {"update", update}, {"planar", planar}, {"output", "keyframes"}},
+      {{"keyframes", &added.keyframes}, {"frames", &added.frames}},
+      {{"odometry", &added.odometry},
+       {"closures", &added.closures},
+       {"withdrawn", &added.withdrawn}},
       number);
 }
 

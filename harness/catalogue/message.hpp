@@ -22,9 +22,10 @@ struct MessageHeader {
 };
 static_assert(sizeof(MessageHeader) == 32);
 
-/// A request with arrays of poses, whose shapes are added to `text`. O(n).
+/// A request with arrays of poses and edges, whose shapes are added to `text`. O(n).
 std::string request(nlohmann::json text,
-                    const std::vector<std::pair<std::string, const Trajectory*>>& arrays,
+                    const std::vector<std::pair<std::string, const Trajectory*>>& poses,
+                    const std::vector<std::pair<std::string, const std::vector<Edge>*>>& edges,
                     std::uint64_t number);
 
 /// The complete bytes of a request. O(keyframes + frames + edges).

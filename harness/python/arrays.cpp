@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "harness/catalogue/unit_rotation.hpp"
+#include "datasets/core/pose_rule.hpp"
 
 namespace loopbench::python {
 namespace {
@@ -31,7 +31,7 @@ std::size_t rows_in(const Array& rows, py::ssize_t columns, const std::string& n
 Pose pose_at(const double* row, double& off_unit) {
   const bool is_position = std::all_of(row + 3, row + 7, [](double x) { return x == 0.0; });
   if (is_position) return {no_rotation(), {row[0], row[1], row[2]}};
-  return {harness::unit_rotation({row[6], row[3], row[4], row[5]}, "pose", off_unit),
+  return {unit_rotation({row[6], row[3], row[4], row[5]}, "pose", off_unit),
           {row[0], row[1], row[2]}};
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -82,25 +83,14 @@ std::string build_summary(const std::map<std::string, std::string>& provenance) 
 
 std::string instruction_set() {
   std::istringstream words(cpu_line({"flags", "Features"}));
-  std::set<std::string> found;
-  for (std::string word; words >> word;) found.insert(word);
+  const std::set<std::string> found(std::istream_iterator<std::string>(words), {});
   if (found.empty()) return "unknown";
+  std::istringstream names(
+      "sse4_2 avx avx2 fma fma4 f16c avx512f avx512dq avx512bw avx512vl avx512_vnni asimd sve "
+      "sve2");
   std::string out;
-  for (const char* name : {"sse4_2",
-                           "avx",
-                           "avx2",
-                           "fma",
-                           "fma4",
-                           "f16c",
-                           "avx512f",
-                           "avx512dq",
-                           "avx512bw",
-                           "avx512vl",
-                           "avx512_vnni",
-                           "asimd",
-                           "sve",
-                           "sve2"}) {
-    if (found.contains(name)) out += (out.empty() ? "" : " ") + std::string(name);
+  for (std::string name; names >> name;) {
+    if (found.contains(name)) out += (out.empty() ? "" : " ") + name;
   }
   return out.empty() ? "none of those by which libraries choose" : out;
 }

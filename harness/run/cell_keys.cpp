@@ -8,20 +8,6 @@
 namespace loopbench::harness {
 namespace {
 
-/// All options including defaults, integers written as reals if the default is real: setting a
-/// default explicitly, or 1 instead of 1.0, does not change the key.
-Params in_full(const std::vector<OptionInfo>& options, const Params& given) {
-  Params out;
-  for (const OptionInfo& option : options) out.emplace(option.name, option.value);
-  for (const auto& [name, value] : given) {
-    const auto found = out.find(name);
-    const auto* integer = std::get_if<std::int64_t>(&value);
-    const bool real = found != out.end() && std::holds_alternative<double>(found->second);
-    out[name] = real && integer != nullptr ? Param(static_cast<double>(*integer)) : value;
-  }
-  return out;
-}
-
 /// "NAME, a=1, b=2" with all options.
 std::string named_options(const Choice& choice, const std::vector<OptionInfo>& options) {
   const std::string text = to_text(in_full(options, choice.options));
@@ -67,6 +53,12 @@ std::string evaluation_fields(const Sweep& sweep, const Catalogue& catalogue) {
   return fields.hashed();
 }
 
+/// All options of the dataset of a cell, with the seed of its repeat.
+Params options_of(const Cell& cell, const Sweep& sweep, const Catalogue& catalogue) {
+  const DatasetChoice& choice = sweep.datasets[cell.dataset];
+  return full_options(choice, find_dataset(catalogue, choice.dataset.name), cell.repeat);
+}
+
 }  // namespace
 
 CellKeys::CellKeys(const Sweep& sweep, const Catalogue& catalogue, DataRoot root, std::string build)
@@ -83,20 +75,16 @@ const std::string& CellKeys::configuration_hash(const Cell& cell) {
   const auto [found, fresh] = asked_.try_emplace({cell.dataset, cell.repeat});
   if (!fresh) return found->second;
   const DatasetChoice& choice = sweep_.datasets[cell.dataset];
-  const DatasetEntry& entry = find_dataset(catalogue_, choice.dataset.name);
-  const Params options = full_options(choice, entry, cell.repeat);
   Fields fields;
-  fields.add(choice.dataset.name).add(hashed(in_full(entry.options, options)));
+  fields.add(choice.dataset.name).add(hashed(options_of(cell, sweep_, catalogue_)));
   fields.add(plugin_version(catalogue_, "dataset", choice.dataset.name));
   if (!choice.group.empty()) fields.add(choice.group);  // stored with the sequence
   return found->second = fields.hashed();
 }
 
 std::string CellKeys::dataset_text(const Cell& cell) const {
-  const DatasetChoice& choice = sweep_.datasets[cell.dataset];
-  const DatasetEntry& entry = find_dataset(catalogue_, choice.dataset.name);
-  const Params options = in_full(entry.options, full_options(choice, entry, cell.repeat));
-  return choice.dataset.name + ": " + to_text(options);
+  return sweep_.datasets[cell.dataset].dataset.name + ": " +
+         to_text(options_of(cell, sweep_, catalogue_));
 }
 
 std::string CellKeys::metric_definitions() const {
@@ -123,9 +111,7 @@ std::string CellKeys::method_definitions() const {
 
 std::vector<InputFile> CellKeys::current_inputs(const Cell& cell,
                                                 std::vector<InputFile> inputs) const {
-  const DatasetChoice& choice = sweep_.datasets[cell.dataset];
-  const Params options =
-      in_full(find_dataset(catalogue_, choice.dataset.name).options, choice.dataset.options);
+  const Params options = options_of(cell, sweep_, catalogue_);
   for (InputFile& input : inputs) {
     std::filesystem::path now = input.path;
     const auto named = options.find(input.option);
