@@ -119,10 +119,10 @@ void UsedAnchors::report_held_pose(Report& report) const {
       (planar ? "two at different positions do" : "three that are not on a line do"));
 }
 
-void spread_to_anchors(Trajectory& poses,
-                       const Problem& problem,
-                       const std::vector<double>& shares,
-                       Report& report) {
+void distribute_anchor_errors(Trajectory& poses,
+                              const Problem& problem,
+                              const std::vector<double>& shares,
+                              Report& report) {
   const UsedAnchors used(problem);
   if (used.anchors.empty()) return;
   used.report_held_pose(report);

@@ -1,4 +1,4 @@
-/// Anchors in correctors: world frame, first pose, and spreading of their errors.
+/// Anchors in correctors: world frame, first pose, and distribution of their errors.
 #pragma once
 
 #include <string>
@@ -44,9 +44,9 @@ struct UsedAnchors {
 /// otherwise it grows from zero there. Anchors at one keyframe are averaged by information;
 /// covariances have no other effect, and rotations change only by the alignment. Adds the count
 /// `largest_anchor_error` [m] after the shift. O(keyframes + anchors).
-void spread_to_anchors(Trajectory& poses,
-                       const Problem& problem,
-                       const std::vector<double>& shares,
-                       Report& report);
+void distribute_anchor_errors(Trajectory& poses,
+                              const Problem& problem,
+                              const std::vector<double>& shares,
+                              Report& report);
 
 }  // namespace loopbench::methods

@@ -126,7 +126,7 @@ Trajectory TwoPass::correct(const Problem& problem, Report& report) const {
                            " closures ignored: every step lies inside an earlier loop");
   }
   Trajectory out = std::move(chain).take();
-  spread_to_anchors(out, problem, translation_shares, report);
+  distribute_anchor_errors(out, problem, translation_shares, report);
   return out;
 }
 

@@ -17,8 +17,8 @@ namespace loopbench::methods {
 /// one similarity transform. Unlike in `uniform`, rotating a step moves only the poses after it, as
 /// an odometry error does.
 ///
-/// Anchors are met last, by shares v (spread_to_anchors()), which opens loops that disagree with
-/// them.
+/// Anchors are met last, by shares v (distribute_anchor_errors()), which opens loops that disagree
+/// with them.
 ///
 /// Loops are closed one after the other in the order (to, from). O(keyframes + sum of loop
 /// lengths). Source: trajectory bending of COP-SLAM (Dubbelman, Browning, ICRA 2012 and T-RO 2015),

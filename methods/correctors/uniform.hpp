@@ -19,7 +19,7 @@ namespace loopbench::methods {
 ///
 /// Several loops are closed one after the other in the order (to, from). The option `overlap`
 /// selects the steps that a loop may change when it overlaps an earlier loop. Anchors are met last
-/// (spread_to_anchors()), which opens loops that disagree with them.
+/// (distribute_anchor_errors()), which opens loops that disagree with them.
 ///
 /// Complexity O(keyframes + sum of loop lengths). Source: the rotation part as in Surmann,
 /// Nuechter et al. (6D SLAM) and Sprickerhof et al. (ELCH), pivot moved to the loop's start.
@@ -119,7 +119,7 @@ inline Trajectory Uniform::correct(const Problem& problem, Report& report) const
   chain.apply_tail(problem.keyframes.size());
 
   Trajectory out = std::move(chain).take();
-  spread_to_anchors(out, problem, shares, report);
+  distribute_anchor_errors(out, problem, shares, report);
   report_closing_errors(problem, out, report);
   const auto remark = [&](std::size_t count, const std::string& what) {
     if (count > 0) report.notes.push_back(std::to_string(count) + " closures: " + what);

@@ -37,7 +37,7 @@ BlockCholesky<D>::BlockCholesky(const EliminationStructure& structure)
 }
 
 template <int D>
-typename BlockCholesky<D>::Place BlockCholesky<D>::place(int i, int j) const {
+typename BlockCholesky<D>::Location BlockCholesky<D>::location(int i, int j) const {
   const int row = std::max(structure_.position(i), structure_.position(j));
   const int column = std::min(structure_.position(i), structure_.position(j));
   const int s = structure_.supernode_of(column);
@@ -58,7 +58,7 @@ void BlockCholesky<D>::clear(std::size_t supernode) {
 }
 
 template <int D>
-void BlockCholesky<D>::add(const Place& at, const Block& block) {
+void BlockCholesky<D>::add(const Location& at, const Block& block) {
   clear(static_cast<std::size_t>(at.supernode));
   Eigen::Map<Block, 0, Eigen::OuterStride<>> to(values_.data() + at.offset,
                                                 Eigen::OuterStride<>(at.stride));

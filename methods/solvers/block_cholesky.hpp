@@ -22,7 +22,7 @@ class BlockCholesky {
   using Block = Eigen::Matrix<double, D, D>;
   /// Storage of the block in row i and column j or, if that is in the upper triangle, of its
   /// transpose.
-  struct Place {
+  struct Location {
     std::size_t offset = 0;
     int stride = 0;
     int supernode = 0;
@@ -33,9 +33,9 @@ class BlockCholesky {
   explicit BlockCholesky(const EliminationStructure& structure);
 
   /// The pair (i, j) is on the diagonal or in the pairs of the structure.
-  Place place(int i, int j) const;
+  Location location(int i, int j) const;
   void set_zero() { ++matrix_; }
-  void add(const Place& at, const Block& block);
+  void add(const Location& at, const Block& block);
 
   /// Replaces the matrix by its factor; false: it is not positive definite to rounding.
   bool factorise();

@@ -78,7 +78,7 @@ Lists columns_of_factor(const std::vector<int>& position,
   return out;
 }
 
-/// Place of each column in a postorder of the elimination tree, the largest child last.
+/// Position of each column in a postorder of the elimination tree, the largest child last.
 std::vector<int> postorder(const Lists& columns) {
   std::vector<int> stack;
   std::vector<std::pair<int, int>> parents;
@@ -132,10 +132,10 @@ EliminationStructure::EliminationStructure(int blocks,
     : position_(minimum_degree(blocks, pairs)), owner_(position_.size()) {
   const Lists columns = columns_of_factor(position_, pairs);
   const std::vector<int> order = postorder(columns);
-  std::vector<int> column_at(order.size());  // in a place of the order
+  std::vector<int> column_at(order.size());  // at a position of the order
   for (int j = 0; j < blocks; ++j) column_at[at(order[at(j)])] = j;
   for (int& position : position_) position = order[at(position)];
-  const auto rows_at = [&](int place) { return columns[column_at[at(place)]]; };
+  const auto rows_at = [&](int position) { return columns[column_at[at(position)]]; };
 
   double entries = 0.0;
   for (int j = 0; j < blocks; ++j) {

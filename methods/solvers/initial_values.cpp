@@ -109,14 +109,14 @@ class System {
     const Eigen::Matrix<double, D, D> I = Eigen::Matrix<double, D, D>::Identity();
     const int i = static_cast<int>(edge.from) - 1;
     const int j = static_cast<int>(edge.to) - 1;  // never keyframe 0: from < to
-    factor_.add(factor_.place(j, j), weight * I);
+    factor_.add(factor_.location(j, j), weight * I);
     right_.middleRows<D>(j * D) += weight * c;
     if (i < 0) {
       right_.middleRows<D>(j * D) += weight * (M * first);
       return;
     }
-    factor_.add(factor_.place(i, i), weight * I);
-    factor_.add(factor_.place(j, i), -weight * M);
+    factor_.add(factor_.location(i, i), weight * I);
+    factor_.add(factor_.location(j, i), -weight * M);
     right_.middleRows<D>(i * D) -= weight * (M.transpose() * c);
   }
 

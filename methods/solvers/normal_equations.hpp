@@ -30,11 +30,12 @@ class NormalEquations {
         terms_(terms_of(edges, settings.scale_sigma)),
         structure_(cache.of(static_cast<int>(poses) - first_, pairs())),
         factor_(structure_) {
-    diagonal_places_.reserve(static_cast<std::size_t>(structure_.blocks()));
-    for (int i = 0; i < structure_.blocks(); ++i) diagonal_places_.push_back(factor_.place(i, i));
+    diagonal_locations_.reserve(static_cast<std::size_t>(structure_.blocks()));
+    for (int i = 0; i < structure_.blocks(); ++i)
+      diagonal_locations_.push_back(factor_.location(i, i));
     for (Term& term : terms_) {
       const int from = block(term.from), to = block(term.to);
-      if (std::min(from, to) >= 0) term.between = factor_.place(from, to);
+      if (std::min(from, to) >= 0) term.between = factor_.location(from, to);
     }
     for (const Anchor& anchor : settings.anchors) {
       anchors_.push_back({anchor, anchor.covariance.inverse().llt().matrixU()});
@@ -124,7 +125,7 @@ class NormalEquations {
     std::size_t to;
     Element back;  ///< inverse of the measurement
     Square root;
-    typename BlockCholesky<G::kDof>::Place between;
+    typename BlockCholesky<G::kDof>::Location between;
   };
   struct WhitenedAnchor {
     Anchor anchor;
@@ -158,7 +159,7 @@ class NormalEquations {
   /// -1: the fixed pose.
   int block(std::size_t pose) const { return static_cast<int>(pose) - first_; }
   void add(int block, const Square& H, const Tangent& g) {
-    factor_.add(diagonal_places_[static_cast<std::size_t>(block)], H);
+    factor_.add(diagonal_locations_[static_cast<std::size_t>(block)], H);
     gradient_.template segment<G::kDof>(block * G::kDof) += g;
   }
 
@@ -166,7 +167,7 @@ class NormalEquations {
   std::vector<Term> terms_;
   const EliminationStructure& structure_;
   BlockCholesky<G::kDof> factor_;
-  std::vector<typename BlockCholesky<G::kDof>::Place> diagonal_places_;
+  std::vector<typename BlockCholesky<G::kDof>::Location> diagonal_locations_;
   std::vector<WhitenedAnchor> anchors_;
   Eigen::VectorXd gradient_;
   Eigen::VectorXd diagonal_;  ///< in the order of elimination

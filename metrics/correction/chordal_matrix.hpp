@@ -96,9 +96,10 @@ class ChordalMatrix {
                 Diagonal diagonal_block,
                 OffDiagonal off_diagonal) const {
     out.set_zero();
-    for (int i = 0; i < static_cast<int>(size_); ++i) out.add(out.place(i, i), diagonal_block(i));
+    for (int i = 0; i < static_cast<int>(size_); ++i)
+      out.add(out.location(i, i), diagonal_block(i));
     for (const Link& link : links_) {
-      out.add(out.place(static_cast<int>(link.from), static_cast<int>(link.to)),
+      out.add(out.location(static_cast<int>(link.from), static_cast<int>(link.to)),
               off_diagonal(link));
     }
   }

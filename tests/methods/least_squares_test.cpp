@@ -36,10 +36,10 @@ void expect_solves(const EliminationStructure& structure,
   Random random;
   const int blocks = structure.blocks();
   BlockCholesky<D> factor(structure);
-  std::vector<std::pair<typename BlockCholesky<D>::Place, Eigen::Matrix<double, D, D>>> added;
+  std::vector<std::pair<typename BlockCholesky<D>::Location, Eigen::Matrix<double, D, D>>> added;
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(blocks * D, blocks * D);
   const auto add = [&](int i, int j, const Eigen::Matrix<double, D, D>& block) {
-    added.emplace_back(factor.place(i, j), block);
+    added.emplace_back(factor.location(i, j), block);
     dense.block<D, D>(i * D, j * D) += block;
     if (i != j) dense.block<D, D>(j * D, i * D) += block.transpose();
   };
@@ -59,7 +59,7 @@ void expect_solves(const EliminationStructure& structure,
   const Eigen::MatrixXd expected = dense.llt().solve(right);
   const auto assemble = [&] {
     factor.set_zero();
-    for (const auto& [place, block] : added) factor.add(place, block);
+    for (const auto& [location, block] : added) factor.add(location, block);
   };
   assemble();
   ASSERT_TRUE(factor.factorise());
@@ -70,8 +70,8 @@ void expect_solves(const EliminationStructure& structure,
   Eigen::VectorXd diagonal;
   ASSERT_TRUE(factor.solve_damped(0.5, diagonal, other));
   for (int i = 0; i < blocks * D; ++i) {
-    const int place = structure.position(i / D) * D + i % D;
-    EXPECT_NEAR(diagonal[place], dense(i, i), 1e-12);
+    const int position = structure.position(i / D) * D + i % D;
+    EXPECT_NEAR(diagonal[position], dense(i, i), 1e-12);
   }
   dense.diagonal() *= 1.5;
   EXPECT_NEAR((other - dense.llt().solve(second)).cwiseAbs().maxCoeff(), 0.0, 1e-11) << "D = " << D;
@@ -101,9 +101,9 @@ TEST(BlockCholesky, ReportsThatAMatrixIsNotPositiveDefinite) {
   BlockCholesky<1> factor(structure);
   const Eigen::Matrix<double, 1, 1> one = Eigen::Matrix<double, 1, 1>::Identity();
   factor.set_zero();
-  factor.add(factor.place(0, 0), one);
-  factor.add(factor.place(1, 1), one);
-  factor.add(factor.place(1, 0), 2.0 * one);
+  factor.add(factor.location(0, 0), one);
+  factor.add(factor.location(1, 1), one);
+  factor.add(factor.location(1, 0), 2.0 * one);
   EXPECT_FALSE(factor.factorise());
 }
 

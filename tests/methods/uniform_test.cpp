@@ -17,7 +17,7 @@ struct Result {
   Trajectory poses;
   Report report;
 
-  Vector3 place(std::size_t i) const { return poses[i].world_from_body.translation; }
+  Vector3 position(std::size_t i) const { return poses[i].world_from_body.translation; }
   double yaw(std::size_t i) const { return log_so3(poses[i].world_from_body.rotation).z(); }
   double count(const std::string& name) const { return test::count(report, name); }
 };
@@ -32,11 +32,11 @@ Result corrected(const Problem& problem, const Params& params = {}) {
 
 Params option(const std::string& name, const std::string& word) { return {{name, word}}; }
 
-Edge closure(std::size_t from, std::size_t to, const Vector3& place, double yaw = 0.0) {
-  return {from, to, turned_about_z(yaw, place)};
+Edge closure(std::size_t from, std::size_t to, const Vector3& position, double yaw = 0.0) {
+  return {from, to, turned_about_z(yaw, position)};
 }
 
-void expect_place(const Vector3& result, const Vector3& expected) {
+void expect_position(const Vector3& result, const Vector3& expected) {
   EXPECT_NEAR((result - expected).norm(), 0.0, 1e-12)
       << result.transpose() << " is not " << expected.transpose();
 }
@@ -46,9 +46,9 @@ TEST(Uniform, DistributesAPositionErrorByIndexAndMovesTheTail) {
   problem.closures = {closure(0, 4, {4.0, 0.8, 0.0})};
   const Result result = corrected(problem);
   for (std::size_t i = 0; i < 5; ++i) {
-    expect_place(result.place(i), static_cast<double>(i) * Vector3(1.0, 0.2, 0.0));
+    expect_position(result.position(i), static_cast<double>(i) * Vector3(1.0, 0.2, 0.0));
   }
-  expect_place(result.place(5), {6.0, 0.8, 0.0});
+  expect_position(result.position(5), {6.0, 0.8, 0.0});
   EXPECT_NEAR(result.count("largest_closing_error"), 0.0, 1e-12);
 }
 
@@ -64,10 +64,11 @@ TEST(Uniform, RotatesAboutTheStartOfTheLoop) {
     const double radius = static_cast<double>(i);
     const double angle = 0.25 * radius * quarter;
     EXPECT_NEAR(result.yaw(i), angle, 1e-12);
-    expect_place(result.place(i), start + radius * Vector3(std::cos(angle), std::sin(angle), 0.0));
+    expect_position(result.position(i),
+                    start + radius * Vector3(std::cos(angle), std::sin(angle), 0.0));
   }
   EXPECT_NEAR(result.yaw(5), quarter, 1e-12);  // moves rigidly with the end
-  expect_place(result.place(5), {7.0, 5.0, 0.0});
+  expect_position(result.position(5), {7.0, 5.0, 0.0});
 }
 
 TEST(Uniform, WithRotationNoneOnlyPositionsMove) {
@@ -77,8 +78,8 @@ TEST(Uniform, WithRotationNoneOnlyPositionsMove) {
   for (std::size_t i = 0; i < 6; ++i) {
     const double share = std::min(0.25 * static_cast<double>(i), 1.0);
     EXPECT_EQ(result.yaw(i), 0.0);
-    expect_place(
-        result.place(i),
+    expect_position(
+        result.position(i),
         problem.keyframes[i].world_from_body.translation + share * Vector3(-4.0, 4.0, 0.0));
   }
 }
@@ -90,7 +91,7 @@ TEST(Uniform, WeighsByTimeDistanceAndRotation) {
   problem.closures = {closure(0, 3, {4.0, 0.0, 1.0}, 0.4)};
   const auto heights = [&](const std::string& weights) {
     const Result result = corrected(problem, option("weights", weights));
-    return Vector3(result.place(1).z(), result.place(2).z(), result.place(3).z());
+    return Vector3(result.position(1).z(), result.position(2).z(), result.position(3).z());
   };
   EXPECT_TRUE(heights("index").isApprox(Vector3(1.0 / 3.0, 2.0 / 3.0, 1.0), 1e-12));
   EXPECT_TRUE(heights("time").isApprox(Vector3(0.5, 0.6, 1.0), 1e-12));
@@ -102,7 +103,7 @@ TEST(Uniform, FallsBackToIndexForZeroWeightsAndReportsIt) {
   Problem problem = along_x({0, 0, 0});
   problem.closures = {closure(0, 2, {0.0, 1.0, 0.0})};
   const Result result = corrected(problem, option("weights", "distance"));
-  expect_place(result.place(1), {0.0, 0.5, 0.0});
+  expect_position(result.position(1), {0.0, 0.5, 0.0});
   ASSERT_EQ(result.report.notes.size(), 1u);
   EXPECT_EQ(result.report.notes[0],
             "1 closures: distance is zero along the loop, distributed by index");
@@ -124,14 +125,14 @@ TEST(Uniform, AnOverlappingLoopReopensTheEarlierOneOnlyWithWhole) {
   Problem problem = along_x({0, 1, 2, 3, 4});
   problem.closures = {closure(0, 2, {2.0, 0.0, 1.0}), closure(1, 4, {3.0, 0.0, 2.0})};
   const Result whole = corrected(problem);
-  expect_place(whole.place(2), {2.0, 0.0, 1.5});  // 1 + a third of 1.5
-  expect_place(whole.place(3), {3.0, 0.0, 2.0});
-  expect_place(whole.place(4), {4.0, 0.0, 2.5});
+  expect_position(whole.position(2), {2.0, 0.0, 1.5});  // 1 + a third of 1.5
+  expect_position(whole.position(3), {3.0, 0.0, 2.0});
+  expect_position(whole.position(4), {4.0, 0.0, 2.5});
   EXPECT_NEAR(whole.count("largest_closing_error"), 0.5, 1e-12);
   const Result open = corrected(problem, option("overlap", "open"));
-  expect_place(open.place(2), {2.0, 0.0, 1.0});  // unchanged
-  expect_place(open.place(3), {3.0, 0.0, 1.75});
-  expect_place(open.place(4), {4.0, 0.0, 2.5});
+  expect_position(open.position(2), {2.0, 0.0, 1.0});  // unchanged
+  expect_position(open.position(3), {3.0, 0.0, 1.75});
+  expect_position(open.position(4), {4.0, 0.0, 2.5});
   EXPECT_NEAR(open.count("largest_closing_error"), 0.0, 1e-12);
 }
 
@@ -139,7 +140,7 @@ TEST(Uniform, OpenIgnoresALoopInsideAnEarlierOneAndReportsIt) {
   Problem problem = along_x({0, 1, 2, 3});
   problem.closures = {closure(0, 3, {3.0, 0.3, 0.0}), closure(1, 3, {2.0, 7.0, 0.0})};
   const Result result = corrected(problem, option("overlap", "open"));
-  expect_place(result.place(3), {3.0, 0.3, 0.0});
+  expect_position(result.position(3), {3.0, 0.3, 0.0});
   ASSERT_EQ(result.report.notes.size(), 1u);
   EXPECT_EQ(result.report.notes[0], "1 closures: ignored, every step lies inside an earlier loop");
 }

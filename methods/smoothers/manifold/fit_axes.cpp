@@ -101,8 +101,8 @@ Rotation level_axes(const Trajectory& poses) {
     covariance += horizontal * horizontal.transpose();
     if (from_base.norm() > farthest.norm()) farthest = from_base;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix3> spread(covariance);
-  Vector3 x = spread.eigenvectors().col(2);
+  const Eigen::SelfAdjointEigenSolver<Matrix3> horizontal_axes(covariance);
+  Vector3 x = horizontal_axes.eigenvectors().col(2);
   x -= up.dot(x) * up;
   x = x.norm() > 0.5 ? x.normalized() : up.unitOrthogonal();  // without horizontal motion
   if (x.dot(farthest) < 0.0) x = -x;
