@@ -1,11 +1,14 @@
-/// Validators for option values that several commands share.
+/// Declares single options and validates their values.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "datasets/core/fields.hpp"
 #include "harness/base/suggest.hpp"
 
 namespace loopbench::harness {
@@ -18,6 +21,44 @@ CLI::Validator number_between(double low, double high);
 
 /// A number above zero.
 CLI::Validator positive_number();
+
+/// Accepts the words of an enum, which the help lists and shells complete. `option` names it in the
+/// OptionError that other words throw, as in configs.
+template <NamedEnum Enum>
+CLI::Validator words_of(const std::string& option) {
+  std::string all;
+  for (const auto& [name, value] : choices(Enum{}))
+    all += (all.empty() ? "" : "|") + std::string(name);
+  const auto translate = [option](std::string& text) {
+    Enum value{};
+    FieldType<Enum>::assign(option, value, text);
+    text = std::to_string(static_cast<int>(value));  // CLI11 parses enums as numbers
+    return std::string();
+  };
+  return CLI::Validator(translate, all);
+}
+
+template <class Value>
+inline constexpr bool kIsEnum = NamedEnum<Value>;
+template <class Value>
+inline constexpr bool kIsEnum<std::optional<Value>> = NamedEnum<Value>;
+
+/// Declares an option. `spelling`: its names and the placeholder of its value, "-o,--out FILE".
+/// Words of an enum are named by the first long name in errors.
+template <class Value>
+CLI::Option* add(CLI::App& command,
+                 const std::string& spelling,
+                 Value& value,
+                 const std::string& help) {
+  const std::size_t end = std::min(spelling.find(' '), spelling.size());
+  CLI::Option* out = command.add_option(spelling.substr(0, end), value, help);
+  if (end < spelling.size()) out->type_name(spelling.substr(end + 1));
+  if constexpr (kIsEnum<Value>) {
+    using Enum = std::remove_cvref_t<decltype(*std::optional(value))>;
+    out->type_name("WORD")->transform(words_of<Enum>(out->get_lnames().front()));
+  }
+  return out;
+}
 
 /// Adds --tie and --relevant: when methods share a place.
 void declare_ties(CLI::App& command, double& tie, double& relevant);

@@ -63,17 +63,13 @@ void add_correct(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("correct", "Correct one trajectory or pose graph with one method");
   CorrectArguments& c = a->correct;
-  command->add_option("estimate", c.estimate, "Trajectory file, or a g2o graph")
-      ->required()
-      ->type_name("ESTIMATE");
-  command
-      ->add_option(
-          "--method",
-          c.method,
-          "Method, or corrector + smoother; options follow a colon (dual:max_closures=50), "
-          "see `list methods`")
-      ->capture_default_str()
-      ->type_name("METHOD");
+  add(*command, "estimate ESTIMATE", c.estimate, "Trajectory file, or a g2o graph")->required();
+  add(*command,
+      "--method METHOD",
+      c.method,
+      "Method, or corrector + smoother; options follow a colon (dual:max_closures=50), see `list "
+      "methods`")
+      ->capture_default_str();
   const auto file = [&](const char* name, std::string& value, const char* help) {
     command->add_option(name, value, help)->type_name("FILE");
   };
@@ -85,12 +81,11 @@ void add_correct(CLI::App& app, int& exit_code) {
        c.anchors,
        "Measured positions: stamp x y z [sigma, or xx xy xz yy yz zz of the covariance], or any "
        "format of a reference");
-  command
-      ->add_option("--start-equals-end",
-                   c.start_equals_end,
-                   "Add a closure: the last position is the first one, up to this standard "
-                   "deviation [m]; the rotation is not measured")
-      ->type_name("METRES")
+  add(*command,
+      "--start-equals-end METRES",
+      c.start_equals_end,
+      "Add a closure: the last position is the first one, up to this standard deviation [m]; the "
+      "rotation is not measured")
       ->check(finite_number())
       ->check(positive_number());
   file("--frames", c.frames, "All tracked poses of the run, if ESTIMATE contains only keyframes");
@@ -106,26 +101,21 @@ void add_correct(CLI::App& app, int& exit_code) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   auto* dense = command->add_flag("--dense", c.dense, "Output keyframes and frames");
-  command->add_option("--at", c.at, "Output poses at the stamps of this trajectory file")
-      ->type_name("FILE")
+  add(*command, "--at FILE", c.at, "Output poses at the stamps of this trajectory file")
       ->excludes(dense);
-  command->add_option("-o,--out", a->output.out, "Output file; - is standard output")
-      ->type_name("FILE");
-  command
-      ->add_option("--to",
-                   a->output.to,
-                   "Output format (default: csv, g2o or kitti if -o ends in .csv, .g2o or .kitti, "
-                   "otherwise tum); g2o contains all edges")
-      ->type_name("WORD:tum|kitti|euroc|g2o|csv");
-  command
-      ->add_option("--plot",
-                   a->plot,
-                   "Map of the keyframes before and after, as PREFIX.svg, .pdf and .png, or as one "
-                   "of these or .pgf if PREFIX ends in it")
-      ->type_name("PREFIX");
+  add(*command, "-o,--out FILE", a->output.out, "Output file; - is standard output");
+  add(*command,
+      "--to WORD:tum|kitti|euroc|g2o|csv",
+      a->output.to,
+      "Output format (default: csv, g2o or kitti if -o ends in .csv, .g2o or .kitti, otherwise "
+      "tum); g2o contains all edges");
+  add(*command,
+      "--plot PREFIX",
+      a->plot,
+      "Map of the keyframes before and after, as PREFIX.svg, .pdf and .png, or as one of these or "
+      ".pgf if PREFIX ends in it");
   declare_figures(*command, a->figure, "--plot");
-  command->add_option("--plugin", a->plugins, "Shared object with additional methods")
-      ->type_name("FILE")
+  add(*command, "--plugin FILE", a->plugins, "Shared object with additional methods")
       ->allow_extra_args(false);
   command->add_flag("--json", a->json, "Print JSON instead of text");
   command->callback([a, &exit_code] { exit_code = run_correct(*a); });

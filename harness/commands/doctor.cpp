@@ -8,6 +8,7 @@
 #include "datasets/derive/graph_parts.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "harness/base/printable.hpp"
+#include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/options.hpp"
 #include "harness/commands/standard_output.hpp"
@@ -176,21 +177,17 @@ void add_doctor(CLI::App& app, int& exit_code) {
       "Search trajectories or a pose graph for mistakes: clocks, quaternion order, units, axes, "
       "inverted poses, lever arm, exchanged or wrong files, jumps, closures, information (exit 1 "
       "if there are any, or if nothing could be checked)");
-  command->add_option("reference", a->reference, "Reference trajectory, or a pose graph")
-      ->required()
-      ->type_name("REF");
-  command->add_option("estimates", a->estimates, "Estimated trajectories")->type_name("EST");
-  command
-      ->add_option("--loops",
-                   a->loops,
-                   "Loop closures of EST (or of REF, if there is no EST), see `correct --help`")
-      ->type_name("FILE");
+  add(*command, "reference REF", a->reference, "Reference trajectory, or a pose graph")->required();
+  add(*command, "estimates EST", a->estimates, "Estimated trajectories");
+  add(*command,
+      "--loops FILE",
+      a->loops,
+      "Loop closures of EST (or of REF, if there is no EST), see `correct --help`");
   declare_reading(*command, a->reading, {"--times", "--period", "--all-topics"});
-  command
-      ->add_option(
-          "--ref-format", a->reference_format, "File format of REF, if different from --format")
-      ->type_name("WORD")
-      ->transform(words_of<Format>("ref-format"));
+  add(*command,
+      "--ref-format",
+      a->reference_format,
+      "File format of REF, if different from --format");
   command->add_flag("--json", a->json, "Print JSON");
   command->callback([a, &exit_code] { exit_code = doctor(*a); });
 }

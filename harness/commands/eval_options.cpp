@@ -10,33 +10,23 @@ namespace {
 
 void declare_files(CLI::App& command, EvalArguments& a) {
   command.option_defaults()->group("Files");
-  command.add_option("reference", a.reference, "Reference trajectory file")
-      ->required()
-      ->type_name("REF");
-  command.add_option("estimates", a.estimates, "Trajectory files to evaluate")
-      ->required()
-      ->type_name("EST");
+  add(command, "reference REF", a.reference, "Reference trajectory file")->required();
+  add(command, "estimates EST", a.estimates, "Trajectory files to evaluate")->required();
   declare_reading(command, a, {"--tf", "--all-topics"});
-  command
-      .add_option("--ref-format", a.reference_format, "Format of REF, if different from --format")
-      ->type_name("WORD")
-      ->transform(words_of<Format>("ref-format"));
-  command
-      .add_option("--ref-body",
-                  a.reference_body,
-                  "Extrinsic offset of REF's body (marker, IMU, camera, prism, antenna) in the "
-                  "estimates' body frame [m]")
-      ->type_name("X,Y,Z[,QX,QY,QZ,QW]");
+  add(command, "--ref-format", a.reference_format, "Format of REF, if different from --format");
+  add(command,
+      "--ref-body X,Y,Z[,QX,QY,QZ,QW]",
+      a.reference_body,
+      "Extrinsic offset of REF's body (marker, IMU, camera, prism, antenna) in the estimates' body "
+      "frame [m]");
   command.add_flag("--ref-positions",
                    a.reference_positions,
                    "Ignore the rotations of REF (files of positions with filler quaternions)");
-  command
-      .add_option(
-          "--ref-sigma",
-          a.reference_sigma,
-          "Standard deviation of REF's positions, per axis [m]: errors and differences below "
-          "it are reported as such, and nees adds it to stated covariances")
-      ->type_name("M")
+  add(command,
+      "--ref-sigma M",
+      a.reference_sigma,
+      "Standard deviation of REF's positions, per axis [m]: errors and differences below it are "
+      "reported as such, and nees adds it to stated covariances")
       ->check(number_between(0.0, 1e9));
   const auto file = [&](const char* name, std::string& value, const char* whose) {
     const std::string help = std::string("Covariances of ") + whose +
@@ -75,22 +65,20 @@ void declare_pairing(CLI::App& command, EvalArguments& a) {
                   {"max_gap", "--max-gap"},
                   {"offset", "--offset,--t_offset"}},
                  a.settings);
-  command
-      .add_option("--min-coverage",
-                  a.min_coverage,
-                  "Minimum share of poses and of the reference's time, below which results are "
-                  "incomplete (exit 1); default: a tenth, and half of the largest coverage of the "
-                  "estimates; with --store 0.5")
-      ->type_name("SHARE")
+  add(command,
+      "--min-coverage SHARE",
+      a.min_coverage,
+      "Minimum share of poses and of the reference's time, below which results are incomplete "
+      "(exit 1); default: a tenth, and half of the largest coverage of the estimates; with --store "
+      "0.5")
       ->check(finite_number())
       ->check(CLI::Range(0.0, 1.0));
-  command
-      .add_option("--common",
-                  a.common,
-                  "Evaluate only the times that all estimates of REF cover: yes or no (default: "
-                  "yes with --store)")
-      ->transform(one_of<bool>("answer", {{"yes", true}, {"no", false}}))
-      ->type_name("WORD");
+  add(command,
+      "--common WORD",
+      a.common,
+      "Evaluate only the times that all estimates of REF cover: yes or no (default: yes with "
+      "--store)")
+      ->transform(one_of<bool>("answer", {{"yes", true}, {"no", false}}));
 }
 
 void declare_alignment(CLI::App& command, EvalArguments& a) {
@@ -112,8 +100,7 @@ void declare_alignment(CLI::App& command, EvalArguments& a) {
 
 void declare_metrics(CLI::App& command, EvalArguments& a) {
   command.option_defaults()->group("Metrics");
-  command.add_option("--protocol", a.protocols, "Evaluation protocols, see `list protocols`")
-      ->type_name("PROTOCOL")
+  add(command, "--protocol PROTOCOL", a.protocols, "Evaluation protocols, see `list protocols`")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();
@@ -125,30 +112,30 @@ void declare_metrics(CLI::App& command, EvalArguments& a) {
           "--set", set, "Field of the protocol to change, see `list protocols`")
       ->type_name("FIELD=VALUE")
       ->allow_extra_args(false);
-  auto* metric =
-      command
-          .add_option("--metric",
-                      a.metrics,
-                      "Metric to evaluate instead of the default ones, see `list metrics`; options "
-                      "follow a colon (rpe:delta=5,unit=m); repeat for several")
-          ->type_name("METRIC")
-          ->allow_extra_args(false);
-  command.add_option("--plugin", a.plugins, "Shared object with additional metrics")
-      ->type_name("FILE")
+  auto* metric = add(command,
+                     "--metric METRIC",
+                     a.metrics,
+                     "Metric to evaluate instead of the default ones, see `list metrics`; options "
+                     "follow a colon (rpe:delta=5,unit=m); repeat for several")
+                     ->allow_extra_args(false);
+  add(command, "--plugin FILE", a.plugins, "Shared object with additional metrics")
       ->allow_extra_args(false);
   command
       .add_option("-r,--pose_relation", a.relation, "Evaluate only ape and rpe, in this relation")
       ->type_name(
-          "WORD:full|trans_part|rot_part|angle_deg|angle_rad|point_distance|"
-          "point_distance_error_ratio|rpy")
+          "WORD:full|trans_part|rot_part|angle_deg|angle_rad|point_distance|point_distance_error_"
+          "ratio|rpy")
       ->excludes(metric);
-  command
-      .add_option("-d,--delta", a.delta, "Distance between paired poses for rpe, in --delta_unit")
-      ->type_name("NUMBER")
+  add(command,
+      "-d,--delta NUMBER",
+      a.delta,
+      "Distance between paired poses for rpe, in --delta_unit")
       ->excludes(metric)
       ->check(finite_number());
-  command.add_option("-u,--delta_unit", a.delta_unit, "Unit of --delta (frames, s, m, deg, rad)")
-      ->type_name("WORD:f|s|m|d|r")
+  add(command,
+      "-u,--delta_unit WORD:f|s|m|d|r",
+      a.delta_unit,
+      "Unit of --delta (frames, s, m, deg, rad)")
       ->excludes(metric);
   declare_setting(command, a, "--all_pairs", "pairs=all", "Use all pairs for rpe");
   declare_setting(command,
@@ -160,19 +147,17 @@ void declare_metrics(CLI::App& command, EvalArguments& a) {
 
 void declare_output(CLI::App& command, EvalArguments& a) {
   command.option_defaults()->group("Output");
-  command
-      .add_option("--unit,--change_unit",
-                  a.unit,
-                  "Unit of lengths (mm, cm, m, km) or angles (deg, rad) in the results")
-      ->type_name("WORD:mm|cm|m|km|deg|rad");
-  command
-      .add_option("--columns",
-                  a.columns,
-                  "Comma-separated columns of the table, or of --csv, by their headings with or "
-                  "without unit (ate,rpe_1_s,coverage)")
+  add(command,
+      "--unit,--change_unit WORD:mm|cm|m|km|deg|rad",
+      a.unit,
+      "Unit of lengths (mm, cm, m, km) or angles (deg, rad) in the results");
+  add(command,
+      "--columns NAMES",
+      a.columns,
+      "Comma-separated columns of the table, or of --csv, by their headings with or without unit "
+      "(ate,rpe_1_s,coverage)")
       ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("NAMES");
+      ->allow_extra_args(false);
   command.add_flag("--full", a.full, "Print all statistics, single axes and the diagnosis");
   command.add_flag("--paired", a.paired, "Pair runs of equal names in verdicts");
   command.add_flag("--json", a.json, "Print JSON in full precision, one list entry per evaluation")
@@ -181,47 +166,38 @@ void declare_output(CLI::App& command, EvalArguments& a) {
       .add_flag(
           "--csv", a.csv, "Print a CSV line per score in full precision, as `export --what rows`")
       ->excludes("--json");
-  command
-      .add_option("--per-pose",
-                  a.per_pose,
-                  "CSV file for the error of every pose, and per-pose values of metrics; - is "
-                  "standard output")
-      ->type_name("FILE");
-  command
-      .add_option(
-          "--plot,--save_plot",
-          a.plot,
-          "Figures PREFIX_trajectories, PREFIX_errors and PREFIX_axes as .svg, .pdf and .png, or "
-          "as .pgf for PREFIX.pgf (likewise .svg, .pdf, .png), as wide as one column of a paper "
-          "(3.5 in); for other sizes and styles see `plot`")
-      ->type_name("PREFIX");
+  add(command,
+      "--per-pose FILE",
+      a.per_pose,
+      "CSV file for the error of every pose, and per-pose values of metrics; - is standard output");
+  add(command,
+      "--plot,--save_plot PREFIX",
+      a.plot,
+      "Figures PREFIX_trajectories, PREFIX_errors and PREFIX_axes as .svg, .pdf and .png, or as "
+      ".pgf for PREFIX.pgf (likewise .svg, .pdf, .png), as wide as one column of a paper (3.5 in); "
+      "for other sizes and styles see `plot`");
   declare_curves(command, a.figures);
-  command
-      .add_option("--report",
-                  a.report,
-                  "HTML page with tables, verdicts and figures, as `report` writes it")
-      ->type_name("FILE");
-  command
-      .add_option("--store",
-                  a.store,
-                  "Folder for a store of the results, for compare, table, report, plot and check: "
-                  "NAME_3.txt and NAME/3.txt are run 3 of method NAME. Later calls add runs")
-      ->type_name("DIR")
+  add(command,
+      "--report FILE",
+      a.report,
+      "HTML page with tables, verdicts and figures, as `report` writes it");
+  add(command,
+      "--store DIR",
+      a.store,
+      "Folder for a store of the results, for compare, table, report, plot and check: NAME_3.txt "
+      "and NAME/3.txt are run 3 of method NAME. Later calls add runs")
       ->excludes("--json")
       ->excludes("--csv")
       ->excludes("--columns")
       ->excludes("--unit")
       ->excludes("--per-pose");
-  command
-      .add_option("--sequence", a.sequence, "Label of REF in the store (default: from its name)")
-      ->type_name("NAME")
+  add(command, "--sequence NAME", a.sequence, "Label of REF in the store (default: from its name)")
       ->needs("--store");
-  command
-      .add_option("--group",
-                  a.group,
-                  "Recording of REF: sequences of one recording are not independent (default: by "
-                  "the poses of the references)")
-      ->type_name("NAME")
+  add(command,
+      "--group NAME",
+      a.group,
+      "Recording of REF: sequences of one recording are not independent (default: by the poses of "
+      "the references)")
       ->needs("--store");
 }
 

@@ -23,18 +23,12 @@ std::string value_type(const OptionInfo& field) {
 void declare_reading(CLI::App& command,
                      ReadArguments& reading,
                      const std::vector<std::string>& without) {
-  command.add_option("-f,--format", reading.format, "Format of the files")
-      ->type_name("WORD")
-      ->transform(words_of<Format>("format"));
-  command.add_option("--times", reading.times, "Times of KITTI poses, one per line [s]")
-      ->type_name("FILE");
+  add(command, "-f,--format", reading.format, "Format of the files");
+  add(command, "--times FILE", reading.times, "Times of KITTI poses, one per line [s]");
   command.add_option("--period", reading.period, "Time between poses without stamps [s]")
       ->check(finite_number());
-  command.add_option("--repeats", reading.repeats, "Poses with a repeated stamp")
-      ->type_name("WORD")
-      ->transform(words_of<Repeats>("repeats"));
-  command.add_option("--tf", reading.tf, "Frames in the TF tree of bags without a topic")
-      ->type_name("PARENT.CHILD");
+  add(command, "--repeats", reading.repeats, "Poses with a repeated stamp");
+  add(command, "--tf PARENT.CHILD", reading.tf, "Frames in the TF tree of bags without a topic");
   command.add_flag("--all-topics", reading.all_topics, "All trajectories of bags without a topic");
   for (const std::string& name : without) command.remove_option(command.get_option(name));
 }
@@ -60,57 +54,53 @@ void declare_fields(CLI::App& command,
 void declare_pose_filters(CLI::App& command,
                           std::optional<std::size_t>& downsample,
                           std::vector<double>& motion_filter) {
-  command.add_option("--downsample", downsample, "Evenly spaced poses to keep of each file")
-      ->type_name("N")
+  add(command, "--downsample N", downsample, "Evenly spaced poses to keep of each file")
       ->check(positive_number());
-  command
-      .add_option("--motion_filter",
-                  motion_filter,
-                  "Keep only poses that are this path length [m] or this angle [deg] from the "
-                  "pose kept before, in each file")
-      ->type_name("M DEG")
+  add(command,
+      "--motion_filter M DEG",
+      motion_filter,
+      "Keep only poses that are this path length [m] or this angle [deg] from the pose kept "
+      "before, in each file")
       ->expected(2)
       ->allow_extra_args(false)
       ->check(number_between(0.0, 1e9));
 }
 
 void declare_curves(CLI::App& command, FigureOptions& options) {
-  command
-      .add_option("--labels",
-                  options.labels,
-                  "Comma-separated names of the estimates in the legend, in their order")
-      ->delimiter(',')
-      ->type_name("NAMES");
-  command
-      .add_option(
-          "--plane", options.plane, "Plane of the map: xy, xz or yz; default: the largest extent")
-      ->check(CLI::IsMember({"xy", "xz", "yz"}))
-      ->type_name("WORD");
+  add(command,
+      "--labels NAMES",
+      options.labels,
+      "Comma-separated names of the estimates in the legend, in their order")
+      ->delimiter(',');
+  add(command,
+      "--plane WORD",
+      options.plane,
+      "Plane of the map: xy, xz or yz; default: the largest extent")
+      ->check(CLI::IsMember({"xy", "xz", "yz"}));
 }
 
 void declare_figures(CLI::App& command, FigureOptions& options, const std::string& needs) {
   declare_curves(command, options);
   const std::vector<CLI::Option*> of_files{
-      command
-          .add_option("--style",
-                      options.style,
-                      "Comma-separated style sheets of matplotlib, files or names, for fonts, "
-                      "colours and lines")
+      add(command,
+          "--style FILE_OR_NAME",
+          options.style,
+          "Comma-separated style sheets of matplotlib, files or names, for fonts, colours and "
+          "lines")
+          ->delimiter(','),
+      add(command,
+          "--size WIDTH,HEIGHT",
+          options.size,
+          "Width and height of a panel [in]; default: 3.5,2.8")
           ->delimiter(',')
-          ->type_name("FILE_OR_NAME"),
-      command
-          .add_option("--size", options.size, "Width and height of a panel [in]; default: 3.5,2.8")
-          ->delimiter(',')
-          ->check(CLI::Range(0.5, 50.0))
-          ->type_name("WIDTH,HEIGHT"),
-      command.add_option("--font", options.font, "Font size [pt]; default: that of --style, or 8")
-          ->check(CLI::Range(2.0, 100.0))
-          ->type_name("PT"),
-      command
-          .add_option(
-              "--panel-columns", options.columns, "Panels in a row; default: 2; of traj plot 3")
-          ->check(CLI::Range(1, 10))
-          ->type_name("N"),
+          ->check(CLI::Range(0.5, 50.0)),
+      add(command, "--font PT", options.font, "Font size [pt]; default: that of --style, or 8")
+          ->check(CLI::Range(2.0, 100.0)),
+      add(command,
+          "--panel-columns N",
+          options.columns,
+          "Panels in a row; default: 2; of traj plot 3")
+          ->check(CLI::Range(1, 10)),
       command.add_flag(
           "--script",
           options.script,

@@ -6,28 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "datasets/core/fields.hpp"
 #include "harness/config/entry.hpp"
 #include "harness/eval/named_trajectory.hpp"
 #include "harness/report/draw.hpp"
 
 namespace loopbench::harness {
-
-/// Accepts the words of an enum, which the help lists and shells complete. `option` names it in the
-/// OptionError that other words throw, as in configs.
-template <NamedEnum Enum>
-CLI::Validator words_of(const std::string& option) {
-  std::string all;
-  for (const auto& [name, value] : choices(Enum{}))
-    all += (all.empty() ? "" : "|") + std::string(name);
-  const auto translate = [option](std::string& text) {
-    Enum value{};
-    FieldType<Enum>::assign(option, value, text);
-    text = std::to_string(static_cast<int>(value));  // CLI11 parses enums as numbers
-    return std::string();
-  };
-  return CLI::Validator(translate, all);
-}
 
 /// Declares how trajectory files are read: all options of ReadArguments but those in `without`.
 void declare_reading(CLI::App& command,

@@ -13,6 +13,7 @@
 #include "harness/base/write_file.hpp"
 #include "harness/catalogue/external_methods.hpp"
 #include "harness/catalogue/load_sequence.hpp"
+#include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/config_path.hpp"
 #include "harness/commands/interruption.hpp"
@@ -105,23 +106,6 @@ RunPlan plan(const RunArguments& arguments) {
   return out;
 }
 
-/// First note of a nondeterministic method, and the number of its cells.
-using Unsteady = std::map<std::string, std::pair<std::string, int>>;
-
-void count(const CellResult& result,
-           const std::string& method,
-           CellCounts& out,
-           Unsteady& unsteady) {
-  ++out.done;
-  if (has_failure(result)) ++out.failed;
-  if (result.status == Status::incomplete) ++out.incomplete;
-  for (const std::string& note : result.report.notes) {
-    if (!note.starts_with(kNondeterministic)) continue;
-    auto& [first, number] = unsteady[method];
-    if (number++ == 0) first = note;
-  }
-}
-
 /// Runs the cells that the store lacks and writes them to it.
 CellCounts compute(const RunPlan& plan,
                    const RunArguments& arguments,
@@ -141,7 +125,7 @@ CellCounts compute(const RunPlan& plan,
   if (resumed.missing.empty()) return out;
   Progress progress(resumed.missing.size());
   const std::vector<InputFile> no_inputs;
-  Unsteady unsteady;
+  std::map<std::string, std::pair<std::string, int>> unsteady;  // first note of a method, count
   const auto finished = [&](const CellResult& r) {
     if (r.status == Status::interrupted) {
       ++out.abandoned;
@@ -150,7 +134,14 @@ CellCounts compute(const RunPlan& plan,
     store.write(r);
     keep_estimate(r.cell, keys.key(r.cell, r.metadata ? r.metadata->inputs : no_inputs));
     const std::string& method = sweep.methods[r.cell.method].label;
-    count(r, method, out, unsteady);
+    ++out.done;
+    if (has_failure(r)) ++out.failed;
+    if (r.status == Status::incomplete) ++out.incomplete;
+    for (const std::string& note : r.report.notes) {
+      if (!note.starts_with(kNondeterministic)) continue;
+      auto& [first, count] = unsteady[method];
+      if (count++ == 0) first = note;
+    }
     progress.step(sweep.datasets[r.cell.dataset].label + " / " + method);
   };
   SandboxOptions sandbox;
@@ -247,13 +238,11 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
       ->add_option(
           "config", arguments->config, "YAML file, or the name of an installed config: quickstart")
       ->required();
-  command->add_option("--only", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches")
-      ->type_name("REGEX");
-  command
-      ->add_option("--shard",
-                   arguments->shard,
-                   "Only this part of N, into its own store OUT/shards/I-of-N; see `merge`")
-      ->type_name("I/N");
+  add(*command, "--only REGEX", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches");
+  add(*command,
+      "--shard I/N",
+      arguments->shard,
+      "Only this part of N, into its own store OUT/shards/I-of-N; see `merge`");
   command->add_flag("--dry-run",
                     arguments->dry_run,
                     "Check the config and its input files and list the cells without running them");
@@ -267,15 +256,13 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
                     arguments->failed_cells_ok,
                     "Exit with 0 if cells failed: they are results, too, and have their reasons");
   command->add_flag("--no-sandbox", arguments->no_sandbox, "Let external programs read all files");
-  command->add_option("--data", arguments->data, "Folder with real datasets")
-      ->envname("LOOPBENCH_DATA")
-      ->type_name("DIR");
-  command->add_option("--out", arguments->out, "Output folder (default: results/CONFIG)")
-      ->type_name("DIR");
-  command
-      ->add_option(
-          "--plugin", arguments->plugins, "Shared object with methods, datasets or metrics")
-      ->type_name("FILE")
+  add(*command, "--data DIR", arguments->data, "Folder with real datasets")
+      ->envname("LOOPBENCH_DATA");
+  add(*command, "--out DIR", arguments->out, "Output folder (default: results/CONFIG)");
+  add(*command,
+      "--plugin FILE",
+      arguments->plugins,
+      "Shared object with methods, datasets or metrics")
       ->allow_extra_args(false);
   command
       ->add_option("--retry",

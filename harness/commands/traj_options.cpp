@@ -6,6 +6,7 @@
 #include "datasets/core/fields.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/options.hpp"
+#include "harness/model/where.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -13,20 +14,20 @@ namespace {
 void declare_inputs(CLI::App& verb, TrajArguments& a) {
   verb.add_option("files",
                   a.files,
-                  "Trajectories: files (also compressed), - for standard input, "
-                  "bag:FILE#/topic or bag:FILE#tf:PARENT.CHILD")
+                  "Trajectories: files (also compressed), - for standard input, bag:FILE#/topic or "
+                  "bag:FILE#tf:PARENT.CHILD")
       ->required()
       ->expected(1, -1);
   declare_reading(verb, a.reading);
 }
 
 void declare_output(CLI::App& verb, TrajArguments& a) {
-  verb.add_option("-o,--out", a.out, "Output file, or folder for several; - is standard output")
-      ->type_name("PATH");
-  verb.add_option("--to", a.to, "Output format (default: by the ending of -o, or tum)")
-      ->type_name("WORD:tum|kitti|euroc|g2o|csv");
-  verb.add_option("--times-out", a.times_out, "File for the stamps of KITTI poses")
-      ->type_name("FILE");
+  add(verb, "-o,--out PATH", a.out, "Output file, or folder for several; - is standard output");
+  add(verb,
+      "--to WORD:tum|kitti|euroc|g2o|csv",
+      a.to,
+      "Output format (default: by the ending of -o, or tum)");
+  add(verb, "--times-out FILE", a.times_out, "File for the stamps of KITTI poses");
 }
 
 void declare_offset(CLI::App& verb, TrajArguments& a) {
@@ -37,18 +38,15 @@ void declare_offset(CLI::App& verb, TrajArguments& a) {
 void declare_changes(CLI::App& verb, TrajArguments& a) {
   declare_pose_filters(verb, a.downsample, a.motion_filter);
   declare_offset(verb, a);
-  verb.add_option("--project_to_plane", a.plane, "Plane to project onto")
-      ->type_name("WORD")
-      ->transform(words_of<metrics::ProjectionPlane>("project_to_plane"));
+  add(verb, "--project_to_plane", a.plane, "Plane to project onto");
 }
 
 void declare_pairing(CLI::App& verb, TrajArguments& a) {
-  verb.add_option("--ref", a.reference, "Reference trajectory")->required()->type_name("FILE");
+  add(verb, "--ref FILE", a.reference, "Reference trajectory")->required();
   verb.add_option("--association",
                   a.association,
                   "Pairing: evo (nearest stamp, a pose can be paired twice) or nearest "
-                  "(one-to-one, smallest "
-                  "differences first)")
+                  "(one-to-one, smallest differences first)")
       ->check(CLI::IsMember({"evo", "nearest"}));
   verb.add_option(
           "--max-diff,--t_max_diff", a.max_diff, "Maximum time difference between paired poses [s]")
@@ -74,15 +72,16 @@ void declare_transform(CLI::App& verb, TrajArguments& a) {
   verb.add_flag("--propagate", a.propagate, "Apply --right to each relative pose, as drift")
       ->needs(right);
   Conventions& c = a.conventions;
-  verb.add_option("--quaternion-order",
-                  c.quaternion_order,
-                  "Order in which the file stores quaternions, if it was read in the other one")
-      ->type_name("WORD:wxyz|xyzw");
+  add(verb,
+      "--quaternion-order WORD:wxyz|xyzw",
+      c.quaternion_order,
+      "Order in which the file stores quaternions, if it was read in the other one");
   verb.add_flag("--conjugate", c.conjugate, "Invert the rotations, but not the positions");
-  verb.add_option("--axes", c.axes, "Source axis of x, y and z of the positions: --axes=-y,x,z")
-      ->type_name("AXES");
-  verb.add_option("--mirror", c.mirror, "Axis to reverse in positions and rotations (left-handed)")
-      ->type_name("WORD:x|y|z");
+  add(verb, "--axes AXES", c.axes, "Source axis of x, y and z of the positions: --axes=-y,x,z");
+  add(verb,
+      "--mirror WORD:x|y|z",
+      c.mirror,
+      "Axis to reverse in positions and rotations (left-handed)");
   verb.add_option("--scale", c.scale, "Factor of the positions: 0.001 for millimetres")
       ->check(finite_number());
   verb.add_option("--stamp-scale", c.stamp_scale, "Factor of the stamps: 0.001 for milliseconds")
@@ -92,9 +91,7 @@ void declare_transform(CLI::App& verb, TrajArguments& a) {
 }
 
 void declare_alignment(CLI::App& verb, TrajArguments& a) {
-  verb.add_option("--align", a.align, "Alignment")
-      ->type_name("WORD")
-      ->transform(words_of<metrics::Align>("align"));
+  add(verb, "--align", a.align, "Alignment");
   verb.add_option("--align-first,--n_to_align", a.align_first, "Number of first pairs, 0 for all");
   verb.add_flag(
       "--json", a.json, "Print the transforms as JSON, as eval does, and poses only to -o FILE");
@@ -126,27 +123,15 @@ const std::vector<VerbInfo>& verb_infos() {
       {"plot",
        "Plot trajectories: their plane, space, position, orientation and speed over time",
        {[](CLI::App& verb, TrajArguments& a) {
-         verb.add_option("--ref", a.reference, "Reference trajectory")->type_name("FILE");
+         add(verb, "--ref FILE", a.reference, "Reference trajectory");
          verb.add_option("-o,--out", a.out, "Output file: .svg, .pdf, .png or .pgf")->required();
-         verb.add_option("--panels",
-                         a.panels,
-                         "Comma-separated panels: the plane of the largest extent (plane), xy, xz, "
-                         "yz, space (xyz), x, y, z, roll, pitch, yaw, speed; default: all but xy, "
-                         "xz and yz")
+         add(verb,
+             "--panels WORDS",
+             a.panels,
+             "Comma-separated panels: the plane of the largest extent (plane), xy, xz, yz, space "
+             "(xyz), x, y, z, roll, pitch, yaw, speed; default: all but xy, xz and yz")
              ->delimiter(',')
-             ->check(CLI::IsMember({"plane",
-                                    "xy",
-                                    "xz",
-                                    "yz",
-                                    "xyz",
-                                    "x",
-                                    "y",
-                                    "z",
-                                    "roll",
-                                    "pitch",
-                                    "yaw",
-                                    "speed"}))
-             ->type_name("WORDS");
+             ->check(CLI::IsMember(split_list("plane,xy,xz,yz,xyz,x,y,z,roll,pitch,yaw,speed")));
          declare_figures(verb, a.figures);
        }}}};
   return all;
@@ -167,9 +152,9 @@ Format written_format(const TrajArguments& arguments) {
         is_folder ? "" : std::filesystem::path(arguments.out).extension().string();
     const auto found = kEndings.find(ending);
     if (found != kEndings.end()) return found->second;
-    throw InputError(arguments.out +
-                     ": expected a file name that ends in .txt, .tum, .csv, .g2o or .kitti, or "
-                     "--to FORMAT");
+    throw InputError(
+        arguments.out +
+        ": expected a file name that ends in .txt, .tum, .csv, .g2o or .kitti, or --to FORMAT");
   }
   for (const auto& [name, format] : choices(Format{})) {
     const bool is_written = format != Format::automatic && format != Format::bag;

@@ -67,18 +67,15 @@ void set(harness::EvalArguments& arguments, const std::string& setting, const st
   arguments.settings.push_back({setting, by});
 }
 
-/// Words of Format and Repeats; empty: the default.
-void read_as(harness::EvalArguments& arguments,
-             const std::string& format,
-             const std::string& reference_format,
-             const std::string& repeats) {
-  FieldType<Format>::assign("format", arguments.format, format);
-  if (!reference_format.empty()) {
-    FieldType<Format>::assign("ref-format", arguments.reference_format.emplace(), reference_format);
-  }
-  if (!repeats.empty()) {
-    FieldType<Repeats>::assign("repeats", arguments.repeats.emplace(), repeats);
-  }
+/// Sets a member of EvalArguments to a word of its enum, unless the word is empty.
+template <class Enum>
+auto word_setter(const char* name, auto member) {
+  return [=](harness::EvalArguments& arguments, const std::string& word) {
+    Enum value{};
+    if (word.empty()) return;
+    FieldType<Enum>::assign(name, value, word);
+    arguments.*member = value;
+  };
 }
 
 /// check(), which accepts equal stamps where `eval` keeps those of files.
@@ -274,7 +271,12 @@ PYBIND11_MODULE(_core, module) {
       .def_readwrite("delta_unit", &Arguments::delta_unit)
       .def_readwrite("min_coverage", &Arguments::min_coverage)
       .def_readwrite("reference_body", &Arguments::reference_body)
-      .def("read_as", &python::read_as)
+      .def_property("format", nullptr, python::word_setter<Format>("format", &Arguments::format))
+      .def_property("reference_format",
+                    nullptr,
+                    python::word_setter<Format>("ref-format", &Arguments::reference_format))
+      .def_property(
+          "repeats", nullptr, python::word_setter<Repeats>("repeats", &Arguments::repeats))
       .def_readwrite("times", &Arguments::times)
       .def_readwrite("period", &Arguments::period);
   py::class_<Problem>(module, "Problem").def(py::init(&python::problem_of));

@@ -20,11 +20,13 @@ class EvalArguments:
     delta_unit: str
     min_coverage: float | None
     reference_body: str | None
+    format: str
+    reference_format: str
+    repeats: str
     times: str
     period: float | None
     def __init__(self) -> None: ...
     def set(self, setting: str, by: str, /) -> None: ...
-    def read_as(self, format: str, reference_format: str, repeats: str, /) -> None: ...
 
 class Problem:
     def __init__(

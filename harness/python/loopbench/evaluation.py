@@ -162,7 +162,9 @@ def evaluate(
         raise ValueError(f"min_coverage: found {min_coverage}, expected a number from 0 to 1")
     arguments.min_coverage = min_coverage
     arguments.reference_body = reference_body
-    arguments.read_as(format, reference_format, repeats)
+    arguments.format = format
+    arguments.reference_format = reference_format
+    arguments.repeats = repeats
     arguments.times = os.fspath(times)
     arguments.period = period
     arguments.diagnose = diagnose
