@@ -129,6 +129,14 @@ class HelpFormatter final : public CLI::Formatter {
       help += " (not with " + list_of_names(option->get_excludes()) + ")";
     return entry(name, help);
   }
+  /// With one blank line between groups, not two.
+  std::string make_group(std::string group,
+                         bool is_positional,
+                         std::vector<const CLI::Option*> options) const override {
+    const bool follows = !is_positional && group != "Options";
+    const std::string out = CLI::Formatter::make_group(group, is_positional, options);
+    return out.substr(follows ? 1 : 0);
+  }
   std::string make_subcommand(const CLI::App* command) const override {
     return entry(command->get_name(), command->get_description());
   }
