@@ -152,9 +152,10 @@ Params reading_options(const EvalArguments& a) {
   if (!(period > 0.0)) {
     throw OptionError("period", "period = " + to_text(period) + ": expected period > 0");
   }
+  const Repeats repeats = repeats_of(a);
   Params out{{"format", to_text(a.format)},
              {"reference_format", to_text(reference_format(a))},
-             {"repeats", repeats_of(a) == Repeats::keep_all ? "keep_all" : to_text(repeats_of(a))},
+             {"repeats", repeats == Repeats::keep_all ? "keep_all" : to_text(repeats)},
              {"times", a.times},
              {"reference_body", a.reference_body.value_or("")},
              {"period", period}};
