@@ -71,7 +71,7 @@ int update(const CheckArguments& arguments) {
   print_summary(is_dash(arguments.baseline),
                 fmt::format("{}: {} written\n",
                             printable(arguments.baseline),
-                            counted(baseline.snapshot.cells.size(), "cell")));
+                            counted(by_cell(baseline.snapshot.records).size(), "cell")));
   return kExitOk;
 }
 

@@ -47,7 +47,7 @@ std::string verdict_of(const EvalArguments& a,
 
 std::optional<double> ate_of(const EvaluationResult& result) {
   for (const Record& record : result.records) {
-    const bool is_ate = record.metric == "ate" && record.relation == "translation";
+    const bool is_ate = record.kind->metric == "ate" && record.kind->relation == "translation";
     if (is_ate && has_numbers(record.status)) return record.statistics.rmse;
   }
   return std::nullopt;

@@ -33,7 +33,7 @@ std::string file_name(std::string text) {
   return text;
 }
 
-std::string repeat_suffix(const CellRecord& cell) {
+std::string repeat_suffix(const CellRow& cell) {
   return cell.repeat > 0 ? fmt::format("-repeat{}", cell.repeat) : "";
 }
 
@@ -62,7 +62,7 @@ int export_trajectories(const std::filesystem::path& store, const std::filesyste
   std::map<std::string, std::string> references;  // file of each content
   std::string index = "file,reference,key,sequence,repeat,method,times\n";
   std::size_t files = 0, without = 0;
-  for (const CellRecord& cell : read_cells(store)) {
+  for (const CellRow& cell : read_cells(store)) {
     bool has_file = false;
     const std::string content(cell.content);
     const std::string sequence = cell.sequence.text(), method = cell.method.text();

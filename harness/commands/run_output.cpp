@@ -35,8 +35,8 @@ template <class Selected>
 std::string reasons_text(const std::vector<Record>& records, Selected selected) {
   std::vector<Missing> missing;
   for (const Record& r : records) {
-    const std::string what = r.metric.empty() ? "" : field(r, "score");
-    if (selected(r)) missing.push_back({r.method, what, to_text(r.status), r.why});
+    const std::string what = r.has_score() ? r.kind->short_name() : "";
+    if (selected(r)) missing.push_back({r.cell->method, what, to_text(r.status), r.why});
   }
   std::string out;
   for (const std::string& line : grouped(missing)) out += "- " + printable(line) + "\n";

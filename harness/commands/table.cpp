@@ -53,7 +53,7 @@ Record first_score(const std::string& store) {
   Record out;
   reader.for_each_chunk([&](std::vector<Record>& records) {
     const auto found = std::ranges::find_if(records, [](const Record& r) {
-      return !r.metric.empty() && r.better != metrics::Better::neither;
+      return r.has_score() && r.kind->better != metrics::Better::neither;
     });
     if (found != records.end()) out = *found;
     return found == records.end();
@@ -75,9 +75,9 @@ bool choose_sequences(TableArguments& arguments) {
     add_derived(records, baseline);
     for (const Record& r : records) {
       if (!is_kept(r)) continue;
-      sequences.insert(r.sequence);
-      if (r.metric.empty()) continue;
-      const std::string score = field(r, "score");
+      sequences.insert(r.cell->sequence);
+      if (!r.has_score()) continue;
+      const std::string score = r.kind->short_name();
       known.insert(score);
       if (spec.show.empty() || std::ranges::count(spec.show, score) > 0) scores.insert(score);
     }
@@ -98,10 +98,10 @@ bool choose_sequences(TableArguments& arguments) {
 /// gain and time.
 void choose_for_paper(TableArguments& arguments) {
   const Record first = first_score(arguments.store);
-  if (first.metric.empty()) return;
-  const std::string score = field(first, "score");
+  if (!first.has_score()) return;
+  const std::string score = first.kind->short_name();
   arguments.spec.show = {score};
-  arguments.where = {"relation=\"" + first.relation.text() + "\""};
+  arguments.where = {"relation=\"" + first.kind->relation + "\""};
   if (choose_sequences(arguments)) {
     arguments.spec.split = {"score", "relation"};
     return;

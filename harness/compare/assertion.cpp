@@ -98,7 +98,7 @@ std::string why_not_shown(const Assertion& a, const Comparison& c) {
         fmt::format("--assert: '{}': the best value of {} is {:g}, so that neither above "
                     "nor below is better; expected 'A is not shown to differ from B'",
                     a.text,
-                    metric_label(c.kind).text(),
+                    c.kind.metric_label(),
                     c.kind.target));
   }
   const auto m = std::ranges::find(c.methods, a.method, &MethodVerdict::method);

@@ -6,11 +6,10 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "harness/compare/observations.hpp"
 #include "harness/model/record.hpp"
 #include "harness/model/where.hpp"
 
@@ -25,17 +24,6 @@ struct Tolerance {
   double absolute = 1e-6;                          ///< in the unit of the score
 };
 
-/// One score of one cell with the statistics that have a limit.
-struct GateScore : Record {
-  std::int64_t count = 0;                ///< errors behind the statistics, for example RPE pairs
-  std::map<std::string, double> values;  ///< by statistic; empty if the status has no number
-};
-
-/// The record of a cell without its scores, and these.
-struct GateCell : Record {
-  std::vector<GateScore> scores;
-};
-
 /// The numbers of one sweep, with the definitions of its labels.
 struct Snapshot {
   std::string sweep;
@@ -45,7 +33,14 @@ struct Snapshot {
   std::map<std::string, std::string> protocols;  ///< label and version -> every rule
   std::map<std::string, std::string> metrics;    ///< label -> name, all options
   std::map<std::string, std::string> methods;    ///< label -> stages, all options
-  std::vector<GateCell> cells;
+  /// Neighbours belong to one cell. A cell without checked scores has one record without a score.
+  std::vector<Record> records;
+};
+
+/// Largest error of the numbers in a baseline: absolute + relative * |number|.
+struct Precision {
+  double relative = 0.0;  ///< [-]
+  double absolute = 0.0;  ///< in the unit of the score
 };
 
 struct Baseline {
@@ -55,13 +50,13 @@ struct Baseline {
   Snapshot snapshot;
 };
 
-inline GateScore gate_score(const Record& r, const std::set<std::string>& statistics) {
-  GateScore out{r, 0, {}};
-  if (has_numbers(r.status)) {
-    out.count = static_cast<std::int64_t>(r.statistics.count);
-    for (const std::string& statistic : statistics) out.values[statistic] = value(r, statistic);
-  } else {
-    out.pairs = out.possible = 0;
+/// All statistics that have a limit.
+inline std::vector<std::string> compared_statistics(const std::vector<Tolerance>& limits) {
+  std::vector<std::string> out;
+  for (const Tolerance& limit : limits) {
+    for (const std::string& statistic : limit.values) {
+      if (std::ranges::count(out, statistic) == 0) out.push_back(statistic);
+    }
   }
   return out;
 }
@@ -70,7 +65,7 @@ inline GateScore gate_score(const Record& r, const std::set<std::string>& statis
 inline constexpr std::array kMeasuredTimes{"time", "update_time"};
 
 inline bool is_measured_time(const Record& score) {
-  return std::ranges::count(kMeasuredTimes, score.metric.text()) > 0;
+  return std::ranges::count(kMeasuredTimes, score.kind->metric) > 0;
 }
 
 /// Limits for times, compared between runs on the same CPU: a cell's median wall time [ms], and the
@@ -115,40 +110,34 @@ inline bool is_dirty(const std::map<std::string, std::string>& build_summary) {
   return source != build_summary.end() && source->second.find("dirty") != std::string::npos;
 }
 
-/// "room (repeat 2) / uniform".
-inline std::string name(const GateCell& cell) { return run_name(cell) + " / " + cell.method; }
-
-/// "ate translation 3d, dense, loopbench".
-inline std::string name(const GateScore& score) {
-  std::string out = metric_label(score);
-  for (const std::string& word : {score.relation.text(), score.axis.text()}) {
-    if (!word.empty()) out += " " + word;
+/// The neighbours that belong to one cell.
+inline std::vector<std::span<const Record>> by_cell(const std::vector<Record>& records) {
+  const auto is_same = [](const CellRow& a, const CellRow& b) {
+    return a.sequence == b.sequence && a.repeat == b.repeat && a.method == b.method;
+  };
+  std::vector<std::span<const Record>> out;
+  for (std::size_t end = 0, begin = 0; end < records.size(); begin = end) {
+    while (end < records.size() && is_same(*records[begin].cell, *records[end].cell)) ++end;
+    out.emplace_back(&records[begin], end - begin);
   }
-  return out + ", " + score.times + ", " + score.protocol;
+  return out;
 }
 
-/// The cells of a store's records (without derived ones) with their checked scores and the
-/// statistics in `limits`. Throws InputError for an unknown statistic. O(n log n).
-inline std::vector<GateCell> gate_cells(const std::vector<Record>& records,
-                                        const std::vector<Tolerance>& limits) {
-  std::set<std::string> statistics;
-  for (const Tolerance& limit : limits) {
-    for (const std::string& statistic : limit.values) {
-      value(Record{}, statistic);  // rejects an unknown statistic even without records
-      statistics.insert(statistic);
-    }
-  }
+/// The checked ones of a store's records, for a snapshot. O(n log n).
+inline std::vector<Record> checked_records(std::vector<Record> records,
+                                           const std::vector<Tolerance>& limits) {
   const auto is_kept = is_checked(limits);
-  std::vector<GateCell> out;
-  std::map<std::int64_t, std::size_t> positions;
-  for (const Record& r : records) {
-    const auto [found, is_new] = positions.emplace(r.cell, out.size());
-    if (is_new) {
-      out.push_back({r, {}});
-      if (!r.metric.empty()) out.back().status = Status::ok;  // a cell with scores has no failure
+  const auto position = [](const Record& r) { return r.cell->position; };
+  std::ranges::stable_sort(records, {}, position);  // derived ones are last
+  std::vector<Record> out;
+  for (const std::span<const Record> cell : by_cell(records)) {
+    const std::size_t before = out.size();
+    for (const Record& r : cell) {
+      if (r.has_score() && !is_kept(r)) continue;
+      Record& kept = out.emplace_back(r);
+      if (!has_numbers(r.status)) kept.pairs = kept.possible = 0;
     }
-    if (r.metric.empty() || !is_kept(r)) continue;
-    out[found->second].scores.push_back(gate_score(r, statistics));
+    if (out.size() == before) out.emplace_back().cell = cell.front().cell;
   }
   return out;
 }

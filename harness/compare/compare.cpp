@@ -318,7 +318,7 @@ std::vector<Comparison> compare(std::vector<Observations> all, const CompareOpti
     table.values.clear();  // large
   }
   if (out.empty()) {
-    throw InputError("'" + metric_label(all[0].kind) +
+    throw InputError("'" + all[0].kind.metric_label() +
                      "' is descriptive: no value is better than another");
   }
   return out;

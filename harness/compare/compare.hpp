@@ -16,7 +16,7 @@ namespace loopbench::harness {
 
 /// Unit of observation.
 enum class Over {
-  groups,    ///< runs with the same Record::group, or single runs without a group
+  groups,    ///< runs with the same CellRow::group, or single runs without a group
   sequences  ///< all runs of a sequence or of a group: generalises to other sequences
 };
 
@@ -74,7 +74,7 @@ struct Gap {
 };
 
 struct Comparison {
-  Record kind;  ///< protocol, times, metric, relation, axis, unit
+  ScoreKind kind;  ///< with unit and direction of the statistic
   CompareOptions options;
   std::size_t groups = 0;              ///< observations
   std::size_t runs = 0;                ///< runs used: two ranked methods have a value or failed

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <set>
@@ -12,18 +13,27 @@
 namespace loopbench::harness {
 namespace {
 
-auto comparison_key(const Record& r) {
-  return std::tie(r.sequence, r.repeat, r.protocol, r.times, metric_label(r), r.axis);
-}
-using RowPlace =
-    std::tuple<SharedText, std::int64_t, SharedText, SharedText, SharedText, SharedText>;
-
-const SharedText kAte = "ate";
-const SharedText kTranslation = "translation";
-
 bool is_gain_source(const Record& r) {
-  return r.metric == kAte && r.relation == kTranslation && r.status == Status::ok;
+  return r.kind->metric == "ate" && r.kind->relation == "translation" && r.status == Status::ok;
 }
+
+/// The kind of a derived score for each kind that it is derived from.
+class DerivedKinds {
+ public:
+  template <class Change>
+  const Shared<ScoreKind>& of(const ScoreKind& source, Change change) {
+    const auto [found, is_new] = kinds_.try_emplace(source);
+    if (is_new) {
+      ScoreKind kind = source;
+      change(kind);
+      found->second = std::move(kind);
+    }
+    return found->second;
+  }
+
+ private:
+  std::map<ScoreKind, Shared<ScoreKind>> kinds_;
+};
 
 /// NaN if the baseline has zero error.
 double gain(double value, double baseline) {
@@ -34,31 +44,26 @@ double gain(double value, double baseline) {
 /// The first scores of each cell, protocol and times, by index.
 std::vector<std::size_t> first_scores(const std::vector<Record>& records) {
   std::vector<std::size_t> out;
-  std::set<std::tuple<std::int64_t, SharedText, SharedText>> seen;
+  std::set<std::tuple<std::int64_t, std::string, std::string>> seen;
   const Record* last = nullptr;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const Record& r = records[i];
-    if (r.status != Status::ok || r.metric.empty()) continue;
-    const bool is_like_last = last != nullptr && last->cell == r.cell &&
-                              last->protocol == r.protocol && last->times == r.times;
+    const ScoreKind& kind = *r.kind;
+    if (r.status != Status::ok || !r.has_score()) continue;
+    const bool is_like_last = last != nullptr && last->cell->position == r.cell->position &&
+                              last->kind->protocol == kind.protocol &&
+                              last->kind->times == kind.times;
     last = &r;
-    if (!is_like_last && seen.emplace(r.cell, r.protocol, r.times).second) out.push_back(i);
+    if (is_like_last) continue;
+    if (seen.emplace(r.cell->position, kind.protocol, kind.times).second) out.push_back(i);
   }
   return out;
 }
 
 /// A score of a single number: every statistic has this value.
-Record one_number(const Record& r,
-                  const SharedText& metric,
-                  const SharedText& unit,
-                  metrics::Better better,
-                  double x) {
+Record one_number(const Record& r, const Shared<ScoreKind>& kind, double x) {
   Record one = r;
-  one.metric = metric;
-  one.label.clear();
-  one.better = better;
-  one.relation = one.axis = {};
-  one.unit = unit;
+  one.kind = kind;
   for (const auto& each : metrics::kStatisticFields) one.statistics.*each.member = x;
   one.statistics.count = 1;
   one.statistics.std = 0.0;
@@ -66,25 +71,45 @@ Record one_number(const Record& r,
   return one;
 }
 
+/// The kind of a score of a cell for one protocol and kind of times.
+ScoreKind kind_of_cell(const ScoreKind& any,
+                       const char* metric,
+                       const char* unit,
+                       metrics::Better better) {
+  ScoreKind out;
+  out.protocol = any.protocol;
+  out.protocol_version = any.protocol_version;
+  out.times = any.times;
+  out.metric = metric;
+  out.unit = unit;
+  out.better = better;
+  return out;
+}
+
 }  // namespace
 
 std::vector<Record> gains(const std::vector<Record>& records, const std::string& baseline) {
-  std::map<RowPlace, const metrics::Statistics*> base;
+  using Place = std::tuple<SharedText, std::int64_t, ScoreKind>;
+  std::map<Place, const metrics::Statistics*, std::less<>> base;
+  const auto place = [](const Record& r) {
+    return std::tie(r.cell->sequence, r.cell->repeat, *r.kind);
+  };
   for (const Record& r : records) {
-    if (is_gain_source(r) && r.method == baseline) base.emplace(comparison_key(r), &r.statistics);
+    if (is_gain_source(r) && r.cell->method == baseline) base.emplace(place(r), &r.statistics);
   }
-  const SharedText metric = "gain";
-  const SharedText unit = "%";
+  DerivedKinds kinds;
   std::vector<Record> out;
   for (const Record& r : records) {
-    const auto found = is_gain_source(r) ? base.find(comparison_key(r)) : base.end();
+    const auto found = is_gain_source(r) ? base.find(place(r)) : base.end();
     if (found == base.end()) continue;
     const metrics::Statistics& b = *found->second;
     Record g = r;
-    g.metric = metric;
-    g.label = metric_label(r) == "ate" ? "" : "gain (" + metric_label(r) + ")";
-    g.better = metrics::Better::higher;
-    g.unit = unit;
+    g.kind = kinds.of(*r.kind, [&](ScoreKind& kind) {
+      kind.metric = "gain";
+      kind.label = r.kind->metric_label() == "ate" ? "" : "gain (" + r.kind->metric_label() + ")";
+      kind.better = metrics::Better::higher;
+      kind.unit = "%";
+    });
     for (const auto& each : metrics::kStatisticFields) {
       g.statistics.*each.member = gain(r.statistics.*each.member, b.*each.member);
     }
@@ -98,23 +123,28 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
 }
 
 std::vector<Record> run_times(const std::vector<Record>& records) {
-  const SharedText metric = "time";
-  const SharedText unit = "ms";
+  DerivedKinds kinds;
   std::vector<Record> out;
   for (const std::size_t i : first_scores(records)) {
     const Record& r = records[i];
-    if (std::isnan(r.milliseconds)) continue;
-    out.push_back(one_number(r, metric, unit, metrics::Better::lower, r.milliseconds));
+    const double milliseconds = r.cell->milliseconds();
+    if (std::isnan(milliseconds)) continue;
+    const auto& kind = kinds.of(*r.kind, [](ScoreKind& own) {
+      own = kind_of_cell(own, "time", "ms", metrics::Better::lower);
+    });
+    out.push_back(one_number(r, kind, milliseconds));
   }
   return out;
 }
 
 std::vector<Record> pair_counts(const std::vector<Record>& records) {
-  const SharedText metric = "pairs";
+  DerivedKinds kinds;
   std::vector<Record> out;
   for (const std::size_t i : first_scores(records)) {
-    const auto pairs = static_cast<double>(records[i].pairs);
-    out.push_back(one_number(records[i], metric, {}, metrics::Better::neither, pairs));
+    const auto& kind = kinds.of(*records[i].kind, [](ScoreKind& own) {
+      own = kind_of_cell(own, "pairs", "", metrics::Better::neither);
+    });
+    out.push_back(one_number(records[i], kind, static_cast<double>(records[i].pairs)));
   }
   return out;
 }

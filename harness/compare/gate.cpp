@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/fields.hpp"
@@ -22,14 +21,14 @@ int severity(Status status) {
 }
 
 /// Positive: worse.
-double loss(const GateScore& score, double before, double now) {
-  switch (score.better) {
+double loss(const ScoreKind& kind, double before, double now) {
+  switch (kind.better) {
     case metrics::Better::lower:
       return now - before;
     case metrics::Better::higher:
       return before - now;
     case metrics::Better::target:
-      return std::abs(now - score.target) - std::abs(before - score.target);
+      return std::abs(now - kind.target) - std::abs(before - kind.target);
     case metrics::Better::neither:
       return std::abs(now - before);
   }
@@ -37,42 +36,53 @@ double loss(const GateScore& score, double before, double now) {
 }
 
 /// Whether at most a hundredth of an error is left. Times can shrink that much.
-bool has_vanished(const GateScore& score, double before, double now) {
+bool has_vanished(const Record& score, double before, double now) {
   if (is_measured_time(score)) return false;
-  if (score.better != metrics::Better::lower && score.better != metrics::Better::target)
-    return false;
-  const double best = score.better == metrics::Better::target ? score.target : 0.0;
+  const ScoreKind& kind = *score.kind;
+  if (kind.better != metrics::Better::lower && kind.better != metrics::Better::target) return false;
+  const double best = kind.better == metrics::Better::target ? kind.target : 0.0;
   return std::abs(now - best) <= 0.01 * std::abs(before - best);
 }
 
 /// Reason why the two numbers cannot be compared, or empty.
-std::string why_not_comparable(const GateScore& before, const GateScore& now) {
+std::string why_not_comparable(const ScoreKind& before, const ScoreKind& now) {
   if (now.metric != before.metric) {
-    return fmt::format("metric '{}', was '{}'", now.metric.text(), before.metric.text());
+    return fmt::format("metric '{}', was '{}'", now.metric, before.metric);
   }
-  if (now.unit != before.unit)
-    return fmt::format("unit '{}', was '{}'", now.unit.text(), before.unit.text());
+  if (now.unit != before.unit) return fmt::format("unit '{}', was '{}'", now.unit, before.unit);
   if (now.better == before.better && now.target == before.target) return "";
-  const auto direction = [](const GateScore& score) {
-    return score.better == metrics::Better::target ? fmt::format("target {}", score.target)
-                                                   : to_text(score.better);
+  const auto direction = [](const ScoreKind& kind) {
+    return kind.better == metrics::Better::target ? fmt::format("target {}", kind.target)
+                                                  : to_text(kind.better);
   };
   return fmt::format("best value: {}, was: {}", direction(now), direction(before));
+}
+
+/// The records of one cell.
+using Cell = std::span<const Record>;
+
+std::string name(const Cell& cell) { return cell.front().cell->name(); }
+
+/// A cell with scores has no failure of its own.
+Status status_of(const Cell& cell) {
+  return cell.front().has_score() ? Status::ok : cell.front().status;
 }
 
 class Checker {
  public:
   Checker(const Baseline& baseline, const Snapshot& now, GateExtent extent)
       : extent_(extent), limit_of_(limit_of(baseline.limits)) {
-    for (const GateCell& cell : now.cells) now_.emplace(key(cell), &cell);
-    const auto is_there = [&](const GateCell& cell) { return now_.contains(key(cell)); };
-    if (std::ranges::none_of(baseline.snapshot.cells, is_there)) {
+    const std::vector<Cell> before = by_cell(baseline.snapshot.records);
+    const std::vector<Cell> cells = by_cell(now.records);
+    for (const Cell& cell : cells) now_.emplace(name(cell), cell);
+    const auto is_there = [&](const Cell& cell) { return now_.contains(name(cell)); };
+    if (std::ranges::none_of(before, is_there)) {
       throw InputError("the baseline is from another sweep: the results contain no cell of '" +
                        baseline.snapshot.sweep + "'");
     }
-    for (const GateCell& cell : baseline.snapshot.cells) add(cell);
-    for (const GateCell& cell : now.cells) {
-      if (now_.contains(key(cell)))
+    for (const Cell& cell : before) add(cell);
+    for (const Cell& cell : cells) {
+      if (now_.contains(name(cell)))
         find(Finding::Kind::added, name(cell), "", "not in the baseline");
     }
     if (unlimited_ > 0) {
@@ -92,9 +102,6 @@ class Checker {
   GateReport report() && { return std::move(report_); }
 
  private:
-  using CellKey = std::tuple<std::string, std::int64_t, std::string>;
-  static CellKey key(const GateCell& cell) { return {cell.sequence, cell.repeat, cell.method}; }
-
   void find(Finding::Kind kind,
             const std::string& cell,
             const std::string& score,
@@ -114,11 +121,11 @@ class Checker {
     return has_numbers(before) && has_numbers(now);
   }
 
-  void oracle(const GateCell& before, const GateCell& now) {
+  void oracle(const CellRow& before, const CellRow& now) {
     const auto flag = [&](bool was, bool is, const std::string& what) {
       if (was == is) return;
       find(is ? Finding::Kind::regression : Finding::Kind::improvement,
-           name(before),
+           before.name(),
            "",
            what + (is ? ", was not" : " no longer"));
     };
@@ -128,38 +135,41 @@ class Checker {
          "oracle: closures are measured in the reference");
   }
 
-  void add(const GateCell& before) {
-    const auto found = now_.find(key(before));
+  void add(const Cell& before) {
+    const std::string label = name(before);
+    const auto found = now_.find(label);
     if (found == now_.end() && extent_ == GateExtent::part) return;
     ++report_.cells;
-    report_.names.push_back(name(before));
+    report_.names.push_back(label);
     if (found == now_.end()) {
-      find(Finding::Kind::regression, name(before), "", "missing");
+      find(Finding::Kind::regression, label, "", "missing");
       return;
     }
-    const GateCell& now = *found->second;
+    const Cell now = found->second;
     now_.erase(found);
-    oracle(before, now);
-    if (!status(before.status, now.status, name(before), "")) return;
-    std::map<std::string, const GateScore*> scores;
-    for (const GateScore& score : now.scores) scores.emplace(name(score), &score);
-    for (const GateScore& score : before.scores) {
-      const auto same = scores.find(name(score));
+    oracle(*before.front().cell, *now.front().cell);
+    if (!status(status_of(before), status_of(now), label, "")) return;
+    std::map<std::string, const Record*> scores;
+    for (const Record& score : now) scores.emplace(score.kind->name(), &score);
+    for (const Record& score : before) {
+      if (!score.has_score()) continue;
+      const std::string score_name = score.kind->name();
+      const auto same = scores.find(score_name);
       if (same == scores.end()) {
-        find(Finding::Kind::regression, name(before), name(score), "missing");
-      } else if (status(score.status, same->second->status, name(before), name(score))) {
-        compare(now, score, *same->second);
+        find(Finding::Kind::regression, label, score_name, "missing");
+      } else if (status(score.status, same->second->status, label, score_name)) {
+        compare(score, *same->second);
       }
     }
   }
 
-  void compare(const GateCell& cell, const GateScore& before, const GateScore& now) {
+  void compare(const Record& before, const Record& now) {
     const Tolerance* const limit = limit_of_(before);
     ++(limit == nullptr ? unlimited_ : report_.scores);
     const auto regression = [&](const std::string& what) {
-      find(Finding::Kind::regression, name(cell), name(before), what);
+      find(Finding::Kind::regression, before.cell->name(), before.kind->name(), what);
     };
-    if (const std::string other = why_not_comparable(before, now); !other.empty()) {
+    if (const std::string other = why_not_comparable(*before.kind, *now.kind); !other.empty()) {
       regression(other);
       return;
     }
@@ -173,37 +183,34 @@ class Checker {
                              before.possible));
     }
     if (limit == nullptr) return;
-    const double fewest = static_cast<double>(before.count) * (1.0 - limit->relative);
-    if (static_cast<double>(now.count) < fewest) {
-      regression(fmt::format("statistics over {} errors, was {}", now.count, before.count));
+    const std::size_t count = now.statistics.count;
+    const auto count_before = static_cast<double>(before.statistics.count);
+    if (static_cast<double>(count) < count_before * (1.0 - limit->relative)) {
+      regression(fmt::format("statistics over {} errors, was {}", count, before.statistics.count));
     }
     for (const std::string& statistic : limit->values) {
-      const auto old_value = before.values.find(statistic);
-      const auto new_value = now.values.find(statistic);
-      if (old_value == before.values.end() || new_value == now.values.end()) continue;
-      measure(cell, before, statistic, *limit, old_value->second, new_value->second);
+      measure(before, statistic, *limit, value(now, statistic));
     }
   }
 
-  void measure(const GateCell& cell,
-               const GateScore& score,
+  void measure(const Record& score,
                const std::string& statistic,
                const Tolerance& limit,
-               double before,
                double now) {
+    const double before = value(score, statistic);
     const double allowed = limit.absolute + limit.relative * std::abs(before);
-    const double worse = loss(score, before, now);
+    const double worse = loss(*score.kind, before, now);
     if (std::abs(worse) <= allowed) return;  // NaN exceeds every limit
     if (has_vanished(score, before, now) && ++implausible_ == 1) {
-      first_implausible_ = name(cell) + ", " + name(score);
+      first_implausible_ = score.cell->name() + ", " + score.kind->name();
     }
     find(worse < 0.0 ? Finding::Kind::improvement : Finding::Kind::regression,
-         name(cell),
-         name(score),
+         score.cell->name(),
+         score.kind->name(),
          fmt::format("{} {:.9g} {}, was {:.9g} ({:+.3g} %, limit {:.3g})",
                      statistic,
                      now,
-                     score.unit.text(),
+                     score.kind->unit,
                      before,
                      before == 0.0 ? 0.0 : 100.0 * (now / before - 1.0),
                      allowed));
@@ -213,8 +220,8 @@ class Checker {
   std::function<const Tolerance*(const Record&)> limit_of_;
   std::size_t implausible_ = 0;  // errors that nearly vanished
   std::string first_implausible_;
-  std::size_t unlimited_ = 0;               // scores without a limit
-  std::map<CellKey, const GateCell*> now_;  // that the baseline did not have so far
+  std::size_t unlimited_ = 0;        // scores without a limit
+  std::map<std::string, Cell> now_;  // cells that the baseline did not have so far
   GateReport report_;
 };
 

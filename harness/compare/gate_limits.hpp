@@ -17,9 +17,8 @@ namespace loopbench::harness {
 
 inline bool selects_a_score(const Tolerance& limit, const Snapshot& snapshot) {
   const auto keeps = where(limit.where);
-  return std::ranges::any_of(snapshot.cells, [&](const GateCell& cell) {
-    return std::ranges::any_of(cell.scores, keeps);
-  });
+  return std::ranges::any_of(snapshot.records,
+                             [&](const Record& r) { return r.has_score() && keeps(r); });
 }
 
 inline std::string numbers_of(const Tolerance& limit) {
@@ -49,8 +48,7 @@ inline void require_used_limits(const Baseline& baseline) {
   if (baseline.limits.empty()) {
     throw InputError("limits: is empty, so that every change would pass; expected at least one");
   }
-  const auto has_scores = [](const GateCell& cell) { return !cell.scores.empty(); };
-  if (std::ranges::none_of(baseline.snapshot.cells, has_scores)) return;
+  if (std::ranges::none_of(baseline.snapshot.records, &Record::has_score)) return;
   for (std::size_t i = 0; i < baseline.limits.size(); ++i) {
     const Tolerance& limit = baseline.limits[i];
     if (selects_a_score(limit, baseline.snapshot)) continue;

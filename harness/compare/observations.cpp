@@ -10,23 +10,13 @@
 namespace loopbench::harness {
 namespace {
 
-/// Text that differs between different scores.
-std::string score_key(const Record& r) {
-  std::string out;
-  for (const SharedText* text :
-       {&r.protocol, &r.times, &r.metric, &r.label, &r.relation, &r.axis}) {
-    out += text->text() + '\0';
-  }
-  return out;
-}
-
 double coverage(const Record& r) {
   if (r.possible == 0) return 1.0;
   return std::min(r.span, static_cast<double>(r.pairs) / static_cast<double>(r.possible));
 }
 
 Observed observed(const Record& r, const std::string& value_name) {
-  if (!r.metric.empty() && r.status == Status::ok) {
+  if (r.has_score() && r.status == Status::ok) {
     const double number = value(r, value_name);
     if (std::isfinite(number)) return {number, false, "", coverage(r)};
     return {std::nullopt, true, "not finite"};
@@ -36,12 +26,9 @@ Observed observed(const Record& r, const std::string& value_name) {
 
 }  // namespace
 
-std::string run_name(const Record& r) {
-  return r.repeat == 0 ? r.sequence.text()
-                       : r.sequence + " (repeat " + std::to_string(r.repeat) + ")";
+std::string group_name(const CellRow& cell) {
+  return cell.group.empty() ? cell.run_name() : cell.group.text();
 }
-
-std::string group_name(const Record& r) { return r.group.empty() ? run_name(r) : r.group.text(); }
 
 bool is_loss(const Record& r) { return r.status != Status::ok && r.status != Status::declined; }
 
@@ -57,29 +44,31 @@ void ObservationsBuilder::put(Observations& table, const Unscored& one) {
 }
 
 void ObservationsBuilder::add(const Record& r) {
-  const Unscored one{methods_.index(r.method), run_names_.index(run_name(r)), observed(r, value_)};
+  const CellRow& cell = *r.cell;
+  const std::string run_name = cell.run_name();
+  const Unscored one{methods_.index(cell.method), run_names_.index(run_name), observed(r, value_)};
   if (one.run == runs_.size()) {
-    runs_.push_back({run_name(r), r.sequence, group_name(r), r.content, r.oracle_closures});
+    runs_.push_back(
+        {run_name, cell.sequence, group_name(cell), cell.content, cell.oracle_closures});
   }
-  if (r.oracle) {
+  if (cell.oracle) {
     oracle_runs_.emplace(one.method, one.run);
   } else {
     runs_[one.run].is_fair = true;
   }
-  if (r.metric.empty()) {
+  if (!r.has_score()) {
     for (Observations& table : tables_) put(table, one);
     unscored_.push_back(one);
     return;
   }
-  const std::size_t kind = kinds_.index(score_key(r));
-  if (kind == tables_.size()) {
-    Record& own = tables_.emplace_back().kind;
-    own = r;
-    own.better = direction_of(r, value_);
-    own.unit = unit_of(r, value_);
+  const auto [kind, is_new] = kinds_.try_emplace(*r.kind, tables_.size());
+  if (is_new) {
+    ScoreKind& own = tables_.emplace_back().kind = *r.kind;
+    own.better = direction_of(*r.kind, value_);
+    own.unit = unit_of(*r.kind, value_);
     for (const Unscored& earlier : unscored_) put(tables_.back(), earlier);
   }
-  put(tables_[kind], one);
+  put(tables_[kind->second], one);
 }
 
 std::set<std::size_t> ObservationsBuilder::oracle_methods() const {

@@ -1,6 +1,7 @@
 /// The values of one score by method and run, input of a comparison.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -12,11 +13,8 @@
 
 namespace loopbench::harness {
 
-/// "room" or "room (repeat 2)": name of a record's run.
-std::string run_name(const Record& record);
-
-/// Runs with the same name belong to one group: Record::group, or otherwise the run itself.
-std::string group_name(const Record& record);
+/// Runs with the same name belong to one group: CellRow::group, or otherwise the run itself.
+std::string group_name(const CellRow& cell);
 
 /// Whether a record without a usable value counts as a loss of its method: the method failed,
 /// crashed, exceeded its limits, or its estimate is incomplete or has no score. A method or a score
@@ -43,9 +41,7 @@ struct ObservedRun {
 };
 
 struct Observations {
-  /// Protocol, times, metric, relation, axis, and unit and direction of the statistic, shared by
-  /// all values.
-  Record kind;
+  ScoreKind kind;  ///< of all values, with unit and direction of the statistic
   std::vector<std::string> methods;
   std::vector<ObservedRun> runs;
   std::vector<std::vector<Observed>> values;  ///< [method][run]
@@ -53,7 +49,7 @@ struct Observations {
   std::set<std::string> unstable;    ///< methods that drop_duplicates() found to be random
 };
 
-/// Collects the values of every score (protocol, times, metric, relation, axis), record by record.
+/// Collects the values of every kind of score, record by record.
 class ObservationsBuilder {
  public:
   /// Throws InputError for an unknown statistic.
@@ -77,7 +73,7 @@ class ObservationsBuilder {
   std::set<std::size_t> oracle_methods() const;
 
   std::string value_;
-  NameOrder kinds_;
+  std::map<ScoreKind, std::size_t> kinds_;
   NameOrder methods_;
   NameOrder run_names_;
   std::vector<ObservedRun> runs_;

@@ -68,9 +68,8 @@ T known(const Json& node) {
   return *found;
 }
 
-/// Identification of a score, without its numbers.
-GateScore requested_score(const Json& node) {
-  GateScore out;
+ScoreKind kind_of(const Json& node) {
+  ScoreKind out;
   const auto text = [&](const char* key) { return node.at(key).get<std::string>(); };
   out.protocol = text("protocol");
   out.times = text("times");
@@ -84,47 +83,75 @@ GateScore requested_score(const Json& node) {
   return out;
 }
 
-/// Score `i` of a cell.
-GateScore score_of(const Json& cell,
-                   std::size_t i,
-                   GateScore out,
-                   const std::vector<Tolerance>& limits) {
-  const auto integer = [&](const char* key) {
-    return cell.at(cell.contains(key) ? key : "pairs").at(i).get<std::int64_t>();
-  };
-  out.pairs = integer("pairs");
-  out.possible = integer("possible");
-  out.count = integer("counts");
-  if (cell.contains("statuses")) out.status = known<Status>(cell["statuses"].at(i));
-  if (!has_numbers(out.status)) return out;
-  for (const Tolerance& limit : limits) {
-    for (const std::string& statistic : limit.values) {
-      const Json& number = cell.at(statistic).at(i);
-      out.values[statistic] = number.is_null() ? std::nan("") : number.get<double>();
-    }
+/// [5, 5, 7] of [[5, 2], [7, 1]]; `size`: of the result.
+std::vector<Json> unpacked(const Json& node, std::size_t size) {
+  std::vector<Json> out;
+  for (const Json& entry : node) {
+    const auto count = entry.at(1).get<std::size_t>();
+    out.insert(out.end(), std::min(count, size - out.size()), entry.at(0));
   }
-  return out;
+  if (out.size() == size) return out;
+  throw InputError(fmt::format("expected {} values, found {}", size, node.dump()));
 }
 
-GateCell cell_of(const Json& node,
-                 const std::vector<GateScore>& scores,
-                 const std::vector<Tolerance>& limits) {
-  GateCell out;
-  out.sequence = node.at("sequence").get<std::string>();
-  out.repeat = node.at("repeat").get<std::int64_t>();
-  out.method = node.at("method").get<std::string>();
-  out.oracle = node.value("oracle", false);
-  out.oracle_closures = node.value("oracle_data", false);
-  out.status = known<Status>(node.at("status"));
-  if (!node.contains("pairs")) return out;
-  for (std::size_t i = 0; i < scores.size(); ++i) {
-    if (node["pairs"].at(i).is_null()) continue;
-    GateScore& score = out.scores.emplace_back(score_of(node, i, scores[i], limits));
-    score.sequence = out.sequence;
-    score.repeat = out.repeat;
-    score.method = out.method;
+/// Appends the records of a cell, one for each of `kinds` that it has.
+void add_cell(std::vector<Record>& out,
+              const Json& node,
+              const std::vector<Shared<ScoreKind>>& kinds,
+              const std::vector<std::string>& statistics) {
+  Record first;
+  CellRow& cell = first.cell.edit();
+  cell.sequence = node.at("sequence").get<std::string>();
+  cell.repeat = node.at("repeat").get<std::int64_t>();
+  cell.method = node.at("method").get<std::string>();
+  cell.oracle = node.value("oracle", false);
+  cell.oracle_closures = node.value("oracle_data", false);
+  first.status = known<Status>(node.at("status"));
+  if (!node.contains("pairs")) {
+    out.push_back(first);
+    return;
   }
-  return out;
+  const auto list = [&](const char* key) {
+    return unpacked(node.at(node.contains(key) ? key : "pairs"), kinds.size());
+  };
+  const std::vector<Json> pairs = list("pairs"), possible = list("possible"),
+                          counts = list("counts"), statuses = list("statuses");
+  const bool has_statuses = node.contains("statuses");
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    if (pairs[i].is_null()) continue;
+    Record& score = out.emplace_back(first);
+    score.kind = kinds[i];
+    score.pairs = pairs[i].get<std::int64_t>();
+    score.possible = possible[i].get<std::int64_t>();
+    score.status = has_statuses ? known<Status>(statuses[i]) : Status::ok;
+    score.statistics.count = counts[i].get<std::size_t>();
+    if (!has_numbers(score.status)) continue;
+    for (const std::string& statistic : statistics) {
+      if (statistic == "count") continue;
+      const Json& number = node.at(statistic).at(i);
+      score.statistics.*member_of(statistic) =
+          number.is_null() ? std::nan("") : number.get<double>();
+    }
+  }
+}
+
+/// A limit that is set tighter than the numbers are written would see their rounding.
+void require_seen(const std::vector<Tolerance>& limits,
+                  const Precision& precision,
+                  const std::string& file) {
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const Tolerance& limit = limits[i];
+    if (limit.relative >= 10.0 * precision.relative && limit.absolute >= 10.0 * precision.absolute)
+      continue;
+    throw InputError(
+        fmt::format("{}: limits[{}]: is too tight for the numbers of the file, which are rounded "
+                    "to relative {:g}, absolute {:g}; write it again with --update (limits are "
+                    "kept)",
+                    file,
+                    i,
+                    precision.relative,
+                    precision.absolute));
+  }
 }
 
 Baseline baseline_of(const Json& root, const std::string& file) {
@@ -139,11 +166,14 @@ Baseline baseline_of(const Json& root, const std::string& file) {
   root.at("protocols").get_to(snapshot.protocols);
   root.at("metrics").get_to(snapshot.metrics);
   root.at("methods").get_to(snapshot.methods);
-  std::vector<GateScore> scores;
-  for (const Json& entry : root.at("scores")) scores.push_back(requested_score(entry));
-  for (const Json& entry : root.at("cells")) {
-    snapshot.cells.push_back(cell_of(entry, scores, out.limits));
-  }
+  const Json& precision = root.at("precision");
+  require_seen(out.limits,
+               {precision.at("relative").get<double>(), precision.at("absolute").get<double>()},
+               file);
+  std::vector<Shared<ScoreKind>> kinds;
+  for (const Json& entry : root.at("scores")) kinds.emplace_back(kind_of(entry));
+  const std::vector<std::string> statistics = compared_statistics(out.limits);
+  for (const Json& entry : root.at("cells")) add_cell(snapshot.records, entry, kinds, statistics);
   return out;
 }
 
@@ -179,14 +209,12 @@ Baseline parse_baseline(const std::string& text, const std::string& file) {
   return read_json(text, file, [&](const Json& root) {
     const Json format = root.value("loopbench_baseline", Json());
     if (format != kBaselineFormat) {
-      throw InputError(
-          fmt::format("{}: loopbench_baseline: found format {}, expected {}: it lacks data that "
-                      "format {} compares; check the results, then write it again with --update "
-                      "(limits are kept)",
-                      file,
-                      format.dump(),
-                      kBaselineFormat,
-                      kBaselineFormat));
+      throw InputError(fmt::format(
+          "{}: loopbench_baseline: found format {}, expected {}; check the results, then "
+          "write it again with check --update (limits are kept)",
+          file,
+          format.dump(),
+          kBaselineFormat));
     }
     const std::string digest = digest_of(text);
     const Json found = root.value("digest", Json());

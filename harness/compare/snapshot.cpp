@@ -9,7 +9,6 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
-#include "harness/compare/observations.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/store/read.hpp"
 #include "harness/store/record_reader.hpp"
@@ -17,7 +16,7 @@
 namespace loopbench::harness {
 namespace {
 
-constexpr std::size_t kMostScores = 1'000'000;  ///< with rmse and max about 1 GB of memory
+constexpr std::size_t kMostScores = 1'000'000;  ///< about 200 MB of memory
 
 /// Format of a stored list of definitions, one per line: the delimiter after the label, and how
 /// much of it belongs to the label.
@@ -60,8 +59,8 @@ void add_recorded_sequences(const std::filesystem::path& store,
                             const std::string& options,
                             Snapshot& out) {
   const auto inputs = read_inputs(store);
-  for (const GateCell& cell : out.cells) {
-    const std::string label = run_name(cell);
+  for (const Record& r : out.records) {
+    const std::string label = r.cell->run_name();
     const auto files = inputs.find(label);
     if (files == inputs.end() || out.sequences.contains(label)) continue;
     const auto reference = std::ranges::find(files->second, "reference", &InputFile::option);
@@ -73,11 +72,8 @@ void add_recorded_sequences(const std::filesystem::path& store,
 void add_sequences(const std::filesystem::path& store, Snapshot& out) {
   const auto inputs = read_inputs(store);
   const auto options = read_dataset_options(store);
-  for (const CellRecord& cell : read_cells(store)) {
-    Record named;
-    named.sequence = cell.sequence;
-    named.repeat = cell.repeat;
-    const std::string label = run_name(named);
+  for (const CellRow& cell : read_cells(store)) {
+    const std::string label = cell.run_name();
     if (out.sequences.contains(label)) continue;
     const auto files = inputs.find(label);
     const auto own = options.find(label);
@@ -86,8 +82,9 @@ void add_sequences(const std::filesystem::path& store, Snapshot& out) {
                            (files == inputs.end() ? "" : inputs_of(files->second));
   }
   std::set<std::string> grouped;
-  for (const GateCell& cell : out.cells) {
-    const std::string label = run_name(cell);
+  for (const Record& r : out.records) {
+    const CellRow& cell = *r.cell;
+    const std::string label = cell.run_name();
     if (!cell.content.empty()) out.contents[label] = cell.content;
     // Larger groups leave fewer independent runs, so that the test could no longer fail.
     const bool is_stated = cell.group.text().starts_with("group:");
@@ -163,15 +160,13 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
   out.metrics = definitions(text_of(run, "metrics", store), "\t", 0);
   out.methods = definitions(text_of(run, "methods", store), "\t", 0);
   const bool has_times = limits_time(limits);
-  std::size_t numbers = 0;
-  gate_cells({}, limits);  // rejects an unknown statistic even without records
+  for (const Tolerance& limit : limits) {  // rejects an unknown statistic
+    for (const std::string& statistic : limit.values) value({}, statistic);
+  }
   RecordReader(store).for_each_chunk([&](std::vector<Record>& records) {
     if (has_times) std::ranges::move(run_times(records), std::back_inserter(records));
-    for (GateCell& cell : gate_cells(records, limits)) {
-      numbers += cell.scores.size();
-      out.cells.push_back(std::move(cell));
-    }
-    if (numbers <= kMostScores) return true;
+    std::ranges::move(checked_records(std::move(records), limits), std::back_inserter(out.records));
+    if (out.records.size() <= kMostScores) return true;
     throw InputError(fmt::format(
         "{}: has more than {} scores to check, which a baseline cannot hold; restrict them by the "
         "`where` of the baseline's limits",
@@ -183,7 +178,7 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
     const std::string cpu = value_of("cpu");
     out.protocols["time"] = cpu == "unknown" ? "on an unknown CPU" : "on " + cpu;
   }
-  if (out.cells.empty()) throw InputError(store.string() + ": has no cells to check");
+  if (out.records.empty()) throw InputError(store.string() + ": has no cells to check");
   if (const auto config = run.find("config"); config != run.end() && is_recorded(config->second)) {
     add_recorded_sequences(store, recorded_options(config->second), out);
   } else {

@@ -267,18 +267,17 @@ std::string verdict(const Comparison& c) {
 
 std::string statement(const Comparison& c) {
   std::string out;
-  for (const std::string& word :
-       {c.kind.relation.text(), c.kind.axis == "3d" ? "" : c.kind.axis.text()}) {
+  for (const std::string& word : {c.kind.relation, c.kind.axis == "3d" ? "" : c.kind.axis}) {
     if (!word.empty()) out += word + " ";
   }
   const std::string unit = c.kind.unit.empty() ? "" : " [" + c.kind.unit + "]";
   return fmt::format("{}{}, {}{}, {}, {}: {}",
                      out,
-                     metric_label(c.kind).text(),
+                     c.kind.metric_label(),
                      c.options.value,
                      unit,
-                     c.kind.times.text(),
-                     c.kind.protocol.text(),
+                     c.kind.times,
+                     c.kind.protocol,
                      verdict(c));
 }
 

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <span>
 
 #include "datasets/core/fields.hpp"
 #include "harness/base/hash.hpp"
@@ -13,60 +16,80 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Identification of a score, without its numbers.
-Json requested_score_json(const GateScore& s) {
-  Json out{{"protocol", s.protocol.text()},
-           {"times", s.times.text()},
-           {"metric", s.metric.text()},
-           {"label", s.label.text()},
-           {"relation", s.relation.text()},
-           {"axis", s.axis.text()},
-           {"unit", s.unit.text()},
-           {"better", to_text(s.better)}};
-  if (s.better == metrics::Better::target) out["target"] = s.target;
+Json kind_json(const ScoreKind& kind) {
+  Json out{{"protocol", kind.protocol},
+           {"times", kind.times},
+           {"metric", kind.metric},
+           {"label", kind.label},
+           {"relation", kind.relation},
+           {"axis", kind.axis},
+           {"unit", kind.unit},
+           {"better", to_text(kind.better)}};
+  if (kind.better == metrics::Better::target) out["target"] = kind.target;
   return out;
 }
 
-Json head(const GateCell& cell) {
+Json head(const Record& first) {
+  const CellRow& cell = *first.cell;
   Json out{
       {"sequence", cell.sequence.text()}, {"repeat", cell.repeat}, {"method", cell.method.text()}};
   if (cell.oracle) out["oracle"] = true;
   if (cell.oracle_closures) out["oracle_data"] = true;
-  out["status"] = to_text(cell.status);
+  out["status"] = to_text(first.has_score() ? Status::ok : first.status);
   return out;
 }
 
-Json cell_json(const GateCell& cell,
-               const std::vector<GateScore>& requested_scores,
-               const std::vector<std::string>& statistics) {
-  Json out = head(cell);
-  if (cell.scores.empty()) return out;
-  std::vector<const GateScore*> found;
-  for (const GateScore& requested : requested_scores) {
-    const auto same = std::ranges::find(
-        cell.scores, name(requested), [](const GateScore& score) { return name(score); });
-    found.push_back(same == cell.scores.end() ? nullptr : &*same);
+/// [[5, 2], [7, 1]] for [5, 5, 7]: each value with the number of its repetitions.
+Json repeated(const Json& values) {
+  Json out = Json::array();
+  for (const Json& value : values) {
+    if (out.empty() || out.back().front() != value) out.push_back(Json::array({value, 0}));
+    out.back().back() = out.back().back().get<int>() + 1;
   }
+  return out;
+}
+
+/// The number with as few digits as `precision` allows.
+double rounded(double number, const Precision& precision) {
+  const double error = precision.absolute + precision.relative * std::abs(number);
+  if (!std::isfinite(number) || number == 0.0 || error == 0.0) return number;
+  const double last = std::floor(std::log10(error));  // power of ten of the last digit
+  const auto digits = static_cast<int>(std::floor(std::log10(std::abs(number))) - last);
+  if (digits < 0) return 0.0;
+  return digits > 16 ? number : std::stod(fmt::format("{:.{}e}", number, digits));
+}
+
+Json cell_json(std::span<const Record> cell,
+               const std::vector<std::string>& names,
+               const std::vector<std::string>& statistics,
+               const Precision& precision) {
+  Json out = head(cell.front());
+  if (!cell.front().has_score()) return out;
+  std::map<std::string, const Record*> scores;
+  for (const Record& score : cell) scores.emplace(score.kind->name(), &score);
   const auto list = [&](auto entry) {
     Json values = Json::array();
-    for (const GateScore* score : found) {
-      values.push_back(score == nullptr ? Json(nullptr) : Json(entry(*score)));
+    for (const std::string& name : names) {
+      const auto found = scores.find(name);
+      values.push_back(found == scores.end() ? Json(nullptr) : Json(entry(*found->second)));
     }
     return values;
   };
-  const auto is_ok = [](const GateScore& score) { return score.status == Status::ok; };
-  if (!std::ranges::all_of(cell.scores, is_ok)) {
-    out["statuses"] = list([](const GateScore& score) { return to_text(score.status); });
+  const auto is_ok = [](const Record& score) { return score.status == Status::ok; };
+  if (!std::ranges::all_of(cell, is_ok)) {
+    out["statuses"] = repeated(list([](const Record& score) { return to_text(score.status); }));
   }
-  const Json pairs = list([](const GateScore& score) { return score.pairs; });
-  const Json possible = list([](const GateScore& score) { return score.possible; });
-  const Json counts = list([](const GateScore& score) { return score.count; });
-  out["pairs"] = pairs;
-  if (possible != pairs) out["possible"] = possible;
-  if (counts != pairs) out["counts"] = counts;
+  const Json pairs = list([](const Record& score) { return score.pairs; });
+  const Json possible = list([](const Record& score) { return score.possible; });
+  const Json counts = list(
+      [](const Record& score) { return has_numbers(score.status) ? score.statistics.count : 0; });
+  out["pairs"] = repeated(pairs);
+  if (possible != pairs) out["possible"] = repeated(possible);
+  if (counts != pairs) out["counts"] = repeated(counts);
   for (const std::string& statistic : statistics) {
-    out[statistic] = list([&](const GateScore& score) {
-      return has_numbers(score.status) ? Json(score.values.at(statistic)) : Json(nullptr);
+    out[statistic] = list([&](const Record& score) {
+      if (!has_numbers(score.status)) return Json(nullptr);
+      return Json(rounded(value(score, statistic), precision));
     });
   }
   return out;
@@ -79,26 +102,24 @@ Json written(const Tolerance& limit) {
           {"absolute", limit.absolute}};
 }
 
-/// All statistics that have a limit.
-std::vector<std::string> compared_statistics(const std::vector<Tolerance>& limits) {
-  std::vector<std::string> out;
-  for (const Tolerance& limit : limits) {
-    for (const std::string& statistic : limit.values) {
-      if (std::ranges::count(out, statistic) == 0) out.push_back(statistic);
-    }
-  }
-  return out;
+/// A thousandth of the smallest limits.
+Precision precision_of(const std::vector<Tolerance>& limits) {
+  if (limits.empty()) return {};
+  return {std::ranges::min(limits, {}, &Tolerance::relative).relative * 0.001,
+          std::ranges::min(limits, {}, &Tolerance::absolute).absolute * 0.001};
 }
 
 }  // namespace
 
 std::string json(const Baseline& baseline) {
-  std::vector<GateScore> requested_scores;
-  std::map<std::string, bool> seen;
-  for (const GateCell& cell : baseline.snapshot.cells) {
-    for (const GateScore& score : cell.scores) {
-      if (seen.emplace(name(score), true).second) requested_scores.push_back(score);
-    }
+  std::vector<std::string> names;
+  std::vector<Json> scores;
+  std::set<std::string> seen;
+  for (const Record& score : baseline.snapshot.records) {
+    std::string name = score.has_score() ? score.kind->name() : "";
+    if (name.empty() || !seen.insert(name).second) continue;
+    names.push_back(std::move(name));
+    scores.push_back(kind_json(*score.kind));
   }
   const std::vector<std::string> statistics = compared_statistics(baseline.limits);
   const auto text = [](const Json& node) {
@@ -112,11 +133,10 @@ std::string json(const Baseline& baseline) {
   };
   std::vector<Json> limits;
   for (const Tolerance& limit : baseline.limits) limits.push_back(written(limit));
-  std::vector<Json> scores;
-  for (const GateScore& score : requested_scores) scores.push_back(requested_score_json(score));
   std::vector<Json> cells;
-  for (const GateCell& cell : baseline.snapshot.cells) {
-    cells.push_back(cell_json(cell, requested_scores, statistics));
+  const Precision precision = precision_of(baseline.limits);
+  for (const std::span<const Record> cell : by_cell(baseline.snapshot.records)) {
+    cells.push_back(cell_json(cell, names, statistics, precision));
   }
   const Snapshot& snapshot = baseline.snapshot;
   std::string out = fmt::format("{{\n\"loopbench_baseline\": {},\n", kBaselineFormat);
@@ -127,6 +147,7 @@ std::string json(const Baseline& baseline) {
   member("build_summary", baseline.build_summary);
   member("machine", snapshot.machine);
   out += lines("limits", limits) + ",\n";
+  member("precision", {{"relative", precision.relative}, {"absolute", precision.absolute}});
   member("sequences", snapshot.sequences);
   member("contents", snapshot.contents);
   member("protocols", snapshot.protocols);

@@ -111,14 +111,15 @@ Evaluations stored(RecordedSweep files,
   if (visit) visit(file);
   Evaluations out{{}, read_records(file), std::move(files.runs)};
   std::ranges::stable_sort(out.records, {}, [&](const Record& record) {
-    return files.cells[static_cast<std::size_t>(record.cell)].dataset;  // the order of the files
+    return files.cells[static_cast<std::size_t>(record.cell->position)]
+        .dataset;  // the order of the files
   });
   if (!a.unit.empty()) change_unit(out.records, a.unit);
   for (EvaluatedFile& each : all) {
     for (EvaluationResult& own : each.protocols) {
       std::ranges::copy_if(out.records, std::back_inserter(own.records), [&](const Record& r) {
-        return r.cell == static_cast<std::int64_t>(each.result.cell.index) &&
-               own.why_failed.empty() && r.protocol == own.protocol.label();
+        return r.cell->position == static_cast<std::int64_t>(each.result.cell.index) &&
+               own.why_failed.empty() && r.kind->protocol == own.protocol.label();
       });
       out.results.push_back(std::move(own));
     }

@@ -8,7 +8,7 @@
 
 #include "harness/eval/arguments.hpp"
 #include "harness/eval/recorded_evaluation.hpp"
-#include "harness/run/collect_provenance.hpp"
+#include "harness/run/build.hpp"
 
 namespace loopbench::harness {
 

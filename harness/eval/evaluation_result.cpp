@@ -36,17 +36,18 @@ Json to_json(const Params& params) {
 }
 
 Json to_json(const Record& record) {
-  Json out{{"metric", std::string(record.metric)}, {"label", std::string(record.label)}};
-  if (!record.relation.empty()) {
-    out["relation"] = std::string(record.relation);
-    out["axis"] = std::string(record.axis);
+  Json out{{"metric", std::string(record.kind->metric)},
+           {"label", std::string(record.kind->label)}};
+  if (!record.kind->relation.empty()) {
+    out["relation"] = std::string(record.kind->relation);
+    out["axis"] = std::string(record.kind->axis);
   }
   if (!has_numbers(record.status)) {
     out["why"] = std::string(record.why);
     return out;
   }
   const metrics::Statistics& s = record.statistics;
-  out["unit"] = std::string(record.unit);
+  out["unit"] = std::string(record.kind->unit);
   for (const auto& each : metrics::kStatisticFields) {
     if (has_direction(each.name)) out[each.name] = s.*each.member;
   }
@@ -150,11 +151,11 @@ void change_unit(std::vector<Record>& records, const std::string& unit) {
   }
   bool is_used = false;
   for (Record& record : records) {
-    const auto from = units.find(record.unit);
+    const auto from = units.find(record.kind->unit);
     if (from == units.end()) continue;
     const double factor = units.at(unit) / from->second;
     is_used = true;
-    record.unit = unit;
+    record.kind.edit().unit = unit;
     metrics::Statistics& s = record.statistics;
     for (const auto& each : metrics::kStatisticFields) s.*each.member *= factor;
     s.sse *= factor;  // has the squared unit

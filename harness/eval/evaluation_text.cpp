@@ -63,17 +63,19 @@ std::string diagnosis_text(const std::vector<metrics::Score>& diagnosis, std::si
   return out + line + "\n";
 }
 
-bool is_total(const Record& record) { return record.axis == "3d" || record.axis == "all"; }
+bool is_total(const Record& record) {
+  return record.kind->axis == "3d" || record.kind->axis == "all";
+}
 
 /// "rpe 1 s x [m]", without the unit if there is none.
 std::string score_name(const Record& record) {
-  std::string out = metric_label(record);
-  if (record.relation != "translation" && record.relation != "rotation" &&
-      !record.relation.empty()) {
-    out += " " + record.relation;
+  std::string out = record.kind->metric_label();
+  if (record.kind->relation != "translation" && record.kind->relation != "rotation" &&
+      !record.kind->relation.empty()) {
+    out += " " + record.kind->relation;
   }
-  if (!is_total(record) && !record.axis.empty()) out += " " + record.axis;
-  return record.unit.empty() ? out : out + " [" + record.unit + "]";
+  if (!is_total(record) && !record.kind->axis.empty()) out += " " + record.kind->axis;
+  return record.kind->unit.empty() ? out : out + " [" + record.kind->unit + "]";
 }
 
 /// Undefined scores and failed metrics, as notes of `row`.
@@ -115,11 +117,11 @@ bool fits(const std::string& text, std::size_t columns) {
 /// The coverage as a score, for tables.
 Record coverage_record(const EvaluationResult& result) {
   Record out;
-  out.metric = "coverage";
-  out.axis = "3d";
-  out.relation = "translation";
-  out.unit = "%";
-  out.protocol = result.protocol.label();
+  out.kind.edit().metric = "coverage";
+  out.kind.edit().axis = "3d";
+  out.kind.edit().relation = "translation";
+  out.kind.edit().unit = "%";
+  out.kind.edit().protocol = result.protocol.label();
   out.statistics = metrics::single("coverage", "", "%", 100.0 * result.coverage.least()).statistics;
   return out;
 }
@@ -127,9 +129,9 @@ Record coverage_record(const EvaluationResult& result) {
 /// Whether a summary shows the record: ATE, RPE over 1 s or random pairs, and the
 /// segments of protocols that set their lengths.
 bool is_in_summary(const Record& record, const metrics::Protocol& protocol) {
-  const SharedText& label = metric_label(record);
-  return record.metric == "ate" || label == "rpe 1 s" || label == "rpe" ||
-         (record.metric == "segments" && protocol.segments != metrics::SegmentErrorRule{});
+  const std::string& label = record.kind->metric_label();
+  return record.kind->metric == "ate" || label == "rpe 1 s" || label == "rpe" ||
+         (record.kind->metric == "segments" && protocol.segments != metrics::SegmentErrorRule{});
 }
 
 /// Rows of the comparison: the estimate is the method, and no score is ranked.
@@ -139,7 +141,7 @@ std::vector<Record> compared_records(const EvaluationResult& result,
                                      bool has_totals) {
   std::vector<Record> out;
   for (const Record& record : result.records) {
-    const bool is_shown = record.relation.empty() || !has_totals || is_total(record);
+    const bool is_shown = record.kind->relation.empty() || !has_totals || is_total(record);
     const bool is_wanted =
         detail != Detail::summary || is_in_summary(record, result.protocol.rules);
     if (is_shown && is_wanted) out.push_back(record);
@@ -149,15 +151,15 @@ std::vector<Record> compared_records(const EvaluationResult& result,
     out.front() = {};
     out.front().status = Status::failed;
     out.front().why = result.why_failed;
-    out.front().protocol = result.protocol.label();
+    out.front().kind.edit().protocol = result.protocol.label();
   }
   for (Record& record : out) {
-    record.sequence = result.reference;
-    record.method = name;
-    record.repeat = 0;
-    record.content = "";
-    record.group = "";
-    record.better = metrics::Better::neither;
+    record.cell.edit().sequence = result.reference;
+    record.cell.edit().method = name;
+    record.cell.edit().repeat = 0;
+    record.cell.edit().content = "";
+    record.cell.edit().group = "";
+    record.kind.edit().better = metrics::Better::neither;
   }
   return out;
 }

@@ -12,32 +12,26 @@
 namespace loopbench::harness {
 namespace {
 
-bool is_total_score(const Record& r) { return r.axis.empty() || r.axis == "3d" || r.axis == "all"; }
-
 /// The score of a protocol that summarises runs.
-std::optional<Record> run_score(const std::vector<Record>& records, const SharedText& protocol) {
+std::optional<Record> run_score(const std::vector<Record>& records, const std::string& protocol) {
   std::optional<Record> first;
   std::optional<Record> first_axis;
   for (const Record& r : records) {
-    if (r.metric.empty() || r.protocol != protocol) continue;
-    if (is_total_score(r) && metric_label(r) == "ate" && r.relation == "translation") return r;
-    std::optional<Record>& known = is_total_score(r) ? first : first_axis;
-    if (!known && r.better != metrics::Better::neither) known = r;
+    if (!r.has_score() || r.kind->protocol != protocol) continue;
+    if (r.kind->is_total() && r.kind->metric_label() == "ate" && r.kind->relation == "translation")
+      return r;
+    std::optional<Record>& known = r.kind->is_total() ? first : first_axis;
+    if (!known && r.kind->better != metrics::Better::neither) known = r;
   }
   return first ? first : first_axis;
 }
 
-bool is_score(const Record& r, const Record& score) {
-  return !r.metric.empty() && r.protocol == score.protocol &&
-         metric_label(r) == metric_label(score) && r.relation == score.relation &&
-         r.axis == score.axis && r.unit == score.unit;
-}
-
 /// The protocols in order of appearance.
-std::vector<SharedText> protocols_of(const std::vector<Record>& records) {
-  std::vector<SharedText> out;
+std::vector<std::string> protocols_of(const std::vector<Record>& records) {
+  std::vector<std::string> out;
   for (const Record& r : records) {
-    if (!r.protocol.empty() && std::ranges::count(out, r.protocol) == 0) out.push_back(r.protocol);
+    if (!r.kind->protocol.empty() && std::ranges::count(out, r.kind->protocol) == 0)
+      out.push_back(r.kind->protocol);
   }
   return out;
 }
@@ -46,16 +40,16 @@ std::vector<SharedText> protocols_of(const std::vector<Record>& records) {
 std::vector<Record> of_score(const std::vector<Record>& records, const Record& score) {
   std::vector<Record> out;
   for (const Record& r : records) {
-    if (r.metric.empty() || is_score(r, score)) out.push_back(r);
+    if (!r.has_score() || r.kind == score.kind) out.push_back(r);
   }
-  for (Record& r : out) r.protocol = score.protocol;
+  for (Record& r : out) r.kind.edit().protocol = score.kind->protocol;
   return out;
 }
 
 /// Whether a method has several runs on a sequence.
 bool has_repeats(const std::vector<Record>& records) {
   std::map<std::pair<SharedText, SharedText>, std::set<std::int64_t>> runs;
-  for (const Record& r : records) runs[{r.sequence, r.method}].insert(r.repeat);
+  for (const Record& r : records) runs[{r.cell->sequence, r.cell->method}].insert(r.cell->repeat);
   return std::ranges::any_of(runs, [](const auto& each) { return each.second.size() > 1; });
 }
 
@@ -76,8 +70,8 @@ std::string report_of(const std::vector<Record>& records,
   NameOrder methods;
   std::set<SharedText> with_values;
   for (const Record& r : records) {
-    methods.index(r.method);
-    if (r.status == Status::ok) with_values.insert(r.method);
+    methods.index(r.cell->method);
+    if (r.status == Status::ok) with_values.insert(r.cell->method);
   }
   const std::vector<std::string>& names = methods.names();
   const bool is_several = has_repeats(records);
@@ -109,12 +103,12 @@ std::string report_of(const std::vector<Record>& records,
 std::string run_report(const std::vector<Record>& records,
                        const std::optional<TerminalStyle>& style,
                        bool paired) {
-  const std::vector<SharedText> protocols = protocols_of(records);
+  const std::vector<std::string> protocols = protocols_of(records);
   std::string out;
-  for (const SharedText& protocol : protocols) {
+  for (const std::string& protocol : protocols) {
     const std::optional<Record> score = run_score(records, protocol);
     if (!score) continue;
-    const std::string title = protocols.size() > 1 ? protocol.text() : "";
+    const std::string title = protocols.size() > 1 ? protocol : "";
     out += report_of(of_score(records, *score), title, style, paired);
   }
   return out;

@@ -1,5 +1,6 @@
 #include "harness/model/record.hpp"
 
+#include <limits>
 #include <utility>
 
 #include "datasets/core/error.hpp"
@@ -8,37 +9,48 @@
 namespace loopbench::harness {
 namespace {
 
-std::string short_score(const Record& record) {
-  std::string out = metric_label(record);
-  if (record.relation != "translation" && record.relation != "rotation") {
-    out += " " + record.relation;
-  }
-  if (record.axis != "3d") out += " " + record.axis;
+using FieldText = std::string (*)(const Record&);
+constexpr std::pair<const char*, FieldText> kFields[] = {
+    {"sequence", [](const Record& r) { return r.cell->sequence.text(); }},
+    {"repeat", [](const Record& r) { return std::to_string(r.cell->repeat); }},
+    {"method", [](const Record& r) { return r.cell->method.text(); }},
+    {"closures", [](const Record& r) { return r.cell->closures.text(); }},
+    {"protocol", [](const Record& r) { return r.kind->protocol; }},
+    {"protocol_version", [](const Record& r) { return r.kind->protocol_version; }},
+    {"times", [](const Record& r) { return r.kind->times; }},
+    {"metric", [](const Record& r) { return r.kind->metric; }},
+    {"label", [](const Record& r) { return r.kind->metric_label(); }},
+    {"relation", [](const Record& r) { return r.kind->relation; }},
+    {"axis", [](const Record& r) { return r.kind->axis; }},
+    {"unit", [](const Record& r) { return r.kind->unit; }},
+    {"status", [](const Record& r) { return to_text(r.status); }},
+    {"score", [](const Record& r) { return r.kind->short_name(); }}};
+
+}  // namespace
+
+double CellRow::milliseconds() const {
+  const bool is_unknown = runs == 0 && has_numbers(status);
+  return is_unknown ? std::numeric_limits<double>::quiet_NaN() : seconds * 1000;
+}
+
+std::string CellRow::run_name() const {
+  return repeat == 0 ? sequence.text() : sequence + " (repeat " + std::to_string(repeat) + ")";
+}
+
+std::string ScoreKind::short_name() const {
+  std::string out = metric_label();
+  if (relation != "translation" && relation != "rotation") out += " " + relation;
+  if (axis != "3d") out += " " + axis;
   while (out.ends_with(' ')) out.pop_back();
   return out;
 }
 
-using FieldText = std::string (*)(const Record&);
-constexpr std::pair<const char*, FieldText> kFields[] = {
-    {"sequence", [](const Record& r) { return r.sequence.text(); }},
-    {"repeat", [](const Record& r) { return std::to_string(r.repeat); }},
-    {"method", [](const Record& r) { return r.method.text(); }},
-    {"closures", [](const Record& r) { return r.closures.text(); }},
-    {"protocol", [](const Record& r) { return r.protocol.text(); }},
-    {"protocol_version", [](const Record& r) { return r.protocol_version.text(); }},
-    {"times", [](const Record& r) { return r.times.text(); }},
-    {"metric", [](const Record& r) { return r.metric.text(); }},
-    {"label", [](const Record& r) { return metric_label(r).text(); }},
-    {"relation", [](const Record& r) { return r.relation.text(); }},
-    {"axis", [](const Record& r) { return r.axis.text(); }},
-    {"unit", [](const Record& r) { return r.unit.text(); }},
-    {"status", [](const Record& r) { return to_text(r.status); }},
-    {"score", short_score}};
-
-}  // namespace
-
-const SharedText& metric_label(const Record& record) {
-  return record.label.empty() ? record.metric : record.label;
+std::string ScoreKind::name() const {
+  std::string out = metric_label();
+  for (const std::string& word : {relation, axis}) {
+    if (!word.empty()) out += " " + word;
+  }
+  return out + ", " + times + ", " + protocol;
 }
 
 std::string field(const Record& record, const std::string& name) {
@@ -52,12 +64,15 @@ std::string field(const Record& record, const std::string& name) {
 
 double value(const Record& record, const std::string& name) {
   if (name == "count") return static_cast<double>(record.statistics.count);
-  for (const auto& [known, member, share] : metrics::kStatisticFields) {
-    if (name == known || (name == "p50" && member == &metrics::Statistics::median)) {
-      return record.statistics.*member;
-    }
+  return record.statistics.*member_of(name);
+}
+
+double metrics::Statistics::*member_of(const std::string& statistic) {
+  const std::string name = statistic == "p50" ? "median" : statistic;
+  for (const auto& each : metrics::kStatisticFields) {
+    if (name == each.name) return each.member;
   }
-  throw InputError(unknown_name("statistic", name, statistic_names()));
+  throw InputError(unknown_name("statistic", statistic, statistic_names()));
 }
 
 std::vector<std::string> statistic_names() {
@@ -77,15 +92,15 @@ bool has_direction(const std::string& statistic) {
   return statistic != "count" && statistic != "sse";
 }
 
-metrics::Better direction_of(const Record& record, const std::string& statistic) {
-  return has_direction(statistic) ? record.better : metrics::Better::neither;
+metrics::Better direction_of(const ScoreKind& kind, const std::string& statistic) {
+  return has_direction(statistic) ? kind.better : metrics::Better::neither;
 }
 
-std::string unit_of(const Record& record, const std::string& statistic) {
-  const std::string unit = record.unit;
+std::string unit_of(const ScoreKind& kind, const std::string& statistic) {
+  const std::string& unit = kind.unit;
   if (statistic == "count") return "";
   // The sum of squares of a gain is the gain of the sum of squares.
-  const bool is_squared = statistic == "sse" && record.metric != "gain";
+  const bool is_squared = statistic == "sse" && kind.metric != "gain";
   if (!is_squared || unit.empty() || unit == "1") return unit;
   const bool is_product = unit.find_first_of("/* ^") != std::string::npos;
   return (is_product ? "(" + unit + ")" : unit) + "^2";

@@ -1,11 +1,14 @@
-/// One line of the long table: a score with all its labels.
+/// One line of the long table: a score with its cell and what it is.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "harness/base/shared.hpp"
 #include "harness/base/shared_text.hpp"
 #include "harness/model/status.hpp"
 #include "methods/report.hpp"
@@ -14,43 +17,12 @@
 
 namespace loopbench::harness {
 
-/// In `CellRecord::worker`: the times are statements of a program.
+/// In `CellRow::worker`: the times are statements of a program.
 inline constexpr const char* kStatedTimes = ", times as stated";
 
-/// A declined or failed cell has one record with empty metric and the reason.
-struct Record {
-  std::int64_t cell = 0;  ///< position in the sweep
-  SharedText sequence;
-  std::int64_t repeat = 0;
-  SharedText method;
-  SharedText closures;
-  bool oracle_closures = false;
-  bool oracle = false;        ///< the method has access to the reference
-  double milliseconds = 0.0;  ///< median time of the method; NaN: not recorded
-  bool is_stated = false;     ///< that time is the statement of a program
-  SharedText protocol;        ///< label; empty if not applicable, as are the next two
-  SharedText protocol_version;
-  SharedText times;   ///< keyframes | dense
-  SharedText metric;  ///< catalogue name; or gain, pairs, time
-  SharedText label;   ///< of the metric in the config; empty: the metric's name
-  SharedText relation;
-  SharedText axis;
-  SharedText unit;
-  metrics::Better better = metrics::Better::lower;
-  double target = 0.0;  ///< best value where `better` is target
-  SharedText group;     ///< runs of one group are not independent; empty: a group of its own
-  SharedText content;   ///< hash of problem and reference, equal for equal inputs; can be empty
-  metrics::Statistics statistics;
-  std::int64_t pairs = 0;     ///< evaluated pose pairs
-  std::int64_t possible = 0;  ///< possible pose pairs; 0: unknown
-  double span = 1.0;          ///< evaluated share of the reference's time, 0..1
-  Status status = Status::ok;
-  SharedText why;
-};
-
-/// A cell without its scores.
-struct CellRecord {
-  std::int64_t position = 0;  ///< in the sweep: Record::cell
+/// What is known about a cell, apart from its scores.
+struct CellRow {
+  std::int64_t position = 0;  ///< in the sweep
   std::string key;            ///< content key: equal keys mean equal results
   SharedText build;
   SharedText sequence;
@@ -60,14 +32,15 @@ struct CellRecord {
   SharedText method_options;
   SharedText closures;
   bool oracle_closures = false;
-  bool oracle = false;
-  SharedText content;              ///< hash of problem and reference; empty: unknown
+  bool oracle = false;  ///< the method has access to the reference
+  SharedText group;     ///< runs of one group are not independent; empty: a group of its own
+  SharedText content;   ///< hash of problem and reference, equal for equal inputs; can be empty
   std::int64_t keyframes = 0;      ///< of the sequence; 0: it could not be loaded
   std::int64_t closure_count = 0;  ///< of the sequence
-  SharedText worker;  ///< "isolated" or "in process", with ", serial" and ", pinned" if so, and
-                      ///< kStatedTimes
-  std::int64_t runs = 0;
-  double seconds = 0.0;  ///< time of the method: median, then minimum and maximum
+  SharedText worker;      ///< "isolated" or "in process", with ", serial" and ", pinned" if so, and
+                          ///< kStatedTimes
+  std::int64_t runs = 0;  ///< that were timed
+  double seconds = 0.0;   ///< time of the method: median, then minimum and maximum
   double seconds_min = 0.0;
   double seconds_max = 0.0;
   std::optional<double> cpu_seconds;         ///< median
@@ -79,20 +52,78 @@ struct CellRecord {
   std::vector<methods::Phase> phases;
   std::vector<methods::Count> counts;
   std::vector<std::string> notes;
+
+  /// Median time of the method; NaN: not recorded.
+  double milliseconds() const;
+
+  /// Whether that time is the statement of a program.
+  bool is_stated() const { return worker.text().ends_with(kStatedTimes); }
+
+  /// "room" or "room (repeat 2)".
+  std::string run_name() const;
+
+  /// "room (repeat 2) / uniform".
+  std::string name() const { return run_name() + " / " + method; }
 };
 
-/// Name of the record's metric in tables: its label in the config, or its name.
-const SharedText& metric_label(const Record& record);
+/// What a score is: the same for all its values. Kinds are equal if they are one score; its
+/// direction follows from that.
+struct ScoreKind {
+  std::string protocol;  ///< label; empty if not applicable, as are the next two
+  std::string protocol_version;
+  std::string times;   ///< keyframes | dense
+  std::string metric;  ///< catalogue name; or gain, pairs, time; empty: no score
+  std::string label;   ///< of the metric in the config; empty: the metric's name
+  std::string relation;
+  std::string axis;
+  std::string unit;
+  metrics::Better better = metrics::Better::lower;
+  double target = 0.0;  ///< best value where `better` is target
+
+  auto id() const {
+    return std::tie(relation, axis, label, metric, unit, times, protocol, protocol_version);
+  }
+  friend auto operator<=>(const ScoreKind& a, const ScoreKind& b) { return a.id() <=> b.id(); }
+  friend bool operator==(const ScoreKind& a, const ScoreKind& b) { return a.id() == b.id(); }
+
+  /// Name of the metric in tables: its label in the config, or its name.
+  const std::string& metric_label() const { return label.empty() ? metric : label; }
+
+  /// "ate", "error x": without the defaults (translation; rotation, implied by the unit; 3d).
+  std::string short_name() const;
+
+  /// "ate translation 3d, dense, loopbench".
+  std::string name() const;
+
+  /// Whether it is over all axes.
+  bool is_total() const { return axis.empty() || axis == "3d" || axis == "all"; }
+};
+
+/// A score of a cell. A declined or failed cell has one without a metric, with the reason.
+struct Record {
+  Shared<CellRow> cell;
+  Shared<ScoreKind> kind;
+  metrics::Statistics statistics;
+  std::int64_t pairs = 0;     ///< evaluated pose pairs
+  std::int64_t possible = 0;  ///< possible pose pairs; 0: unknown
+  double span = 1.0;          ///< evaluated share of the reference's time, 0..1
+  Status status = Status::ok;
+  SharedText why;
+
+  bool has_score() const { return !kind->metric.empty(); }
+};
 
 /// Text in the named column of a record: sequence, repeat, method, closures, protocol,
-/// protocol_version, times, metric, label, relation, axis, unit, status, or `score`: label,
-/// relation and axis without the defaults (translation; rotation, implied by the unit; 3d). Throws
-/// InputError with a suggestion for another name.
+/// protocol_version, times, metric, label, relation, axis, unit, status, or `score`: the short
+/// name. Throws InputError with a suggestion for another name.
 std::string field(const Record& record, const std::string& name);
 
 /// Value of a record's named statistic; p50 is the median. Throws InputError with a suggestion for
 /// another name.
 double value(const Record& record, const std::string& name);
+
+/// The member of a statistic other than count; throws likewise.
+double metrics::Statistics::*member_of(const std::string& statistic);
 
 /// Names of all statistics: rmse, mean, ..., count.
 std::vector<std::string> statistic_names();
@@ -106,7 +137,7 @@ std::vector<std::string> directed_statistics();
 
 /// Direction and unit of value(): neither without a direction; no unit for count, the squared unit
 /// for sse.
-metrics::Better direction_of(const Record& record, const std::string& statistic);
-std::string unit_of(const Record& record, const std::string& statistic);
+metrics::Better direction_of(const ScoreKind& kind, const std::string& statistic);
+std::string unit_of(const ScoreKind& kind, const std::string& statistic);
 
 }  // namespace loopbench::harness

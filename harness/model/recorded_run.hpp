@@ -39,7 +39,7 @@ inline std::string why_other_options(std::string_view earlier, std::string_view 
 
 inline constexpr std::string_view kOnRecording = " on recording ";
 
-/// Record::group of a run. The recording is identified by the poses of the reference, because the
+/// CellRow::group of a run. The recording is identified by the poses of the reference, because the
 /// same recording under several names is not several independent sequences.
 inline std::string recorded_group(const std::string& run, const std::string& recording) {
   return "run " + run + std::string(kOnRecording) + recording;
@@ -51,7 +51,7 @@ inline std::string_view recording_of(std::string_view group) {
   return at == group.npos ? std::string_view() : group.substr(at + kOnRecording.size());
 }
 
-/// Record::content of a run from the content (estimate and reference) of each of its methods: two
+/// CellRow::content of a run from the content (estimate and reference) of each of its methods: two
 /// runs are one observation only if the outputs of all methods are equal. A method that is added
 /// later, or only to some runs, changes it. Empty if a method's content is unknown.
 inline std::string recorded_content(const std::map<std::string, std::string>& content_by_method) {

@@ -69,11 +69,11 @@ Condition condition(const std::string& part) {
 
 bool holds(const Condition& condition, const Record& record) {
   const std::string text = field(record, condition.field);
-  if (record.metric.empty() && text.empty()) return true;
+  if (!record.has_score() && text.empty()) return true;
   const auto is = [&](const std::string& own) {
     return condition.pattern ? condition.pattern->matches_part(own) : own == condition.text;
   };
-  const bool is_label = condition.field == "metric" && is(metric_label(record));
+  const bool is_label = condition.field == "metric" && is(record.kind->metric_label());
   return (is(text) || is_label) == condition.is_wanted;
 }
 

@@ -27,10 +27,10 @@ void read_scores(const std::string& baseline, std::size_t bytes, ReportContent& 
   std::set<SharedText> taken;
   reader.for_each([&](const Record& r) {
     if (!baseline.empty()) observed.add(r);
-    if (!r.metric.empty() && r.status != Status::ok) out.undefined.push_back(r);
+    if (r.has_score() && r.status != Status::ok) out.undefined.push_back(r);
     const bool has_room = out.records.size() < bytes / kLeastBytesOfAScore;
-    if (taken.empty() || has_room) taken.insert(r.sequence);
-    if (taken.contains(r.sequence)) out.records.push_back(r);
+    if (taken.empty() || has_room) taken.insert(r.cell->sequence);
+    if (taken.contains(r.cell->sequence)) out.records.push_back(r);
   });
   std::vector<Observations> all = observed.build();
   if (!all.empty()) out.comparisons = compare(std::move(all), options);
@@ -57,9 +57,9 @@ void ReportContent::show(std::size_t count) {
   shown = std::min(count, shown);
   const std::set<std::string> kept(sequences.begin(),
                                    sequences.begin() + static_cast<std::ptrdiff_t>(shown));
-  const auto is_hidden = [&](const auto& one) { return !kept.contains(one.sequence.text()); };
+  const auto is_hidden = [&](const CellRow& cell) { return !kept.contains(cell.sequence); };
   std::erase_if(shown_cells, is_hidden);
-  std::erase_if(records, is_hidden);
+  std::erase_if(records, [&](const Record& r) { return is_hidden(*r.cell); });
 }
 
 ReportContent read_report_content(const std::filesystem::path& store, std::size_t bytes) {
@@ -72,15 +72,15 @@ ReportContent read_report_content(const std::filesystem::path& store, std::size_
   read_scores(baseline, bytes, out);
   out.cells = read_cells(store);
   if (out.cells.empty()) throw InputError(store.string() + ": has no cells to report");
-  for (const CellRecord& cell : out.cells) {
+  for (const CellRow& cell : out.cells) {
     add_new(out.sequences, cell.sequence);
     add_new(out.methods, cell.method);
   }
   add_derived(out.records, baseline);
   std::set<SharedText> with_records;
-  for (const Record& r : out.records) with_records.insert(r.sequence);
+  for (const Record& r : out.records) with_records.insert(r.cell->sequence);
   out.shown = out.sequences.size();
-  for (const CellRecord& cell : out.cells) {
+  for (const CellRow& cell : out.cells) {
     if (with_records.contains(cell.sequence)) out.shown_cells.push_back(cell);
   }
   out.show(with_records.size());

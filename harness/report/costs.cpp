@@ -12,15 +12,15 @@ namespace {
 
 struct CellsOfMethod {
   std::string name;  ///< as in other tables
-  std::vector<const CellRecord*> all;
-  std::vector<const CellRecord*> timed;  ///< with results and run times
+  std::vector<const CellRow*> all;
+  std::vector<const CellRow*> timed;  ///< with results and run times
 };
 
 /// In order of first appearance.
-std::vector<CellsOfMethod> by_method(const std::vector<CellRecord>& cells) {
+std::vector<CellsOfMethod> by_method(const std::vector<CellRow>& cells) {
   NameOrder methods;
   std::vector<CellsOfMethod> out;
-  for (const CellRecord& cell : cells) {
+  for (const CellRow& cell : cells) {
     const std::size_t index = methods.index(cell.method);
     if (index == out.size()) out.push_back({cell.method, {}, {}});
     if (cell.oracle) out[index].name = cell.method.text() + " (oracle)";
@@ -32,9 +32,9 @@ std::vector<CellsOfMethod> by_method(const std::vector<CellRecord>& cells) {
 
 /// The values that the cells have.
 template <class Get>
-std::vector<double> values_of(const std::vector<const CellRecord*>& cells, Get get) {
+std::vector<double> values_of(const std::vector<const CellRow*>& cells, Get get) {
   std::vector<double> out;
-  for (const CellRecord* cell : cells) {
+  for (const CellRow* cell : cells) {
     if (const auto value = get(*cell)) out.push_back(static_cast<double>(*value));
   }
   return out;
@@ -45,10 +45,10 @@ std::string milliseconds(const std::vector<double>& seconds) {
 }
 
 /// With the wall time beside a time that programs state.
-std::string time_text(const std::vector<const CellRecord*>& cells) {
+std::string time_text(const std::vector<const CellRow*>& cells) {
   const std::string time =
       milliseconds(values_of(cells, [](const auto& c) { return std::optional(c.seconds); }));
-  const std::vector<double> wall = values_of(cells, [](const CellRecord& cell) {
+  const std::vector<double> wall = values_of(cells, [](const CellRow& cell) {
     const auto found = std::ranges::find(cell.phases, kWallPhase, &methods::Phase::name);
     return found == cell.phases.end() ? std::nullopt : std::optional(found->seconds);
   });
@@ -63,19 +63,19 @@ std::string megabytes(const std::vector<double>& bytes) {
   return bytes.empty() ? "-" : fmt::format("{:.1f}", 1e-6 * std::ranges::max(bytes));
 }
 
-std::optional<double> iterations(const CellRecord& cell) {
+std::optional<double> iterations(const CellRow& cell) {
   const auto found = std::ranges::find(cell.counts, "iterations", &methods::Count::name);
   return found == cell.counts.end() ? std::nullopt : std::optional(found->value);
 }
 
 /// One row per phase and count that a method reports: medians over its cells.
-Table reported(const std::vector<CellRecord>& cells) {
+Table reported(const std::vector<CellRow>& cells) {
   Table out{"reported by the methods", {"method", "what", "name", "median"}, {}, {}};
   for (const CellsOfMethod& method : by_method(cells)) {
     const auto add = [&](const char* what, auto list, auto value, auto text) {
       NameOrder names;
       std::vector<std::vector<double>> values;
-      for (const CellRecord* cell : method.timed) {
+      for (const CellRow* cell : method.timed) {
         for (const auto& item : cell->*list) {
           const std::size_t index = names.index(item.name);
           values.resize(names.names().size());
@@ -86,15 +86,15 @@ Table reported(const std::vector<CellRecord>& cells) {
         out.lines.push_back({method.name, what, names.names()[i], text(values[i])});
       }
     };
-    add("phase [ms]", &CellRecord::phases, &methods::Phase::seconds, milliseconds);
-    add("count", &CellRecord::counts, &methods::Count::value, median_count);
+    add("phase [ms]", &CellRow::phases, &methods::Phase::seconds, milliseconds);
+    add("count", &CellRow::counts, &methods::Count::value, median_count);
   }
   return out;
 }
 
 }  // namespace
 
-Table costs(const std::vector<CellRecord>& cells) {
+Table costs(const std::vector<CellRow>& cells) {
   Table out{"costs",
             {"method",
              "cells",
@@ -114,7 +114,7 @@ Table costs(const std::vector<CellRecord>& cells) {
       std::ranges::any_of(cells, [](const auto& cell) { return has_numbers(cell.status); });
   if (has_results && !has_times) return out;
   for (const CellsOfMethod& method : by_method(cells)) {
-    const auto failed = std::ranges::count_if(method.all, [](const CellRecord* cell) {
+    const auto failed = std::ranges::count_if(method.all, [](const CellRow* cell) {
       return !has_numbers(cell->status) && cell->status != Status::declined;
     });
     const auto values = [&](const auto& get) { return values_of(method.timed, get); };

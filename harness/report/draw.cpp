@@ -193,13 +193,13 @@ std::vector<std::string> figure_panels(const std::vector<std::string>& names, bo
   return out;
 }
 
-FigureData sequence_figure_data(const std::vector<CellRecord>& cells,
+FigureData sequence_figure_data(const std::vector<CellRow>& cells,
                                 Traces& traces,
                                 const std::string& sequence,
                                 const std::vector<std::string>& methods,
                                 const std::vector<std::string>& all_methods) {
   std::set<std::int64_t> repeats;
-  for (const CellRecord& cell : cells) {
+  for (const CellRow& cell : cells) {
     if (cell.sequence == sequence) repeats.insert(cell.repeat);
   }
   FigureData out{sequence, "", {}, {}};
@@ -210,7 +210,7 @@ FigureData sequence_figure_data(const std::vector<CellRecord>& cells,
   }
   Vector3 origin = Vector3::Zero();
   for (const std::string& method : methods) {
-    const auto cell = std::ranges::find_if(cells, [&](const CellRecord& c) {
+    const auto cell = std::ranges::find_if(cells, [&](const CellRow& c) {
       return c.sequence == sequence && c.repeat == first && c.method == method;
     });
     if (cell == cells.end()) continue;

@@ -71,7 +71,7 @@ std::vector<std::string> figure_panels(const std::vector<std::string>& names, bo
 /// states, in their order; methods without a trace are skipped. The style of a method depends on
 /// its index in `all_methods` of the sweep, so that it is the same in every figure. No curves
 /// without a trace.
-FigureData sequence_figure_data(const std::vector<CellRecord>& cells,
+FigureData sequence_figure_data(const std::vector<CellRow>& cells,
                                 Traces& traces,
                                 const std::string& sequence,
                                 const std::vector<std::string>& methods,

@@ -125,14 +125,14 @@ nlohmann::json sections_json(const std::vector<methods::Section>& sections, doub
 }
 
 /// The repeats of each sequence, in order.
-std::map<std::string, std::set<std::int64_t>> repeats_of(const std::vector<CellRecord>& cells) {
+std::map<std::string, std::set<std::int64_t>> repeats_of(const std::vector<CellRow>& cells) {
   std::map<std::string, std::set<std::int64_t>> out;
-  for (const CellRecord& cell : cells) out[cell.sequence].insert(cell.repeat);
+  for (const CellRow& cell : cells) out[cell.sequence].insert(cell.repeat);
   return out;
 }
 
 /// Cells of the first `repeats` repeats of their sequence, as indices into `cells`.
-std::vector<std::size_t> drawn_cells(const std::vector<CellRecord>& cells, std::size_t repeats) {
+std::vector<std::size_t> drawn_cells(const std::vector<CellRow>& cells, std::size_t repeats) {
   const auto known = repeats_of(cells);
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -168,7 +168,7 @@ nlohmann::json traces_json(const ReportContent& content, const Thinning& thinnin
   nlohmann::json grids = nlohmann::json::array();
   nlohmann::json cells = nlohmann::json::object();
   for (const std::size_t i : drawn_cells(content.shown_cells, thinning.repeats)) {
-    const CellRecord& cell = content.shown_cells[i];
+    const CellRow& cell = content.shown_cells[i];
     const std::string repeat = std::to_string(cell.repeat);
     nlohmann::json& sequence = sequences[cell.sequence];
     if (sequence.is_null() || !sequence["runs"].contains(repeat)) {

@@ -41,7 +41,7 @@ std::string reasons_table(const std::string& title,
 /// Cells without scores, or with too little coverage.
 std::map<Reason, Affected> reasons_of_cells(const ReportContent& content) {
   std::map<Reason, Affected> out;
-  for (const CellRecord& cell : content.cells) {
+  for (const CellRow& cell : content.cells) {
     if (cell.status == Status::ok && cell.why.empty()) continue;
     const std::string status = cell.status == Status::ok ? "not evaluated" : to_text(cell.status);
     const std::string why =
@@ -56,16 +56,17 @@ std::map<Reason, Affected> reasons_of_cells(const ReportContent& content) {
 /// Scores missing from cells that finished.
 std::map<Reason, Affected> reasons_of_scores(const ReportContent& content) {
   std::set<std::int64_t> finished;
-  for (const CellRecord& cell : content.cells) {
+  for (const CellRow& cell : content.cells) {
     if (has_numbers(cell.status)) finished.insert(cell.position);
   }
   std::map<Reason, Affected> out;
   for (const Record& r : content.undefined) {
-    if (!finished.contains(r.cell)) continue;
-    Affected& affected = out[{to_text(r.status), r.method, r.why}];
-    affected.cells.insert(r.cell);
-    affected.sequences.insert(r.sequence);
-    affected.scores.insert(field(r, "score") + (r.unit.empty() ? "" : " [" + r.unit + "]"));
+    if (!finished.contains(r.cell->position)) continue;
+    Affected& affected = out[{to_text(r.status), r.cell->method, r.why}];
+    affected.cells.insert(r.cell->position);
+    affected.sequences.insert(r.cell->sequence);
+    affected.scores.insert(r.kind->short_name() +
+                           (r.kind->unit.empty() ? "" : " [" + r.kind->unit + "]"));
   }
   return out;
 }

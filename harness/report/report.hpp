@@ -20,7 +20,7 @@ struct ReportContent {
   std::map<std::string, std::string> run;
   std::map<std::string, std::string> provenance;
   std::map<std::string, std::vector<InputFile>> inputs;
-  std::vector<CellRecord> cells;
+  std::vector<CellRow> cells;
   std::vector<Comparison> comparisons;  ///< one for each score; empty without a baseline
   std::vector<Record> undefined;        ///< scores without a value, or of incomplete estimates
   std::vector<std::string> sequences;   ///< labels in the order of the sweep
@@ -28,7 +28,7 @@ struct ReportContent {
 
   /// Tables by sequence and figures are of the first sequences, as many as a report can hold.
   std::size_t shown = 0;
-  std::vector<CellRecord> shown_cells;
+  std::vector<CellRow> shown_cells;
   std::vector<Record> records;  ///< of shown cells, including gains, pair counts and times
 
   std::span<const std::string> shown_sequences() const { return std::span(sequences).first(shown); }

@@ -1,19 +1,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <tuple>
 
 #include "harness/report/curve.hpp"
 #include "harness/report/data.hpp"
 
 namespace loopbench::harness {
 namespace {
-
-using ScoreKind =
-    std::tuple<std::string, std::string, std::string, std::string, std::string, std::string>;
-
-ScoreKind score_kind(const Record& r) {
-  return {r.protocol, r.times, metric_label(r), r.relation, r.axis, r.unit};
-}
 
 /// In the order of `statistics`: rmse, mean, median, max.
 nlohmann::json statistics_json(const metrics::Statistics& s) {
@@ -32,20 +24,21 @@ nlohmann::json scores_json(const ReportContent& content) {
   nlohmann::json kinds = nlohmann::json::array();
   std::map<std::int64_t, std::map<std::size_t, const Record*>> scores;  // by cell, by kind
   for (const Record& r : content.records) {
-    if (r.metric.empty() || r.metric == "pairs" || r.metric == "time" || r.status != Status::ok)
+    if (!r.has_score() || r.kind->metric == "pairs" || r.kind->metric == "time" ||
+        r.status != Status::ok)
       continue;
-    const auto [found, is_new] = index_of_kind.emplace(score_kind(r), kinds.size());
+    const auto [found, is_new] = index_of_kind.try_emplace(*r.kind, kinds.size());
     if (is_new) {
-      kinds.push_back({{"label", field(r, "score")},
-                       {"protocol", r.protocol},
-                       {"times", r.times},
-                       {"metric", metric_label(r)},
-                       {"relation", r.relation},
-                       {"axis", r.axis},
-                       {"unit", r.unit},
-                       {"better", to_text(r.better)}});
+      kinds.push_back({{"label", r.kind->short_name()},
+                       {"protocol", r.kind->protocol},
+                       {"times", r.kind->times},
+                       {"metric", r.kind->metric_label()},
+                       {"relation", r.kind->relation},
+                       {"axis", r.kind->axis},
+                       {"unit", r.kind->unit},
+                       {"better", to_text(r.kind->better)}});
     }
-    scores[r.cell][found->second] = &r;
+    scores[r.cell->position][found->second] = &r;
   }
   std::map<std::string, std::size_t> sequence;
   std::map<std::string, std::size_t> method;
@@ -54,7 +47,7 @@ nlohmann::json scores_json(const ReportContent& content) {
   std::vector<bool> oracle(content.methods.size(), false);
 
   nlohmann::json cells = nlohmann::json::array();
-  for (const CellRecord& cell : content.shown_cells) {
+  for (const CellRow& cell : content.shown_cells) {
     const std::size_t m = method.at(cell.method);
     if (cell.oracle) oracle[m] = true;
     nlohmann::json values = nlohmann::json::array();

@@ -22,11 +22,13 @@ std::string plural(std::size_t number, const std::string& one) {
 }
 
 std::string score_name(const Comparison& c) {
-  return field(c.kind, "score") + " " + c.options.value + " [" + c.kind.unit + "]";
+  return c.kind.short_name() + " " + c.options.value + " [" + c.kind.unit + "]";
 }
 
 /// Gains and times are shown next to the names, so that they need no scrolling.
-bool is_shown_first(const Record& r) { return r.metric == "gain" || r.metric == "time"; }
+bool is_shown_first(const Record& r) {
+  return r.kind->metric == "gain" || r.kind->metric == "time";
+}
 
 /// The gain in large type with its interval, if it can be stated as one number.
 std::string key_figure(const Comparison& c) {
@@ -36,9 +38,8 @@ std::string key_figure(const Comparison& c) {
   const bool is_shown = best.beats_baseline;
   std::string out = std::string("<div class=\"key") + (is_shown ? "" : " open") +
                     "\"><span class=\"number\">" + percent(best.ratio->typical.estimate) +
-                    " %</span><span class=\"what\">" + html_text(field(c.kind, "score")) +
-                    " of <b>" + html_text(best.method) + "</b> against " +
-                    html_text(c.options.baseline);
+                    " %</span><span class=\"what\">" + html_text(c.kind.short_name()) + " of <b>" +
+                    html_text(best.method) + "</b> against " + html_text(c.options.baseline);
   if (best.ratio->has_interval) {
     out += fmt::format("<br>{:g} % interval {} to {} %, ",
                        100.0 * (1.0 - c.options.alpha),
@@ -55,17 +56,17 @@ std::string key_figure(const Comparison& c) {
 /// The first score in large type, for a single method.
 std::string only_score(const ReportContent& content) {
   const auto first = std::ranges::find_if(
-      content.records, [](const Record& r) { return !r.metric.empty() && r.status == Status::ok; });
+      content.records, [](const Record& r) { return r.has_score() && r.status == Status::ok; });
   if (first == content.records.end()) return "";
   return fmt::format(
       "<div class=\"key\"><span class=\"number\">{:.4g} {}</span><span class=\"what\">{} of "
       "<b>{}</b>, rmse, {}, {}</span></div>\n",
       first->statistics.rmse,
-      html_text(first->unit.text()),
-      html_text(field(*first, "score")),
-      html_text(first->method.text()),
-      html_text(first->times.text()),
-      html_text(first->protocol.text()));
+      html_text(first->kind->unit),
+      html_text(first->kind->short_name()),
+      html_text(first->cell->method.text()),
+      html_text(first->kind->times),
+      html_text(first->kind->protocol));
 }
 
 }  // namespace
@@ -73,7 +74,7 @@ std::string only_score(const ReportContent& content) {
 std::string summary_html(const ReportContent& content) {
   std::map<Status, std::size_t> statuses;
   std::set<std::int64_t> repeats;
-  for (const CellRecord& cell : content.cells) {
+  for (const CellRow& cell : content.cells) {
     ++statuses[cell.status];
     repeats.insert(cell.repeat);
   }
@@ -109,7 +110,7 @@ std::string summary_html(const ReportContent& content) {
            html_text(fmt::format("{}", fmt::join(headline->oracles, ", "))) + "</p>\n";
   }
   std::set<std::string> measured;
-  for (const CellRecord& cell : content.cells) {
+  for (const CellRow& cell : content.cells) {
     if (cell.oracle_closures) measured.insert(cell.sequence);
   }
   if (measured.empty()) return out;
@@ -143,15 +144,15 @@ std::string scores_html(const ReportContent& content) {
   std::map<SharedText, std::vector<Record>> by_sequence;
   for (const bool first : {true, false}) {
     for (const Record& r : content.records) {
-      if (is_shown_first(r) == first) by_sequence[r.sequence].push_back(r);
+      if (is_shown_first(r) == first) by_sequence[r.cell->sequence].push_back(r);
     }
   }
   const auto part = [&](const std::string& sequence, const std::string& times) {
     std::vector<Record> records;
     for (const Record& r : by_sequence[sequence]) {
-      if (r.times == times || r.metric.empty()) records.push_back(r);
+      if (r.kind->times == times || !r.has_score()) records.push_back(r);
     }
-    if (std::ranges::all_of(records, [](const Record& r) { return r.metric.empty(); })) return;
+    if (std::ranges::all_of(records, [](const Record& r) { return !r.has_score(); })) return;
     for (const Table& table : pivot(records, TableSpec{})) {
       out += html_table(
           table, "data-sequence=\"" + html_text(sequence) + "\" data-times=\"" + times + "\"");

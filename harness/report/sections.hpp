@@ -41,7 +41,7 @@ std::string costs_html(const ReportContent& content);
 
 /// One row per method: wall and CPU time, memory, iterations. Medians over its finished cells,
 /// maximum for memory. No rows for results of files (`eval --store`), which have no times.
-Table costs(const std::vector<CellRecord>& cells);
+Table costs(const std::vector<CellRow>& cells);
 
 /// Protocols, provenance, input files, config.
 std::string provenance_html(const ReportContent& content);

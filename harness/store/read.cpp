@@ -68,7 +68,7 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
   return out;
 }
 
-std::vector<CellRecord> read_cells(const std::filesystem::path& file) {
+std::vector<CellRow> read_cells(const std::filesystem::path& file) {
   Database database = open_store(file);
   std::vector<StoredCell> cells = read_intact_cells(database);
   ReportReader reader(database, cells);

@@ -18,7 +18,7 @@ namespace loopbench::harness {
 std::vector<Record> read_records(const std::filesystem::path& file);
 
 /// One row per cell, in sweep order.
-std::vector<CellRecord> read_cells(const std::filesystem::path& file);
+std::vector<CellRow> read_cells(const std::filesystem::path& file);
 
 /// The `run` table: config text, protocol, baseline, version.
 std::map<std::string, std::string> read_run(const std::filesystem::path& file);

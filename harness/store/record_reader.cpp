@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <future>
 #include <set>
-#include <tuple>
 #include <unordered_map>
 
 #include "datasets/core/error.hpp"
@@ -16,45 +15,34 @@ namespace {
 
 constexpr std::size_t kLeastRecords = 4096;  ///< of a chunk, so that a thread is worth it
 
-/// Sets the common fields of all records of a cell.
-void set_cell(Record& r, const StoredCell& cell) {
-  r.cell = cell.position;
-  r.sequence = cell.sequence;
-  r.repeat = cell.repeat;
-  r.method = cell.method;
-  r.closures = cell.closures;
-  r.oracle_closures = cell.oracle_closures;
-  r.oracle = cell.oracle;
-  const bool is_unknown = cell.runs == 0 && has_numbers(cell.status);
-  r.milliseconds = is_unknown ? std::nan("") : cell.seconds * 1000;
-  r.is_stated = cell.worker.text().ends_with(kStatedTimes);
-  r.status = cell.status;
-  r.why = cell.why;
-  r.content = cell.content;
-  r.group = cell.group;
+/// A cell among those that are read together.
+using SharedCells = std::shared_ptr<std::vector<StoredCell>>;
+Shared<CellRow> shared_cell(const SharedCells& cells, const StoredCell& cell) {
+  return Shared<CellRow>(
+      std::shared_ptr<CellRow>(cells, &(*cells)[static_cast<std::size_t>(&cell - cells->data())]));
 }
 
-std::map<std::int64_t, Record> read_definitions(Database& database) {
-  std::map<std::int64_t, Record> out;
+std::map<std::int64_t, Shared<ScoreKind>> read_definitions(Database& database) {
+  std::map<std::int64_t, Shared<ScoreKind>> out;
   Statement row =
       database.prepare(std::string("SELECT ") + kDefinitionColumns + ", id FROM score_definition");
   while (row.step()) {
-    Record r;
+    ScoreKind k;
     std::string better;
     std::int64_t id = 0;
     row.read(
-        r.protocol, r.protocol_version, r.times, r.metric, r.label, r.relation, r.axis, r.unit);
-    row.read(better, r.target, id);
-    r.better = from_text<metrics::Better>(better).value_or(metrics::Better::neither);
-    out.emplace(id, r);
+        k.protocol, k.protocol_version, k.times, k.metric, k.label, k.relation, k.axis, k.unit);
+    row.read(better, k.target, id);
+    k.better = from_text<metrics::Better>(better).value_or(metrics::Better::neither);
+    out.emplace(id, k);
   }
   return out;
 }
 
-/// The definitions of the scores of all placed cells, in order of first appearance.
-std::vector<Record> scores_of_all_cells(Database& database,
-                                        const std::map<std::int64_t, Record>& definitions) {
-  std::vector<Record> out;
+/// The kinds of scores of all placed cells, in order of first appearance.
+std::vector<Shared<ScoreKind>> kinds_of_all_cells(
+    Database& database, const std::map<std::int64_t, Shared<ScoreKind>>& definitions) {
+  std::vector<Shared<ScoreKind>> out;
   Statement row = database.prepare(
       "SELECT definition, min(position << 20 | number) AS first FROM score_value JOIN cell ON "
       "cell.id = cell WHERE position IS NOT NULL GROUP BY definition ORDER BY first");
@@ -66,49 +54,46 @@ std::vector<Record> scores_of_all_cells(Database& database,
 }
 
 /// A metric that failed or was declined has no scores, hence one record without relation.
-bool is_failed_metric(const Record& r) { return !r.metric.empty() && r.relation.empty(); }
-
-bool same_metric(const Record& a, const Record& b) {
-  return a.protocol == b.protocol && a.times == b.times && a.metric == b.metric &&
-         metric_label(a) == metric_label(b);
+bool is_failed_metric(const ScoreKind& kind) {
+  return !kind.metric.empty() && kind.relation.empty();
 }
 
-/// The scores of the failed metric of `r` on its run or, if it has none there, anywhere.
-std::vector<Record> scores_of_metric(const Record& r,
-                                     const std::vector<const Record*>& on_run,
-                                     const std::vector<Record>& anywhere) {
-  std::vector<Record> out;
-  std::set<std::tuple<SharedText, SharedText, SharedText>> known;
-  const auto add = [&](const Record& score) {
-    if (score.relation.empty() || !same_metric(score, r)) return;
-    if (known.emplace(score.relation, score.axis, score.unit).second) out.push_back(score);
+bool same_metric(const ScoreKind& a, const ScoreKind& b) {
+  return a.protocol == b.protocol && a.times == b.times && a.metric == b.metric &&
+         a.metric_label() == b.metric_label();
+}
+
+/// The scores of a failed metric on its run or, if it has none there, anywhere.
+std::vector<Shared<ScoreKind>> kinds_of_metric(const ScoreKind& failed,
+                                               const std::vector<Shared<ScoreKind>>& on_run,
+                                               const std::vector<Shared<ScoreKind>>& anywhere) {
+  std::vector<Shared<ScoreKind>> out;
+  const auto add = [&](const Shared<ScoreKind>& kind) {
+    if (kind->relation.empty() || !same_metric(*kind, failed)) return;
+    if (std::ranges::count(out, kind) == 0) out.push_back(kind);
   };
-  for (const Record* score : on_run) add(*score);
+  std::ranges::for_each(on_run, add);
   if (out.empty()) std::ranges::for_each(anywhere, add);
   return out;
 }
 
 /// Replaces the record of each failed metric by one for every score that the metric has.
-void expand_failed_metrics(std::vector<Record>& records, const std::vector<Record>& anywhere) {
+void expand_failed_metrics(std::vector<Record>& records,
+                           const std::vector<Shared<ScoreKind>>& anywhere) {
   const auto is_failed = [](const Record& r) {
-    return r.status != Status::ok && is_failed_metric(r);
+    return r.status != Status::ok && is_failed_metric(*r.kind);
   };
   if (std::ranges::none_of(records, is_failed)) return;
-  std::map<std::pair<SharedText, std::int64_t>, std::vector<const Record*>> runs;
-  for (const Record& r : records) runs[{r.sequence, r.repeat}].push_back(&r);
+  std::map<std::pair<SharedText, std::int64_t>, std::vector<Shared<ScoreKind>>> runs;
+  for (const Record& r : records) runs[{r.cell->sequence, r.cell->repeat}].push_back(r.kind);
   std::vector<Record> out;
   for (const Record& r : records) {
-    std::vector<Record> scores;
-    if (is_failed(r)) scores = scores_of_metric(r, runs.at({r.sequence, r.repeat}), anywhere);
-    if (scores.empty()) out.push_back(r);
-    for (const Record& score : scores) {
-      Record& named = out.emplace_back(r);
-      named.relation = score.relation;
-      named.axis = score.axis;
-      named.unit = score.unit;
-      named.better = score.better;
-      named.target = score.target;
+    std::vector<Shared<ScoreKind>> kinds;
+    if (is_failed(r)) {
+      kinds = kinds_of_metric(*r.kind, runs.at({r.cell->sequence, r.cell->repeat}), anywhere);
     }
+    if (kinds.empty()) out.push_back(r);
+    for (const Shared<ScoreKind>& kind : kinds) out.emplace_back(r).kind = kind;
   }
   records = std::move(out);
 }
@@ -146,28 +131,30 @@ std::vector<bool> ends_of_chunks(const std::vector<StoredCell>& cells) {
 
 RecordReader::RecordReader(const std::filesystem::path& file)
     : database_(open_store(file)),
-      cells_(read_intact_cells(database_)),
+      cells_(std::make_shared<std::vector<StoredCell>>(read_intact_cells(database_))),
       definitions_(read_definitions(database_)) {
-  join_recorded_contents(database_, cells_);
+  join_recorded_contents(database_, *cells_);
   const bool can_fail = std::ranges::any_of(
-      definitions_, [](const auto& entry) { return is_failed_metric(entry.second); });
-  if (can_fail) scores_anywhere_ = scores_of_all_cells(database_, definitions_);
+      definitions_, [](const auto& entry) { return is_failed_metric(*entry.second); });
+  if (can_fail) kinds_anywhere_ = kinds_of_all_cells(database_, definitions_);
 }
 
-void RecordReader::for_each_definition(const std::function<void(const Record&)>& visit) const {
-  for (const auto& [id, definition] : definitions_) visit(definition);
+std::vector<Shared<ScoreKind>> RecordReader::kinds() const {
+  std::vector<Shared<ScoreKind>> out;
+  for (const auto& [id, kind] : definitions_) out.push_back(kind);
+  return out;
 }
 
 bool RecordReader::has_several_protocols() const {
-  std::set<SharedText> protocols;
-  for_each_definition([&](const Record& definition) { protocols.insert(definition.protocol); });
+  std::set<std::string> protocols;
+  for (const auto& [id, kind] : definitions_) protocols.insert(kind->protocol);
   return protocols.size() > 1;
 }
 
-void RecordReader::keep_scores(const std::function<bool(const Record&)>& is_kept) {
+void RecordReader::keep_scores(const std::function<bool(const ScoreKind&)>& is_kept) {
   kept_.clear();
-  for (const auto& [id, definition] : definitions_) {
-    if (is_kept(definition)) kept_ += (kept_.empty() ? "" : ",") + std::to_string(id);
+  for (const auto& [id, kind] : definitions_) {
+    if (is_kept(*kind)) kept_ += (kept_.empty() ? "" : ",") + std::to_string(id);
   }
   kept_ = " AND definition IN (" + kept_ + ")";
 }
@@ -175,8 +162,12 @@ void RecordReader::keep_scores(const std::function<bool(const Record&)>& is_kept
 void RecordReader::step_scores() { row_cell_ = scores_->step() ? scores_->integer() : 0; }
 
 void RecordReader::add_cell(const StoredCell& cell, std::vector<Record>& out) {
+  Record own;
+  own.cell = shared_cell(cells_, cell);
+  own.status = cell.status;
+  own.why = cell.why;
   if (cell.scores == 0) {  // declined or failed
-    set_cell(out.emplace_back(), cell);
+    out.push_back(own);
     return;
   }
   // An incomplete cell can be complete at other times, so its scores have their own status.
@@ -185,8 +176,8 @@ void RecordReader::add_cell(const StoredCell& cell, std::vector<Record>& out) {
   const bool has_reason = cell.why.empty() || is_incomplete;
   for (; row_cell_ == cell.id; step_scores()) {
     scores_->integer();  // number
-    Record& r = out.emplace_back(definitions_.at(scores_->integer()));
-    set_cell(r, cell);
+    Record& r = out.emplace_back(own);
+    r.kind = definitions_.at(scores_->integer());
     metrics::Statistics& s = r.statistics;
     scores_->read(s.count);
     for (const auto& each : metrics::kStatisticFields) scores_->read(s.*each.member);
@@ -208,25 +199,25 @@ void RecordReader::for_each_chunk(const std::function<bool(std::vector<Record>&)
       "score_value.cell = id" +
       kept_ + " ORDER BY position, id, number"));
   step_scores();
-  const std::vector<bool> is_end = ends_of_chunks(cells_);
+  const std::vector<bool> is_end = ends_of_chunks(*cells_);
   std::size_t next = 0;
   std::size_t size = 0;  // of the last chunk
   const auto read = [&] {
     std::vector<Record> out;
     out.reserve(size + size / 2);  // callers add derived records
-    while (next < cells_.size()) {
-      add_cell(cells_[next], out);
+    while (next < cells_->size()) {
+      add_cell((*cells_)[next], out);
       if (is_end[next++] && out.size() >= kLeastRecords) break;
     }
     size = out.size();
-    expand_failed_metrics(out, scores_anywhere_);
+    expand_failed_metrics(out, kinds_anywhere_);
     return out;
   };
   // One chunk is read while the previous one is visited.
   std::future<std::vector<Record>> coming = std::async(std::launch::deferred, read);
-  for (bool goes_on = next < cells_.size(); goes_on;) {
+  for (bool goes_on = next < cells_->size(); goes_on;) {
     std::vector<Record> records = coming.get();
-    goes_on = next < cells_.size();
+    goes_on = next < cells_->size();
     if (goes_on) coming = std::async(std::launch::async, read);
     if (!visit(records)) return;  // waits for `coming`
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,12 +33,11 @@ class RecordReader {
   /// Visits all records one by one, in the same order.
   void for_each(const std::function<void(const Record& record)>& visit);
 
-  /// Restricts these visits to the scores whose definition (protocol, times, metric, label,
-  /// relation, axis, unit) passes, and to cells without any score.
-  void keep_scores(const std::function<bool(const Record& definition)>& is_kept);
+  /// Restricts these visits to the scores whose kind passes, and to cells without any score.
+  void keep_scores(const std::function<bool(const ScoreKind& kind)>& is_kept);
 
-  /// Visits the definitions of all scores of the store, each at least once.
-  void for_each_definition(const std::function<void(const Record& definition)>& visit) const;
+  /// The kinds of all scores of the store.
+  std::vector<Shared<ScoreKind>> kinds() const;
 
   /// Whether the scores have more than one protocol.
   bool has_several_protocols() const;
@@ -48,12 +48,12 @@ class RecordReader {
   void step_scores();
 
   Database database_;
-  std::vector<StoredCell> cells_;               ///< in sweep order
-  std::map<std::int64_t, Record> definitions_;  ///< by id, with the fields of a definition only
-  std::vector<Record> scores_anywhere_;  ///< definitions of placed cells; empty: no metric failed
-  std::string kept_;                     ///< condition of the query of scores
-  std::optional<Statement> scores_;      ///< at a row of cell row_cell_
-  std::int64_t row_cell_ = 0;            ///< 0: no more rows
+  std::shared_ptr<std::vector<StoredCell>> cells_;         ///< in sweep order
+  std::map<std::int64_t, Shared<ScoreKind>> definitions_;  ///< by id
+  std::vector<Shared<ScoreKind>> kinds_anywhere_;  ///< of placed cells; empty: no metric failed
+  std::string kept_;                               ///< condition of the query of scores
+  std::optional<Statement> scores_;                ///< at a row of cell row_cell_
+  std::int64_t row_cell_ = 0;                      ///< 0: no more rows
 };
 
 }  // namespace loopbench::harness

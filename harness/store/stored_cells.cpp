@@ -131,9 +131,8 @@ void remove_orphans(Database& database) {
   }
 }
 
-std::string label_of(const CellRecord& cell) {
-  const std::string number = cell.repeat > 0 ? " (repeat " + std::to_string(cell.repeat) + ")" : "";
-  std::string out = cell.sequence + number + " / " + cell.method;
+std::string label_of(const CellRow& cell) {
+  std::string out = cell.name();
   for (char& c : out) {
     if (static_cast<unsigned char>(c) < 0x20) c = '?';  // in a damaged name
   }

@@ -11,9 +11,8 @@
 namespace loopbench::harness {
 
 /// A row of the table cell and its sequence. Phases, counts, notes and sections are not set.
-struct StoredCell : CellRecord {
+struct StoredCell : CellRow {
   std::int64_t id = 0;
-  SharedText group;  ///< of its sequence
   SharedText sequence_key;
   std::int64_t failed_scores = 0;
   std::int64_t scores = 0;  ///< number of rows in score_value
@@ -49,6 +48,6 @@ void remove_cell(Database& database, std::int64_t id);
 void remove_orphans(Database& database);
 
 /// "SEQUENCE / METHOD" or "SEQUENCE (repeat N) / METHOD".
-std::string label_of(const CellRecord& cell);
+std::string label_of(const CellRow& cell);
 
 }  // namespace loopbench::harness

@@ -18,7 +18,8 @@
 namespace loopbench::harness {
 
 /// Traces of one store, which stays open; not thread-safe. Cells are given by their position in the
-/// sweep (Record::cell). Throws InputError if a trace is damaged; read_cells() checks sections.
+/// sweep (CellRow::position). Throws InputError if a trace is damaged; read_cells() checks
+/// sections.
 class Traces {
  public:
   /// `file` can be the folder with results.sqlite.

@@ -25,10 +25,12 @@ void for_each_with_derived(RecordReader& reader,
   });
 }
 
-/// Definitions of scores: records without sequence, method and values.
-std::vector<Record> stored_definitions(const RecordReader& reader) {
+/// Records of the scores of a store, of a cell without a name.
+std::vector<Record> stored_kinds(const RecordReader& reader) {
+  Record any;
+  any.cell.edit().runs = 1;  // so that it has a time
   std::vector<Record> out;
-  reader.for_each_definition([&](const Record& r) { out.push_back(r); });
+  for (const Shared<ScoreKind>& kind : reader.kinds()) out.emplace_back(any).kind = kind;
   return out;
 }
 
@@ -74,27 +76,27 @@ std::vector<Comparison> compare_store(const std::filesystem::path& store,
   const std::string nothing =
       store.string() + ": no score to compare" + (rules.empty() ? "" : " after --where");
   RecordReader reader(store);
-  const std::vector<Record> stored = stored_definitions(reader);
+  const std::vector<Record> stored = stored_kinds(reader);
   if (stored.empty()) throw InputError(nothing);
   std::vector<Record> definitions = stored;
   add_derived(definitions, "");  // of any method: definitions have none
   const char* const name = metric.empty() ? nullptr : matching_field(definitions, metric);
   const auto is_wanted = [&](const Record& r) { return !name || field(r, name) == metric; };
-  std::set<std::pair<SharedText, SharedText>> kept;  // metric and label
+  std::set<ScoreKind> kept;
   for (const Record& r : stored) {
-    if (is_wanted(r)) kept.emplace(r.metric, r.label);
+    if (is_wanted(r)) kept.insert(*r.kind);
   }
   const bool is_derived =
       std::any_of(definitions.begin() + static_cast<std::ptrdiff_t>(stored.size()),
                   definitions.end(),
                   [&](const Record& r) { return name && is_wanted(r); });
   if (!is_derived) {
-    reader.keep_scores([kept](const Record& r) { return kept.contains({r.metric, r.label}); });
+    reader.keep_scores([kept](const ScoreKind& kind) { return kept.contains(kind); });
   }
   const auto passes = where(rules);
   ObservationsBuilder wanted(options.value);
   const auto add = [&](const Record& r) {
-    if (passes(r) && (r.metric.empty() || is_wanted(r))) wanted.add(r);
+    if (passes(r) && (!r.has_score() || is_wanted(r))) wanted.add(r);
   };
   is_derived ? for_each_with_derived(reader, baseline, add) : reader.for_each(add);
   std::vector<Observations> all = wanted.build();

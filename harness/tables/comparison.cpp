@@ -83,7 +83,7 @@ std::string title(const Comparison& c) {
   std::string out;
   const std::string relation = c.kind.relation == "translation" ? "" : c.kind.relation;
   const std::string axis = c.kind.axis == "3d" ? "" : c.kind.axis;
-  for (const std::string& word : {metric_label(c.kind).text(), relation, axis, c.options.value}) {
+  for (const std::string& word : {c.kind.metric_label(), relation, axis, c.options.value}) {
     if (!word.empty()) out += (out.empty() ? "" : " ") + word;
   }
   return out + ", " + c.kind.times + ", " + c.kind.protocol;
@@ -131,12 +131,12 @@ std::string csv(const std::vector<Comparison>& comparisons) {
     for (const MethodVerdict& m : c.methods) {
       out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},",
                          quoted(c.kind.protocol),
-                         c.kind.times.text(),
+                         c.kind.times,
                          quoted(c.kind.metric),
-                         quoted(metric_label(c.kind)),
-                         c.kind.relation.text(),
-                         c.kind.axis.text(),
-                         c.kind.unit.text(),
+                         quoted(c.kind.metric_label()),
+                         c.kind.relation,
+                         c.kind.axis,
+                         c.kind.unit,
                          c.options.value,
                          quoted(c.options.baseline),
                          over_name(c.options.over),
@@ -168,7 +168,7 @@ std::string json(const std::vector<Comparison>& comparisons, int indent) {
                {"protocol_version", c.kind.protocol_version},
                {"times", c.kind.times},
                {"metric", c.kind.metric},
-               {"label", metric_label(c.kind)},
+               {"label", c.kind.metric_label()},
                {"relation", c.kind.relation},
                {"axis", c.kind.axis},
                {"unit", c.kind.unit},

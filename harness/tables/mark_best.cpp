@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "harness/compare/compare.hpp"
 #include "harness/compare/ratio_text.hpp"
 
 namespace loopbench::harness {
@@ -34,16 +37,17 @@ std::vector<Lane> lanes_of(const TableNumbers& table, const TableSpec& spec, boo
   std::unordered_map<std::string, std::vector<std::size_t>> by_cell;
   for (const PlacedRecord& placed : table.records) {
     const Record& r = *placed.record;
-    if (!placed.column || direction_of(r, spec.value) == metrics::Better::neither) continue;
+    if (!placed.column) continue;
     const auto [row, column] = std::pair(placed.row, *placed.column);
     const std::size_t number = along_columns ? column : row;
     Lane& lane = out[number];
-    if (!lane.observed) {
+    if (!lane.observed && direction_of(*r.kind, spec.value) != metrics::Better::neither) {
       lane.observed.emplace(spec.value);
       by_cell[fields_joined(r, names, "\n")].push_back(number);
     }
     const std::size_t entry = along_columns ? row : column;
-    if (lane.entries.emplace(r.method, entry).first->second != entry) lane.several.insert(r.method);
+    if (lane.entries.emplace(r.cell->method, entry).first->second != entry)
+      lane.several.insert(r.cell->method);
   }
   // In the order of the records, because the last one of a run counts.
   for (const PlacedRecord& placed : table.records) {
@@ -86,7 +90,7 @@ void mark_best(Table& out,
   std::vector<Lane> lanes = lanes_of(table, spec, along_columns);
   for (std::size_t l = 0; l < lanes.size(); ++l) {
     Lane& lane = lanes[l];
-    if (lane.entries.size() < 2) continue;
+    if (!lane.observed || lane.entries.size() < 2) continue;
     std::vector<Observations> scores = lane.observed->build();
     const bool is_one = scores.size() == 1 &&
                         std::ranges::none_of(scores[0].methods, [&](const std::string& method) {
@@ -94,7 +98,7 @@ void mark_best(Table& out,
                         });
     if (!is_one) continue;
     const Comparison c = standings(std::move(scores[0]), how);
-    if (const std::string why = why_none_is_best(c); !why.empty()) why_none = why;
+    if (why_none.empty()) why_none = why_none_is_best(c);
     for (const MethodVerdict& m : c.methods) {
       if (!c.is_best || !is_leading(m)) continue;
       const std::size_t entry = lane.entries.at(m.method);

@@ -18,18 +18,18 @@ std::string column_name(const Record& r,
                         const std::vector<std::string>& names,
                         const std::string& statistic) {
   std::string out = fields_joined(r, names, " ");
-  const std::string unit = unit_of(r, statistic);
+  const std::string unit = unit_of(*r.kind, statistic);
   if (!unit.empty()) return out + " [" + unit + "]";
   const bool has_relation =
       std::ranges::count(names, "relation") > 0 || std::ranges::count(names, "score") == 0;
-  if (statistic == "count" && !has_relation && r.relation == "rotation") out += " rotation";
+  if (statistic == "count" && !has_relation && r.kind->relation == "rotation") out += " rotation";
   return out;
 }
 
 /// Records of different kinds must not be averaged: all labels but sequence, repeat and method.
 std::string kind_of(const Record& r) {
-  return r.times + " / " + metric_label(r) + " / " + r.relation + " / " + r.axis + " [" + r.unit +
-         "]";
+  return r.kind->times + " / " + r.kind->metric_label() + " / " + r.kind->relation + " / " +
+         r.kind->axis + " [" + r.kind->unit + "]";
 }
 
 /// Ignores single values and scores with as many errors as evaluated poses.
@@ -53,29 +53,29 @@ std::string error_counts_text(const TableNumbers& table) {
 }
 
 void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
-  const std::size_t row =
-      table.rows.index(fields_joined(record, spec.rows, ", ") + (record.oracle ? " (oracle)" : ""));
-  if (record.oracle) table.note("oracle: the method uses the reference");
-  if (record.oracle_closures) table.oracle_sequences.insert(record.sequence);
+  const std::size_t row = table.rows.index(fields_joined(record, spec.rows, ", ") +
+                                           (record.cell->oracle ? " (oracle)" : ""));
+  if (record.cell->oracle) table.note("oracle: the method uses the reference");
+  if (record.cell->oracle_closures) table.oracle_sequences.insert(record.cell->sequence);
   const std::size_t run = table.runs.index(run_key(record));
   if (run == table.group_of_run.size())
-    table.group_of_run.push_back(table.groups.index(group_name(record)));
+    table.group_of_run.push_back(table.groups.index(group_name(*record.cell)));
   table.records.push_back({&record, row});
   const bool is_ok = record.status == Status::ok;
   if (!is_ok) {
     // Low coverage concerns all metrics; an undefined score is listed by its name.
-    const bool is_complete_cell = record.metric.empty() || record.status == Status::incomplete;
+    const bool is_complete_cell = !record.has_score() || record.status == Status::incomplete;
     const std::string what =
         is_complete_cell ? "" : fields_joined(record, {"label", "relation"}, " ");
     table.missing.push_back({table.rows.names()[row], what, to_text(record.status), record.why});
-  } else if (record.metric.empty() && !record.why.empty()) {
+  } else if (!record.has_score() && !record.why.empty()) {
     table.note(table.rows.names()[row] + ": " + record.why.text());
   }
-  if (record.metric.empty()) {
+  if (!record.has_score()) {
     if (is_ok) return;
     table.row_status[row] = to_text(record.status);
     table.lost_by_row[row].insert(run);
-    table.lost_by_method[record.method].insert(run);
+    table.lost_by_method[record.cell->method].insert(run);
     return;
   }
   const std::size_t column = table.columns.index(column_name(record, spec.columns, spec.value));
@@ -95,11 +95,12 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
     if (is_loss(record)) entry.lost.insert(run);
     return;
   }
-  if (record.metric == "time" && record.is_stated) {
+  if (record.kind->metric == "time" && record.cell->is_stated()) {
     entry.is_stated = true;
     table.note(kStatedNote);
   }
-  entry.is_gap = record.metric == "optimality" && record.relation == "gap" && spec.value != "count";
+  entry.is_gap = record.kind->metric == "optimality" && record.kind->relation == "gap" &&
+                 spec.value != "count";
   add_error_count(table, column, record);
   entry.numbers.add(record, run, table.group_of_run[run], spec.value);
 }
@@ -181,11 +182,11 @@ Table finish(TableNumbers& table,
 /// Splits the tables by protocol if there are several, unless the spec already separates them.
 TableSpec separating_protocols(TableSpec spec, const std::vector<Record>& records) {
   if (separates(spec, {"protocol"})) return spec;
-  const SharedText* first = nullptr;
+  const std::string* first = nullptr;
   for (const Record& record : records) {
-    if (record.metric.empty()) continue;
-    if (first == nullptr) first = &record.protocol;
-    if (record.protocol == *first) continue;
+    if (!record.has_score()) continue;
+    if (first == nullptr) first = &record.kind->protocol;
+    if (record.kind->protocol == *first) continue;
     spec.split.emplace_back("protocol");
     break;
   }
@@ -224,16 +225,16 @@ PivotedTables pivot_parts(const std::vector<Record>& records,
     });
   };
   const auto shown = [&](const Record& record) {
-    return spec.show.empty() || std::ranges::count(spec.show, field(record, "score")) > 0;
+    return spec.show.empty() || std::ranges::count(spec.show, record.kind->short_name()) > 0;
   };
   for (const Record& record : records) {
-    if (!record.metric.empty() && shown(record)) add(builder(record), record, spec);
+    if (record.has_score() && shown(record)) add(builder(record), record, spec);
   }
   PivotedTables out;
   out.with_scores = builders.size();
   // A cell without any score is listed in every table of its sequence.
   for (const Record& record : records) {
-    if (!record.metric.empty()) continue;
+    if (record.has_score()) continue;
     bool placed = false;
     for (std::size_t t = 0; t < out.with_scores; ++t) {
       if (!belongs_to(record, t)) continue;

@@ -20,31 +20,31 @@ std::vector<std::string> fields_of(const Record& r) {
   const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; };
   const auto boolean = [](bool x) { return fmt::format("{}", x); };
   std::vector<std::string> out{
-      quoted(r.sequence),
-      fmt::format("{}", r.repeat),
-      quoted(r.method),
-      quoted(r.closures),
-      boolean(r.oracle_closures),
-      boolean(r.oracle),
-      quoted(r.protocol),
-      quoted(r.protocol_version),
-      quoted(r.times),
-      quoted(r.metric),
-      quoted(metric_label(r)),
-      quoted(r.relation),
-      quoted(r.axis),
-      quoted(r.unit),
-      to_text(r.better),
-      r.better == metrics::Better::target ? fmt::format("{}", r.target) : ""};
+      quoted(r.cell->sequence),
+      fmt::format("{}", r.cell->repeat),
+      quoted(r.cell->method),
+      quoted(r.cell->closures),
+      boolean(r.cell->oracle_closures),
+      boolean(r.cell->oracle),
+      quoted(r.kind->protocol),
+      quoted(r.kind->protocol_version),
+      quoted(r.kind->times),
+      quoted(r.kind->metric),
+      quoted(r.kind->metric_label()),
+      quoted(r.kind->relation),
+      quoted(r.kind->axis),
+      quoted(r.kind->unit),
+      to_text(r.kind->better),
+      r.kind->better == metrics::Better::target ? fmt::format("{}", r.kind->target) : ""};
   // An undefined score has empty fields, not zeros.
-  const bool has_scores = !r.metric.empty() && has_numbers(r.status);
+  const bool has_scores = r.has_score() && has_numbers(r.status);
   const auto score = [&](const std::string& text) { out.push_back(has_scores ? text : ""); };
   const metrics::Statistics& s = r.statistics;
   score(fmt::format("{}", s.count));
   for (const auto& field : metrics::kStatisticFields) score(number(s.*field.member));
   score(fmt::format("{}", r.pairs));
   score(fmt::format("{}", r.possible));
-  out.insert(out.end(), {number(r.milliseconds), quoted(to_text(r.status)), quoted(r.why)});
+  out.insert(out.end(), {number(r.cell->milliseconds()), quoted(to_text(r.status)), quoted(r.why)});
   return out;
 }
 

@@ -27,28 +27,29 @@ namespace {
 std::string keep_one_time(std::vector<Record>& records) {
   std::vector<std::string> times;
   for (const Record& r : records) {
-    if (!r.metric.empty() && std::ranges::count(times, r.times.text()) == 0)
-      times.push_back(r.times);
+    if (r.has_score() && std::ranges::count(times, r.kind->times) == 0)
+      times.push_back(r.kind->times);
   }
   if (times.size() < 2) return "";
   const std::string kept = std::ranges::count(times, "dense") > 0 ? "dense" : times.front();
-  std::erase_if(records, [&](const Record& r) { return !r.metric.empty() && r.times != kept; });
+  std::erase_if(records, [&](const Record& r) { return r.has_score() && r.kind->times != kept; });
   return kept;
 }
 
 /// Keeps the first score that is shown; returns its name.
 std::string keep_one_score(std::vector<Record>& records, const std::vector<std::string>& show) {
   const auto is_shown = [&](const Record& r) {
-    return !r.metric.empty() && (show.empty() || std::ranges::count(show, field(r, "score")) > 0);
+    return r.has_score() && (show.empty() || std::ranges::count(show, r.kind->short_name()) > 0);
   };
   const auto first = std::ranges::find_if(records, is_shown);
   if (first == records.end()) return "";
   const Record kept = *first;
   std::erase_if(records, [&](const Record& r) {
-    return !r.metric.empty() && (metric_label(r) != metric_label(kept) ||
-                                 r.relation != kept.relation || r.axis != kept.axis);
+    return r.has_score() &&
+           (r.kind->metric_label() != kept.kind->metric_label() ||
+            r.kind->relation != kept.kind->relation || r.kind->axis != kept.kind->axis);
   });
-  return field(kept, "score");
+  return kept.kind->short_name();
 }
 
 /// Layouts such as `--split ''` or `--rows sequence` leave open which times and scores a cell
@@ -79,9 +80,9 @@ bool is_by_sequence(const TableSpec& spec) {
 /// Whether the records that pass have more than one protocol.
 bool has_protocols(const std::filesystem::path& store,
                    const std::function<bool(const Record&)>& is_kept) {
-  std::set<SharedText> protocols;
+  std::set<std::string> protocols;
   for_each_record(store, [&](const Record& r) {
-    if (!r.metric.empty() && is_kept(r)) protocols.insert(r.protocol);
+    if (r.has_score() && is_kept(r)) protocols.insert(r.kind->protocol);
   });
   return protocols.size() > 1;
 }

@@ -16,16 +16,9 @@
 namespace loopbench::harness {
 
 inline bool is_ranked_total(const Record& r) {
-  const bool is_total = r.axis.empty() || r.axis == "3d" || r.axis == "all";
   const bool is_directed =
-      r.better == metrics::Better::lower || r.better == metrics::Better::higher;
-  return !r.metric.empty() && has_numbers(r.status) && is_total && is_directed;
-}
-
-inline bool has_chosen_score(const Record& r, const Record& score) {
-  return is_ranked_total(r) && r.protocol == score.protocol && r.times == score.times &&
-         metric_label(r) == metric_label(score) && r.relation == score.relation &&
-         r.axis == score.axis;
+      r.kind->better == metrics::Better::lower || r.kind->better == metrics::Better::higher;
+  return r.has_score() && has_numbers(r.status) && r.kind->is_total() && is_directed;
 }
 
 /// Wilson's interval of a share, as text in percent.
@@ -55,29 +48,29 @@ inline Table success_table(const std::vector<Record>& records,
   value(Record{}, statistic);  // rejects an unknown one
   const auto score = std::ranges::find_if(records, is_ranked_total);
   if (score == records.end()) throw InputError("--success: no run has a score with a direction");
-  const bool is_lower = score->better == metrics::Better::lower;
+  const bool is_lower = score->kind->better == metrics::Better::lower;
   struct Runs {
     std::string method;
     std::set<std::int64_t> cells = {}, successes = {};
   };
   std::vector<Runs> all;
   for (const Record& r : records) {
-    if (r.metric.empty() && r.status == Status::declined) continue;
-    auto own = std::ranges::find(all, r.method.text(), &Runs::method);
-    if (own == all.end()) own = all.insert(all.end(), {r.method.text()});
-    own->cells.insert(r.cell);
-    if (r.status != Status::ok || !has_chosen_score(r, *score)) continue;
+    if (!r.has_score() && r.status == Status::declined) continue;
+    auto own = std::ranges::find(all, r.cell->method.text(), &Runs::method);
+    if (own == all.end()) own = all.insert(all.end(), {r.cell->method.text()});
+    own->cells.insert(r.cell->position);
+    if (r.status != Status::ok || r.kind != score->kind) continue;
     const double found = value(r, statistic);
-    if (is_lower ? found <= limit : found >= limit) own->successes.insert(r.cell);
+    if (is_lower ? found <= limit : found >= limit) own->successes.insert(r.cell->position);
   }
   Table out{fmt::format("success: {}, {} of at {} {:g} {}, {}, {}",
-                        field(*score, "score"),
+                        score->kind->short_name(),
                         statistic,
                         is_lower ? "most" : "least",
                         limit,
-                        unit_of(*score, statistic),
-                        score->protocol.text(),
-                        score->times.text()),
+                        unit_of(*score->kind, statistic),
+                        score->kind->protocol,
+                        score->kind->times),
             {"method", "runs", "successful", "share [%]", "95 % interval [%]"},
             {},
             {}};

@@ -25,12 +25,7 @@ constexpr std::size_t kMostVerdicts = 5;
 constexpr std::size_t kMostReasons = 5;
 
 bool is_derived(const Record& r) {
-  return r.metric == "gain" || r.metric == "pairs" || r.metric == "time";
-}
-
-bool is_same_score(const Record& a, const Record& b) {
-  return a.protocol == b.protocol && a.times == b.times && metric_label(a) == metric_label(b) &&
-         a.relation == b.relation && a.axis == b.axis;
+  return r.kind->metric == "gain" || r.kind->metric == "pairs" || r.kind->metric == "time";
 }
 
 /// The records that can lead the summary, and those of cells without scores: one protocol, one kind
@@ -38,22 +33,22 @@ bool is_same_score(const Record& a, const Record& b) {
 std::vector<Record> comparable(const std::vector<Record>& records, const SummaryOptions& options) {
   std::vector<Record> out = records;
   std::erase_if(out, [](const Record& r) {
-    return !r.metric.empty() && (is_derived(r) || r.better == metrics::Better::neither);
+    return r.has_score() && (is_derived(r) || r.kind->better == metrics::Better::neither);
   });
   // Keeps the scores that pass, if any does.
   const auto keep = [&](const auto& passes) {
-    const auto is_kept = [&](const Record& r) { return !r.metric.empty() && passes(r); };
+    const auto is_kept = [&](const Record& r) { return r.has_score() && passes(r); };
     if (std::ranges::none_of(out, is_kept)) return;
-    std::erase_if(out, [&](const Record& r) { return !r.metric.empty() && !passes(r); });
+    std::erase_if(out, [&](const Record& r) { return r.has_score() && !passes(r); });
   };
-  const auto first = std::ranges::find_if(out, [](const Record& r) { return !r.metric.empty(); });
+  const auto first = std::ranges::find_if(out, [](const Record& r) { return r.has_score(); });
   if (first == out.end()) return {};
   const Record lead = *first;
-  keep([](const Record& r) { return r.times == "dense"; });
-  keep([&](const Record& r) { return r.times == lead.times; });
-  keep([&](const Record& r) { return r.protocol == lead.protocol; });
+  keep([](const Record& r) { return r.kind->times == "dense"; });
+  keep([&](const Record& r) { return r.kind->times == lead.kind->times; });
+  keep([&](const Record& r) { return r.kind->protocol == lead.kind->protocol; });
   keep([&](const Record& r) {
-    return options.show.empty() || std::ranges::count(options.show, field(r, "score")) > 0;
+    return options.show.empty() || std::ranges::count(options.show, r.kind->short_name()) > 0;
   });
   return out;
 }
@@ -65,8 +60,9 @@ std::map<std::string, std::string> derived_texts(const std::vector<Record>& reco
                                                  const std::string& value) {
   std::vector<Record> own;
   for (const Record& r : records) {
-    if (r.status == Status::ok && r.times == lead.times && r.protocol == lead.protocol &&
-        is_derived(r) && metric_label(r) == label) {
+    if (r.status == Status::ok && r.kind->times == lead.kind->times &&
+        r.kind->protocol == lead.kind->protocol && is_derived(r) &&
+        r.kind->metric_label() == label) {
       own.push_back(r);
     }
   }
@@ -102,7 +98,7 @@ std::vector<std::string> verdicts(const std::vector<Record>& candidates,
   const bool can_prove = std::ranges::any_of(all, [](const Comparison& c) { return c.can_show; });
   const std::size_t most = can_prove ? kMostVerdicts : 1;
   for (const Comparison& c : all) {
-    const std::string score = field(c.kind, "score");
+    const std::string score = c.kind.short_name();
     // The rotation of a score that also has a translation is in `compare`.
     if (std::ranges::count(seen, score) > 0) continue;
     seen.push_back(score);
@@ -124,7 +120,7 @@ std::vector<std::string> verdicts(const std::vector<Record>& candidates,
 constexpr double kLost = std::numeric_limits<double>::max();  // worse than all values
 
 /// A value for which lower is better.
-double as_loss(double value, const Record& kind) {
+double as_loss(double value, const ScoreKind& kind) {
   switch (kind.better) {
     case metrics::Better::higher:
       return -value;
@@ -142,7 +138,7 @@ double as_loss(double value, const Record& kind) {
 std::map<std::string, double> mean_ranks(const std::vector<Record>& records,
                                          const std::string& value) {
   std::vector<Record> ranked = records;
-  std::erase_if(ranked, [](const Record& r) { return r.oracle; });
+  std::erase_if(ranked, [](const Record& r) { return r.cell->oracle; });
   const std::vector<Observations> all = observations(ranked, value);
   if (all.empty()) return {};
   Observations kind = all.front();
@@ -174,8 +170,7 @@ std::vector<std::string> reasons(const std::vector<Record>& records) {
   std::vector<Missing> missing;
   for (const Record& r : records) {
     if (r.status == Status::ok) continue;
-    missing.push_back(
-        {r.method, r.metric.empty() ? "" : metric_label(r), to_text(r.status), r.why});
+    missing.push_back({r.cell->method, r.kind->metric_label(), to_text(r.status), r.why});
   }
   std::vector<std::string> out = grouped(missing);
   if (out.size() > kMostReasons) {
@@ -190,17 +185,16 @@ std::vector<std::string> reasons(const std::vector<Record>& records) {
 
 Table summary(const std::vector<Record>& records, const SummaryOptions& options) {
   const std::vector<Record> candidates = comparable(records, options);
-  const auto lead =
-      std::ranges::find_if(candidates, [](const Record& r) { return !r.metric.empty(); });
+  const auto lead = std::ranges::find_if(candidates, [](const Record& r) { return r.has_score(); });
   if (lead == candidates.end()) return {};
   std::vector<Record> own;
   NameOrder sequences;
   std::set<std::string> oracle_sequences;
   for (const Record& r : candidates) {
-    if (!r.metric.empty() && !is_same_score(r, *lead)) continue;
+    if (r.has_score() && r.kind != lead->kind) continue;
     own.push_back(r);
-    sequences.index(r.sequence);
-    if (r.oracle_closures) oracle_sequences.insert(r.sequence);
+    sequences.index(r.cell->sequence);
+    if (r.cell->oracle_closures) oracle_sequences.insert(r.cell->sequence);
   }
   const bool has_sequences = sequences.names().size() <= kMostSequences;
   const TableSpec spec{.columns = {has_sequences ? "sequence" : "score"},
@@ -208,7 +202,7 @@ Table summary(const std::vector<Record>& records, const SummaryOptions& options)
                        .value = options.value,
                        .show = {},
                        .where = {}};
-  std::string unit = unit_of(*lead, options.value);
+  std::string unit = unit_of(*lead->kind, options.value);
   if (!unit.empty()) unit = " [" + unit + "]";
   // Records without a score belong to their sequence's column.
   Table out = without_empty_columns(pivot(own, spec).front());
@@ -222,9 +216,9 @@ Table summary(const std::vector<Record>& records, const SummaryOptions& options)
   }
   out.notes.clear();
   out.title = fmt::format("{}{}, {}, {}{}",
-                          field(*lead, "score"),
+                          lead->kind->short_name(),
                           unit,
-                          lead->times.text(),
+                          lead->kind->times,
                           options.value,
                           has_sequences ? " by sequence" : "");
 
@@ -232,17 +226,18 @@ Table summary(const std::vector<Record>& records, const SummaryOptions& options)
   std::map<std::string, std::string> rank_texts;
   for (const auto& [method, rank] : ranks) rank_texts[method] = fixed(rank, 1);
   add_column(out, "mean rank", rank_texts);
-  const bool is_labelled = lead->metric == "ate" && metric_label(*lead) != "ate";
-  const std::string gain = is_labelled ? "gain (" + metric_label(*lead) + ")" : "gain";
+  const bool is_labelled = lead->kind->metric == "ate" && lead->kind->metric_label() != "ate";
+  const std::string gain = is_labelled ? "gain (" + lead->kind->metric_label() + ")" : "gain";
   // The gain is always that of the ATE.
   if (has_direction(options.value)) {
     add_column(out,
-               lead->metric == "ate" ? "gain [%]" : "ATE gain [%]",
+               lead->kind->metric == "ate" ? "gain [%]" : "ATE gain [%]",
                derived_texts(records, gain, *lead, options.value));
   }
   add_column(out, "time [ms]", derived_texts(records, "time", *lead, "rmse"));
 
-  if (std::ranges::any_of(own, &Record::is_stated)) out.notes.emplace_back(kStatedNote);
+  if (std::ranges::any_of(own, [](const Record& r) { return r.cell->is_stated(); }))
+    out.notes.emplace_back(kStatedNote);
 
   const auto rank_of = [&](const auto& line) {
     const auto found = ranks.find(line[0].text);
@@ -257,7 +252,7 @@ Table summary(const std::vector<Record>& records, const SummaryOptions& options)
   const std::string oracle = oracle_closures_note(oracle_sequences, kMostSequences);
   if (!oracle.empty()) out.notes.push_back(oracle);
   for (std::string& line : reasons(own)) out.notes.push_back(std::move(line));
-  const auto is_baseline = [&](const Record& r) { return r.method == options.baseline; };
+  const auto is_baseline = [&](const Record& r) { return r.cell->method == options.baseline; };
   const bool has_verdicts = has_direction(options.value);
   if (has_verdicts &&
       std::ranges::any_of(candidates, is_baseline)) {  // `run --only` can leave it out

@@ -21,16 +21,18 @@ std::string fields_joined(const Record& record,
   return out;
 }
 
-std::string run_key(const Record& r) { return r.content.empty() ? run_name(r) : r.content.text(); }
+std::string run_key(const Record& r) {
+  return r.cell->content.empty() ? r.cell->run_name() : r.cell->content.text();
+}
 
 void EntryNumbers::add(const Record& record,
                        std::size_t run,
                        std::size_t group,
                        const std::string& statistic) {
-  values_.push_back({run, group, record.method, value(record, statistic)});
-  method_ = record.method;
-  is_gain_ = record.metric == "gain" && statistic != "count";
-  is_oracle_ = record.oracle;
+  values_.push_back({run, group, record.cell->method, value(record, statistic)});
+  method_ = record.cell->method;
+  is_gain_ = record.kind->metric == "gain" && statistic != "count";
+  is_oracle_ = record.cell->oracle;
 }
 
 std::size_t EntryNumbers::averaged() const {

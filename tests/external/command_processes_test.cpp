@@ -71,7 +71,7 @@ TEST_F(CommandProcesses, ProcessesOfAServerThatEndsAreKilled) {
   const auto done =
       cells("  - {method: command, serve: '" LOOPBENCH_SERVING " forks'}\n", "repeats: 4\n");
   ASSERT_EQ(done.size(), 8u);
-  EXPECT_TRUE(std::ranges::any_of(done, [](const CellRecord& cell) {
+  EXPECT_TRUE(std::ranges::any_of(done, [](const CellRow& cell) {
     return cell.why.text().find("exited with code 3") != std::string::npos;
   }));
   EXPECT_FALSE(is_running("sleep 8761"));
@@ -110,7 +110,7 @@ TEST_F(CommandProcesses, WritesInItsFolderOnlyAndCannotReadTheReference) {
     const auto done = read_cells(folder_.path() / "r");
     ASSERT_EQ(done.size(), 2u);
     const bool is_free = *option != '\0';
-    for (const CellRecord& cell : done) {
+    for (const CellRow& cell : done) {
       EXPECT_EQ(cell.status, Status::ok) << cell.why;
       const std::string said = notes(cell);
       EXPECT_EQ(said.find("has read the reference") != std::string::npos, is_free) << said;

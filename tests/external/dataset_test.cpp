@@ -56,7 +56,7 @@ TEST_F(CommandDataset, ItsOutputIsCorrectedAndCached) {
   const CommandResult done = run(program_);
   ASSERT_EQ(done.exit_code, 0) << done.err << done.out;
   EXPECT_EQ(runs(), 1u);
-  for (const CellRecord& cell : read_cells(folder_.path() / "r")) {
+  for (const CellRow& cell : read_cells(folder_.path() / "r")) {
     EXPECT_EQ(cell.status, Status::ok) << cell.why;
     EXPECT_EQ(cell.closures, "of the program");
     EXPECT_EQ(cell.closure_count, 1);
@@ -121,7 +121,7 @@ TEST_F(CommandDataset, RepeatsAreRunsOfTheProgram) {
 
 TEST_F(CommandDataset, ItsClosedTrajectoryIsEvaluatedAsItIs) {
   const CommandResult done = run(program_ + ", use: closed");
-  const std::vector<CellRecord> cells = read_cells(folder_.path() / "r");
+  const std::vector<CellRow> cells = read_cells(folder_.path() / "r");
   ASSERT_EQ(cells.size(), 2u) << done.err;
   EXPECT_EQ(cells[0].status, Status::ok);
   EXPECT_EQ(cells[1].status, Status::declined) << "no closures are left";
@@ -154,7 +154,7 @@ TEST_F(CommandDataset, FailuresCostItsOwnCellsAndHaveTheOutput) {
                "  - {dataset: simulated, keyframes: 20, label: other}\n"
                "methods: [raw, uniform]\nmetrics: [ate]\ntimes: keyframes\n");
   EXPECT_EQ(loopbench_command("run c.yaml --out r", folder_).exit_code, 1);
-  const std::vector<CellRecord> cells = read_cells(folder_.path() / "r");
+  const std::vector<CellRow> cells = read_cells(folder_.path() / "r");
   ASSERT_EQ(cells.size(), 6u);
   for (const std::size_t i : {0u, 1u}) {
     EXPECT_EQ(cells[i].status, Status::failed);

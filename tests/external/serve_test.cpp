@@ -39,7 +39,7 @@ TEST_P(Serve, AMisbehavingProgramCostsOneCell) {
                   each.mode + "'}\nmetrics: [ate]\nrepeats: 3\nlimits: {memory: 700MiB, seconds: " +
                   (each.mode == "hang" ? "8" : "100") + "}\n");
   const CommandResult ran = loopbench_command("run c.yaml --out r -j 1", folder);
-  const std::vector<CellRecord> cells = read_cells(folder.path() / "r");
+  const std::vector<CellRow> cells = read_cells(folder.path() / "r");
   ASSERT_EQ(cells.size(), 3u) << ran.err;
   EXPECT_EQ(to_text(cells[1].status), each.status) << cells[1].why;
   EXPECT_THAT(cells[1].why.text(), HasSubstr(each.why));
@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& chosen) { return chosen.param.mode; });
 
 /// Cells of one sequence and two repeats, answered by the serving program.
-std::vector<CellRecord> served(const std::string& mode, const std::string& settings = "") {
+std::vector<CellRow> served(const std::string& mode, const std::string& settings = "") {
   const TemporaryFolder folder;
   folder.file("c.yaml",
               "datasets: [{dataset: simulated, path: room, keyframes: 30}]\nmethods:\n"
@@ -79,13 +79,13 @@ std::vector<CellRecord> served(const std::string& mode, const std::string& setti
   return read_cells(folder.path() / "r");
 }
 
-double value_of(const CellRecord& cell, const std::string& count) {
+double value_of(const CellRow& cell, const std::string& count) {
   const auto found = std::ranges::find(cell.counts, count, &Count::name);
   return found == cell.counts.end() ? -1.0 : found->value;
 }
 
 TEST(ServedTime, StartIsNotPartOfTheFirstCell) {
-  const std::vector<CellRecord> cells = served("late");
+  const std::vector<CellRow> cells = served("late");
   ASSERT_EQ(cells.size(), 2u);
   ASSERT_EQ(cells[0].phases.front().name, kExchangePhase);
   EXPECT_GE(cells[0].phases.front().seconds, 0.3) << "of 0.4 s; it started a little earlier";
@@ -93,7 +93,7 @@ TEST(ServedTime, StartIsNotPartOfTheFirstCell) {
 }
 
 TEST(ServedTime, EveryTimedRunAsksANewProcess) {
-  const std::vector<CellRecord> cells = served("turns", "timing: 3\n");
+  const std::vector<CellRow> cells = served("turns", "timing: 3\n");
   ASSERT_EQ(cells.size(), 2u);
   EXPECT_EQ(value_of(cells[0], "turn"), 1.0) << "a second answer could be from its memory";
   EXPECT_GT(value_of(cells[1], kProgramMemory), 1e5) << "a process has more than 100 kB";
@@ -102,7 +102,7 @@ TEST(ServedTime, EveryTimedRunAsksANewProcess) {
 }
 
 TEST(ServedTime, IsTheWallTimeWhateverTheProgramStates) {
-  const std::vector<CellRecord> cells = served("ok");  // states 0 s
+  const std::vector<CellRow> cells = served("ok");  // states 0 s
   ASSERT_EQ(cells.size(), 2u);
   EXPECT_GT(cells[1].seconds, 0.0);
   EXPECT_EQ(cells[1].worker, "isolated, serial");

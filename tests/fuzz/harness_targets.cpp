@@ -50,9 +50,9 @@ void fuzz_gate(const std::filesystem::path& file) {
 void fuzz_where(const std::filesystem::path& file) {
   or_rejected([&] {
     Record record;
-    record.sequence = "room";
-    record.method = "uniform";
-    record.metric = "ate";
+    record.cell.edit().sequence = "room";
+    record.cell.edit().method = "uniform";
+    record.kind.edit().metric = "ate";
     where(lines_of(fuzz_bytes(file)))(record);
   });
 }

@@ -24,7 +24,7 @@ void with_store(const std::filesystem::path& input, Act act) {
 void fuzz_store(const std::filesystem::path& file) {
   with_store(file, [](const std::filesystem::path& store) {
     Traces traces(store);
-    for (const CellRecord& cell : read_cells(store)) {
+    for (const CellRow& cell : read_cells(store)) {
       traces.cell(cell.position);
       traces.sequence(cell.position);
     }

@@ -61,7 +61,7 @@ TEST(Assertion, HasTheComparisonWithItsSecondMethod) {
 
 TEST(Assertion, HasNoOrderFromTooFewRuns) {
   std::vector<Record> few = sweep();
-  std::erase_if(few, [](const Record& r) { return r.sequence == "city"; });
+  std::erase_if(few, [](const Record& r) { return r.cell->sequence == "city"; });
   EXPECT_EQ(why("dual is below uniform", few),
             "measured 11.5 % below uniform; 4 runs of 1 sequence cannot show a difference among 4 "
             "methods at 0.05 (7 are needed)");
@@ -71,14 +71,14 @@ TEST(Assertion, HasNoOrderFromTooFewRuns) {
 
 TEST(Assertion, ComparesValuesOfWhichHigherOnesAreBetter) {
   std::vector<Record> records = sweep();
-  for (Record& r : records) r.better = Better::higher;
+  for (Record& r : records) r.kind.edit().better = Better::higher;
   EXPECT_EQ(why("dual is at least 10 % below uniform", records), "");
   EXPECT_EQ(why("raw is not above uniform", records),
             "measured 100.0 % above uniform [100.0, 100.0], p = 0.016; over 8 runs of 2 sequences; "
             "above and below compare values, of which higher ones are better");
   for (Record& r : records) {
-    r.better = Better::target;
-    r.target = 1.0;
+    r.kind.edit().better = Better::target;
+    r.kind.edit().target = 1.0;
   }
   EXPECT_NE(refusal_of([&] {
               why("dual is below uniform", records);

@@ -130,8 +130,8 @@ TEST_F(CellIdentity, AChangedGroupReachesTheRecords) {
     run("datasets: [{dataset: line, label: f, group: " + group +
         "}, {dataset: line, label: g, group: other}]\nmethods: [straight]\nmetrics: [ate]\n");
     const std::vector<Record> records = read_records(file_);
-    EXPECT_EQ(records.front().group, "group:" + group);
-    EXPECT_EQ(records.back().group, "group:other");
+    EXPECT_EQ(records.front().cell->group, "group:" + group);
+    EXPECT_EQ(records.back().cell->group, "group:other");
   }
 }
 

@@ -66,7 +66,7 @@ class CheckOutput : public TinyStore {
     std::filesystem::remove(file_);
     run("datasets: [line]\nprotocol: {base: loopbench, align: none}\nmethods: [straight, bad]\n"
         "metrics: [ate]\ntiming: 2\n");
-    const std::vector<CellRecord> cells = read_cells(file_);
+    const std::vector<CellRow> cells = read_cells(file_);
     EXPECT_EQ(cells.size(), 2u);
     EXPECT_EQ(cells.at(0).status, Status::ok);
     EXPECT_EQ(cells.at(1).status, cells.at(1).why.empty() ? Status::ok : Status::failed);
@@ -212,7 +212,7 @@ TEST_F(CheckOutput, AScoreWithoutADirectionOrTargetFailsAndItsCellIsStored) {
   add_metric("no_direction", directed(score, static_cast<Better>(77)));
   run("datasets: [line]\nmethods: [straight]\nmetrics: [no_target, no_direction, ate]\n");
   std::map<std::string, std::string> why;
-  for (const Record& record : read_records(file_)) why[record.metric] = record.why;
+  for (const Record& record : read_records(file_)) why[record.kind->metric] = record.why;
   EXPECT_EQ(why["no_target"], "score 1 has the target nan, expected a finite number");
   EXPECT_EQ(why["no_direction"],
             "score 1 has no direction: better is 77, expected lower, higher, target or neither");

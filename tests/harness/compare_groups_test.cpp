@@ -80,7 +80,8 @@ TEST(Failures, MayBeFewerThanWhatABestMethodWins) {
 
 TEST(Failures, AreNotRunsThatWereNeverMade) {
   std::vector<Record> records = sweep();
-  std::erase_if(records, [](const Record& r) { return r.method == "dual" && r.repeat == 0; });
+  std::erase_if(records,
+                [](const Record& r) { return r.cell->method == "dual" && r.cell->repeat == 0; });
   records.push_back(failed("room", 0, "broken"));
   const Comparison c = compared(records);
   EXPECT_EQ(c.runs, 8u);  // of the other methods
@@ -111,7 +112,7 @@ std::vector<Record> routes(int routes, int won) {
       const double factor = (route < won ? 0.8 : 1.05) + 0.01 * odometer + 0.005 * route;
       for (const char* method : {"raw", "dual"}) {
         out.push_back(score(sequence, 0, method, method[0] == 'd' ? factor : 1.0));
-        out.back().group = "route " + std::to_string(route);
+        out.back().cell.edit().group = "route " + std::to_string(route);
       }
     }
   }
@@ -129,8 +130,9 @@ TEST(Groups, AreTheObservations) {
 
 TEST(Groups, WeighTheSameWhateverTheirRuns) {
   std::vector<Record> records = routes(6, 6);
-  std::erase_if(records,
-                [](const Record& r) { return r.sequence.text()[0] == '0' && r.sequence != "0 0"; });
+  std::erase_if(records, [](const Record& r) {
+    return r.cell->sequence.text()[0] == '0' && r.cell->sequence != "0 0";
+  });
   double expected = 0.0;
   for (int route = 0; route < 6; ++route) {
     double of_route = 0.0;
@@ -159,10 +161,10 @@ TEST(Groups, WithOneFailedRunEachCountAsTheirMedian) {
     for (int run = 0; run < 20; ++run) {
       const std::string sequence = std::to_string(group) + " " + std::to_string(run);
       records.push_back(score(sequence, 0, "raw", 1.0 + 0.1 * run));
-      records.back().group = std::to_string(group);
+      records.back().cell.edit().group = std::to_string(group);
       records.push_back(run == group ? failed(sequence, 0, "dual")
                                      : score(sequence, 0, "dual", 0.5 + 0.05 * run));
-      records.back().group = std::to_string(group);
+      records.back().cell.edit().group = std::to_string(group);
     }
   }
   const Comparison c = compared(records, {.baseline = "raw"});
@@ -184,7 +186,7 @@ TEST(Copies, OfTheSameDataAreOneObservation) {
   for (int i = 0; i < 10; ++i) {
     for (const char* method : {"raw", "dual"}) {
       records.push_back(score("room", i, method, method[0] == 'd' ? 0.9 : 1.0));
-      records.back().content = "c0ffee";
+      records.back().cell.edit().content = "c0ffee";
     }
   }
   const Comparison c = compared(records, {.baseline = "raw"});
@@ -192,7 +194,7 @@ TEST(Copies, OfTheSameDataAreOneObservation) {
   EXPECT_EQ(c.copies, 9u);
   EXPECT_FALSE(c.methods[0].p);
   EXPECT_TRUE(has_note(c, "9 runs repeat the data of another and are not counted"));
-  for (Record& r : records) r.content = std::to_string(r.repeat);
+  for (Record& r : records) r.cell.edit().content = std::to_string(r.cell->repeat);
   EXPECT_EQ(compared(records, {.baseline = "raw"}).groups, 10u);
 }
 

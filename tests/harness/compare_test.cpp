@@ -70,9 +70,11 @@ TEST(Verdict, NamesMethodsThatAreNotSignificantlyDifferent) {
   std::vector<Record> records = sweep();
   for (int i = 0; i < 8; ++i) {
     const Record dual = records[static_cast<std::size_t>(4 * i + 2)];
-    records.push_back(score(
-        dual.sequence, i % 4, "pose_graph", dual.statistics.rmse * (i % 2 == 0 ? 1.001 : 0.9995)));
-    records.push_back(score(dual.sequence, i % 4, "twin", dual.statistics.rmse));
+    records.push_back(score(dual.cell->sequence,
+                            i % 4,
+                            "pose_graph",
+                            dual.statistics.rmse * (i % 2 == 0 ? 1.001 : 0.9995)));
+    records.push_back(score(dual.cell->sequence, i % 4, "twin", dual.statistics.rmse));
   }
   const std::string text = verdict(compared(records, {.baseline = "uniform", .alpha = 0.2}));
   EXPECT_EQ(text.find("no method is significantly best: "), 0u) << text;
@@ -82,7 +84,7 @@ TEST(Verdict, NamesMethodsThatAreNotSignificantlyDifferent) {
 
 TEST(Verdict, DoesNotClaimWhatSoFewRunsCannotShow) {
   std::vector<Record> records = sweep();
-  std::erase_if(records, [](const Record& r) { return r.sequence == "city"; });
+  std::erase_if(records, [](const Record& r) { return r.cell->sequence == "city"; });
   const Comparison c = compared(records);
   EXPECT_EQ(verdict(c),
             "nothing can be shown: dual is 11.5 % below uniform, but 4 runs of 1 sequence cannot "
@@ -136,15 +138,15 @@ TEST(Relevance, MakesSmallDifferencesTies) {
 TEST(Direction, ComesFromTheRecordNotFromItsLabel) {
   std::vector<Record> records = sweep();
   for (Record& r : records) {
-    r.metric = "gain_along";
-    r.label = "gain_along worsened";
-    r.better = Better::lower;
+    r.kind.edit().metric = "gain_along";
+    r.kind.edit().label = "gain_along worsened";
+    r.kind.edit().better = Better::lower;
   }
   EXPECT_EQ(compared(records).methods[0].method, "dual");
-  for (Record& r : records) r.better = Better::higher;
+  for (Record& r : records) r.kind.edit().better = Better::higher;
   EXPECT_EQ(compared(records).methods[0].method, "raw");
   EXPECT_DOUBLE_EQ(compared(records).methods[0].ratio->typical.estimate, 2.0);
-  for (Record& r : records) r.better = Better::neither;
+  for (Record& r : records) r.kind.edit().better = Better::neither;
   EXPECT_NE(refusal_of([&] { compared(records); }), "");
 }
 
@@ -156,8 +158,8 @@ TEST(Direction, OfATargetIsTheDistanceToIt) {
     records.push_back(score("room", i, "raw", 0.5));
   }
   for (Record& r : records) {
-    r.better = Better::target;
-    r.target = 1.0;
+    r.kind.edit().better = Better::target;
+    r.kind.edit().target = 1.0;
   }
   const Comparison c = compared(records);
   EXPECT_EQ(c.methods[0].method, "dual");
@@ -171,9 +173,9 @@ TEST(Coverage, OfALeaderThatIsLessThanThatOfOthersLeavesNoBest) {
   std::vector<Record> records = sweep();
   for (Record& r : records) {
     r.pairs = r.possible = 100;
-    if (r.method == "dual") r.span = 0.53;
-    if (r.method == "raw") r.pairs = 91;
-    if (r.method == "copy") r.pairs = 89;
+    if (r.cell->method == "dual") r.span = 0.53;
+    if (r.cell->method == "raw") r.pairs = 91;
+    if (r.cell->method == "copy") r.pairs = 89;
   }
   const Comparison c = compared(records);
   EXPECT_FALSE(c.is_best);
@@ -192,7 +194,7 @@ TEST(Coverage, OfALeaderThatIsLessThanThatOfOthersLeavesNoBest) {
 
 TEST(Compare, LeavesOutMethodsThatWereShownTheReference) {
   std::vector<Record> records = sweep();
-  for (Record& r : records) r.oracle = r.method == "dual";
+  for (Record& r : records) r.cell.edit().oracle = r.cell->method == "dual";
   const Comparison c = compared(records);
   EXPECT_EQ(c.methods.size(), 3u);
   EXPECT_EQ(c.methods[0].method, "uniform");
@@ -201,7 +203,8 @@ TEST(Compare, LeavesOutMethodsThatWereShownTheReference) {
 
 TEST(Compare, FlagsOracleClosuresAndOracleData) {
   std::vector<Record> records = sweep();
-  for (Record& r : records) r.oracle_closures = r.oracle = r.sequence == "room";
+  for (Record& r : records)
+    r.cell.edit().oracle_closures = r.cell.edit().oracle = r.cell->sequence == "room";
   const Comparison c = compared(records);  // every method has the same access to the reference
   EXPECT_EQ(c.methods.size(), 4u);
   EXPECT_TRUE(has_note(c, "closures measured in the reference or selected by it (oracle): room"));
@@ -221,9 +224,9 @@ TEST(Compare, WithoutACommonRunComparesNothing) {
 TEST(Compare, TakesDifferencesWhereValuesAreNegative) {
   std::vector<Record> records = sweep();
   for (Record& r : records) {
-    r.metric = "gain";
-    r.better = Better::higher;
-    r.statistics.rmse = r.method == "dual" ? 10.0 : r.method == "raw" ? 0.0 : -5.0;
+    r.kind.edit().metric = "gain";
+    r.kind.edit().better = Better::higher;
+    r.statistics.rmse = r.cell->method == "dual" ? 10.0 : r.cell->method == "raw" ? 0.0 : -5.0;
   }
   const Comparison c = compared(records);
   EXPECT_EQ(c.methods[0].method, "dual");  // the higher gain
@@ -239,7 +242,7 @@ TEST(Compare, TakesDifferencesWhereValuesAreNegative) {
 TEST(Ratio, IsDeclinedWhereTheBaselineIsPerfect) {
   std::vector<Record> records = sweep();
   for (Record& r : records) {
-    if (r.method == "uniform" && r.sequence == "room") r.statistics.rmse = 3e-16;
+    if (r.cell->method == "uniform" && r.cell->sequence == "room") r.statistics.rmse = 3e-16;
   }
   const Comparison c = compared(records);
   const auto dual = std::ranges::find(c.methods, "dual", &MethodVerdict::method);
@@ -250,10 +253,10 @@ TEST(Ratio, IsDeclinedWhereTheBaselineIsPerfect) {
 TEST(Compare, KeepsScoresApartAndPassesDescriptionsOver) {
   std::vector<Record> records = sweep();
   for (Record r : sweep()) {
-    r.times = "keyframes";
+    r.kind.edit().times = "keyframes";
     records.push_back(r);
-    r.metric = "pairs";
-    r.better = Better::neither;
+    r.kind.edit().metric = "pairs";
+    r.kind.edit().better = Better::neither;
     records.push_back(r);
   }
   EXPECT_EQ(compare(records, {.baseline = "uniform"}).size(), 2u);

@@ -50,7 +50,8 @@ class Correct : public testing::Test {
                      "]\nmetrics: [ate]\ntimes: " + times + "\n");
     successful_command("run c.yaml --fresh --out r", folder_);
     for (const Record& record : read_records(folder_.path() / "r")) {
-      if (record.metric == "ate" && record.relation == "translation") return record.statistics.rmse;
+      if (record.kind->metric == "ate" && record.kind->relation == "translation")
+        return record.statistics.rmse;
     }
     ADD_FAILURE() << "no ate";
     return 0.0;
@@ -99,8 +100,8 @@ TEST_F(Correct, WritesTheCovariancesThatTheSweepScores) {
   for (const Record& record : read_records(folder_.path() / "nees")) {
     if (record.status == Status::declined) {
       why = record.why;
-    } else if (record.relation == "nees") {
-      means[record.axis].push_back(record.statistics.mean);
+    } else if (record.kind->relation == "nees") {
+      means[record.kind->axis].push_back(record.statistics.mean);
     }
   }
   EXPECT_THAT(why, HasSubstr("states no covariances"));

@@ -58,14 +58,15 @@ class Damage : public TinyStore {
   /// All that is read of the cells, including times and memory.
   static std::string answers(const std::filesystem::path& file) {
     std::string out = stored_cells(file);
-    for (const CellRecord& c : read_cells(file)) {
+    for (const CellRow& c : read_cells(file)) {
       out += c.build + std::to_string(c.seconds) + std::to_string(c.peak_memory.value_or(-1)) +
              std::to_string(c.closure_count) + std::to_string(c.oracle) + "\n";
       for (const Phase& p : c.phases) out += p.name + std::to_string(p.seconds) + "\n";
     }
     for (const Record& r : read_records(file)) {
-      out += r.sequence + r.method + r.protocol_version + std::to_string(r.possible) + r.closures +
-             std::to_string(r.milliseconds) + "\n";
+      out += r.cell->sequence + r.cell->method + r.kind->protocol_version +
+             std::to_string(r.possible) + r.cell->closures +
+             std::to_string(r.cell->milliseconds()) + "\n";
     }
     for (const auto& [key, value] : read_dataset_options(file)) out += key + value + "\n";
     return out + description(file);

@@ -91,7 +91,7 @@ TEST_F(EvalCopies, AMethodThatIsAddedLaterSeparatesRunsThatWereEqual) {
   const auto add = [&](const std::string& method) {
     stored(test::with(files_of("office", "systems", {method}), {"--sequence", "office"}));
     std::set<std::string> contents;
-    for (const Record& r : read_records(path("store"))) contents.insert(r.content);
+    for (const Record& r : read_records(path("store"))) contents.insert(r.cell->content);
     return contents.size();
   };
   EXPECT_EQ(add("good"), 1u);  // deterministic: ten equal files

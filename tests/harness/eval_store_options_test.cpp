@@ -89,7 +89,7 @@ TEST_F(EvalStoreOptions, LowCoverageHasExitCodeOne) {
 
 TEST_F(EvalStoreOptions, TimesOfReadingFilesAreNotRecorded) {
   store_systems("store");
-  for (const Record& r : all_records(path("store"))) EXPECT_NE(r.metric, "time");
+  for (const Record& r : all_records(path("store"))) EXPECT_NE(r.kind->metric, "time");
   EXPECT_THROW(compare_store(path("store"), "time", {}, CompareOptions{}), InputError);
   EXPECT_TRUE(costs(read_cells(path("store"))).lines.empty());
 }

@@ -41,8 +41,8 @@ TEST_F(EvalStore, NumbersAreThoseOfEval) {
   const test::Json json = test::eval_json(office({"bad/office/3"}));
   const double expected = test::find(json, "ate", "translation")["rmse"];
   for (const Record& r : read_records(path("store"))) {
-    if (r.sequence == "office" && r.method == "bad" && r.repeat == 3 && r.label == "ate" &&
-        r.relation == "translation" && r.axis == "3d") {
+    if (r.cell->sequence == "office" && r.cell->method == "bad" && r.cell->repeat == 3 &&
+        r.kind->label == "ate" && r.kind->relation == "translation" && r.kind->axis == "3d") {
       EXPECT_DOUBLE_EQ(r.statistics.rmse, expected);
       return;
     }
@@ -123,7 +123,7 @@ TEST_F(EvalStore, AnUnreadableReferenceLeavesTheStoreUnchanged) {
               HasSubstr("street.txt"));
   const auto cells = read_cells(path("s"));
   EXPECT_EQ(cells.size(), 40u);
-  for (const CellRecord& cell : cells) EXPECT_EQ(cell.status, Status::ok);
+  for (const CellRow& cell : cells) EXPECT_EQ(cell.status, Status::ok);
 }
 
 TEST_F(EvalStore, OtherOptionsEvaluateEarlierRunsAgainWithANote) {

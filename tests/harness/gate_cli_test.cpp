@@ -65,9 +65,10 @@ TEST_F(GateCli, ComparesTimesOfUpdatesOnlyOnRequest) {
   const auto limited = [&] {
     std::vector<std::string> out;
     const Baseline written = read_baseline(folder_.path() / "r.json");
-    for (const GateScore& score : written.snapshot.cells.at(0).scores) {
-      const bool is_new = std::ranges::count(out, score.unit.text()) == 0;
-      if (score.metric != "ate" && is_new) out.push_back(score.unit.text());
+    for (const Record& score : by_cell(written.snapshot.records).at(0)) {
+      const ScoreKind& kind = *score.kind;
+      const bool is_new = std::ranges::count(out, kind.unit) == 0;
+      if (kind.metric != "ate" && is_new) out.push_back(kind.unit);
     }
     return out;
   };

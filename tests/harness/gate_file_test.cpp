@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/baseline_file.hpp"
@@ -28,20 +29,41 @@ std::string refusal(const std::string& text) {
 
 TEST(BaselineFile, ReadsBackWhatWasWritten) {
   Baseline before = baseline();
-  before.snapshot.cells[0].scores.clear();
-  before.snapshot.cells[0].status = Status::failed;
-  before.snapshot.cells[2].scores[0].status = Status::declined;
-  before.snapshot.cells[2].scores[0].pairs = 0;
-  before.snapshot.cells[2].scores[0].values.clear();
+  fail(before.snapshot, 0, Status::failed);
+  before.snapshot.records[2].status = Status::declined;
+  before.snapshot.records[2].pairs = 0;
   rmse(before.snapshot, 1) = 1.0 / 3.0;
-  before.snapshot.cells[3].method = "a\"b\n<c>";
+  before.snapshot.records[3].cell.edit().method = "a\"b\n<c>";
   const std::string text = json(before);
   const Baseline read = parse_baseline(text, "b.json");
   EXPECT_EQ(json(read), text);
-  EXPECT_EQ(rmse(const_cast<Baseline&>(read).snapshot, 1), 1.0 / 3.0);
+  EXPECT_EQ(read.snapshot.records[1].statistics.rmse, 0.3333333);
   EXPECT_TRUE(check(before, read.snapshot).findings.empty());
   EXPECT_EQ(read.build_summary, before.build_summary);
   EXPECT_EQ(read.limits[0].relative, before.limits[0].relative);
+}
+
+TEST(BaselineFile, HasTheDigitsThatItsLimitsSee) {
+  const auto written = [](double number, double relative, double absolute) {
+    Baseline before = baseline();
+    before.limits = {{.values = {"rmse"}, .relative = relative, .absolute = absolute}};
+    rmse(before.snapshot, 0) = number;
+    return parse_baseline(json(before), "b.json").snapshot.records[0].statistics.rmse;
+  };
+  EXPECT_EQ(written(123.456789012, 0.001, 1e-6), 123.4568);
+  EXPECT_EQ(written(-1.23456789e-7, 0.001, 1e-6), -1.23e-7);
+  EXPECT_EQ(written(1.23456789e-11, 0.001, 1e-6), 0.0);
+  EXPECT_EQ(written(1.0 / 3.0, 0.0, 0.0), 1.0 / 3.0);
+  EXPECT_TRUE(std::isnan(written(std::nan(""), 0.001, 1e-6)));
+  const std::string good = json(baseline());
+  const auto limited = [&](const std::string& relative) {
+    std::string text = good;
+    return refusal(text.replace(text.find("0.001"), 5, relative));
+  };
+  EXPECT_EQ(limited("1e-05"), "");
+  EXPECT_EQ(limited("9e-06"),
+            "b.json: limits[0]: is too tight for the numbers of the file, which are rounded to "
+            "relative 1e-06, absolute 1e-09; write it again with --update (limits are kept)");
 }
 
 TEST(BaselineFile, IsRejectedAfterAChangeOfAnythingButItsLimits) {
@@ -74,8 +96,8 @@ TEST(BaselineFile, IsRefusedWithItsPlace) {
        {std::pair{"{}", "null"}, std::pair{"{\"loopbench_baseline\": 9}", "9"}}) {
     EXPECT_EQ(refusal(text),
               "b.json: loopbench_baseline: found format " + std::string(format) +
-                  ", expected 4: it lacks data that format 4 compares; check the results, then "
-                  "write it again with --update (limits are kept)");
+                  ", expected 5; check the results, then write it again with check --update "
+                  "(limits are kept)");
   }
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string text = good;
@@ -96,7 +118,7 @@ TEST(BaselineFile, IsRefusedWithItsPlace) {
 TEST(GateText, IsMarkdownAndJUnit) {
   const GateReport report = after([](Snapshot& now) {
     rmse(now, 3) *= 2.0;
-    now.cells[0].method = "ra<w>&\"";
+    now.records[0].cell.edit().method = "ra<w>&\"";
   });
   const std::string text = markdown(report, "quick");
   EXPECT_THAT(text, StartsWith("### quick: FAILED\n\n| cell "));
@@ -111,7 +133,7 @@ TEST(GateText, IsMarkdownAndJUnit) {
       HasSubstr("<testcase classname=\"quick\" name=\"room (repeat 1) / uniform\">\n"
                 "    <failure message=\"1 regression\">ate translation 3d, dense, loopbench: "));
   Baseline odd = baseline();
-  odd.snapshot.cells[0].method = "ra<w>&\"";
+  odd.snapshot.records[0].cell.edit().method = "ra<w>&\"";
   EXPECT_THAT(junit(check(odd, sweep()), "q"), HasSubstr("name=\"room / ra&lt;w&gt;&amp;&quot;\""));
   EXPECT_EQ(markdown(after([](Snapshot&) {}), "quick"),
             "### quick: passed\n\n"

@@ -36,34 +36,30 @@ TEST(Gate, ReportsImprovementsAndPasses) {
 }
 
 TEST(Gate, FailsOnWhatVanishedOrFailsNewly) {
-  EXPECT_FALSE(after([](Snapshot& now) { now.cells.pop_back(); }).passes());
-  EXPECT_FALSE(after([](Snapshot& now) { now.cells[0].scores.clear(); }).passes());
+  EXPECT_FALSE(after([](Snapshot& now) { now.records.pop_back(); }).passes());
+  EXPECT_FALSE(after([](Snapshot& now) { fail(now, 0, Status::ok); }).passes());
   for (const Status status :
        {Status::failed, Status::crashed, Status::timeout, Status::declined, Status::incomplete}) {
-    const GateReport report = after([&](Snapshot& now) {
-      now.cells[0].status = status;
-      if (status != Status::incomplete) now.cells[0].scores.clear();
-    });
+    const GateReport report = after([&](Snapshot& now) { fail(now, 0, status); });
     ASSERT_EQ(report.findings.size(), 1u) << to_text(status);
     EXPECT_EQ(report.findings[0].what, "was ok, is " + to_text(status));
   }
-  const GateReport score =
-      after([](Snapshot& now) { now.cells[0].scores[0].status = Status::failed; });
+  const GateReport score = after([](Snapshot& now) { now.records[0].status = Status::failed; });
   EXPECT_EQ(score.findings.at(0).score, "ate translation 3d, dense, loopbench");
-  const GateReport pairs = after([](Snapshot& now) { now.cells[0].scores[0].pairs = 399; });
+  const GateReport pairs = after([](Snapshot& now) { now.records[0].pairs = 399; });
   EXPECT_EQ(pairs.findings.at(0).what, "evaluated 399 pose pairs, was 400");
 }
 
 TEST(Gate, ReportsWhatIsNewOrWorksAgain) {
   const GateReport added = after([](Snapshot& now) {
-    now.cells.push_back(cell(0, "dual", 0.1));
+    now.records.push_back(ate(0, "dual", 0.1));
     now.sequences["city"] = "path=city";
   });
   EXPECT_TRUE(added.passes());
   EXPECT_EQ(added.findings.at(0).kind, Finding::Kind::added);
   EXPECT_EQ(added.findings.at(0).cell, "room / dual");
   Baseline broken = baseline();
-  broken.snapshot.cells[0].status = Status::failed;
+  fail(broken.snapshot, 0, Status::failed);
   const GateReport repaired = check(broken, sweep());
   EXPECT_TRUE(repaired.passes());
   EXPECT_EQ(repaired.findings.at(0).kind, Finding::Kind::improvement);
@@ -106,7 +102,7 @@ TEST(Gate, CountsScoresWithoutALimit) {
 
 TEST(Gate, TakesAnyMoveOfADescriptionForALoss) {
   Baseline counted = baseline();
-  for (GateCell& cell : counted.snapshot.cells) cell.scores[0].better = Better::neither;
+  for (Record& r : counted.snapshot.records) r.kind.edit().better = Better::neither;
   Snapshot now = counted.snapshot;
   rmse(now, 0) *= 0.9;
   EXPECT_EQ(check(counted, now).count(Finding::Kind::regression), 1u);
@@ -114,7 +110,7 @@ TEST(Gate, TakesAnyMoveOfADescriptionForALoss) {
 
 TEST(Gate, MissesNoCellOfAPart) {
   Snapshot part = sweep();
-  part.cells.resize(4);
+  part.records.resize(4);
   EXPECT_EQ(check(baseline(), part).count(Finding::Kind::regression), 12u);
   const GateReport report = check(baseline(), part, GateExtent::part);
   EXPECT_TRUE(report.findings.empty());
@@ -129,20 +125,24 @@ TEST(Gate, LooksAtTimesOnlyWhenALimitIsAboutThem) {
   timed.limits.insert(timed.limits.begin(), time_limits(0.5).front());
   EXPECT_TRUE(limits_time(timed.limits));
   const auto add_times = [](Snapshot& to, double ms) {
-    for (GateCell& cell : to.cells) {
-      cell.scores.push_back(ate(ms));
-      cell.scores.back().metric = "time";
+    std::vector<Record> all;
+    for (const Record& r : to.records) {
+      all.push_back(r);
+      all.push_back(r);
+      all.back().kind.edit().metric = "time";
+      all.back().statistics.rmse = ms;
     }
+    to.records = all;
   };
   add_times(timed.snapshot, 10.0);
   Snapshot now = sweep();
   add_times(now, 10.9);  // within the limit
   EXPECT_TRUE(check(timed, now).findings.empty());
-  now.cells[1].scores.back().values["rmse"] = 16.1;
+  now.records[3].statistics.rmse = 16.1;
   const GateReport slow = check(timed, now);
   ASSERT_EQ(slow.findings.size(), 1u);
   EXPECT_EQ(slow.findings[0].what, "rmse 16.1 m, was 10 (+61 %, limit 6)");
-  now.cells[1].scores.back().values["rmse"] = 0.01;  // fast, not implausible
+  now.records[3].statistics.rmse = 0.01;  // fast, not implausible
   const GateReport fast = check(timed, now);
   EXPECT_EQ(fast.count(Finding::Kind::improvement), 1u);
   EXPECT_EQ(
@@ -174,7 +174,7 @@ TEST(Gate, TellsTheOptionsThatDiffer) {
 TEST(Gate, RefusesAnotherSweepEvenWhereAPartWouldDo) {
   Baseline other = baseline();
   other.snapshot.sweep = "outliers";
-  for (GateCell& cell : other.snapshot.cells) cell.sequence = "street";
+  for (Record& r : other.snapshot.records) r.cell.edit().sequence = "street";
   for (const GateExtent extent : {GateExtent::complete, GateExtent::part}) {
     EXPECT_EQ(refusal_of([&] { check(other, sweep(), extent); }),
               "the baseline is from another sweep: the results contain no cell of 'outliers'");

@@ -21,9 +21,10 @@ using compared_sweep::ate;
 
 /// By `compare` with any baseline that has values.
 Names called_best(const std::vector<Record>& records) {
-  const auto scored = std::ranges::find(records, SharedText("ate"), &Record::metric);
+  const auto scored =
+      std::ranges::find_if(records, [](const Record& r) { return r.kind->metric == "ate"; });
   if (scored == records.end()) return {};
-  const Comparison c = compare(records, {.baseline = scored->method}).at(0);
+  const Comparison c = compare(records, {.baseline = scored->cell->method}).at(0);
   Names out;
   for (const MethodVerdict& m : c.methods) {
     if (c.is_best && is_leading(m)) out.insert(m.method);
@@ -55,7 +56,7 @@ Table table_of(const std::vector<Record>& records,
 }
 
 std::vector<Record> of_sequence(std::vector<Record> records, const std::string& sequence) {
-  std::erase_if(records, [&](const Record& r) { return r.sequence != sequence; });
+  std::erase_if(records, [&](const Record& r) { return r.cell->sequence != sequence; });
   return records;
 }
 
@@ -84,7 +85,7 @@ TEST(Marks, AreThoseOfCompareWhateverTheRecords) {
   std::mt19937_64 bits(5);
   std::size_t marks = 0, declined = 0;
   for (const synthetic::Shape& shape : synthetic::shapes()) {
-    for (int i = 0; i < 16; ++i) {
+    for (int i = 0; i < 9; ++i) {
       synthetic::Truth truth{.effects = {0.0, -0.1 * i, -0.05, 0.2}, .groups = 40};
       if (i % 2 == 1) truth.failures = {0.0, 0.05, 0.1, 0.3};
       if (i % 4 > 1) truth.sequences.assign(3, {0.0, -0.1, 0.1, 0.0});
@@ -95,11 +96,10 @@ TEST(Marks, AreThoseOfCompareWhateverTheRecords) {
       marks += expect_marks_of_compare(records);
       for (Record& r : records) {
         r.possible = 100;
-        r.pairs = r.method == "m1" ? 60 : 100;
-        r.oracle = i % 7 == 6 && r.method == "m2";
+        r.pairs = r.cell->method == "m1" ? 60 : 100;
+        r.cell.edit().oracle = i % 7 == 6 && r.cell->method == "m2";
       }
-      const Names before = called_best(records);
-      if (before.empty()) ++declined;
+      if (called_best(records).empty()) ++declined;
       expect_marks_of_compare(records);
     }
   }
@@ -107,7 +107,7 @@ TEST(Marks, AreThoseOfCompareWhateverTheRecords) {
   EXPECT_GT(declined, 20u);
 }
 
-/// Eight errors of each method, `second` twice as large.
+/// The errors of `second` are twice as large.
 std::vector<Record> two_methods(int runs) {
   std::vector<Record> out;
   for (int repeat = 0; repeat < runs; ++repeat) {
@@ -124,7 +124,7 @@ TEST(Marks, AreNotGivenForLowCoverage) {
             "marked: the methods that compare calls best");
   for (Record& r : records) {
     r.possible = 100;
-    r.pairs = r.method == "first" ? 60 : 100;
+    r.pairs = r.cell->method == "first" ? 60 : 100;
   }
   const Table table = table_of(records, {"method"}, {"score"});
   EXPECT_EQ(marked_in_column(table, 1), Names{});
@@ -145,19 +145,19 @@ TEST(Marks, AreOfOneScoreAndOneEntryOfAMethod) {
   EXPECT_EQ(marked_in_column(several, 1), Names{});
   EXPECT_EQ(several.notes, std::vector<std::string>{});
   for (Record& r : records) {
-    if (r.method == "second") r.relation = "rotation";
+    if (r.cell->method == "second") r.kind.edit().relation = "rotation";
   }
   EXPECT_EQ(marked_in_column(table_of(records, {"method"}, {"metric"}), 1), Names{});
 }
 
 TEST(Marks, AreNotGivenAmongSequencesOrDescriptions) {
   std::vector<Record> records = two_methods(8);
-  for (Record& r : records) r.better = metrics::Better::neither;
+  for (Record& r : records) r.kind.edit().better = metrics::Better::neither;
   EXPECT_EQ(marked_in_column(table_of(records, {"method"}, {"score"}), 1), Names{});
   for (Record& r : records) {
-    r.better = metrics::Better::lower;
-    r.sequence = r.method;
-    r.method = "raw";
+    r.kind.edit().better = metrics::Better::lower;
+    r.cell.edit().sequence = r.cell->method;
+    r.cell.edit().method = "raw";
   }
   EXPECT_EQ(marked_in_column(table_of(records, {"sequence"}, {"score"}), 1), Names{});
 }

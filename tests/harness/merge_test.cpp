@@ -49,7 +49,7 @@ TEST_F(MergeTest, PrefersWhatDidNotFail) {
   run(kUsual, Retry::none, "a / ");
   const std::filesystem::path out = folder_.path() / "3.sqlite";
   merge_stores({folder_.path() / "1.sqlite", file_}, out);
-  for (const CellRecord& cell : read_cells(out)) EXPECT_EQ(cell.status, Status::ok);
+  for (const CellRow& cell : read_cells(out)) EXPECT_EQ(cell.status, Status::ok);
   EXPECT_EQ(read_cells(out).size(), 2u);
 }
 

@@ -123,13 +123,13 @@ TEST(Oracle, RefusesTheOptionsThatDmRefuses) {
 
 TEST(Oracle, RowsOfTablesAreMarked) {
   Record plain;
-  plain.method = "dm";
-  plain.sequence = "room";
-  plain.metric = "ate";
-  plain.times = "dense";
+  plain.cell.edit().method = "dm";
+  plain.cell.edit().sequence = "room";
+  plain.kind.edit().metric = "ate";
+  plain.kind.edit().times = "dense";
   Record leaky = plain;
-  leaky.method = "paper_oracle";
-  leaky.oracle = true;
+  leaky.cell.edit().method = "paper_oracle";
+  leaky.cell.edit().oracle = true;
   const std::vector<Table> tables = pivot({plain, leaky}, {});
   ASSERT_EQ(tables.size(), 1u);
   ASSERT_EQ(tables[0].lines.size(), 2u);
@@ -153,7 +153,7 @@ TEST(Oracle, TheStoreKeepsTheFlag) {
   }
   const std::vector<Record> records = read_records(file);
   ASSERT_FALSE(records.empty());
-  for (const Record& record : records) EXPECT_TRUE(record.oracle);
+  for (const Record& record : records) EXPECT_TRUE(record.cell->oracle);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ std::vector<Record> errors(const std::vector<std::pair<std::string, std::vector<
       out.push_back(ate(method, values[repeat], static_cast<int>(repeat)));
       if (!std::isnan(values[repeat])) continue;
       out.back().status = Status::failed;
-      out.back().metric.clear();
+      out.back().kind.edit().metric.clear();
     }
   }
   return out;
@@ -53,10 +53,10 @@ TEST(Pivot, MarksNoStatisticWithoutADirection) {
       Record r = ate(error > 1.5 ? "raw" : "dm", error, repeat);
       r.statistics.sse = error * error;
       r.statistics.count = error > 1.5 ? 400 : 300;
-      r.unit = "m";
+      r.kind.edit().unit = "m";
       records.push_back(r);
-      r.relation = "rotation";
-      r.unit = "deg";
+      r.kind.edit().relation = "rotation";
+      r.kind.edit().unit = "deg";
       records.push_back(r);
     }
   }
@@ -99,13 +99,13 @@ TEST(Pivot, StatesTheNumberOfRunsWhereAMethodFails) {
 
 TEST(Pivot, ListsAFailureOnlyUnderItsOwnSequence) {
   std::vector<Record> records{ate("dm", 0.0)};
-  records[0].sequence = "a";
+  records[0].cell.edit().sequence = "a";
   records[0].status = Status::failed;
-  records[0].metric.clear();
-  records[0].times.clear();
+  records[0].kind.edit().metric.clear();
+  records[0].kind.edit().times.clear();
   for (const std::string sequence : {"a", "a2", "a, b"}) {
     records.push_back(ate("raw", 1.0));
-    records.back().sequence = sequence;
+    records.back().cell.edit().sequence = sequence;
   }
   const std::vector<Table> tables = pivot(records, TableSpec{.show = {}, .where = {}});
   ASSERT_EQ(tables.size(), 3u);
@@ -152,7 +152,7 @@ TEST(Pivot, ComparesOnlyCellsThatTriedTheSameRuns) {
   std::vector<Record> records =
       errors({{"raw", {1.0, 3.0}}, {"dm", {2.0, kNone}}, {"gp", {5.0, 7.0}}});
   for (Record& r : records) {
-    if (r.method == "gp") r.sequence = "hall";
+    if (r.cell->method == "gp") r.cell.edit().sequence = "hall";
   }
   const Table table = table_of(records);
   EXPECT_EQ(*table.lines[0][1].mean->value, 1.0);
@@ -162,13 +162,13 @@ TEST(Pivot, ComparesOnlyCellsThatTriedTheSameRuns) {
 TEST(Gain, IsMeasuredFromTheBaselineOfTheSameTimes) {
   std::vector<Record> records{
       ate("raw", 0.2), ate("uniform", 0.05), ate("raw", 0.4), ate("uniform", 0.5)};
-  records[2].times = records[3].times = "keyframes";
+  records[2].kind.edit().times = records[3].kind.edit().times = "keyframes";
   const std::vector<Record> g = gains(records, "raw");
   ASSERT_EQ(g.size(), 4u);
   EXPECT_DOUBLE_EQ(g[0].statistics.rmse, 0.0);
   EXPECT_DOUBLE_EQ(g[1].statistics.rmse, 75.0);
   EXPECT_DOUBLE_EQ(g[3].statistics.rmse, -25.0);  // worse is negative
-  EXPECT_EQ(g[3].unit, "%");
+  EXPECT_EQ(g[3].kind->unit, "%");
   EXPECT_TRUE(gains({ate("raw", 0.2)}, "").empty());
 }
 
@@ -181,23 +181,26 @@ TEST(Gain, IsDeclinedWhereTheBaselineIsPerfect) {
 TEST(RunTimes, AreOnePerCellAndTimes) {
   std::vector<Record> records{ate("raw", 0.2), ate("raw", 0.1), ate("bad", 0.0)};
   records[2].status = Status::failed;
-  records[1].axis = "x";
-  for (Record& r : records) r.milliseconds = 2.5;
+  records[1].kind.edit().axis = "x";
+  for (Record& r : records) {
+    r.cell.edit().runs = 1;
+    r.cell.edit().seconds = 0.0025;
+  }
   const std::vector<Record> t = run_times(records);
   ASSERT_EQ(t.size(), 1u);
   EXPECT_EQ(t[0].statistics.rmse, 2.5);
-  EXPECT_EQ(t[0].unit, "ms");
+  EXPECT_EQ(t[0].kind->unit, "ms");
 }
 
 TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
   std::vector<Record> records{ate("raw", 1.0), ate("raw", 3.0), ate("worse", 9.0)};
   records.push_back(records[2]);
-  records[3].axis = "x";
+  records[3].kind.edit().axis = "x";
   for (const std::size_t i : {1u, 2u, 3u}) {
     records[i].status = Status::incomplete;
     records[i].why = "evaluated 1 of 9 poses";
   }
-  records[1].repeat = 1;
+  records[1].cell.edit().repeat = 1;
   const std::vector<Table> tables = pivot(records, TableSpec{});
   EXPECT_EQ(tables[0].lines[0][1].mean->value, 1.0);  // without the second repeat
   EXPECT_EQ(tables[0].lines[0][1].mean->records, 1u);
@@ -211,12 +214,12 @@ TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
 
 TEST(Pivot, RefusesToAverageDifferentScores) {
   std::vector<Record> records{ate("raw", 1.0), ate("raw", 3.0)};
-  records[1].relation = "rotation";
-  records[1].unit = "deg";
+  records[1].kind.edit().relation = "rotation";
+  records[1].kind.edit().unit = "deg";
   EXPECT_EQ(
       pivot(records, TableSpec{})[0].headings,
       (std::vector<std::string>{"method", "ate [m]", "ate [deg]"}));  // distinguished by the unit
-  records[1].unit = "m";
+  records[1].kind.edit().unit = "m";
   EXPECT_THROW(pivot(records, TableSpec{}), InputError);
 }
 

@@ -24,8 +24,8 @@ namespace {
 /// A sweep for the gate: two methods on eight repeats, with records as read from a store.
 Record score(int run, const std::string& method, const std::string& metric, double rmse) {
   Record out = compared_sweep::score("room", run, method, rmse);
-  out.cell = 2 * run + (method == "raw" ? 0 : 1);
-  out.metric = out.label = metric;
+  out.cell.edit().position = 2 * run + (method == "raw" ? 0 : 1);
+  out.kind.edit().metric = out.kind.edit().label = metric;
   out.statistics.max = 2.0 * rmse;
   out.statistics.count = 400;
   out.pairs = out.possible = 400;
@@ -54,7 +54,7 @@ Snapshot snapshot_of(const std::vector<Record>& records) {
   out.protocols = {{"loopbench [2]", "align=se3, max_diff=0.02"}};
   out.metrics = {{"ate", "ate"}, {"rpe", "rpe, delta=1.0, unit=frames"}};
   out.methods = {{"raw", "raw"}, {"uniform", "uniform, rotation=slerp, weights=time"}};
-  out.cells = gate_cells(records, {Tolerance{}});
+  out.records = checked_records(records, {Tolerance{}});
   return out;
 }
 
@@ -108,14 +108,15 @@ TEST(PlantedRegression, OfEveryRecord) {
     std::ranges::for_each(now, change);
     return caught(snapshot_of(now));
   };
-  expect_named(changed([](Record& r) { r.metric = r.label == "ate" ? "ape" : "rpe"; }),
-               {"metric 'ape', was 'ate'"});
-  expect_named(changed([](Record& r) { r.oracle = r.method == "uniform"; }),
+  expect_named(
+      changed([](Record& r) { r.kind.edit().metric = r.kind->label == "ate" ? "ape" : "rpe"; }),
+      {"metric 'ape', was 'ate'"});
+  expect_named(changed([](Record& r) { r.cell.edit().oracle = r.cell->method == "uniform"; }),
                {"room / uniform", "oracle: the method or its data uses the reference, was not"});
-  expect_named(changed([](Record& r) { r.oracle_closures = true; }),
+  expect_named(changed([](Record& r) { r.cell.edit().oracle_closures = true; }),
                {"room / raw", "oracle: closures are measured in the reference, was not"});
-  expect_named(changed([](Record& r) { r.unit = "cm"; }), {"unit 'cm', was 'm'"});
-  expect_named(changed([](Record& r) { r.better = Better::higher; }),
+  expect_named(changed([](Record& r) { r.kind.edit().unit = "cm"; }), {"unit 'cm', was 'm'"});
+  expect_named(changed([](Record& r) { r.kind.edit().better = Better::higher; }),
                {"best value: higher, was: lower"});
 }
 
@@ -156,20 +157,21 @@ TEST(PlantedRegression, AMethodASequenceOrAScoreThatVanished) {
     std::erase_if(now, is_gone);
     return caught(snapshot_of(now));
   };
-  expect_named(without([](const Record& r) { return r.method == "uniform"; }),
+  expect_named(without([](const Record& r) { return r.cell->method == "uniform"; }),
                {"room (repeat 7) / uniform", "missing"});
-  expect_named(without([](const Record& r) { return r.repeat == 3; }),
+  expect_named(without([](const Record& r) { return r.cell->repeat == 3; }),
                {"room (repeat 3) / raw", "missing"});
-  expect_named(without([](const Record& r) { return r.metric == "rpe"; }),
+  expect_named(without([](const Record& r) { return r.kind->metric == "rpe"; }),
                {"rpe translation 3d, dense, loopbench", "missing"});
 }
 
 TEST(PlantedRegression, ACellThatFailsNow) {
   std::vector<Record> now = records();
-  std::erase_if(now, [](const Record& r) { return r.cell == 5 && r.metric == "rpe"; });
+  std::erase_if(now,
+                [](const Record& r) { return r.cell->position == 5 && r.kind->metric == "rpe"; });
   for (Record& r : now) {
-    if (r.cell != 5) continue;
-    r.metric = r.label = "";
+    if (r.cell->position != 5) continue;
+    r.kind.edit().metric = r.kind.edit().label = "";
     r.status = Status::crashed;
   }
   expect_named(caught(snapshot_of(now)), {"room (repeat 2) / uniform", "was ok, is crashed"});

@@ -63,7 +63,7 @@ TEST(Packed, ThinsWithBothEndsKept) {
 TEST(Thinning, TakesPointsThenRepeatsThenPoints) {
   ReportContent content;
   for (int i = 0; i < 20; ++i) {  // five repeats of four methods
-    CellRecord& cell = content.shown_cells.emplace_back();
+    CellRow& cell = content.shown_cells.emplace_back();
     cell.sequence = "room";
     cell.repeat = i / 4;
   }
@@ -87,8 +87,8 @@ TEST(Report, LeavesOutSequencesThatDoNotFit) {
   for (int i = 0; i < 400; ++i) {
     Record& r =
         records.emplace_back(compared_sweep::ate("m" + std::to_string(i % 40), 1.0 + i % 40));
-    r.cell = i;
-    r.sequence = "sequence " + std::to_string(i / 40);
+    r.cell.edit().position = i;
+    r.cell.edit().sequence = "sequence " + std::to_string(i / 40);
     r.statistics.mean = r.statistics.rmse;
   }
   const TemporaryFolder folder;

@@ -117,7 +117,7 @@ TEST_F(OfASweep, HoldsScoresAndTracesOfEveryRepeat) {
   EXPECT_EQ(all["traces"]["grids"].size(), 2u);   // all methods of a sequence share their stamps
   const nlohmann::json& cell = all["scores"]["cells"][0];
   const auto found = std::ranges::find_if(content_->records, [](const Record& r) {
-    return r.cell == content_->cells[0].position && r.metric == "ate";
+    return r.cell->position == content_->cells[0].position && r.kind->metric == "ate";
   });
   ASSERT_NE(found, content_->records.end());
   EXPECT_NEAR(

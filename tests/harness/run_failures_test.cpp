@@ -73,7 +73,7 @@ class RunFailures : public TinyStore {
     run("datasets: [line]\nprotocol: {base: loopbench, align: none}\nmethods: [straight, " +
         method + "]\n" + (more.empty() ? "metrics: [ate]\n" : more));
     std::vector<Record> records = read_records(file_);
-    std::erase_if(records, [](const Record& r) { return r.method == "straight"; });
+    std::erase_if(records, [](const Record& r) { return r.cell->method == "straight"; });
     return records;
   }
 };
@@ -88,7 +88,7 @@ TEST_F(RunFailures, OutputThatIsNotFiniteFailsItsCellAndNotTheSweep) {
     const std::vector<Record> records = records_of(method);
     ASSERT_EQ(records.size(), 1u) << method;
     EXPECT_EQ(records[0].status, Status::failed) << method;
-    EXPECT_EQ(records[0].metric, "");
+    EXPECT_EQ(records[0].kind->metric, "");
     EXPECT_EQ(records[0].why, why);
   }
   const std::vector<Record> unseen = records_of(between, "metrics: [ate]\ntimes: keyframes\n");
@@ -114,13 +114,13 @@ TEST_F(RunFailures, AFailedMetricFailsTheScoresThatItGivesElsewhereAndNoOther) {
   for (std::size_t i = 0; i < records.size(); ++i) {
     const Record& r = records[i];
     EXPECT_EQ(r.status, i % 3 == 2 ? Status::ok : Status::failed) << i;
-    EXPECT_EQ(r.label, i % 3 == 2 ? "other" : "ate");
-    EXPECT_EQ(r.times, i < 3 ? "keyframes" : "dense");
+    EXPECT_EQ(r.kind->label, i % 3 == 2 ? "other" : "ate");
+    EXPECT_EQ(r.kind->times, i < 3 ? "keyframes" : "dense");
     if (i % 3 == 2) continue;
     EXPECT_EQ(r.why, "lost its way");
     EXPECT_EQ(field(r, "score"), i % 3 == 0 ? "ate" : "ate share x");
-    EXPECT_EQ(r.unit, i % 3 == 0 ? "m" : "%");
-    EXPECT_EQ(r.better, i % 3 == 0 ? Better::lower : Better::higher);
+    EXPECT_EQ(r.kind->unit, i % 3 == 0 ? "m" : "%");
+    EXPECT_EQ(r.kind->better, i % 3 == 0 ? Better::lower : Better::higher);
   }
 }
 
@@ -131,8 +131,8 @@ TEST_F(RunFailures, AScoreThatIsNotFiniteFailsAlone) {
     return std::vector<Score>{infinite, single("rotation", "3d", "deg", 2.0)};
   };
   for (const Record& r : records_of("shift")) {
-    EXPECT_EQ(r.status, r.relation == "translation" ? Status::failed : Status::ok);
-    EXPECT_EQ(r.why, r.relation == "translation" ? "is not finite" : "");
+    EXPECT_EQ(r.status, r.kind->relation == "translation" ? Status::failed : Status::ok);
+    EXPECT_EQ(r.why, r.kind->relation == "translation" ? "is not finite" : "");
   }
 }
 

@@ -60,16 +60,18 @@ TEST_F(RunSweep, EveryCellLeavesItsRow) {
   EXPECT_EQ(count(Status::ok), 18);
   EXPECT_EQ(count(Status::failed), 9 + 18);  // the method, and the undefined metric of the others
   EXPECT_EQ(count(Status::declined), 9);
-  const auto fails = std::ranges::find(records, SharedText("fails"), &Record::method);
+  const auto fails =
+      std::ranges::find(records, "fails", [](const Record& r) { return r.cell->method.text(); });
   EXPECT_EQ(fails->why, "set to fail");
-  const auto undefined = std::ranges::find(records, SharedText("undefined"), &Record::label);
+  const auto undefined =
+      std::ranges::find(records, "undefined", [](const Record& r) { return r.kind->label; });
   EXPECT_EQ(undefined->why, "set to be undefined");
 }
 
 TEST_F(RunSweep, RepeatsGetSeedsOfTheirOwn) {
   const std::vector<Record> records = run();
   EXPECT_NE(records[0].statistics.rmse, records[6].statistics.rmse);
-  EXPECT_EQ(records[6].repeat, 1);
+  EXPECT_EQ(records[6].cell->repeat, 1);
 }
 
 /// The reference lasts 9 s, the keyframes end after 3 s: coverage is a third at either times.
@@ -83,9 +85,9 @@ TEST_F(RunSweep, TooLittleCoverageIsIncompleteAndIsNotAveraged) {
   const std::vector<Record> records = run();
   int incomplete = 0;
   for (const Record& r : records) {
-    const bool is_short = r.sequence.text().find("0.3") != std::string::npos;
-    if (r.method != "straight" || r.label != "ate") continue;
-    EXPECT_EQ(r.status, is_short ? Status::incomplete : Status::ok) << r.sequence;
+    const bool is_short = r.cell->sequence.text().find("0.3") != std::string::npos;
+    if (r.cell->method != "straight" || r.kind->label != "ate") continue;
+    EXPECT_EQ(r.status, is_short ? Status::incomplete : Status::ok) << r.cell->sequence;
     EXPECT_GT(r.statistics.rmse, 0.0);  // stored nevertheless
     if (!is_short) continue;
     ++incomplete;
@@ -93,7 +95,7 @@ TEST_F(RunSweep, TooLittleCoverageIsIncompleteAndIsNotAveraged) {
   }
   EXPECT_EQ(incomplete, 3);
   for (const Record& r : records) {  // a failed metric remains failed
-    if (r.label == "undefined") {
+    if (r.kind->label == "undefined") {
       EXPECT_EQ(r.status, Status::failed);
     }
   }
@@ -109,8 +111,8 @@ TEST_F(RunSweep, ACellIsIncompleteOnlyAtTheTimesThatAre) {
   sweep_.min_coverage = 0.9;
   sweep_.times = {Times::keyframes, Times::dense};
   for (const Record& r : run()) {
-    if (r.method != "straight" || r.label != "ate") continue;
-    EXPECT_EQ(r.status, r.times == "dense" ? Status::ok : Status::incomplete);
+    if (r.cell->method != "straight" || r.kind->label != "ate") continue;
+    EXPECT_EQ(r.status, r.kind->times == "dense" ? Status::ok : Status::incomplete);
   }
 }
 
@@ -136,10 +138,10 @@ TEST_F(RunSweep, AnUndefinedNumberIsDeclinedAloneAndSaysWhy) {
                               single("translation", "3d", "m", -2.0)};
   };
   for (const Record& r : run()) {
-    if (r.method != "straight" || r.label != "ate") continue;
-    EXPECT_EQ(r.status, r.relation == "rotation" ? Status::declined : Status::ok);
-    EXPECT_EQ(r.why, r.relation == "rotation" ? "positions only" : "");
-    EXPECT_EQ(r.statistics.rmse, r.relation == "rotation" ? 0.0 : -2.0);
+    if (r.cell->method != "straight" || r.kind->label != "ate") continue;
+    EXPECT_EQ(r.status, r.kind->relation == "rotation" ? Status::declined : Status::ok);
+    EXPECT_EQ(r.why, r.kind->relation == "rotation" ? "positions only" : "");
+    EXPECT_EQ(r.statistics.rmse, r.kind->relation == "rotation" ? 0.0 : -2.0);
   }
 }
 

@@ -54,10 +54,10 @@ TEST_F(StoreTest, AScoreKeepsItsMetricsNameItsLabelAndItsDirection) {
   const std::vector<Better> expected{
       Better::lower, Better::higher, Better::target, Better::neither};
   for (std::size_t i = 0; i < records.size(); ++i) {
-    EXPECT_EQ(records[i].metric, "ate");
-    EXPECT_EQ(records[i].label, "gain");
-    EXPECT_EQ(records[i].better, expected[i % 4]);
-    EXPECT_EQ(records[i].target, i % 4 == 2 ? 1.0 : 0.0);
+    EXPECT_EQ(records[i].kind->metric, "ate");
+    EXPECT_EQ(records[i].kind->label, "gain");
+    EXPECT_EQ(records[i].kind->better, expected[i % 4]);
+    EXPECT_EQ(records[i].kind->target, i % 4 == 2 ? 1.0 : 0.0);
   }
 }
 

@@ -25,25 +25,25 @@ TEST(Success, CountsFailedRunsAsFailures) {
   const auto add = [&](const char* method, double error) -> Record& {
     const auto cell = static_cast<int>(records.size());
     Record& r = records.emplace_back(compared_sweep::ate(method, error, cell));
-    r.cell = cell;
-    r.unit = "m";
+    r.cell.edit().position = cell;
+    r.kind.edit().unit = "m";
     return r;
   };
   for (int run = 0; run < 8; ++run) add("slam", 0.1);
   add("slam", 0.5);
   Record& failed = add("slam", 0.0);
-  failed.metric = failed.relation = failed.axis = "";
+  failed.kind.edit().metric = failed.kind.edit().relation = failed.kind.edit().axis = "";
   failed.status = Status::failed;
   add("other", 0.05).status = Status::incomplete;
   Record& declined = add("third", 0.0);
-  declined.metric = "";
+  declined.kind.edit().metric = "";
   declined.status = Status::declined;
   const Table table = success_table(records, "rmse", 0.1);
   ASSERT_EQ(table.lines.size(), 2u);
   // Wilson: (0.8 + 0.1921 +- 1.96 sqrt(0.016 + 0.0096)) / 1.3841.
   EXPECT_EQ(texts(table.lines[0]), (Line{"slam", "10", "8", "80.0", "49.0 to 94.3"}));
   EXPECT_EQ(texts(table.lines[1]), (Line{"other", "1", "0", "0.0", "0.0 to 79.3"}));
-  records.front().better = Better::higher;
+  records.front().kind.edit().better = Better::higher;
   EXPECT_EQ(texts(success_table({records.front()}, "rmse", 0.2).lines[0])[2], "0");
 }
 

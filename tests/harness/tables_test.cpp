@@ -31,7 +31,7 @@ TEST(Where, KeepsWhatEveryRuleKeeps) {
   EXPECT_FALSE(keeps("metric!=ate"));
   const auto keeps_labelled = [](const std::string& rule) {
     Record r = ate("raw", 1.0);
-    r.label = "error";
+    r.kind.edit().label = "error";
     return where({rule})(r);
   };
   EXPECT_TRUE(keeps_labelled("metric=ate"));  // name and label
@@ -53,7 +53,7 @@ TEST(Where, KeepsWhatEveryRuleKeeps) {
 
 TEST(Where, KeepsTheReasonsOfCellsWithoutScores) {
   Record failed;
-  failed.method = "raw";
+  failed.cell.edit().method = "raw";
   failed.status = Status::failed;
   EXPECT_TRUE(where({"metric=ate"})(failed));
   EXPECT_FALSE(where({"method=dm"})(failed));
@@ -144,7 +144,7 @@ TEST(Formats, KeepLessOrEqualReadable) {
 
 TEST(Formats, StateReasonsForMissingValues) {
   std::vector<Record> records{ate("raw", 0.25), ate("bad", 0.0)};
-  records[1].metric.clear();
+  records[1].kind.edit().metric.clear();
   records[1].status = Status::failed;
   records[1].why = "no such luck";
   const std::string text = markdown(pivot(records, TableSpec{}));
@@ -197,7 +197,7 @@ std::vector<Record> two_methods() {
   for (const char* method : {"raw", "dm"}) {
     out.push_back(ate(method, 1.0));
     out.back().statistics.count = method == std::string("dm") ? 300 : 400;
-    out.back().oracle_closures = true;
+    out.back().cell.edit().oracle_closures = true;
   }
   return out;
 }

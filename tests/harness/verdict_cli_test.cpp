@@ -193,10 +193,10 @@ TEST_F(VerdictCli, TheGatePassesItsOwnNumbers) {
 TEST_F(VerdictCli, AMovedNumberFailsTheGateAndIsNamed) {
   // The baseline's first error of uniform on the room, reduced by 1 %.
   Baseline moved = read_baseline(folder_->path() / "b.json");
-  const auto cell = std::ranges::find(
-      moved.snapshot.cells, "room / uniform", [](const auto& each) { return name(each); });
-  ASSERT_NE(cell, moved.snapshot.cells.end());
-  cell->scores.front().values.at("rmse") *= 0.99;
+  const auto score = std::ranges::find(
+      moved.snapshot.records, "room / uniform", [](const auto& r) { return r.cell->name(); });
+  ASSERT_NE(score, moved.snapshot.records.end());
+  score->statistics.rmse *= 0.99;
   folder_->file("moved.json", json(moved));
   const CommandResult result = run("check r --baseline moved.json --junit moved.xml");
   EXPECT_EQ(result.exit_code, 1) << result.err;

@@ -59,14 +59,15 @@ TEST(Defect1, ADivergingThirdMethodChangesNoNumberOfOthers) {
   const std::vector<Record> all = gains(records, "raw");
   for (const Record& r : gain) {
     const auto same = std::ranges::find_if(all, [&](const Record& other) {
-      return other.method == r.method && other.repeat == r.repeat;
+      return other.cell->method == r.cell->method && other.cell->repeat == r.cell->repeat;
     });
     EXPECT_EQ(same->statistics.rmse, r.statistics.rmse);
   }
-  EXPECT_EQ(
-      std::ranges::count_if(
-          all, [](const Record& r) { return r.method == "lost" && r.statistics.rmse < -1e9; }),
-      10);
+  EXPECT_EQ(std::ranges::count_if(all,
+                                  [](const Record& r) {
+                                    return r.cell->method == "lost" && r.statistics.rmse < -1e9;
+                                  }),
+            10);
 }
 
 TEST(Defect2, AMethodThatFailsNearlyAlwaysVetoesNothing) {
@@ -202,7 +203,7 @@ TEST(Defect14, DeclinesAreNoFailures) {
 
 TEST(Defect14, DifferentValuesOnEqualDataAreReported) {
   std::vector<Record> records = pairs(about(0.7, 3));
-  for (Record& r : records) r.content = "c0ffee";
+  for (Record& r : records) r.cell.edit().content = "c0ffee";
   for (std::size_t i = 0; i < records.size(); i += 2) records[i].statistics.rmse = 0.1;
   const std::vector<std::string> notes = conditions(compared(records, kAgainstRaw));
   EXPECT_EQ(std::ranges::count(notes, "not deterministic, values differ on equal data: dual"), 1);

@@ -15,8 +15,8 @@ namespace {
 
 bool keeps(const std::string& rule, const std::string& method) {
   Record record;
-  record.metric = "ate";
-  record.method = method;
+  record.kind.edit().metric = "ate";
+  record.cell.edit().method = method;
   return where({rule})(record);
 }
 

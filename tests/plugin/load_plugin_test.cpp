@@ -68,9 +68,9 @@ TEST(LoadPlugin, ItsDatasetMethodAndMetricMakeASweep) {
   std::map<std::string, double> height;
   std::map<std::string, double> mean;
   for (const Record& record : read_records(folder.path() / "r")) {
-    if (record.metric == "max_height") height[record.method] = record.statistics.rmse;
-    if (record.metric == "height") mean[record.method] = record.statistics.mean;
-    if (record.metric == "unprintable") {
+    if (record.kind->metric == "max_height") height[record.cell->method] = record.statistics.rmse;
+    if (record.kind->metric == "height") mean[record.cell->method] = record.statistics.mean;
+    if (record.kind->metric == "unprintable") {
       EXPECT_THAT(record.why, HasSubstr("has byte 0x1b"));
     }
   }

@@ -29,7 +29,7 @@ TEST(Misbehaving, ItsCodeDoesNotRunInTheSweep) {
               data + "methods: [raw, hangs_when_made]\nmetrics: [ate]\nlimits: {seconds: 1}\n");
   const CommandResult made =
       loopbench_command("run h.yaml --out h --plugin '" LOOPBENCH_MISBEHAVING "'", folder);
-  const std::vector<CellRecord> cells = read_cells(folder.path() / "h");
+  const std::vector<CellRow> cells = read_cells(folder.path() / "h");
   ASSERT_EQ(cells.size(), 2u) << made.err;
   EXPECT_EQ(cells[0].status, Status::ok);
   EXPECT_EQ(cells[1].status, Status::timeout) << cells[1].why;
@@ -45,7 +45,7 @@ void expect_all_ok(const std::string& plugin, const std::string& methods, int se
   const CommandResult result =
       loopbench_command("run c.yaml --out r --plugin '" + plugin + "'", folder);
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-  for (const CellRecord& cell : read_cells(folder.path() / "r")) {
+  for (const CellRow& cell : read_cells(folder.path() / "r")) {
     EXPECT_EQ(cell.status, Status::ok) << cell.method << ": " << cell.why;
   }
 }

@@ -143,10 +143,11 @@ class Zoo : public testing::Test {
   std::map<std::string, std::vector<double>> honest_scores(const std::string& out) const {
     std::map<std::string, std::vector<double>> scores;
     for (const Record& record : read_records(folder_.path() / out)) {
-      if (record.method != kHonest && !record.method.text().starts_with("honest")) continue;
-      EXPECT_EQ(record.status, Status::ok) << record.method << ": " << record.why;
+      if (record.cell->method != kHonest && !record.cell->method.text().starts_with("honest"))
+        continue;
+      EXPECT_EQ(record.status, Status::ok) << record.cell->method << ": " << record.why;
       for (const double value : {record.statistics.rmse, record.statistics.max}) {
-        scores[record.method].push_back(value);
+        scores[record.cell->method].push_back(value);
       }
     }
     return scores;
@@ -204,10 +205,10 @@ TEST_F(Zoo, EachBeastCostsItsOwnCellForTheRightReason) {
   for (const char* jobs : {"1", "2"}) {
     run(std::string("zoo.yaml --fresh --out zoo --jobs ") + jobs);
     EXPECT_EQ(strays(), 0) << "processes that outlive their cells";
-    std::map<std::string, CellRecord> cells;
-    for (const CellRecord& cell : read_cells(folder_.path() / "zoo")) cells[cell.method] = cell;
+    std::map<std::string, CellRow> cells;
+    for (const CellRow& cell : read_cells(folder_.path() / "zoo")) cells[cell.method] = cell;
     for (const Fate& fate : kFates) {
-      const CellRecord& cell = cells[fate.method];
+      const CellRow& cell = cells[fate.method];
       EXPECT_FALSE(cell.key.empty()) << fate.method << " has no cell";
       EXPECT_NE(std::string(fate.status).find(to_text(cell.status)), std::string::npos)
           << to_text(cell.status) << " " << fate.method << ": " << cell.why.text().substr(0, 200);
@@ -229,7 +230,7 @@ TEST_F(Zoo, ClocksPauseWhileTheSweepIsStopped) {
   sleep_for(6.0);
   kill(-sweep, SIGCONT);
   EXPECT_EQ(exit_code(sweep), 0) << read_all(folder_.path() / ".out");
-  for (const CellRecord& cell : read_cells(folder_.path() / "naps")) {
+  for (const CellRow& cell : read_cells(folder_.path() / "naps")) {
     EXPECT_EQ(cell.status, Status::ok) << cell.why;
   }
 }

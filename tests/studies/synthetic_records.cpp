@@ -57,8 +57,8 @@ Record score(std::size_t method, std::size_t group, std::size_t run, std::size_t
                             "m" + std::to_string(method),
                             0.0);
   if (sequences > 0) {
-    out.sequence = "path " + std::to_string(group % sequences);
-    out.repeat = static_cast<std::int64_t>(group / sequences * 1000 + run);
+    out.cell.edit().sequence = "path " + std::to_string(group % sequences);
+    out.cell.edit().repeat = static_cast<std::int64_t>(group / sequences * 1000 + run);
   }
   return out;
 }
@@ -100,9 +100,11 @@ std::vector<Record> records(const Truth& truth, const Shape& shape, std::mt19937
         double deviation = truth.shared * shared[m] + (1.0 - truth.shared) * own;
         if (m == 0 && truth.baseline_is_fixed) deviation = 0.0;
         Record r = score(m, group, run, truth.sequences.size());
-        if (truth.states_groups && truth.runs_in_group > 1) r.group = std::to_string(group);
-        if (truth.is_independent) r.group = recorded_group(std::to_string(r.repeat), r.sequence);
-        r.content = r.sequence + " " + std::to_string(r.repeat);
+        if (truth.states_groups && truth.runs_in_group > 1)
+          r.cell.edit().group = std::to_string(group);
+        if (truth.is_independent)
+          r.cell.edit().group = recorded_group(std::to_string(r.cell->repeat), r.cell->sequence);
+        r.cell.edit().content = r.cell->sequence + " " + std::to_string(r.cell->repeat);
         const double effect =
             truth.effects[m] + (truth.sequences.empty() ? 0.0 : truth.sequences[sequence][m]);
         r.statistics.rmse = size * std::exp(effect + truth.dispersion * deviation);
@@ -113,14 +115,14 @@ std::vector<Record> records(const Truth& truth, const Shape& shape, std::mt19937
                            (is_hard && m == 1 && uniform(bits) < truth.fails_hard);
         if (fails) {
           r.status = Status::failed;
-          r.metric.clear();
+          r.kind.edit().metric.clear();
         }
         out.push_back(r);
       }
       if (uniform(bits) >= truth.copies) continue;
       for (std::size_t m = 0; m < methods; ++m) {
         Record copy = out[begin + m];
-        copy.sequence = copy.sequence + " again";
+        copy.cell.edit().sequence = copy.cell->sequence + " again";
         out.push_back(copy);
       }
     }

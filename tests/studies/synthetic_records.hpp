@@ -32,7 +32,7 @@ struct Truth {
   double shared = 0.0;                ///< intra-group correlation of the deviations [-]
   double dispersion = 0.3;            ///< standard deviation of a method's logarithm [-]
   std::vector<double> failures = {};  ///< probability that a method fails; empty: never
-  bool states_groups = true;          ///< false: records without Record::group
+  bool states_groups = true;          ///< false: records without CellRow::group
   double copies = 0.0;                ///< share of runs repeated with equal content
   bool baseline_is_fixed = false;     ///< no deviation: ratios to it are as skewed as the shape
   /// Effects by sequence, [sequence][method], added to `effects`; the groups are dealt out to them

@@ -34,18 +34,18 @@ CellResult result_of(const Record& record, const Cell& cell) {
   out.cell = cell;
   out.seconds = {1e-3};
   SequenceMetadata metadata;
-  metadata.group = record.group;
-  metadata.content = record.content;
+  metadata.group = record.cell->group;
+  metadata.content = record.cell->content;
   out.metadata = std::make_shared<const SequenceMetadata>(metadata);
-  if (record.metric.empty()) {
+  if (record.kind->metric.empty()) {
     out.status = Status::failed;
     out.why = "drawn to fail";
     return out;
   }
   ScoreResult score;
   score.times = Times::dense;
-  score.metric = score.label = record.metric;
-  score.score = {record.relation, record.axis, record.unit, record.statistics};
+  score.metric = score.label = record.kind->metric;
+  score.score = {record.kind->relation, record.kind->axis, record.kind->unit, record.statistics};
   score.score.statistics.count = 1;
   score.coverage.pairs = score.coverage.possible = 1;
   score.coverage.span = 1.0;
@@ -59,8 +59,8 @@ void write_store(const std::vector<Record>& records, const std::filesystem::path
   NameOrder sequences;
   NameOrder methods;
   for (const Record& r : records) {
-    sequences.index(r.sequence);
-    methods.index(r.method);
+    sequences.index(r.cell->sequence);
+    methods.index(r.cell->method);
   }
   for (const char* tail : {"", "-wal", "-shm"}) {
     std::filesystem::remove(folder / (std::string("results.sqlite") + tail));
@@ -72,8 +72,8 @@ void write_store(const std::vector<Record>& records, const std::filesystem::path
   const std::vector<Cell> all = cells(sweep, std::vector<bool>(sweep.datasets.size(), false), "");
   store.resume(all, all, Retry::none);
   for (const Record& r : records) {
-    const std::size_t place = sequences.index(r.sequence) * sweep.methods.size();
-    store.write(result_of(r, all.at(place + methods.index(r.method))));
+    const std::size_t place = sequences.index(r.cell->sequence) * sweep.methods.size();
+    store.write(result_of(r, all.at(place + methods.index(r.cell->method))));
   }
 }
 

@@ -15,15 +15,15 @@ inline Record score(const std::string& sequence,
                     const std::string& method,
                     double rmse) {
   Record r;
-  r.sequence = sequence;
-  r.repeat = repeat;
-  r.method = method;
-  r.protocol = "loopbench";
-  r.times = "dense";
-  r.metric = "ate";
-  r.relation = "translation";
-  r.axis = "3d";
-  r.unit = "m";
+  r.cell.edit().sequence = sequence;
+  r.cell.edit().repeat = repeat;
+  r.cell.edit().method = method;
+  r.kind.edit().protocol = "loopbench";
+  r.kind.edit().times = "dense";
+  r.kind.edit().metric = "ate";
+  r.kind.edit().relation = "translation";
+  r.kind.edit().axis = "3d";
+  r.kind.edit().unit = "m";
   r.statistics.rmse = rmse;
   return r;
 }
@@ -31,15 +31,15 @@ inline Record score(const std::string& sequence,
 /// A score of a protocol with options.
 inline Record ate(const std::string& method, double rmse, int repeat = 0) {
   Record r = score("room", repeat, method, rmse);
-  r.protocol = "evo (align=se3, first=10)";
+  r.kind.edit().protocol = "evo (align=se3, first=10)";
   return r;
 }
 
 inline Record failed(const std::string& sequence, int repeat, const std::string& method) {
   Record r;
-  r.sequence = sequence;
-  r.repeat = repeat;
-  r.method = method;
+  r.cell.edit().sequence = sequence;
+  r.cell.edit().repeat = repeat;
+  r.cell.edit().method = method;
   r.status = Status::failed;
   return r;
 }

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "harness/compare/gate.hpp"
+#include "tests/support/compared_sweep.hpp"
 
 namespace loopbench::gate_snapshot {
 
@@ -11,28 +12,10 @@ using namespace methods;
 using namespace metrics;
 using namespace harness;
 
-inline GateScore ate(double rmse) {
-  GateScore out;
-  out.protocol = "loopbench";
-  out.times = "dense";
-  out.metric = "ate";
-  out.relation = "translation";
-  out.axis = "3d";
-  out.unit = "m";
-  out.pairs = out.possible = out.count = 400;
-  out.values = {{"rmse", rmse}};
-  return out;
-}
-
-inline GateCell cell(int repeat, const std::string& method, double rmse) {
-  GateCell out;
-  out.sequence = "room";
-  out.repeat = repeat;
-  out.method = method;
-  out.scores = {ate(rmse)};
-  out.scores[0].sequence = out.sequence;
-  out.scores[0].repeat = out.repeat;
-  out.scores[0].method = out.method;
+inline Record ate(int repeat, const std::string& method, double rmse) {
+  Record out = compared_sweep::score("room", repeat, method, rmse);
+  out.pairs = out.possible = 400;
+  out.statistics.count = 400;
   return out;
 }
 
@@ -50,13 +33,19 @@ inline Snapshot sweep() {
   out.protocols = {{"loopbench [1]", "align=se3"}};
   for (int repeat = 0; repeat < 8; ++repeat) {
     const double error = 1.0 + 0.1 * repeat;
-    out.cells.push_back(cell(repeat, "raw", error));
-    out.cells.push_back(cell(repeat, "uniform", 0.5 * error));
+    out.records.push_back(ate(repeat, "raw", error));
+    out.records.push_back(ate(repeat, "uniform", 0.5 * error));
   }
   return out;
 }
 
 inline Baseline baseline() { return {{{"compiler", "g++ 12.2"}}, {rmse_alone()}, sweep()}; }
+
+/// Leaves only the status of a cell.
+inline void fail(Snapshot& of, std::size_t cell, Status status) {
+  of.records[cell].kind = {};
+  of.records[cell].status = status;
+}
 
 inline GateReport after(const std::function<void(Snapshot&)>& change) {
   Snapshot now = sweep();
@@ -64,8 +53,6 @@ inline GateReport after(const std::function<void(Snapshot&)>& change) {
   return check(baseline(), now);
 }
 
-inline double& rmse(Snapshot& of, std::size_t cell) {
-  return of.cells[cell].scores[0].values["rmse"];
-}
+inline double& rmse(Snapshot& of, std::size_t cell) { return of.records[cell].statistics.rmse; }
 
 }  // namespace loopbench::gate_snapshot

@@ -27,9 +27,9 @@ class ProgramSweep : public testing::Test {
   }
 
   /// Runs a sweep of one simulated sequence with these method entries; returns its cells.
-  std::vector<harness::CellRecord> cells(const std::string& entries,
-                                         const std::string& settings = "",
-                                         const std::string& options = "") {
+  std::vector<harness::CellRow> cells(const std::string& entries,
+                                      const std::string& settings = "",
+                                      const std::string& options = "") {
     folder_.file(
         "c.yaml",
         "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmethods:\n  - raw\n" +
@@ -46,13 +46,13 @@ class ProgramSweep : public testing::Test {
   std::map<std::string, double> errors() {
     std::map<std::string, double> out;
     for (const harness::Record& record : harness::read_records(folder_.path() / "r")) {
-      if (record.metric == "ate" && record.relation == "translation")
-        out[record.method] = record.statistics.rmse;
+      if (record.kind->metric == "ate" && record.kind->relation == "translation")
+        out[record.cell->method] = record.statistics.rmse;
     }
     return out;
   }
 
-  static std::string notes(const harness::CellRecord& cell) {
+  static std::string notes(const harness::CellRow& cell) {
     std::string out;
     for (const std::string& note : cell.notes) out += note + "\n";
     return out;

@@ -23,7 +23,7 @@ inline std::string store_text(const std::filesystem::path& file) {
     return std::string(text);
   };
   Traces traces(file);
-  for (const CellRecord& c : read_cells(file)) {
+  for (const CellRow& c : read_cells(file)) {
     out += std::to_string(c.position) + "|" + c.key + "|" + c.sequence + "|" +
            std::to_string(c.repeat) + "|" + c.method + "|" + c.method_options + "|" +
            c.dataset_options + "|" + c.closures + "|" + std::to_string(c.keyframes) + "|" +
@@ -48,8 +48,9 @@ inline std::string store_text(const std::filesystem::path& file) {
   }
   for (const Record& r : read_records(file)) {
     const Statistics& s = r.statistics;
-    out += std::to_string(r.cell) + "|" + r.protocol + "|" + r.times + "|" + r.metric + "|" +
-           r.relation + "|" + r.axis + "|" + r.unit + "|" + std::to_string(s.count);
+    out += std::to_string(r.cell->position) + "|" + r.kind->protocol + "|" + r.kind->times + "|" +
+           r.kind->metric + "|" + r.kind->relation + "|" + r.kind->axis + "|" + r.kind->unit + "|" +
+           std::to_string(s.count);
     for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max, s.sse}) {
       out += "|" + exact(value);
     }

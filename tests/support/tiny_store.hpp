@@ -69,7 +69,7 @@ class TinyStore : public testing::Test {
 
   Labels methods_of(const std::string& sequence) const {
     Labels out;
-    for (const CellRecord& cell : read_cells(file_)) {
+    for (const CellRow& cell : read_cells(file_)) {
       if (cell.sequence == sequence) out.push_back(cell.method);
     }
     return out;
