@@ -70,14 +70,7 @@ T known(const Json& node) {
 
 ScoreKind kind_of(const Json& node) {
   ScoreKind out;
-  const auto text = [&](const char* key) { return node.at(key).get<std::string>(); };
-  out.protocol = text("protocol");
-  out.times = text("times");
-  out.metric = text("metric");
-  out.label = text("label");
-  out.relation = text("relation");
-  out.axis = text("axis");
-  out.unit = text("unit");
+  for (const KindField& each : kKindFields) node.at(each.name).get_to(out.*each.text);
   out.better = known<metrics::Better>(node.at("better"));
   out.target = node.value("target", 0.0);
   return out;

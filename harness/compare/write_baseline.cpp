@@ -17,14 +17,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json kind_json(const ScoreKind& kind) {
-  Json out{{"protocol", kind.protocol},
-           {"times", kind.times},
-           {"metric", kind.metric},
-           {"label", kind.label},
-           {"relation", kind.relation},
-           {"axis", kind.axis},
-           {"unit", kind.unit},
-           {"better", to_text(kind.better)}};
+  Json out = Json::object();
+  for (const KindField& each : kKindFields) out[each.name] = kind.*each.text;
+  out["better"] = to_text(kind.better);
   if (kind.better == metrics::Better::target) out["target"] = kind.target;
   return out;
 }

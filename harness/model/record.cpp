@@ -1,33 +1,11 @@
 #include "harness/model/record.hpp"
 
 #include <limits>
-#include <utility>
 
 #include "datasets/core/error.hpp"
 #include "harness/base/suggest.hpp"
 
 namespace loopbench::harness {
-namespace {
-
-using FieldText = std::string (*)(const Record&);
-constexpr std::pair<const char*, FieldText> kFields[] = {
-    {"sequence", [](const Record& r) { return r.cell->sequence.text(); }},
-    {"repeat", [](const Record& r) { return std::to_string(r.cell->repeat); }},
-    {"method", [](const Record& r) { return r.cell->method.text(); }},
-    {"closures", [](const Record& r) { return r.cell->closures.text(); }},
-    {"protocol", [](const Record& r) { return r.kind->protocol; }},
-    {"protocol_version", [](const Record& r) { return r.kind->protocol_version; }},
-    {"times", [](const Record& r) { return r.kind->times; }},
-    {"metric", [](const Record& r) { return r.kind->metric; }},
-    {"label", [](const Record& r) { return r.kind->metric_label(); }},
-    {"relation", [](const Record& r) { return r.kind->relation; }},
-    {"axis", [](const Record& r) { return r.kind->axis; }},
-    {"unit", [](const Record& r) { return r.kind->unit; }},
-    {"status", [](const Record& r) { return to_text(r.status); }},
-    {"score", [](const Record& r) { return r.kind->short_name(); }}};
-
-}  // namespace
-
 double CellRow::milliseconds() const {
   const bool is_unknown = runs == 0 && has_numbers(status);
   return is_unknown ? std::numeric_limits<double>::quiet_NaN() : seconds * 1000;
@@ -54,12 +32,20 @@ std::string ScoreKind::name() const {
 }
 
 std::string field(const Record& record, const std::string& name) {
-  for (const auto& [known, text] : kFields) {
-    if (name == known) return text(record);
+  if (name == "sequence") return record.cell->sequence;
+  if (name == "repeat") return std::to_string(record.cell->repeat);
+  if (name == "method") return record.cell->method;
+  if (name == "closures") return record.cell->closures;
+  if (name == "label") return record.kind->metric_label();
+  if (name == "status") return to_text(record.status);
+  if (name == "score") return record.kind->short_name();
+  std::vector<std::string> known{"sequence", "repeat", "method", "closures"};
+  for (const KindField& each : kKindFields) {
+    if (name == each.name) return (*record.kind).*each.text;
+    known.emplace_back(each.name);
   }
-  std::vector<std::string> all;
-  for (const auto& entry : kFields) all.emplace_back(entry.first);
-  throw InputError(unknown_name("column", name, all));
+  known.insert(known.end(), {"status", "score"});
+  throw InputError(unknown_name("column", name, known));
 }
 
 double value(const Record& record, const std::string& name) {

@@ -99,6 +99,20 @@ struct ScoreKind {
   bool is_total() const { return axis.empty() || axis == "3d" || axis == "all"; }
 };
 
+/// A text of a kind with its name in stores, tables and baselines.
+struct KindField {
+  const char* name;
+  std::string ScoreKind::*text;
+};
+inline constexpr KindField kKindFields[] = {{"protocol", &ScoreKind::protocol},
+                                            {"protocol_version", &ScoreKind::protocol_version},
+                                            {"times", &ScoreKind::times},
+                                            {"metric", &ScoreKind::metric},
+                                            {"label", &ScoreKind::label},
+                                            {"relation", &ScoreKind::relation},
+                                            {"axis", &ScoreKind::axis},
+                                            {"unit", &ScoreKind::unit}};
+
 /// A score of a cell. A declined or failed cell has one without a metric, with the reason.
 struct Record {
   Shared<CellRow> cell;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "harness/model/cells.hpp"
+#include "harness/model/record.hpp"
 #include "harness/model/sequence_metadata.hpp"
 #include "harness/model/status.hpp"
 #include "methods/report.hpp"
@@ -28,6 +29,21 @@ struct ScoreResult {
   Status status = Status::ok;
   std::string why;
 };
+
+inline ScoreKind kind_of(const ScoreResult& of, const Sweep& sweep) {
+  const metrics::NamedProtocol& protocol = sweep.protocols[of.protocol];
+  const metrics::Score& score = of.score;
+  return {.protocol = protocol.label(),
+          .protocol_version = protocol.version,
+          .times = to_text(of.times),
+          .metric = of.metric,
+          .label = of.label,
+          .relation = score.relation,
+          .axis = score.axis,
+          .unit = score.unit,
+          .better = score.better,
+          .target = score.target};
+}
 
 /// Execution conditions of a cell.
 struct Worker {

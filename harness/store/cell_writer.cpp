@@ -139,32 +139,23 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
   return database_.last_row();
 }
 
-std::int64_t CellWriter::definition_of(const ScoreResult& score,
-                                       const metrics::NamedProtocol& protocol) {
-  const std::string texts[] = {protocol.label(),
-                               protocol.version,
-                               to_text(score.times),
-                               score.metric,
-                               score.label,
-                               score.score.relation,
-                               score.score.axis,
-                               score.score.unit,
-                               to_text(score.score.better)};
+std::int64_t CellWriter::definition_of(const ScoreKind& kind) {
   RowHash row;
-  for (const std::string& text : texts) row.add(std::string_view(text));
-  row.add(score.score.target);
+  for (const KindField& each : kKindFields) row.add(std::string_view(kind.*each.text));
+  row.add(std::string_view(to_text(kind.better)));
+  row.add(kind.target);
   const std::int64_t id = definition_id(row.after(0));
   if (!definitions_.insert(id).second) return id;
   definition_.bind(id);
-  for (const std::string& text : texts) definition_.bind(text);
-  definition_.bind(score.score.target).run();
+  for (const KindField& each : kKindFields) definition_.bind(kind.*each.text);
+  definition_.bind(to_text(kind.better), kind.target).run();
   return id;
 }
 
 void CellWriter::write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep) {
   std::int64_t number = 0;
   for (const ScoreResult& score : result.scores) {
-    score_.bind(id, number++, definition_of(score, sweep.protocols[score.protocol]));
+    score_.bind(id, number++, definition_of(kind_of(score, sweep)));
     const metrics::Statistics& s = score.score.statistics;
     if (has_numbers(score.status)) {
       score_.bind(s.count);

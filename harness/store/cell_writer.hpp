@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "harness/model/record.hpp"
 #include "harness/model/result.hpp"
 #include "harness/run/cell_keys.hpp"
 #include "harness/store/schema.hpp"
@@ -28,7 +29,7 @@ class CellWriter {
   void write_scores(std::int64_t id, const CellResult& result, const Sweep& sweep);
   void write_report(std::int64_t id, const methods::Report& report);
   void write_trace(std::int64_t id, const CellTrace& trace);
-  std::int64_t definition_of(const ScoreResult& score, const metrics::NamedProtocol& protocol);
+  std::int64_t definition_of(const ScoreKind& kind);
   void write_metadata(const Cell& cell, CellKeys& keys, const SequenceMetadata& metadata);
 
   Database& database_;

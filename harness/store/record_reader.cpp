@@ -30,8 +30,7 @@ std::map<std::int64_t, Shared<ScoreKind>> read_definitions(Database& database) {
     ScoreKind k;
     std::string better;
     std::int64_t id = 0;
-    row.read(
-        k.protocol, k.protocol_version, k.times, k.metric, k.label, k.relation, k.axis, k.unit);
+    for (const KindField& each : kKindFields) row.read(k.*each.text);
     row.read(better, k.target, id);
     k.better = from_text<metrics::Better>(better).value_or(metrics::Better::neither);
     out.emplace(id, k);

@@ -164,32 +164,27 @@ std::string json(const std::vector<Comparison>& comparisons, int indent) {
   using Json = nlohmann::ordered_json;
   Json out = Json::array();
   for (const Comparison& c : comparisons) {
-    Json entry{{"protocol", c.kind.protocol},
-               {"protocol_version", c.kind.protocol_version},
-               {"times", c.kind.times},
-               {"metric", c.kind.metric},
-               {"label", c.kind.metric_label()},
-               {"relation", c.kind.relation},
-               {"axis", c.kind.axis},
-               {"unit", c.kind.unit},
-               {"value", c.options.value},
-               {"baseline", c.options.baseline},
-               {"alpha", c.options.alpha},
-               {"tie", c.options.tie},
-               {"relevant", c.options.relevant},
-               {"over", over_name(c.options.over)},
-               {"unit_of_observation", unit_text(c)},
-               {"groups", c.groups},
-               {"runs", c.runs},
-               {"possible", c.possible},
-               {"is_best", c.is_best},
-               {"tests", c.tests},
-               {"verdict", statement(c)},
-               {"remarks", remarks(c)},
-               {"oracle_methods", c.oracles},
-               {"oracle_closures", c.oracle_closures},
-               {"methods", Json::array()},
-               {"gaps", Json::array()}};
+    Json entry = Json::object();
+    for (const KindField& each : kKindFields) entry[each.name] = c.kind.*each.text;
+    entry["label"] = c.kind.metric_label();
+    entry.update({{"value", c.options.value},
+                  {"baseline", c.options.baseline},
+                  {"alpha", c.options.alpha},
+                  {"tie", c.options.tie},
+                  {"relevant", c.options.relevant},
+                  {"over", over_name(c.options.over)},
+                  {"unit_of_observation", unit_text(c)},
+                  {"groups", c.groups},
+                  {"runs", c.runs},
+                  {"possible", c.possible},
+                  {"is_best", c.is_best},
+                  {"tests", c.tests},
+                  {"verdict", statement(c)},
+                  {"remarks", remarks(c)},
+                  {"oracle_methods", c.oracles},
+                  {"oracle_closures", c.oracle_closures},
+                  {"methods", Json::array()},
+                  {"gaps", Json::array()}});
     for (const MethodVerdict& m : c.methods) {
       Json by_sequence = Json::object();
       if (m.ratio) {

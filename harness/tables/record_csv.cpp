@@ -19,23 +19,15 @@ namespace {
 std::vector<std::string> fields_of(const Record& r) {
   const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; };
   const auto boolean = [](bool x) { return fmt::format("{}", x); };
-  std::vector<std::string> out{
-      quoted(r.cell->sequence),
-      fmt::format("{}", r.cell->repeat),
-      quoted(r.cell->method),
-      quoted(r.cell->closures),
-      boolean(r.cell->oracle_closures),
-      boolean(r.cell->oracle),
-      quoted(r.kind->protocol),
-      quoted(r.kind->protocol_version),
-      quoted(r.kind->times),
-      quoted(r.kind->metric),
-      quoted(r.kind->metric_label()),
-      quoted(r.kind->relation),
-      quoted(r.kind->axis),
-      quoted(r.kind->unit),
-      to_text(r.kind->better),
-      r.kind->better == metrics::Better::target ? fmt::format("{}", r.kind->target) : ""};
+  std::vector<std::string> out{quoted(r.cell->sequence),
+                               fmt::format("{}", r.cell->repeat),
+                               quoted(r.cell->method),
+                               quoted(r.cell->closures),
+                               boolean(r.cell->oracle_closures),
+                               boolean(r.cell->oracle)};
+  for (const KindField& each : kKindFields) out.push_back(quoted(field(r, each.name)));
+  out.push_back(to_text(r.kind->better));
+  out.push_back(r.kind->better == metrics::Better::target ? fmt::format("{}", r.kind->target) : "");
   // An undefined score has empty fields, not zeros.
   const bool has_scores = r.has_score() && has_numbers(r.status);
   const auto score = [&](const std::string& text) { out.push_back(has_scores ? text : ""); };
@@ -74,9 +66,9 @@ std::string quoted(const std::string& raw) {
 }
 
 std::string rows_header() {
-  std::string out =
-      "sequence,repeat,method,closures,oracle_closures,oracle_method,protocol,protocol_version,"
-      "times,metric,label,relation,axis,unit,better,target,count,";
+  std::string out = "sequence,repeat,method,closures,oracle_closures,oracle_method,";
+  for (const KindField& each : kKindFields) out += std::string(each.name) + ",";
+  out += "better,target,count,";
   for (const auto& each : metrics::kStatisticFields) out += std::string(each.name) + ",";
   return out + "pairs,possible,milliseconds,status,why\n";
 }
