@@ -38,7 +38,7 @@ struct Snapshot {
 };
 
 /// Largest error of the numbers in a baseline: absolute + relative * |number|.
-struct Precision {
+struct Rounding {
   double relative = 0.0;  ///< [-]
   double absolute = 0.0;  ///< in the unit of the score
 };

@@ -130,7 +130,7 @@ void add_cell(std::vector<Record>& out,
 
 /// A limit that is set tighter than the numbers are written would see their rounding.
 void require_seen(const std::vector<Tolerance>& limits,
-                  const Precision& precision,
+                  const Rounding& precision,
                   const std::string& file) {
   for (std::size_t i = 0; i < limits.size(); ++i) {
     const Tolerance& limit = limits[i];

@@ -45,7 +45,7 @@ Json repeated(const Json& values) {
 }
 
 /// The number with as few digits as `precision` allows.
-double rounded(double number, const Precision& precision) {
+double rounded(double number, const Rounding& precision) {
   const double error = precision.absolute + precision.relative * std::abs(number);
   if (!std::isfinite(number) || number == 0.0 || error == 0.0) return number;
   const double last = std::floor(std::log10(error));  // power of ten of the last digit
@@ -57,7 +57,7 @@ double rounded(double number, const Precision& precision) {
 Json cell_json(std::span<const Record> cell,
                const std::vector<std::string>& names,
                const std::vector<std::string>& statistics,
-               const Precision& precision) {
+               const Rounding& precision) {
   Json out = head(cell.front());
   if (!cell.front().has_score()) return out;
   std::map<std::string, const Record*> scores;
@@ -98,7 +98,7 @@ Json written(const Tolerance& limit) {
 }
 
 /// A thousandth of the smallest limits.
-Precision precision_of(const std::vector<Tolerance>& limits) {
+Rounding precision_of(const std::vector<Tolerance>& limits) {
   if (limits.empty()) return {};
   return {std::ranges::min(limits, {}, &Tolerance::relative).relative * 0.001,
           std::ranges::min(limits, {}, &Tolerance::absolute).absolute * 0.001};
@@ -129,7 +129,7 @@ std::string json(const Baseline& baseline) {
   std::vector<Json> limits;
   for (const Tolerance& limit : baseline.limits) limits.push_back(written(limit));
   std::vector<Json> cells;
-  const Precision precision = precision_of(baseline.limits);
+  const Rounding precision = precision_of(baseline.limits);
   for (const std::span<const Record> cell : by_cell(baseline.snapshot.records)) {
     cells.push_back(cell_json(cell, names, statistics, precision));
   }

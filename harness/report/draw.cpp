@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -79,7 +81,8 @@ Ended run_python(const std::string& input) {
   const File in(std::tmpfile(), std::fclose), out(std::tmpfile(), std::fclose);
   if (!in || !out || std::fwrite(input.data(), 1, input.size(), in.get()) != input.size() ||
       std::fflush(in.get()) != 0) {
-    throw InputError("figures need a temporary file, which cannot be written");
+    throw InputError(std::string("figures need a temporary file, which cannot be written: ") +
+                     std::strerror(errno));
   }
   std::rewind(in.get());
   ProgramCall call;

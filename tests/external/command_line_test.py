@@ -60,7 +60,7 @@ class CommandLine(unittest.TestCase):
         for labels in (("--labels", "A,B"), ("--labels", "A", "--labels", "B")):
             self.assertIn("c.txt", self.call("eval", *labels, *files))
         self.assertIn("--size requires --plot", self.call("correct", "--size", "3,2", "a.txt", code=2))
-        self.assertIn("B: no such file", self.call("eval", "--labels", "A", "B", "a.txt", "b.txt", code=2))
+        self.assertIn("--labels: expected 2 for a, b, found 1", self.call("eval", "--labels", "A", "B", "a.txt", "b.txt", code=2))
         self.sweep()
         self.assertIn("raw", self.call("table", "--rows", "method,times", "r"))
         self.assertIn("--size: expected WIDTH,HEIGHT, found 1 numbers", self.call("plot", "r", "-o", "f", "--size", "3", code=2))

@@ -67,7 +67,7 @@ TEST(Session, FromABagToTheGate) {
   run("doctor groundtruth.txt fixed/*.txt");  // nothing is left to correct
   const std::string verdict =
       run("eval groundtruth.txt fixed/*.txt --sequence day --store results");
-  EXPECT_THAT(verdict, ContainsRegex("\n\\| day, good +\\| +0[.0-9]+ ± "));
+  EXPECT_THAT(verdict, ContainsRegex("\n\\| day, good +\\| +\\**0[.0-9]+ ± "));
   EXPECT_THAT(verdict, HasSubstr("good is best: "));
   EXPECT_THAT(run("compare results"), HasSubstr("good is"));
   run("table results --format latex -o table.tex");
