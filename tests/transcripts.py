@@ -53,7 +53,8 @@ def matches(expected, printed):
 
 
 def run(command, loopbench, folder):
-    environment = os.environ | {"DATA": str(ROOT / "data"), "COLUMNS": "0", "LOOPBENCH_NAME": "loopbench"}
+    environment = os.environ | {"DATA": str(ROOT / "data"), "COLUMNS": "0", "LC_ALL": "C.UTF-8",
+                                "LOOPBENCH_NAME": "loopbench"}
     script = f"loopbench() {{ '{loopbench}' \"$@\"; }}\n{command}\n"
     ended = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300)
