@@ -147,19 +147,6 @@ TEST_F(Ended, OfTwoSweepsOnOneStoreOneIsToldToWait) {
   EXPECT_EQ(store_text(store("k")), store_text(store("whole")));
 }
 
-TEST_F(Ended, RunningAgainSaysHowMuchWasThere) {
-  ASSERT_EQ(run("run c.yaml --out k --only 'a / '").exit_code, 0);
-  const CommandResult again = run("run c.yaml --out k");
-  EXPECT_THAT(again.out, HasSubstr("48 of 48 cells done (24 of them in earlier runs), 0 failed"));
-  const CommandResult third = run("run c.yaml --out k");
-  EXPECT_THAT(third.out, HasSubstr("(48 of them in earlier runs)"));
-  const std::size_t end = again.out.find("48 of 48 cells");
-  EXPECT_EQ(third.out.substr(0, end), again.out.substr(0, end)) << "the summary as it was";
-  const CommandResult fresh = run("run c.yaml --out k --fresh");
-  EXPECT_THAT(fresh.out, testing::Not(HasSubstr("before")));
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "k/previous-1.sqlite"));
-}
-
 TEST_F(Ended, SignalsToTheProcessGroupFailNoCell) {
   ASSERT_EQ(wait(start("whole")), 0);
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
@@ -195,12 +182,6 @@ TEST_F(Ended, AFreshSweepKeepsEveryCellOfAKilledOne) {
   Statement count = kept.prepare("SELECT count(*) FROM cell WHERE why = 'in the log'");
   ASSERT_TRUE(count.step());
   EXPECT_EQ(count.integer(), 48);
-}
-
-TEST_F(Ended, AFolderThatTakesNoFilesIsOneClearError) {
-  const CommandResult result = run("run c.yaml --out /proc/self");  // not writable even for root
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("results.sqlite: cannot be opened"));
 }
 
 }  // namespace

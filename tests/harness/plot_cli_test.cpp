@@ -78,20 +78,22 @@ TEST_F(PlotCli, StatesRepeatAndAlignment) {
 
 TEST_F(PlotCli, SelectsSequencesPanelsAndSize) {
   folder_.file("two.yaml",
-               "datasets: [{dataset: simulated, keyframes: 40, label: a}, {dataset: simulated, "
-               "keyframes: 40, label: b}]\nmethods: [raw]\nmetrics: [ate]\n");
+               "datasets: [{dataset: simulated, keyframes: 40, label: 'off|ice_&%<b>'}, {dataset: "
+               "simulated, keyframes: 40, label: b}]\nmethods: [raw, uniform]\nmetrics: [ate]\n");
   ASSERT_EQ(run("run two.yaml --out t").exit_code, 0);
   const CommandResult one =
-      run("plot t -o f --sequences b --panels xz,angle --size 3,2 --format svg --panel-columns 1");
+      run("plot t -o f --methods raw,uniform --sequences b --panels xz,angle --size 3,2 --format "
+          "svg --panel-columns 1");
   ASSERT_EQ(one.exit_code, 0) << one.err;
   EXPECT_EQ(one.out, "f/02_b_trajectories.svg\nf/02_b_errors.svg\n");
   const std::string drawn = read("f/02_b_trajectories.svg");
   EXPECT_TRUE(has(drawn, "width=\"216pt\" height=\"")) << drawn.substr(0, 400);
-  EXPECT_TRUE(has(drawn, "z [m]")) << drawn;
+  EXPECT_TRUE(has(drawn, "z [m]") && has(drawn, "uniform")) << drawn;
   EXPECT_TRUE(has(read("f/02_b_errors.svg"), "rotation error [deg]"));
   EXPECT_EQ(run("plot t -o g --panels x --format png").out,
-            "g/01_a_errors.png\ng/02_b_errors.png\n");
+            "g/01_off_ice_b_errors.png\ng/02_b_errors.png\n");
   EXPECT_TRUE(has(run("plot t --sequences c").err, "--sequences: no sequence is named 'c'"));
+  EXPECT_TRUE(has(run("plot t --methods rwa").err, "did you mean 'raw'?"));
   EXPECT_EQ(run("plot t --panels zx").exit_code, 2);
   EXPECT_EQ(run("plot t --size 3").exit_code, 2);
 }

@@ -87,41 +87,5 @@ TEST_F(Submit, TheHeaderFollowsOurOptions) {
   }
 }
 
-TEST_F(Submit, StartsTheArrayAndThenTheMerge) {
-  folder_.file("c.yaml", "datasets: [simulated]\nmethods: [raw, uniform]\nmetrics: [ate]\n");
-  program("sbatch",
-          "[[ $LOOPBENCH_DATA == logs ]] || exit 9\nprintf '%s ' \"$@\" >>\"${0%/*}/calls\"; echo "
-          ">>\"${0%/*}/calls\"\n"
-          "echo \"$((40 + $(wc -l <\"${0%/*}/calls\")));cluster\"\n");
-  const std::string own = "PATH='" + folder_.path().string() + "' ";
-  std::string path = "PATH='" + folder_.path().string() + "':\"$PATH\" ";
-  const auto submit = [&](const std::string& words) {
-    folder_.file("line.sh",
-                 "export " + path +
-                     "XDG_CONFIG_HOME=/nowhere LOOPBENCH_DATA=logs\nexec '" LOOPBENCH_BINARY
-                     "' submit c.yaml " +
-                     words + "\n");
-    const std::string line = "cd '" + folder_.path().string() + "' && bash line.sh >out.txt 2>&1";
-    return WEXITSTATUS(std::system(line.c_str()));
-  };
-  ASSERT_EQ(submit("--array 2 --print"), 0) << read("out.txt");
-  EXPECT_NE(read("out.txt").find("#SBATCH --array=1-2\n"), std::string::npos);
-  EXPECT_EQ(read("calls"), "");
-  ASSERT_EQ(submit("--array 2 --out o --retry failed -- --only uniform"), 0) << read("out.txt");
-  const std::string out = std::filesystem::canonical(folder_.path() / "o").string();
-  EXPECT_EQ(read("calls"),
-            "--parsable --chdir=" + out + " " + out + "/shards.sh \n--parsable --chdir=" + out +
-                " --dependency=afterany:41 " + out + "/merge.sh \n");
-  EXPECT_NE(read("o/shards.sh").find(" --only uniform --retry failed --shard "), std::string::npos);
-  EXPECT_NE(read("out.txt").find("2 shards: job 41, then merged by job 42"), std::string::npos);
-  EXPECT_EQ(submit("-- --only nothing"), 2) << "rejected before any job starts";
-  EXPECT_NE(read("out.txt").find("no cells to run"), std::string::npos) << read("out.txt");
-  std::filesystem::remove(folder_.path() / "sbatch");
-  std::filesystem::create_symlink("/bin/sh", folder_.path() / "sh");
-  path = own;  // a machine may have Slurm
-  EXPECT_EQ(submit("--out o"), 2);
-  EXPECT_NE(read("out.txt").find("sbatch: cannot be started"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace loopbench::submit_test
