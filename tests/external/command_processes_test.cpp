@@ -166,6 +166,39 @@ TEST_F(CommandProcesses, NoneOfItsProcessesAndFilesOutlivesAKilledSweep) {
   }
 }
 
+TEST_F(CommandProcesses, CpuTimeAndMemoryAreThoseOfTheProgram) {
+  folder_.file("burn.py",
+               "import sys, time\n"
+               "block = bytearray(60 << 20)\n"
+               "while time.process_time() < 0.2: pass\n"
+               "open(sys.argv[2], 'w').write(open(sys.argv[1] + '/keyframes.txt').read())\n");
+  const auto done = cells(entry("burns", "'python3 burn.py {problem} {result}'"));
+  ASSERT_EQ(done.size(), 2u) << ran_.err;
+  EXPECT_GE(done[1].cpu_seconds.value_or(0.0), 0.15) << done[1].why;  // sampled in a sandbox
+  EXPECT_GE(done[1].peak_memory.value_or(0), 60 << 20);
+  EXPECT_FALSE(done[1].added_memory) << "there is no earlier size of a new process";
+}
+
+TEST_F(CommandProcesses, ADatasetCannotReadTheReferenceOrWriteElsewhere) {
+  if (!has_bubblewrap()) GTEST_SKIP() << "no bubblewrap";
+  setenv("LOOPBENCH_CACHE", (folder_.path() / "cache").c_str(), 1);
+  write_recorded_sweep("  - raw\n");
+  const std::string config = read_all(folder_.path() / "c.yaml");
+  folder_.file("c.yaml",
+               "datasets: [{dataset: command, sequence: estimate.txt, reference: reference.txt, "
+               "run: 'sh curious.sh {sequence} {trajectory}'}]\n" +
+                   config.substr(config.find('\n') + 1));
+  const std::string script =
+      "cat reference.txt && exit 9\necho x >outside && exit 8\n"
+      "echo x >$TMPDIR/inside && cp $1 $2\n";
+  folder_.file("curious.sh", script);
+  EXPECT_EQ(successful_command("run c.yaml --out r", folder_).exit_code, 0);
+  folder_.file("curious.sh", script + "\n");
+  EXPECT_EQ(loopbench_command("run c.yaml --no-sandbox --out r", folder_).exit_code, 1);
+  EXPECT_THAT(read_cells(folder_.path() / "r").at(0).why.text(), HasSubstr("exited with code 9"));
+  unsetenv("LOOPBENCH_CACHE");
+}
+
 TEST_F(CommandProcesses, MemoryOfTheTreeIsLimited) {
   const auto done = cells(entry("grows", R"("sh -c 'tail /dev/zero' {problem} {result}")"),
                           "limits: {memory: 700MiB}\n");

@@ -5,7 +5,6 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -40,16 +39,6 @@ class ProgramSweep : public testing::Test {
 
   static std::string entry(const std::string& label, const std::string& run) {
     return "  - {method: command, label: " + label + ", run: " + run + "}\n";
-  }
-
-  /// ATE of each method [m]
-  std::map<std::string, double> errors() {
-    std::map<std::string, double> out;
-    for (const harness::Record& record : harness::read_records(folder_.path() / "r")) {
-      if (record.kind->metric == "ate" && record.kind->relation == "translation")
-        out[record.cell->method] = record.statistics.rmse;
-    }
-    return out;
   }
 
   static std::string notes(const harness::CellRow& cell) {
