@@ -123,13 +123,5 @@ TEST(Assertion, IsOneOfFiveSentences) {
   }
 }
 
-TEST(Assertion, NamesMethodsOfTheComparison) {
-  EXPECT_EQ(refusal_of([] { why("dual is below rwa"); }),
-            "--assert: 'dual is below rwa': no method is named 'rwa'; did you mean 'raw'?");
-  EXPECT_EQ(refusal_of([] { why("unifrom is below raw"); }),
-            "--assert: 'unifrom is below raw': no method is named 'unifrom'; did you mean "
-            "'uniform'?");
-}
-
 }  // namespace
 }  // namespace loopbench::assertion_test

@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "datasets/core/error.hpp"
-#include "tests/support/refusal_of.hpp"
-
 namespace loopbench::grid_test {
 
 using namespace harness;
@@ -19,10 +16,6 @@ std::string text_of(const GridPoint& point) {
   std::string out;
   for (const Setting& s : point.settings) out += s.name + "=" + to_text(s.value) + " ";
   return out;
-}
-
-std::string why(const std::string& text) {
-  return refusal_of([&] { grid(text); });
 }
 
 TEST(Grid, FlattensNestedMapsAndSkipsReservedKeys) {
@@ -63,31 +56,6 @@ TEST(Grid, RangesHoldTheNumbersThatPeopleWouldWrite) {
   EXPECT_EQ(texts("{from: 0.001, to: 1, steps: 4, log: true}"), "a=0.001 a=0.01 a=0.1 a=1.0 ");
   // Written values keep all digits.
   EXPECT_EQ(texts("{from: 0.30000000000000004, to: 1, steps: 2}"), "a=0.30000000000000004 a=1.0 ");
-}
-
-TEST(Grid, RefusesWithFileAndLine) {
-  EXPECT_EQ(why("method: m\na: [1, 2]\n"),
-            "c.yaml:2: a: lists are accepted only under 'sweep' or 'zip'");
-  EXPECT_EQ(why("method: m\na:\n"), "c.yaml:2: a: has no value");
-  EXPECT_EQ(why("method: m\nsweep: {a: 3}\n"), "c.yaml:2: a: expected a list or {from, to, steps}");
-  EXPECT_EQ(why("method: m\nzip:\n  a: [1, 2]\n  b: [1]\n"),
-            "c.yaml:4: b: has 1 values, the others under 'zip' have 2");
-  EXPECT_EQ(why("method: m\na: 1\nsweep: {a: [1, 2]}\n"),
-            "c.yaml:3: a: is set twice in this entry");
-  EXPECT_EQ(why("method: m\nsweep: {a: {from: 0, to: 1, steps: 3, log: true}}\n"),
-            "c.yaml:2: a range with log: true needs from > 0 and to > 0");
-  EXPECT_EQ(why("method: m\nsweep: {a: {from: -1e308, to: 1e308, steps: 3}}\n"),
-            "c.yaml:2: the range from .. to is too wide for double precision");
-}
-
-TEST(Grid, RefusesMoreThanItCouldHoldBeforeHoldingIt) {
-  const std::string many = "c.yaml:1: sweeps over more than 10000 combinations";
-  EXPECT_EQ(why("method: m\nsweep: {a: {from: 0, to: 1, steps: 100000}}\n"), many);
-  EXPECT_EQ(why("method: m\nzip: {a: {from: 0, to: 1, steps: 100000}}\n"),
-            "c.yaml:2: sweeps over more than 10000 combinations");
-  EXPECT_EQ(why("method: m\nsweep: {a: {from: 0, to: 1, steps: 100}}\n"
-                "zip: {b: {from: 0, to: 1, steps: 101}}\n"),
-            many);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// Sweeps that end early: killed, disk full, concurrent runs.
+/// Sweeps that end early by signals.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <signal.h>
@@ -106,45 +106,6 @@ TEST_F(Ended, KilledAtAnyMomentItGoesOnToTheSameRows) {
   ASSERT_EQ(wait(start("k")), 0);
   EXPECT_EQ(store_text(store("k")), whole);
   RecordProperty("sweeps finished in between", wholes);
-}
-
-TEST_F(Ended, AFullDiskIsAClearErrorAndLeavesWholeCells) {
-  ASSERT_EQ(run("run c.yaml --out whole").exit_code, 0);
-  const std::string script = "cd '" + folder_.path().string() +
-                             "'; trap '' XFSZ; ulimit -f 300; exec '" LOOPBENCH_BINARY
-                             "' run c.yaml --out k >/dev/null 2>.err";  // [KiB]
-  setenv("SCRIPT", script.c_str(), 1);
-  const int status = std::system("bash -c \"$SCRIPT\"");
-  EXPECT_EQ(WEXITSTATUS(status), 2);
-  const std::string error = read_all(folder_.path() / ".err");
-  EXPECT_THAT(error, HasSubstr("results.sqlite: "));
-  EXPECT_EQ(std::ranges::count(error, '\n'), 1) << error;
-  EXPECT_LT(read_cells(store("k")).size(), read_cells(store("whole")).size());
-  EXPECT_EQ(run("run c.yaml --out k").exit_code, 0);
-  EXPECT_EQ(store_text(store("k")), store_text(store("whole")));
-}
-
-TEST_F(Ended, OfTwoSweepsOnOneStoreOneIsToldToWait) {
-  ASSERT_EQ(run("run c.yaml --out k --only 'a / raw'").exit_code, 0);
-  const std::string line = "cd '" + folder_.path().string() +
-                           "' && '" LOOPBENCH_BINARY
-                           "' run c.yaml --out k --retry all >/dev/null 2>err$i; echo $? >code$i";
-  setenv("SCRIPT", ("for i in 1 2 3; do (" + line + ") & done; wait").c_str(), 1);
-  ASSERT_EQ(WEXITSTATUS(std::system("bash -c \"$SCRIPT\"")), 0);
-  int done = 0;
-  for (const char* i : {"1", "2", "3"}) {
-    const std::string code = read_all(folder_.path() / (std::string("code") + i));
-    const std::string error = read_all(folder_.path() / (std::string("err") + i));
-    if (code == "0\n") {
-      ++done;
-    } else {
-      EXPECT_EQ(code, "2\n");
-      EXPECT_THAT(error, HasSubstr("another sweep is writing its results here"));
-    }
-  }
-  EXPECT_GE(done, 1);
-  ASSERT_EQ(run("run c.yaml --out whole").exit_code, 0);
-  EXPECT_EQ(store_text(store("k")), store_text(store("whole")));
 }
 
 TEST_F(Ended, SignalsToTheProcessGroupFailNoCell) {

@@ -14,24 +14,6 @@ namespace {
 using namespace tiny_store;  // NOLINT: the fixture and its config
 using MergeTest = TinyStore;
 
-TEST_F(MergeTest, MergedHalvesAreTheWhole) {
-  run(kUsual);
-  const std::string complete = store_text(file_);
-  const std::filesystem::path parts[] = {folder_.path() / "1.sqlite", folder_.path() / "2.sqlite"};
-  file_ = parts[0];
-  run(kUsual, Retry::none, "a / |b / straight");
-  file_ = parts[1];
-  run(kUsual, Retry::none, "b / ");
-  const std::filesystem::path out = folder_.path() / "merged" / "results.sqlite";
-  const Merged merged = merge_stores({parts[1], parts[0]}, out);
-  EXPECT_EQ(merged.cells, 4u);
-  EXPECT_EQ(merged.duplicates, 1u);
-  EXPECT_EQ(store_text(out), complete);
-  EXPECT_THROW(merge_stores({parts[0], parts[1]}, out), InputError) << "it is there";
-  file_ = out;
-  EXPECT_EQ(run(kUsual).cells, Labels{}) << "and goes on like any other";
-}
-
 TEST_F(MergeTest, PrefersWhatDidNotFail) {
   const auto fails = [&] {
     const Sweep sweep = parse_sweep(kUsual, "c.yaml", known_);

@@ -83,25 +83,6 @@ void expect_named(const std::string& report, const std::vector<std::string>& nam
 
 TEST(PlantedRegression, NothingPlantedPasses) { EXPECT_EQ(caught(snapshot_of(records())), ""); }
 
-TEST(PlantedRegression, OfADefinition) {
-  const auto redefined = [](auto definitions, const char* name, const std::string& text) {
-    Snapshot now = snapshot_of(records());
-    (now.*definitions)[name] = text;
-    return caught(now);
-  };
-  expect_named(redefined(&Snapshot::metrics, "rpe", "rpe, delta=10.0, unit=frames"),
-               {"defines the metric 'rpe' differently", "delta=1.0", "delta=10.0"});
-  expect_named(redefined(&Snapshot::methods, "uniform", "paper_oracle"),
-               {"defines the method 'uniform' differently", "'paper_oracle'"});
-  expect_named(redefined(&Snapshot::methods, "uniform", "uniform, rotation=none, weights=time"),
-               {"defines the method 'uniform' differently", "'rotation=slerp'", "'rotation=none'"});
-  expect_named(redefined(&Snapshot::protocols, "loopbench [2]", "align=sim3, max_diff=0.02"),
-               {"defines the protocol 'loopbench [2]' differently", "'align=se3'", "'align=sim3'"});
-  expect_named(
-      redefined(&Snapshot::sequences, "room", "simulated: path=room, seed=1; a.txt 3 cafe"),
-      {"defines the sequence 'room' differently", "a.txt 3 beef", "a.txt 3 cafe"});
-}
-
 TEST(PlantedRegression, OfEveryRecord) {
   const auto changed = [](void (*change)(Record&)) {
     std::vector<Record> now = records();

@@ -145,16 +145,5 @@ TEST_F(RunSweep, AnUndefinedNumberIsDeclinedAloneAndSaysWhy) {
   }
 }
 
-TEST_F(RunSweep, AStoreKeepsTheOneBefore) {
-  run();
-  run();
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out" / "previous-1.sqlite"));
-  EXPECT_EQ(read_records(folder_.path() / "out" / "previous-1.sqlite").size(), 54u);
-  run();
-  EXPECT_EQ(read_records(folder_.path() / "out" / "previous-1.sqlite").size(), 54u);
-  EXPECT_EQ(read_records(folder_.path() / "out" / "previous-2.sqlite").size(), 54u);
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out" / "results.sqlite-wal"));
-}
-
 }  // namespace
 }  // namespace loopbench::run_test

@@ -6,7 +6,6 @@
 
 #include "harness/compare/derived.hpp"
 #include "tests/studies/synthetic_records.hpp"
-#include "tests/support/command.hpp"
 #include "tests/support/compared_sweep.hpp"
 
 namespace loopbench::verdict_defects_test {
@@ -160,21 +159,6 @@ TEST(Defect13, TheMarginToTheNextIsInTheSentence) {
   const std::string same = verdict(compared(pairs(ratios), kAgainstRaw));
   EXPECT_TRUE(same.starts_with("dual and raw are best, within 1 % of one another: ")) << same;
   EXPECT_FALSE(has(same, "other method")) << same;  // there is none
-}
-
-TEST(Defect14, AFilterNeedsNoMetricBesideIt) {
-  const TemporaryFolder folder;
-  folder.file("c.yaml",
-              "datasets: [{dataset: simulated, path: room, keyframes: 20}]\n"
-              "methods: [raw, uniform]\nmetrics: [{metric: rpe, delta: 1}]\n"
-              "times: keyframes\nrepeats: 2\n");
-  ASSERT_EQ(loopbench_command("run c.yaml --out r", folder).exit_code, 0);
-  const CommandResult result = loopbench_command("compare r --where metric=rpe", folder);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.out.rfind("### rpe (delta=1) rmse", 0), 0u) << result.out;
-  const CommandResult none = loopbench_command("compare r --where metric=ate", folder);
-  EXPECT_EQ(none.exit_code, 2);
-  EXPECT_TRUE(has(none.err, "r: no score to compare after --where")) << none.err;
 }
 
 TEST(Defect14, MethodsThatAreExcludedOnSomeRunsDoNotEndTheComparison) {
