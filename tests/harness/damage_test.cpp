@@ -194,23 +194,6 @@ TEST_F(Damage, ADescriptionIsRejectedByItsRowAndWrittenAgain) {
   EXPECT_EQ(read_provenance(file_).at("commit"), "decaf");
 }
 
-TEST_F(Damage, EveryCommandThatReadsScoresRejectsThem) {
-  run(kUsual);
-  change("UPDATE score_value SET definition = definition + 1 WHERE cell = 4 AND number = 0");
-  for (const char* command : {"compare .",
-                              "table .",
-                              "table . --where metric=ate",
-                              "report . -o page.html",
-                              "export . -o rows.csv",
-                              "check . --baseline b.json --update",
-                              "merge . -o merged"}) {
-    const CommandResult result = loopbench_command(command, folder_);
-    EXPECT_EQ(result.exit_code, 2) << command << result.err;
-    EXPECT_THAT(result.err, HasSubstr("results.sqlite: is damaged: b / shifted is corrupted"))
-        << command << result.err;
-  }
-}
-
 TEST_F(Damage, ADamagedStoreIsNotMerged) {
   run(kUsual);
   change("UPDATE trace SET samples = zeroblob(length(samples)) WHERE cell = 1");

@@ -1,12 +1,11 @@
 /// Sweeps that end early by signals.
 #include <fcntl.h>
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <random>
 #include <thread>
@@ -21,7 +20,6 @@ namespace loopbench::kill_test {
 using namespace methods;
 using namespace metrics;
 using namespace harness;
-using testing::HasSubstr;
 
 namespace {
 

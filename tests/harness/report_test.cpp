@@ -78,35 +78,10 @@ TEST_F(OfASweep, EscapesEveryName) {
   EXPECT_FALSE(has(*html_, "<script>alert"));
   EXPECT_FALSE(has(*html_, "<i>&"));
   EXPECT_FALSE(has(*html_, "<c0ffee>"));
+  EXPECT_TRUE(has(*html_, "&lt;c0ffee&gt;"));
   EXPECT_TRUE(has(*html_, "&lt;/script&gt;&lt;b&gt;&quot;a&quot; &amp; &#39;b&#39;"));
   EXPECT_EQ(data()["scores"]["sequences"][0], kAwkward);
   EXPECT_EQ(data()["scores"]["methods"][1], "<i>&");
-}
-
-TEST_F(OfASweep, TellsWithoutScripts) {
-  for (const char* part : {"<h1>c</h1>",
-                           "set to fail",
-                           "set to decline",
-                           "undefined or incomplete scores",
-                           "set to be undefined",
-                           "verdict for every score",
-                           "Protocol of every number",
-                           "align=",
-                           "&lt;c0ffee&gt;",
-                           "<noscript>",
-                           "Permission to use, copy, modify, and/or distribute",
-                           "<b>6</b> cells failed",
-                           "description:"}) {
-    EXPECT_TRUE(has(*html_, part)) << part;
-  }
-  EXPECT_FALSE(has(*html_, "{{"));
-}
-
-TEST_F(OfASweep, NeedsNothingBesideIt) {
-  for (const char* part :
-       {"<link rel=\"stylesheet", "src=\"", "@import", "fetch(\"http", "url(http"}) {
-    EXPECT_FALSE(has(*html_, part)) << part;
-  }
 }
 
 TEST_F(OfASweep, HoldsScoresAndTracesOfEveryRepeat) {
@@ -190,17 +165,6 @@ TEST_F(OfASweep, FiguresHoldWhatHasATrace) {
                   .curves.empty());
   EXPECT_EQ(file_stem("closed, 180 keyframes/../x"), "closed_180_keyframes_x");
   EXPECT_EQ(file_stem("..."), "");
-}
-
-TEST_F(OfASweep, RunsItsOwnScriptsAndStylesOnly) {
-  const std::string meta = "<meta http-equiv=\"Content-Security-Policy\" content=\"";
-  const std::size_t begin = html_->find(meta) + meta.size();
-  const std::string policy = html_->substr(begin, html_->find('"', begin) - begin);
-  EXPECT_TRUE(policy.starts_with("default-src 'none'; ")) << policy;
-  EXPECT_FALSE(has(policy, "unsafe") || has(policy, "http")) << policy;
-  EXPECT_LT(begin, html_->find("<title>")) << "it precedes everything it governs";
-  EXPECT_FALSE(has(*html_, "<script>") || has(*html_, "<style>")) << "without the nonce";
-  EXPECT_FALSE(has(*html_, " style=\"") || has(*html_, " onclick="));
 }
 
 /// Reads the state of the page, operates its controls, and returns results in its title.
