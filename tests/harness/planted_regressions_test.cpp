@@ -146,18 +146,6 @@ TEST(PlantedRegression, AMethodASequenceOrAScoreThatVanished) {
                {"rpe translation 3d, dense, loopbench", "missing"});
 }
 
-TEST(PlantedRegression, ACellThatFailsNow) {
-  std::vector<Record> now = records();
-  std::erase_if(now,
-                [](const Record& r) { return r.cell->position == 5 && r.kind->metric == "rpe"; });
-  for (Record& r : now) {
-    if (r.cell->position != 5) continue;
-    r.kind.edit().metric = r.kind.edit().label = "";
-    r.status = Status::crashed;
-  }
-  expect_named(caught(snapshot_of(now)), {"room (repeat 2) / uniform", "was ok, is crashed"});
-}
-
 TEST(PlantedRegression, OtherContentOfTheDataset) {
   std::vector<Record> now = records();
   Baseline hashed = baseline();
