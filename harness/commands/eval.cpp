@@ -14,10 +14,7 @@
 #include "harness/commands/standard_output.hpp"
 #include "harness/eval/eval_figures.hpp"
 #include "harness/eval/evaluate_files.hpp"
-#include "harness/eval/recorded_store.hpp"
 #include "harness/eval/run_summary.hpp"
-#include "harness/report/report.hpp"
-#include "harness/store/read.hpp"
 #include "harness/tables/record_csv.hpp"
 
 namespace loopbench::harness {
@@ -113,7 +110,9 @@ void write_figures(const EvalArguments& a, const Evaluations& all) {
 }
 
 /// Rejects options that have no effect on a store, before anything is evaluated.
-void check_store_options(const EvalArguments& a, const std::vector<RecordedRun>& runs) {
+void check_store_options(const EvalArguments& a) {
+  if (a.store.empty()) return;
+  reject_standard_output("--store", a.store);
   const std::string store = a.store + ": --store writes results only; for ";
   if (!a.report.empty()) {
     throw InputError(store + "--report use `loopbench report " + a.store + " -o " + a.report +
@@ -122,20 +121,13 @@ void check_store_options(const EvalArguments& a, const std::vector<RecordedRun>&
   if (!a.plot.empty()) {
     throw InputError(store + "--plot use `loopbench plot " + a.store + " -o FOLDER` afterwards");
   }
-  check_stamp_options(a, runs);
 }
 
-int eval_to_store(const EvalArguments& a, const Source& source) {
-  reject_standard_output("--store", a.store);
-  check_estimates(a);
-  std::vector<RecordedRun> runs = recorded_runs(a.reference, a.estimates, a.sequence);
-  for (RecordedRun& run : runs) run.group = a.group;
-  check_store_options(a, runs);
-  const StoredRuns stored = store_runs(runs, a, source);
+int print_stored(const EvalArguments& a, const Evaluations& stored) {
   for (const std::string& note : stored.notes) {
     fmt::print(stderr, "{}\n", printable("loopbench: note: " + note));
   }
-  const std::string report = run_report(read_records(a.store), terminal_style(), a.paired);
+  const std::string report = run_report(stored.records, terminal_style(), a.paired);
   fmt::print("{}\n{}", printable(report), printable(stored.summary));
   return stored.are_ok ? kExitOk : kExitSomeCellsFailed;
 }
@@ -151,16 +143,10 @@ void return_large_lists() {
 
 int eval(const EvalArguments& a, const Source& source) {
   return_large_lists();
-  if (!a.store.empty()) return eval_to_store(a, source);
+  check_store_options(a);
   reject_standard_output("--report", a.report);
-  const auto write_page = [&](const std::filesystem::path& store) {
-    ReportContent content = read_report_content(store, kReportBytes);
-    content.plane = a.figures.plane;
-    write_file(a.report, report_html(std::move(content), kReportBytes));
-    fmt::print(stderr, "{}\n", printable(a.report));
-  };
-  const Evaluations all =
-      a.report.empty() ? evaluate_files(a) : evaluate_files(a, source, write_page);
+  const Evaluations all = evaluate_files(a, source);
+  if (!a.store.empty()) return print_stored(a, all);
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all.results));
   write_figures(a, all);
   if (a.json) {

@@ -9,19 +9,39 @@
 #include <utility>
 
 #include "datasets/core/parallel.hpp"
+#include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/eval/common_parts.hpp"
+#include "harness/eval/recorded_store.hpp"
+#include "harness/report/report.hpp"
 #include "harness/run/build.hpp"
 #include "harness/store/read.hpp"
+#include "harness/store/resume.hpp"
 #include "harness/store/store.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-/// With the names of files as given, and those of --labels: one for each file, or else one for each
-/// method.
+using References = std::map<std::string, SharedReference>;  // by RecordedRun::reference
+
+std::filesystem::path store_of(const EvalArguments& a) {
+  return a.store.empty() ? memory_store() : std::filesystem::path(a.store) / "results.sqlite";
+}
+
+bool is_new(const std::filesystem::path& store) {
+  return !std::filesystem::exists(store) || has_no_tables(store);
+}
+
+/// With the names of files as given unless they are stored, and those of --labels: one for each
+/// file, or else one for each method.
 std::vector<RecordedRun> runs_of(const EvalArguments& a) {
-  std::vector<RecordedRun> out = labelled_runs(a.reference, a.estimates, a.sequence);
+  std::vector<RecordedRun> out;
+  if (!a.store.empty()) {
+    out = recorded_runs(a.reference, a.estimates, a.sequence);
+    for (RecordedRun& run : out) run.group = a.group;
+    return out;
+  }
+  out = labelled_runs(a.reference, a.estimates, a.sequence);
   std::vector<std::string> methods;
   for (const RecordedRun& run : out) {
     const bool is_known = std::ranges::count(methods, run.method) > 0;
@@ -93,28 +113,12 @@ void require_evaluated(const std::vector<EvaluatedFile>& all) {
                        : own.estimate + " with reference " + own.reference + ": " + own.why_failed);
 }
 
-/// Writes the results to a store in memory, which `visit` gets, and reads its records.
-Evaluations stored(RecordedSweep files,
-                   std::vector<EvaluatedFile> all,
-                   const Source& source,
-                   const std::function<void(const std::filesystem::path&)>& visit) {
-  require_evaluated(all);
-  const EvalArguments& a = files.arguments;
-  if (!a.min_coverage) check_coverage(all);
-  const std::filesystem::path file = memory_store();
-  CellKeys keys(files.sweep, files.catalogue, DataRoot{}, build_id(source.code));
-  std::map<std::string, std::string> origin;
-  if (visit) origin = provenance(source, files.sweep, files.catalogue);
-  Store store(file, keys, std::move(origin));
-  store.resume(files.cells, files.cells, Retry::failed);
-  for (const EvaluatedFile& each : all) store.write(each.result);
-  if (visit) visit(file);
-  Evaluations out{{}, read_records(file), std::move(files.runs)};
+/// The records of a store in memory, by file, and those of each evaluation.
+void add_records(Evaluations& out, const RecordedSweep& files, std::vector<EvaluatedFile> all) {
   std::ranges::stable_sort(out.records, {}, [&](const Record& record) {
-    return files.cells[static_cast<std::size_t>(record.cell->position)]
-        .dataset;  // the order of the files
+    return files.cells[static_cast<std::size_t>(record.cell->position)].dataset;
   });
-  if (!a.unit.empty()) change_unit(out.records, a.unit);
+  if (!files.arguments.unit.empty()) change_unit(out.records, files.arguments.unit);
   for (EvaluatedFile& each : all) {
     for (EvaluationResult& own : each.protocols) {
       std::ranges::copy_if(out.records, std::back_inserter(own.records), [&](const Record& r) {
@@ -124,39 +128,113 @@ Evaluations stored(RecordedSweep files,
       out.results.push_back(std::move(own));
     }
   }
+}
+
+void write_page(const std::filesystem::path& store, const EvalArguments& a) {
+  ReportContent content = read_report_content(store, kReportBytes);
+  content.plane = a.figures.plane;
+  write_file(a.report, report_html(std::move(content), kReportBytes));
+  fmt::print(stderr, "{}\n", printable(a.report));
+}
+
+/// Evaluates files with one reference; those that are not kept in a store are in the order of the
+/// arguments, and compared with each other.
+std::vector<EvaluatedFile> evaluated_cells(const std::vector<Cell>& cells,
+                                           const RecordedSweep& files,
+                                           const SharedReference& reference,
+                                           const RecordedFile* estimate) {
+  std::vector<EvaluatedFile> out(cells.size());
+  parallel_for_tasks(cells.size(), [&](std::size_t i) {
+    out[i] = estimate ? evaluate_poses(cells[i], files, reference, *estimate)
+                      : evaluate_recorded(cells[i], files, reference);
+  });
+  const EvalArguments& a = files.arguments;
+  if (!a.store.empty()) return out;
+  std::ranges::sort(out, {}, [](const EvaluatedFile& each) { return each.result.cell.dataset; });
+  require_evaluated(out);
+  if (!a.min_coverage) check_coverage(out);
+  return out;
+}
+
+/// Evaluates the files that the store has not, one reference after the other, so that few results
+/// are in memory; `estimate`: the only one, if it is not a file.
+Evaluations evaluated(RecordedSweep files,
+                      const std::vector<RecordedRun>& added,
+                      References references,
+                      const RecordedFile* estimate,
+                      const Source& source,
+                      Evaluations out = {}) {
+  const EvalArguments& a = files.arguments;
+  const bool is_kept = !a.store.empty();
+  const std::filesystem::path file = store_of(a);
+  const auto reference_of = [&](const Cell& cell) { return files.runs[cell.dataset].reference; };
+  const auto read_reference = [&](const std::string& name) -> const SharedReference& {
+    const auto known = references.find(name);
+    if (known != references.end()) return known->second;
+    return references.emplace(name, shared_reference(name, files)).first->second;
+  };
+  CellKeys keys(files.sweep, files.catalogue, DataRoot{}, build_id(source.code));
+  // Before the store changes: stored results are kept if a reference cannot be read.
+  const std::vector<Cell> missing =
+      is_new(file) ? files.cells : missing_cells(file, keys, files.cells, files.cells);
+  for (const Cell& cell : missing) read_reference(reference_of(cell));
+  const std::string again = evaluated_again(missing, files.runs, added);
+  if (!again.empty()) out.notes.push_back(again);
+  if (is_kept) std::filesystem::create_directories(a.store);
+  std::map<std::string, std::string> origin;
+  if (a.keeps_traces()) origin = provenance(source, files.sweep, files.catalogue);
+  Store store(file, keys, std::move(origin));
+  // A failure can be repaired without a change of the estimate, for example by its permissions.
+  const Resumed resumed = store.resume(files.cells, files.cells, Retry::failed);
+  std::map<std::string, std::vector<Cell>> by_reference;
+  for (const Cell& cell : resumed.missing) by_reference[reference_of(cell)].push_back(cell);
+  StoreSummary summary(resumed.incomplete);
+  std::vector<EvaluatedFile> all;
+  for (const auto& [name, cells] : by_reference) {
+    std::vector<EvaluatedFile> own = evaluated_cells(cells, files, read_reference(name), estimate);
+    for (const auto& [result, protocols] : own) {
+      store.write(result);
+      summary.add(result, files.runs[result.cell.dataset].estimate);
+    }
+    if (!is_kept) all = std::move(own);
+  }
+  if (is_kept) {
+    store.close();
+    std::ranges::move(summary.notes(), std::back_inserter(out.notes));
+    out.summary = summary.text(file, files, resumed.there);
+    out.are_ok = summary.is_ok();
+  }
+  if (!a.report.empty()) write_page(file, a);
+  out.records = read_records(file);
+  if (!is_kept) add_records(out, files, std::move(all));
+  out.runs = std::move(files.runs);
   return out;
 }
 
 }  // namespace
 
-Evaluations evaluate_files(const EvalArguments& a,
-                           const Source& source,
-                           const std::function<void(const std::filesystem::path&)>& visit) {
+Evaluations evaluate_files(const EvalArguments& a, const Source& source) {
   check_estimates(a);
   std::vector<std::filesystem::path> inputs{a.times, a.reference};
   inputs.insert(inputs.end(), a.estimates.begin(), a.estimates.end());
   reject_overwriting(inputs, a.per_pose);
-  std::vector<RecordedRun> labelled = runs_of(a);
-  if (a.common.value_or(false)) set_common_times(labelled, a);
-  RecordedSweep files = recorded_sweep(std::move(labelled), a);
+  const std::vector<RecordedRun> added = runs_of(a);
+  Evaluations out;
+  std::vector<RecordedRun> runs =
+      a.store.empty() ? added : with_stored(store_of(a), added, out.notes);
+  if (a.common.value_or(!a.store.empty())) set_common_times(runs, a);
+  RecordedSweep files = recorded_sweep(std::move(runs), a);
   check_stamp_options(a, files.runs);
-  std::vector<Cell> cells = files.cells;
-  std::ranges::sort(cells, {}, &Cell::dataset);
-  const SharedReference reference = shared_reference(a.reference, files);
-  std::vector<EvaluatedFile> all(cells.size());
-  parallel_for_tasks(
-      cells.size(), [&](std::size_t i) { all[i] = evaluate_recorded(cells[i], files, reference); });
-  return stored(std::move(files), std::move(all), source, visit);
+  return evaluated(std::move(files), added, {}, nullptr, source, std::move(out));
 }
 
 Evaluations evaluate_in_memory(const EvalArguments& a,
                                RecordedFile reference,
                                const RecordedFile& estimate) {
-  RecordedSweep files =
-      recorded_sweep({{"reference", "estimate", "0", "reference", "estimate"}}, a);
-  std::vector<EvaluatedFile> all;
-  all.push_back(evaluate_poses(files.cells.front(), files, {std::move(reference)}, estimate));
-  return stored(std::move(files), std::move(all), {}, {});
+  const std::vector<RecordedRun> run{{"reference", "estimate", "0", "reference", "estimate"}};
+  References references;
+  references.emplace("reference", SharedReference{std::move(reference)});
+  return evaluated(recorded_sweep(run, a), run, std::move(references), &estimate, {});
 }
 
 }  // namespace loopbench::harness

@@ -1,28 +1,54 @@
-/// Stores the evaluation of files like a sweep: systems are methods, their runs are repeats.
+/// A store of evaluated files: the runs that it has already, and what `eval --store` prints.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "harness/eval/recorded_sweep.hpp"
-#include "harness/run/build.hpp"
+#include "harness/model/result.hpp"
+#include "harness/tables/notes.hpp"
 
 namespace loopbench::harness {
 
-struct StoredRuns {
-  std::string summary;             ///< "40 runs in FILE (39 stored before), 1 failed", and reasons
-  std::vector<std::string> notes;  ///< on earlier runs, and of the files evaluated now
-  bool are_ok = true;              ///< none failed or has a low coverage
-};
+/// The runs of a store, where `added` replace runs with the same labels, and then the others of
+/// `added`. `notes`: receives runs that are replaced by another file. Throws InputError if the
+/// store is the result of a sweep, or a sequence has two references, whose results cannot be
+/// averaged.
+std::vector<RecordedRun> with_stored(const std::filesystem::path& file,
+                                     const std::vector<RecordedRun>& added,
+                                     std::vector<std::string>& notes);
 
-/// Evaluates the runs under all protocols of the arguments and writes them to
-/// FOLDER/results.sqlite. Runs that the store already has are kept; unchanged files are not
-/// evaluated again, except those that failed. Every run of a sequence is a group of its own, so
-/// that conclusions hold for other runs on these sequences; runs with the same number on equal
-/// references are one group, see recorded_group(). Throws InputError, also if the store is the
-/// result of a sweep; the store is then unchanged. O(poses).
-StoredRuns store_runs(const std::vector<RecordedRun>& runs,
-                      const EvalArguments& arguments,
-                      const Source& source);
+/// A note on stored runs that are evaluated although they were not given; empty if there is none.
+std::string evaluated_again(const std::vector<Cell>& missing,
+                            const std::vector<RecordedRun>& runs,
+                            const std::vector<RecordedRun>& added);
+
+/// What was written to a store.
+class StoreSummary {
+ public:
+  /// `incomplete`: runs with a low coverage that the store had.
+  explicit StoreSummary(std::size_t incomplete) : incomplete_(incomplete) {}
+
+  void add(const CellResult& result, const std::string& estimate);
+
+  /// None failed, of no run a metric failed, and none has a low coverage.
+  bool is_ok() const { return failures_.empty() && incomplete_ == 0; }
+
+  /// One line for each kind of notes (the text before the first colon, or the second one after
+  /// "doctor:"): that of the first file with it, and the number of further files. Findings of the
+  /// doctor first, then in order of appearance.
+  std::vector<std::string> notes() const;
+
+  /// "40 runs in FILE (39 stored before), 1 failed", and the reasons of at most five failures.
+  std::string text(const std::filesystem::path& file,
+                   const RecordedSweep& files,
+                   std::size_t stored) const;
+
+ private:
+  std::size_t incomplete_;
+  std::vector<std::string> failures_;  ///< "FILE: reason"
+  ListsByKey<std::string> notes_;      ///< by kind
+};
 
 }  // namespace loopbench::harness
