@@ -94,14 +94,13 @@ std::string result_text(const EvalArguments& a, const Evaluations& evaluations) 
 /// Figures of the estimates under the first protocol.
 void write_figures(const EvalArguments& a, const Evaluations& all) {
   if (a.plot.empty()) return;
-  const DrawnRuns drawn = drawn_runs(all.results, all.runs);
-  if (drawn.drawn.empty()) throw InputError("--plot: no estimate could be evaluated");
-  if (!drawn.note.empty()) {
-    fmt::print(stderr, "{}\n", printable("loopbench: note: figures: " + drawn.note));
+  FigureData data = drawn_runs(all.results, all.runs);
+  if (data.curves.empty()) throw InputError("--plot: no estimate could be evaluated");
+  if (!data.note.empty()) {
+    fmt::print(stderr, "{}\n", printable("loopbench: note: figures: " + data.note));
   }
   std::filesystem::path plot = a.plot;
   const std::vector<std::string> suffixes = take_suffixes(plot);
-  FigureData data = figure_data(drawn);
   data.figures = figures_for_paper(plot.string(), suffixes, a.figures);
   draw({data});
   for (const DrawnFigure& figure : data.figures) {

@@ -17,32 +17,33 @@ namespace {
 
 /// A candidate for a figure.
 struct RatedRun {
-  DrawnEvaluation drawn;
+  DrawnCurve curve;
   std::string method;
   bool is_complete = true;
 };
 
 /// Best, median and worst of runs of one method, or only the median.
-std::vector<DrawnEvaluation> representative(std::vector<RatedRun> runs, bool is_only) {
-  std::ranges::stable_sort(runs, {}, [](const RatedRun& run) { return run.drawn.position_rmse; });
+std::vector<DrawnCurve> representative(std::vector<RatedRun> runs, bool is_only) {
+  std::ranges::stable_sort(runs, {}, [](const RatedRun& run) { return run.curve.rmse; });
   const auto named = [&](std::size_t i, const char* role) {
-    DrawnEvaluation out = runs[i].drawn;
-    out.estimate.name += role;
-    out.estimate.dash = 0;  // no other run of its method has its colour
+    DrawnCurve out = runs[i].curve;
+    out.name += role;
+    out.dash = 0;  // no other run of its method has its colour
     return out;
   };
   const std::size_t middle = (runs.size() - 1) / 2;
   if (runs.size() == 1) return {named(0, "")};
   if (!is_only) return {named(middle, " (median)")};
-  std::vector<DrawnEvaluation> out{
+  std::vector<DrawnCurve> out{
       named(0, " (best)"), named(middle, " (median)"), named(runs.size() - 1, " (worst)")};
-  for (std::size_t i = 0; i < out.size(); ++i) out[i].estimate.style = i;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].style = i;
   return out;
 }
 
-void choose_drawn(const std::vector<RatedRun>& all, DrawnRuns& out) {
+/// Adds curves to the one of the reference.
+void choose_drawn(const std::vector<RatedRun>& all, FigureData& out) {
   if (all.size() <= kMostDrawnEstimates) {
-    for (const RatedRun& each : all) out.drawn.push_back(each.drawn);
+    for (const RatedRun& each : all) out.curves.push_back(each.curve);
     return;
   }
   std::vector<std::string> methods;
@@ -57,10 +58,10 @@ void choose_drawn(const std::vector<RatedRun>& all, DrawnRuns& out) {
   const bool has_repeats = runs.size() < all.size();
   if (methods.size() > kMostDrawnEstimates) methods.resize(kMostDrawnEstimates);
   for (const std::string& method : methods) {
-    std::ranges::move(representative(runs[method], is_only), std::back_inserter(out.drawn));
+    std::ranges::move(representative(runs[method], is_only), std::back_inserter(out.curves));
   }
   out.note = fmt::format("{} of {} estimates are not drawn{}",
-                         all.size() - out.drawn.size(),
+                         all.size() + 1 - out.curves.size(),
                          all.size(),
                          has_repeats ? " (chosen by ATE)" : "");
 }
@@ -103,17 +104,18 @@ std::vector<std::string> short_names(const std::vector<NamedTrajectory>& all) {
 
 }  // namespace
 
-DrawnEvaluation drawn_evaluation(const Trajectory& reference,
-                                 const metrics::Evaluation& evaluation) {
+std::vector<DrawnCurve> drawn_evaluation(const Trajectory& reference,
+                                         const metrics::Evaluation& evaluation) {
   Trajectory complete = reference;
   metrics::project(complete, evaluation.protocol.project);
   const double origin = complete.front().stamp;
-  DrawnEvaluation out{{}, reference_curve(), 0.0};
-  add_poses(out.reference, complete, origin);
-  thin(out.reference);
+  DrawnCurve expected_curve = reference_curve(), out;
+  add_poses(expected_curve, complete, origin);
+  thin(expected_curve);
 
-  add_poses(out.estimate, evaluation.estimate, origin);
-  auto& columns = out.estimate.columns;
+  add_poses(out, evaluation.estimate, origin);
+  auto& columns = out.columns;
+  double sum = 0.0;
   const bool has_angles = metrics::why_no_attitude(evaluation).empty();
   columns["time"].clear();  // stamps of the pairs are those of the reference
   for (std::size_t i = 0; i < evaluation.estimate.size(); ++i) {
@@ -125,23 +127,23 @@ DrawnEvaluation drawn_evaluation(const Trajectory& reference,
       columns["angle"].push_back(metrics::kDegrees *
                                  angle_between(found.rotation, expected.rotation));
     }
-    out.position_rmse += columns["error"].back() * columns["error"].back();
+    sum += columns["error"].back() * columns["error"].back();
   }
   const auto count = static_cast<double>(std::max<std::size_t>(1, evaluation.estimate.size()));
-  out.position_rmse = std::sqrt(out.position_rmse / count);
+  out.rmse = std::sqrt(sum / count);
   std::vector<double> sorted = columns["error"];
   std::ranges::sort(sorted);
-  thin(out.estimate,
+  thin(out,
        has_angles ? std::vector<std::string>{"error", "angle"} : std::vector<std::string>{"error"});
   for (const std::size_t i : subsampled_indices(sorted.size(), kMostRows)) {
     columns["sorted_errors"].push_back(sorted[i]);
   }
-  return out;
+  return {std::move(expected_curve), std::move(out)};
 }
 
-DrawnRuns drawn_runs(const std::vector<EvaluationResult>& all,
-                     const std::vector<RecordedRun>& runs) {
-  DrawnRuns out;
+FigureData drawn_runs(const std::vector<EvaluationResult>& all,
+                      const std::vector<RecordedRun>& runs) {
+  FigureData out;
   NameOrder methods;
   std::map<std::string, std::size_t> count, before;  // by method
   for (const RecordedRun& run : runs) {
@@ -158,26 +160,16 @@ DrawnRuns drawn_runs(const std::vector<EvaluationResult>& all,
       const metrics::Align align = all[i].alignment.type;
       const std::string how = align == metrics::Align::none ? "no" : to_text(align);
       out.title = run.sequence + ", " + how + " alignment (ATE as RMSE)";
+      out.curves.push_back(all[i].drawn.front());
     }
-    RatedRun& candidate = candidates.emplace_back(
-        RatedRun{all[i].drawn, run.method, all[i].incomplete_reason.empty()});
-    DrawnCurve& curve = candidate.drawn.estimate;
+    candidates.push_back({all[i].drawn.back(), run.method, all[i].incomplete_reason.empty()});
+    DrawnCurve& curve = candidates.back().curve;
     const bool has_repeats = count[run.method] > 1;
     curve.name = run.method + (has_repeats ? " " + run.run : "");
     curve.style = methods.names().size() > 1 ? methods.index(run.method) : repeat;
     if (methods.names().size() > 1 && has_repeats) curve.dash = 1 + static_cast<int>(repeat % 5);
   }
   choose_drawn(candidates, out);
-  return out;
-}
-
-FigureData figure_data(const DrawnRuns& runs) {
-  FigureData out{runs.title, runs.note, {}, {}};
-  if (!runs.drawn.empty()) out.curves.push_back(runs.drawn.front().reference);
-  for (const DrawnEvaluation& each : runs.drawn) {
-    out.curves.push_back(each.estimate);
-    out.curves.back().rmse = each.position_rmse;
-  }
   return out;
 }
 

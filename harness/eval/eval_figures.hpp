@@ -13,36 +13,27 @@
 
 namespace loopbench::harness {
 
-/// `reference`: the complete one, ascending stamps. O(n log n).
-DrawnEvaluation drawn_evaluation(const Trajectory& reference,
-                                 const metrics::Evaluation& evaluation);
-
-/// Evaluations that share figures.
-struct DrawnRuns {
-  std::string title;  ///< sequence, alignment and score in the legend
-  std::vector<DrawnEvaluation> drawn;
-  std::string note;  ///< how many estimates are not drawn; empty: all are
-};
+/// EvaluationResult::drawn. `reference`: the complete one, ascending stamps. O(n log n).
+std::vector<DrawnCurve> drawn_evaluation(const Trajectory& reference,
+                                         const metrics::Evaluation& evaluation);
 
 inline constexpr std::size_t kMostDrawnEstimates = 6;  ///< in a figure; more hide each other
 
-/// The estimates evaluated under the first protocol; none if all failed. `runs[i / protocols]`
-/// belongs to `all[i]`. The name of an estimate is its method, or method and run if a method has
-/// several. The further runs of a method are dashed, or have colours of their own if there is only
-/// one method. Of more than kMostDrawnEstimates, the run of median ATE of each method is drawn, for
-/// the first methods, or the best, median and worst of a single method; incomplete ones only if
-/// there are no others.
-DrawnRuns drawn_runs(const std::vector<EvaluationResult>& all,
-                     const std::vector<RecordedRun>& runs);
+/// The reference and the estimates evaluated under the first protocol, without figures; no curves
+/// if all failed. The title has sequence, alignment and score, the note how many are not drawn.
+/// `runs[i / protocols]` belongs to `all[i]`. The name of an estimate is its method, or method and
+/// run if a method has several. The further runs of a method are dashed, or have colours of their
+/// own if there is only one method. Of more than kMostDrawnEstimates, the run of median ATE of each
+/// method is drawn, for the first methods, or the best, median and worst of a single method;
+/// incomplete ones only if there are no others.
+FigureData drawn_runs(const std::vector<EvaluationResult>& all,
+                      const std::vector<RecordedRun>& runs);
 
 /// - trajectories: the plane of the largest extent and space, start and end marked, coloured by
 ///   position error for a single estimate;
 /// - errors: position and rotation error over time, histogram and box plot of the position error;
 /// - axes: x, y, z, roll, pitch and yaw over time, with the complete reference.
 inline constexpr std::array kErrorFigures{"trajectories", "errors", "axes"};
-
-/// The curves of the estimates and the reference, without figures.
-FigureData figure_data(const DrawnRuns& runs);
 
 /// kErrorFigures as PREFIX_NAME and each suffix (".svg"), as wide as one column of a paper, with 2
 /// maps or 1 panel of curves in a row. `options`: labels and plane.

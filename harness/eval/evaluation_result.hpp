@@ -15,16 +15,6 @@
 
 namespace loopbench::harness {
 
-/// One estimate, paired and aligned.
-struct DrawnEvaluation {
-  /// Without a name. Times count from the first pose of the reference file [s], so that the curves
-  /// of all estimates of a reference have one origin. Columns of the errors: error [m], angle
-  /// [deg], and sorted_errors [m] of all poses.
-  DrawnCurve estimate;
-  DrawnCurve reference;        ///< the complete reference, subsampled
-  double position_rmse = 0.0;  ///< [m]
-};
-
 /// The scores are records, as of a sweep; the rest is what they do not contain.
 struct EvaluationResult {
   std::string reference;
@@ -41,9 +31,12 @@ struct EvaluationResult {
   std::vector<std::string> notes;         ///< of the readers, the doctor and the evaluation
   std::vector<metrics::PoseError> poses;  ///< only on request
   std::vector<PoseValues> pose_values;    ///< of metrics, for each of `poses`; with them
-  DrawnEvaluation drawn;                  ///< only on request, without name
-  std::string why_failed;                 ///< set if the evaluation failed
-  std::vector<Record> records;            ///< none if the evaluation failed
+  /// Only on request: the complete reference and the paired and aligned estimate, without a name
+  /// and with errors: error [m], angle [deg], and sorted_errors [m] of all poses. Times count from
+  /// the first pose of the reference file, so that all its estimates have one origin.
+  std::vector<DrawnCurve> drawn;
+  std::string why_failed;       ///< set if the evaluation failed
+  std::vector<Record> records;  ///< none if the evaluation failed
 };
 
 /// ok, incomplete, undefined (all requested metrics are) or failed (the evaluation, or metrics

@@ -23,36 +23,36 @@ Trajectory path(double first, double last, double error = 0.0) {
   return out;
 }
 
-DrawnEvaluation drawn(const Trajectory& reference, const Trajectory& estimate) {
+std::vector<DrawnCurve> drawn(const Trajectory& reference, const Trajectory& estimate) {
   metrics::Protocol protocol;
   protocol.align = metrics::Align::none;
   return drawn_evaluation(reference, metrics::evaluate(reference, estimate, protocol));
 }
 
 TEST(Figures, AllEstimatesHaveTheOriginOfTheReference) {
-  const DrawnEvaluation one = drawn(path(0.0, 50.0), path(20.0, 45.0, 0.1));
-  EXPECT_NEAR(one.estimate.columns.at("time").front(), 20.0, 1e-9);
-  EXPECT_NEAR(one.estimate.columns.at("time").back(), 45.0, 1e-9);
-  EXPECT_EQ(one.reference.name, "reference");
-  EXPECT_NEAR(one.reference.columns.at("time").front(), 0.0, 1e-9);
-  EXPECT_NEAR(one.reference.columns.at("time").back(), 50.0, 1e-9);
-  EXPECT_NEAR(one.reference.columns.at("x").back(), 50.0, 1e-9);
-  EXPECT_NEAR(one.position_rmse, std::sqrt(0.5) * 0.1, 1e-9);
+  const std::vector<DrawnCurve> one = drawn(path(0.0, 50.0), path(20.0, 45.0, 0.1));
+  EXPECT_NEAR(one[1].columns.at("time").front(), 20.0, 1e-9);
+  EXPECT_NEAR(one[1].columns.at("time").back(), 45.0, 1e-9);
+  EXPECT_EQ(one[0].name, "reference");
+  EXPECT_NEAR(one[0].columns.at("time").front(), 0.0, 1e-9);
+  EXPECT_NEAR(one[0].columns.at("time").back(), 50.0, 1e-9);
+  EXPECT_NEAR(one[0].columns.at("x").back(), 50.0, 1e-9);
+  EXPECT_NEAR(*one[1].rmse, std::sqrt(0.5) * 0.1, 1e-9);
 }
 
 TEST(Figures, KeepThePeakOfAnErrorWithFewerPoints) {
   const Trajectory reference = path(0.0, 4999.0);
   Trajectory estimate = reference;
   estimate[3217].world_from_body.translation.y() = 4.0;  // of one pose only
-  const DrawnEvaluation one = drawn(reference, estimate);
-  const std::vector<double>& errors = one.estimate.columns.at("error");
+  const std::vector<DrawnCurve> one = drawn(reference, estimate);
+  const std::vector<double>& errors = one[1].columns.at("error");
   EXPECT_EQ(std::ranges::max(errors), 4.0);
-  EXPECT_EQ(one.estimate.columns.at("sorted_errors").back(), 4.0);
-  EXPECT_EQ(one.estimate.columns.at("time").front(), 0.0);
-  EXPECT_EQ(one.estimate.columns.at("time").back(), 4999.0);
-  EXPECT_EQ(one.estimate.columns.at("time").size(), errors.size());
+  EXPECT_EQ(one[1].columns.at("sorted_errors").back(), 4.0);
+  EXPECT_EQ(one[1].columns.at("time").front(), 0.0);
+  EXPECT_EQ(one[1].columns.at("time").back(), 4999.0);
+  EXPECT_EQ(one[1].columns.at("time").size(), errors.size());
   EXPECT_LE(errors.size(), 5 * 1000u);
-  EXPECT_LE(one.reference.columns.at("time").size(), 1001u);
+  EXPECT_LE(one[0].columns.at("time").size(), 1001u);
 }
 
 TEST(Figures, OfATrajectoryHaveNoSpeedOfOnePose) {
@@ -70,30 +70,30 @@ TEST(Figures, OfATrajectoryHaveNoSpeedOfOnePose) {
 }
 
 /// Drawn evaluations of estimates with these errors.
-DrawnRuns drawn(const std::string& reference,
-                const std::vector<std::string>& estimates,
-                const std::vector<double>& errors = {}) {
+FigureData drawn(const std::string& reference,
+                 const std::vector<std::string>& estimates,
+                 const std::vector<double>& errors = {}) {
   std::vector<EvaluationResult> results;
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     EvaluationResult& each = results.emplace_back();
     each.estimate = estimates[i];
-    each.drawn.position_rmse = errors.empty() ? 0.1 : errors[i];
+    each.drawn = {reference_curve(), {.rmse = errors.empty() ? 0.1 : errors[i]}};
   }
   return drawn_runs(results, labelled_runs(reference, estimates, ""));
 }
 
-std::vector<std::string> names(const DrawnRuns& runs) {
+std::vector<std::string> names(const FigureData& data) {
   std::vector<std::string> out;
-  for (const DrawnEvaluation& each : runs.drawn) out.push_back(each.estimate.name);
+  for (const DrawnCurve& each : data.curves) out.push_back(each.name);
   return out;
 }
 
 TEST(Figures, NamesAreTheShortestThatDiffer) {
-  const DrawnRuns all = drawn("t/V.csv", {"ba/V/0.txt", "rp/V/0.txt"});
-  EXPECT_THAT(names(all), ElementsAre("ba", "rp"));
-  EXPECT_NE(all.drawn[0].estimate.style, all.drawn[1].estimate.style);
+  const FigureData all = drawn("t/V.csv", {"ba/V/0.txt", "rp/V/0.txt"});
+  EXPECT_THAT(names(all), ElementsAre("reference", "ba", "rp"));
+  EXPECT_NE(all.curves[1].style, all.curves[2].style);
   EXPECT_THAT(names(drawn("t.csv", {"x/a/e.txt", "y/a/e.txt"})),
-              ElementsAre("x/a/e.txt", "y/a/e.txt"));
+              ElementsAre("reference", "x/a/e.txt", "y/a/e.txt"));
 }
 
 TEST(Figures, ManyRunsAreRepresentedByTheMedianOfEachMethod) {
@@ -105,17 +105,17 @@ TEST(Figures, ManyRunsAreRepresentedByTheMedianOfEachMethod) {
       errors.push_back(0.1 * ((run + 2) % 5));  // the median 0.2 is run 0
     }
   }
-  const DrawnRuns all = drawn("W.csv", files, errors);
-  EXPECT_THAT(names(all), ElementsAre("ba 0 (median)", "rp 0 (median)"));
+  const FigureData all = drawn("W.csv", files, errors);
+  EXPECT_THAT(names(all), ElementsAre("reference", "ba 0 (median)", "rp 0 (median)"));
   EXPECT_EQ(all.note, "8 of 10 estimates are not drawn (chosen by ATE)");
-  for (const DrawnEvaluation& each : all.drawn) EXPECT_EQ(each.estimate.dash, 0);
+  for (const DrawnCurve& each : all.curves) EXPECT_EQ(each.dash, 0);
 }
 
 TEST(Figures, ManyRunsOfOneMethodAreRepresentedByBestMedianAndWorst) {
   std::vector<std::string> files;
   for (int run = 0; run < 7; ++run) files.push_back("ba_" + std::to_string(run) + ".txt");
   EXPECT_THAT(names(drawn("V.csv", files, {0.3, 0.1, 0.7, 0.2, 0.5, 0.6, 0.4})),
-              ElementsAre("ba 1 (best)", "ba 6 (median)", "ba 2 (worst)"));
+              ElementsAre("reference", "ba 1 (best)", "ba 6 (median)", "ba 2 (worst)"));
 }
 
 class DrawnFigures : public testing::Test {
