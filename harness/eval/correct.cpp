@@ -33,33 +33,39 @@ bool uses_closures(const MethodChoice& choice, const Catalogue& catalogue) {
   });
 }
 
-std::optional<Residuals> residuals(const Problem& problem, const Trajectory& keyframes) {
+std::optional<std::vector<Residual>> residuals(const Problem& problem,
+                                               const Trajectory& keyframes) {
   metrics::Evaluation evaluation;
   evaluation.context.problem = &problem;
   evaluation.context.estimate = &keyframes;
-  Residuals out;
-  double sum = 0.0;
-  for (const Anchor& anchor : problem.anchors) {
-    const double e = anchor_error(anchor, keyframes[anchor.keyframe].world_from_body).norm();
-    sum += e * e;
-    out.anchor_max = std::max(out.anchor_max.value_or(0.0), e);
-    out.anchor_rms = std::sqrt(sum / static_cast<double>(problem.anchors.size()));
-  }
+  metrics::Statistics metres, degrees;  // zero without closures
   try {
     if (!problem.closures.empty()) {
       const std::vector<metrics::Score> scores = metrics::closure_residual(evaluation);
-      out.translation_rms = scores.at(0).statistics.rmse;
-      out.translation_max = scores.at(0).statistics.max;
-      out.rotation_rms = scores.at(1).statistics.rmse;
-      out.rotation_max = scores.at(1).statistics.max;
+      metres = scores.at(0).statistics;
+      degrees = scores.at(1).statistics;
     }
     const std::vector<metrics::Score> cost = metrics::graph_cost(evaluation, {});
-    out.chi2_odometry = cost.at(1).statistics.rmse;
-    out.chi2_closures = cost.at(2).statistics.rmse;
+    std::vector<Residual> out{{"translation_rms", "closure residual, rms [m]", metres.rmse},
+                              {"translation_max", "closure residual, max [m]", metres.max},
+                              {"rotation_rms", "closure residual, rms [deg]", degrees.rmse},
+                              {"rotation_max", "closure residual, max [deg]", degrees.max},
+                              {"chi2_odometry", "chi2 of odometry", cost.at(1).statistics.rmse},
+                              {"chi2_closures", "chi2 of closures", cost.at(2).statistics.rmse}};
+    if (problem.anchors.empty()) return out;
+    double sum = 0.0, max = 0.0;
+    for (const Anchor& anchor : problem.anchors) {
+      const double e = anchor_error(anchor, keyframes[anchor.keyframe].world_from_body).norm();
+      sum += e * e;
+      max = std::max(max, e);
+    }
+    const double rms = std::sqrt(sum / static_cast<double>(problem.anchors.size()));
+    out.push_back({"anchor_rms", "anchor error, rms [m]", rms});
+    out.push_back({"anchor_max", "anchor error, max [m]", max});
+    return out;
   } catch (const std::runtime_error&) {  // an edge changes the scale
     return std::nullopt;
   }
-  return out;
 }
 
 /// Stamps of the output, ascending; those outside the keyframes' time span are only counted.

@@ -29,16 +29,11 @@ struct CorrectArguments {
   Format format = Format::tum;         ///< of the file; g2o: a graph with all edges
 };
 
-/// Disagreement of poses with the edges of their problem.
-struct Residuals {
-  double translation_rms = 0.0;  ///< of the closures [m]
-  double translation_max = 0.0;  ///< [m]
-  double rotation_rms = 0.0;     ///< [deg]
-  double rotation_max = 0.0;     ///< [deg]
-  double chi2_odometry = 0.0;
-  double chi2_closures = 0.0;
-  std::optional<double> anchor_rms = {};  ///< of the anchors, if there are any [m]
-  std::optional<double> anchor_max = {};  ///< [m]
+/// Disagreement of poses with edges of one kind of their problem.
+struct Residual {
+  const char* key;    ///< in JSON
+  const char* title;  ///< with the unit
+  double value;
 };
 
 struct Correction {
@@ -48,8 +43,9 @@ struct Correction {
   Trajectory keyframes;  ///< corrected, stamps and order of `problem.keyframes`
   Trajectory output;     ///< at the requested stamps, ascending; the corrected keyframes by default
   std::size_t outside = 0;  ///< requested stamps outside the keyframes' time span, not in `output`
-  std::optional<Residuals> before;  ///< unset if an edge changes the scale
-  std::optional<Residuals> after;
+  /// Of closures and odometry, and of anchors if there are any; unset if an edge changes the scale.
+  std::optional<std::vector<Residual>> before;
+  std::optional<std::vector<Residual>> after;
   std::optional<std::size_t> rejected;  ///< closures; unset: the method rejects none
   double seconds = 0.0;                 ///< wall time of the method
   methods::Report report;

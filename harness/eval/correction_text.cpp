@@ -10,34 +10,16 @@
 namespace loopbench::harness {
 namespace {
 
-using ResidualRow = std::pair<const char*, double Residuals::*>;
-constexpr ResidualRow kRows[] = {{"translation_rms", &Residuals::translation_rms},
-                                 {"translation_max", &Residuals::translation_max},
-                                 {"rotation_rms", &Residuals::rotation_rms},
-                                 {"rotation_max", &Residuals::rotation_max},
-                                 {"chi2_odometry", &Residuals::chi2_odometry},
-                                 {"chi2_closures", &Residuals::chi2_closures}};
-constexpr const char* kTitles[] = {"closure residual, rms [m]",
-                                   "closure residual, max [m]",
-                                   "closure residual, rms [deg]",
-                                   "closure residual, max [deg]",
-                                   "chi2 of odometry",
-                                   "chi2 of closures"};
-
 /// Five digits; rounding errors are 0.
 std::string residual_text(double value) {
   constexpr double kRounding = 1e-12;
   return fmt::format("{:>14.5g}", std::abs(value) < kRounding ? 0.0 : value);
 }
 
-nlohmann::json residuals_json(const std::optional<Residuals>& residuals) {
+nlohmann::json residuals_json(const std::optional<std::vector<Residual>>& residuals) {
   if (!residuals) return nullptr;
   nlohmann::json out;
-  for (const auto& [name, member] : kRows) out[name] = (*residuals).*member;
-  if (residuals->anchor_rms) {
-    out["anchor_rms"] = *residuals->anchor_rms;
-    out["anchor_max"] = *residuals->anchor_max;
-  }
+  for (const Residual& each : *residuals) out[each.key] = each.value;
   return out;
 }
 
@@ -55,22 +37,11 @@ std::string text(const Correction& c) {
   out += fmt::format(", {:.1f} ms\n\n", 1e3 * c.seconds);
   if (c.before && c.after) {
     out += fmt::format("{:<28}{:>14}{:>14}\n", "", "before", "after");
-    for (std::size_t i = 0; i < std::size(kRows); ++i) {
-      const auto member = kRows[i].second;
-      out += fmt::format("{:<28}{}{}\n",
-                         kTitles[i],
-                         residual_text((*c.before).*member),
-                         residual_text((*c.after).*member));
+    for (std::size_t i = 0; i < c.before->size(); ++i) {
+      const auto& [key, title, before] = (*c.before)[i];
+      out += fmt::format(
+          "{:<28}{}{}\n", title, residual_text(before), residual_text((*c.after)[i].value));
     }
-    const auto anchors = [&](const char* title, std::optional<double> Residuals::*member) {
-      if (!((*c.before).*member)) return;
-      out += fmt::format("{:<28}{}{}\n",
-                         title,
-                         residual_text(*((*c.before).*member)),
-                         residual_text(*((*c.after).*member)));
-    };
-    anchors("anchor error, rms [m]", &Residuals::anchor_rms);
-    anchors("anchor error, max [m]", &Residuals::anchor_max);
   } else {
     out += "no residuals: an edge changes the scale\n";
   }
