@@ -7,11 +7,11 @@
 #include <iterator>
 #include <memory>
 
+#include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/parallel.hpp"
 #include "harness/eval/common_parts.hpp"
 #include "harness/eval/eval_figures.hpp"
 #include "harness/eval/evaluation_checks.hpp"
-#include "harness/eval/recorded_identity.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/run/add_scores.hpp"
 #include "harness/run/check_output.hpp"
@@ -20,6 +20,40 @@
 
 namespace loopbench::harness {
 namespace {
+
+/// `option`: of the dataset, by which the gate finds the reference among the inputs. Throws
+/// InputError.
+InputFile hashed_input(const std::string& name, const std::string& option) {
+  return hashed_inputs({{file_of(name), option}}).front();
+}
+
+/// Identity of the run, also if the estimate could not be read (null): whether two failures are
+/// copies, and whether the file has changed since, is decided as for other runs. Throws InputError.
+SequenceMetadata metadata_of(const RecordedRun& run,
+                             const SharedReference& reference,
+                             const RecordedFile* estimate) {
+  SequenceMetadata out;
+  out.size.reference = static_cast<std::int64_t>(reference.read.poses.size());
+  if (estimate) out.size.keyframes = static_cast<std::int64_t>(estimate->poses.size());
+  if (reference.content.empty()) return out;
+  out.group = recorded_group(
+      run.run, run.group.empty() ? "reference:" + reference.content : "group:" + run.group);
+  if (reference.file) {
+    out.source = "reference:" + reference.content;
+    out.inputs = {*reference.file, hashed_input(run.estimate, "estimate")};
+  }
+  if (!estimate) {
+    const std::string hash = hashed_input(run.estimate, "estimate").hash;
+    out.content = Fields().add("unreadable").add(reference.content).add(hash).hashed();
+    return out;
+  }
+  Sequence sequence;
+  sequence.reference = reference.read.poses;
+  sequence.problem.keyframes = estimate->poses;
+  out.content = content_of(sequence);
+  if (reference.is_traced) out.trace = sequence_trace(sequence);
+  return out;
+}
 
 /// Error if only one file has stamps, since numbers and stamps would be paired by chance.
 std::string why_two_clocks(const EvalArguments& a,
@@ -241,8 +275,14 @@ EvaluatedFile evaluate_recorded(const Cell& cell,
     EvaluatedFile out = not_evaluated(cell, files);
     out.result.status = Status::failed;
     out.result.why = error.what();
-    out.result.metadata = metadata_of_failure(run, reference);
     for (EvaluationResult& own : out.protocols) own.why_failed = error.what();
+    if (reference.content.empty()) return out;  // runs are not compared
+    try {
+      out.result.metadata =
+          std::make_shared<const SequenceMetadata>(metadata_of(run, reference, nullptr));
+    } catch (const InputError&) {
+      return out;  // the file exists, but cannot be hashed either
+    }
     return out;
   }
 }
