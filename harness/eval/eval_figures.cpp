@@ -66,15 +66,6 @@ void choose_drawn(const std::vector<RatedRun>& all, FigureData& out) {
                          has_repeats ? " (chosen by ATE)" : "");
 }
 
-/// Of each of kErrorFigures.
-const std::array<std::vector<std::string>, kErrorFigures.size()>& panels() {
-  static const std::array<std::vector<std::string>, kErrorFigures.size()> all{
-      {{"plane", "xyz"},
-       {"error by time", "angle by time", "histogram", "boxes"},
-       {"x by time", "y by time", "z by time", "roll by time", "pitch by time", "yaw by time"}}};
-  return all;
-}
-
 /// Adds the columns of a trajectory.
 DrawnCurve drawn_trajectory(DrawnCurve out, const Trajectory& poses, double origin) {
   add_poses(out, poses, origin);
@@ -178,10 +169,14 @@ std::vector<DrawnFigure> figures_for_paper(const std::string& prefix,
                                            const FigureOptions& options) {
   constexpr double kColumnWidth = 3.5;                  // of a paper [in]
   constexpr double kMapShape = 0.9, kCurveShape = 0.4;  // height over width
+  const std::vector<std::string> panels[kErrorFigures.size()] = {
+      {"plane", "xyz"},
+      {"error by time", "angle by time", "histogram", "boxes"},
+      {"x by time", "y by time", "z by time", "roll by time", "pitch by time", "yaw by time"}};
   std::vector<DrawnFigure> out;
   for (std::size_t i = 0; i < kErrorFigures.size(); ++i) {
     const bool is_map = i == 0;
-    DrawnFigure& figure = out.emplace_back(DrawnFigure{{}, panels()[i], options});
+    DrawnFigure& figure = out.emplace_back(DrawnFigure{{}, panels[i], options});
     const std::size_t columns = is_map ? 2 : 1;
     const double width = kColumnWidth / static_cast<double>(columns);
     figure.options.columns = columns;

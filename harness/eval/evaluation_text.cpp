@@ -269,21 +269,16 @@ std::vector<Table> comparison(const std::vector<EvaluationResult>& results,
   const bool has_totals = std::ranges::any_of(results, [](const EvaluationResult& result) {
     return std::ranges::any_of(result.records, is_total);
   });
-  using Group = std::vector<const EvaluationResult*>;
-  std::vector<Group> groups;
+  std::vector<std::vector<const EvaluationResult*>> by_protocol;
   for (const EvaluationResult& result : results) {
-    const auto same = std::ranges::find_if(groups, [&](const Group& group) {
-      return group.front()->protocol.label() == result.protocol.label();
-    });
-    if (same == groups.end()) {
-      groups.push_back({&result});
-    } else {
-      same->push_back(&result);
-    }
+    const std::string label = result.protocol.label();
+    const auto same = std::ranges::find(
+        by_protocol, label, [](const auto& group) { return group.front()->protocol.label(); });
+    (same == by_protocol.end() ? by_protocol.emplace_back() : *same).push_back(&result);
   }
   const auto tables = [&](const std::vector<std::string>& show) {
     std::vector<Table> out;
-    for (const Group& group : groups) out.push_back(comparison_of(group, detail, has_totals, show));
+    for (const auto& own : by_protocol) out.push_back(comparison_of(own, detail, has_totals, show));
     return out;
   };
   if (columns.empty()) return tables({});

@@ -15,14 +15,18 @@
 namespace loopbench::harness {
 namespace {
 
+/// As options of the dataset and in the text of the sweep.
+constexpr std::pair<const char*, std::string RecordedRun::*> kFields[] = {
+    {"sequence", &RecordedRun::sequence},
+    {"method", &RecordedRun::method},
+    {"run", &RecordedRun::run},
+    {"reference", &RecordedRun::reference},
+    {"estimate", &RecordedRun::estimate},
+    {"group", &RecordedRun::group}};
+
 Params options_of(const RecordedRun& run, Params shared) {
-  shared.insert({{"sequence", run.sequence},
-                 {"method", run.method},
-                 {"run", run.run},
-                 {"reference", run.reference},
-                 {"estimate", run.estimate},
-                 {"group", run.group},
-                 {"common", run.common}});
+  for (const auto& [name, member] : kFields) shared[name] = run.*member;
+  shared["common"] = run.common;
   return shared;
 }
 
@@ -43,12 +47,10 @@ std::string manifest(const std::vector<RecordedRun>& runs, const Params& options
   std::string out = std::string(kRecordedTitle) + "\n";
   out += std::string(kRecordedOptions) + to_text(options) + "\n";
   for (const RecordedRun& run : runs) {
-    nlohmann::ordered_json line{{"sequence", run.sequence},
-                                {"method", run.method},
-                                {"run", run.run},
-                                {"reference", run.reference},
-                                {"estimate", run.estimate}};
-    if (!run.group.empty()) line["group"] = run.group;
+    nlohmann::ordered_json line;
+    for (const auto& [name, member] : kFields) {
+      if (!(run.*member).empty()) line[name] = run.*member;
+    }
     out += "- " + line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   }
   return out;
@@ -127,13 +129,8 @@ std::vector<RecordedRun> runs_of_manifest(const std::string& text) {
     if (!line.starts_with("- ")) continue;
     const nlohmann::json json = nlohmann::json::parse(line.substr(2), nullptr, false);
     if (!json.is_object()) continue;
-    const auto text_of = [&](const char* key) { return json.value(key, ""); };
-    RecordedRun run{text_of("sequence"),
-                    text_of("method"),
-                    text_of("run"),
-                    text_of("reference"),
-                    text_of("estimate"),
-                    text_of("group")};
+    RecordedRun run;
+    for (const auto& [name, member] : kFields) run.*member = json.value(name, "");
     if (known.emplace(run.sequence, run.method, run.run).second) out.push_back(std::move(run));
   }
   return out;
