@@ -178,9 +178,11 @@ Evaluations evaluated(RecordedSweep files,
   const std::vector<Cell> missing =
       is_new(file) ? files.cells : missing_cells(file, keys, files.cells, files.cells);
   for (const Cell& cell : missing) read_reference(reference_of(cell));
-  const std::string again = evaluated_again(missing, files.runs, added);
-  if (!again.empty()) out.notes.push_back(again);
-  if (is_kept) std::filesystem::create_directories(a.store);
+  if (is_kept) {
+    const std::string again = evaluated_again(missing, files.runs, added);
+    if (!again.empty()) out.notes.push_back(again);
+    std::filesystem::create_directories(a.store);
+  }
   std::map<std::string, std::string> origin;
   if (a.keeps_traces()) origin = provenance(source, files.sweep, files.catalogue);
   Store store(file, keys, std::move(origin));

@@ -111,16 +111,18 @@ std::string assumed_period(const TrajectoryFile& file, const ReadArguments& argu
   return fmt::format("assumed {:g} s between poses", ReadOptions{}.period);
 }
 
-std::string output_stem(const std::string& name) {
-  if (name == "-") return "standard_input";
-  std::string stem = std::filesystem::path(name).stem().string();
-  if (names_bag(name)) {
-    const BagName bag = bag_name(name);
-    stem = bag.topic.empty() ? std::filesystem::path(bag.file).stem().string() : bag.topic;
-  } else if (const std::filesystem::path outer(stem);
-             outer.extension() == ".txt" || outer.extension() == ".csv") {
-    stem = outer.stem().string();  // "a.txt.gz"
+std::string plain_stem(const std::string& name) {
+  if (names_bag(name) && !bag_name(name).topic.empty()) {
+    const std::string topic = bag_name(name).topic;
+    return topic.starts_with('/') ? topic.substr(1) : topic;
   }
+  std::filesystem::path path(file_of(name));
+  while (path.extension() == ".gz" || path.extension() == ".zst") path = path.stem();
+  return path.stem().string();
+}
+
+std::string output_stem(const std::string& name) {
+  const std::string stem = name == "-" ? "standard_input" : plain_stem(name);
   std::string out;
   for (const char c : stem) {
     const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||

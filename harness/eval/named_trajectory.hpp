@@ -50,7 +50,11 @@ void reject_two_clocks(const NamedTrajectory& a,
 /// otherwise empty.
 std::string assumed_period(const TrajectoryFile& file, const ReadArguments& arguments);
 
-/// A file name without folder and extension: "runs/0.txt" -> "0", "bag:a.bag#/odom" -> "odom".
+/// A file name without folder and extensions, or a topic: "a/0.txt.gz" -> "0", "bag:a.bag#/a/odom"
+/// -> "a/odom".
+std::string plain_stem(const std::string& name);
+
+/// The same as the name of a file: "a_odom".
 std::string output_stem(const std::string& name);
 
 /// The file for each name: `out` itself for a single name unless it is a folder or ends in '/';

@@ -9,6 +9,7 @@
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/error.hpp"
+#include "harness/eval/named_trajectory.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -17,17 +18,6 @@ bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0;
 
 bool is_run_number(const std::string& text) {
   return !text.empty() && std::ranges::all_of(text, is_digit);
-}
-
-/// The name that identifies a trajectory: file name without extensions, or topic.
-std::string plain_stem(const std::string& file) {
-  if (names_bag(file) && !bag_name(file).topic.empty()) {
-    const std::string topic = bag_name(file).topic;
-    return topic.starts_with('/') ? topic.substr(1) : topic;
-  }
-  std::filesystem::path path(file_of(file));
-  while (path.extension() == ".gz" || path.extension() == ".zst") path = path.stem();
-  return path.stem().string();
 }
 
 /// The same file from any current folder, under one name; `-` is standard input.
