@@ -46,21 +46,15 @@ std::string path_text(const std::string& path, const std::string& rest, std::siz
   return shortened(path, columns - std::min(columns, kMargin + rest.size())) + rest;
 }
 
-/// "largest_gap 0.25 s, repeated 0, ...", in lines of at most `columns`.
-std::string diagnosis_text(const std::vector<metrics::Score>& diagnosis, std::size_t columns) {
+/// "largest_gap 0.25 s, repeated 0, ...".
+std::string diagnosis_text(const std::vector<metrics::Score>& diagnosis) {
   std::string out;
-  std::string line = padded("diagnosis", kMargin, true);
   for (const metrics::Score& score : diagnosis) {
-    const std::string item = fmt::format("{} {:.4g}", score.relation, score.statistics.mean) +
-                             (score.unit == "1" ? "" : " " + score.unit) + ",";
-    if (line.size() + item.size() > columns) {
-      out += line + "\n";
-      line = std::string(kMargin, ' ');
-    }
-    line += (line.size() > kMargin ? " " : "") + item;
+    out +=
+        fmt::format("{}{} {:.4g}", out.empty() ? "" : ", ", score.relation, score.statistics.mean);
+    if (score.unit != "1") out += " " + score.unit;
   }
-  line.pop_back();
-  return out + line + "\n";
+  return out;
 }
 
 bool is_total(const Record& record) {
@@ -69,13 +63,9 @@ bool is_total(const Record& record) {
 
 /// "rpe 1 s x [m]", without the unit if there is none.
 std::string score_name(const Record& record) {
-  std::string out = record.kind->metric_label();
-  if (record.kind->relation != "translation" && record.kind->relation != "rotation" &&
-      !record.kind->relation.empty()) {
-    out += " " + record.kind->relation;
-  }
-  if (!is_total(record) && !record.kind->axis.empty()) out += " " + record.kind->axis;
-  return record.kind->unit.empty() ? out : out + " [" + record.kind->unit + "]";
+  ScoreKind kind = *record.kind;
+  if (kind.is_total()) kind.axis = "3d";  // not stated
+  return kind.unit.empty() ? kind.short_name() : kind.short_name() + " [" + kind.unit + "]";
 }
 
 /// Undefined scores and failed metrics, as notes of `row`.
@@ -235,9 +225,10 @@ std::string text(const EvaluationResult& result,
       line("alignment",
            fmt::format("{}, scale {}", to_text(result.alignment.type), result.alignment.scale)) +
       line("transform", transform_text(result.alignment)) +
-      (detail == Detail::all
-           ? diagnosis_text(result.diagnosis, style ? std::min(columns, kWidth) : kWidth)
-           : "") +
+      (detail == Detail::all ? property("diagnosis",
+                                        diagnosis_text(result.diagnosis),
+                                        style ? std::min(columns, kWidth) : kWidth)
+                             : "") +
       line("other body", result.other_body.empty() ? "" : result.other_body + "; see --ref-body");
   for (const std::string& note : result.notes) out += line("note", note);
   if (detail == Detail::summary) {
