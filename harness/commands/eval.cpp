@@ -108,18 +108,13 @@ void write_figures(const EvalArguments& a, const Evaluations& all) {
   }
 }
 
-/// Rejects options that have no effect on a store, before anything is evaluated.
-void check_store_options(const EvalArguments& a) {
+void check_outputs(const EvalArguments& a) {
+  reject_standard_output("--report", a.report);
   if (a.store.empty()) return;
   reject_standard_output("--store", a.store);
-  const std::string store = a.store + ": --store writes results only; for ";
-  if (!a.report.empty()) {
-    throw InputError(store + "--report use `loopbench report " + a.store + " -o " + a.report +
-                     "` afterwards");
-  }
-  if (!a.plot.empty()) {
-    throw InputError(store + "--plot use `loopbench plot " + a.store + " -o FOLDER` afterwards");
-  }
+  if (a.plot.empty()) return;
+  throw InputError(a.store + ": for figures of a store use `loopbench plot " + a.store +
+                   " -o FOLDER` afterwards, without --plot");
 }
 
 int print_stored(const EvalArguments& a, const Evaluations& stored) {
@@ -142,8 +137,7 @@ void return_large_lists() {
 
 int eval(const EvalArguments& a, const Source& source) {
   return_large_lists();
-  check_store_options(a);
-  reject_standard_output("--report", a.report);
+  check_outputs(a);
   const Evaluations all = evaluate_files(a, source);
   if (!a.store.empty()) return print_stored(a, all);
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all.results));

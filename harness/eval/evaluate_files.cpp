@@ -78,19 +78,17 @@ std::string why_low_coverage(const EvaluationResult& own, double best) {
       is_less ? fmt::format("half of the {:.1f} % of another estimate", 100.0 * best) : "a tenth");
 }
 
-/// Marks evaluations as incomplete whose coverage is small; their scores remain.
+/// Marks evaluations as incomplete whose coverage is small; their scores remain. `all`: not empty.
 void check_coverage(std::vector<EvaluatedFile>& all) {
-  std::map<std::size_t, double> most;  // by protocol
-  for (const EvaluatedFile& file : all) {
-    for (std::size_t p = 0; p < file.protocols.size(); ++p) {
-      most[p] = std::max(most[p], file.protocols[p].coverage.least());
+  for (std::size_t p = 0; p < all.front().protocols.size(); ++p) {
+    double most = 0.0;
+    for (const EvaluatedFile& file : all) {
+      most = std::max(most, file.protocols[p].coverage.least());
     }
-  }
-  for (EvaluatedFile& file : all) {
-    for (std::size_t p = 0; p < file.protocols.size(); ++p) {
+    for (EvaluatedFile& file : all) {
       EvaluationResult& own = file.protocols[p];
       if (!own.why_failed.empty()) continue;
-      own.incomplete_reason = why_low_coverage(own, most.at(p));
+      own.incomplete_reason = why_low_coverage(own, most);
       if (own.incomplete_reason.empty()) continue;
       for (ScoreResult& score : file.result.scores) {
         if (score.protocol != p || score.status != Status::ok) continue;

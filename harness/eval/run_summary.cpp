@@ -26,16 +26,6 @@ std::optional<Record> run_score(const std::vector<Record>& records, const std::s
   return first ? first : first_axis;
 }
 
-/// The protocols in order of appearance.
-std::vector<std::string> protocols_of(const std::vector<Record>& records) {
-  std::vector<std::string> out;
-  for (const Record& r : records) {
-    if (!r.kind->protocol.empty() && std::ranges::count(out, r.kind->protocol) == 0)
-      out.push_back(r.kind->protocol);
-  }
-  return out;
-}
-
 /// The scores, and the runs without any, as if under the same protocol.
 std::vector<Record> of_score(const std::vector<Record>& records, const Record& score) {
   std::vector<Record> out;
@@ -103,12 +93,15 @@ std::string report_of(const std::vector<Record>& records,
 std::string run_report(const std::vector<Record>& records,
                        const std::optional<TerminalStyle>& style,
                        bool paired) {
-  const std::vector<std::string> protocols = protocols_of(records);
+  NameOrder protocols;
+  for (const Record& r : records) {
+    if (!r.kind->protocol.empty()) protocols.index(r.kind->protocol);
+  }
   std::string out;
-  for (const std::string& protocol : protocols) {
+  for (const std::string& protocol : protocols.names()) {
     const std::optional<Record> score = run_score(records, protocol);
     if (!score) continue;
-    const std::string title = protocols.size() > 1 ? protocol : "";
+    const std::string title = protocols.names().size() > 1 ? protocol : "";
     out += report_of(of_score(records, *score), title, style, paired);
   }
   return out;
