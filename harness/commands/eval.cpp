@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "harness/base/printable.hpp"
 #include "harness/base/wrap.hpp"
@@ -42,27 +43,20 @@ std::string verdict_of(const EvalArguments& a,
   return run_report(records, style, a.paired);
 }
 
-std::optional<double> ate_of(const EvaluationResult& result) {
-  for (const Record& record : result.records) {
-    const bool is_ate = record.kind->metric == "ate" && record.kind->relation == "translation";
-    if (is_ate && has_numbers(record.status)) return record.statistics.rmse;
-  }
-  return std::nullopt;
-}
-
 /// States which ATEs differ by less than the reference's own error, if that is given.
-std::string below_reference_error(const EvalArguments& a,
-                                  const std::vector<EvaluationResult>& all) {
+std::string below_reference_error(const EvalArguments& a, const std::vector<Record>& records) {
   if (a.reference_sigma == 0.0) return "";
   std::size_t pairs = 0, below = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t k = i + 1; k < all.size(); ++k) {
-      const auto first = ate_of(all[i]), second = ate_of(all[k]);
-      const bool is_pair = all[i].protocol.label() == all[k].protocol.label();
-      if (!first || !second || !is_pair) continue;
+  std::map<std::string, std::vector<double>> ates;  // by protocol
+  for (const Record& r : records) {
+    const bool is_ate = r.kind->metric == "ate" && r.kind->relation == "translation";
+    if (!is_ate || !has_numbers(r.status)) continue;
+    const double own = r.statistics.rmse;
+    for (const double other : ates[r.kind->protocol]) {
       ++pairs;
-      if (std::abs(*first - *second) < a.reference_sigma) ++below;
+      if (std::abs(own - other) < a.reference_sigma) ++below;
     }
+    ates[r.kind->protocol].push_back(own);
   }
   return fmt::format(
       "ATE differences: {} of {} are below the reference's own {:g} m (--ref-sigma)\n",
@@ -88,7 +82,8 @@ std::string result_text(const EvalArguments& a, const Evaluations& evaluations) 
   for (std::size_t i = 0; style && i < tables.size(); ++i) {
     out += (i == 0 ? "" : "\n") + terminal(tables[i], *style);
   }
-  return out + verdict_of(a, evaluations.records, style) + below_reference_error(a, all);
+  return out + verdict_of(a, evaluations.records, style) +
+         below_reference_error(a, evaluations.records);
 }
 
 /// Figures of the estimates under the first protocol.
