@@ -187,7 +187,10 @@ Evaluations evaluated(RecordedSweep files,
   // A failure can be repaired without a change of the estimate, for example by its permissions.
   const Resumed resumed = store.resume(files.cells, files.cells, Retry::failed);
   std::map<std::string, std::vector<Cell>> by_reference;
-  for (const Cell& cell : resumed.missing) by_reference[reference_of(cell)].push_back(cell);
+  for (const Cell& cell : resumed.missing) {
+    read_reference(reference_of(cell));  // all, before results are written
+    by_reference[reference_of(cell)].push_back(cell);
+  }
   StoreSummary summary(resumed.incomplete);
   std::vector<EvaluatedFile> all;
   for (const auto& [name, cells] : by_reference) {

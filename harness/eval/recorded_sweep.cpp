@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "harness/eval/recorded_file.hpp"
+#include "harness/model/name_order.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "methods/function_method.hpp"
 
@@ -62,9 +63,9 @@ std::vector<Cell> recorded_cells(const std::vector<RecordedRun>& runs, const Swe
   };
   using Names = std::set<std::string, decltype(less)>;
   std::map<std::string, Names> names;
-  std::vector<std::string> sequences;
+  NameOrder sequences;
   for (const RecordedRun& run : runs) {
-    if (names[run.sequence].empty()) sequences.push_back(run.sequence);
+    sequences.index(run.sequence);
     names[run.sequence].insert(run.run);
   }
   std::vector<Cell> out;
@@ -77,8 +78,7 @@ std::vector<Cell> recorded_cells(const std::vector<RecordedRun>& runs, const Swe
                    static_cast<int>(std::distance(all.begin(), all.find(runs[i].run)))});
   }
   const auto place = [&](const Cell& cell) {
-    const auto sequence = std::ranges::find(sequences, runs[cell.dataset].sequence);
-    return std::tuple(sequence - sequences.begin(), cell.repeat, cell.method);
+    return std::tuple(sequences.index(runs[cell.dataset].sequence), cell.repeat, cell.method);
   };
   std::ranges::sort(out, {}, place);
   for (std::size_t i = 0; i < out.size(); ++i) out[i].index = i;
