@@ -145,7 +145,7 @@ int eval(const EvalArguments& a, const Source& source) {
     fmt::print("{}", printable(result_text(a, all)));
   }
   const bool all_ok = std::ranges::all_of(
-      all.results, [](const EvaluationResult& result) { return status(result) == "ok"; });
+      all.results, [](const EvaluationResult& result) { return status_of(result).first == "ok"; });
   return all_ok ? kExitOk : kExitSomeCellsFailed;
 }
 

@@ -13,18 +13,6 @@
 namespace loopbench::harness {
 namespace {
 
-/// The first record whose metric failed; null if there is none.
-const Record* failed_metric(const EvaluationResult& result) {
-  const auto found = std::ranges::find_if(
-      result.records, [](const Record& record) { return is_failure(record.status); });
-  return found == result.records.end() ? nullptr : &*found;
-}
-
-bool has_no_number(const EvaluationResult& result) {
-  return std::ranges::none_of(result.records,
-                              [](const Record& record) { return has_numbers(record.status); });
-}
-
 using Json = nlohmann::ordered_json;
 
 Json to_json(const Params& params) {
@@ -80,6 +68,7 @@ Json to_json(const EvaluationResult& result) {
                                              : undefined;
     list.push_back(to_json(record));
   }
+  const auto [status, why] = status_of(result);
   Json out{{"reference", result.reference},
            {"estimate", result.estimate},
            {"protocol",
@@ -87,8 +76,8 @@ Json to_json(const EvaluationResult& result) {
              {"version", result.protocol.version},
              {"changes", to_json(result.protocol.changes)},
              {"rules", to_json(echo(result.protocol.rules))}}},
-           {"status", status(result)},
-           {"why", why_not_ok(result)}};
+           {"status", status},
+           {"why", why}};
   if (!result.reference_body.empty()) out["reference_body"] = result.reference_body;
   if (!result.other_body.empty()) out["other_body"] = result.other_body;
   if (result.why_failed.empty()) {
@@ -128,17 +117,16 @@ std::vector<std::string> stated_columns(const std::vector<EvaluationResult>& res
 
 std::string column_name(const PoseValues& values) { return values.name + "_" + values.unit; }
 
-std::string status(const EvaluationResult& result) {
-  if (!result.why_failed.empty()) return "failed";
-  if (has_no_number(result)) return failed_metric(result) != nullptr ? "failed" : "undefined";
-  return result.incomplete_reason.empty() ? "ok" : "incomplete";
-}
-
-std::string why_not_ok(const EvaluationResult& result) {
-  if (!result.why_failed.empty()) return result.why_failed;
-  if (!has_no_number(result)) return result.incomplete_reason;
-  const Record* failed = failed_metric(result);
-  return failed != nullptr ? failed->why : "none of the requested metrics is defined";
+std::pair<std::string, std::string> status_of(const EvaluationResult& result) {
+  if (!result.why_failed.empty()) return {"failed", result.why_failed};
+  const std::string& incomplete = result.incomplete_reason;
+  for (const Record& record : result.records) {
+    if (has_numbers(record.status)) return {incomplete.empty() ? "ok" : "incomplete", incomplete};
+  }
+  for (const Record& record : result.records) {
+    if (is_failure(record.status)) return {"failed", record.why};
+  }
+  return {"undefined", "none of the requested metrics is defined"};
 }
 
 void change_unit(std::vector<Record>& records, const std::string& unit) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/model/record.hpp"
@@ -41,8 +42,7 @@ struct EvaluationResult {
 
 /// ok, incomplete, undefined (all requested metrics are) or failed (the evaluation, or metrics
 /// while no other has a score); and the reason if not ok.
-std::string status(const EvaluationResult& result);
-std::string why_not_ok(const EvaluationResult& result);
+std::pair<std::string, std::string> status_of(const EvaluationResult& result);
 
 /// What a text shows: ATE, RPE over 1 s and coverage; the requested scores; or all scores and the
 /// diagnosis.
