@@ -188,7 +188,7 @@ int crop(const TrajArguments& a) {
 
 int transform(const TrajArguments& a) {
   const std::string& given = a.left.empty() ? a.right : a.left;
-  if (given.empty() && (a.invert || !a.conventions.any())) {
+  if (given.empty() && (a.invert || a.conventions == Conventions{})) {
     throw InputError(
         "transform: expected --left or --right (also for --invert), or any of --quaternion-order, "
         "--conjugate, --axes, --mirror, --scale, --stamp-scale, --invert-poses");

@@ -14,14 +14,6 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 
-double metres_between(const StampedPose& a, const StampedPose& b) {
-  return (b.world_from_body.translation - a.world_from_body.translation).norm();
-}
-
-double radians_between(const StampedPose& a, const StampedPose& b) {
-  return angle_between(a.world_from_body.rotation, b.world_from_body.rotation);
-}
-
 }  // namespace
 
 std::vector<std::size_t> within(const Trajectory& poses, double start, double end) {
@@ -54,11 +46,13 @@ std::vector<std::size_t> by_motion(const Trajectory& poses, double metres, doubl
   std::vector<std::size_t> out;
   double length = 0.0;  // since the last selected pose [m]
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (i > 0) length += metres_between(poses[i - 1], poses[i]);
-    const bool is_reached =
-        i == 0 || length >= metres ||
-        (has_angle && radians_between(poses[out.back()], poses[i]) >= degrees * kDegree);
-    if (!is_reached) continue;
+    const Pose& pose = poses[i].world_from_body;
+    if (i > 0) {
+      length += (pose.translation - poses[i - 1].world_from_body.translation).norm();
+      const Rotation& last = poses[out.back()].world_from_body.rotation;
+      const bool is_turned = has_angle && angle_between(last, pose.rotation) >= degrees * kDegree;
+      if (length < metres && !is_turned) continue;
+    }
     out.push_back(i);
     length = 0.0;
   }

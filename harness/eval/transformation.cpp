@@ -149,13 +149,8 @@ Trajectory transformed(Trajectory poses, const Similarity& similarity, Transform
   return poses;
 }
 
-bool Conventions::any() const {
-  return !quaternion_order.empty() || conjugate || !axes.empty() || !mirror.empty() ||
-         scale != 1.0 || stamp_scale != 1.0 || invert_poses;
-}
-
 TrajectoryFile corrected(TrajectoryFile file, const Conventions& conventions) {
-  if (!conventions.any()) return file;
+  if (conventions == Conventions{}) return file;
   const std::string& order = conventions.quaternion_order;
   if (!order.empty() && order != "wxyz" && order != "xyzw") {
     throw InputError("--quaternion-order = " + order + ", expected wxyz or xyzw");
@@ -179,9 +174,9 @@ TrajectoryFile corrected(TrajectoryFile file, const Conventions& conventions) {
     stamp *= conventions.stamp_scale;
     if (conventions.invert_poses) pose = normalized(pose.inverse());
   }
-  Conventions of_poses = conventions;
-  of_poses.stamp_scale = 1.0;
-  if (of_poses.any()) file.covariances.clear();
+  Conventions of_stamps;
+  of_stamps.stamp_scale = conventions.stamp_scale;
+  if (conventions != of_stamps) file.covariances.clear();
   if (conventions.stamp_scale != 1.0) file.nanoseconds.clear();
   return file;
 }

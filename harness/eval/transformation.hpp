@@ -41,7 +41,7 @@ struct Conventions {
   double stamp_scale = 1.0;   ///< factor of the stamps
   bool invert_poses = false;  ///< body_from_world -> world_from_body
 
-  bool any() const;
+  friend bool operator==(const Conventions&, const Conventions&) = default;
 };
 
 /// Applies all corrections in the order of their declaration. Covariances are removed if poses
