@@ -6,7 +6,7 @@
 
 #include "harness/eval/recorded_sweep.hpp"
 #include "tests/support/eval_command.hpp"
-#include "tests/support/recorded_files.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::recorded_runs_test {
 namespace {
