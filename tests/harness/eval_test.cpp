@@ -1,17 +1,25 @@
-#include <gmock/gmock.h>
+/// Numbers of `eval` with protocols, options and filters of other tools: evo 1.36 on the same
+/// files, smfeval. What `eval` prints is in tests/transcripts.
+#include <gtest/gtest.h>
 
-#include <iterator>
-#include <sstream>
+#include <cstdlib>
+#include <filesystem>
 
 #include "tests/support/eval_command.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::eval_test {
 namespace {
 
 using namespace test;
-using testing::HasSubstr;
-using testing::StartsWith;
+
+double rmse(const std::vector<std::string>& options, const std::string& metric) {
+  const Json results = eval_json(with(drift({"--protocol=evo"}), options));
+  for (const Json& row : results["metrics"]) {
+    if (row["metric"] == metric && row["axis"] == "3d") return row["rmse"];
+  }
+  ADD_FAILURE() << "no " << metric;
+  return 0.0;
+}
 
 // Values of golden.json, evo APE translation_part at max_diff 0.01.
 TEST(Eval, EqualsEvoUnderEvosAssociation) {
@@ -22,141 +30,126 @@ TEST(Eval, EqualsEvoUnderEvosAssociation) {
   EXPECT_NEAR(find(sim3, "ate", "translation")["rmse"], 0.660473127811482, 1e-12);
 }
 
-std::vector<std::string> words(const std::string& text) {
-  std::istringstream in(text);
-  return {std::istream_iterator<std::string>(in), {}};
+// Values of golden.json.
+TEST(Eval, KnowsEvosHabits) {
+  EXPECT_NEAR(rmse({}, "ate"), 12.6565235225568, 1e-10);
+  EXPECT_NEAR(rmse({"--align=origin"}, "ate"), 2.12100433850654, 1e-11);
+  EXPECT_NEAR(rmse({"-a"}, "ate"), 0.676208260682124, 1e-12);
+  EXPECT_NEAR(rmse({"-as"}, "ate"), 0.660473127811482, 1e-12);
+  EXPECT_NEAR(rmse({"--align", "--correct_scale"}, "ate"), 0.660473127811482, 1e-12);
+  EXPECT_NEAR(rmse({"--align", "sim3"}, "ate"), 0.660473127811482, 1e-12);
+  EXPECT_NEAR(rmse({"--align"}, "ate"), 0.676208260682124, 1e-12);
+  EXPECT_NEAR(rmse({"-a", "--n_to_align=100"}, "ate"), 1.69629979000945, 1e-11);
+  EXPECT_NEAR(
+      rmse({"-a", "--t_max_diff=0.003", "--t_offset=-0.004"}, "ate"), 0.676336104623048, 1e-12);
+  EXPECT_NEAR(rmse({"-r", "full"}, "ape"), 12.783012299976825, 1e-10);
+  EXPECT_NEAR(rmse({"-r", "trans_part", "-d", "1", "-u", "m"}, "rpe"), 0.0772624810704977, 1e-12);
+  EXPECT_NEAR(rmse({"-d", "1", "-u", "m", "--all_pairs"}, "rpe"), 0.064717408609261, 1e-12);
+  EXPECT_NEAR(rmse({"-d", "1", "-u", "m", "--all_pairs", "--pairs_from_reference"}, "rpe"),
+              0.0680704819728785,
+              1e-12);
+  EXPECT_NEAR(rmse({"-d", "10", "-u", "d", "--all_pairs"}, "rpe"), 1.66822987421266, 1e-11);
 }
 
-TEST(Eval, JsonHasThePromisedKeysAndTheDiagnosis) {
-  const Json results = eval_json({golden("gt.txt"), golden("est_corrected.txt")});
-  const std::string keys =
-      "reference estimate protocol pairs possible coverage span alignment diagnosis notes metrics "
-      "undefined failed";
-  for (const std::string& key : words(keys)) EXPECT_TRUE(results.contains(key)) << key;
-  EXPECT_EQ(results["coverage"].get<double>(),
-            results["pairs"].get<double>() / results["possible"].get<double>());
-  std::map<std::string, int> rows;
+TEST(Eval, EvaluatesKittiByTheDigitsOfItsFiles) {
+  const Json results =
+      eval_json({golden("kitti_gt.txt"), golden("kitti_est.txt"), "--protocol=kitti-double"});
+  double mean = 0.0;
   for (const Json& row : results["metrics"]) {
-    ++rows[row["metric"]];
-    for (const std::string& key :
-         words("metric relation axis unit rmse mean median std min max count")) {
-      EXPECT_TRUE(row.contains(key)) << key;
+    if (row["relation"] == "rotation" && row["axis"] == "all") mean = row["mean"];
+  }
+  EXPECT_NEAR(mean, 0.0128037720163, 1e-9 * 0.0128);
+}
+
+Json evaluated(const std::vector<std::string>& options) {
+  return eval_json(with(drift({"--protocol=evo", "-a"}), options));
+}
+
+double ate(const Json& result) { return find(result, "ate", "translation")["rmse"]; }
+
+TEST(EvalFilters, MotionFilterIsThatOfEvo) {
+  const Json result = evaluated({"--motion_filter", "0.2", "3"});
+  EXPECT_EQ(result["pairs"], 61);  // of 356 poses of the reference
+  EXPECT_EQ(result["possible"], 303);
+  EXPECT_NEAR(ate(result), 0.6714582585666118, 1e-12);
+}
+
+TEST(EvalFilters, TimeRangeCutsTheReference) {
+  const Json result = evaluated({"--t_start=1700000010", "--t_end=1700000020"});
+  EXPECT_EQ(result["pairs"], 165);
+  EXPECT_GT(result["coverage"], 0.95);
+  EXPECT_NEAR(ate(result), 0.14221731741268467, 1e-12);
+}
+
+TEST(EvalFilters, DownsamplesBothFiles) {
+  const Json result = evaluated({"-s", "--downsample=300", "--t_max_diff=0.05"});
+  EXPECT_EQ(result["pairs"], 227);
+  EXPECT_NEAR(ate(result), 0.6610658733288742, 1e-12);
+}
+
+TEST(EvalFilters, PairsAreThoseOfEvo) {
+  EXPECT_EQ(evaluated({"--t_max_diff=0.003", "--t_offset=-0.004"})["pairs"], 578);
+  // A reference pose can be the nearest one of several poses.
+  const Json burst = eval_json({golden("gt.txt"), golden("est_burst.txt"), "--association=evo"});
+  EXPECT_EQ(burst["pairs"], 953);
+}
+
+TEST(EvalFilters, UnitsChange) {
+  EXPECT_NEAR(ate(evaluated({"--change_unit=mm"})), 676.208260682124, 1e-9);
+  const Json result = evaluated({"--unit=rad", "-r", "angle_deg"});
+  const Json& ape = result["metrics"][0];
+  EXPECT_EQ(ape["unit"], "rad");
+  EXPECT_NEAR(ape["rmse"], 0.11910329954688206, 1e-12);
+  const Json degrees = evaluated({"--unit=deg", "-r", "angle_rad"});
+  EXPECT_NEAR(degrees["metrics"][0]["rmse"], 0.11910329954688206 * 180.0 / M_PI, 1e-9);
+}
+
+// Several files are evaluated in parallel.
+TEST(EvalFiles, ThreadsDoNotMatterForSeveralFiles) {
+  const std::vector<std::string> estimates{
+      golden("est_drift.txt"), golden("est_corrected.txt"), "absent.txt", golden("est_burst.txt")};
+  std::vector<std::string> words{golden("gt.txt"), "--protocol=loopbench,tum"};
+  const Json all = eval_json(with(words, estimates), kExitSomeCellsFailed);
+  ASSERT_EQ(all.size(), 2 * estimates.size());
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    const Json alone =
+        eval_json(with(words, {estimates[i]}), i == 2 ? kExitSomeCellsFailed : kExitOk);
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (const char* key : {"estimate", "status", "why", "metrics", "pairs"}) {
+        EXPECT_EQ(all[2 * i + k].value(key, Json()), alone[k].value(key, Json()))
+            << estimates[i] << " " << key;
+      }
     }
   }
-  // rpe: 1 frame, 1 s, 1 m; five rows each. segments: all lengths together.
-  EXPECT_EQ(
-      rows,
-      (std::map<std::string, int>{{"ate", 2}, {"axis_error", 3}, {"rpe", 15}, {"segments", 2}}));
-  EXPECT_EQ(results["diagnosis"]["matched"], 635.0);
-  EXPECT_EQ(results["diagnosis"]["position_only_reference"], 0.0);
-  EXPECT_THAT(eval({golden("gt.txt"), golden("est_corrected.txt"), "--full"}),
-              HasSubstr("\ndiagnosis  matched 635, possible 657, longest_pair_interval 1.86 s, "
-                        "repeated 0, "));
 }
 
-TEST(Eval, RefusesRotationOfPositionsAlone) {
-  const TemporaryFolder folder;
-  std::ostringstream rows;
-  for (int i = 0; i < 20; ++i) rows << i << " " << i << " " << i * i << " 0 0 0 0 1\n";
-  const std::string file = folder.file("positions.txt", rows.str()).string();
-  const Json results = eval_json({file, file});
-  EXPECT_EQ(find(results, "ate", "translation")["count"], 20);
-  EXPECT_EQ(results["undefined"][0]["metric"], "ate");
-  EXPECT_EQ(results["undefined"][0]["relation"], "rotation");
-  const std::string text = eval({file, file});
-  EXPECT_THAT(text, HasSubstr("\nate [deg], rpe 1 s [m], rpe 1 s [deg] undefined: "));
-  EXPECT_THAT(text, HasSubstr(" undefined: the reference has a constant"));
-  EXPECT_EQ(text.find("the reference has a constant"), text.rfind("the reference has a constant"));
-}
-
-TEST(Eval, TimesBelongToWhicheverFileIsKitti) {
-  const TemporaryFolder folder;
-  std::ostringstream rows;
-  for (int i = 0; i < 1200; ++i) rows << 1000.0 + 0.5 * i << "\n";
-  const std::string times = folder.file("times.txt", rows.str()).string();
-  const std::vector<std::string> kitti{golden("kitti_gt.txt"), golden("kitti_est.txt")};
-  const Json numbered = eval_json(kitti);  // pairs by number
-  EXPECT_EQ(numbered["pairs"], 1200);
-  EXPECT_EQ(numbered["coverage"], 1.0);
-  const Json results = eval_json(with(kitti, {"--times=" + times}));
-  EXPECT_EQ(results["pairs"], 1200);
-  for (const Json& row : results["metrics"]) {
-    // 0.5 s apart, so 1 s is two poses on.
-    if (row["label"] == "rpe 1 s") {
-      EXPECT_EQ(row["count"], 1198);
+/// smfeval's definitions of the NEES of positions, recomputed with numpy from its files after a
+/// Kabsch alignment: mean, median and coverage of the 90 % region.
+TEST(EvalCovariances, OfPositionsAreThoseOfSmfeval) {
+  const char* const data = std::getenv("LOOPBENCH_DATA");
+  if (data == nullptr) GTEST_SKIP() << "LOOPBENCH_DATA is not set";
+  const std::string folder = std::string(data) + "/systems/smfeval/";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  struct Expected {
+    const char* system;
+    double mean, median, coverage;
+  };
+  for (const Expected& expected :
+       {Expected{"real_point_lio", 7.002858291577949, 5.172749260052709, 61.29032258064516},
+        Expected{"real_fast_lio2", 265.29502688714524, 207.51889911150724, 0.6451612903225806}}) {
+    const Json json = eval_json({folder + "real_fast_lio2/ref.tum",
+                                 folder + expected.system + "/est.smfeval",
+                                 "--metric",
+                                 "nees:gauge=protocol"});
+    for (const Json& row : json["metrics"]) {
+      if (row["axis"] != "position") continue;
+      if (row["relation"] == "nees") {
+        EXPECT_NEAR(row["mean"], expected.mean, 1e-9 * expected.mean);
+        EXPECT_NEAR(row["median"], expected.median, 1e-9 * expected.median);
+      }
+      if (row["relation"] == "coverage_90") EXPECT_NEAR(row["mean"], expected.coverage, 1e-9);
     }
   }
-  EXPECT_EQ(refusal<InputError>(drift({"--times=" + times})),
-            times + ": is a times file, but no file has KITTI poses");
-  EXPECT_EQ(refusal<InputError>(drift({"--period=3"})),
-            "--period 3.0: all files have stamps, expected KITTI poses without --times, or g2o");
-}
-
-TEST(Eval, AcceptsEveryMetric) {
-  const Json all = eval_json(
-      drift({"--metric=path_length", "--metric=rpe:delta=2,unit=s", "--metric=closure_residual"}));
-  EXPECT_EQ(all["metrics"][0]["metric"], "path_length");
-  EXPECT_EQ(find(all, "rpe", "translation")["label"], "rpe 2 s");
-  EXPECT_EQ(find(all, "rpe", "translation")["rmse"],
-            find(eval_json(drift({"-d", "2", "-u", "s"})), "rpe", "translation")["rmse"]);
-  ASSERT_EQ(all["undefined"].size(), 1u);  // files have no loop closures
-  EXPECT_EQ(all["undefined"][0]["metric"], "closure_residual");
-  for (const MetricEntry& entry : metrics::metrics()) {
-    EXPECT_TRUE(eval_json(drift({"--metric=ate", "--metric=" + entry.name}))["failed"].empty())
-        << entry.name;
-  }
-  EXPECT_EQ(refusal<InputError>(drift({"--metric=path_lenght"})),
-            "--metric: no metric is named 'path_lenght'; did you mean 'path_length'?");
-  EXPECT_THAT(refusal<InputError>(drift({"--metric=rpe:delt=2"})), HasSubstr("delta"));
-  EXPECT_THROW(eval(drift({"--metric=ate", "-r", "full"})), CLI::ParseError);
-}
-
-TEST(Eval, TakesFiniteNumbersOnly) {
-  for (const std::string& option : words("--min-coverage=nan --t_max_diff=inf --max-gap=inf "
-                                         "--t_offset=nan --delta=nan --period=inf")) {
-    EXPECT_THROW(eval(drift({option})), CLI::ValidationError) << option;
-  }
-  EXPECT_EQ(refusal<InputError>(drift({"--set=max_diff=inf"})),
-            "--set: max_diff=inf: expected a finite number");
-}
-
-TEST(Eval, NamesNeedNotBeUtf8) {
-  const TemporaryFolder folder;
-  const std::string line = "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 0 1 0 0 0 0 1\n";
-  const std::string file = folder.file("a\xff.txt", line).string();
-  EXPECT_EQ(eval_json({file, file})["estimate"],
-            (folder.path() / "a\xef\xbf\xbd.txt").string());  // U+FFFD
-}
-
-TEST(Eval, WritesOverNoneOfItsInputs) {
-  const TemporaryFolder folder;
-  std::filesystem::copy_file(golden("est_drift.txt"), folder.path() / "mine.txt");
-  std::filesystem::create_symlink("mine.txt", folder.path() / "link");
-  const std::string mine = (folder.path() / "mine.txt").string();
-  const std::string link = (folder.path() / "." / "link").string();
-  EXPECT_EQ(refusal<InputError>({golden("gt.txt"), mine, "--per-pose=" + link}),
-            link + ": is an input of this command and is not overwritten");
-  EXPECT_THROW(eval({golden("gt.txt"), link, "--per-pose=" + mine}), InputError);
-  EXPECT_THROW(eval({mine, golden("gt.txt"), "--per-pose=" + mine}), InputError);
-  EXPECT_EQ(std::filesystem::file_size(mine), std::filesystem::file_size(golden("est_drift.txt")));
-}
-
-TEST(Eval, RefusesWhatItCannotEvaluate) {
-  const std::string kitti = golden("kitti_gt.txt");
-  const std::string tum = golden("gt.txt");
-  EXPECT_THAT(refusal<InputError>({tum, kitti, "--period=0.1"}),
-              StartsWith(kitti + " with reference " + tum + ": no pose of"));
-  EXPECT_EQ(refusal<OptionError>({tum, tum, "--max-diff=-1"}),
-            "max_diff = -1.0: expected 0 <= max_diff");
-  EXPECT_THROW(eval({tum, tum, "--format=kitti"}), InputError);
-  EXPECT_THROW(eval({tum, golden("absent.txt")}), InputError);
-  EXPECT_THROW(eval({tum}), CLI::ParseError);
-
-  const TemporaryFolder folder;
-  const std::string line = "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n";
-  const std::string straight = folder.file("straight.txt", line).string();
-  EXPECT_THAT(refusal<InputError>({straight, straight}), HasSubstr("lie on one straight line"));
-  EXPECT_NO_THROW(eval({straight, straight, "--align=origin"}));
 }
 
 }  // namespace

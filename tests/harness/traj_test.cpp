@@ -6,8 +6,8 @@
 #include "harness/eval/named_trajectory.hpp"
 #include "harness/eval/trajectory_selection.hpp"
 #include "harness/eval/transformation.hpp"
-#include "tests/support/command.hpp"
 #include "tests/support/eval_command.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::traj_test {
 namespace {
@@ -18,9 +18,9 @@ using testing::HasSubstr;
 using namespace harness;
 
 /// Output of `loopbench traj ARGS`, which must succeed.
-std::string traj(const std::vector<std::string>& arguments) { return test::traj(arguments).output; }
-
-using test::traj_refusal;
+std::string traj(const std::vector<std::string>& arguments) {
+  return test::in_process("traj", arguments);
+}
 
 TEST(Traj, AFolderOfABagTakesTf) {
   const char* const data = std::getenv("LOOPBENCH_DATA");
@@ -47,39 +47,11 @@ TEST(Traj, AlignMovesThePosesAsEvo) {
   }
 }
 
-TEST(Traj, AlignPrintsTheTransformAsEval) {
-  const TemporaryFolder folder;
-  const std::string out = (folder.path() / "aligned.txt").string();
-  const std::string file = golden("est_drift.txt"), reference = golden("gt.txt");
-  const auto json = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"align", file, "--ref", reference, "--align", "sim3"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const test::Printed printed = test::traj(arguments);
-    EXPECT_EQ(printed.errors, "");
-    return test::Json::parse(printed.output);
-  };
-  const test::Json fit = json({"--json"}).at(0);
-  const test::Json evaluated =
-      test::eval_json({reference, file, "--protocol", "evo", "--align", "sim3"});
-  for (const char* key : {"reference", "estimate", "pairs", "alignment"}) {
-    EXPECT_EQ(fit.at(key), evaluated.at(key)) << key;
-  }
-  EXPECT_EQ(json({"--json", "-o", out}).at(0), fit);
-  EXPECT_EQ(json({"--json", "--n_to_align", "100"}).at(0).at("pairs"), 100);
-  EXPECT_EQ(read_trajectory(out).size(), 657u);
-}
-
 TEST(Traj, DownsampleTakesTheIndicesOfNumpyLinspace) {
   EXPECT_THAT(evenly_spaced(10, 4), ElementsAre(0, 3, 6, 9));
   EXPECT_THAT(evenly_spaced(11, 4), ElementsAre(0, 3, 6, 10));  // floor(3.33), floor(6.67)
   EXPECT_THAT(evenly_spaced(3, 7), ElementsAre(0, 1, 2));
   EXPECT_THAT(evenly_spaced(5, 1), ElementsAre(0));
-  const TemporaryFolder folder;
-  const std::string out = (folder.path() / "some.txt").string();
-  traj({"convert", golden("est_drift.txt"), "--downsample", "100", "-o", out});
-  EXPECT_EQ(read_trajectory(out).size(), 100u);
-  EXPECT_EQ(read_trajectory(out).back().stamp,
-            read_trajectory(golden("est_drift.txt")).back().stamp);
 }
 
 Trajectory line(std::size_t count) {
@@ -121,6 +93,14 @@ TEST(Traj, TransformIsAppliedLeftRightOrToTheSteps) {
   EXPECT_TRUE(back[2].world_from_body.translation.isApprox(Vector3(1.0, 0, 0), 1e-12));
 }
 
+TEST(Traj, RejectsWhatNeedsRotations) {
+  const Trajectory positions{{0, {no_rotation(), {0, 0, 0}}}, {1, {no_rotation(), {1, 0, 0}}}};
+  EXPECT_THROW(by_motion(positions, 0.5, 5.0), InputError);
+  EXPECT_EQ(by_motion(positions, 0.5, 360.0).size(), 2u);
+  EXPECT_THROW(transformed(positions, Similarity{}, TransformSide::right), InputError);
+  EXPECT_TRUE(lacks_rotations(transformed(positions, Similarity{}, TransformSide::left)));
+}
+
 TEST(Traj, TransformReadsEvosJson) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "t.json").string();
@@ -133,112 +113,9 @@ TEST(Traj, TransformReadsEvosJson) {
   EXPECT_THROW(read_similarity("1,2"), InputError);
 }
 
-TEST(Traj, CropAndMerge) {
-  const TemporaryFolder folder;
-  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
-  traj({"crop", golden("gt.txt"), "--relative", "--end", "10", "-o", path("a.txt")});
-  traj({"crop", golden("gt.txt"), "--relative", "--start", "5", "-o", path("b.txt")});
-  traj({"merge", path("a.txt"), path("b.txt"), "-o", path("all.txt")});
-  EXPECT_EQ(read_trajectory(path("all.txt")).size(), 1995u);
-}
-
-TEST(Traj, ConvertSelectsShiftsAndProjects) {
-  const TemporaryFolder folder;
-  const std::string out = (folder.path() / "flat.txt").string();
-  const auto converted = [&](const std::vector<std::string>& options) {
-    std::vector<std::string> arguments{"convert", golden("gt.txt"), "-o", out};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    traj(arguments);
-    return read_trajectory(out);
-  };
-  const Trajectory whole = read_trajectory(golden("gt.txt"));
-  const Trajectory all = converted({"--project_to_plane", "xy"});
-  EXPECT_EQ(all.size(), whole.size());
-  for (const StampedPose& pose : all) {
-    ASSERT_EQ(pose.world_from_body.translation.z(), 0.0);
-    ASSERT_NEAR(log_so3(pose.world_from_body.rotation).head<2>().norm(), 0.0, 1e-12);
-  }
-  // Poses are selected by their motion in space, before they are projected.
-  const std::vector<std::size_t> kept = by_motion(whole, 0.2, 3.0);
-  const Trajectory few =
-      converted({"--project_to_plane", "xy", "--offset", "0.5", "--motion_filter", "0.2", "3"});
-  ASSERT_EQ(few.size(), kept.size());
-  for (std::size_t i = 0; i < few.size(); ++i) {
-    EXPECT_NEAR(few[i].stamp, whole[kept[i]].stamp + 0.5, 1e-6);
-    EXPECT_EQ(few[i].world_from_body.translation, all[kept[i]].world_from_body.translation);
-  }
-  EXPECT_EQ(converted({"--motion_filter", "0.2", "3", "--downsample", "10"}).size(),
-            by_motion(converted({"--downsample", "10"}), 0.2, 3.0).size());
-  EXPECT_EQ(converted({"--project_to_plane", "none"})[1].world_from_body.translation,
-            whole[1].world_from_body.translation);
-  EXPECT_EQ(traj_refusal({"convert", golden("gt.txt"), "--project_to_plane", "zz"}),
-            "project_to_plane = zz: expected one of none | xy | xz | yz");
-}
-
-TEST(Traj, CountsOnePose) {
-  const TemporaryFolder folder;
-  folder.file("a.txt", "1 0 0 0 0 0 0 1\n");
-  EXPECT_EQ(loopbench_command("traj convert a.txt -o b.txt", folder).out, "b.txt: 1 pose\n");
-}
-
-TEST(Traj, InfoPrintsSizeSpeedAndGaps) {
-  const test::Json info = test::Json::parse(traj({"info", golden("gt.txt"), "--json"}))[0];
-  EXPECT_EQ(info["poses"], 1995);
-  EXPECT_NEAR(info["rate"].get<double>(), 50.0, 0.5);
-  EXPECT_THAT(traj({"info", golden("gt.txt")}), HasSubstr("bounding box"));
-}
-
-TEST(Traj, SeveralFilesNeedAFolderWithOneFileEach) {
-  EXPECT_THAT(traj_refusal({"convert", golden("gt.txt"), golden("est_drift.txt")}),
-              HasSubstr("-o: found several trajectories, expected a folder"));
-  EXPECT_THAT(output_stem("bag:x.bag#/robot/odom"), "robot_odom");
-  EXPECT_THAT(output_stem("a/b.txt.gz"), "b");
-  const TemporaryFolder folder;
-  EXPECT_THAT(
-      traj_refusal({"convert", golden("gt.txt"), golden("gt.txt"), "-o", folder.path().string()}),
-      HasSubstr("would be written twice"));
-  const std::string out = (folder.path() / "one.txt").string();
-  EXPECT_THAT(traj_refusal({"convert", golden("gt.txt"), golden("est_drift.txt"), "-o", out}),
-              HasSubstr("found several trajectories and the file"));
-  EXPECT_FALSE(std::filesystem::exists(out));
-  traj({"convert", golden("gt.txt"), golden("est_drift.txt"), "-o", out + "/"});
-  EXPECT_TRUE(std::filesystem::exists(out + "/gt.txt"));
-}
-
-TEST(Traj, PipesConnectVerbs) {
-  const std::string program = "'" LOOPBENCH_BINARY "' traj ";
-  const std::string line = program + "crop '" + golden("gt.txt") + "' --relative --end 1 | " +
-                           program + "convert - --to euroc";
-  std::FILE* const pipe = popen(line.c_str(), "r");
-  ASSERT_NE(pipe, nullptr);
-  std::array<char, 64> text{};
-  const std::size_t count = std::fread(text.data(), 1, text.size() - 1, pipe);
-  pclose(pipe);
-  EXPECT_THAT(std::string(text.data(), count), HasSubstr("# timestamp [ns],p_x [m]"));
-}
-
-TEST(Traj, TransformChangesConventions) {
-  const TemporaryFolder folder;
-  const std::string in = folder.file("in.txt", "2000 1000 2000 3000 0.5 0.1 0.7 0.5\n").string();
-  const auto transformed_by = [&](std::vector<std::string> options) {
-    options.insert(options.begin(), {"transform", in, "-o", "-"});
-    std::istringstream words(traj(options));
-    std::vector<double> out;
-    for (double value = 0; words >> value;) out.push_back(value);
-    return out;
-  };
-  using testing::DoubleEq;
-  EXPECT_THAT(
-      transformed_by({"--stamp-scale", "0.001", "--scale", "0.001", "--axes=-y,x,z"}),
-      testing::Pointwise(testing::DoubleNear(1e-12), {2.0, -2.0, 1.0, 3.0, 0.5, 0.1, 0.7, 0.5}));
-  // The components w x y z = 0.5 0.1 0.7 0.5 are written as x y z w.
-  EXPECT_THAT(transformed_by({"--quaternion-order", "wxyz"}),
-              testing::Pointwise(testing::DoubleNear(1e-12),
-                                 {2000.0, 1000.0, 2000.0, 3000.0, 0.1, 0.7, 0.5, 0.5}));
-  EXPECT_THAT(transformed_by({"--quaternion-order", "xyzw"}),
-              testing::Pointwise(testing::DoubleNear(1e-12),
-                                 {2000.0, 1000.0, 2000.0, 3000.0, 0.5, 0.5, 0.1, 0.7}));
-  EXPECT_THAT(traj_refusal({"transform", in, "--axes=x,x,z"}), HasSubstr("--axes: found 'x,x,z'"));
+TEST(Traj, NamesOutputsByTheirInputs) {
+  EXPECT_EQ(output_stem("bag:x.bag#/robot/odom"), "robot_odom");
+  EXPECT_EQ(output_stem("a/b.txt.gz"), "b");
 }
 
 }  // namespace

@@ -9,10 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "datasets/core/error.hpp"
-#include "datasets/core/params.hpp"
 #include "harness/commands/commands.hpp"
-#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::test {
 
@@ -62,40 +59,12 @@ inline std::string eval(const std::vector<std::string>& arguments, int expected_
   return in_process("eval", arguments, expected_exit);
 }
 
-struct Printed {
-  std::string output;
-  std::string errors;
-};
-
-inline Printed traj(const std::vector<std::string>& arguments) {
-  Printed out;
-  testing::internal::CaptureStderr();
-  try {
-    out.output = in_process("traj", arguments);
-  } catch (...) {
-    testing::internal::GetCapturedStderr();
-    throw;
-  }
-  out.errors = testing::internal::GetCapturedStderr();
-  return out;
-}
-
 /// The list of evaluations, or the only one.
 inline Json eval_json(std::vector<std::string> arguments, int expected_exit = kExitOk) {
   arguments.push_back("--json");
   const Json all = Json::parse(eval(arguments, expected_exit));
   EXPECT_TRUE(all.is_array()) << all;
   return all.size() == 1 ? all[0] : all;
-}
-
-/// The message of the error of a command, which must be rejected.
-template <class Error>
-std::string refusal(const std::vector<std::string>& arguments, const std::string& verb = "eval") {
-  return required_refusal_of<Error>([&] { in_process(verb, arguments); });
-}
-
-inline std::string traj_refusal(const std::vector<std::string>& arguments) {
-  return refusal<std::exception>(arguments, "traj");
 }
 
 inline Json find(const Json& results,
