@@ -40,19 +40,6 @@ inline Problem drifting(const Trajectory& truth, const Twist& bias, const Pairs&
   return out;
 }
 
-/// The closures as text of a closure file, with every digit; standard deviations 0.02 m, 0.01 rad.
-inline std::string closure_lines(const Problem& problem) {
-  std::string out;
-  for (const Edge& edge : problem.closures) {
-    out += to_text(problem.keyframes[edge.from].stamp) + " " +
-           to_text(problem.keyframes[edge.to].stamp);
-    for (const double x : edge.from_from_to.translation) out += " " + to_text(x);
-    for (const double x : edge.from_from_to.rotation.coeffs()) out += " " + to_text(x);
-    out += " 0.02 0.01\n";
-  }
-  return out;
-}
-
 /// `count` tracked frames between neighbouring keyframes, slightly off the line between them.
 inline void add_frames(Problem& problem, int count) {
   for (std::size_t i = 0; i + 1 < problem.keyframes.size(); ++i) {
