@@ -9,6 +9,7 @@
 A file runs in a folder of its own. `$ ` begins a command for bash, `> ` continues it (for example the text of a file),
 $DATA is tests/data. Both outputs are expected in the order of printing, then the exit code unless it is 0. `...` in a line
 stands for any text, `...` alone for any lines. The folder is printed as FOLDER, times as "_ ms".
+tests/transcripts/paths.sh and drive.py write trajectories for them.
 
 Usage: transcripts.py LOOPBENCH [--update] [NAME...]; --update writes what is printed where it differs.
 """

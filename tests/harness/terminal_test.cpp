@@ -177,7 +177,7 @@ class EvalOnATerminal : public testing::Test {
  protected:
   EvalOnATerminal() {
     for (const auto& [from, to] :
-         {std::pair{"gt", "gt"}, {"est_corrected", "a"}, {"est_drift", "b"}}) {
+         {std::pair{"gt", "gt"}, {"est_drift", "a"}, {"est_corrected", "b"}}) {
       std::filesystem::copy_file(std::string(LOOPBENCH_TEST_DATA "/golden/") + from + ".txt",
                                  folder_.path() / (std::string(to) + ".txt"));
     }
@@ -222,7 +222,7 @@ TEST_F(EvalOnATerminal, SeveralEstimatesFitAndEndWithAVerdict) {
   }
   const std::string piped = loopbench_command("eval gt.txt a.txt b.txt", folder_).out;
   EXPECT_THAT(piped, HasSubstr("\n| a.txt "));
-  EXPECT_THAT(piped, HasSubstr(" % above a, but 1 sequence cannot show a difference"));
+  EXPECT_THAT(piped, HasSubstr(" % below a, but 1 sequence cannot show a difference"));
   EXPECT_THAT(run("eval gt.txt a.txt b.txt --protocol evo,tum", 80).out,
               HasSubstr("\nverdict: translation ate, rmse [m], keyframes, evo: "));
 }
