@@ -14,8 +14,8 @@
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/compare/assertion.hpp"
-#include "harness/tables/all_records.hpp"
 #include "harness/tables/comparison.hpp"
+#include "harness/tables/store_tables.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -17,8 +17,8 @@
 #include "harness/run/estimate_files.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/read.hpp"
-#include "harness/tables/all_records.hpp"
 #include "harness/tables/record_csv.hpp"
+#include "harness/tables/store_tables.hpp"
 
 namespace loopbench::harness {
 namespace {

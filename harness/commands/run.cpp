@@ -26,7 +26,7 @@
 #include "harness/run/run_cell.hpp"
 #include "harness/store/shard.hpp"
 #include "harness/store/store.hpp"
-#include "harness/tables/all_records.hpp"
+#include "harness/tables/store_tables.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -12,7 +12,6 @@
 #include "harness/compare/derived.hpp"
 #include "harness/model/where.hpp"
 #include "harness/store/read.hpp"
-#include "harness/store/record_reader.hpp"
 #include "harness/tables/store_tables.hpp"
 #include "harness/tables/success.hpp"
 
@@ -24,7 +23,7 @@ struct TableArguments {
   TableSpec spec;
   std::vector<std::string> where;
   std::optional<double> success;  ///< limit of the error of a successful run
-  RankingOptions ranking;
+  CompareOptions ranking;
   OutputOptions output;
   bool has_default_layout = true;  ///< no --rows, --columns, --split
   bool is_for_paper = false;       ///< --format latex or markdown

@@ -246,8 +246,7 @@ KeptRuns kept_runs(Observations& all, Comparison& out) {
 
 /// Sets counts, standings and whether the leading methods are best.
 Ranking rank(const Levels& levels, const Observations& all, const KeptRuns& kept, Comparison& out) {
-  const CompareOptions& options = out.options;
-  Ranking ranking = rank_methods(levels, {options.alpha, options.tie, options.relevant});
+  Ranking ranking = rank_methods(levels, out.options);
   out.tests = ranking.tests;
   out.can_show = ranking.can_show;
   out.groups_needed = ranking.groups_needed;

@@ -14,22 +14,6 @@
 
 namespace loopbench::harness {
 
-/// Unit of observation.
-enum class Over {
-  groups,    ///< runs with the same CellRow::group, or single runs without a group
-  sequences  ///< all runs of a sequence or of a group: generalises to other sequences
-};
-
-struct CompareOptions {
-  std::string baseline;
-  std::string value = "rmse";
-  Over over = Over::groups;
-  double alpha = 0.05;     ///< probability of a false claim among those about a score
-  double tie = kTieShare;  ///< relative difference up to which values are equal
-  double relevant = 0.01;  ///< relative difference from which on a method is better for practice
-  bool paired = false;     ///< also pair runs of files, by their names; those of sweeps always are
-};
-
 /// Mean ratio on one sequence.
 struct SequenceRatio {
   std::string sequence;

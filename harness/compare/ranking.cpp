@@ -34,7 +34,7 @@ std::size_t find_leader(const Levels& levels) {
   return *leader;
 }
 
-Standing standing_of(const Pair& from_leader, std::size_t tests, const RankingOptions& options) {
+Standing standing_of(const Pair& from_leader, std::size_t tests, const CompareOptions& options) {
   if (!from_leader.has_difference()) {
     return from_leader.values.empty() ? Standing::open : Standing::equal;
   }
@@ -62,7 +62,7 @@ bool Ranking::is_best() const {
              standings, [](Standing s) { return s == Standing::behind || s == Standing::near; });
 }
 
-Ranking rank_methods(const Levels& levels, const RankingOptions& options) {
+Ranking rank_methods(const Levels& levels, const CompareOptions& options) {
   Ranking out;
   out.tests = count_tests(levels);
   out.leader = find_leader(levels);

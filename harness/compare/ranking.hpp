@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "harness/compare/pair.hpp"
@@ -15,10 +16,20 @@
 
 namespace loopbench::harness {
 
-struct RankingOptions {
-  double alpha = 0.05;     ///< probability of any false claim about a method and the baseline
+/// Unit of observation.
+enum class Over {
+  groups,    ///< runs with the same CellRow::group, or single runs without a group
+  sequences  ///< all runs of a sequence or of a group: generalises to other sequences
+};
+
+struct CompareOptions {
+  std::string baseline;
+  std::string value = "rmse";
+  Over over = Over::groups;
+  double alpha = 0.05;     ///< probability of a false claim among those about a score
   double tie = kTieShare;  ///< relative difference up to which values are equal
   double relevant = 0.01;  ///< relative difference from which on a method is better for practice
+  bool paired = false;     ///< also pair runs of files, by their names; those of sweeps always are
 };
 
 /// How a method compares with the leader.
@@ -45,6 +56,6 @@ struct Ranking {
 };
 
 /// Deterministic. O(methods * (runs log runs + groups^3)), groups^3 for up to 50 groups only.
-Ranking rank_methods(const Levels& levels, const RankingOptions& options);
+Ranking rank_methods(const Levels& levels, const CompareOptions& options);
 
 }  // namespace loopbench::harness

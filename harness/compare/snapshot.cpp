@@ -11,7 +11,6 @@
 #include "harness/compare/derived.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/store/read.hpp"
-#include "harness/store/record_reader.hpp"
 
 namespace loopbench::harness {
 namespace {

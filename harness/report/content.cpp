@@ -7,7 +7,6 @@
 #include "harness/report/curve.hpp"
 #include "harness/report/report.hpp"
 #include "harness/store/read.hpp"
-#include "harness/store/record_reader.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "harness/store/hashes.hpp"
 #include "harness/store/stored_cells.hpp"
 #include "harness/store/traces.hpp"
 #include "metrics/numerics/median.hpp"

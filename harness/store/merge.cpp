@@ -8,7 +8,6 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/model/recorded_run.hpp"
-#include "harness/store/hashes.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/schema.hpp"
 #include "harness/store/stored_cells.hpp"

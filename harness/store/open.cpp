@@ -11,8 +11,8 @@
 #include <system_error>
 
 #include "datasets/core/error.hpp"
-#include "harness/store/hashes.hpp"
 #include "harness/store/schema.hpp"
+#include "harness/store/stored_cells.hpp"
 
 namespace loopbench::harness {
 namespace {

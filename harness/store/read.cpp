@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "harness/store/open.hpp"
-#include "harness/store/record_reader.hpp"
 #include "harness/store/schema.hpp"
 #include "harness/store/stored_cells.hpp"
 

@@ -1,5 +1,3 @@
-#include "harness/store/record_reader.hpp"
-
 #include <algorithm>
 #include <future>
 #include <set>
@@ -8,6 +6,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/store/open.hpp"
+#include "harness/store/read.hpp"
 #include "harness/store/schema.hpp"
 
 namespace loopbench::harness {

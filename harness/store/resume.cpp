@@ -4,7 +4,7 @@
 #include <map>
 #include <unordered_map>
 
-#include "harness/store/hashes.hpp"
+#include "harness/store/stored_cells.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -8,7 +8,6 @@
 #include "harness/base/hash.hpp"
 #include "harness/run/build.hpp"
 #include "harness/store/cell_writer.hpp"
-#include "harness/store/hashes.hpp"
 #include "harness/store/resume.hpp"
 #include "harness/store/stored_cells.hpp"
 

@@ -1,11 +1,13 @@
-/// The cells of a store, and damage to their rows.
+/// The cells of a store, the hashes of their rows and of rows that they share, and damage to them.
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "harness/model/record.hpp"
+#include "harness/store/schema.hpp"
 #include "harness/store/sqlite.hpp"
 
 namespace loopbench::harness {
@@ -49,5 +51,29 @@ void remove_orphans(Database& database);
 
 /// "SEQUENCE / METHOD" or "SEQUENCE (repeat N) / METHOD".
 std::string label_of(const CellRow& cell);
+
+/// Sets the hashes of a cell. Call after any of its rows has changed. O(bytes).
+void set_hashes(Database& database, std::int64_t id);
+
+/// Hash of the rows of a cell's trace. O(bytes).
+std::uint64_t trace_hash(Database& database, std::int64_t id);
+
+/// The first columns of the rows that have changed. O(bytes).
+std::set<std::string> damaged_rows(Database& database, const SharedTable& table);
+
+/// Removes the rows with these keys, and returns the keys.
+std::set<std::string> remove_damaged_rows(Database& database, const SharedTable& table);
+
+/// Throws InputError naming the first row of run, provenance or input that has changed.
+void require_intact_descriptions(Database& database);
+
+/// Ids of the definitions of scores that have not changed.
+std::set<std::int64_t> intact_definitions(Database& database);
+
+/// Sets a value of the table run.
+void set_run_value(Database& database, const std::string& key, const std::string& value);
+
+/// Throws InputError naming the part `what` of `file` that has changed.
+[[noreturn]] void throw_damaged(const std::string& file, const std::string& what);
 
 }  // namespace loopbench::harness

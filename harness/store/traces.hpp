@@ -10,7 +10,6 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/model/trace.hpp"
-#include "harness/store/hashes.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/stored_cells.hpp"
 #include "methods/report.hpp"

@@ -79,12 +79,9 @@ void mark_best(Table& out,
                const TableNumbers& table,
                const TableSpec& spec,
                bool along_columns,
-               const RankingOptions& options) {
-  CompareOptions how;
+               const CompareOptions& options) {
+  CompareOptions how = options;
   how.value = spec.value;
-  how.alpha = options.alpha;
-  how.tie = options.tie;
-  how.relevant = options.relevant;
   bool is_marked = false;
   std::string why_none;
   std::vector<Lane> lanes = lanes_of(table, spec, along_columns);

@@ -15,6 +15,6 @@ void mark_best(Table& out,
                const TableNumbers& table,
                const TableSpec& spec,
                bool along_columns,
-               const RankingOptions& options);
+               const CompareOptions& options);
 
 }  // namespace loopbench::harness

@@ -144,7 +144,7 @@ TableMean mean_at(const TableNumbers& table, const TablePosition& position, bool
 Table finish(TableNumbers& table,
              const std::string& title,
              const TableSpec& spec,
-             const RankingOptions& options) {
+             const CompareOptions& options) {
   // Only methods are compared: a best sequence is meaningless.
   const bool down_columns = std::ranges::count(spec.rows, "method") > 0;
   const bool along_rows = spec.columns == std::vector<std::string>{"method"};
@@ -197,7 +197,7 @@ TableSpec separating_protocols(TableSpec spec, const std::vector<Record>& record
 
 std::vector<Table> pivot(const std::vector<Record>& records,
                          const TableSpec& spec,
-                         const RankingOptions& options) {
+                         const CompareOptions& options) {
   PivotedTables out = pivot_parts(records, separating_protocols(spec, records), options);
   if (out.tables.empty()) throw InputError(kEmptyTable);
   return std::move(out.tables);
@@ -205,7 +205,7 @@ std::vector<Table> pivot(const std::vector<Record>& records,
 
 PivotedTables pivot_parts(const std::vector<Record>& records,
                           const TableSpec& spec,
-                          const RankingOptions& options) {
+                          const CompareOptions& options) {
   NameOrder titles;
   std::vector<TableNumbers> builders;
   std::vector<const Record*> first;  // of each table

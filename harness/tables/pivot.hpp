@@ -23,7 +23,7 @@ inline constexpr const char* kEmptyTable = "the table is empty: no rows to show"
 /// scores (rotation with translation, keyframes with dense). O(n log n).
 std::vector<Table> pivot(const std::vector<Record>& records,
                          const TableSpec& spec,
-                         const RankingOptions& options = {});
+                         const CompareOptions& options = {});
 
 /// The tables of some of the records, for records that are not in memory at once.
 struct PivotedTables {
@@ -35,7 +35,7 @@ struct PivotedTables {
 /// separated by `spec`. Does not throw if there is none.
 PivotedTables pivot_parts(const std::vector<Record>& records,
                           const TableSpec& spec,
-                          const RankingOptions& options);
+                          const CompareOptions& options);
 
 /// Whether rows, columns or split contain one of the fields.
 bool separates(const TableSpec& spec, std::initializer_list<const char*> any_of);

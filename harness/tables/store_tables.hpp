@@ -1,13 +1,33 @@
-/// Tables of a store, read a few sequences at a time.
+/// The records of a store as commands print them: with gains, pair counts and run times, in tables
+/// and in comparisons.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "harness/compare/compare.hpp"
+#include "harness/model/record.hpp"
 #include "harness/tables/pivot.hpp"
 
 namespace loopbench::harness {
+
+/// Visits the records sequence by sequence: those that are stored, then the derived ones.
+void for_each_record(const std::filesystem::path& store,
+                     const std::function<void(const Record&)>& visit);
+
+/// All of for_each_record().
+std::vector<Record> all_records(const std::filesystem::path& store);
+
+/// The comparisons that `loopbench compare` prints, for one metric selected by its label, the short
+/// name of a score ("error x") or its name, over the records that pass the filters `rules` (see
+/// model/where.hpp). An empty baseline selects the sweep's. Throws InputError if no score or no
+/// baseline remains.
+std::vector<Comparison> compare_store(const std::filesystem::path& store,
+                                      const std::string& metric,
+                                      const std::vector<std::string>& rules,
+                                      CompareOptions options);
 
 /// The tables that `loopbench table` prints: pivot() of all_records() that pass the filters `rules`
 /// (see model/where.hpp). A layout that leaves open which times and scores a cell contains, such as
@@ -18,6 +38,6 @@ namespace loopbench::harness {
 std::vector<Table> store_tables(const std::filesystem::path& store,
                                 const std::vector<std::string>& rules,
                                 TableSpec spec,
-                                const RankingOptions& options);
+                                const CompareOptions& options);
 
 }  // namespace loopbench::harness
