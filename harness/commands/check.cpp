@@ -9,9 +9,7 @@
 #include "harness/base/write_file.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/compare/baseline_file.hpp"
-#include "harness/compare/gate_limits.hpp"
-#include "harness/compare/snapshot.hpp"
+#include "harness/compare/gate.hpp"
 #include "harness/store/open.hpp"
 #include "harness/tables/gate_table.hpp"
 

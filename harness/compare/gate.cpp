@@ -7,8 +7,6 @@
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/fields.hpp"
-#include "harness/compare/gate_limits.hpp"
-#include "harness/compare/snapshot.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -1,5 +1,3 @@
-#include "harness/compare/snapshot.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
+#include "harness/compare/gate.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/store/read.hpp"
 

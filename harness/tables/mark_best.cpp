@@ -1,5 +1,3 @@
-#include "harness/tables/mark_best.hpp"
-
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -11,6 +9,7 @@
 
 #include "harness/compare/compare.hpp"
 #include "harness/compare/ratio_text.hpp"
+#include "harness/tables/table_numbers.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/observations.hpp"
-#include "harness/tables/mark_best.hpp"
 #include "harness/tables/table_numbers.hpp"
 
 namespace loopbench::harness {
@@ -52,12 +51,25 @@ std::string error_counts_text(const TableNumbers& table) {
   return fmt::format("{}", fmt::join(out, "; "));
 }
 
+/// Key of a run: the content of its data if known, otherwise its name.
+std::string run_key(const CellRow& cell) {
+  return cell.content.empty() ? cell.run_name() : cell.content.text();
+}
+
+/// The entry at the position, made if it is new.
+Entry& entry_at(TableNumbers& table, std::size_t row, std::size_t column) {
+  if (table.entries.size() <= row) table.entries.resize(row + 1);
+  std::vector<Entry>& entries = table.entries[row];
+  if (entries.size() <= column) entries.resize(column + 1);
+  return entries[column];
+}
+
 void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   const std::size_t row = table.rows.index(fields_joined(record, spec.rows, ", ") +
                                            (record.cell->oracle ? " (oracle)" : ""));
   if (record.cell->oracle) table.note("oracle: the method uses the reference");
   if (record.cell->oracle_closures) table.oracle_sequences.insert(record.cell->sequence);
-  const std::size_t run = table.runs.index(run_key(record));
+  const std::size_t run = table.runs.index(run_key(*record.cell));
   if (run == table.group_of_run.size())
     table.group_of_run.push_back(table.groups.index(group_name(*record.cell)));
   table.records.push_back({&record, row});
@@ -81,9 +93,8 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   const std::size_t column = table.columns.index(column_name(record, spec.columns, spec.value));
   table.records.back().column = column;
   const std::size_t kind = table.kinds.index(kind_of(record));
-  const auto [place, is_new] = table.entries.try_emplace({row, column});
-  EntryContents& entry = place->second;
-  if (is_new) entry.kind = kind;
+  Entry& entry = entry_at(table, row, column);
+  if (entry.kind == Entry::kNoKind) entry.kind = kind;
   if (entry.kind != kind) {
     throw InputError("an entry of this table would average '" + table.kinds.names()[entry.kind] +
                      "' with '" + table.kinds.names()[kind] +
@@ -102,16 +113,21 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   entry.is_gap = record.kind->metric == "optimality" && record.kind->relation == "gap" &&
                  spec.value != "count";
   add_error_count(table, column, record);
-  entry.numbers.add(record, run, table.group_of_run[run], spec.value);
+  entry.is_gain = record.kind->metric == "gain" && spec.value != "count";
+  entry.is_oracle = record.cell->oracle;
+  entry.values.push_back(
+      {run, table.group_of_run[run], record.cell->method, value(record, spec.value)});
 }
 
 /// Adds a note on how the numbers were averaged.
 void explain_averages(Table& out, const TableNumbers& table, const TableSpec& spec) {
   std::size_t most = 1;
   bool has_gain = false;
-  for (const auto& [position, entry] : table.entries) {
-    most = std::max(most, entry.numbers.averaged());
-    has_gain = has_gain || entry.numbers.is_gain();
+  for (const std::vector<Entry>& row : table.entries) {
+    for (const Entry& entry : row) {
+      most = std::max(most, entry.kept().size());
+      has_gain = has_gain || entry.is_gain;
+    }
   }
   if (most < 2) return;
   std::string text = "each number is the mean of up to " + std::to_string(most) + " cells";
@@ -121,22 +137,21 @@ void explain_averages(Table& out, const TableNumbers& table, const TableSpec& sp
 }
 
 /// The mean of an entry, or the reason why it has none.
-TableMean mean_at(const TableNumbers& table, const TablePosition& position, bool plus_minus) {
+TableMean mean_at(const TableNumbers& table, std::size_t row, std::size_t column, bool plus_minus) {
   TableMean out;
-  if (const auto lost = table.row_status.find(position.first); lost != table.row_status.end()) {
+  if (const auto lost = table.row_status.find(row); lost != table.row_status.end()) {
     out.status = lost->second;
   }
-  const EntryContents* entry = table.find(position);
-  if (entry == nullptr) return out;
-  if (!entry->status.empty()) out.status = entry->status;
-  if (entry->numbers.size() == 0) return out;
-  out.value = entry->numbers.average();
-  if (plus_minus) out.deviation = entry->numbers.deviation();
-  out.is_stated = entry->is_stated;
-  out.is_gap = entry->is_gap;
-  out.records = entry->numbers.size();
-  out.averaged = entry->numbers.averaged();
-  if (entry->missing > 0) out.possible = out.records + entry->missing;
+  const Entry& entry = table.entries[row][column];
+  if (!entry.status.empty()) out.status = entry.status;
+  if (entry.values.empty()) return out;
+  out.value = entry.average();
+  if (plus_minus) out.deviation = entry.deviation();
+  out.is_stated = entry.is_stated;
+  out.is_gap = entry.is_gap;
+  out.records = entry.values.size();
+  out.averaged = entry.kept().size();
+  if (entry.missing > 0) out.possible = out.records + entry.missing;
   if (!out.value) out.status = out.averaged == 0 ? kNoCommonRun : "undefined";
   return out;
 }
@@ -159,6 +174,8 @@ Table finish(TableNumbers& table,
   const std::string oracle =
       oracle_closures_note(table.oracle_sequences, table.oracle_sequences.size());
   if (!oracle.empty()) out.notes.push_back(oracle);
+  table.entries.resize(table.rows.names().size());
+  for (std::vector<Entry>& row : table.entries) row.resize(columns.size());
   for (const bool along_columns : {true, false}) {
     if (!(along_columns ? down_columns : along_rows)) continue;
     const std::string text = keep_common_runs(table, along_columns);
@@ -170,7 +187,7 @@ Table finish(TableNumbers& table,
     std::vector<TableCell>& line = out.lines.emplace_back();
     line.emplace_back(table.rows.names()[r]);
     for (std::size_t c = 0; c < columns.size(); ++c) {
-      line.emplace_back().mean = mean_at(table, {r, c}, spec.plus_minus);
+      line.emplace_back().mean = mean_at(table, r, c, spec.plus_minus);
     }
   }
   if (down_columns) mark_best(out, table, spec, true, options);

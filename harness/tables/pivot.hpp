@@ -15,10 +15,10 @@ inline constexpr const char* kEmptyTable = "the table is empty: no rows to show"
 
 /// Each cell has the mean of its records. The title has the values of the split columns, the notes
 /// the reasons for missing values. If the rows are methods, marks the best of each column (see
-/// mark_best.hpp); if the columns are methods, the best of each row. Entries with fewer runs than
-/// others state their number; means are then over common runs (common_runs.cpp), and a note reports
-/// it. Gains are averaged as geometric means of the ratios. Several protocols always result in
-/// separate tables. Rows, columns and tables are in order of first appearance in the records.
+/// table_numbers.hpp); if the columns are methods, the best of each row. Entries with fewer runs
+/// than others state their number; means are then over common runs (table_numbers.hpp), and a note
+/// reports it. Gains are averaged as geometric means of the ratios. Several protocols always result
+/// in separate tables. Rows, columns and tables are in order of first appearance in the records.
 /// Throws InputError for an unknown column or statistic, and if an entry would average different
 /// scores (rotation with translation, keyframes with dense). O(n log n).
 std::vector<Table> pivot(const std::vector<Record>& records,

@@ -29,7 +29,7 @@ struct TableCell {
   TableCell(const Text& own_text, bool marked = false) : text(own_text), is_best(marked) {}
 
   std::string text;
-  bool is_best = false;  ///< marked: its method is best in its column or row, see mark_best.hpp
+  bool is_best = false;  ///< marked: its method is best in its column or row, see table_numbers.hpp
   std::optional<TableMean> mean = {};
 
   friend bool operator==(const TableCell&, const TableCell&) = default;

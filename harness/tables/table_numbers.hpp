@@ -2,89 +2,57 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "datasets/core/hash.hpp"
+#include "harness/compare/ranking.hpp"
 #include "harness/model/name_order.hpp"
 #include "harness/model/record.hpp"
+#include "harness/model/sweep.hpp"
 #include "harness/tables/notes.hpp"
+#include "harness/tables/table.hpp"
 
 namespace loopbench::harness {
 
 using RunSet = std::set<std::size_t>;  ///< numbers of runs
 
-/// Key of a run within an entry: the content of its data if known, otherwise its name.
-std::string run_key(const Record& record);
+/// What one entry of a table averages.
+struct Entry {
+  static constexpr std::size_t kNoKind = std::numeric_limits<std::size_t>::max();
 
-/// The numbers that are aggregated in one entry of a table.
-class EntryNumbers {
- public:
-  /// `run` and `group`: numbers of run_key() and group_name(). Throws InputError for an unknown
-  /// statistic.
-  void add(const Record& record, std::size_t run, std::size_t group, const std::string& statistic);
-
-  /// Number of added records.
-  std::size_t size() const { return values_.size(); }
-  /// Number of averaged records: added and kept.
-  std::size_t averaged() const;
-  /// The runs of the averaged records.
-  RunSet finished() const;
-  /// Restricts the average to the records of these runs.
-  void keep(const RunSet& runs);
-
-  /// The mean; for gains 1 - the geometric mean ratio, over groups as in a verdict. nullopt if that
-  /// is not a number.
-  std::optional<double> average() const;
-  /// Sample standard deviation of the averaged values; nullopt for fewer than two.
-  std::optional<double> deviation() const;
-
-  const SharedText& method() const { return method_; }
-  bool is_oracle() const { return is_oracle_; }
-  bool is_gain() const { return is_gain_; }
-
- private:
   struct Value {
     std::size_t run = 0;
     std::size_t group = 0;
     SharedText method;
     double value = 0.0;
-    bool is_kept = true;
+    bool is_kept = true;  ///< averaged
   };
 
-  double gain() const;
-  std::vector<double> kept() const;
-
-  std::vector<Value> values_;
-  SharedText method_;
-  bool is_gain_ = false;
-  bool is_oracle_ = false;
-};
-
-using TablePosition = std::pair<std::size_t, std::size_t>;  // row, column
-
-struct TablePositionHash {
-  std::size_t operator()(const TablePosition& position) const {
-    return hash_combine(position.first, position.second);
-  }
-};
-
-/// Contents of one entry under construction.
-struct EntryContents {
-  EntryNumbers numbers = {};
-  std::string status = {};  ///< of a record that has no value
-  std::size_t kind = 0;     ///< number of its texts in TableNumbers::kinds
-  bool is_stated = false;   ///< has times that programs state
-  bool is_gap = false;      ///< a gap of the metric optimality
-  RunSet tried = {};        ///< runs with a score of any status
-  RunSet lost = {};         ///< runs on which a score failed
+  std::vector<Value> values = {};
+  std::string status = {};     ///< of a record that has no value
+  std::size_t kind = kNoKind;  ///< number of its texts in TableNumbers::kinds; or no record
+  bool is_gain = false;
+  bool is_oracle = false;
+  bool is_stated = false;  ///< has times that programs state
+  bool is_gap = false;     ///< a gap of the metric optimality
+  RunSet tried = {};       ///< runs with a score of any status
+  RunSet lost = {};        ///< runs on which a score failed
   /// Number of runs without a number on which a compared entry has one, or failed.
   std::size_t missing = 0;
+
+  /// The values that are averaged.
+  std::vector<double> kept() const;
+  /// The mean; for gains 1 - the geometric mean ratio, over groups as in a verdict. nullopt if that
+  /// is not a number.
+  std::optional<double> average() const;
+  /// Sample standard deviation of the averaged values; nullopt for fewer than two.
+  std::optional<double> deviation() const;
 };
 
 struct PlacedRecord {
@@ -95,12 +63,6 @@ struct PlacedRecord {
 
 /// Contents of a table under construction.
 struct TableNumbers {
-  /// nullptr if it has no record.
-  const EntryContents* find(const TablePosition& position) const {
-    const auto found = entries.find(position);
-    return found == entries.end() ? nullptr : &found->second;
-  }
-
   void note(const std::string& text) {
     if (std::ranges::count(notes, text) == 0) notes.push_back(text);
   }
@@ -112,7 +74,7 @@ struct TableNumbers {
   NameOrder groups;
   std::vector<std::size_t> group_of_run;
   std::vector<PlacedRecord> records;
-  std::unordered_map<TablePosition, EntryContents, TablePositionHash> entries;
+  std::vector<std::vector<Entry>> entries;    // [row][column]; missing at the ends: no record
   std::map<std::size_t, RunSet> lost_by_row;  // runs without any score
   std::map<SharedText, RunSet> lost_by_method;
   /// Smallest and largest number of errors behind the values of a column, if it differs from the
@@ -132,5 +94,14 @@ std::string fields_joined(const Record& record,
 /// Restricts means to runs that all entries compared with them finished, and counts the missing
 /// runs. Returns the note about it; empty if all entries finished the same runs.
 std::string keep_common_runs(TableNumbers& table, bool along_columns);
+
+/// Marks the methods that `compare` calls best (with any baseline) among the records of each column
+/// (or row) of the finished table `out`, and adds a note about it or the reason why none is marked.
+/// A column with several scores, or with several entries of a method, has no marks.
+void mark_best(Table& out,
+               const TableNumbers& table,
+               const TableSpec& spec,
+               bool along_columns,
+               const CompareOptions& options);
 
 }  // namespace loopbench::harness

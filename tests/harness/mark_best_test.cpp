@@ -1,5 +1,4 @@
 /// Tables mark the methods that `compare` calls best, and no others.
-#include "harness/tables/mark_best.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "datasets/core/error.hpp"
-#include "harness/compare/baseline_file.hpp"
 #include "harness/compare/gate.hpp"
 #include "harness/tables/gate_table.hpp"
 #include "tests/support/compared_sweep.hpp"
