@@ -60,30 +60,47 @@ std::vector<std::size_t> first_scores(const std::vector<Record>& records) {
   return out;
 }
 
-/// A score of a single number: every statistic has this value.
-Record one_number(const Record& r, const Shared<ScoreKind>& kind, double x) {
-  Record one = r;
-  one.kind = kind;
-  for (const auto& each : metrics::kStatisticFields) one.statistics.*each.member = x;
-  one.statistics.count = 1;
-  one.statistics.std = 0.0;
-  one.statistics.sse = x * x;
-  return one;
+/// A score of a cell that is a single number: every statistic has this value.
+struct CellScore {
+  const char* metric;
+  const char* unit;
+  metrics::Better better;
+  double (*value)(const Record&);  ///< NaN: none
+};
+
+/// One record per cell, protocol and times.
+std::vector<Record> scores_of_cells(const std::vector<Record>& records, const CellScore& score) {
+  DerivedKinds kinds;
+  std::vector<Record> out;
+  for (const std::size_t i : first_scores(records)) {
+    const Record& r = records[i];
+    const double x = score.value(r);
+    if (std::isnan(x)) continue;
+    Record& one = out.emplace_back(r);
+    one.kind = kinds.of(*r.kind, [&](ScoreKind& own) {
+      own = {.protocol = own.protocol,
+             .protocol_version = own.protocol_version,
+             .times = own.times,
+             .metric = score.metric,
+             .label = "",
+             .relation = "",
+             .axis = "",
+             .unit = score.unit,
+             .better = score.better};
+    });
+    for (const auto& each : metrics::kStatisticFields) one.statistics.*each.member = x;
+    one.statistics.count = 1;
+    one.statistics.std = 0.0;
+    one.statistics.sse = x * x;
+  }
+  return out;
 }
 
-/// The kind of a score of a cell for one protocol and kind of times.
-ScoreKind kind_of_cell(const ScoreKind& any,
-                       const char* metric,
-                       const char* unit,
-                       metrics::Better better) {
-  ScoreKind out;
-  out.protocol = any.protocol;
-  out.protocol_version = any.protocol_version;
-  out.times = any.times;
-  out.metric = metric;
-  out.unit = unit;
-  out.better = better;
-  return out;
+/// Number of pose pairs of the scores.
+std::vector<Record> pair_counts(const std::vector<Record>& records) {
+  return scores_of_cells(records, {"pairs", "", metrics::Better::neither, [](const Record& r) {
+                                     return static_cast<double>(r.pairs);
+                                   }});
 }
 
 }  // namespace
@@ -123,30 +140,9 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
 }
 
 std::vector<Record> run_times(const std::vector<Record>& records) {
-  DerivedKinds kinds;
-  std::vector<Record> out;
-  for (const std::size_t i : first_scores(records)) {
-    const Record& r = records[i];
-    const double milliseconds = r.cell->milliseconds();
-    if (std::isnan(milliseconds)) continue;
-    const auto& kind = kinds.of(*r.kind, [](ScoreKind& own) {
-      own = kind_of_cell(own, "time", "ms", metrics::Better::lower);
-    });
-    out.push_back(one_number(r, kind, milliseconds));
-  }
-  return out;
-}
-
-std::vector<Record> pair_counts(const std::vector<Record>& records) {
-  DerivedKinds kinds;
-  std::vector<Record> out;
-  for (const std::size_t i : first_scores(records)) {
-    const auto& kind = kinds.of(*records[i].kind, [](ScoreKind& own) {
-      own = kind_of_cell(own, "pairs", "", metrics::Better::neither);
-    });
-    out.push_back(one_number(records[i], kind, static_cast<double>(records[i].pairs)));
-  }
-  return out;
+  return scores_of_cells(records, {"time", "ms", metrics::Better::lower, [](const Record& r) {
+                                     return r.cell->milliseconds();
+                                   }});
 }
 
 void add_derived(std::vector<Record>& records, const std::string& baseline) {

@@ -19,10 +19,8 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
 /// wall time. None of files that `eval --store` evaluated.
 std::vector<Record> run_times(const std::vector<Record>& records);
 
-/// One record per cell, protocol and times: metric `pairs`, number of pose pairs of the scores.
-std::vector<Record> pair_counts(const std::vector<Record>& records);
-
-/// Appends gains, pair counts and run times; `records`: complete sequences.
+/// Appends gains, run times, and the numbers of pose pairs of the scores (metric `pairs`);
+/// `records`: complete sequences.
 void add_derived(std::vector<Record>& records, const std::string& baseline);
 
 }  // namespace loopbench::harness

@@ -29,33 +29,6 @@ constexpr const char* kRunSequences =
     "min(position) AS first FROM cell WHERE position IS NOT NULL GROUP BY sequence, repeat, "
     "sequence_key)";
 
-/// Adds the rows of a report table to the cells.
-class ReportReader {
- public:
-  ReportReader(Database& database, std::vector<StoredCell>& cells)
-      : database_(database), cells_(cells) {
-    for (std::size_t i = 0; i < cells.size(); ++i) index_.emplace(cells[i].id, i);
-  }
-
-  /// Calls `add` with the cell and its row from the column after `number` on.
-  template <class Add>
-  void read(const CellTable& table, Add add) {
-    Statement row = database_.prepare(std::string("SELECT cell, ") + table.columns + " FROM " +
-                                      table.name + " ORDER BY cell, number");
-    while (row.step()) {
-      const auto found = index_.find(row.integer());
-      if (found == index_.end()) continue;
-      row.integer();  // number
-      add(cells_[found->second], row);
-    }
-  }
-
- private:
-  Database& database_;
-  std::vector<StoredCell>& cells_;
-  std::unordered_map<std::int64_t, std::size_t> index_;
-};
-
 }  // namespace
 
 std::vector<Record> read_records(const std::filesystem::path& file) {
@@ -70,17 +43,26 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
 std::vector<CellRow> read_cells(const std::filesystem::path& file) {
   Database database = open_store(file);
   std::vector<StoredCell> cells = read_intact_cells(database);
-  ReportReader reader(database, cells);
-  reader.read(kPhaseTable, [](StoredCell& cell, Statement& row) {
+  std::unordered_map<std::int64_t, CellRow*> by_id;
+  for (StoredCell& cell : cells) by_id.emplace(cell.id, &cell);
+  const auto add = [&](const CellTable& table, const auto& read) {
+    Statement row = database.prepare(std::string("SELECT cell, ") + table.columns + " FROM " +
+                                     table.name + " ORDER BY cell, number");
+    while (row.step()) {
+      const auto found = by_id.find(row.integer());
+      row.integer();  // number
+      if (found != by_id.end()) read(*found->second, row);
+    }
+  };
+  add(kPhaseTable, [](CellRow& cell, Statement& row) {
     auto& [name, seconds] = cell.phases.emplace_back();
     row.read(name, seconds);
   });
-  reader.read(kCountTable, [](StoredCell& cell, Statement& row) {
+  add(kCountTable, [](CellRow& cell, Statement& row) {
     auto& [name, value] = cell.counts.emplace_back();
     row.read(name, value);
   });
-  reader.read(kNoteTable,
-              [](StoredCell& cell, Statement& row) { row.read(cell.notes.emplace_back()); });
+  add(kNoteTable, [](CellRow& cell, Statement& row) { row.read(cell.notes.emplace_back()); });
   return {std::move_iterator(cells.begin()), std::move_iterator(cells.end())};
 }
 

@@ -61,9 +61,6 @@ class RecordReader {
   /// The kinds of all scores of the store.
   std::vector<Shared<ScoreKind>> kinds() const;
 
-  /// Whether the scores have more than one protocol.
-  bool has_several_protocols() const;
-
  private:
   /// Appends the scores of a cell that are kept.
   void add_cell(const StoredCell& cell, std::vector<Record>& out);

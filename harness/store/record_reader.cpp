@@ -143,12 +143,6 @@ std::vector<Shared<ScoreKind>> RecordReader::kinds() const {
   return out;
 }
 
-bool RecordReader::has_several_protocols() const {
-  std::set<std::string> protocols;
-  for (const auto& [id, kind] : definitions_) protocols.insert(kind->protocol);
-  return protocols.size() > 1;
-}
-
 void RecordReader::keep_scores(const std::function<bool(const ScoreKind&)>& is_kept) {
   kept_.clear();
   for (const auto& [id, kind] : definitions_) {

@@ -114,9 +114,13 @@ bool is_by_sequence(const TableSpec& spec) {
 }
 
 /// Whether the records that pass have more than one protocol.
-bool has_protocols(const std::filesystem::path& store,
+bool has_protocols(const RecordReader& reader,
+                   const std::filesystem::path& store,
                    const std::function<bool(const Record&)>& is_kept) {
   std::set<std::string> protocols;
+  for (const Shared<ScoreKind>& kind : reader.kinds()) protocols.insert(kind->protocol);
+  if (protocols.size() < 2) return false;
+  protocols.clear();
   for_each_record(store, [&](const Record& r) {
     if (r.has_score() && is_kept(r)) protocols.insert(r.kind->protocol);
   });
@@ -130,8 +134,7 @@ std::vector<Table> tables_by_sequence(const std::filesystem::path& store,
   const std::string baseline = read_run(store).at("baseline");
   const auto is_kept = where(rules);
   RecordReader reader(store);
-  if (!separates(spec, {"protocol"}) && reader.has_several_protocols() &&
-      has_protocols(store, is_kept)) {
+  if (!separates(spec, {"protocol"}) && has_protocols(reader, store, is_kept)) {
     spec.split.emplace_back("protocol");
   }
   std::vector<Table> out;
