@@ -96,19 +96,6 @@ inline bool limits_time(const std::vector<Tolerance>& limits) {
   return std::ranges::any_of(limits, [](const Tolerance& limit) { return limits_time(limit); });
 }
 
-/// A function that returns whether a score is checked: every score except a measured time without a
-/// limit about times.
-inline std::function<bool(const Record&)> is_checked(const std::vector<Tolerance>& limits) {
-  std::vector<std::function<bool(const Record&)>> of_times;
-  for (const Tolerance& limit : limits) {
-    if (limits_time(limit)) of_times.push_back(where(limit.where));
-  }
-  return [of_times](const Record& score) {
-    return !is_measured_time(score) ||
-           std::ranges::any_of(of_times, [&](const auto& selects) { return selects(score); });
-  };
-}
-
 /// Whether some of its cells were computed by a build with uncommitted changes.
 inline bool is_dirty(const std::map<std::string, std::string>& build_summary) {
   const auto source = build_summary.find("source");
@@ -128,17 +115,33 @@ inline std::vector<std::span<const Record>> by_cell(const std::vector<Record>& r
   return out;
 }
 
-/// The checked ones of a store's records, for a snapshot. O(n log n).
+/// A function that returns the first of the limits whose `where` selects a score, or null. It keeps
+/// references to `limits`.
+inline std::function<const Tolerance*(const Record&)> limit_of(
+    const std::vector<Tolerance>& limits) {
+  std::vector<std::function<bool(const Record&)>> filters;
+  for (const Tolerance& limit : limits) filters.push_back(where(limit.where));
+  return [filters, &limits](const Record& score) {
+    const auto selects = [&](const auto& keeps) { return keeps(score); };
+    const auto found = std::ranges::find_if(filters, selects) - filters.begin();
+    return found == std::ssize(filters) ? nullptr : &limits[static_cast<std::size_t>(found)];
+  };
+}
+
+/// The checked ones of a store's records, for a snapshot: every score except a measured time
+/// without a limit about times. O(n log n).
 inline std::vector<Record> checked_records(std::vector<Record> records,
                                            const std::vector<Tolerance>& limits) {
-  const auto is_kept = is_checked(limits);
+  std::vector<Tolerance> of_times = limits;
+  std::erase_if(of_times, [](const Tolerance& limit) { return !limits_time(limit); });
+  const auto time_limit = limit_of(of_times);
   const auto position = [](const Record& r) { return r.cell->position; };
   std::ranges::stable_sort(records, {}, position);  // derived ones are last
   std::vector<Record> out;
   for (const std::span<const Record> cell : by_cell(records)) {
     const std::size_t before = out.size();
     for (const Record& r : cell) {
-      if (r.has_score() && !is_kept(r)) continue;
+      if (r.has_score() && is_measured_time(r) && time_limit(r) == nullptr) continue;
       Record& kept = out.emplace_back(r);
       if (!has_numbers(r.status)) kept.pairs = kept.possible = 0;
     }
@@ -158,19 +161,6 @@ inline std::string numbers_of(const Tolerance& limit) {
                      fmt::join(limit.values, ", "),
                      limit.relative,
                      limit.absolute);
-}
-
-/// A function that returns the first of the limits whose `where` selects a score, or null. It keeps
-/// references to `limits`.
-inline std::function<const Tolerance*(const Record&)> limit_of(
-    const std::vector<Tolerance>& limits) {
-  std::vector<std::function<bool(const Record&)>> filters;
-  for (const Tolerance& limit : limits) filters.push_back(where(limit.where));
-  return [filters, &limits](const Record& score) {
-    const auto selects = [&](const auto& keeps) { return keeps(score); };
-    const auto found = std::ranges::find_if(filters, selects) - filters.begin();
-    return found == std::ssize(filters) ? nullptr : &limits[static_cast<std::size_t>(found)];
-  };
 }
 
 /// Throws InputError if the baseline has no limits, or a limit that selects none of its scores:

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -61,46 +60,6 @@ std::string recording_key(const ObservedRun& run) {
   return recording.empty() && is_measured ? run.group : std::string(recording);
 }
 
-/// Group number of each run: runs that share a key of either kind are in one group.
-std::vector<std::size_t> joined(const std::vector<std::vector<std::string>>& keys) {
-  std::vector<std::size_t> group(keys.size());
-  std::iota(group.begin(), group.end(), std::size_t{0});
-  std::map<std::string, std::size_t> first;
-  for (std::size_t run = 0; run < keys.size(); ++run) {
-    for (const std::string& key : keys[run]) {
-      const std::size_t other = group[first.emplace(key, run).first->second];
-      const std::size_t own = group[run];
-      if (own == run) {
-        group[run] = other;  // without others yet
-      } else if (own != other) {
-        std::ranges::replace(group, own, other);
-      }
-    }
-  }
-  NameOrder order;
-  for (std::size_t& g : group) g = order.index(std::to_string(g));
-  return group;
-}
-
-/// Files of one recording under several names are one sequence.
-std::string sequence_key(const ObservedRun& run) {
-  const std::string_view recording = recording_of(run.group);
-  return recording.empty() ? run.sequence : std::string(recording);
-}
-
-std::vector<std::size_t> groups(const Observations& all,
-                                const std::vector<std::size_t>& runs,
-                                Over over) {
-  std::vector<std::vector<std::string>> keys;
-  for (const std::size_t run : runs) {
-    const ObservedRun& r = all.runs[run];
-    std::vector<std::string>& own = keys.emplace_back();
-    own.push_back("group " + r.group);
-    if (over == Over::sequences) own.push_back("sequence " + sequence_key(r));
-  }
-  return joined(keys);
-}
-
 std::size_t count(const std::vector<std::size_t>& group) {
   return group.empty() ? 0 : 1 + *std::ranges::max_element(group);
 }
@@ -144,7 +103,7 @@ KeptRuns select_runs(const Observations& all, Comparison& out) {
       row.push_back(one.is_loss ? std::optional(kFailed) : one.value);
     }
   }
-  kept.values.group = groups(all, kept.runs, out.options.over);
+  kept.values.group = group_numbers(all, kept.runs, out.options.over == Over::sequences);
   kept.values.better = all.kind.better;
   kept.values.target = all.kind.target;
   kept.values.is_paired = out.is_paired;

@@ -86,6 +86,15 @@ class ObservationsBuilder {
 std::vector<Observations> observations(const std::vector<Record>& records,
                                        const std::string& value);
 
+/// What runs of one sequence share: files of one recording under several names are one sequence.
+std::string sequence_key(const ObservedRun& run);
+
+/// Number of the group of each of these runs; with `by_sequence`, of its groups and sequences that
+/// are connected.
+std::vector<std::size_t> group_numbers(const Observations& all,
+                                       const std::vector<std::size_t>& runs,
+                                       bool by_sequence);
+
 /// Keeps the first run of every set with equal content; a loss on one of them is a loss on the kept
 /// run. Returns the number of dropped runs, and collects methods whose values on equal content
 /// differ by more than a tie.

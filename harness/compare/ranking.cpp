@@ -1,9 +1,8 @@
-#include "harness/compare/ranking.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "harness/compare/compare.hpp"
 #include "harness/compare/signed_rank.hpp"
 
 namespace loopbench::harness {

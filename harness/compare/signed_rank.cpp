@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "harness/compare/ranks.hpp"
-
 namespace loopbench::harness {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "harness/compare/ranking.hpp"
+#include "harness/compare/compare.hpp"
 #include "harness/model/record.hpp"
 #include "harness/model/sweep.hpp"
 #include "harness/tables/table.hpp"

@@ -10,7 +10,7 @@
 
 #include "harness/compare/compare.hpp"
 #include "harness/compare/observations.hpp"
-#include "harness/compare/ranks.hpp"
+#include "harness/compare/signed_rank.hpp"
 #include "harness/model/name_order.hpp"
 #include "harness/tables/notes.hpp"
 #include "harness/tables/pivot.hpp"

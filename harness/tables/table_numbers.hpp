@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "harness/compare/ranking.hpp"
+#include "harness/compare/compare.hpp"
 #include "harness/model/name_order.hpp"
 #include "harness/model/record.hpp"
 #include "harness/model/sweep.hpp"

@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "harness/compare/rank_sum.hpp"
-#include "harness/compare/ranks.hpp"
 #include "harness/compare/signed_rank.hpp"
 #include "metrics/numerics/average.hpp"
 

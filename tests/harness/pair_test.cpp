@@ -6,8 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "harness/compare/ranking.hpp"
-#include "harness/compare/ranks.hpp"
+#include "harness/compare/compare.hpp"
 #include "harness/compare/signed_rank.hpp"
 
 namespace loopbench::pair_test {

@@ -1,10 +1,9 @@
 /// Sentence, standings and ratios of random sweeps never contradict each other.
-#include "harness/compare/ranking.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "harness/compare/compare.hpp"
 #include "tests/studies/synthetic_records.hpp"
 #include "tests/support/compared_sweep.hpp"
 
