@@ -5,9 +5,11 @@
 /// No correction for multiple scores.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/compare/observations.hpp"
@@ -40,6 +42,13 @@ enum class Standing {
   behind,  ///< significantly worse
   open     ///< not significantly different
 };
+inline auto choices(Standing) {
+  return std::array{std::pair{"leader", Standing::leader},
+                    std::pair{"equal", Standing::equal},
+                    std::pair{"near", Standing::near},
+                    std::pair{"behind", Standing::behind},
+                    std::pair{"open", Standing::open}};
+}
 
 /// The best of several methods.
 ///
@@ -57,7 +66,6 @@ struct Ranking {
   /// Fewest groups for which it can be; of independent runs, fewest of each method and sequence.
   std::size_t groups_needed = 1;
 
-  bool is_leading(std::size_t method) const { return standings[method] < Standing::behind; }
   /// Whether the leading methods are significantly better than all others; false if all are equal.
   bool is_best() const;
 };

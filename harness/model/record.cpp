@@ -39,11 +39,11 @@ std::string field(const Record& record, const std::string& name) {
   if (name == "label") return record.kind->metric_label();
   if (name == "status") return to_text(record.status);
   if (name == "score") return record.kind->short_name();
-  std::vector<std::string> known{"sequence", "repeat", "method", "closures"};
   for (const KindField& each : kKindFields) {
     if (name == each.name) return (*record.kind).*each.text;
-    known.emplace_back(each.name);
   }
+  std::vector<std::string> known{"sequence", "repeat", "method", "closures"};
+  for (const KindField& each : kKindFields) known.emplace_back(each.name);
   known.insert(known.end(), {"status", "score"});
   throw InputError(unknown_name("column", name, known));
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "datasets/core/fields.hpp"
 #include "harness/tables/record_csv.hpp"
 
 namespace loopbench::harness {
@@ -34,22 +35,6 @@ std::string median_text(const Comparison& c, const MethodVerdict& m, int digits)
   if (m.runs == 0) return "-";
   const std::string over = m.fails > 0 ? fmt::format(" ({} of {})", m.runs, c.runs) : "";
   return fixed(m.median, digits) + over;
-}
-
-const char* standing_name(Standing standing) {
-  switch (standing) {
-    case Standing::leader:
-      return "leader";
-    case Standing::equal:
-      return "equal";
-    case Standing::near:
-      return "near";
-    case Standing::behind:
-      return "behind";
-    case Standing::open:
-      break;
-  }
-  return "open";
 }
 
 std::string number_or_empty(const std::optional<double>& value) {
@@ -153,7 +138,7 @@ std::string csv(const std::vector<Comparison>& comparisons) {
                          m.losses,
                          m.ties,
                          number_or_empty(m.p),
-                         standing_name(m.standing),
+                         to_text(m.standing),
                          fields(m.from_leader));
     }
   }
@@ -204,7 +189,7 @@ std::string json(const std::vector<Comparison>& comparisons, int indent) {
            {"worse", m.losses},
            {"equal", m.ties},
            {"p", number_or_null(m.p)},
-           {"standing", standing_name(m.standing)},
+           {"standing", to_text(m.standing)},
            {"leader_ratio", number_or_null(typical_of(m.from_leader))},
            {"leader_interval", interval_json(m.from_leader)}});
     }

@@ -26,9 +26,9 @@ std::string column_name(const Record& r,
 }
 
 /// Records of different kinds must not be averaged: all labels but sequence, repeat and method.
-std::string kind_of(const Record& r) {
-  return r.kind->times + " / " + r.kind->metric_label() + " / " + r.kind->relation + " / " +
-         r.kind->axis + " [" + r.kind->unit + "]";
+std::string kind_text(const ScoreKind& kind) {
+  return kind.times + " / " + kind.metric_label() + " / " + kind.relation + " / " + kind.axis +
+         " [" + kind.unit + "]";
 }
 
 /// Ignores single values and scores with as many errors as evaluated poses.
@@ -57,9 +57,9 @@ std::string run_key(const CellRow& cell) {
 }
 
 /// The entry at the position, made if it is new.
-Entry& entry_at(TableNumbers& table, std::size_t row, std::size_t column) {
+TableEntry& entry_at(TableNumbers& table, std::size_t row, std::size_t column) {
   if (table.entries.size() <= row) table.entries.resize(row + 1);
-  std::vector<Entry>& entries = table.entries[row];
+  std::vector<TableEntry>& entries = table.entries[row];
   if (entries.size() <= column) entries.resize(column + 1);
   return entries[column];
 }
@@ -92,12 +92,11 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
   }
   const std::size_t column = table.columns.index(column_name(record, spec.columns, spec.value));
   table.records.back().column = column;
-  const std::size_t kind = table.kinds.index(kind_of(record));
-  Entry& entry = entry_at(table, row, column);
-  if (entry.kind == Entry::kNoKind) entry.kind = kind;
-  if (entry.kind != kind) {
-    throw InputError("an entry of this table would average '" + table.kinds.names()[entry.kind] +
-                     "' with '" + table.kinds.names()[kind] +
+  TableEntry& entry = entry_at(table, row, column);
+  if (entry.tried.empty()) entry.kind = record.kind;
+  if (entry.kind != record.kind && kind_text(*entry.kind) != kind_text(*record.kind)) {
+    throw InputError("an entry of this table would average '" + kind_text(*entry.kind) +
+                     "' with '" + kind_text(*record.kind) +
                      "'; add the column in which they differ");
   }
   entry.tried.insert(run);
@@ -123,8 +122,8 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
 void explain_averages(Table& out, const TableNumbers& table, const TableSpec& spec) {
   std::size_t most = 1;
   bool has_gain = false;
-  for (const std::vector<Entry>& row : table.entries) {
-    for (const Entry& entry : row) {
+  for (const std::vector<TableEntry>& row : table.entries) {
+    for (const TableEntry& entry : row) {
       most = std::max(most, entry.kept().size());
       has_gain = has_gain || entry.is_gain;
     }
@@ -142,7 +141,7 @@ TableMean mean_at(const TableNumbers& table, std::size_t row, std::size_t column
   if (const auto lost = table.row_status.find(row); lost != table.row_status.end()) {
     out.status = lost->second;
   }
-  const Entry& entry = table.entries[row][column];
+  const TableEntry& entry = table.entries[row][column];
   if (!entry.status.empty()) out.status = entry.status;
   if (entry.values.empty()) return out;
   out.value = entry.average();
@@ -175,7 +174,7 @@ Table finish(TableNumbers& table,
       oracle_closures_note(table.oracle_sequences, table.oracle_sequences.size());
   if (!oracle.empty()) out.notes.push_back(oracle);
   table.entries.resize(table.rows.names().size());
-  for (std::vector<Entry>& row : table.entries) row.resize(columns.size());
+  for (std::vector<TableEntry>& row : table.entries) row.resize(columns.size());
   for (const bool along_columns : {true, false}) {
     if (!(along_columns ? down_columns : along_rows)) continue;
     const std::string text = keep_common_runs(table, along_columns);

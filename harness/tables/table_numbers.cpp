@@ -8,9 +8,9 @@ namespace loopbench::harness {
 namespace {
 
 /// 1 - the geometric mean ratio. Of several values of a method on a run the last one counts.
-double mean_gain(const Entry& entry) {
+double mean_gain(const TableEntry& entry) {
   std::map<std::size_t, std::map<std::pair<SharedText, std::size_t>, double>> by_group;
-  for (const Entry::Value& one : entry.values) {
+  for (const TableEntry::Value& one : entry.values) {
     if (one.is_kept) by_group[one.group][{one.method, one.run}] = one.value;
   }
   std::vector<double> groups;
@@ -33,7 +33,7 @@ bool intersect(const RunSet& a, const RunSet& b) {
 
 /// The runs of one entry with values.
 struct EntryRuns {
-  Entry* entry = nullptr;
+  TableEntry* entry = nullptr;
   RunSet tried;     ///< runs with any outcome
   RunSet finished;  ///< runs with a number; subset of `tried`
   RunSet known;     ///< finished, or failed where another entry has finished; empty for an oracle
@@ -50,10 +50,10 @@ LaneRuns lane_runs(TableNumbers& table, std::size_t lane, bool along_columns) {
   const std::size_t entries = (along_columns ? table.rows : table.columns).names().size();
   for (std::size_t i = 0; i < entries; ++i) {
     const std::size_t row = along_columns ? i : lane;
-    Entry& entry = table.entries[row][along_columns ? lane : i];
+    TableEntry& entry = table.entries[row][along_columns ? lane : i];
     if (entry.values.empty()) continue;
     EntryRuns& own = out.entries.emplace_back(EntryRuns{&entry, entry.tried, {}, entry.lost});
-    for (const Entry::Value& one : entry.values) {
+    for (const TableEntry::Value& one : entry.values) {
       if (one.is_kept) own.finished.insert(one.run);
     }
     const auto add = [&](const auto& losses, const auto& key) {
@@ -142,7 +142,7 @@ std::string common_runs_note(const std::map<std::string, std::set<std::size_t>>&
 
 }  // namespace
 
-std::vector<double> Entry::kept() const {
+std::vector<double> TableEntry::kept() const {
   std::vector<double> out;
   out.reserve(values.size());
   for (const Value& one : values) {
@@ -151,7 +151,7 @@ std::vector<double> Entry::kept() const {
   return out;
 }
 
-std::optional<double> Entry::average() const {
+std::optional<double> TableEntry::average() const {
   const std::vector<double> all = kept();
   // One zero error would make the geometric mean zero.
   const auto zeros = std::ranges::count(all, 100.0);
@@ -161,7 +161,7 @@ std::optional<double> Entry::average() const {
   return std::isfinite(out) ? std::optional(out) : std::nullopt;
 }
 
-std::optional<double> Entry::deviation() const {
+std::optional<double> TableEntry::deviation() const {
   const std::vector<double> all = kept();
   if (all.size() < 2) return std::nullopt;
   const double out = metrics::sample_deviation(all);
@@ -191,7 +191,7 @@ std::string keep_common_runs(TableNumbers& table, bool along_columns) {
       own.entry->missing = count_missing(lane, i);
       if (own.finished == common[i]) continue;
       counts[names[l]].insert(common[i].size());
-      for (Entry::Value& one : own.entry->values) {
+      for (TableEntry::Value& one : own.entry->values) {
         one.is_kept = one.is_kept && common[i].contains(one.run);
       }
     }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -23,9 +22,7 @@ namespace loopbench::harness {
 using RunSet = std::set<std::size_t>;  ///< numbers of runs
 
 /// What one entry of a table averages.
-struct Entry {
-  static constexpr std::size_t kNoKind = std::numeric_limits<std::size_t>::max();
-
+struct TableEntry {
   struct Value {
     std::size_t run = 0;
     std::size_t group = 0;
@@ -35,8 +32,8 @@ struct Entry {
   };
 
   std::vector<Value> values = {};
-  std::string status = {};     ///< of a record that has no value
-  std::size_t kind = kNoKind;  ///< number of its texts in TableNumbers::kinds; or no record
+  std::string status = {};      ///< of a record that has no value
+  Shared<ScoreKind> kind = {};  ///< of a record
   bool is_gain = false;
   bool is_oracle = false;
   bool is_stated = false;  ///< has times that programs state
@@ -69,13 +66,12 @@ struct TableNumbers {
 
   NameOrder rows;
   NameOrder columns;
-  NameOrder kinds;
   NameOrder runs;
   NameOrder groups;
   std::vector<std::size_t> group_of_run;
   std::vector<PlacedRecord> records;
-  std::vector<std::vector<Entry>> entries;    // [row][column]; missing at the ends: no record
-  std::map<std::size_t, RunSet> lost_by_row;  // runs without any score
+  std::vector<std::vector<TableEntry>> entries;  // [row][column]; missing at the ends: no record
+  std::map<std::size_t, RunSet> lost_by_row;     // runs without any score
   std::map<SharedText, RunSet> lost_by_method;
   /// Smallest and largest number of errors behind the values of a column, if it differs from the
   /// evaluated poses: a relative error has fewer pairs, a closure residual one error per closure.
