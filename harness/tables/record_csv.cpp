@@ -25,7 +25,11 @@ std::vector<std::string> fields_of(const Record& r) {
                                quoted(r.cell->closures),
                                boolean(r.cell->oracle_closures),
                                boolean(r.cell->oracle)};
-  for (const KindField& each : kKindFields) out.push_back(quoted(field(r, each.name)));
+  out.reserve(40);
+  for (const KindField& each : kKindFields) {
+    const bool is_label = each.text == &ScoreKind::label;
+    out.push_back(quoted(is_label ? r.kind->metric_label() : (*r.kind).*each.text));
+  }
   out.push_back(to_text(r.kind->better));
   out.push_back(r.kind->better == metrics::Better::target ? fmt::format("{}", r.kind->target) : "");
   // An undefined score has empty fields, not zeros.
@@ -58,6 +62,10 @@ bool is_formula(const std::string& text) {
 }  // namespace
 
 std::string quoted(const std::string& raw) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  if (std::ranges::all_of(raw, is_plain)) return raw;  // as most are
   const std::string text = (is_formula(raw) ? "'" : "") + printable(raw);
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string out = "\"";
