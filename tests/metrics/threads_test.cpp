@@ -46,7 +46,7 @@ TEST(Evaluations, ThreadsDoNotMatter) {
   parallel_for_tasks(together.size(), [&](std::size_t i) {
     together[i] = errors(reference, estimate, "loopbench");
   });
-  EXPECT_GT(together[0].size(), 10u);
+  EXPECT_GE(together[0].size(), 8u);
   EXPECT_EQ(together[0], together[1]);
 }
 
