@@ -19,7 +19,6 @@ namespace {
 
 using namespace test;
 
-
 Problem simulated(SimulatedPath path, bool planar, std::int64_t seed) {
   return test::simulated_drive({.path = path, .closures = 10, .seed = seed, .planar = planar})
       .problem;
