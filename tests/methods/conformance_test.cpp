@@ -162,11 +162,21 @@ TEST_P(Conformance, SamplesDoNotDependOnOrderOrOnOtherTimes) {
   EXPECT_TRUE(same_bits(sorted, backwards));
 }
 
+/// Relative accuracy of a method's poses. Reweighted losses converge linearly: stopped at a
+/// relative change of 1e-14 of the cost, they are about its root away from the minimum.
+double accuracy(const MethodEntry& entry) {
+  const bool is_reweighted = std::ranges::any_of(entry.options, [](const OptionInfo& option) {
+    return option.name == "loss" && to_text(option.value) != "none";
+  });
+  return is_reweighted ? 10.0 * 1e-7 : 1e-9;
+}
+
 TEST_P(Conformance, IsIndependentOfTheWorldFrame) {
   for (const auto& [name, problem] : ordinary_problems()) {
     SCOPED_TRACE(name);
     const double size = size_of(problem) + kElsewhere.translation.norm();
-    expect_close(sampled(problem), sampled_elsewhere(problem), 1e-9 * size, 1e-9);
+    const double limit = accuracy(GetParam());
+    expect_close(sampled(problem), sampled_elsewhere(problem), limit * size, limit);
   }
 }
 
