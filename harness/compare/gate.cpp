@@ -57,12 +57,12 @@ std::string why_not_comparable(const ScoreKind& before, const ScoreKind& now) {
 }
 
 /// The records of one cell.
-using Cell = std::span<const Record>;
+using CellRecords = std::span<const Record>;
 
-std::string name(const Cell& cell) { return cell.front().cell->name(); }
+std::string name(const CellRecords& cell) { return cell.front().cell->name(); }
 
 /// A cell with scores has no failure of its own.
-Status status_of(const Cell& cell) {
+Status status_of(const CellRecords& cell) {
   return cell.front().has_score() ? Status::ok : cell.front().status;
 }
 
@@ -70,16 +70,16 @@ class Checker {
  public:
   Checker(const Baseline& baseline, const Snapshot& now, GateExtent extent)
       : extent_(extent), limit_of_(limit_of(baseline.limits)) {
-    const std::vector<Cell> before = by_cell(baseline.snapshot.records);
-    const std::vector<Cell> cells = by_cell(now.records);
-    for (const Cell& cell : cells) now_.emplace(name(cell), cell);
-    const auto is_there = [&](const Cell& cell) { return now_.contains(name(cell)); };
+    const std::vector<CellRecords> before = by_cell(baseline.snapshot.records);
+    const std::vector<CellRecords> cells = by_cell(now.records);
+    for (const CellRecords& cell : cells) now_.emplace(name(cell), cell);
+    const auto is_there = [&](const CellRecords& cell) { return now_.contains(name(cell)); };
     if (std::ranges::none_of(before, is_there)) {
       throw InputError("the baseline is from another sweep: the results contain no cell of '" +
                        baseline.snapshot.sweep + "'");
     }
-    for (const Cell& cell : before) add(cell);
-    for (const Cell& cell : cells) {
+    for (const CellRecords& cell : before) add(cell);
+    for (const CellRecords& cell : cells) {
       if (now_.contains(name(cell)))
         find(Finding::Kind::added, name(cell), "", "not in the baseline");
     }
@@ -133,7 +133,7 @@ class Checker {
          "oracle: closures are measured in the reference");
   }
 
-  void add(const Cell& before) {
+  void add(const CellRecords& before) {
     const std::string label = name(before);
     const auto found = now_.find(label);
     if (found == now_.end() && extent_ == GateExtent::part) return;
@@ -143,7 +143,7 @@ class Checker {
       find(Finding::Kind::regression, label, "", "missing");
       return;
     }
-    const Cell now = found->second;
+    const CellRecords now = found->second;
     now_.erase(found);
     oracle(*before.front().cell, *now.front().cell);
     if (!status(status_of(before), status_of(now), label, "")) return;
@@ -218,8 +218,8 @@ class Checker {
   std::function<const Tolerance*(const Record&)> limit_of_;
   std::size_t implausible_ = 0;  // errors that nearly vanished
   std::string first_implausible_;
-  std::size_t unlimited_ = 0;        // scores without a limit
-  std::map<std::string, Cell> now_;  // cells that the baseline did not have so far
+  std::size_t unlimited_ = 0;               // scores without a limit
+  std::map<std::string, CellRecords> now_;  // cells that the baseline did not have so far
   GateReport report_;
 };
 

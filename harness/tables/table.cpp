@@ -160,12 +160,11 @@ std::string padded(const std::string& text, std::size_t columns, bool left) {
   return left ? text + gap : gap + text;
 }
 
-std::string one_line(const std::string& text) {
-  std::string out = text;
-  for (char& c : out) {
+std::string one_line(std::string text) {
+  for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   }
-  return printable(out);
+  return printable(text);
 }
 
 }  // namespace loopbench::harness

@@ -108,6 +108,6 @@ std::string json(const std::vector<Table>& tables);
 std::string padded(const std::string& text, std::size_t columns, bool left);
 
 /// Replaces line breaks, tabs and other control characters by spaces.
-std::string one_line(const std::string& text);
+std::string one_line(std::string text);
 
 }  // namespace loopbench::harness

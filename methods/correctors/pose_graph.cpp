@@ -169,9 +169,9 @@ double anneal(Optimisation& run) {
     run.solve(intermediate);
   }
   constexpr double kOtherMinimum = 1e-6;  // relative cost difference that indicates another minimum
-  std::vector<ScaledPose> annealed = run.poses;
+  const std::vector<ScaledPose> annealed = run.poses;
   const bool is_lower = run.solve(settings).cost < direct.cost * (1.0 - kOtherMinimum);
-  run.poses = is_lower ? std::move(annealed) : start;
+  run.poses = is_lower ? annealed : start;
   return direct.cost_before;
 }
 

@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Trajectories for transcripts: `. $DATA/../transcripts/paths.sh`. All print lines "t x y z qx qy qz qw".
 
 # path ERROR [START [POSES]]: a winding way, with an error of that size [m]; other starts are other ways.
