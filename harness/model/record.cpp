@@ -6,6 +6,7 @@
 #include "harness/base/suggest.hpp"
 
 namespace loopbench::harness {
+
 double CellRow::milliseconds() const {
   const bool is_unknown = runs == 0 && has_numbers(status);
   return is_unknown ? std::numeric_limits<double>::quiet_NaN() : seconds * 1000;

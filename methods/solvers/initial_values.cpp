@@ -134,8 +134,8 @@ class System {
   Eigen::MatrixXd right_;
 };
 
-struct PairedEdges {
-  explicit PairedEdges(const Problem& problem) {
+struct ChordalEdges {
+  explicit ChordalEdges(const Problem& problem) {
     for (const std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
       for (const Edge& edge : *edges) all.emplace_back(&edge, weights_of(edge));
     }
@@ -157,7 +157,7 @@ struct PairedEdges {
 };
 
 /// Relaxes the rotations about the z axis of keyframe 0 to (cos, sin).
-void planar_rotations(const PairedEdges& edges,
+void planar_rotations(const ChordalEdges& edges,
                       const EliminationStructure& structure,
                       std::vector<ScaledPose>& out) {
   System<2> rotations(structure, 1);
@@ -176,7 +176,7 @@ void planar_rotations(const PairedEdges& edges,
 
 /// R_j = R_i Z is equivalent to R_j' = Z' R_i': the unknowns are the transposes, three rows per
 /// keyframe.
-void spatial_rotations(const PairedEdges& edges,
+void spatial_rotations(const ChordalEdges& edges,
                        const EliminationStructure& structure,
                        std::vector<ScaledPose>& out) {
   System<3> rotations(structure, 3);
@@ -229,7 +229,7 @@ std::vector<ScaledPose> chordal_values(const Problem& problem,
   out[0].pose = problem.keyframes[0].world_from_body;
   if (n == 1) return out;
 
-  const PairedEdges edges(problem);
+  const ChordalEdges edges(problem);
   const EliminationStructure& structure = cache.of(static_cast<int>(n) - 1, edges.pairs());
   if (problem.planar) {
     planar_rotations(edges, structure, out);
