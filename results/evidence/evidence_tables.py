@@ -11,8 +11,8 @@ from statistics import median
 
 from article.verdicts import table
 
-ROBUST = ("pose_graph_cauchy", "pose_graph_dcs", "pose_graph_gnc_tls", "pose_graph_pcm")
-LIDAR = ("kiss_icp", "elastic_icp", "steam_icp", "steam_lo", "simple_lidar_odom", "imls", "loam")
+SMOOTHERS = ("tracked_frames", "cubic_spline", "gp_wnoa", "spline, quasi-keyframes", "smoother N4", "smoother M7",
+             "smoother robust")
 ROWS = """
 select cell.id, cell.position, cell.sequence, repeat, method, cell.status, cpu_seconds_median as seconds,
   peak_memory as memory, group_name as grouped, sequence.closures as closures,
@@ -73,47 +73,30 @@ def chain_parts(program, store):
     def means(runs, method):
         return geometric_mean([found[run][method] / found[run]["dual"] for run in runs if method in found[run]])
 
-    def by(key, head, more):
-        lines = []
-        for name in dict.fromkeys(key[run] for run in found):
-            lines.append((name, [run for run in found if key[run] == name]))
-        if key is family:
-            lines += [("LiDAR, all", [r for r in found if family[r] in LIDAR]),
-                      ("the others", [r for r in found if family[r] not in LIDAR])]
-        else:
-            lines.sort(key=lambda line: line[0])
-        return aligned((*head, *(m for m in methods if m != "dual")), [
-            (name, *more(runs), *(f"{means(runs, m):.2f}" for m in methods if m != "dual"))
-            for name, runs in lines])
-
-    parts = {
-        "by odometer": by(family, ("odometer", "chains", "routes"),
-                          lambda runs: (str(len(runs)), str(len({route[r] for r in runs})))),
-        "by route": by(route, ("route", "chains", "closures", "dual [m]", "dual above raw"), lambda runs: (
-            str(len(runs)), "-".join(map(str, sorted({f(known[r]["closures"] for r in runs) for f in (min, max)}))),
-            digits(geometric_mean([found[r]["dual"] for r in runs])),
-            str(sum(found[r]["dual"] > found[r].get("raw", math.inf) for r in runs)))),
-    }
-    routes = sorted(set(route.values()))
-    everywhere, rescaled = (program.compared(store, baseline) for baseline in ("dual", "dual rescaled"))
-    forward = program.compared(store, "dual", "sequence~.*[^8]$")
+    routes, others = sorted(set(route.values())), [m for m in methods if m != "dual"]
     lines = []
-    for method in methods:
-        if method == "dual":
-            continue
-        row, ratios = everywhere[method], {r: e[method] / e["dual"] for r, e in found.items() if method in e}
+    for name in routes:
+        runs = [run for run in found if route[run] == name]
+        lines.append((name, str(len(runs)),
+                      "-".join(map(str, sorted({f(known[r]["closures"] for r in runs) for f in (min, max)}))),
+                      digits(geometric_mean([found[r]["dual"] for r in runs])),
+                      str(sum(found[r]["dual"] > found[r].get("raw", math.inf) for r in runs)),
+                      *(f"{means(runs, m):.2f}" for m in others)))
+    parts = {"by route": aligned(("route", "chains", "closures", "dual [m]", "dual above raw", *others), lines)}
+    compared, lines = program.compared(store, "dual"), []
+    for method in others:
+        row, ratios = compared[method], {r: e[method] / e["dual"] for r, e in found.items() if method in e}
         worst = max(ratios, key=ratios.get)
         of_route = {name: means([r for r in found if route[r] == name], method) for name in routes}
         low, high = (f(of_route, key=of_route.get) for f in (min, max))
         lines.append((method, ratio_text(row), f"{float(row['p']):.2g}" if row["p"] else "-",
-                      "" if method == "dual rescaled" else ratio_text(rescaled[method]), ratio_text(forward[method]),
                       f"{row['better']}/{row['worse']}/{row['equal']}",
                       f"{of_route[low]:.2f} ({low})", f"{of_route[high]:.2f} ({high})",
                       str(sum(ratio > 1.05 for ratio in ratios.values())), f"{ratios[worst]:.2f} ({worst[0]})"))
-    parts["correctors"] = aligned(("method", "ratio to `dual`", "p", "ratio to `dual rescaled`", "to `dual`, without KITTI 08",
-                                   "routes", "lowest route", "highest route", "chains above 1.05", "highest chain"), lines)
+    parts["correctors"] = aligned(("method", "ratio to `dual`", "p", "routes", "lowest route", "highest route",
+                                   "chains above 1.05", "highest chain"), lines)
     parts["chains"] = (f"{len(found)} chains of {len({name.split(' (')[0] for name in family.values()})} odometers on"
-                       f" {len(routes)} routes, {forward['dual']['groups']} without KITTI 08.\n")
+                       f" {len(routes)} routes.\n")
     kept = rows_of(store, KEPT)
     if kept:
         least = min(kept, key=lambda row: row["kept"] / row["closures"])
@@ -134,11 +117,7 @@ def outlier_parts(program, store):
         columns.append(["; ".join((*((ratio_text(compared[m]),) if m != "pose_graph_pcm" else ()),
                                    str(sum(e.get(m, math.inf) > e["raw"] for e in runs)))) for m in methods])
         head.append(f"{100 * float(share):g} % false ({len(runs)} runs, {compared['raw']['groups']} routes)")
-    above = [(run[0].split(" (")[0], m) for run, each in found.items() for m in ROBUST if each.get(m, math.inf) > each["raw"]]
-    counted = "; ".join(f"{chain}: " + ", ".join(f"{m} {above.count((chain, m))}" for m in ROBUST if (chain, m) in above)
-                        for chain in dict.fromkeys(chain for chain, _ in above))
-    return {"outliers": aligned(head, [(m, *(column[k] for column in columns)) for k, m in enumerate(methods)]),
-            "above raw": f"Runs of robust methods above `raw`, at all shares: {counted or 'none'}.\n"}
+    return {"outliers": aligned(head, [(m, *(column[k] for column in columns)) for k, m in enumerate(methods)])}
 
 
 def spacing_part(program, stores):
@@ -147,9 +126,8 @@ def spacing_part(program, stores):
         for value in ("0.3", "0.8", "1.6"):
             columns[title, value] = program.compared(store, "polyline", rf"sequence~.*value={re.escape(value)}\)")
             row = columns[title, value]["polyline"]
-            head.append(f"{title}, {value} s ({row['runs']} runs, {row['groups']} groups)")
-    methods = [m for m in next(iter(columns.values())) if m != "polyline"]
-    return aligned(head, [(m, *(ratio_text(c[m]) if m in c else "" for c in columns.values())) for m in sorted(methods)])
+            head.append(f"{title} ({row['runs']}), {value} s")
+    return aligned(head, [(m, *(ratio_text(c[m]) if m in c else "" for c in columns.values())) for m in SMOOTHERS])
 
 
 def graph_part(store):
@@ -178,7 +156,12 @@ def cost_part(stores):
         own = [row for name, row in cells if name == method]
         good = [row for row in own if row["status"] == "ok"]
         seconds = [row["seconds"] for row in good] or [math.nan]
-        lines.append((method, str(len(own)), str(sum(r["status"] == "declined" for r in own)),
-                      str(sum(r["status"] not in ("ok", "declined") for r in own)), digits(1e3 * median(seconds)),
-                      digits(1e3 * max(seconds)), digits(max((r["memory"] for r in good), default=math.nan) / 2**20)))
-    return aligned(("method", "cells", "declined", "failed", "median [ms]", "maximum [ms]", "memory [MiB]"), lines)
+        lines.append((method, str(len(own)), digits(1e3 * median(seconds)), digits(1e3 * max(seconds)),
+                      digits(max((r["memory"] for r in good), default=math.nan) / 2**20)))
+    return aligned(("method", "cells", "median [ms]", "maximum [ms]", "memory [MiB]"), lines)
+
+
+def status_text(stores):
+    found = [row["status"] for store in stores for row in {row["id"]: row for row in rows_of(store)}.values()]
+    declined = found.count("declined")
+    return f"{len(found)} cells: {declined} declined, {len(found) - declined - found.count('ok')} failed.\n"

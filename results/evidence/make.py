@@ -23,7 +23,9 @@ RESULTS = Path(__file__).resolve().parents[1]
 ROOT = RESULTS.parent
 sys.path[:0] = [str(RESULTS), str(RESULTS / "paper")]
 
-from evidence_tables import chain_parts, cost_part, graph_part, outlier_parts, spacing_part  # noqa: E402
+from evidence_tables import (  # noqa: E402
+    chain_parts, cost_part, graph_part, outlier_parts, spacing_part, status_text,
+)
 from pages import with_parts  # noqa: E402
 
 SWEEPS = ("configs/chains_real.yaml", "configs/outliers_real.yaml", "configs/pose_graphs.yaml",
@@ -90,7 +92,7 @@ def parts_of(program):
     chains, outliers, graphs, *spacing = stores = [program.store(config) for config in SWEEPS]
     return {**chain_parts(program, chains), **outlier_parts(program, outliers), "graphs": graph_part(graphs),
             "spacing": spacing_part(program, dict(zip(("cameras", "roads"), spacing))),
-            "costs": cost_part(stores), "times": time_part(program, stores)}
+            "costs": cost_part(stores), "times": status_text(stores) + time_part(program, stores)}
 
 
 def main():

@@ -15,7 +15,7 @@ LOOPBENCH = os.path.abspath(sys.argv[1])
 sys.path.insert(0, str(EVIDENCE))
 
 from make import Program, builds_of, with_parts  # noqa: E402
-from evidence_tables import chain_parts, cost_part, outlier_parts  # noqa: E402
+from evidence_tables import chain_parts, cost_part, outlier_parts, status_text  # noqa: E402
 
 DRIVE = "dataset: simulated, closures.max: 4"
 CHAINS = "".join(f"  - {{{DRIVE}, label: {odometer} {route}, group: KITTI {route}, seed: {seed}}}\n" for seed, (odometer, route) in
@@ -67,10 +67,9 @@ class Evidence(unittest.TestCase):
                     errors[row["sequence"], row["method"]] = float(row["rmse"])
         logs = [math.log(errors[chain, "uniform"] / errors[chain, "dual"]) for chain in ("kiss_icp 00", "viso2 00")]
         parts = chain_parts(self.program, self.chains)
-        self.assertIn("3 chains of 2 odometers on 2 routes, 1 without KITTI 08.\n", parts["chains"])
+        self.assertIn("3 chains of 2 odometers on 2 routes.\n", parts["chains"])
         route = cells(parts["by route"])["KITTI 00"]
         self.assertEqual((route["chains"], route["uniform"]), ("2", f"{math.exp(sum(logs) / 2):.2f}"))
-        self.assertEqual(list(cells(parts["by odometer"])), ["kiss_icp", "viso2", "LiDAR, all", "the others"])
         corrector = cells(parts["correctors"])["uniform"]
         self.assertEqual(corrector["p"], "-")  # two groups are too few
         self.assertNotIn("[", corrector["ratio to `dual`"])
@@ -80,7 +79,8 @@ class Evidence(unittest.TestCase):
         self.assertEqual(list(cells(parts["outliers"])["dual"])[1:],
                          ["0 % false (1 runs, 1 routes)", "50 % false (1 runs, 1 routes)"])
         cost = cells(cost_part([self.chains, self.outliers]))["dual"]
-        self.assertEqual((cost["cells"], cost["declined"], cost["failed"]), ("5", "0", "0"))
+        self.assertEqual(cost["cells"], "5")
+        self.assertEqual(status_text([self.chains, self.outliers]), "25 cells: 0 declined, 0 failed.\n")
         self.assertEqual(len(builds_of(self.chains)), 1)
 
     def test_written_parts_are_stable(self):
