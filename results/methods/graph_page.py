@@ -22,7 +22,6 @@ select method, label, relation, axis, score.rmse, cpu_seconds_median, peak_memor
        odometry + sequence.closures as edges, sequence
 from cell join sequence using (sequence_key) left join score on score.cell = cell.id
 where cell.status = 'ok' order by cell.position"""
-COSTS = ["cost", "cost as g2o", "cost as SE-Sync"]
 
 
 def number(value):
@@ -41,22 +40,17 @@ def print_table(store):
         method, label, relation, axis, value, seconds, memory, poses, edges, name = row
         graph = graphs.setdefault(name, {"poses": poses, "edges": edges})
         own = graph.setdefault(method, {"seconds": seconds, "memory": memory})
-        if label in COSTS and axis == "all":
-            own[label] = value
+        if label == "cost" and axis == "all":
+            own["cost"] = value
         if relation == "gap":
             own["gap " + axis] = value
-    print("| graph | poses | edges | cost | as g2o | as SE-Sync | from odometry | certificate | estimate [%]"
-          " | ms | MB |")
-    print("| --- |" + " ---: |" * 6 + " --- |" + " ---: |" * 3)
+    print("| graph | poses | edges | cost | from odometry | certificate | ms | MB |")
+    print("| --- |" + " ---: |" * 4 + " --- |" + " ---: |" * 2)
     for name, graph in graphs.items():
-        solved = graph["pose_graph"]
-        odometry = graph.get("pose_graph from odometry", {})
-        estimate = solved.get("gap estimate")
-        print(f"| {name} | {graph['poses']} | {graph['edges']} | "
-              + " | ".join(number(solved.get(cost)) for cost in COSTS)
-              + f" | {number(odometry.get('cost'))} | {gap(solved.get('gap minimum'))} | "
-              + ("-" if estimate is None else f"{estimate:.3g}")
-              + f" | {1e3 * solved['seconds']:.3g} | {solved['memory'] / 2**20:.0f} |")
+        solved, odometry = graph["pose_graph"], graph.get("pose_graph from odometry", {})
+        print(f"| {name} | {graph['poses']} | {graph['edges']} | {number(solved.get('cost'))}"
+              f" | {number(odometry.get('cost'))} | {gap(solved.get('gap minimum'))}"
+              f" | {1e3 * solved['seconds']:.3g} | {solved['memory'] / 2**20:.0f} |")
 
 
 def positions_in(file):
