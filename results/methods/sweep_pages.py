@@ -1,4 +1,4 @@
-"""Pages of sweeps: tables per run, gains over the keyframe interval, tables of two thresholds."""
+"""Pages of sweeps: errors by run, gains over the keyframe interval, gains over two thresholds."""
 
 from __future__ import annotations
 
@@ -7,27 +7,9 @@ import re
 
 import numpy as np
 
-from article import manifold
 from article.drawing import Panel, write_figure
-from article.judge_complete import is_real_time
 from article.verdicts import percent_change, signed_tenths, table
 
-#: Title, label, axis, times, relation, factor and digits of a column, which is hidden if no cell
-#: has a number.
-COLUMNS = [
-    ("x, keyframes [mm]", "axis_error", "x", "keyframes", "translation", 1e3, 1),
-    ("y", "axis_error", "y", "keyframes", "translation", 1e3, 1),
-    ("z", "axis_error", "z", "keyframes", "translation", 1e3, 1),
-    ("3-D", "ate", "3d", "keyframes", "translation", 1e3, 1),
-    ("x, densely [mm]", "axis_error", "x", "dense", "translation", 1e3, 1),
-    ("y", "axis_error", "y", "dense", "translation", 1e3, 1),
-    ("z", "axis_error", "z", "dense", "translation", 1e3, 1),
-    ("3-D", "ate", "3d", "dense", "translation", 1e3, 1),
-    ("rotation [deg]", "ate", "3d", "dense", "rotation", 1.0, 2),
-    ("RPE 1 s [mm]", "rpe 1 s", "3d", "dense", "translation", 1e3, 1),
-    ("closure residual [mm]", "closure_residual", "3d", "keyframes", "translation", 1e3, 1),
-    ("[deg]", "closure_residual", "3d", "keyframes", "rotation", 1.0, 2),
-]
 INTERVAL = " (keyframes.value="
 #: Methods in the plots of the gain; the tables have all.
 PLOTTED = {"cubic_spline": "#2ca02c", "spline, quasi-keyframes": "#9467bd",
@@ -51,72 +33,51 @@ class Sweep:
         return 100 * (1 - cell.ate() / self.raw(dataset).ate()) if cell else math.nan
 
 
-def _gain_text(gain):
-    return signed_tenths(gain) if math.isfinite(gain) else ""
+def page_of(name):
+    """The page of a config; "argument" is that of "argument_mono", too."""
+    return name.split("_")[0]
 
 
-def _method_table(sweep, dataset):
-    cells = [cell for (run, _), cell in sweep.cells.items() if run == dataset]
-    shown = [k for k in COLUMNS if any(c.score(*k[1:5]) for c in cells)]
+def _method_table(sweeps):
+    """Dense 3-D ATE [mm] of each method on each run, and its change [%] against the baseline."""
+    runs = [(sweep, run) for sweep in sweeps for run in sweep.datasets]
+    lines, notes = [], {}
+    for method in dict.fromkeys(method for sweep in sweeps for method in sweep.methods):
+        found = [sweep.cells.get((run, method)) for sweep, run in runs]
+        used = [cell.oracle for cell in found if cell and cell.status == "ok" and cell.oracle]
+        notes.update(dict.fromkeys(used))
+        lines.append((method + " *" * bool(used), *(_change_text(cell, *each) for cell, each in zip(found, runs))))
+    head = ("method", *(run for _, run in runs))
+    return ("\n" + table(head, ("---", *["---:"] * len(runs)), *lines) + "\n" * bool(notes)
+            + "".join(f"`*` {note}.\n" for note in notes))
+
+
+def _change_text(cell, sweep, run):
+    if not cell or cell.status != "ok":
+        return cell.why if cell else ""
+    change = percent_change(cell.ate() / sweep.raw(run).ate() - 1).removesuffix(" %")
+    return f"{1e3 * cell.ate():.1f}" + f" ({change})" * (cell.method != sweep.baseline)
+
+
+def _interval(cell):
+    """Median interval between keyframes [s]."""
+    return float(np.median(np.diff(cell.keyframes[:, 0])))
+
+
+def _gain_summary(sweep):
+    """Per method and keyframe interval: median gain [%], and in how many runs it gains."""
+    intervals = list(dict.fromkeys(dataset.split(INTERVAL)[1][:-1] for dataset in sweep.datasets))
     lines = []
-    for cell in cells:
-        name = cell.method + " (oracle)" * bool(cell.oracle)
-        if cell.status != "ok":
-            lines.append((name, *[""] * len(shown), cell.why, ""))
-            continue
-        found = [(cell.score(*k[1:5]), k[5], k[6]) for k in shown]
-        lines.append((name,
-                      *(f"{factor * s['rmse']:.{digits}f}" if s else ""
-                        for s, factor, digits in found),
-                      percent_change(cell.ate() / sweep.raw(dataset).ate() - 1),
-                      {None: "", True: "yes", False: "no"}[is_real_time(cell)]))
-    head = ("method", *(k[0] for k in shown), "change of dense 3-D", "faster than recorded")
-    notes = dict.fromkeys(cell.oracle for cell in cells if cell.status == "ok" and cell.oracle)
-    return (f"\n## {dataset}\n\n" + table(head, ("---", *["---:"] * (len(head) - 1)), *lines)
-            + "".join(f"\n{note}.\n" for note in notes))
-
-
-def spacing(keyframes):
-    """Median interval [s], and median angle between consecutive steps [deg]."""
-    steps = manifold.steps(keyframes)
-    angles = manifold.angles(steps[:-1], steps[1:])
-    return float(np.median(np.diff(keyframes[:, 0]))), math.degrees(np.median(angles))
-
-
-def _gain_summary(sweep, methods):
-    """Per keyframe interval: median gain of each method, and in how many runs it gains."""
-    intervals = dict.fromkeys(d.split(INTERVAL)[1][:-1] for d in sweep.datasets)
-    lines = []
-    for interval in intervals:
-        runs = [d for d in sweep.datasets if d.endswith(f"{INTERVAL}{interval})")]
-        line = [interval]
-        for method in methods:
-            gains = [g for run in runs if math.isfinite(g := sweep.gain(run, method))]
-            line.append(f"{signed_tenths(np.median(gains))} ({sum(g > 0 for g in gains)} of"
-                        f" {len(gains)})" if gains else "")
+    for method in sweep.methods:
+        line = [method]
+        for interval in intervals if method != sweep.baseline else ():
+            runs = [dataset for dataset in sweep.datasets if dataset.endswith(f"{INTERVAL}{interval})")]
+            gains = [gain for run in runs if math.isfinite(gain := sweep.gain(run, method))]
+            positive = sum(gain > 0 for gain in gains)
+            line.append(f"{signed_tenths(np.median(gains))} ({positive}/{len(gains)})" if gains else "")
         lines.append(line)
-    return ("\n## Median gain [%] over all runs, and the number of runs with a gain\n\n"
-            + table(("interval at least [s]", *methods), ["---:"] * (1 + len(methods)), *lines))
-
-
-def _gain_matrix(sweep):
-    """Gain of each method on each run, with properties of the run's keyframes."""
-    methods = [method for method in sweep.methods if method != sweep.baseline]
-    lines = []
-    for dataset in sweep.datasets:
-        raw = sweep.raw(dataset)
-        if raw.keyframes is None:
-            continue
-        interval, angle = spacing(raw.keyframes)
-        score = raw.score("interpolation_floor", "3d", "dense", "polyline")
-        floor = score["rmse"] if score else math.nan
-        lines.append((dataset, f"{interval:.2f}", f"{angle:.1f}", f"{1e3 * raw.ate():.1f}",
-                      f"{1e3 * floor:.1f}",
-                      *(_gain_text(sweep.gain(dataset, method)) for method in methods)))
-    head = ("run", "interval [s]", "angle [deg]", "ATE [mm]", "exact keyframes [mm]",
-            *methods)
-    return (_gain_summary(sweep, methods) + "\n## Runs\n\n"
-            + table(head, ("---", *["---:"] * (len(head) - 1)), *lines))
+    lines = [line for line in lines if len(line) > 1]
+    return "\n" + table(("method", *(f"{each} s" for each in intervals)), ("---", *["---:"] * len(intervals)), *lines)
 
 
 def _gain_figure(sweep, file):
@@ -125,7 +86,7 @@ def _gain_figure(sweep, file):
     for run in dict.fromkeys(dataset.split(INTERVAL)[0] for dataset in sweep.datasets):
         lines = []
         for method, color in PLOTTED.items():
-            points = [(spacing(sweep.raw(d).keyframes)[0], max(gain, -30.0)) for d in sweep.datasets
+            points = [(_interval(sweep.raw(d)), max(gain, -30.0)) for d in sweep.datasets
                       if d.split(INTERVAL)[0] == run and sweep.raw(d).keyframes is not None
                       and math.isfinite(gain := sweep.gain(d, method))]
             lines.append((method, color, points, 1.0))
@@ -135,32 +96,35 @@ def _gain_figure(sweep, file):
     write_figure(file, panels, 3)
 
 
-def _threshold_tables(sweep):
-    """One per run, of a method whose speed band (rows) and curvature threshold are swept."""
-    swept = {re.search(r"speed_band=([^,)]+), turn_max=([^,)]+)\)", method).groups(): method
-             for method in sweep.methods if method != sweep.baseline}
-    bands, turns = (list(dict.fromkeys(values)) for values in zip(*swept))
-    out = ""
-    for dataset in sweep.datasets:
-        lines = [(band, *(_gain_text(sweep.gain(dataset, swept[band, turn])) for turn in turns))
-                 for band in bands]
-        out += f"\n## {dataset}: gain in dense 3-D ATE over the polyline [%]\n\n" + table(
-            ("band [m/s] \\ curvature threshold [rad per keyframe]", *turns),
-            ["---:"] * (1 + len(turns)), *lines)
-    return out
+def _threshold_table(sweep):
+    """Smallest and largest gain [%] over the speed bands, by run and curvature threshold."""
+    swept = {method: re.search(r"turn_max=([^,)]+)\)", method)[1] for method in sweep.methods
+             if method != sweep.baseline}
+    turns = list(dict.fromkeys(swept.values()))
+    lines = []
+    for run in sweep.datasets:
+        line = [run]
+        for turn in turns:
+            gains = [gain for method in swept if swept[method] == turn
+                     and math.isfinite(gain := sweep.gain(run, method))]
+            line.append(f"{signed_tenths(min(gains))} to {signed_tenths(max(gains))}")
+        lines.append(line)
+    return "\n" + table(("run", *(f"{turn} rad" for turn in turns)), ("---", *["---:"] * len(turns)), *lines)
 
 
-def sweep_page(config, folder):
-    """Name and text of the page of a config; writes its figure."""
-    name, sweep = config.file.stem, Sweep(config)
-    title = name.replace("_", " ").capitalize()
-    description = re.match("description: >\n((?:  .*\n)*)", config.file.read_text(encoding="utf-8"))
-    text = f"# {title}\n\n" + description[1].replace("\n  ", "\n")[2:]
-    text += f"\nFrom configs/{config.file.name}.\n"
-    swept = [m.get("sweep", {}) for m in config.options["methods"] if isinstance(m, dict)]
+def sweep_page(configs, folder):
+    """Text of the page of some configs, which has the description of the first; writes its figures."""
+    description = re.match("description: >\n((?:  .*\n)*)", configs[0].file.read_text(encoding="utf-8"))
+    text = f"# {page_of(configs[0].file.stem).capitalize()}\n\n" + description[1].replace("\n  ", "\n")[2:]
+    text += "\nFrom " + ", ".join(f"configs/{config.file.name}" for config in configs) + ".\n"
+    sweeps = [Sweep(config) for config in configs]
+    swept = [m.get("sweep", {}) for m in configs[0].options["methods"] if isinstance(m, dict)]
     if any({"speed_band", "turn_max"} <= set(each) for each in swept):
-        return f"{name}.md", text + _threshold_tables(sweep)
-    if config.options.get("table", {}).get("rows") == ["sequence"]:
+        return text + _threshold_table(sweeps[0])
+    if configs[0].options.get("table", {}).get("rows") != ["sequence"]:
+        return text + _method_table(sweeps)
+    for config, sweep in zip(configs, sweeps):
+        name = config.file.stem
         _gain_figure(sweep, folder / f"{name}.svg")
-        return f"{name}.md", text + f"\n![{name}]({name}.svg)\n" + _gain_matrix(sweep)
-    return f"{name}.md", text + "".join(_method_table(sweep, run) for run in sweep.datasets)
+        text += _gain_summary(sweep) + f"\n![{name}]({name}.svg)\n"
+    return text

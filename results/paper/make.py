@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Makes the pages and figures of this folder, and those of the sweeps in results/methods/configs.
+"""Makes the tables and figures of this folder, and the pages of the sweeps in results/methods/configs.
 Needs the compiled Python package, PyYAML, matplotlib and what plugin/ builds; README.md has the
 commands."""
 
@@ -22,21 +22,18 @@ def article_pages(configs, out, readme=""):
     from article import judge_complete, judge_curves, judge_segments  # noqa: F401  registers judges
     from article.cells import Results
     from article.figures import write_figures
-    from article.judge_tables import front_table, other_keyframes, paper_tables
-    from article.statements import ARTICLE, counts, items, judged_sections, ledger, ledger_table
+    from article.judge_tables import front_table, paper_tables
+    from article.statements import ARTICLE, counts, items, judged_sections, ledger
 
     results = Results([cell for config in configs for cell in config.cells])
     sections = judged_sections(results)
     captions = write_figures(results, out / "paper")
     figures = "".join(f"\n![figure{k}.svg](figure{k}.svg)\n\n**Figure {k}.** {captions[k]}"
                       for k in sorted(captions))
-    pages = {
-        "paper/tables.md": paper_tables(results) + other_keyframes(results), "paper/figures.md": figures,
-        "paper/ledger.md": "\n" + ledger(sections),
-        "methods/own_readings.md": "\n" + ledger_table(items(ARTICLE["own_readings"], results)),
-    }
-    front = with_parts(readme, {"counts": counts(sections), "errors": front_table(results)})
-    return {name: ARTICLE["pages"][name] + text for name, text in pages.items()}, front
+    own = [("Our own readings, not of the article", list(items(ARTICLE["own_readings"], results)))]
+    pages = {"paper/tables.csv": paper_tables(results), "paper/figures.md": ARTICLE["figures"]["page"] + figures,
+             "paper/ledger.csv": ledger(sections + own)}
+    return pages, with_parts(readme, {"counts": counts(sections), "errors": front_table(results)})
 
 
 def main():
@@ -55,7 +52,7 @@ def main():
         given.data = os.environ["LOOPBENCH_DATA"] = str(Path(given.data).resolve())
 
     from article.runs import RUNS, Program, run_config
-    from sweep_pages import sweep_page
+    from sweep_pages import page_of, sweep_page
 
     program = Program(str(build / "loopbench"), str(build / "paper_readings.so"), given.data,
                       given.jobs)
@@ -63,7 +60,7 @@ def main():
     for file in sorted(RESULTS.glob("methods/configs/*")):
         if not file.stem.startswith("ablation"):  # their page is written by hand
             names[file.stem] = file
-    pages, article = {}, []
+    pages, article, sweeps = {}, [], {}
     for name, source in names.items():
         if given.only and name not in given.only:
             continue
@@ -76,8 +73,11 @@ def main():
         if name in RUNS["configs"]:
             article.append(config)
         else:
-            page, text = sweep_page(config, given.out / "methods")
-            pages[f"methods/{page}"] = text
+            sweeps[name] = config
+    for page in dict.fromkeys(map(page_of, sweeps)):
+        parts = [name for name in names if page_of(name) == page]
+        if all(name in sweeps for name in parts):  # otherwise it would lose the columns of the others
+            pages[f"methods/{page}.md"] = sweep_page([sweeps[name] for name in parts], given.out / "methods")
     if article:
         readme = (RESULTS / "paper" / "README.md").read_text(encoding="utf-8")
         found, front = article_pages(article, given.out, readme)

@@ -146,7 +146,7 @@ def _local_panels(results, raw):
     """Panels and details of segments, N = 3, 4, 5 from top to bottom."""
     place, curves = f"Figure {FIRST[raw.sequence]} ", ARTICLE["segments"] + ARTICLE["misread"]
     quoted = [s for s in ARTICLE["segments"] if s["place"].startswith(place)]
-    for row, variants in enumerate(zip(PLANAR, CUBICS)):
+    for variants in zip(PLANAR, CUBICS):
         for variant, it in zip(variants, quoted):
             ours, segment = results.find(raw, "text", variant), _segment_like(raw, it)
             if ours is None or ours.alignment is None or segment is None:
@@ -155,9 +155,7 @@ def _local_panels(results, raw):
             if it["best"].startswith(variant):  # as it is read last
                 drawn = [curve for curve in curves if curve["place"].startswith(it["place"])][-1]
                 panel.lines.extend(_printed_curve(drawn, panel.lines[0][2]))
-            window = raw.keyframes[segment["first"] : segment["first"] + 3 + row, 1:3]
-            equation = manifold.polynomial_text(window, 3 if "cubic" in variant else 2)
-            yield panel, ARTICLE["figures"]["segment"].format(equation=equation, it=it, **segment)
+            yield panel, ARTICLE["figures"]["segment"].format(**segment)
 
 
 def _complete_panels(results, raw):

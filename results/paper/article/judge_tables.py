@@ -9,7 +9,7 @@ import numpy as np
 from article.cells import ORB
 from article.statements import CHANGED_ROWS, ROWS, SEQUENCES, STATISTICS, judge
 from article.verdicts import (
-    CANNOT_BE_JUDGED, DOES_NOT_HOLD, HOLDS, OTHER_SIZE, TIED_CHANGE, agreed, percent_change, table,
+    CANNOT_BE_JUDGED, DOES_NOT_HOLD, HOLDS, OTHER_SIZE, TIED_CHANGE, agreed, csv_text, percent_change, table,
     verdict_on_change, verdict_on_smallest, when, within_factor,
 )
 
@@ -172,67 +172,25 @@ def front_table(results):
                   "at real stamps: keyframes", "densely"), ("---", "---", *["---:"] * 5), *lines)
 
 
-def _keyframe_line(results, raw, others, reading, variant, axis):
-    def ates(runs, times):
-        found = [results.find(run, reading, variant) for run in runs]
-        return [each["ate"] for cell in found if cell and (each := cell.axis(axis, times))]
-
-    def texts(runs):
-        each = [ates(runs, times) for times in ("keyframes", "dense")]
-        return [f"{min(found):.4f}" + f" to {max(found):.4f}" * (len(found) > 1) if found else ""
-                for found in each]
-
-    return (axis, variant, reading, *texts([raw]), *texts(others[:1]), *texts(others[1:]))
+def _line(row, source, variant, run, found, dense="", note=""):
+    sizes = [f"{found[name]:.4f}" for name in STATISTICS] if found else [""] * len(STATISTICS)
+    return (str(row["table"]), row["sequence"], row["axis"], variant, source, run, *sizes, dense, note)
 
 
-def other_keyframes(results):
-    """ATE along one axis of the closed runs at other keyframes."""
-    out = ""
-    for sequence in SEQUENCES:
-        runs, others = results.runs(sequence), results.resampled(sequence)
-        if not others:
-            continue
-        lines = [_keyframe_line(results, runs[0], others, reading, variant, axis)
-                 for axis, variants in (("y", PLANAR), ("z", SPATIAL + ABOVE))
-                 for variant in (ORB, *variants)
-                 for reading in (("",) if variant == ORB else ("equations", "text"))]
-        out += f"\n### Other keyframes: {sequence}, ATE along one axis [m]\n\n" + table(
-            ("axis", "variant", "reading", "resampled, at keyframes", "densely",
-             "real stamps, at keyframes", "densely", "three draws of them, at keyframes", "densely"),
-            ("---", "---", "---", *["---:"] * 6), *lines)
-    return out
-
-
-def _line(variant, source, found, dense="", runs="", note=""):
-    return (variant, source, *(f"{found[name]:.4f}" for name in STATISTICS), dense, runs, note)
-
-
-def _our_line(results, row, cell):
-    keyframes, dense = cell.axis(row["axis"], "keyframes"), cell.axis(row["axis"], "dense")
-    source = cell.reading or "raw keyframes"
-    if not (keyframes and dense):
-        return (cell.variant, source, *[""] * 7, cell.why)
-    ates = [found["ate"] for c in results.cells
-            if (c.sequence, c.method) == (cell.sequence, cell.method)
-            and (found := c.axis(row["axis"], "keyframes"))]
-    runs = f"{min(ates):.4f} to {max(ates):.4f} ({len(ates)})" if len(ates) > 1 else ""
-    return _line(cell.variant, source, keyframes, f"{dense['ate']:.4f}", runs, cell.oracle)
+def _our_line(row, cell):
+    dense = cell.axis(row["axis"], "dense")
+    return _line(row, cell.reading or "raw keyframes", cell.variant, cell.run, cell.axis(row["axis"], "keyframes"),
+                 f"{dense['ate']:.4f}" if dense else "", cell.why or "oracle" * bool(cell.oracle))
 
 
 def paper_tables(results):
-    """Four tables: errors at keyframes of the closed run in every reading, its dense ATE, and the
-    range of the ATE at keyframes over all runs. Rows that are inconsistent as printed, or that use
-    the reference, have a note."""
-    out = ""
+    """Tables 1 to 4 as CSV: printed rows, with a note if they are inconsistent, above ours in every
+    reading on every run. Errors along one axis [m] at keyframes (the ATE is their rmse), and the ATE
+    densely."""
+    lines = []
     for row in ROWS:
-        lines = [_line(row["variant"], "**printed**", row,
-                       note=row["flaw"] and "contradicts itself: " + row["flaw"])]
-        lines += [_our_line(results, row, cell) for cell in results.cells
-                  if (cell.sequence, cell.run) == (row["sequence"], "closed")
-                  and cell.variant.startswith(row["variant"])]
-        if row["variant"] == ORB:
-            out += f"\n### Table {row['table']}: {row['sequence']}, {row['axis']} axis [m]\n\n"
-            out += table(("variant", "source", "max", "min", "mean", "ATE", "RPE", "ATE densely",
-                          "ATE at keyframes, all runs", ""), ("---", "---", *["---:"] * 7, "---"))
-        out += table(*lines)
-    return out
+        lines.append(_line(row, "printed", row["variant"], "", row, note=row["flaw"]))
+        lines += [_our_line(row, cell) for cell in results.cells
+                  if cell.sequence == row["sequence"] and cell.variant.startswith(row["variant"])]
+    head = ("table", "sequence", "axis", "variant", "source", "run", *STATISTICS, "ate densely", "note")
+    return csv_text(head, lines)

@@ -116,15 +116,6 @@ def free_joints(keyframes: npt.ArrayLike, count: int) -> tuple[list[int], Array,
     return paper_manifold.free_joints(_rows(keyframes), count)
 
 
-def polynomial_text(points: npt.ArrayLike, degree: int) -> str:
-    """Coefficients of y = f(x) through (n, 2) points in the article's notation.
-
-    >>> polynomial_text([[-1, 1], [0, 3], [1, 7]], 2)
-    'alpha(2,0) = 1, alpha(1,0) = 3, alpha(0,1) = 1, alpha(0,0) = 3'
-    """
-    return paper_manifold.polynomial_text([(float(x), float(y)) for x, y in np.asarray(points)], degree)
-
-
 def level_up(keyframes: npt.ArrayLike) -> Array:
     """(3,) upward direction, estimated from cameras that rarely roll (x right, y down)."""
     return paper_manifold.level_up(_rows(keyframes))

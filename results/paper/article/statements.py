@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import yaml
 
-from article.verdicts import CANNOT_BE_JUDGED, GROUPS, VERDICTS, percent_change, table
+from article.verdicts import CANNOT_BE_JUDGED, GROUPS, csv_text, percent_change, table
 
 ARTICLE = yaml.safe_load(Path(__file__).with_name("article.yaml").read_text(encoding="utf-8"))
 SEQUENCES = {entry["sequence"]: entry for entry in ARTICLE["sequences"]}
@@ -87,29 +87,18 @@ def items(statements, results):
 
 
 def judged_sections(results):
-    """Title, note and rows of each section of the ledger."""
-    return [(section["title"], section.get("note", ""), list(items(section["statements"], results)))
-            for section in ARTICLE["sections"]]
-
-
-def ledger_table(rows):
-    head = ("where", "the article", "ours, closed run", "all runs", "verdict")
-    return table(head, ["---"] * 5, *((*row[:4], f"*{row.verdict}*") for row in rows))
+    """Title and rows of each section of the ledger."""
+    return [(section["title"], list(items(section["statements"], results))) for section in ARTICLE["sections"]]
 
 
 def ledger(sections):
-    """Statements per section and verdict, the rules of the verdicts, then all statements."""
-    numbers = [(title, str(len(rows)), *(str(sum(r.verdict == v for r in rows)) for v in VERDICTS))
-               for title, _, rows in sections]
-    out = table(("statements on", "number", *VERDICTS), ("---", *["---:"] * 9), *numbers)
-    out += "\n" + ARTICLE["rules"]
-    for title, note, rows in sections:
-        out += f"\n## {title}\n\n" + (note + "\n\n" if note else "") + ledger_table(rows)
-    return out
+    """All statements as CSV, one a row."""
+    rows = [(title, *row) for title, found in sections for row in found]
+    return csv_text(("statements on", "where", "the article", "ours, closed run", "all runs", "verdict"), rows)
 
 
 def counts(sections):
     """Statements per section and group of verdicts, for the front page."""
     numbers = [(title, *(str(sum(r.verdict in g for r in rows)) for g in GROUPS.values()))
-               for title, _, rows in sections]
+               for title, rows in sections]
     return table(("statements on", *GROUPS), ("---", *["---:"] * len(GROUPS)), *numbers)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import math
 
 HOLDS, OTHER_SIZE, TIE = "holds", "same sign, other size", "tie"
 DOES_NOT_HOLD, CONTRADICTS = "does not hold", "contradicts itself"
 MISPRINT, CANNOT_BE_JUDGED, UNDECIDED = "misprint or gap", "cannot be judged", "undecided"
-VERDICTS = (HOLDS, OTHER_SIZE, TIE, UNDECIDED, DOES_NOT_HOLD, CONTRADICTS, MISPRINT,
-            CANNOT_BE_JUDGED)
 #: What the front page distinguishes.
 GROUPS = {
     "holds": (HOLDS,), "in part": (OTHER_SIZE,), "undecided": (UNDECIDED, TIE),
@@ -70,3 +70,9 @@ def percent_change(change):
 def table(*rows):
     """A Markdown table of rows of texts, the second of which is the rule."""
     return "".join("|" + "".join(f" {c} |" if c else " |" for c in row) + "\n" for row in rows)
+
+
+def csv_text(head, rows):
+    out = io.StringIO()
+    csv.writer(out, lineterminator="\n").writerows([head, *rows])
+    return out.getvalue()

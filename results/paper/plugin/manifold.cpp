@@ -151,12 +151,6 @@ py::tuple free_joints(const Array& keyframes, std::size_t nodes_per_window) {
   return py::make_tuple(joints, rows_of(before), rows_of(after));
 }
 
-std::string polynomial_text(const std::vector<std::pair<double, double>>& points, int degree) {
-  std::vector<Vector2> list;
-  for (const auto& [x, y] : points) list.emplace_back(x, y);
-  return coefficient_text(fit_polynomial(list, degree), degree);
-}
-
 /// Upward direction of cameras that are carried level.
 Array level_up(const Array& keyframes) {
   return array_of(level_axes(at_least_two(keyframes)).conjugate() * Vector3::UnitZ());
@@ -184,7 +178,6 @@ PYBIND11_MODULE(paper_manifold, module) {
       .def("admits_window", &KeyframePath::admits_window)
       .def("fit_window", &KeyframePath::fit_window);
   module.def("free_joints", &free_joints);
-  module.def("polynomial_text", &polynomial_text);
   module.def("level_up", &level_up);
   module.def("least_variance_axis", &least_variance_axis);
 }
