@@ -4,6 +4,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
+#include "harness/model/name_order.hpp"
 #include "harness/report/curve.hpp"
 #include "harness/report/report.hpp"
 #include "harness/store/read.hpp"
@@ -71,10 +72,13 @@ ReportContent read_report_content(const std::filesystem::path& store, std::size_
   read_scores(baseline, bytes, out);
   out.cells = read_cells(store);
   if (out.cells.empty()) throw InputError(store.string() + ": has no cells to report");
+  NameOrder sequences, methods;
   for (const CellRow& cell : out.cells) {
-    add_new(out.sequences, cell.sequence);
-    add_new(out.methods, cell.method);
+    sequences.index(cell.sequence);
+    methods.index(cell.method);
   }
+  out.sequences = sequences.names();
+  out.methods = methods.names();
   add_derived(out.records, baseline);
   std::set<SharedText> with_records;
   for (const Record& r : out.records) with_records.insert(r.cell->sequence);

@@ -124,22 +124,16 @@ nlohmann::json sections_json(const std::vector<methods::Section>& sections, doub
   return out;
 }
 
-/// The repeats of each sequence, in order.
-std::map<std::string, std::set<std::int64_t>> repeats_of(const std::vector<CellRow>& cells) {
-  std::map<std::string, std::set<std::int64_t>> out;
-  for (const CellRow& cell : cells) out[cell.sequence].insert(cell.repeat);
-  return out;
-}
-
-/// Cells of the first `repeats` repeats of their sequence, as indices into `cells`.
-std::vector<std::size_t> drawn_cells(const std::vector<CellRow>& cells, std::size_t repeats) {
-  const auto known = repeats_of(cells);
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const std::set<std::int64_t>& own = known.at(cells[i].sequence);
-    const auto before = std::distance(own.begin(), own.find(cells[i].repeat));
-    if (static_cast<std::size_t>(before) < repeats) out.push_back(i);
+/// For each cell the number of smaller repeats of its sequence. O(n log n).
+std::vector<std::size_t> ranks_of_repeats(const std::vector<CellRow>& cells) {
+  std::map<std::string, std::map<std::int64_t, std::size_t>, std::less<>> ranks;
+  for (const CellRow& cell : cells) ranks[cell.sequence][cell.repeat];
+  for (auto& [sequence, own] : ranks) {
+    for (std::size_t next = 0; auto& [repeat, rank] : own) rank = next++;
   }
+  std::vector<std::size_t> out;
+  for (const CellRow& cell : cells)
+    out.push_back(ranks.find(cell.sequence.text())->second.at(cell.repeat));
   return out;
 }
 
@@ -147,13 +141,13 @@ std::vector<std::size_t> drawn_cells(const std::vector<CellRow>& cells, std::siz
 
 Thinning thinning_for(const ReportContent& content, double bytes) {
   Thinning out{0, 1};
-  for (const auto& [sequence, own] : repeats_of(content.shown_cells)) {
-    out.repeats = std::max(out.repeats, own.size());
-  }
+  const std::vector<std::size_t> ranks = ranks_of_repeats(content.shown_cells);
+  for (const std::size_t rank : ranks) out.repeats = std::max(out.repeats, rank + 1);
   for (;; out.repeats = (out.repeats + 1) / 2) {
-    const std::size_t cells = drawn_cells(content.shown_cells, out.repeats).size();
+    const auto cells =
+        std::ranges::count_if(ranks, [&](std::size_t rank) { return rank < out.repeats; });
     const double points =
-        bytes / (kBytesOfAPoint * static_cast<double>(std::max<std::size_t>(1, cells)));
+        bytes / (kBytesOfAPoint * static_cast<double>(std::max<std::ptrdiff_t>(1, cells)));
     out.points = static_cast<std::size_t>(
         std::clamp(points, double{kLeastPoints}, double{kMostPointsOfACell}));
     if (out.points >= kGoodPoints || out.repeats == 1) return out;
@@ -167,7 +161,9 @@ nlohmann::json traces_json(const ReportContent& content, const Thinning& thinnin
   std::map<std::pair<std::string, Column>, std::size_t> grid_of;  // sequence and stamps
   nlohmann::json grids = nlohmann::json::array();
   nlohmann::json cells = nlohmann::json::object();
-  for (const std::size_t i : drawn_cells(content.shown_cells, thinning.repeats)) {
+  const std::vector<std::size_t> ranks = ranks_of_repeats(content.shown_cells);
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
+    if (ranks[i] >= thinning.repeats) continue;
     const CellRow& cell = content.shown_cells[i];
     const std::string repeat = std::to_string(cell.repeat);
     nlohmann::json& sequence = sequences[cell.sequence];

@@ -69,7 +69,7 @@ std::string html_text(std::string_view text) {
 std::string script_text(const std::string& json) {
   std::string out;
   out.reserve(json.size());
-  for (const char c : json) out += c == '<' ? "\\u003c" : std::string(1, c);  // only in strings
+  for (const char c : json) c == '<' ? out += "\\u003c" : out += c;  // only in strings
   return out;
 }
 

@@ -61,8 +61,12 @@ std::string script_elements(const std::string& nonce) {
   return out;
 }
 
-std::string data_text(const nlohmann::json& data) {
-  return data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+/// An element of the page's data, as script text.
+std::string data_text(const char* name, const nlohmann::json& data) {
+  return fmt::format(
+      "\"{}\":{}",
+      name,
+      script_text(data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
 }
 
 /// Name of the sweep; of evaluated files their sequence, or the number of sequences.
@@ -75,12 +79,13 @@ std::string title_of(const std::vector<std::string>& sequences,
 
 /// The smallest page, or the first that is smaller than `bytes`.
 std::string thinned_html(const ReportContent& content, std::size_t bytes) {
-  nlohmann::json data{{"plane", content.plane},
-                      {"scores", scores_json(content)},
-                      {"comparisons", nlohmann::json::parse(json(content.comparisons, -1))}};
+  // As text, because the scores are most of a large report and need not be written again.
+  const std::string data =
+      data_text("plane", content.plane) + "," + data_text("scores", scores_json(content)) + "," +
+      data_text("comparisons", nlohmann::json::parse(json(content.comparisons, -1))) + ",";
   // Content-Security-Policy: the page runs its own scripts only and loads nothing. No text of the
   // sweep can contain the nonce, a hash of all of them.
-  const std::string nonce = hex(hash_of(data_text(data)));
+  const std::string nonce = hex(hash_of(data));
   Placeholders values{{"title", html_text(title_of(content.sequences, content.run))},
                       {"nonce", nonce},
                       {"style", "\n" + asset_text("page/report.css") + "\n"},
@@ -92,15 +97,14 @@ std::string thinned_html(const ReportContent& content, std::size_t bytes) {
                       {"costs", costs_html(content)},
                       {"provenance", provenance_html(content)},
                       {"scripts", script_elements(nonce)}};
-  std::size_t taken = data_text(data).size();
+  std::size_t taken = data.size();
   for (const auto& [name, text] : values) taken += text.size();
   const Thinning least = thinning_for(content, 0.0);
   const auto available = static_cast<double>(bytes - std::min(bytes, taken));
   double room = available;
   for (;;) {
     const Thinning thinning = thinning_for(content, room);
-    data["traces"] = traces_json(content, thinning);
-    values["data"] = script_text(data_text(data));
+    values["data"] = "{" + data + data_text("traces", traces_json(content, thinning)) + "}";
     std::string html = filled(asset_text("page/report.html"), values);
     if (html.size() <= bytes || thinning == least) return html;
     const auto traces = static_cast<double>(html.size() - std::min(html.size(), taken));
