@@ -13,6 +13,7 @@
 #include "datasets/core/pack.hpp"
 #include "datasets/core/params.hpp"
 #include "harness/base/child_process.hpp"
+#include "harness/base/descendants.hpp"
 #include "harness/base/result_area.hpp"
 #include "harness/base/system_file.hpp"
 
@@ -82,6 +83,7 @@ std::optional<ChildAnswer> answer_in(const ResultArea& area, pid_t writer) {
 }  // namespace
 
 std::string in_own_process(const std::function<std::string()>& work, const ProcessLimits& limits) {
+  const Subreaper reaper;  // of programs, which lead process groups of their own
   ResultArea area;
   std::fflush(nullptr);  // otherwise the process would print buffered output again
   ChildProcess child(ProcessGroup::own, [&] {

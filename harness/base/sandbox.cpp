@@ -150,9 +150,11 @@ std::vector<std::string> sandboxed_arguments(const SandboxOptions& options,
 }
 
 SandboxOptions& program_sandbox() {
-  static SandboxOptions options{.enabled = false};
+  static SandboxOptions options;
   return options;
 }
+
+bool is_sandboxed() { return program_sandbox().enabled && has_bubblewrap(); }
 
 std::string hidden_note(const SandboxOptions& options) {
   std::string out;

@@ -37,9 +37,11 @@ bool has_bubblewrap();
 std::vector<std::string> sandboxed_arguments(const SandboxOptions& options,
                                              const SandboxedProgram& program);
 
-/// The restrictions of programs that this process and processes forked from it start. Default:
-/// none.
+/// The restrictions of programs of configs that this process and processes forked from it start.
 SandboxOptions& program_sandbox();
+
+/// Whether programs are restricted here; results of unrestricted ones are kept under other keys.
+bool is_sandboxed();
 
 /// "; the sandbox hides A, B from it" for reasons of failures; "" if nothing is hidden.
 std::string hidden_note(const SandboxOptions& options);

@@ -215,6 +215,7 @@ std::string command_version(const CommandOptions& options, const CommandSetting&
   ProgramStart start;
   start.arguments = split_arguments("version", options.version);
   start.folder = setting.folder;
+  start.sandbox = &program_sandbox();
   std::string output;
   const ProgramEnd end = RunningProgram(start).wait(output);
   if (end.exit_code != 0) {

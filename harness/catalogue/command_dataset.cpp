@@ -96,15 +96,21 @@ std::set<std::filesystem::path> program_files(const CommandDatasetOptions& o,
   return out;
 }
 
+/// With what determines which files the program could read: its output can depend on the reference
+/// unless that was hidden.
 std::string output_key(const CommandDatasetOptions& o,
                        const std::set<std::filesystem::path>& program,
-                       const std::set<std::filesystem::path>& sequence) {
+                       const std::set<std::filesystem::path>& sequence,
+                       const DataRoot& root) {
   Fields out;
-  out.add("command dataset 2").add(o.run).add(o.shell ? "sh" : "").add(o.version);
+  out.add("command dataset 3").add(o.run).add(o.shell ? "sh" : "").add(o.version);
   out.add(std::to_string(o.trajectory.seed));
   for (const auto& file : program) out.add(hex(hash_of_file(file)));
   out.add("sequence");
   for (const auto& file : sequence) out.add(file.filename().string()).add(hex(hash_of_file(file)));
+  out.add(is_sandboxed() ? "sandbox" : "no sandbox");
+  for (const auto& folder : root.folders) out.add(std::filesystem::absolute(folder).string());
+  out.add(o.trajectory.reference);
   return out.hashed();
 }
 
@@ -230,7 +236,7 @@ Sequence load_command(const CommandDatasetOptions& o,
       cache.empty() ? std::filesystem::temp_directory_path() / "loopbench-programs"
                     : cache / "programs";
   const ProgramOutput out =
-      kept_output(kept, output_key(o, program, recording), [&](const auto& to) {
+      kept_output(kept, output_key(o, program, recording, root), [&](const auto& to) {
         return run_program(o, root, folder, sequence, to);
       });
   require_limits(o, out.cost);

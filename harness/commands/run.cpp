@@ -144,10 +144,7 @@ CellCounts compute(const RunPlan& plan,
     }
     progress.step(sweep.datasets[r.cell.dataset].label + " / " + method);
   };
-  SandboxOptions sandbox;
-  sandbox.enabled = !arguments.no_sandbox;
-  sandbox.hidden = {plan.given, plan.given / "results.sqlite"};
-  if (!arguments.data.empty()) sandbox.hidden.emplace_back(arguments.data);
+  const SandboxOptions sandbox = program_sandbox();
   run_isolated(sweep,
                resumed.missing,
                plan.known,
@@ -201,9 +198,18 @@ void tell(const RunPlan& plan, const CellCounts& counts, std::optional<Store>& s
       counts.abandoned == 0 ? "" : fmt::format(", {} running cells abandoned", counts.abandoned));
 }
 
+SandboxOptions sandbox_of(const RunPlan& plan, const RunArguments& arguments) {
+  SandboxOptions out;
+  out.enabled = !arguments.no_sandbox;
+  out.hidden = {plan.given, plan.given / "results.sqlite"};
+  if (!arguments.data.empty()) out.hidden.emplace_back(arguments.data);
+  return out;
+}
+
 /// Returns the exit code. Throws InputError, MissingPart.
 int run_config(const RunArguments& arguments, const Source& source) {
   const RunPlan planned = plan(arguments);
+  program_sandbox() = sandbox_of(planned, arguments);  // from here on programs can be started
   if (arguments.dry_run) {
     return dry_run(planned.sweep, planned.planned, planned.known, planned.root);
   }
@@ -215,7 +221,7 @@ int run_config(const RunArguments& arguments, const Source& source) {
   std::map<std::string, std::string> facts = provenance(source, planned.sweep, planned.known);
   if (arguments.save_trajectories) set_estimate_folder(planned.out / "trajectories");
   if (uses_programs(planned.sweep)) {
-    facts["sandbox"] = !arguments.no_sandbox && has_bubblewrap() ? "bubblewrap" : "none";
+    facts["sandbox"] = is_sandboxed() ? "bubblewrap" : "none";
   }
   CellKeys keys(planned.sweep, planned.known, planned.root, build_id(source.code));
   std::optional<Store> store(std::in_place, planned.store(), keys, facts, arguments.fresh);

@@ -14,6 +14,8 @@
 #include "harness/base/shell.hpp"
 #include "harness/base/wrap.hpp"
 #include "harness/base/write_file.hpp"
+#include "harness/catalogue/command_dataset.hpp"
+#include "harness/catalogue/external_methods.hpp"
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/catalogue/loading.hpp"
 #include "harness/commands/commands.hpp"
@@ -56,6 +58,7 @@ std::vector<std::string> bad_inputs(const Sweep& sweep,
     if (!seen.insert(cell.dataset).second) continue;
     const DatasetChoice& choice = sweep.datasets[cell.dataset];
     const DatasetEntry& entry = find_dataset(catalogue, choice.dataset.name);
+    const Limits limits = loading_limits(choice.dataset, sweep.limits);
     try {
       in_own_process(
           [&] {
@@ -66,7 +69,7 @@ std::vector<std::string> bad_inputs(const Sweep& sweep,
             }
             return std::string();
           },
-          {sweep.limits.seconds, sweep.limits.memory});
+          {limits.seconds, limits.memory});
     } catch (const MissingPart&) {
       throw;
     } catch (const ProcessFailure& error) {
@@ -149,6 +152,7 @@ int dry_run(const Sweep& sweep,
   } catch (const MissingPart& missing) {  // the inputs can be checked without it
     print_error("loopbench: this build cannot run it: {}\n", missing.what());
   }
+  const std::unique_ptr<const ScratchFolder> scratch = scratch_for_programs(sweep);
   const std::vector<std::string> reasons = bad_inputs(sweep, cells, catalogue, root);
   if (reasons.empty()) return kExitOk;
   for (const std::string& reason : reasons) {

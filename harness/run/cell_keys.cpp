@@ -1,6 +1,7 @@
 #include "harness/run/cell_keys.hpp"
 
 #include "harness/base/hash.hpp"
+#include "harness/base/sandbox.hpp"
 #include "harness/catalogue/external_methods.hpp"
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/run/summarise_sequence.hpp"
@@ -47,6 +48,7 @@ std::string evaluation_fields(const Sweep& sweep, const Catalogue& catalogue) {
       fields.add(program_version(metric.metric, command_setting(sweep)));
     }
   }
+  if (uses_programs(sweep) && !is_sandboxed()) fields.add("no sandbox");
   for (const metrics::Times times : sweep.times) fields.add(to_text(times));
   fields.add(to_text(sweep.min_coverage)).add(std::to_string(sweep.timing));
   fields.add(sweep.serial ? "serial" : "").add(sweep.traces ? "traces" : "");

@@ -199,6 +199,57 @@ TEST_F(CommandProcesses, ADatasetCannotReadTheReferenceOrWriteElsewhere) {
   unsetenv("LOOPBENCH_CACHE");
 }
 
+/// A dataset that copies the reference if it can, otherwise the estimate without its first pose.
+TEST_F(CommandProcesses, NoOutputOfAnUnrestrictedDatasetIsUsedByASweep) {
+  if (!has_bubblewrap()) GTEST_SKIP() << "no bubblewrap";
+  setenv("LOOPBENCH_CACHE", (folder_.path() / "cache").c_str(), 1);
+  write_recorded_sweep("  - raw\n");
+  const std::string config = read_all(folder_.path() / "c.yaml");
+  const std::string rest = config.substr(config.find('\n') + 1);
+  const auto write = [&](const std::string& options) {
+    folder_.file("c.yaml",
+                 "datasets: [{dataset: command, sequence: estimate.txt, " + options +
+                     "run: 'sh copies.sh {sequence} {trajectory}'}]\n" + rest);
+  };
+  folder_.file("copies.sh",
+               "touch outside 2>/dev/null\ncp reference.txt $2 2>/dev/null || sed 1d $1 >$2\n");
+  const auto poses = [&] {
+    successful_command("run c.yaml --out r", folder_);
+    return read_records(folder_.path() / "r").at(0).statistics.count;
+  };
+  write("reference: reference.txt, ");
+  successful_command("run c.yaml --dry-run", folder_);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "outside"));
+  EXPECT_EQ(poses(), 40u);
+  successful_command("run c.yaml --no-sandbox --out r", folder_);
+  EXPECT_EQ(read_records(folder_.path() / "r").at(0).statistics.count, 41u);
+  EXPECT_EQ(poses(), 40u) << "a cell of an unrestricted program is not kept, either";
+  std::filesystem::remove_all(folder_.path() / "cache");
+  write("");  // the program may read what is no reference
+  successful_command("run c.yaml --out other", folder_);
+  write("reference: reference.txt, ");
+  EXPECT_EQ(poses(), 40u);
+  unsetenv("LOOPBENCH_CACHE");
+}
+
+TEST_F(CommandProcesses, AProgramEndsWithTheDryRunThatWaitsForIt) {
+  setenv("LOOPBENCH_CACHE", (folder_.path() / "cache").c_str(), 1);
+  write_recorded_sweep("  - raw\n");
+  const std::string config = read_all(folder_.path() / "c.yaml");
+  folder_.file("c.yaml",
+               "datasets: [{dataset: command, seconds: 1, reference: reference.txt, run: \"sh -c "
+               "'trap : TERM; sleep 8781; : $0' {trajectory}\"}]\n" +
+                   config.substr(config.find('\n') + 1));
+  for (const char* option : {"", " --no-sandbox"}) {
+    const CommandResult ran =
+        loopbench_command("run c.yaml --dry-run" + std::string(option), folder_);
+    EXPECT_EQ(ran.exit_code, 2);
+    EXPECT_THAT(ran.err, HasSubstr("took longer than 1 s"));
+    EXPECT_TRUE(ends_soon("sleep 8781")) << option;
+  }
+  unsetenv("LOOPBENCH_CACHE");
+}
+
 TEST_F(CommandProcesses, MemoryOfTheTreeIsLimited) {
   const auto done = cells(entry("grows", R"("sh -c 'tail /dev/zero' {problem} {result}")"),
                           "limits: {memory: 700MiB}\n");
