@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> base_arguments() {
   std::istringstream words(
-      "bwrap --die-with-parent --unshare-pid --unshare-ipc --ro-bind / / --dev-bind /dev /dev "
+      "bwrap --die-with-parent --new-session --unshare-pid --unshare-ipc --cap-drop ALL "
+      "--ro-bind / / --dev-bind /dev /dev "
       "--tmpfs /dev/shm --proc /proc");
   return {std::istream_iterator<std::string>(words), {}};
 }
@@ -125,6 +126,10 @@ void append(std::vector<std::string>& out, const Views& views) {
         out.insert(out.end(), {"--bind", path.string(), path.string()});
         break;
     }
+  }
+  // After what is mounted in them; otherwise they would be memory that a program can fill.
+  for (const auto& [path, view] : views) {
+    if (view == View::hidden_folder) out.insert(out.end(), {"--remount-ro", path.string()});
   }
 }
 

@@ -82,6 +82,17 @@ TEST_F(Sandboxed, ItWritesIntoItsFolderForTemporaryFilesOnly) {
   EXPECT_EQ(end_.exit_code, 3);
 }
 
+TEST_F(Sandboxed, RootHasNoMoreRightsInItThanUsers) {
+  EXPECT_EQ(printed("umount ../data 2>/dev/null; ls ../data", {"data"}), "");
+  EXPECT_EQ(printed("(mount -o remount,rw,bind / /; mount -o remount,rw ../data; echo x >new || "
+                    "echo x >../data/new) 2>/dev/null || echo read-only",
+                    {"data"}),
+            "read-only\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "own/new"));
+  EXPECT_EQ(printed("grep CapEff /proc/self/status", {}), "CapEff:\t0000000000000000\n");
+  EXPECT_EQ(printed("(echo x >/dev/tty) 2>/dev/null || echo no terminal", {}), "no terminal\n");
+}
+
 TEST_F(Sandboxed, EndsOfProgramsAreReportedAsWithoutIt) {
   printed("exit 7", {});
   EXPECT_EQ(end_.exit_code, 7);
