@@ -82,7 +82,9 @@ bool is_joint(const Catalogue& catalogue,
   try {
     const auto work = [&] { return std::string(makes_joint() ? "joint" : ""); };
     return in_own_process(work, {.seconds = kLongestCheck}) == "joint";
-  } catch (const ProcessFailure&) {
+  } catch (const OptionError&) {
+    throw;
+  } catch (const std::exception&) {  // its cells will fail for the same reason and report it
     return entry.kind == methods::Kind::joint;
   }
 }

@@ -103,7 +103,29 @@ void check_in_own_process(const Check& check) {
       return std::string();
     };
     in_own_process(work, {.seconds = kLongestCheck});
-  } catch (const ProcessFailure&) {
+  } catch (const OptionError&) {
+    throw;
+  } catch (const std::exception&) {
+  }
+}
+
+/// What `make` returns; its exceptions, of the plugin's code, with the names of both.
+template <class Make>
+methods::Stage made(const path& object, const std::string& method, const Make& make) {
+  const auto error = [&](const char* why) {
+    return std::runtime_error(
+        fmt::format("plugin {}: method '{}': {}", object.filename().string(), method, why));
+  };
+  try {
+    return make();
+  } catch (const OptionError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& reason) {
+    throw error(reason.what());
+  } catch (...) {
+    throw error("threw an exception that is not a std::exception");
   }
 }
 
@@ -111,10 +133,14 @@ PluginEntry entry_of(const Description& d, const path& object, std::size_t i) {
   if (d.type == 0) {
     using Entry = methods::MethodEntry;
     Entry out{d.name, d.kind, d.summary, d.options, {}};
-    out.make = [=](const Params& given) { return loaded_entry<Entry>(object, i).make(given); };
+    out.make = [=](const Params& given) {
+      return made(object, d.name, [&] { return loaded_entry<Entry>(object, i).make(given); });
+    };
     if (!d.is_oracle) return out;
     out.make_oracle = [=](const Params& given, const Trajectory& reference) {
-      return loaded_entry<Entry>(object, i).make_oracle(given, reference);
+      return made(object, d.name, [&] {
+        return loaded_entry<Entry>(object, i).make_oracle(given, reference);
+      });
     };
     return out;
   }
@@ -165,13 +191,14 @@ std::string packed_description(const path& object) {
 
 }  // namespace
 
-DescribedPlugin describe_plugin(const path& object) {
+DescribedPlugin describe_plugin(const path& object, double seconds) {
   const path file = std::filesystem::absolute(object);  // cells may run in another folder
   std::vector<Description> entries;
   std::vector<std::string> libraries;
   program_libraries();  // before those of plugins are loaded
   try {
-    const std::string packed = in_own_process([&] { return packed_description(object); });
+    const std::string packed =
+        in_own_process([&] { return packed_description(object); }, {.seconds = seconds});
     Unpacker unpack(packed);
     unpack(entries)(libraries);
   } catch (const InputError&) {

@@ -22,7 +22,7 @@ struct DescribedPlugin {
 };
 
 /// What the plugin has, without running its code in this process. Throws InputError as
-/// load_plugin(), and if loading it ends the process or takes more than a minute.
-DescribedPlugin describe_plugin(const std::filesystem::path& object);
+/// load_plugin(), and if loading it ends the process or takes longer than `seconds`.
+DescribedPlugin describe_plugin(const std::filesystem::path& object, double seconds = 60.0);
 
 }  // namespace loopbench::harness

@@ -1,10 +1,14 @@
 // A plugin that hangs when it is made, has threads, and changes what it must not. The zoo has what
 // ends its process.
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <cfenv>
 #include <condition_variable>
 #include <cstdlib>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -24,6 +28,23 @@ struct HangsWhenMade final : Corrector {
   }
   Trajectory correct(const Problem& problem, Report&) const override { return problem.keyframes; }
 };
+
+struct ThrowsWhenMade final : Corrector {
+  using Options = NoOptions;
+  explicit ThrowsWhenMade(const Options&) { throw std::runtime_error("no licence"); }
+  Trajectory correct(const Problem& problem, Report&) const override { return problem.keyframes; }
+};
+
+/// Holds 400 MiB in a file in memory, which is not mapped.
+Trajectory fill_memory_file(const Problem& problem) {
+  const int file = memfd_create("x", 0);
+  const std::vector<char> block(std::size_t{1} << 20, 'x');
+  for (int i = 0; i < 400; ++i) {
+    if (write(file, block.data(), block.size()) < 0) throw std::runtime_error("cannot write");
+  }
+  sleep(1);
+  return problem.keyframes;
+}
 
 /// A thread that starts when the plugin is loaded and does all work, as the pool of OpenMP.
 class Pool {
@@ -77,6 +98,8 @@ LOOPBENCH_PLUGIN(method("exits",
                           pool.run();
                           return problem.keyframes;
                         }),
+                 method("fills_memory_file", "holds 400 MiB", fill_memory_file),
+                 method<ThrowsWhenMade>("throws_when_made", "throws in its constructor"),
                  method<HangsWhenMade>("hangs_when_made", "never returns from its constructor"),
                  metric<NoOptions>("rounds_upward", "leaves another rounding", rounds_upward),
                  metric<NoOptions>("moves_estimate", "writes through const", moves_estimate))

@@ -1,10 +1,13 @@
 /// Plugins whose code must not run in the sweep or change cells of others.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/catalogue/plugins.hpp"
 #include "harness/store/read.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/refusal_of.hpp"
 
 namespace loopbench {
 
@@ -33,6 +36,41 @@ TEST(Misbehaving, ItsCodeDoesNotRunInTheSweep) {
   ASSERT_EQ(cells.size(), 2u) << made.err;
   EXPECT_EQ(cells[0].status, Status::ok);
   EXPECT_EQ(cells[1].status, Status::timeout) << cells[1].why;
+}
+
+TEST(Misbehaving, AConstructorThatThrowsCostsItsOwnCells) {
+  const TemporaryFolder folder;
+  folder.file("c.yaml",
+              "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmetrics: [ate]\n"
+              "methods: [raw, throws_when_made]\n");
+  const CommandResult ran =
+      loopbench_command("run c.yaml --out r --plugin '" LOOPBENCH_MISBEHAVING "'", folder);
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  const std::vector<CellRow> cells = read_cells(folder.path() / "r");
+  ASSERT_EQ(cells.size(), 2u);
+  EXPECT_EQ(cells[0].status, Status::ok);
+  EXPECT_EQ(cells[1].status, Status::failed);
+  EXPECT_EQ(cells[1].why, "plugin misbehaving.so: method 'throws_when_made': no licence");
+}
+
+TEST(Misbehaving, AFileInMemoryCountsAsMemory) {
+  const TemporaryFolder folder;
+  folder.file("c.yaml",
+              "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmetrics: [ate]\n"
+              "methods: [fills_memory_file]\nlimits: {memory: 256MiB}\n");
+  loopbench_command("run c.yaml --out r --plugin '" LOOPBENCH_MISBEHAVING "'", folder);
+  const std::vector<CellRow> cells = read_cells(folder.path() / "r");
+  ASSERT_EQ(cells.size(), 1u);
+  EXPECT_EQ(cells[0].status, Status::out_of_memory) << cells[0].why;
+}
+
+TEST(Misbehaving, LoadingEndsAtItsLimit) {
+  setenv("LOOPBENCH_TEST_LOOPS", "1", 1);
+  EXPECT_NE(refusal_of<InputError>([] {
+              describe_plugin(LOOPBENCH_EXITS_WHEN_LOADED, 0.3);
+            }).find("a process that loaded it took longer than 0.3 s"),
+            std::string::npos);
+  unsetenv("LOOPBENCH_TEST_LOOPS");
 }
 
 /// Expects that all cells of a sweep with these methods of the plugin are ok.
