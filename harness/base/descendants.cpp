@@ -1,15 +1,22 @@
 #include "harness/base/descendants.hpp"
 
 #include <dirent.h>
+#include <linux/magic.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/statfs.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
+#include <limits>
+#include <set>
 #include <sstream>
+#include <utility>
 
 #include "harness/base/system_file.hpp"
 
@@ -49,10 +56,94 @@ void for_each_in_tree(std::vector<pid_t> waiting, Visit visit) {
   }
 }
 
+/// Files of tmpfs, also those of memfd_create(), which are no memory of any process unless mapped.
+/// Each counts once.
+class MemoryFiles {
+ public:
+  std::int64_t bytes() const { return bytes_; }
+
+  /// All in a folder.
+  void add_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::recursive_directory_iterator entry(folder, error);
+    for (; entry != std::filesystem::recursive_directory_iterator(); entry.increment(error)) {
+      add_file(entry->path().string(), lstat);
+      if (error) return;
+    }
+  }
+
+  /// What the process has open, and in /dev/shm if that is not this process's.
+  void add_process(const std::string& process) {
+    add_own_shm("/proc/" + process + "/root/dev/shm");
+    const std::string files = "/proc/" + process + "/fd/";
+    DIR* folder = opendir(files.c_str());
+    if (folder == nullptr) return;
+    while (const dirent* entry = readdir(folder)) {
+      if (entry->d_name[0] != '.') add_file(files + entry->d_name, stat);
+    }
+    closedir(folder);
+  }
+
+ private:
+  using Stat = int(const char*, struct stat*);
+
+  static bool is_in_memory(const std::string& path, struct statfs& system) {
+    return statfs(path.c_str(), &system) == 0 && system.f_type == TMPFS_MAGIC;
+  }
+
+  void add_file(const std::string& path, Stat* read) {
+    constexpr std::int64_t kBlock = 512;  // [bytes]
+    struct stat file {};
+    struct statfs system {};
+    if (read(path.c_str(), &file) != 0 || !S_ISREG(file.st_mode)) return;
+    if (systems_.contains(file.st_dev) || !is_in_memory(path, system)) return;
+    if (files_.emplace(file.st_dev, file.st_ino).second) bytes_ += kBlock * file.st_blocks;
+  }
+
+  void add_own_shm(const std::string& path) {
+    struct stat here {};
+    struct stat there {};
+    struct statfs system {};
+    if (stat("/dev/shm", &here) != 0 || stat(path.c_str(), &there) != 0) return;
+    if (here.st_dev == there.st_dev || !is_in_memory(path, system)) return;
+    if (!systems_.insert(there.st_dev).second) return;
+    bytes_ += static_cast<std::int64_t>(system.f_blocks - system.f_bfree) * system.f_bsize;
+  }
+
+  std::set<std::pair<dev_t, ino_t>> files_;
+  std::set<dev_t> systems_;  ///< counted with all their files
+  std::int64_t bytes_ = 0;
+};
+
+/// Shared memory of a process, with mapped files in memory [bytes].
+std::int64_t shared_memory(const std::string& process) {
+  const std::string status = read_system_file("/proc/" + process + "/status");
+  return memory_in(status, "RssShmem:").value_or(0);
+}
+
 /// Children of the calling thread, but those of `kept`.
 std::vector<pid_t> own_children_except(const std::vector<pid_t>& kept) {
   std::vector<pid_t> out = own_children();
   std::erase_if(out, [&](pid_t child) { return std::ranges::count(kept, child) > 0; });
+  return out;
+}
+
+TreeUsage usage_of(const std::vector<pid_t>& processes,
+                   std::int64_t at_fork,
+                   std::int64_t most_processes,
+                   const std::filesystem::path& folder) {
+  TreeUsage out;
+  MemoryFiles files;
+  std::int64_t shared = 0;
+  if (!folder.empty()) files.add_folder(folder);
+  for_each_in_tree(processes, [&](const std::string& each) {
+    files.add_process(each);
+    shared += shared_memory(each);
+    out.memory += std::max<std::int64_t>(0, process_memory(each) - at_fork);
+    return ++out.processes <= most_processes;
+  });
+  // Of the shared memory, it is not known which files it maps.
+  out.memory += std::max<std::int64_t>(0, files.bytes() - shared);
   return out;
 }
 
@@ -83,22 +174,13 @@ std::int64_t process_memory(const std::string& process) {
 
 TreeUsage descendants_usage(std::int64_t at_fork,
                             std::int64_t most_processes,
-                            const std::vector<pid_t>& keep_alive) {
-  TreeUsage out;
-  for_each_in_tree(own_children_except(keep_alive), [&](const std::string& each) {
-    out.memory += std::max<std::int64_t>(0, process_memory(each) - at_fork);
-    return ++out.processes <= most_processes;
-  });
-  return out;
+                            const std::vector<pid_t>& keep_alive,
+                            const std::filesystem::path& folder) {
+  return usage_of(own_children_except(keep_alive), at_fork, most_processes, folder);
 }
 
 std::int64_t tree_memory(pid_t process) {
-  std::int64_t out = 0;
-  for_each_in_tree({process}, [&](const std::string& each) {
-    out += process_memory(each);
-    return true;
-  });
-  return out;
+  return usage_of({process}, 0, std::numeric_limits<std::int64_t>::max(), {}).memory;
 }
 
 TreeCost tree_cost(pid_t process) {

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -13,18 +14,22 @@ namespace loopbench::harness {
 std::vector<pid_t> own_children();
 
 struct TreeUsage {
-  std::int64_t memory = 0;     ///< private and shared memory beyond that at the fork [bytes]
+  /// Private and shared memory beyond that at the fork, and files in memory that are not mapped:
+  /// open ones, those in /dev/shm of a sandbox, those in a folder [bytes].
+  std::int64_t memory = 0;
   std::int64_t processes = 0;  ///< at most one more than the limit
 };
 
 /// Usage of all descendants of the calling thread. Each counts with what it has beyond `at_fork`
 /// bytes; `keep_alive` children do not count; a copy of a process that has grown before counts with
-/// its growth again. Stops counting after `most_processes` of them.
+/// its growth again. Stops counting after `most_processes` of them. `folder`: for their temporary
+/// files, which count if they are in memory; may be empty.
 TreeUsage descendants_usage(std::int64_t at_fork,
                             std::int64_t most_processes,
-                            const std::vector<pid_t>& keep_alive);
+                            const std::vector<pid_t>& keep_alive,
+                            const std::filesystem::path& folder);
 
-/// Memory of a process and all its descendants [bytes].
+/// Memory of a process and all its descendants [bytes], see TreeUsage.
 std::int64_t tree_memory(pid_t process);
 
 struct TreeCost {

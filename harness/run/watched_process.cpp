@@ -120,6 +120,7 @@ struct Watched {
   const std::string& subject;
   const Limits& limits;
   const std::vector<pid_t>& servers;
+  std::filesystem::path scratch;  ///< of programs, or empty
   ActiveClock clock = {};
 };
 
@@ -145,7 +146,8 @@ std::optional<Verdict> exceeded(Watched& watched) {
   }
   // The process began as a copy of this one, which has not changed since.
   const std::int64_t at_fork = limits.memory > 0 ? process_memory("self") : 0;
-  const TreeUsage usage = descendants_usage(at_fork, limits.processes, watched.servers);
+  const TreeUsage usage =
+      descendants_usage(at_fork, limits.processes, watched.servers, watched.scratch);
   if (usage.processes > limits.processes) {
     return Verdict{
         Status::failed,
@@ -227,8 +229,9 @@ ProcessEnd WatchedProcesses::run(const WatchedWork& work) {
   });
   const pid_t id = process.id();
   output.close_write_end();
+  const std::filesystem::path scratch = scratch_ == nullptr ? "" : scratch_->path();
   const std::optional<Verdict> verdict =
-      watch({process, work.subject, work.limits, servers.processes}, sweep_, output);
+      watch({process, work.subject, work.limits, servers.processes, scratch}, sweep_, output);
   const int status = process.end();
   end_servers(true);
   end_strays(running_servers().processes);  // what ended programs leave is not the next cell's

@@ -250,6 +250,27 @@ TEST_F(CommandProcesses, AProgramEndsWithTheDryRunThatWaitsForIt) {
   unsetenv("LOOPBENCH_CACHE");
 }
 
+TEST_F(CommandProcesses, FilesInMemoryCountAsMemory) {
+  if (!has_bubblewrap()) GTEST_SKIP() << "no bubblewrap";
+  const std::string before = getenv("TMPDIR");
+  const std::string in_memory = "/dev/shm/loopbench-test-" + std::to_string(getpid());
+  for (const std::string file : {"/dev/shm/x", "$TMPDIR/x"}) {
+    if (file.front() == '$') {
+      std::filesystem::create_directory(in_memory);
+      setenv("TMPDIR", in_memory.c_str(), 1);
+    }
+    folder_.file("fills.sh",
+                 "head -c 400M /dev/zero >" + file + " && sleep 1 && cp $1/keyframes.txt $2\n");
+    const auto done = cells(entry("fills", "'sh fills.sh {problem} {result}'"),
+                            "limits: {memory: 256MiB}\n",
+                            " --fresh");
+    ASSERT_EQ(done.size(), 2u);
+    EXPECT_EQ(done[1].status, Status::out_of_memory) << file << ": " << done[1].why;
+  }
+  setenv("TMPDIR", before.c_str(), 1);
+  EXPECT_TRUE(std::filesystem::remove(in_memory)) << "it is not empty";
+}
+
 TEST_F(CommandProcesses, MemoryOfTheTreeIsLimited) {
   const auto done = cells(entry("grows", R"("sh -c 'tail /dev/zero' {problem} {result}")"),
                           "limits: {memory: 700MiB}\n");
