@@ -144,10 +144,12 @@ class LoadedSequences {
     const DatasetEntry& known = find_dataset(context_.catalogue, dataset.name);
     if (known.prepare) known.prepare(dataset.options);
     const Limits limits = loading_limits(dataset, context_.sweep.limits);
+    // Others draw their progress on a terminal.
+    const bool is_foreign = !plugin_version(context_.catalogue, "dataset", dataset.name).empty();
     const ProcessEnd end = processes_.run({.subject = "loading its sequence",
                                            .limits = limits,
                                            .when = ", while loading its sequence",
-                                           .is_captured = false,
+                                           .is_captured = is_foreign,
                                            .kept = {},
                                            .run = [&] { return packed_sequence(context_, cell); }});
     failure = {Failure::Kind::loading, end.status, end.why, end.signal};

@@ -61,6 +61,24 @@ TEST_F(IsolatedDatasets, ADatasetHasNoConnectionToTheSweep) {
   for (const CellResult& result : results) EXPECT_EQ(result.status, Status::ok) << result.why;
 }
 
+TEST_F(IsolatedDatasets, OutputOfADatasetOfAPluginIsLimited) {
+  known_.datasets.push_back(line_after("prints", [] {
+    const std::string block(1 << 20, 'x');
+    for (int i = 0; i < 64; ++i) {
+      if (write(STDOUT_FILENO, block.data(), block.size()) < 0) return;
+    }
+  }));
+  known_.versions["dataset prints"] = "1";
+  testing::internal::CaptureStderr();
+  const std::vector<CellResult> results =
+      run("datasets: [prints, line]\nmethods: [straight]\nmetrics: [ate]\n", 1);
+  EXPECT_LT(testing::internal::GetCapturedStderr().size(), 100'000u);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0].status, Status::failed);
+  EXPECT_EQ(results[0].why, "loading its sequence printed more than 16 MiB");
+  EXPECT_EQ(results[1].status, Status::ok);
+}
+
 TEST_F(IsolatedDatasets, NothingOfADatasetRunsInItsCells) {
   known_.datasets.push_back(line_after("leaves", [] {
     std::thread([] {
