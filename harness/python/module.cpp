@@ -17,6 +17,8 @@
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/eval/recorded_file.hpp"
 #include "harness/python/arrays.hpp"
+#include "harness/store/open.hpp"
+#include "harness/store/stored_cells.hpp"
 #include "metrics/alignment/alignment.hpp"
 #include "metrics/pairing/association.hpp"
 #include "metrics/trajectory/tracking_gaps.hpp"
@@ -250,6 +252,13 @@ std::vector<std::pair<std::string, std::string>> method_list() {
   return out;
 }
 
+/// Throws InputError if a store is damaged: Python reads it by SQL.
+void check_store(const std::string& file) {
+  const py::gil_scoped_release unlocked;
+  harness::Database database = harness::open_store(file);
+  harness::read_intact_cells(database);
+}
+
 }  // namespace
 }  // namespace loopbench::python
 
@@ -291,5 +300,6 @@ PYBIND11_MODULE(_core, module) {
   module.def("correct", &python::correct, "rows, and the JSON of `correct --json`");
   module.def("odometry", &python::odometry, "edges between consecutive keyframes");
   module.def("load", &python::load, "keyframes, frames, odometry, closures, planar, reference");
+  module.def("check_store", &python::check_store, "raises InputError if it is damaged");
   module.def("methods", &python::method_list, "name and summary of every method");
 }

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -43,6 +44,16 @@ class Sweeps(unittest.TestCase):
             if thread is not threading.main_thread():
                 thread.join(20)
                 self.assertFalse(thread.is_alive(), "threads that answered have ended")
+
+    def test_a_damaged_store_is_rejected(self):
+        with tempfile.TemporaryDirectory() as folder:
+            loopbench.run({**CONFIG, "methods": ["raw", "uniform"]}, out=folder)
+            database = sqlite3.connect(folder + "/results.sqlite")
+            database.execute("UPDATE score_value SET rmse = 0 WHERE cell = 1")
+            database.commit()
+            database.close()
+            with self.assertRaisesRegex(ValueError, "is damaged: .* / raw is corrupted"):
+                loopbench.rows(folder)
 
     def test_functions_are_metrics(self):
         @loopbench.metric

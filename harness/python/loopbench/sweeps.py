@@ -92,8 +92,11 @@ def _select(store: str | Path) -> tuple[list[str], list[Any]]:
     )
     if not file.exists():
         raise FileNotFoundError(f"{file}: no such file, expected the store of a sweep")
+    from . import _core  # loads the libraries of the program
+
     database = sqlite3.connect(f"file:{file}?mode=ro", uri=True)
     try:
+        _core.check_store(str(file))
         cursor = database.execute(query)
         return [column[0] for column in cursor.description], cursor.fetchall()
     finally:
@@ -101,7 +104,10 @@ def _select(store: str | Path) -> tuple[list[str], list[Any]]:
 
 
 def rows(store: str | Path) -> list[Row]:
-    """Every score of a store with the labels of its cell; a cell without scores has one row."""
+    """Every score of a store with the labels of its cell; a cell without scores has one row.
+
+    Raises ValueError if the store is damaged.
+    """
     names, found = _select(store)
     return [dict(zip(names, row)) for row in found]
 
