@@ -14,7 +14,8 @@
 namespace loopbench {
 namespace {
 
-constexpr std::size_t kWindow = std::size_t{256} << 10;  // [bytes], fits into the L2 cache
+constexpr std::size_t kWindow = std::size_t{256} << 10;     // [bytes], fits into the L2 cache
+constexpr std::size_t kLongestLine = std::size_t{1} << 20;  // [bytes]
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 bool is_number(std::string_view word) {
@@ -104,6 +105,9 @@ void TextFile::skip_header() {
 void TextFile::refill() {
   filled_ -= position_;
   if (filled_ == capacity_) {
+    if (filled_ >= kLongestLine) {
+      throw error(begin_ == 0 ? line_ + 1 : 0, "has a line of more than 1 MiB, expected poses");
+    }
     auto larger = std::make_unique_for_overwrite<char[]>(2 * capacity_);
     std::memcpy(larger.get(), window_.get(), filled_);
     window_ = std::move(larger);

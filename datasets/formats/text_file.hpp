@@ -25,9 +25,9 @@ struct Line {
 
 /// Reads a file through a small window, which grows to the longest line. Unix and Windows line
 /// endings and a UTF-8 byte order mark are accepted, and files as open_input() accepts them. Throws
-/// InputError like open_input(), and for a file that is binary (contains a NUL byte, which is
-/// detected when the window reaches it). Parts that threads read next to each other share no cache
-/// line.
+/// InputError like open_input(), for a line of more than 1 MiB, and for a file that is binary
+/// (contains a NUL byte, which is detected when the window reaches it). Parts that threads read
+/// next to each other share no cache line.
 class alignas(64) TextFile {
  public:
   explicit TextFile(const std::filesystem::path& file);

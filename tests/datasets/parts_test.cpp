@@ -98,7 +98,7 @@ TEST(Parts, ANulByteIsFoundWhereverItIs) {
 
 TEST(Parts, ALineMayBeLongerThanTheWindow) {
   const TemporaryFolder scratch;
-  const std::string comment = "# " + std::string(3'000'000, 'x') + "\n";
+  const std::string comment = "# " + std::string(1'000'000, 'x') + "\n";
   const std::string blanks(700'000, ' ');
   const auto file = scratch.file(
       "a.txt",
@@ -107,6 +107,20 @@ TEST(Parts, ALineMayBeLongerThanTheWindow) {
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_EQ(poses[0].world_from_body.translation, Vector3(1, 2, 3));
   EXPECT_EQ(poses[1].stamp, 2.0);
+}
+
+TEST(Parts, ALineOfMoreThanAMebibyteIsRefused) {
+  const TemporaryFolder scratch;
+  const std::string line(3'000'000, '1');
+  const auto alone = scratch.file("a.txt", line);
+  EXPECT_EQ(refusal([&] { read_trajectory(alone); }),
+            alone.string() + ":1: has a line of more than 1 MiB, expected poses");
+  const auto last = scratch.file("b.txt", "1 1 2 3 0 0 0 1\n" + line);
+  EXPECT_EQ(refusal([&] { read_trajectory(last); }),
+            last.string() + ":2: has a line of more than 1 MiB, expected poses");
+  const auto in_part = scratch.file("c.txt", tum() + line);
+  EXPECT_NE(refusal([&] { read_trajectory(in_part); }).find("has a line of more than 1 MiB"),
+            std::string::npos);
 }
 
 TEST(Parts, PoseGraphsKeepTheirLines) {
