@@ -8,7 +8,8 @@ namespace loopbench::harness {
 namespace {
 
 /// Escapes `_` only at word boundaries, and `<` and `&` only before a letter or a sign other than
-/// `=`, so that names such as uniform_position, p < 0.05 and p <= 0.05 remain readable.
+/// `=`, and `]` only where it would make a link or an image, so that names such as
+/// uniform_position, p < 0.05 and p <= 0.05 remain readable.
 std::string escaped_markdown(const std::string& text) {
   const std::string line = one_line(text);
   const auto is_word = [&](std::size_t i) {
@@ -20,13 +21,14 @@ std::string escaped_markdown(const std::string& text) {
     const bool is_tag =
         i + 1 < line.size() &&
         (is_word(i + 1) || std::ispunct(static_cast<unsigned char>(line[i + 1])) != 0);
+    const bool is_link = c == ']' && i + 1 < line.size() && line[i + 1] == '(';
     const bool is_emphasis = c == '_' && !(i > 0 && is_word(i - 1) && is_word(i + 1));
     if (c == '<' && is_tag && line[i + 1] != '=') {
       out += "&lt;";
     } else if (c == '&' && is_tag) {
       out += "&amp;";
     } else {
-      if (is_emphasis || c == '|' || c == '\\' || c == '*' || c == '`') out += '\\';
+      if (is_emphasis || is_link || c == '|' || c == '\\' || c == '*' || c == '`') out += '\\';
       out += c;
     }
   }

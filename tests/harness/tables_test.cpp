@@ -83,6 +83,19 @@ std::vector<Table> marked() {
   return pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}});
 }
 
+TEST(Formats, MarkdownHasNoLinksAndImagesOfNames) {
+  std::vector<Record> records;
+  for (int repeat = 0; repeat < 8; ++repeat) {
+    records.push_back(ate("![x](http://e/x.png)", 0.1, repeat));
+    records.push_back(ate("[a] (b)", 0.2, repeat));
+  }
+  const std::string text =
+      markdown(pivot(records, TableSpec{.split = {"times"}, .show = {}, .where = {}}));
+  EXPECT_NE(text.find("| ![x\\](http://e/x.png) |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| [a] (b) "), std::string::npos) << text;
+  EXPECT_EQ(text.find("[x]("), std::string::npos) << text;
+}
+
 TEST(Formats, EscapeNamesAndMarkTheBest) {
   const std::vector<Table> tables = marked();
   const std::string notes = "marked: the methods that compare calls best\n";
