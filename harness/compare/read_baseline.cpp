@@ -121,6 +121,12 @@ void add_cell(std::vector<Record>& out,
     if (!has_numbers(score.status)) continue;
     for (const std::string& statistic : statistics) {
       if (statistic == "count") continue;
+      if (!node.contains(statistic)) {
+        throw InputError(
+            fmt::format("cells: have no '{}', which a limit names; write it again with --update "
+                        "(limits are kept)",
+                        statistic));
+      }
       const Json& number = node.at(statistic).at(i);
       score.statistics.*member_of(statistic) =
           number.is_null() ? std::nan("") : number.get<double>();

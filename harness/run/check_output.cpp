@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include "datasets/core/pose_rule.hpp"
 #include "harness/base/printable.hpp"
@@ -131,6 +134,7 @@ void check_scores(const std::vector<metrics::Score>& scores) {
   if (scores.size() > kMostItems) {
     reject("the metric returned {} scores, expected at most {}", scores.size(), kMostItems);
   }
+  std::set<std::pair<std::string_view, std::string_view>> names;
   for (std::size_t i = 0; i < scores.size(); ++i) {
     const auto name = [&] { return fmt::format("score {}: a text", i + 1); };
     const metrics::Score& score = scores[i];
@@ -138,6 +142,17 @@ void check_scores(const std::vector<metrics::Score>& scores) {
       check_text(*text, kLongestName, name);
     }
     check_text(score.why_undefined, kLongestNote, name);
+    if (score.statistics.count > kMostErrors) {
+      reject("score {} is over {} errors, expected at most {}",
+             i + 1,
+             score.statistics.count,
+             kMostErrors);
+    }
+    if (!names.emplace(score.relation, score.axis).second) {
+      reject("two scores are named {}{}",
+             quoted_name(score.relation),
+             score.axis.empty() ? "" : " with axis " + quoted_name(score.axis));
+    }
     const auto directions = metrics::choices(score.better);
     if (std::ranges::none_of(directions, [&](const auto& c) { return c.second == score.better; })) {
       reject("score {} has no direction: better is {}, expected lower, higher, target or neither",

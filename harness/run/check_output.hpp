@@ -19,10 +19,11 @@
 namespace loopbench::harness {
 
 /// Limits of a report, far above those of the methods in this repository.
-inline constexpr std::size_t kMostItems = 1'000;       ///< phases, counts and notes each
-inline constexpr std::size_t kMostSections = 100'000;  ///< sections
-inline constexpr std::size_t kLongestName = 200;       ///< of a phase, count or section [bytes]
-inline constexpr std::size_t kLongestNote = 2'000;     ///< of a note or reason [bytes]
+inline constexpr std::size_t kMostItems = 1'000;               ///< phases, counts and notes each
+inline constexpr std::size_t kMostSections = 100'000;          ///< sections
+inline constexpr std::size_t kMostErrors = 1'000'000'000'000;  ///< of a score
+inline constexpr std::size_t kLongestName = 200;    ///< of a phase, count or section [bytes]
+inline constexpr std::size_t kLongestNote = 2'000;  ///< of a note or reason [bytes]
 
 /// Throws std::runtime_error if the curve is null or does not cover the keyframes.
 void check_span(const Curve* curve, const Trajectory& keyframes);
@@ -63,7 +64,8 @@ void check_report(const methods::Report& report);
 
 /// Throws std::runtime_error if a score cannot be stored or displayed: more scores or longer texts
 /// than the limits, texts that are not UTF-8 or contain control characters, a direction that is
-/// none of Better, a target that is not finite.
+/// none of Better, a target that is not finite, a count that can only be a mistake (-1), or two of
+/// one name and axis.
 void check_scores(const std::vector<metrics::Score>& scores);
 
 /// Text of an exception or a reason as it is stored: one line of printable(), at most kLongestNote

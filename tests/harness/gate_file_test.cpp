@@ -109,6 +109,9 @@ TEST(BaselineFile, IsRefusedWithItsPlace) {
             "b.json: limits[0].values: expected a list of texts, found [3]");
   EXPECT_EQ(changed("\"values\":[\"rmse\"]", "\"values\":[\"rms\"]"),
             "b.json: limits[0]: no statistic is named 'rms'; did you mean 'rmse'?");
+  EXPECT_EQ(changed("\"values\":[\"rmse\"]", "\"values\":[\"rmse\",\"p95\"]"),
+            "b.json: cells: have no 'p95', which a limit names; write it again with --update "
+            "(limits are kept)");
   EXPECT_EQ(changed("\"absolute\":", "\"absolut\":"),
             "b.json: limits[0]: no key of a limit is named 'absolut'; did you mean 'absolute'?");
   EXPECT_EQ(changed("\"relative\":0.001", "\"relative\":-1"),
