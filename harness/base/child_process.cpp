@@ -65,7 +65,7 @@ ChildProcess::ChildProcess(ProcessGroup group, const std::function<int()>& work)
     std::fflush(stdout);
     _exit(code);
   }
-  if (error != 0) throw std::runtime_error(std::string("fork: ") + std::strerror(error));
+  if (error != 0) throw std::system_error(error, std::generic_category(), "fork");
   if (group_ == ProcessGroup::own) setpgid(id_, id_);  // both do it, so that it is done for both
   open_descriptor();
 }
@@ -88,7 +88,8 @@ ChildProcess::ChildProcess(ProcessGroup group, const ProgramCall& call)
   sigset_t signals;
   sigemptyset(&signals);
   posix_spawnattr_setsigmask(&attributes, &signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGCHLD}) sigaddset(&signals, signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGCHLD, SIGXFSZ})
+    sigaddset(&signals, signal);
   posix_spawnattr_setsigdefault(&attributes, &signals);
   const int leads = group == ProcessGroup::own ? POSIX_SPAWN_SETPGROUP : 0;
   const int flags = leads | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK;

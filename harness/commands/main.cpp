@@ -161,6 +161,12 @@ int fail_to_print(int reason) {
   return fail("cannot write to standard output" + why, kExitBadInput);
 }
 
+/// A limit of the system on processes and threads.
+std::string out_of_processes(const std::system_error& error) {
+  return std::string("cannot create a process or thread: ") + error.what() +
+         "; raise the limit of processes (ulimit -u)";
+}
+
 /// `print_errno` is the errno of a failed print, if known.
 int run(CLI::App& app,
         const std::vector<std::string>& words,
@@ -197,6 +203,7 @@ int run(CLI::App& app,
       print_errno = error.code().value();
       return kExitBadInput;
     }
+    if (error.code().value() == EAGAIN) return fail(out_of_processes(error), kExitBadInput);
     return fail(std::string("internal error: ") + error.what(), kExitInternal);
   } catch (const std::exception& error) {
     return fail(std::string("internal error: ") + error.what(), kExitInternal);
@@ -217,6 +224,7 @@ void take_one_word(CLI::App& app) {
 // NOLINTNEXTLINE(bugprone-exception-escape): what is outside run() throws only without memory
 int main(int argc, char** argv) {
   reserve_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is then an error of write()
   const std::vector<std::string> words{argv + 1, argv + argc};
   CLI::App app{"Benchmark of loop-closure correction methods for trajectories", "loopbench"};
   app.formatter(help_formatter());

@@ -157,7 +157,7 @@ class IsolatedSweep {
     const DatasetChoice& choice = dataset_of(job.cell);
     switch (failure.kind) {
       case Failure::Kind::system:
-        throw std::runtime_error("cannot create a process for a cell: " + failure.why);
+        throw InputError("cannot create a process for a cell: " + failure.why + kMoreProcesses);
       case Failure::Kind::missing_part:
         throw MissingPart(failure.why);
       case Failure::Kind::input_error:

@@ -20,12 +20,17 @@
 #include <string>
 #include <vector>
 
+#include "datasets/core/error.hpp"
 #include "harness/base/child_process.hpp"
 #include "harness/base/system_file.hpp"
 #include "harness/run/watched_process.hpp"
 #include "harness/run/worker.hpp"
 
 namespace loopbench::harness {
+
+/// What to do when the system refuses processes.
+inline constexpr const char* kMoreProcesses =
+    "; use fewer workers (--jobs), or raise the limit of processes (ulimit -u)";
 
 /// A message of a worker.
 struct Answer {
@@ -35,11 +40,10 @@ struct Answer {
 
 class WorkerProcess {
  public:
-  /// Forks. Only from a process without threads that is a subreaper. Throws std::runtime_error on
-  /// failure.
+  /// Forks. Only from a process without threads that is a subreaper. Throws InputError on failure.
   WorkerProcess(const WorkerContext& context, int core) {
     const auto error = [](const std::string& why) {
-      return std::runtime_error("cannot create a worker process: " + why);
+      return InputError("cannot create a worker process: " + why + kMoreProcesses);
     };
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
