@@ -34,9 +34,11 @@ struct Diagnosed {
   metrics::Diagnosis result;
 };
 
-Diagnosed of_closures(const std::string& name, const Problem& problem) {
+Diagnosed of_closures(const std::string& name,
+                      const Problem& problem,
+                      std::vector<metrics::InputFinding> findings) {
   Diagnosed out{name, {}};
-  out.result.findings = metrics::check_closures(problem);
+  out.result.findings = std::move(findings);
   const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
   out.result.has_checked = is_chain && !problem.closures.empty();
   if (!out.result.has_checked) {
@@ -58,7 +60,8 @@ Diagnosed of_loops(const std::string& trajectory, const std::string& loops) {
       return {loops, {.findings = {std::move(*found)}}};
     }
   }
-  return of_closures(loops, load_problem({.estimate = trajectory, .loops = loops}, catalogue({})));
+  const Problem problem = load_problem({.estimate = trajectory, .loops = loops}, catalogue({}));
+  return of_closures(loops, problem, metrics::check_closures(problem));
 }
 
 Diagnosed of_graph(const std::string& file) {
@@ -67,13 +70,14 @@ Diagnosed of_graph(const std::string& file) {
   const Problem problem{.keyframes = initial_poses(graph, ReadOptions{}.period),
                         .odometry = std::move(parts.odometry),
                         .closures = std::move(parts.closures)};
-  Diagnosed out = of_closures(file, problem);
+  const auto id = [&](std::size_t keyframe) { return std::to_string(graph.ids[keyframe]); };
+  Diagnosed out = of_closures(file, problem, metrics::check_closures(problem, id));
   if (graph.altered > 0) {  // other commands refuse such a graph
     std::erase_if(out.result.findings, [](const metrics::InputFinding& finding) {
-      return finding.fault == metrics::Fault::information_scale;  // of what is left of it
+      return finding.fault == metrics::Fault::information;  // of what is left of it
     });
     out.result.findings.push_back(
-        {metrics::Fault::information_indefinite,
+        {metrics::Fault::information,
          fmt::format("the information of {} of {} edges is not positive definite",
                      graph.altered,
                      graph.edges.size()),
@@ -95,12 +99,10 @@ Diagnosed of_pair(const NamedTrajectory& reference,
   for (const NamedTrajectory* file : {&reference, &estimate}) {
     const std::size_t count = file->findings.repeated;
     if (count == 0 || is_repeat_handled) continue;
-    out.result.findings.push_back(
-        {metrics::Fault::repeated_stamps,
-         fmt::format("{}: {} with the stamp of the pose before", file->name, count),
-         "--repeats keep_first or keep_last",
-         1.0,
-         static_cast<double>(count)});
+    out.result.unchecked.push_back(
+        fmt::format("{}: {} with the stamp of the pose before (--repeats keep_first or keep_last)",
+                    file->name,
+                    count));
   }
   return out;
 }
@@ -175,7 +177,8 @@ void add_doctor(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "doctor",
       "Search trajectories or a pose graph for mistakes: clocks, quaternion order, units, axes, "
-      "inverted poses, lever arm, exchanged or wrong files, jumps, closures, information (exit 1 "
+      "inverted poses, another body, exchanged or wrong files, jumps, closures, information (exit "
+      "1 "
       "if there are any, or if nothing could be checked)");
   add(*command, "reference REF", a->reference, "Reference trajectory, or a pose graph")->required();
   add(*command, "estimates EST", a->estimates, "Estimated trajectories");

@@ -115,8 +115,7 @@ std::vector<metrics::InputFinding> findings_of(
       finding.value += offset;
       finding.fix = fmt::format("--offset {:.4f}", finding.value);
     }
-    return finding.fault == metrics::Fault::lever_arm ||  // the evaluation has a note of its own
-           finding.fault == metrics::Fault::body_rotation ||
+    return finding.fault == metrics::Fault::other_body ||  // the evaluation has a note of its own
            (finding.fault == metrics::Fault::scale && is_aligned);
   });
   return out;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -37,6 +38,13 @@ Eigen::Matrix3Xd positions(const Trajectory& list) {
     out.col(static_cast<Eigen::Index>(i)) = list[i].world_from_body.translation;
   }
   return out;
+}
+
+/// Second largest standard deviation of positions over the largest.
+double width_of(const Eigen::Matrix3Xd& list) {
+  const Eigen::Matrix3Xd centred = list.colwise() - list.rowwise().mean();
+  const Vector3 deviations = centred.jacobiSvd().singularValues();
+  return deviations[0] > 0.0 ? deviations[1] / deviations[0] : 0.0;
 }
 
 /// Motions in body frames over short intervals that begin in the part for fits, or for tests.
@@ -98,11 +106,14 @@ void compare_motions(const Paired& poses, Agreement& out) {
   out.displacement = length > 0.0 ? error / length : 0.0;
   out.scale = scale;
   double error_squares = 0.0, squares = 0.0;
+  std::vector<double> angles;
   for (const auto& [reference, estimate] : tested) {
     const Vector3 rotated = log_so3(reference.rotation);
-    error_squares += (rotated - body * log_so3(estimate.rotation)).squaredNorm();
+    angles.push_back((rotated - body * log_so3(estimate.rotation)).norm());
+    error_squares += angles.back() * angles.back();
     squares += rotated.squaredNorm();
   }
+  out.usual_turning = median_value(std::move(angles));
   out.turning = squares > 0.0 ? std::sqrt(error_squares / squares) : 0.0;
 }
 
@@ -114,8 +125,8 @@ double Agreement::cost() const {
   constexpr double kFloor = 0.02, kFloorOfAngle = 0.05, kWeightOfScale = 0.5, kMostScale = 20.0;
   double out = std::log(position / std::max(1e-9, spread) + kFloor);
   if (has_rotations) {
-    out += std::log(displacement + kFloor) + std::log(turning + kFloor) +
-           std::log(rotation + kFloorOfAngle);
+    out += std::log(displacement + kFloor) + std::log(turning + kFloor);
+    if (!is_line) out += std::log(rotation + kFloorOfAngle);
     const double size = std::clamp(scale, 1.0 / kMostScale, kMostScale);
     out += kWeightOfScale * std::log(std::abs(std::log(size)) + kFloor);
   }
@@ -141,6 +152,7 @@ Eigen::Affine3d similarity(const Paired& poses) {
 }
 
 Agreement agreement(const Paired& poses) {
+  constexpr double kLeastWidth = 0.03;  // over the length; a corridor's is that of its noise
   Agreement out;
   if (poses.estimate.size() < kFewestCommonPoses) return out;
   const Paired fitted = fitted_part(poses), tested = part_of(poses, false);
@@ -165,6 +177,7 @@ Agreement agreement(const Paired& poses) {
   out.spread = std::sqrt(spread / count);
   out.rotation = median_value(std::move(angles));
   out.has_rotations = has_rotations(poses);
+  out.is_line = std::max(width_of(reference), width_of(positions(fitted.estimate))) < kLeastWidth;
   if (out.has_rotations) compare_motions(poses, out);
   return out;
 }
@@ -184,7 +197,8 @@ Improvement improvement(const Agreement& before, const Agreement& after) {
   };
   compare("position error", &Agreement::position, kSmall * before.spread, 1.0, "m");
   if (!before.has_rotations || !after.has_rotations) return out;
-  compare("rotation error", &Agreement::rotation, 0.5 / kDegrees, kDegrees, "deg");
+  if (!before.is_line && !after.is_line)
+    compare("rotation error", &Agreement::rotation, 0.5 / kDegrees, kDegrees, "deg");
   if (out.ratio < 0.5) return out;
   compare("error of displacements in body frames", &Agreement::displacement, kSmall, 100.0, "%");
   compare("error of relative rotations", &Agreement::turning, kSmall, 100.0, "%");

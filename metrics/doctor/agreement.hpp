@@ -1,38 +1,11 @@
 /// How well simultaneous poses of two trajectories agree, measured on poses that no fit has used.
 #pragma once
 
-#include <algorithm>
 #include <string>
-#include <vector>
 
-#include "datasets/core/median_interval.hpp"
-#include "datasets/core/upper_median.hpp"
-#include "metrics/pairing/association.hpp"
+#include "metrics/doctor/sampling.hpp"
 
 namespace loopbench::metrics {
-
-/// Median; 0 for an empty list.
-inline double median_value(std::vector<double> values) {
-  return values.empty() ? 0.0 : upper_median(values);
-}
-
-/// Longest time between poses of the reference across which it is interpolated [s]. O(n).
-inline double longest_gap(const Trajectory& reference) {
-  return std::max(1.0, 10.0 * median_interval(reference));
-}
-
-/// At most 1500 poses of the estimate, evenly chosen, with the reference interpolated at stamp +
-/// offset; without those outside the reference or in its gaps above 1 s (or ten times its median
-/// interval). O(n + m).
-inline Paired common_poses(const Trajectory& reference,
-                           const Trajectory& estimate,
-                           double offset = 0.0) {
-  constexpr std::size_t kMost = 1500;
-  Trajectory few;
-  const std::size_t step = estimate.size() / (kMost + 1) + 1;
-  for (std::size_t i = 0; i < estimate.size(); i += step) few.push_back(estimate[i]);
-  return interpolate_reference(reference, few, longest_gap(reference), offset);
-}
 
 /// The poses that fits may use: alternate ones of twenty blocks. O(n).
 Paired fitted_part(const Paired& poses);
@@ -41,14 +14,16 @@ Paired fitted_part(const Paired& poses);
 /// compared in body frames, up to a constant rotation of the body and a scale: drift hardly changes
 /// them, and no world frame does.
 struct Agreement {
-  double position = 0.0;      ///< rmse after a rigid alignment [m]
-  double similarity = 0.0;    ///< rmse after a similarity [m]
-  double spread = 0.0;        ///< standard deviation of the reference's positions [m]
-  double rotation = 0.0;      ///< median angle after the alignment of positions [rad]
-  double displacement = 0.0;  ///< median error of displacements, over their median length [-]
-  double scale = 1.0;         ///< of these displacements, reference over estimate [-]
-  double turning = 0.0;       ///< rms error of relative rotations, over their rms [-]
-  bool has_rotations = true;  ///< false: the rotation of one list is constant
+  double position = 0.0;       ///< rmse after a rigid alignment [m]
+  double similarity = 0.0;     ///< rmse after a similarity [m]
+  double spread = 0.0;         ///< standard deviation of the reference's positions [m]
+  double rotation = 0.0;       ///< median angle after the alignment of positions [rad]
+  double displacement = 0.0;   ///< median error of displacements, over their median length [-]
+  double scale = 1.0;          ///< of these displacements, reference over estimate [-]
+  double turning = 0.0;        ///< rms error of relative rotations, over their rms [-]
+  double usual_turning = 0.0;  ///< median error of relative rotations [rad]
+  bool has_rotations = true;   ///< false: the rotation of one list is constant
+  bool is_line = false;        ///< positions on a line, whose alignment leaves a rotation open
 
   /// Sum of logarithms of all relative errors; smaller is better.
   double cost() const;

@@ -3,231 +3,210 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iterator>
+#include <utility>
 
-#include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/graph_checks.hpp"
-#include "metrics/doctor/loop_likelihood.hpp"
-#include "metrics/numerics/average.hpp"
+#include "metrics/doctor/sampling.hpp"
 
 namespace loopbench::metrics {
 namespace {
 
-constexpr std::size_t kVotes = 3, kFewestForVotes = 10;
+constexpr double kMostDrift = 0.35;  // of the length of a loop; odometry is better
 
-/// Residual of a loop: the distance from the end of its closure to the end of another path.
-struct LoopResidual {
-  double distance = 0.0;  ///< [m]
-  double length = 0.0;    ///< of the odometry on the path, at least 1 m
-};
+Pose as_stated(const Pose& p) { return p; }
 
+double gap_of(const LoopPath& path, const Chain& chain) {
+  return path.residual(chain, as_stated).head<3>().norm();
+}
+
+/// Chi-squared over odometry, and the middle one over three closures, of which a false one is
+/// outvoted.
 struct CheckedClosure {
-  const Edge* edge = nullptr;
-  double angle = 0.0;  ///< of the residual over the odometry [rad]
-  LoopResidual over_odometry;
-  std::vector<LoopResidual> over_closures;  ///< see residuals_over_closures()
-  LoopResidual largest = {};                ///< relative to its limit
-  double excess = 0.0;                      ///< of the largest over its limit; 1: contradicted
-  double distance = 0.0;                    ///< for the rms of all closures [m]
+  const LoopPaths* paths = nullptr;
+  double odometry = 0.0, over_closures = 0.0;
+  double excess = 0.0;  ///< of the larger one over its limit; 1: contradicted
 };
 
-/// Residuals over other closures: over the three from which the sections of odometry are shortest,
-/// because drift is smaller along these. `closures` are sorted by their ends; of these, the nearest
-/// are compared.
-std::vector<LoopResidual> residuals_over_closures(const std::vector<const Edge*>& closures,
-                                                  std::size_t index,
-                                                  const Chain& chain) {
-  constexpr double kClosureLength = 2.0;  // [m]
-  constexpr std::size_t kCompared = 20;   // before and after
-  const Edge& edge = *closures[index];
-  std::vector<LoopResidual> out;
-  const std::size_t end = std::min(closures.size(), index + kCompared + 1);
-  for (std::size_t j = index - std::min(index, kCompared); j < end; ++j) {
-    const Edge& other = *closures[j];
+/// Removes closures that state exactly the identity, as if a place recogniser had measured no
+/// relative poses, if they are at least a fifth and neither the odometry nor a neighbour that
+/// states the same agrees. O(closures).
+std::optional<InputFinding> remove_placeholders(std::vector<Edge>& closures, const Chain& chain) {
+  constexpr double kExact = 1e-9, kLeastPart = 0.2;
+  constexpr double kLeastGap = 0.05, kOfLength = 0.02;  // [m]; drift of most odometry [-]
+  constexpr std::size_t kFewest = 2;
+  std::vector<Edge> identities, measured;
+  for (const Edge& edge : closures) {
+    const Pose& stated = edge.from_from_to;
+    const bool is_identity =
+        stated.rotation.vec().norm() < kExact && stated.translation.norm() < kExact;
+    (is_identity ? identities : measured).push_back(edge);
+  }
+  const std::size_t count = identities.size(), all = closures.size();
+  if (count < kFewest || static_cast<double>(count) < kLeastPart * static_cast<double>(all))
+    return std::nullopt;
+  std::vector<double> gaps, over_drift;
+  for (const LoopPaths& each : loop_paths(identities, chain)) {
+    const auto& [from, to, pose, information, scale] = *each.odometry.closure;
+    gaps.push_back(gap_of(each.odometry, chain));
+    const bool is_alone = each.over_closures.empty();
+    const LoopPath& path = is_alone ? each.odometry : each.over_closures.front();
     const double length =
-        kClosureLength + chain.length(edge.from, other.from) + chain.length(edge.to, other.to);
-    if (j == index || length >= chain.length(edge.from, edge.to)) continue;
-    const Pose around = chain.between(edge.from, other.from) * other.from_from_to *
-                        chain.between(other.to, edge.to);
-    out.push_back({log_se3(edge.from_from_to.inverse() * around).head<3>().norm(), length});
+        is_alone ? chain.distance(from, to)
+                 : chain.distance(from, path.over->from) + chain.distance(to, path.over->to);
+    // Steady motion makes neighbours agree, but not with the odometry.
+    over_drift.push_back(std::max(gap_of(path, chain) / (kLeastGap + kOfLength * length),
+                                  gaps.back() / (kMostDrift * chain.distance(from, to))));
   }
-  std::ranges::sort(out, {}, &LoopResidual::length);
-  out.resize(std::min(kVotes, out.size()));
+  const double gap = median_value(std::move(gaps));
+  if (median_value(std::move(over_drift)) < 1.0 || gap < kLeastGap) return std::nullopt;
+  closures = std::move(measured);
+  return InputFinding{
+      Fault::placeholders,
+      fmt::format("{} of {} closures state exactly the same pose at both ends, where the odometry "
+                  "has a median distance of {:.3g} m: it was not measured",
+                  count,
+                  all,
+                  gap),
+      "measure the relative poses (registration)",
+      0.7,
+      static_cast<double>(count)};
+}
+
+/// Closures whose chi-squared is 36 times the median and the one expected. Of less than four, whose
+/// median shows nothing, the gap also has to exceed 35 % of the loop's length. O(closures).
+std::vector<CheckedClosure> contradicted_closures(const std::vector<LoopPaths>& loops,
+                                                  const Chain& chain) {
+  constexpr double kMost = 36.0;        // six standard deviations
+  constexpr double kLeastGap = 0.3;     // [m] or [rad]: smaller ones do little harm
+  constexpr double kUsualDrift = 0.01;  // of the length of a loop, which stated noise can neglect
+  constexpr std::size_t kFewest = 4, kVotes = 3;
+  std::vector<CheckedClosure> all, out;
+  std::vector<double> odometry, over_closures;
+  for (const LoopPaths& each : loops) {
+    CheckedClosure& closure = all.emplace_back();
+    closure.paths = &each;
+    closure.odometry = each.odometry.chi_squared(chain, as_stated);
+    odometry.push_back(closure.odometry);
+    if (each.over_closures.size() < kVotes || loops.size() < kFewest) continue;
+    std::vector<double> votes;
+    for (const LoopPath& path : each.over_closures)
+      votes.push_back(path.chi_squared(chain, as_stated));
+    closure.over_closures = median_value(std::move(votes));
+    over_closures.push_back(closure.over_closures);
+  }
+  const double usual = std::max(1.0, median_value(std::move(odometry)));
+  const double usual_over = std::max(1.0, median_value(std::move(over_closures)));
+  for (CheckedClosure& each : all) {
+    const Twist residual = each.paths->odometry.residual(chain, as_stated);
+    const Edge& edge = *each.paths->odometry.closure;
+    const double gap = residual.head<3>().norm();
+    const double distance = chain.distance(edge.from, edge.to);
+    const bool is_small = std::max(gap, residual.tail<3>().norm()) < kLeastGap;
+    const bool is_usual = gap < kUsualDrift * distance;
+    // Most closures can be false; then the usual chi-squared shows nothing.
+    const bool is_gross = gap > kMostDrift * distance && each.odometry > kMost &&
+                          (each.over_closures == 0.0 || each.over_closures > kMost);
+    const double relative =
+        std::max(is_usual ? 0.0 : each.odometry / usual, each.over_closures / usual_over);
+    each.excess = std::sqrt((is_gross ? std::max(relative, each.odometry) : relative) / kMost);
+    const bool is_drift = loops.size() < kFewest && !is_gross;
+    if (each.excess > 1.0 && !is_small && !is_drift) out.push_back(each);
+  }
+  std::ranges::stable_sort(out, std::greater{}, &CheckedClosure::excess);
   return out;
 }
 
-/// Sorted by their ends.
-std::vector<CheckedClosure> with_residuals(const std::vector<Edge>& closures, const Chain& chain) {
-  const std::vector<const Edge*> sorted = sorted_by_ends(closures);
-  std::vector<CheckedClosure> out;
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const Edge& edge = *sorted[i];
-    const Pose residual = loop_residual(edge, chain);
-    out.push_back({&edge,
-                   log_so3(residual.rotation).norm(),
-                   {residual.translation.norm(), std::max(1.0, chain.length(edge.from, edge.to))},
-                   residuals_over_closures(sorted, i, chain)});
-  }
-  return out;
-}
-
-/// Six times the drift of most loops, over their lengths.
-double most_drift(const std::vector<LoopResidual>& residuals) {
-  constexpr double kMost = 0.35, kOverUsual = 6.0;
-  constexpr std::size_t kFewest = 4;
-  std::vector<double> drifts;
-  for (const LoopResidual& each : residuals) drifts.push_back(each.distance / each.length);
-  return drifts.size() < kFewest ? kMost : std::min(kMost, kOverUsual * median_value(drifts));
-}
-
-/// Residuals up to which closures are plausible.
-struct ResidualLimits {
-  double least = 0.0;                               ///< [m]; smaller ones are no false closures
-  double over_odometry = 0.0, over_closures = 0.0;  ///< most drift on both kinds of paths [-]
-  bool are_all_false = false;
-
-  double excess(const LoopResidual& residual, double drift) const {
-    return residual.distance > least ? residual.distance / (least + drift * residual.length) : 0.0;
-  }
-};
-
-ResidualLimits limits_of(const std::vector<CheckedClosure>& closures, const Chain& chain) {
-  constexpr double kMostAngle = 1.3;  // [rad]; odometry is nearer to true closures
-  std::vector<LoopResidual> over_odometry, over_closures;
-  std::vector<double> distances, angles;
-  for (const CheckedClosure& each : closures) {
-    over_odometry.push_back(each.over_odometry);
-    over_closures.push_back(each.over_closures.empty() ? each.over_odometry
-                                                       : each.over_closures.front());
-    distances.push_back(each.over_odometry.distance);
-    angles.push_back(each.angle);
-  }
-  const double spread = spread_of(chain.poses.size(), [&](std::size_t i) -> const Vector3& {
-    return chain.poses[i].translation;
-  });
-  const double usual = median_value(std::move(distances));
-  return {std::clamp(20.0 * usual, 0.3, std::clamp(0.3 * spread, 0.3, 2.0)),
-          most_drift(over_odometry),
-          most_drift(over_closures),
-          median_value(std::move(angles)) > kMostAngle};
-}
-
-/// The larger excess: over the odometry, or with enough closures, the middle one of those over
-/// three other closures, of which a false one is outvoted.
-void measure_excess(CheckedClosure& closure, const ResidualLimits& limits, bool has_votes) {
-  closure.largest = closure.over_odometry;
-  closure.distance = closure.largest.distance;
-  closure.excess = limits.excess(closure.largest, limits.over_odometry);
-  if (!has_votes || closure.over_closures.size() != kVotes) return;
-  const auto excess = [&](const LoopResidual& each) {
-    return limits.excess(each, limits.over_closures);
-  };
-  std::ranges::sort(closure.over_closures, {}, excess);
-  const LoopResidual& middle = closure.over_closures[kVotes / 2];
-  closure.distance = middle.distance;
-  if (!(excess(middle) > closure.excess)) return;
-  closure.largest = middle;
-  closure.excess = excess(middle);
-}
-
-/// "3 -> 90 (gap of 2.1 m after 60 m), ...", the largest first.
-std::string list_of(const std::vector<CheckedClosure>& closures) {
+InputFinding contradiction(const std::vector<CheckedClosure>& found,
+                           std::size_t all,
+                           const Chain& chain,
+                           const KeyframeName& name) {
   constexpr std::size_t kListed = 5;
-  std::string out;
-  for (std::size_t i = 0; i < std::min(kListed, closures.size()); ++i) {
-    out += fmt::format("{}{} -> {} (gap of {:.3g} m after {:.3g} m)",
-                       out.empty() ? "" : ", ",
-                       closures[i].edge->from,
-                       closures[i].edge->to,
-                       closures[i].largest.distance,
-                       closures[i].largest.length);
+  std::string list;
+  for (std::size_t i = 0; i < std::min(kListed, found.size()); ++i) {
+    const LoopPath& path = found[i].paths->odometry;
+    const auto& [from, to, pose, information, scale] = *path.closure;
+    list += fmt::format("{}{} -> {} (gap of {:.3g} m after {:.3g} m)",
+                        i == 0 ? "" : ", ",
+                        name(from),
+                        name(to),
+                        gap_of(path, chain),
+                        chain.distance(from, to));
   }
-  return out;
+  return {Fault::closure_gap,
+          fmt::format("{} of {} closures contradict the odometry or other closures with the stated "
+                      "covariances, most of all {}",
+                      found.size(),
+                      all,
+                      list),
+          "check them; robust methods are made for false closures",
+          1.0 - 1.0 / std::max(2.0, found.front().excess),
+          static_cast<double>(found.size())};
 }
 
-struct ResidualCheck {
-  std::optional<InputFinding> finding;
-  std::vector<Edge> plausible;  ///< closures without the false ones; all if there is no finding
-};
-
-/// Closures that end more than 2 m from the odometry along their loop and more than six times the
-/// drift per distance of the median loop (at most 35 % of the loop's length). With at least ten
-/// closures, the same for the paths over odometry and one other closure: two of the three shortest
-/// have to contradict. A finding if the residuals are smaller by 10 % without them.
-/// O(closures log).
-ResidualCheck check_residuals(const std::vector<Edge>& closures, const Chain& chain) {
-  constexpr double kMostLeft = 0.9;
-  std::vector<CheckedClosure> all = with_residuals(closures, chain);
-  const ResidualLimits limits = limits_of(all, chain);
-  ResidualCheck out;
-  std::vector<CheckedClosure> contradicted;
-  double squares = 0.0, squares_of_false = 0.0;  // of distances [m^2]
-  for (CheckedClosure& closure : all) {
-    measure_excess(closure, limits, all.size() >= kFewestForVotes);
-    const bool is_false = closure.excess > 1.0 || limits.are_all_false;
-    (is_false ? squares_of_false : squares) += closure.distance * closure.distance;
-    if (is_false) {
-      contradicted.push_back(closure);
-    } else {
-      out.plausible.push_back(*closure.edge);
-    }
+/// The median chi-squared over the most certain paths. O(closures).
+std::optional<InputFinding> check_information(const std::vector<LoopPaths>& loops,
+                                              const Chain& chain) {
+  constexpr std::size_t kFewest = 3;                     // one is as likely false
+  constexpr double kTooLarge = 100.0, kTooSmall = 1e-4;  // drift exceeds noise
+  constexpr double kExact = 1e-6;                        // gap of measurements without noise [m]
+  std::vector<double> direct, around, gaps;
+  for (const LoopPaths& each : loops) {
+    direct.push_back(each.odometry.chi_squared(chain, as_stated));
+    if (!each.over_closures.empty())
+      around.push_back(each.over_closures.front().chi_squared(chain, as_stated));
+    gaps.push_back(each.odometry.residual(chain, as_stated).norm());
   }
-  const auto rms = [](double sum, std::size_t count) {
-    return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)));
-  };
-  const double before = rms(squares + squares_of_false, closures.size());
-  const double after = rms(squares, out.plausible.size());
-  if (contradicted.empty() || after > kMostLeft * before) return {std::nullopt, closures};
-  std::ranges::stable_sort(contradicted, std::greater{}, &CheckedClosure::excess);
-  const bool is_all = out.plausible.empty();
-  out.finding = InputFinding{
-      Fault::closure_gap,
-      fmt::format("{} of {} closures contradict the odometry or other closures, most of all {}",
-                  contradicted.size(),
-                  closures.size(),
-                  list_of(contradicted)) +
-          (is_all
-               ? ""
-               : fmt::format("; without them, rms of the gaps {:.3g} -> {:.3g} m", before, after)),
-      is_all ? "check units, frames and order of quaternions of all edges"
-             : "check them; robust methods are made for false closures",
-      std::max(1.0 - after / before, 1.0 - 1.0 / contradicted.front().excess),
-      static_cast<double>(contradicted.size())};
-  return out;
+  double found = median_value(std::move(direct));
+  const bool has_neighbours = around.size() >= kFewest;
+  const double of_neighbours = median_value(std::move(around));
+  if (has_neighbours && of_neighbours < kTooSmall) found = of_neighbours;
+  if (loops.size() < kFewest || (found < kTooLarge && found > kTooSmall) ||
+      median_value(std::move(gaps)) < kExact) {
+    return std::nullopt;
+  }
+  return InputFinding{
+      Fault::information,
+      fmt::format("the gaps of {} loops have a median chi-squared of {:.2g} per degree of freedom, "
+                  "expected 1: their variances are {:.2g} times those stated",
+                  loops.size(),
+                  found,
+                  found),
+      "check the information of the edges; for a trajectory: options odometry.sigma_*, "
+      "closures.sigma_*",
+      0.8,
+      found};
 }
 
 }  // namespace
 
-std::vector<InputFinding> check_closures(const Problem& problem) {
+std::vector<InputFinding> check_closures(const Problem& problem, const KeyframeName& name) {
   std::vector<InputFinding> out;
-  if (auto repair = find_odometry_repair(problem)) return {*repair};
-  if (problem.closures.empty()) return out;
-  if (problem.odometry.size() + 1 != problem.keyframes.size()) {
-    if (auto repair = find_closure_repair_by_keyframes(problem)) out.push_back(*repair);
-    return out;
-  }
-  Problem measured = problem;
+  const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
+  if (problem.closures.empty() || !is_chain) return out;
+  std::vector<Edge> closures = problem.closures;
   const Chain chain = chain_of(problem);
-  if (auto found = remove_unmeasured(measured.closures, chain)) out.push_back(*found);
-  if (measured.closures.empty()) return out;
-  const ResidualCheck residuals = check_residuals(measured.closures, chain);
-  const std::size_t count = measured.closures.size();
-  const bool are_few_false = 5 * (count - residuals.plausible.size()) < count;
-  auto repair = find_closure_repair(measured, chain);
-  if (!repair) repair = find_closure_repair_by_keyframes(measured);
-  // Smaller translations of all closures also shrink the gaps of a few false ones.
-  const bool is_unit = repair && repair->fault == Fault::closure_unit;
-  if (repair && !(is_unit && residuals.finding && are_few_false)) {
+  if (auto found = remove_placeholders(closures, chain)) out.push_back(*found);
+  std::vector<LoopPaths> loops = loop_paths(closures, chain);
+  if (auto repair = find_closure_repair(loops, chain)) {
     out.push_back(std::move(*repair));
     return out;
   }
-  if (residuals.finding) out.push_back(*residuals.finding);
-  if (are_few_false) {  // false closures show nothing about the information
-    measured.closures = residuals.plausible;
-    if (auto found = check_information(measured)) out.push_back(*found);
-  }
-  std::erase_if(out, [](const InputFinding& f) { return f.confidence < kLeastConfidence; });
+  const std::vector<CheckedClosure> found = contradicted_closures(loops, chain);
+  if (!found.empty()) out.push_back(contradiction(found, loops.size(), chain, name));
+  if (5 * found.size() >= loops.size()) return out;  // false closures show no information
+  std::erase_if(loops, [&](const LoopPaths& each) {
+    return std::ranges::any_of(found, [&](const CheckedClosure& one) {
+      return one.paths->odometry.closure == each.odometry.closure;
+    });
+  });
+  if (auto information = check_information(loops, chain)) out.push_back(std::move(*information));
   return out;
+}
+
+std::vector<InputFinding> check_closures(const Problem& problem) {
+  return check_closures(problem, [&](std::size_t keyframe) {
+    return fmt::format("{:.15g} s", problem.keyframes[keyframe].stamp);
+  });
 }
 
 }  // namespace loopbench::metrics

@@ -8,6 +8,7 @@
 
 #include "metrics/doctor/pair_checks.hpp"
 #include "metrics/numerics/angle.hpp"
+#include "metrics/numerics/average.hpp"
 
 namespace loopbench::metrics {
 namespace {
@@ -19,57 +20,33 @@ constexpr double kLeastOfNoise = 3.0;  // standard deviation of positions over t
 
 /// Whether noise explains the positions: their standard deviation is at most kLeastOfNoise times
 /// the one of white noise that the median distance of a position from the middle of the ones before
-/// and after has. Acceleration adds to it. O(n).
+/// and after has. Acceleration adds to it. O(1).
 bool is_at_rest(const Trajectory& poses) {
   constexpr double kRounding = 1e-9;
   constexpr double kMeanOverMedian = 3.0 / 2.366;  // of chi-squared with 3 degrees of freedom
-  const auto n = static_cast<double>(poses.size());
-  Vector3 mean = Vector3::Zero();
-  for (const StampedPose& pose : poses) mean += pose.world_from_body.translation / n;
-  double variance = 0.0;
+  const auto at = [&](std::size_t i) -> const Vector3& {
+    return poses[i].world_from_body.translation;
+  };
+  const std::size_t step = even_step(poses.size(), kMostPoses);
+  const double spread = spread_of((poses.size() - 1) / step + 1,
+                                  [&](std::size_t k) -> const Vector3& { return at(k * step); });
   std::vector<double> squares;  // of the distances from the middle
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Vector3& position = poses[i].world_from_body.translation;
-    variance += (position - mean).squaredNorm() / n;
-    if (i == 0 || i + 1 == poses.size()) continue;
-    const Vector3 middle =
-        0.5 * (poses[i - 1].world_from_body.translation + poses[i + 1].world_from_body.translation);
-    squares.push_back((position - middle).squaredNorm() / 1.5);
+  for (std::size_t i = 1; i + 1 < poses.size(); i += step) {
+    squares.push_back((at(i) - 0.5 * (at(i - 1) + at(i + 1))).squaredNorm() / 1.5);
   }
   const double noise = std::sqrt(kMeanOverMedian * median_value(std::move(squares)));
-  return std::sqrt(variance) <= kLeastOfNoise * noise + kRounding * mean.norm();
-}
-
-/// Positions without rotations with constant ones.
-Trajectory with_rotations(Trajectory poses) {
-  if (!lacks_rotations(poses)) return poses;
-  for (StampedPose& pose : poses) pose.world_from_body.rotation = Rotation::Identity();
-  return poses;
+  return spread <= kLeastOfNoise * noise + kRounding * at(0).norm();
 }
 
 /// The pair with the repairs of what was found.
 class PairDiagnosis {
  public:
-  PairDiagnosis(const Trajectory& reference, const Trajectory& estimate)
-      : has_rotations_(!lacks_rotations(reference) && !lacks_rotations(estimate)),
-        reference_(with_rotations(reference)),
-        estimate_(with_rotations(estimate)) {}
+  PairDiagnosis(const Trajectory& reference, const Trajectory& estimate, bool has_stamps)
+      : reference_(&reference), estimate_(&estimate), has_stamps_(has_stamps) {}
 
-  Diagnosis run(const std::string& reference_name,
-                const std::string& estimate_name,
-                bool has_stamps) {
-    constexpr double kAgrees = 0.8;  // correlation of speeds
+  Diagnosis run(const std::string& reference_name, const std::string& estimate_name) {
     add(check_swapped(reference_name, estimate_name));
-    const PairDiagnosis as_read = *this;
-    const bool has_jumps = repair_rows();
-    // They hide clocks, but only if all else fits: clocks also look like jumps.
-    const bool are_clocks = has_jumps && speed_correlation(reference_, estimate_) <= kAgrees;
-    if (are_clocks) *this = as_read;
-    const std::size_t count = out_.findings.size();
-    if (!has_stamps)
-      out_.unchecked.emplace_back("stamps: a file has none, its rows count as equally spaced");
-    if (has_stamps || reference_.size() != estimate_.size()) check_stamps(has_stamps);
-    if (are_clocks || (!has_jumps && out_.findings.size() > count)) repair_rows();
+    check_stamps();
     check_poses();
     std::erase_if(out_.findings,
                   [](const InputFinding& f) { return f.confidence < kLeastConfidence; });
@@ -82,41 +59,61 @@ class PairDiagnosis {
     return found.has_value();
   }
 
-  /// Rows that repeat the one before, and jumps, of the estimate or else of the reference.
-  bool repair_rows() {
-    for (const bool is_reference : {false, true}) {
-      Trajectory& file = is_reference ? reference_ : estimate_;
-      const Trajectory& other = is_reference ? estimate_ : reference_;
-      const std::string name = is_reference ? "reference" : "estimate";
-      const bool stands_still = add(remove_standstill(file, other, name));
-      if (add(remove_jumps(file, other, name)) || stands_still) return true;
-    }
-    return false;
-  }
-
-  void check_stamps(bool has_stamps) {
-    out_.has_checked = add(repair_stamp_unit(reference_, estimate_));
-    const bool has_rate = add(repair_rate(reference_, estimate_, has_stamps));
-    if (!has_rate && add(repair_clock(reference_, estimate_, has_stamps))) return;
-    if (std::min(reference_.size(), estimate_.size()) < kFewestCommonPoses) {
+  void check_stamps() {
+    constexpr double kRowsSearched = 10.0;
+    if (!has_stamps_)
+      out_.unchecked.emplace_back("stamps: a file has none, its rows count as equally spaced");
+    repair_unit_of_stamps();
+    if (std::min(reference_->size(), estimate_->size()) < kFewestCommonPoses) {
       out_.unchecked.emplace_back("time offset: fewer than 20 poses");
     }
-    if (const auto found = estimate_time_offset(reference_, estimate_)) {
+    const bool are_rows = !has_stamps_ && reference_->size() == estimate_->size();
+    const auto found =
+        are_rows ? estimate_time_offset(
+                       *reference_, *estimate_, kRowsSearched * usual_interval(*estimate_), true)
+                 : estimate_time_offset(*reference_, *estimate_);
+    if (found) {
       out_.has_checked = true;
-      if (add(offset_finding(*found, reference_, estimate_))) {
-        for (StampedPose& pose : estimate_) pose.stamp += found->offset;
-      }
+      if (add(offset_finding(*found, *reference_, *estimate_, has_stamps_)))
+        offset_ = out_.findings.back().value;
     }
-    const bool has_missing = std::ranges::any_of(
-        out_.findings, [](const InputFinding& f) { return f.fault == Fault::missing_poses; });
-    if (!add(check_overlap(reference_, estimate_)) && !has_missing) {
-      add(check_missing(reference_, estimate_));
+    if (!add(check_overlap(*reference_, *estimate_, offset_)) && !are_rows)
+      add(check_missing(*reference_, *estimate_, offset_));
+  }
+
+  void repair_unit_of_stamps() {
+    if (!add(check_stamp_unit(*reference_, *estimate_))) return;
+    const double divisor = out_.findings.back().value;
+    const bool is_estimate = divisor > 1.0;
+    out_.has_checked = true;
+    changed_ = is_estimate ? *estimate_ : *reference_;
+    for (StampedPose& pose : changed_) pose.stamp *= is_estimate ? 1.0 / divisor : divisor;
+    (is_estimate ? estimate_ : reference_) = &changed_;
+  }
+
+  /// Jumps of the estimate, or else of the reference, at its own poses.
+  bool remove_all_jumps(Paired& poses) {
+    constexpr std::size_t kMostRows = 5000;  // a jump between two poses is found at any distance
+    Paired rows = common_poses(*reference_, *estimate_, offset_, kMostRows);
+    bool has_jumps = add(remove_jumps(rows, false));
+    if (!has_jumps) {
+      rows = common_poses(*estimate_, *reference_, -offset_, kMostRows);
+      std::swap(rows.reference, rows.estimate);
+      has_jumps = add(remove_jumps(rows, true));
     }
+    if (!has_jumps) return false;
+    poses = {};
+    for (std::size_t i = 0; i < rows.estimate.size();
+         i += even_step(rows.estimate.size(), kMostPoses)) {
+      poses.reference.push_back(rows.reference[i]);
+      poses.estimate.push_back(rows.estimate[i]);
+    }
+    return true;
   }
 
   void check_poses() {
     constexpr int kMostRepairs = 3;
-    Paired poses = common_poses(reference_, estimate_);
+    Paired poses = common_poses(*reference_, *estimate_, offset_);
     if (poses.estimate.size() < kFewestCommonPoses) {
       out_.unchecked.push_back(
           fmt::format("{}: poses of the estimate in the reference's time: {}, expected at least {}",
@@ -125,8 +122,8 @@ class PairDiagnosis {
                       kFewestCommonPoses));
       return;
     }
-    const bool is_reference = is_at_rest(reference_);
-    if (is_reference || is_at_rest(estimate_)) {
+    const bool is_reference = is_at_rest(*reference_);
+    if (is_reference || is_at_rest(*estimate_)) {
       out_.unchecked.push_back(fmt::format("{}: the {} moves by less than {:g} times its noise",
                                            kChecksOfPoses,
                                            is_reference ? "reference" : "estimate",
@@ -134,11 +131,8 @@ class PairDiagnosis {
       return;
     }
     out_.has_checked = true;
-    if (add(check_angle_unit(poses))) {
-      for (auto* list : {&poses.reference, &poses.estimate}) {
-        for (StampedPose& pose : *list) pose.world_from_body.rotation = Rotation::Identity();
-      }
-    } else if (!has_rotations(poses)) {
+    remove_all_jumps(poses);
+    if (!has_rotations(poses)) {
       note_constant_rotation(largest_rotation_angle(poses.reference),
                              largest_rotation_angle(poses.estimate));
     }
@@ -153,11 +147,12 @@ class PairDiagnosis {
     const auto [smaller, larger] = std::minmax(of_reference, of_estimate);
     const char* const name = of_reference <= kLeastRotation ? "reference" : "estimate";
     out_.unchecked.push_back(
-        fmt::format("quaternion order, inverted poses, axes, unit of angles: the {} does not "
+        fmt::format("quaternion order, inverted poses, axes: the {} does not "
                     "rotate by {:g} rad",
                     name,
                     kLeastRotation));
-    if (!has_rotations_ || smaller > kConstant || larger < kOtherRotates) return;
+    const bool has_positions_only = lacks_rotations(*reference_) || lacks_rotations(*estimate_);
+    if (has_positions_only || smaller > kConstant || larger < kOtherRotates) return;
     out_.findings.push_back(
         {Fault::constant_rotation,
          fmt::format("the {}'s rotation is constant while the other file rotates by {:.0f} deg",
@@ -175,15 +170,11 @@ class PairDiagnosis {
     const bool disagrees = left.has_rotations ? left.turning > kTurning && position > kPosition
                                               : position > kPositionAlone;
     if (!disagrees) return;
-    const double correlation = speed_correlation(reference_, estimate_);
+    const double correlation = speed_correlation(*reference_, *estimate_, offset_);
     const double confidence = std::min(1.0, position) * (1.0 - correlation);
     if (correlation > kCorrelation || confidence < kLeastConfidence) return;
-    if (auto order = repair_order(estimate_, reference_, "estimate")) {
-      out_.findings = {*order};
-      return;
-    }
-    if (auto order = repair_order(reference_, estimate_, "reference")) {
-      out_.findings = {*order};
+    if (auto dropped = check_dropped_frames(*reference_, *estimate_)) {
+      out_.findings = {std::move(*dropped)};
       return;
     }
     out_.findings = {
@@ -199,8 +190,11 @@ class PairDiagnosis {
          position}};
   }
 
-  bool has_rotations_;  ///< false: a file has positions only
-  Trajectory reference_, estimate_;
+  const Trajectory* reference_;
+  const Trajectory* estimate_;
+  Trajectory changed_;  ///< with stamps in seconds
+  bool has_stamps_;
+  double offset_ = 0.0;  ///< found [s]
   Diagnosis out_;
 };
 
@@ -211,7 +205,7 @@ Diagnosis diagnosis(const Trajectory& reference,
                     const std::string& reference_name,
                     const std::string& estimate_name,
                     bool has_stamps) {
-  return PairDiagnosis(reference, estimate).run(reference_name, estimate_name, has_stamps);
+  return PairDiagnosis(reference, estimate, has_stamps).run(reference_name, estimate_name);
 }
 
 }  // namespace loopbench::metrics

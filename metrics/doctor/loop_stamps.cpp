@@ -34,36 +34,31 @@ std::optional<InputFinding> check_loop_stamps(const std::vector<double>& loops,
   const auto range = std::ranges::minmax(loops);
   const double first = range.min, last = range.max;
   const double begin = poses.front().stamp, end = poses.back().stamp;
-  const auto finding =
-      [&](Fault::Name fault, const std::string& change, const std::string& fix, double value) {
-        return InputFinding{fault,
-                            fmt::format("{:.0f} % of the loops' stamps ({:.15g} to {:.15g}) are "
-                                        "those of poses ({:.3f} to {:.3f}){}",
-                                        100.0 * as_read,
-                                        first,
-                                        last,
-                                        begin,
-                                        end,
-                                        change),
-                            fix,
-                            1.0 - as_read,
-                            value};
-      };
+  const auto finding = [&](const std::string& change, const std::string& fix, double value) {
+    return InputFinding{Fault::loop_stamps,
+                        fmt::format("{:.0f} % of the loops' stamps ({:.15g} to {:.15g}) are "
+                                    "those of poses ({:.3f} to {:.3f}){}",
+                                    100.0 * as_read,
+                                    first,
+                                    last,
+                                    begin,
+                                    end,
+                                    change),
+                        fix,
+                        1.0 - as_read,
+                        value};
+  };
   for (const double factor : {1e-3, 1e-6, 1e-9}) {
     const double part = found_part(loops, poses, factor, 0.0);
     if (part < kMost || factor * (last - first) < kLeastSpan * (end - begin)) continue;
-    return finding(Fault::stamp_unit,
-                   fmt::format("; times {:g}, {:.0f} %", factor, 100.0 * part),
+    return finding(fmt::format("; times {:g}, {:.0f} %", factor, 100.0 * part),
                    "write the stamps of the loops in seconds",
                    1.0 / factor);
   }
   const auto is_whole = [](double stamp) { return stamp == std::round(stamp); };
   if (first >= 0.0 && last <= static_cast<double>(poses.size()) && last < begin &&
       std::ranges::all_of(loops, is_whole)) {
-    return finding(Fault::frame_indices,
-                   ": they are numbers of poses or frames",
-                   "write the stamps of the poses",
-                   last);
+    return finding(": they are numbers of poses or frames", "write the stamps of the poses", last);
   }
   std::size_t fitting = 0;
   double offset = 0.0;
@@ -74,15 +69,11 @@ std::optional<InputFinding> check_loop_stamps(const std::vector<double>& loops,
     offset = each;
   }
   if (fitting == 1) {
-    return finding(Fault::time_offset,
-                   fmt::format("; {:.3f} s later, at least {:.0f} %", offset, 100.0 * kMost),
+    return finding(fmt::format("; {:.3f} s later, at least {:.0f} %", offset, 100.0 * kMost),
                    "write the loops with the clock of the trajectory",
                    offset);
   }
-  return finding(last < begin || first > end ? Fault::no_overlap : Fault::time_offset,
-                 "",
-                 "give the loops of this trajectory, with its stamps",
-                 begin - first);
+  return finding("", "give the loops of this trajectory, with its stamps", begin - first);
 }
 
 }  // namespace loopbench::metrics

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "metrics/doctor/agreement.hpp"
 #include "metrics/doctor/finding.hpp"
@@ -17,80 +18,58 @@ struct TimeOffset {
   bool has_common_time = true;  ///< at offset 0
 };
 
-/// Correlation of the speeds as read; 0 without common times. O(1e3 log n).
-double speed_correlation(const Trajectory& reference, const Trajectory& estimate);
+/// Correlation of the speeds as read; 0 without common times. O(log n).
+double speed_correlation(const Trajectory& reference, const Trajectory& estimate, double offset);
 
-/// The offset with the largest correlation of linear and angular speed: at most `searched` [s], by
-/// default 10; over all overlaps if the trajectories have no common time or, by default, if no such
-/// offset explains the speeds (GPS time is 18 s ahead). Refined to a fraction of a sample. An
-/// offset below 1 s is preferred to a larger one that fits equally well, as periodic motion has.
+/// The offset with the largest correlation of linear and angular speed: at most `searched` [s], or
+/// else over all overlaps of at least half of the shorter file. Refined to a fraction of a sample.
+/// An offset below 1 s is preferred to a larger one that fits equally well, as periodic motion has.
 /// The deviation follows from the residuals of the speeds and their slopes. nullopt without enough
-/// motion, or if no offset explains the speeds (correlation below 0.6). Compares at most 20 000
-/// offsets of a range. O(1e7).
+/// motion, or if no offset explains the speeds (correlation below 0.6). O(1e5 log n).
 std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
                                                const Trajectory& estimate,
-                                               std::optional<double> searched = {});
+                                               double searched = 10.0,
+                                               bool is_limited = false);
 
 /// A finding if the offset is significant (five standard deviations, above 20 ms and 35 % of the
 /// estimate's interval) and reduces the errors after an alignment. Files without common time, and
 /// offsets above 10 s, need a correlation of 0.85: those of different recordings reach 0.75.
+/// Without stamps, the offset is one of rows, and has to be a whole number of them.
 std::optional<InputFinding> offset_finding(const TimeOffset& found,
                                            const Trajectory& reference,
-                                           const Trajectory& estimate);
+                                           const Trajectory& estimate,
+                                           bool has_stamps);
 
-// Those with changeable poses correct what they find in them.
+/// Speeds agree only with another rate of the stamps, or with another offset in each fifth of the
+/// estimate: it is of the same recording, but its stamps are frame numbers, or frames were dropped
+/// before stamps were written. O(1e5 log n).
+std::optional<InputFinding> check_dropped_frames(const Trajectory& reference,
+                                                 const Trajectory& estimate);
 
-/// The stamps of one file fit those of the other only after division by 10^3, 10^6 or 10^9. O(n).
-std::optional<InputFinding> repair_stamp_unit(Trajectory& reference, Trajectory& estimate);
+/// The stamps of one file fit those of the other only after division by 10^3, 10^6 or 10^9; value:
+/// the divisor of the estimate's stamps, or its inverse for the reference's. O(1).
+std::optional<InputFinding> check_stamp_unit(const Trajectory& reference,
+                                             const Trajectory& estimate);
 
-/// The estimate's stamps grow at another rate, with which speeds agree: whole numbers or rows at a
-/// usual frame rate, a recording that was played at another speed, every k-th row. O(1e8).
-std::optional<InputFinding> repair_rate(const Trajectory& reference,
-                                        Trajectory& estimate,
-                                        bool has_stamps);
-
-/// The offset of the estimate grows steadily over its three thirds, or jumps between its five
-/// fifths, and relative rotations (without rotations: positions) have smaller errors with these
-/// offsets. O(1e7).
-std::optional<InputFinding> repair_clock(const Trajectory& reference,
-                                         Trajectory& estimate,
-                                         bool has_stamps);
-
-/// The time ranges do not overlap; a finding of frame indices if only the estimate's stamps are
-/// whole numbers. O(n).
-std::optional<InputFinding> check_overlap(const Trajectory& reference, const Trajectory& estimate);
+/// The time ranges do not overlap. O(1).
+std::optional<InputFinding> check_overlap(const Trajectory& reference,
+                                          const Trajectory& estimate,
+                                          double offset);
 
 /// The estimate has no poses in at least a quarter of the reference's path, or in 12 % between its
-/// first and last pose, in gaps above 2 s and ten of its usual intervals. O(n).
-std::optional<InputFinding> check_missing(const Trajectory& reference, const Trajectory& estimate);
+/// first and last pose, in gaps above 2 s and ten of its usual intervals. O(log n).
+std::optional<InputFinding> check_missing(const Trajectory& reference,
+                                          const Trajectory& estimate,
+                                          double offset);
 
 /// Only the estimate's name contains a word like "groundtruth". Rates are no evidence: correct
 /// references are sparser than estimates, or denser. O(1).
 std::optional<InputFinding> check_swapped(const std::string& reference_name,
                                           const std::string& estimate_name);
 
-/// The estimate's rotations over short distances are 57.3 times those of the reference, or a 57th.
-/// O(n).
-std::optional<InputFinding> check_angle_unit(const Paired& poses);
-
-// The first file is changed, the other one shows how far it should move.
-
-/// Rows that repeat the position before while the other file moves: tracking was lost. They are
-/// removed if that reduces the position error. O(n + m).
-std::optional<InputFinding> remove_standstill(Trajectory& file,
-                                              const Trajectory& other,
-                                              const std::string& name);
-
-/// Up to a sixth of all steps are jumps. Outliers are removed, and other jumps undone, if that
-/// reduces the position error. O(n + m).
-std::optional<InputFinding> remove_jumps(Trajectory& file,
-                                         const Trajectory& other,
-                                         const std::string& name);
-
-/// Rows in the order of names: "10" before "2". O(n log n + m).
-std::optional<InputFinding> repair_order(Trajectory& file,
-                                         const Trajectory& other,
-                                         const std::string& name);
+/// Up to a sixth of all steps of `file` are jumps; `other` shows how far it should move. Outliers
+/// are removed, and other jumps undone, if that reduces the position error. O(log n).
+std::optional<InputFinding> remove_jumps(Paired& poses, bool of_reference);
 
 /// Of order and sign of quaternions, inverted poses, axes, units of lengths, scale, rotation and
 /// lever arm of the body, the repair with the largest gain. It has to reduce the sum of errors

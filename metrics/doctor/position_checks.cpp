@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -16,21 +15,21 @@ double distance(const Trajectory& poses, std::size_t i, std::size_t j) {
   return (poses[j].world_from_body.translation - poses[i].world_from_body.translation).norm();
 }
 
-/// The poses of a file, those of the other file at the same time, and what steps of the file are.
+/// Simultaneous poses of a file and of the other one, and what steps of the file are.
 struct Steps {
-  Paired poses;          ///< `reference` is the other file
+  const Trajectory& file;
+  const Trajectory& other;
   double scale = 1.0;    ///< of the file, over the other one
   double largest = 0.0;  ///< longer steps than the other file's by this are jumps [m]
 
-  Steps(const Trajectory& file, const Trajectory& other)
-      : poses(interpolate_reference(other, file, longest_gap(other), 0.0)) {
-    constexpr double kOverUsual = 20.0, kOfSpread = 0.02, kMost = 0.85;
-    const std::size_t n = poses.estimate.size(), few = n / 200 + 1;
-    if (n < kFewestCommonPoses) return;
+  Steps(const Trajectory& from, const Trajectory& to) : file(from), other(to) {
+    // Over what 85 % of the steps are longer by; of all positions' spread.
+    constexpr double kOverUsual = 20.0, kMost = 0.85, kOfSpread = 0.02;
+    const std::size_t n = file.size(), few = n / 200 + 1;
     std::vector<double> of_file, of_other, differences;
     for (std::size_t i = 0; i + few < n; ++i) {
-      of_file.push_back(distance(poses.estimate, i, i + few));
-      of_other.push_back(distance(poses.reference, i, i + few));
+      of_file.push_back(distance(file, i, i + few));
+      of_other.push_back(distance(other, i, i + few));
     }
     const double usual = median_value(std::move(of_other));
     if (usual > 0.0) scale = median_value(std::move(of_file)) / usual;
@@ -38,15 +37,13 @@ struct Steps {
     std::ranges::sort(differences);
     largest = std::max(kOverUsual * percentile(differences, kMost),
                        kOfSpread * scale * spread_of(n, [&](std::size_t i) -> const Vector3& {
-                         return poses.reference[i].world_from_body.translation;
+                         return other[i].world_from_body.translation;
                        }));
   }
 
-  double expected(std::size_t i, std::size_t j) const {
-    return scale * distance(poses.reference, i, j);
-  }
+  double expected(std::size_t i, std::size_t j) const { return scale * distance(other, i, j); }
   double excess(std::size_t i, std::size_t j) const {
-    return distance(poses.estimate, i, j) - expected(i, j);
+    return distance(file, i, j) - expected(i, j);
   }
   bool is_jump(std::size_t i, std::size_t j) const {
     constexpr double kOverExpected = 3.0;
@@ -66,76 +63,25 @@ double position_error(const Paired& poses) {
   return std::sqrt(squares / static_cast<double>(poses.estimate.size()));
 }
 
-/// Accepts a change of a file that reduces the error of its positions.
-std::optional<std::string> accept(Trajectory& file,
-                                  Trajectory changed,
-                                  const Trajectory& other,
-                                  double most_ratio) {
-  const Paired before = Steps(file, other).poses, after = Steps(changed, other).poses;
-  if (after.estimate.size() < kFewestCommonPoses) return std::nullopt;
-  const double was = position_error(before), is = position_error(after);
-  if (!(is < most_ratio * was)) return std::nullopt;
-  file = std::move(changed);
-  return fmt::format("position error after alignment with scale {:.3g} -> {:.3g} m", was, is);
-}
-
 }  // namespace
 
-std::optional<InputFinding> remove_standstill(Trajectory& file,
-                                              const Trajectory& other,
-                                              const std::string& name) {
-  constexpr double kSame = 1e-9, kOverLargest = 2.0, kMostRatio = 0.9;
-  const Steps steps(file, other);
-  const Trajectory& poses = steps.poses.estimate;
-  if (poses.size() < kFewestCommonPoses) return std::nullopt;
-  std::vector<double> lost;  // stamps
-  double moved = 0.0;
-  for (std::size_t begin = 0, end = 0; begin + 1 < poses.size(); begin = end + 1) {
-    end = begin;
-    while (end + 1 < poses.size() && distance(poses, begin, end + 1) < kSame) ++end;
-    const bool is_jump = begin > 0 && steps.is_jump(begin - 1, begin);
-    if (is_jump || steps.expected(begin, end) < kOverLargest * steps.largest) continue;
-    moved = std::max(moved, distance(steps.poses.reference, begin, end));
-    for (std::size_t i = begin + 1; i <= end; ++i) lost.push_back(poses[i].stamp);
-  }
-  if (lost.empty()) return std::nullopt;
-  Trajectory moving = file;
-  std::erase_if(moving, [&](const StampedPose& pose) {
-    return std::ranges::binary_search(lost, pose.stamp);
-  });
-  const auto change = accept(file, std::move(moving), other, kMostRatio);
-  if (!change) return std::nullopt;
-  return InputFinding{
-      Fault::missing_poses,
-      fmt::format(
-          "{} poses of the {} repeat the one before, the first at {:.3f} s, while the other "
-          "file moves by up to {:.3g} m; without them, {}",
-          lost.size(),
-          name,
-          lost.front(),
-          moved,
-          *change),
-      "remove the rows in which tracking was lost, and state the coverage",
-      1.0,
-      static_cast<double>(lost.size())};
-}
-
-std::optional<InputFinding> remove_jumps(Trajectory& file,
-                                         const Trajectory& other,
-                                         const std::string& name) {
+std::optional<InputFinding> remove_jumps(Paired& pairs, bool of_reference) {
   constexpr std::size_t kListed = 5, kReturnsWithin = 20;  // jumps
   constexpr std::size_t kLongest = 20;                     // outlier, as a part of the poses
-  constexpr double kLongestPause = 100.0;
-  constexpr double kMostRatio = 0.95, kLeastAngle = 0.3;  // [-], [rad]
-  const Steps steps(file, other);
-  const Trajectory& poses = steps.poses.estimate;
-  const double longest = kLongestPause * longest_gap(poses);  // [s]; after a stray stamp
+  constexpr std::size_t kMostJumps = 6;                    // the same; more are noise
+  constexpr double kLongestPause = 100.0;                  // over the usual; after a stray stamp
+  constexpr double kMostRatio = 0.95, kLeastAngle = 0.3;   // [-], [rad]
+  const Trajectory& poses = of_reference ? pairs.reference : pairs.estimate;
+  const Trajectory& other = of_reference ? pairs.estimate : pairs.reference;
+  if (poses.size() < kFewestCommonPoses) return std::nullopt;
+  const Steps steps(poses, other);
+  const double longest = kLongestPause * longest_gap(poses);  // [s]
   std::vector<std::size_t> jumps;                             // begins of steps
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
     const bool is_other_time = poses[i + 1].stamp - poses[i].stamp > longest;
     if (!is_other_time && steps.is_jump(i, i + 1)) jumps.push_back(i);
   }
-  if (jumps.empty() || jumps.size() > poses.size() / 6) return std::nullopt;
+  if (jumps.empty() || jumps.size() > poses.size() / kMostJumps) return std::nullopt;
   /// Whether a jump after pose j undoes the one after pose i.
   const auto is_return = [&](std::size_t i, std::size_t j) {
     const double ratio = distance(poses, j, j + 1) / distance(poses, i, i + 1);
@@ -143,12 +89,14 @@ std::optional<InputFinding> remove_jumps(Trajectory& file,
            !steps.is_jump(i, j + 1);
   };
   std::string list;
-  Trajectory changed;
+  Paired changed;
   Pose back;  // of all poses since the last jump that no other one undoes
   std::size_t copied = 0, count = 0;
   const auto copy_until = [&](std::size_t end) {
     for (; copied < end; ++copied) {
-      changed.push_back({poses[copied].stamp, back * poses[copied].world_from_body});
+      Trajectory& moved = of_reference ? changed.reference : changed.estimate;
+      moved.push_back({poses[copied].stamp, back * poses[copied].world_from_body});
+      (of_reference ? changed.estimate : changed.reference).push_back(other[copied]);
     }
   };
   for (std::size_t k = 0; k < jumps.size(); ++k) {
@@ -158,7 +106,7 @@ std::optional<InputFinding> remove_jumps(Trajectory& file,
                           list.empty() ? "" : ", ",
                           poses[i + 1].stamp,
                           distance(poses, i, i + 1),
-                          distance(steps.poses.reference, i, i + 1));
+                          distance(other, i, i + 1));
     }
     copy_until(i + 1);
     const std::size_t last = std::min(jumps.size(), k + kReturnsWithin);
@@ -169,55 +117,38 @@ std::optional<InputFinding> remove_jumps(Trajectory& file,
       copied = jumps[end] + 1;
       continue;
     }
-    const Pose& from = changed.back().world_from_body;
+    const Trajectory& before = of_reference ? changed.reference : changed.estimate;
+    const Pose& from = before.back().world_from_body;
     const Pose to = back * poses[i + 1].world_from_body;
     const auto angle = [&](const Trajectory& all) {
       return angle_between(all[i].world_from_body.rotation, all[i + 1].world_from_body.rotation);
     };
     const bool has_other_axes =  // as a new map
-        std::abs(angle(poses) - angle(steps.poses.reference)) > kLeastAngle;
+        std::abs(angle(poses) - angle(other)) > kLeastAngle;
     const Rotation turn =
         has_other_axes ? from.rotation * to.rotation.conjugate() : Rotation::Identity();
     back = normalized(Pose{turn, from.translation - turn * to.translation} * back);
   }
   copy_until(poses.size());
-  const auto change = accept(file, std::move(changed), other, kMostRatio);
-  if (!change) return std::nullopt;
+  if (changed.estimate.size() < kFewestCommonPoses) return std::nullopt;
+  const double was = position_error(pairs), is = position_error(changed);
+  if (!(is < kMostRatio * was)) return std::nullopt;
+  pairs = std::move(changed);
   if (count > kListed) {
     const std::size_t more = count - kListed;
     list += fmt::format(" and {} more time{}", more, more == 1 ? "" : "s");
   }
   return InputFinding{
       Fault::jumps,
-      fmt::format("the {}'s position jumps at {}: without them, {}", name, list, *change),
+      fmt::format("the {}'s position jumps at {}: without them, position error after alignment "
+                  "with scale {:.3g} -> {:.3g} m",
+                  of_reference ? "reference" : "estimate",
+                  list,
+                  was,
+                  is),
       "evaluate the parts on their own (traj crop), or repair the source",
       1.0,
       static_cast<double>(count)};
-}
-
-std::optional<InputFinding> repair_order(Trajectory& file,
-                                         const Trajectory& other,
-                                         const std::string& name) {
-  constexpr double kMostRatio = 0.3;
-  for (const std::size_t first : {std::size_t{0}, std::size_t{1}}) {
-    std::vector<std::size_t> order(file.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::sort(order, {}, [&](std::size_t i) { return std::to_string(i + first); });
-    Trajectory changed = file;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      changed[order[i]].world_from_body = file[i].world_from_body;
-    }
-    if (const auto change = accept(file, std::move(changed), other, kMostRatio)) {
-      return InputFinding{
-          Fault::jumps,
-          fmt::format(
-              "the rows of the {} are in alphabetical order: in the right one, {}", name, *change),
-          "sort by numbers (sort -V): 2 before 10",
-          1.0,
-          static_cast<double>(file.size())};
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace loopbench::metrics

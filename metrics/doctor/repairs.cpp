@@ -20,6 +20,7 @@ struct Repair {
   double value = 0.0;    ///< see InputFinding::value
   double penalty = 0.0;  ///< of the gain: of two that fit alike, the simpler one is chosen
   std::function<void(Paired&)> apply;
+  bool is_lever_arm = false;
 };
 
 using Change = std::function<Pose(const Pose&)>;
@@ -58,7 +59,14 @@ void add_conventions(std::vector<Repair>& to) {
          const Rotation& q = p.rotation;
          return {Rotation(q.z(), q.w(), q.x(), q.y()), p.translation};
        }},
-      {Fault::conjugated,
+      {Fault::inverted_poses,
+       "inverting the positions, but not the rotations,",
+       "--conjugate, then --invert-poses",
+       0.1,
+       [](const Pose& p) -> Pose {
+         return {p.rotation, -(p.rotation * p.translation)};
+       }},
+      {Fault::inverted_poses,
        "inverting the rotations, but not the positions,",
        "--conjugate",
        0.1,
@@ -85,7 +93,7 @@ void add_axes(std::vector<Repair>& to) {
   constexpr double kPenalty = 0.05;  // of each axis that moves
   for (const auto& [axes, option] : signed_axes()) {
     const double distance = (axes - Matrix3::Identity()).squaredNorm();
-    to.push_back({Fault::axes,
+    to.push_back({axes.determinant() < 0.0 ? Fault::mirrored : Fault::axes,
                   "taking " + option + " of the estimate's positions as x,y,z",
                   "traj transform EST --axes=" + option,
                   distance,
@@ -101,7 +109,7 @@ void add_mirrors(std::vector<Repair>& to) {
   constexpr double kPenalty = 0.25;
   for (int axis = 0; axis < 3; ++axis) {
     const std::string name(1, "xyz"[axis]);
-    to.push_back({Fault::axes,
+    to.push_back({Fault::mirrored,
                   "mirroring " + name + " of the estimate's positions and rotations",
                   "traj transform EST --mirror " + name,
                   4.0,
@@ -130,7 +138,7 @@ void add_scale(std::vector<Repair>& to, const Paired& poses) {
     const bool of_reference = scale > 1.0;
     if (std::abs(std::log(of_reference ? scale * factor : scale / factor)) > kUnitTolerance)
       continue;
-    out = {Fault::length_unit,
+    out = {Fault::scale,
            out.what,
            fmt::format("traj transform {} --scale {} ({} to metres){}",
                        file_of(of_reference),
@@ -152,27 +160,28 @@ void add_bodies(std::vector<Repair>& to, const Paired& poses) {
   if (!found) return;
   const Pose& body = found->fit.body_from_reference;
   const double angle = angle_between(body.rotation, Rotation::Identity());
-  const auto add = [&](Fault::Name fault,
+  const auto add = [&](bool is_lever_arm,
                        const Pose& by,
                        double value,
                        double penalty,
                        const std::string& what) {
-    to.push_back({fault,
+    to.push_back({Fault::other_body,
                   "the reference is that of a body " + what,
                   "--ref-body=" + body_option(by),
                   value,
                   penalty,
-                  to_each(false, [by](const Pose& p) { return p * by; })});
+                  to_each(false, [by](const Pose& p) { return p * by; }),
+                  is_lever_arm});
   };
   if (angle > kLeastAngle) {
-    add(Fault::body_rotation,
+    add(false,
         {body.rotation, Vector3::Zero()},
         angle,
         kPenaltyOfAxes,
         fmt::format("with axes rotated by {:.1f} deg", kDegrees * angle));
   }
   if (found->fit.lever_arm_explained > kExplained) {
-    add(Fault::lever_arm,
+    add(true,
         body,
         body.translation.norm(),
         angle > 0.0 ? kPenaltyOfBoth : kPenaltyOfLeverArm,
@@ -214,7 +223,7 @@ std::optional<InputFinding> apply_best_repair(Paired& poses,
   Improvement gained;
   double largest = 0.0;
   for (Repair& repair : candidates) {
-    const bool is_lever_arm = repair.fault == Fault::lever_arm;
+    const bool is_lever_arm = repair.is_lever_arm;
     const bool is_known = std::ranges::any_of(
         found, [&](const InputFinding& each) { return each.fault == repair.fault; });
     if (is_known || (is_good && !is_lever_arm)) continue;
@@ -231,7 +240,8 @@ std::optional<InputFinding> apply_best_repair(Paired& poses,
   }
   if (!best.apply) return std::nullopt;
   for (Repair& repair : fitted_repairs(poses)) {
-    if (repair.fault == best.fault) best = std::move(repair);
+    if (repair.fault == best.fault && repair.is_lever_arm == best.is_lever_arm)
+      best = std::move(repair);
   }
   best.apply(poses);
   return InputFinding{

@@ -3,123 +3,125 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
-#include "datasets/core/interpolate.hpp"
 #include "metrics/doctor/pair_checks.hpp"
+#include "metrics/numerics/angle.hpp"
+#include "metrics/numerics/average.hpp"
 
 namespace loopbench::metrics {
 namespace {
 
-constexpr double kUsuallySearched = 10.0;  // [s]
+constexpr double kLeastCorrelation = 0.6;  // of different recordings: 0.3, rarely 0.6
+constexpr double kSameCorrelation = 0.85;  // offsets that nothing else supports
 
-/// Pearson's correlation; 0 for a constant.
-double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto centred = [](const std::vector<double>& values) {
+/// Pearson's correlation of values that are at most three times what a tenth exceeds: a jump would
+/// be all that correlates. 0 for a constant.
+double correlation(std::vector<double> a, std::vector<double> b) {
+  constexpr double kShare = 0.9, kOver = 3.0;
+  const auto centred = [](std::vector<double>& values) {
+    std::vector<double> sorted = values;
+    std::ranges::sort(sorted);
+    const double most = kOver * percentile(sorted, kShare);
     const auto size = static_cast<Eigen::Index>(values.size());
-    const Eigen::Map<const Eigen::VectorXd> all(values.data(), size);
-    return Eigen::VectorXd(all.array() - all.mean());
+    const Eigen::Map<const Eigen::ArrayXd> all(values.data(), size);
+    const Eigen::ArrayXd limited = all.min(most);
+    return Eigen::VectorXd(limited - limited.mean());
   };
   const Eigen::VectorXd x = centred(a), y = centred(b);
   const double norm = x.norm() * y.norm();
   return norm > 0.0 ? x.dot(y) / norm : 0.0;
 }
 
-/// Correlation of speeds for offsets between two trajectories, over at most 600 intervals that do
-/// not overlap.
+struct SpeedScore {
+  double angle = 0.0, distance = 0.0;
+  bool is_known = false;  ///< at least a fifth of the intervals are common
+
+  /// One of the speeds is enough: a vehicle at constant speed, a drifting scale.
+  double best() const {
+    constexpr double kPenalty = 0.15;  // a single speed fits by chance more often
+    if (!is_known) return -1.0;
+    return std::max({0.5 * (angle + distance), angle - kPenalty, distance - kPenalty});
+  }
+};
+
+/// Linear and angular speeds of both over intervals of the estimate that do not overlap, at most
+/// `most` and evenly chosen, of at least `shortest` [s]. Its stamps are read as
+/// begin + factor * (stamp - first).
 class SpeedMatch {
  public:
-  SpeedMatch(const Trajectory& reference, const Trajectory& estimate) : reference_(reference) {
-    constexpr std::size_t kMostPairs = 600;
-    constexpr double kShortest = 0.1, kLongest = 10.0;  // [s]; of intervals
-    interval_ = std::max({kShortest, median_interval(reference), 0.99 * median_interval(estimate)});
-    longest_gap_ = longest_gap(reference);
-    const std::size_t step = std::max<std::size_t>(1, estimate.size() / kMostPairs);
-    std::size_t j = 0;
-    for (std::size_t i = 0; i < estimate.size(); i = std::max(j, i + step)) {
-      j = std::max(j, i);
-      while (j < estimate.size() && estimate[j].stamp - estimate[i].stamp < interval_) ++j;
-      if (j == estimate.size()) break;
-      const auto& [begin, from] = estimate[i];
-      const auto& [end, to] = estimate[j];
-      if (end - begin > kLongest * interval_) continue;
-      motions_.push_back({begin,
-                          end,
-                          angle_between(from.rotation, to.rotation) / (end - begin),
-                          (to.translation - from.translation).norm() / (end - begin)});
+  SpeedMatch(const Trajectory& reference,
+             const Trajectory& estimate,
+             std::size_t most,
+             double shortest,
+             double begin,
+             double factor = 1.0)
+      : reference_(reference), gap_(std::max(shortest, longest_gap(reference))) {
+    constexpr double kLongest = 10.0;  // over the usual
+    const std::size_t step = std::max<std::size_t>(1, estimate.size() / most);
+    const double first = estimate.front().stamp;
+    for (std::size_t i = 0, j = 0; i < estimate.size(); i = std::max(j, i + step)) {
+      const auto end =
+          std::ranges::lower_bound(estimate.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                                   estimate.end(),
+                                   estimate[i].stamp + shortest / factor,
+                                   {},
+                                   &StampedPose::stamp);
+      if (end == estimate.end()) break;
+      j = static_cast<std::size_t>(end - estimate.begin());
+      const double from = begin + factor * (estimate[i].stamp - first);
+      const double to = begin + factor * (end->stamp - first);
+      if (to - from > kLongest * shortest) continue;
+      intervals_.push_back({from, to, estimate[i].world_from_body, end->world_from_body});
     }
   }
 
-  double interval() const { return interval_; }
-  auto intervals() const { return static_cast<double>(motions_.size()); }
+  auto size() const { return static_cast<double>(intervals_.size()); }
 
-  struct Score {
-    double angle = 0.0;
-    double distance = 0.0;
-    bool is_known = false;  ///< at least a fifth of the intervals are common
-
-    /// One of the speeds is enough: a vehicle at constant speed, a drifting scale.
-    double best() const {
-      constexpr double kPenalty = 0.15;
-      if (!is_known) return -1.0;
-      return std::max({0.5 * (angle + distance), angle - kPenalty, distance - kPenalty});
-    }
-  };
-
-  Score score(double offset) const {
+  /// O(intervals log n).
+  SpeedScore score(double offset) const {
     constexpr std::size_t kFewest = 10;
-    std::vector<double> reference_angle, estimate_angle, reference_distance, estimate_distance;
-    for (const Motion& motion : motions_) {
-      const std::optional<Pose> from = reference_at(motion.begin + offset);
-      const std::optional<Pose> to = reference_at(motion.end + offset);
-      if (!from || !to) continue;
-      const double duration = motion.end - motion.begin;
-      reference_angle.push_back(angle_between(from->rotation, to->rotation) / duration);
-      estimate_angle.push_back(motion.angle);
-      reference_distance.push_back((to->translation - from->translation).norm() / duration);
-      estimate_distance.push_back(motion.distance);
+    std::vector<double> angles[2], distances[2];
+    const auto add = [&](int of, const Pose& from, const Pose& to, double seconds) {
+      const double angle = has_rotation(from) ? angle_between(from.rotation, to.rotation) : 0.0;
+      angles[of].push_back(angle / seconds);
+      distances[of].push_back((to.translation - from.translation).norm() / seconds);
+    };
+    for (const auto& [begin, end, from, to] : intervals_) {
+      const auto reference_from = pose_near(reference_, begin + offset, gap_);
+      if (!reference_from) continue;
+      const auto reference_to = pose_near(reference_, end + offset, gap_);
+      if (!reference_to) continue;
+      add(0, *reference_from, *reference_to, end - begin);
+      add(1, from, to, end - begin);
     }
-    if (reference_angle.size() < std::max(kFewest, motions_.size() / 5)) return {};
-    return {correlation(reference_angle, estimate_angle),
-            correlation(reference_distance, estimate_distance),
-            true};
+    if (angles[0].size() < std::max(kFewest, intervals_.size() / 5)) return {};
+    return {correlation(angles[0], angles[1]), correlation(distances[0], distances[1]), true};
   }
 
   double at(double offset) const { return score(offset).best(); }
 
  private:
-  /// Motion of the estimate between two of its stamps.
-  struct Motion {
-    double begin = 0.0;
-    double end = 0.0;
-    double angle = 0.0;     // [rad/s]
-    double distance = 0.0;  // [m/s]
+  struct Interval {
+    double begin, end;  // [s]
+    Pose from, to;
   };
-
-  std::optional<Pose> reference_at(double stamp) const {
-    const auto found = std::ranges::lower_bound(reference_, stamp, {}, &StampedPose::stamp);
-    auto after = static_cast<std::size_t>(found - reference_.begin());
-    return pose_at(reference_, stamp, longest_gap_, after);
-  }
-
   const Trajectory& reference_;
-  std::vector<Motion> motions_;
-  double interval_ = 0.0;
-  double longest_gap_ = 0.0;
+  double gap_;
+  std::vector<Interval> intervals_;
 };
 
-struct Best {
+struct BestOffset {
   double offset = 0.0;
   double score = -1.0;
 };
 
-/// Steps are longer if the range is: files may cover any time, and a stray stamp covers decades.
-/// Periodic speeds fit equally well at several offsets; of these, the one near zero is the likely
-/// one.
-Best search(const SpeedMatch& match, double low, double high, double step) {
-  constexpr double kMostSteps = 20'000.0, kNear = 1.0;  // [s]
-  step = std::max(step, (high - low) / kMostSteps);
+/// Periodic speeds fit equally well at several offsets; of these, the one near zero is likely.
+BestOffset search_offsets(const SpeedMatch& match, double low, double high, double step) {
+  constexpr double kNear = 1.0;  // [s]
   const auto steps = static_cast<int>(std::floor((high - low) / step + 1e-6));
-  Best best;
+  BestOffset best;
   for (int i = 0; i <= steps; ++i) {
     const double offset = low + i * step;
     const double score = match.at(offset);
@@ -129,54 +131,74 @@ Best search(const SpeedMatch& match, double low, double high, double step) {
   return best;
 }
 
+/// Shortest interval over which speeds exceed noise [s].
+double least_interval(const Trajectory& reference, const Trajectory& estimate) {
+  constexpr double kShortest = 0.1;
+  return std::max({kShortest, usual_interval(reference), 0.99 * usual_interval(estimate)});
+}
+
 /// The vertex of the parabola through three scores, and its standard deviation in least squares of
 /// the angles and of the distances: from the part of both that is not explained, and the curvature
 /// of their correlations.
 void refine(const SpeedMatch& match, double step, TimeOffset& out) {
-  const SpeedMatch::Score left = match.score(out.offset - step), middle = match.score(out.offset),
-                          right = match.score(out.offset + step);
+  const SpeedScore left = match.score(out.offset - step), middle = match.score(out.offset),
+                   right = match.score(out.offset + step);
   double information = 0.0;
-  for (double SpeedMatch::Score::*part :
-       {&SpeedMatch::Score::angle, &SpeedMatch::Score::distance}) {
+  for (double SpeedScore::*part : {&SpeedScore::angle, &SpeedScore::distance}) {
     const double curvature = (2.0 * middle.*part - left.*part - right.*part) / (step * step);
     const double residual = 1.0 - middle.*part * middle.*part;
     if (residual > 0.0 && curvature > 0.0) information += curvature / residual;
   }
-  out.deviation = information > 0.0 ? 1.0 / std::sqrt(information * match.intervals()) : INFINITY;
+  out.deviation = information > 0.0 ? 1.0 / std::sqrt(information * match.size()) : INFINITY;
   const double curvature = left.best() - 2.0 * middle.best() + right.best();
   if (!(curvature < 0.0)) return;
   out.offset += std::clamp(0.5 * step * (left.best() - right.best()) / curvature, -step, step);
 }
 
+constexpr std::size_t kManyIntervals = 600;  // correlations are known to 0.04
+constexpr std::size_t kFewIntervals = 120;   // for many offsets: to 0.1
+
 }  // namespace
 
-double speed_correlation(const Trajectory& reference, const Trajectory& estimate) {
-  return std::max(0.0, SpeedMatch(reference, estimate).at(0.0));
+double speed_correlation(const Trajectory& reference, const Trajectory& estimate, double offset) {
+  if (reference.empty() || estimate.empty()) return 0.0;
+  const double interval = least_interval(reference, estimate);
+  const SpeedMatch match(
+      reference, estimate, kManyIntervals, interval, estimate.front().stamp + offset);
+  return std::max(0.0, match.at(0.0));
 }
 
 std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
                                                const Trajectory& estimate,
-                                               std::optional<double> searched) {
-  constexpr double kLeastCorrelation = 0.6;
+                                               double searched,
+                                               bool is_limited) {
+  constexpr double kSteps = 400.0;  // of the search of all overlaps
   if (std::min(reference.size(), estimate.size()) < kFewestCommonPoses) return std::nullopt;
-  const SpeedMatch match(reference, estimate);
+  const double first = estimate.front().stamp, interval = least_interval(reference, estimate);
+  const SpeedMatch match(reference, estimate, kManyIntervals, interval, first);
+  const SpeedMatch few(reference, estimate, kFewIntervals, interval, first);
   TimeOffset out;
-  const SpeedMatch::Score before = match.score(0.0);
+  const SpeedScore before = match.score(0.0);
   out.before = std::max(0.0, before.best());
   out.has_common_time = before.is_known;
-  const double coarse = std::clamp(match.interval(), 0.1, 0.5), fine = 0.2 * coarse;
-  const double nearest = searched.value_or(kUsuallySearched);
-  Best best = search(match, -nearest, nearest, coarse);
-  if (best.score < (searched && before.is_known ? -1.0 : kLeastCorrelation)) {
+  const double coarse = std::clamp(interval, 0.1, 0.5), fine = 0.2 * coarse;
+  const bool agrees =
+      before.best() > std::max({kSameCorrelation, match.at(-coarse), match.at(coarse)});
+  BestOffset best{0.0, before.best()};
+  if (!agrees) best = search_offsets(few, -searched, searched, coarse);
+  if (best.score < kLeastCorrelation && !is_limited) {
     // At least half of the shorter one must be common: a short overlap can fit by chance.
-    const double duration = std::min(reference.back().stamp - reference.front().stamp,
-                                     estimate.back().stamp - estimate.front().stamp);
-    const double low = reference.front().stamp - estimate.back().stamp + 0.5 * duration;
-    const double high = reference.back().stamp - estimate.front().stamp - 0.5 * duration;
-    best = search(match, low, high, coarse);
+    const double shorter = std::min(duration(reference), duration(estimate));
+    const double low = reference.front().stamp - estimate.back().stamp + 0.5 * shorter;
+    const double high = reference.back().stamp - estimate.front().stamp - 0.5 * shorter;
+    const double step = std::max(coarse, (high - low) / kSteps);
+    const SpeedMatch wide(reference, estimate, kFewIntervals, std::max(interval, step), first);
+    const double rough = search_offsets(wide, low, high, step).offset;
+    best = search_offsets(few, rough - step, rough + step, std::max(coarse, step / kSteps));
   }
   if (before.best() > best.score) best = {0.0, before.best()};
-  best = search(match, best.offset - coarse, best.offset + coarse, fine);
+  best = search_offsets(match, best.offset - coarse, best.offset + coarse, fine);
+  if (best.score < kLeastCorrelation - 0.1) return std::nullopt;  // refine() may raise it
   out.offset = best.offset;
   refine(match, fine, out);
   // Where stamps are equal, interpolation smooths neighbouring offsets.
@@ -188,38 +210,102 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
 
 std::optional<InputFinding> offset_finding(const TimeOffset& found,
                                            const Trajectory& reference,
-                                           const Trajectory& estimate) {
-  constexpr double kSmallest = 0.02, kOfInterval = 0.35, kDeviations = 5.0;  // [s]
-  constexpr double kLeastGain = 0.1, kMostRatio = 0.9, kLeastConfident = 0.3;
-  constexpr double kLeastAlone = 0.85;  // correlation at large offsets
-  const double size = std::abs(found.offset);
-  const double interval = std::min(0.2, median_interval(estimate));
-  if (size < std::max({kSmallest, kOfInterval * interval, kDeviations * found.deviation})) {
-    return std::nullopt;
-  }
+                                           const Trajectory& estimate,
+                                           bool has_stamps) {
+  constexpr double kSmallest = 0.02, kOfInterval = 0.35, kDeviations = 5.0;  // [s]; significant
+  constexpr double kLeastGain = 0.1, kMostRatio = 0.9;    // of the errors after an alignment
+  constexpr double kMostUsual = 0.8, kSmallAngle = 1e-4;  // [-], [rad]
+  constexpr double kNear = 10.0;  // [s]; larger offsets fit by chance more often
+  const double size = std::abs(found.offset), period = usual_interval(estimate);
+  const double significant = kOfInterval * std::min(0.2, period);
+  if (size < std::max({kSmallest, significant, kDeviations * found.deviation})) return std::nullopt;
+  const double rows = std::round(found.offset / period);
+  const bool is_whole = std::abs(found.offset - rows * period) < kOfInterval * period;
+  if (!has_stamps && (rows == 0.0 || !is_whole)) return std::nullopt;
+  const double offset = has_stamps ? found.offset : rows * period;
   double confidence = 0.5;
   std::string change =
       fmt::format("correlation of speeds {:.3f} -> {:.3f}", found.before, found.correlation);
   if (found.has_common_time) {
     const Agreement before = agreement(common_poses(reference, estimate));
-    const Agreement after = agreement(common_poses(reference, estimate, found.offset));
-    const Improvement gained = improvement(before, after);
-    if (after.cost() > before.cost() - kLeastGain || gained.ratio > kMostRatio) return std::nullopt;
+    const Agreement after = agreement(common_poses(reference, estimate, offset));
+    Improvement gained = improvement(before, after);
+    const double usual = after.usual_turning / std::max(kSmallAngle, before.usual_turning);
+    // Where an estimate is lost, its errors hide a shift of rows, but not in their median.
+    const bool is_usual = !has_stamps && usual < kMostUsual;
+    if (is_usual && usual < gained.ratio)
+      gained = {fmt::format("median error of relative rotations {:.2g} -> {:.2g} deg",
+                            kDegrees * before.usual_turning,
+                            kDegrees * after.usual_turning),
+                usual};
+    const double least = is_usual ? 0.0 : kLeastGain;
+    if (after.cost() > before.cost() - least || gained.ratio > kMostRatio) return std::nullopt;
     change += ", " + gained.text;
-    confidence = std::max(kLeastConfident, 1.0 - gained.ratio);
+    confidence = std::max(kLeastConfidence, 1.0 - gained.ratio);
   }
-  const bool is_near = found.has_common_time && size <= kUsuallySearched;
-  if (!is_near && found.correlation < kLeastAlone) return std::nullopt;
+  const bool is_near = found.has_common_time && size <= kNear;
+  if (!is_near && found.correlation < kSameCorrelation) return std::nullopt;
+  const std::string what =
+      has_stamps ? fmt::format("the estimate's stamps are {:.3f} +- {:.3f} s {} the reference's",
+                               size,
+                               found.deviation,
+                               offset > 0.0 ? "behind" : "ahead of")
+                 : fmt::format("row i of the estimate belongs to row i {} {:.0f} of the reference",
+                               rows > 0.0 ? "+" : "-",
+                               std::abs(rows));
   return InputFinding{Fault::time_offset,
-                      fmt::format("the estimate's stamps are {:.3f} +- {:.3f} s {} the "
-                                  "reference's: {}",
-                                  size,
-                                  found.deviation,
-                                  found.offset > 0.0 ? "behind" : "ahead of",
-                                  change),
-                      fmt::format("--offset {:.4f}", found.offset),
+                      what + ": " + change,
+                      fmt::format("--offset {:.4f}", offset),
                       confidence,
-                      found.offset};
+                      offset};
+}
+
+std::optional<InputFinding> check_dropped_frames(const Trajectory& reference,
+                                                 const Trajectory& estimate) {
+  constexpr double kOtherRate = 0.07;  // logarithm; the parts below see smaller ones
+  constexpr double kCells = 120.0;     // of the reference, whose speeds are compared
+  constexpr int kSearched = 6;         // per cent of the rate, and cells
+  constexpr std::size_t kParts = 5, kFewest = 4;
+  const auto finding = [&](Fault::Name fault, const std::string& evidence, double value) {
+    return InputFinding{
+        fault, evidence, "write the stamp of each frame in seconds", kSameCorrelation, value};
+  };
+  const bool has_indices = has_frame_indices(estimate) && !has_frame_indices(reference);
+  const double cell = duration(reference) / kCells,
+               ratio = duration(reference) / duration(estimate);
+  double factor = 1.0;
+  BestOffset best;
+  for (int k = -kSearched; k <= kSearched; ++k) {
+    const double each = ratio * (1.0 + 0.01 * k);
+    const SpeedMatch match(reference, estimate, kFewIntervals, cell, reference.front().stamp, each);
+    const BestOffset found = search_offsets(match, -kSearched * cell, kSearched * cell, cell);
+    if (found.score < best.score) continue;
+    best = found;
+    factor = each;
+  }
+  if (std::abs(std::log(factor)) > kOtherRate && best.score > kSameCorrelation) {
+    return finding(
+        has_indices ? Fault::no_overlap : Fault::missing_poses,
+        fmt::format("the estimate's stamps {}: times {:.3g}, correlation of speeds {:.2f}",
+                    has_indices ? "are frame numbers" : "have another rate, or it lacks poses",
+                    factor,
+                    best.score),
+        factor);
+  }
+  std::vector<double> offsets;
+  for (std::size_t k = 0; k < kParts; ++k) {
+    const auto at = [&](std::size_t part) {
+      return estimate.begin() + static_cast<std::ptrdiff_t>(part * estimate.size() / kParts);
+    };
+    const auto part = estimate_time_offset(reference, Trajectory(at(k), at(k + 1)));
+    if (part && part->correlation > kSameCorrelation) offsets.push_back(part->offset);
+  }
+  if (offsets.size() < kFewest || !std::ranges::is_sorted(offsets)) return std::nullopt;
+  return finding(Fault::missing_poses,
+                 fmt::format("the estimate's fifths have offsets of {:.3f} s, as if frames had "
+                             "been dropped before stamps were written",
+                             fmt::join(offsets, ", ")),
+                 offsets.back() - offsets.front());
 }
 
 }  // namespace loopbench::metrics

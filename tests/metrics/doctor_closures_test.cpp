@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "metrics/doctor/graph_checks.hpp"
-#include "metrics/doctor/loop_likelihood.hpp"
 #include "tests/metrics/doctor_pairs.hpp"
 
 namespace loopbench::doctor_closures_test {
@@ -85,8 +84,6 @@ TEST(DoctorOfClosures, OneFindingForOneChange) {
   const Change changes[] = {
       {"none", [](Problem&) {}, {}},
       {"inverted closures", [](Problem& p) { invert(p.closures); }, {Fault::closure_direction}},
-      // The vertices of a file state the motion that the odometry should have.
-      {"inverted odometry", [](Problem& p) { invert(p.odometry); }, {Fault::odometry_direction}},
       {"a false closure",
        [](Problem& p) {
          p.closures.push_back({10, 40, Pose{}, p.closures[0].information});
@@ -98,23 +95,16 @@ TEST(DoctorOfClosures, OneFindingForOneChange) {
          const Matrix6 information = p.closures[0].information;
          for (std::size_t i = 0; i < 50; ++i) p.closures.push_back({i, i + 25, {}, information});
        },
-       {Fault::closure_gap}},
+       {Fault::placeholders}},
       {"information of another scale",
        [](Problem& p) {
          scale_information(p.odometry, 1e4);
          scale_information(p.closures, 1e4);
        },
-       {Fault::information_scale}},
+       {Fault::information}},
       {"information of closures of another scale",
        [](Problem& p) { scale_information(p.closures, 1e-6); },
-       {Fault::information_scale}},
-      {"information in another order",
-       [](Problem& p) {
-         for (auto* edges : {&p.odometry, &p.closures}) {
-           for (Edge& edge : *edges) edge.information.diagonal().reverseInPlace();
-         }
-       },
-       {Fault::information_order}},
+       {Fault::information}},
       // A closure that is listed twice agrees with itself.
       {"a repeated closure", [](Problem& p) { p.closures.push_back(p.closures.back()); }, {}},
   };
@@ -145,35 +135,12 @@ TEST(DoctorOfClosures, ConventionsOfTurnedClosures) {
     return closure_faults(problem);
   };
   EXPECT_THAT(changed([](const Pose& p) { return p; }), IsEmpty());
-  EXPECT_THAT(changed([](const Pose& p) -> Pose {
-                return {p.rotation, 1000.0 * p.translation};
-              }),
-              ElementsAre(Fault::closure_unit));
-  EXPECT_THAT(changed(test::misordered), ElementsAre(Fault::closure_rotation));
-  EXPECT_THAT(changed([](const Pose& p) -> Pose {
-                return {exp_so3(180.0 / M_PI * log_so3(p.rotation)), p.translation};
-              }),
-              ElementsAre(Fault::closure_rotation));
+  EXPECT_THAT(changed(test::misordered), ElementsAre(Fault::closure_convention));
   EXPECT_THAT(changed([](const Pose& p) {
                 const Pose camera{Rotation(0.5, -0.5, 0.5, -0.5), Vector3::Zero()};
                 return camera.inverse() * p * camera;
               }),
-              ElementsAre(Fault::closure_frame));
-}
-
-/// Then another mistake is likelier than false closures.
-TEST(DoctorOfClosures, AllClosuresAreContradicted) {
-  Problem problem = rounds();
-  for (std::size_t i = 0; i < problem.closures.size(); ++i) {  // across the circle
-    const double angle = 2.4 * static_cast<double>(i);
-    Edge& closure = problem.closures[i];
-    closure.to -= 30;
-    closure.from_from_to = {exp_so3({0, 0, angle}),
-                            {40 * std::cos(angle), 40 * std::sin(angle), 0}};
-  }
-  const InputFinding found = only(check_closures(problem), Fault::closure_gap);
-  EXPECT_THAT(found.evidence, testing::Not(HasSubstr("without them")));
-  EXPECT_THAT(found.fix, HasSubstr("order of quaternions of all edges"));
+              ElementsAre(Fault::closure_convention));
 }
 
 /// Without neighbours, and with too little drift to hide the motion between the lanes.
@@ -200,33 +167,7 @@ TEST(DoctorOfClosures, FewClosuresAreComparedWithTheOdometry) {
   EXPECT_THAT(closure_faults(inverted), ElementsAre(Fault::closure_direction));
   scale_information(problem.odometry, 1e4);
   scale_information(problem.closures, 1e4);
-  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information_scale));
-}
-
-/// Each loop alone drifts by more than an inversion changes it, but all drift alike.
-TEST(DoctorOfClosures, FewClosuresShareTheirDrift) {
-  Problem problem = rounds();
-  problem.odometry[58].from_from_to =
-      problem.odometry[58].from_from_to * Pose{exp_so3({0, 0, 0.05}), {6, -3, 0}};
-  problem.closures = {problem.closures[0], problem.closures[13], problem.closures[26]};
-  EXPECT_THAT(closure_faults(problem), IsEmpty());
-  invert(problem.closures);
-  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::closure_direction));
-}
-
-/// The gaps of both loops are those of one step, so that each predicts the other.
-TEST(DoctorOfClosures, LoopsPredictEachOther) {
-  Problem problem = rounds();
-  problem.odometry[58].from_from_to =
-      problem.odometry[58].from_from_to * Pose{exp_so3({0, 0, 0.05}), {6, -3, 0}};
-  const Chain chain = chain_of(problem);
-  const std::vector<const Edge*> pair{&problem.closures[3], &problem.closures[4]};
-  const LoopGroup group(pair, chain);
-  const std::vector<double> errors = group.fit(group.as_read()).metres;
-  ASSERT_EQ(errors.size(), 2u);
-  EXPECT_GT(loop_residual(*pair[0], chain).translation.norm(), 5.0);
-  EXPECT_LT(errors[0], 0.5);
-  EXPECT_LT(errors[1], 0.5);
+  EXPECT_THAT(closure_faults(problem), ElementsAre(Fault::information));
 }
 
 TEST(DoctorOfClosures, AFalseClosureWithinTheUsualDriftContradictsItsCovariance) {
@@ -247,7 +188,7 @@ TEST(DoctorOfClosures, AFalseClosureThatOnlyOtherClosuresContradict) {
   const InputFinding found = only(check_closures(problem), Fault::closure_gap);
   EXPECT_EQ(found.value, 1.0);
   EXPECT_THAT(found.evidence, HasSubstr("contradict the odometry or other closures"));
-  EXPECT_THAT(found.evidence, HasSubstr("10 -> 110 (gap of 14.8 m"));
+  EXPECT_THAT(found.evidence, HasSubstr("10 s -> 110 s (gap of "));
 }
 
 /// Drift makes the gaps of long loops larger than that of the false closure, so that the odometry
@@ -262,14 +203,13 @@ TEST(DoctorOfClosures, AFalseClosureWithASmallerGapThanMost) {
   ASSERT_FALSE(found.empty());  // the drift is larger than stated, too
   EXPECT_EQ(found[0].fault, Fault::closure_gap);
   EXPECT_THAT(found[0].evidence, HasSubstr("contradict the odometry or other closures"));
-  EXPECT_THAT(found[0].evidence, HasSubstr("10 -> 14"));
+  EXPECT_THAT(found[0].evidence, HasSubstr("10 s -> 14 s"));
 }
 
 TEST(DoctorOfClosures, InformationOfTheOdometry) {
   Problem problem = rounds();
   scale_information(problem.odometry, 1e6);
-  const InputFinding found = only(check_closures(problem), Fault::information_scale);
-  EXPECT_THAT(found.fix, HasSubstr("of the odometry"));
+  only(check_closures(problem), Fault::information);
 }
 
 }  // namespace

@@ -1,0 +1,96 @@
+#include "metrics/doctor/loop_chain.hpp"
+
+#include <algorithm>
+
+#include "metrics/doctor/sampling.hpp"
+
+namespace loopbench::metrics {
+namespace {
+
+LoopPath path_over(const Edge& edge, const Edge* over, const Chain& chain) {
+  LoopPath out{&edge, over, edge.information.inverse()};
+  if (over == nullptr) {
+    out.covariance += chain.covariance(edge.from, edge.to);
+    return out;
+  }
+  const Pose last = chain.between(over->to, edge.to).pose;
+  const Matrix6 to_end = adjoint(last.inverse()),
+                over_to_end = adjoint((over->from_from_to * last).inverse());
+  out.covariance += chain.covariance(over->to, edge.to) +
+                    to_end * over->information.inverse() * to_end.transpose() +
+                    over_to_end * chain.covariance(edge.from, over->from) * over_to_end.transpose();
+  return out;
+}
+
+}  // namespace
+
+Chain chain_of(const Problem& problem) {
+  std::vector<Matrix6> stated;
+  std::vector<double> of_translation, of_rotation;
+  for (const Edge& step : problem.odometry) {
+    stated.push_back(step.information.inverse());
+    of_translation.push_back(stated.back().diagonal().head<3>().minCoeff());
+    of_rotation.push_back(stated.back().diagonal().tail<3>().minCoeff());
+  }
+  const double translation = median_value(of_translation), rotation = median_value(of_rotation);
+  Chain out{{ScaledPose{}}, {0.0}, {0.0}, {Matrix6::Zero()}};
+  for (std::size_t i = 0; i < stated.size(); ++i) {
+    const Edge& step = problem.odometry[i];
+    out.has_scale |= step.scale != 1.0;
+    out.poses.push_back(out.poses.back() * ScaledPose{step.from_from_to, step.scale});
+    out.distances.push_back(out.distances.back() + step.from_from_to.translation.norm());
+    out.steps.push_back(out.steps.back() +
+                        std::max(of_translation[i] / translation, of_rotation[i] / rotation));
+    const ScaledPose& end = out.poses.back();
+    const Matrix6 to_first = adjoint(end.pose) * Chain::in_scale(end.scale);
+    out.covariances.push_back(out.covariances.back() + to_first * stated[i] * to_first.transpose());
+  }
+  for (const Edge& closure : problem.closures) out.has_scale |= closure.scale != 1.0;
+  return out;
+}
+
+Twist LoopPath::residual(const Chain& chain, const PoseChange& change) const {
+  const ScaledPose around = over == nullptr
+                                ? chain.between(closure->from, closure->to)
+                                : chain.between(closure->from, over->from) *
+                                      ScaledPose{change(over->from_from_to), over->scale} *
+                                      chain.between(over->to, closure->to);
+  return log_se3(change(closure->from_from_to).inverse() * around.pose);
+}
+
+double LoopPath::chi_squared(const Chain& chain, const PoseChange& change) const {
+  const Eigen::Index rows = chain.has_scale && over == nullptr ? 3 : 6;
+  const Eigen::VectorXd values = residual(chain, change).tail(rows);
+  const Eigen::MatrixXd stated = covariance.bottomRightCorner(rows, rows);
+  return values.dot(stated.ldlt().solve(values)) / static_cast<double>(rows);
+}
+
+std::vector<LoopPaths> loop_paths(const std::vector<Edge>& closures, const Chain& chain) {
+  constexpr std::size_t kCompared = 20, kMostPaths = 3;  // a false one of three is outvoted
+  std::vector<const Edge*> sorted;
+  for (const Edge& edge : closures) sorted.push_back(&edge);
+  std::ranges::stable_sort(sorted, {}, &Edge::to);
+  std::vector<LoopPaths> out;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const Edge& edge = *sorted[i];
+    const auto count = [&](const Edge* other) {
+      return chain.count(edge.from, other->from) + chain.count(edge.to, other->to);
+    };
+    std::vector<const Edge*> others;
+    const std::size_t end = std::min(sorted.size(), i + kCompared + 1);
+    for (std::size_t j = i - std::min(i, kCompared); j < end; ++j) {
+      // A closure that is listed twice agrees with itself.
+      const bool is_copy = sorted[j]->from == edge.from && sorted[j]->to == edge.to;
+      if (!is_copy && count(sorted[j]) < chain.count(edge.from, edge.to))
+        others.push_back(sorted[j]);
+    }
+    std::ranges::sort(others, {}, count);
+    others.resize(std::min(kMostPaths, others.size()));
+    out.push_back({path_over(edge, nullptr, chain), {}});
+    for (const Edge* other : others)
+      out.back().over_closures.push_back(path_over(edge, other, chain));
+  }
+  return out;
+}
+
+}  // namespace loopbench::metrics
