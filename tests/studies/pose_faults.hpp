@@ -1,0 +1,22 @@
+/// Faults planted in trajectories with random parameters, for planted_faults.
+#pragma once
+
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/studies/recordings.hpp"
+
+namespace loopbench {
+
+struct PlantedFault {
+  std::string name;
+  std::vector<std::string> expected;  ///< any of these names of findings is correct
+  /// Returns whether the recording has the fault afterwards. `others`: for files of another one.
+  std::function<bool(Recording&, std::mt19937&, const std::vector<Recording>& others)> plant;
+};
+
+std::vector<PlantedFault> pose_faults();
+
+}  // namespace loopbench
