@@ -40,6 +40,10 @@ void declare_files(CLI::App& command, EvalArguments& a) {
   };
   seconds("--start,--t_start", a.start, "First stamp of REF to evaluate [s]");
   seconds("--end,--t_end", a.end, "Last stamp of REF to evaluate [s]");
+  command.add_flag_callback(
+      "--no-checks",
+      [&a] { a.diagnose = false; },
+      "Skip the checks of the files: mistakes that doctor finds, notes, diagnosis");
   declare_pose_filters(command, a.downsample, a.motion_filter);
 }
 

@@ -192,11 +192,20 @@ EvaluatedFile not_evaluated(const Cell& cell, const RecordedSweep& files) {
   return out;
 }
 
-/// Notes of the evaluations belong to the cell, those of the files to every evaluation.
+/// Notes of the evaluations belong to the cell, those of the files to every evaluation; a failed
+/// one states what the doctor found, which can be why.
 void share_notes(std::vector<EvaluationResult>& evaluations, std::vector<std::string>& of_cell) {
   const std::vector<std::string> of_files = of_cell;
   for (EvaluationResult& own : evaluations) {
-    if (!own.why_failed.empty()) continue;
+    if (!own.why_failed.empty()) {
+      for (const std::string& note : of_files) {
+        // The error states both ranges itself.
+        const bool is_known = note.starts_with("doctor: no_overlap") &&
+                              note.find("frame numbers") == std::string::npos;
+        if (note.starts_with("doctor: ") && !is_known) own.why_failed += "; " + note;
+      }
+      continue;
+    }
     for (const std::string& note : own.notes) {
       if (std::ranges::count(of_cell, note) == 0) of_cell.push_back(note);
     }
@@ -204,11 +213,14 @@ void share_notes(std::vector<EvaluationResult>& evaluations, std::vector<std::st
   }
 }
 
-/// The first pose of each stamp: the doctor needs increasing stamps.
-Trajectory without_repeats(Trajectory poses) {
+/// The first pose of each stamp: the doctor needs increasing stamps. Copies into `kept` only if
+/// some are repeated.
+const Trajectory& without_repeats(const Trajectory& poses, Trajectory& kept) {
   const auto are_equal = [](const auto& a, const auto& b) { return a.stamp == b.stamp; };
-  poses.erase(std::unique(poses.begin(), poses.end(), are_equal), poses.end());
-  return poses;
+  if (std::ranges::adjacent_find(poses, are_equal) == poses.end()) return poses;
+  kept = poses;
+  kept.erase(std::unique(kept.begin(), kept.end(), are_equal), kept.end());
+  return kept;
 }
 
 }  // namespace
@@ -238,8 +250,9 @@ EvaluatedFile evaluate_poses(const Cell& cell,
       std::async(is_large ? std::launch::async : std::launch::deferred, [&] {
         if (!files.arguments.diagnose) return std::vector<std::string>{};
         const bool has_stamps = reference.read.unstamped.empty() && estimate.unstamped.empty();
-        return doctor_notes({without_repeats(reference.read.poses),
-                             without_repeats(estimate.poses),
+        Trajectory kept_reference, kept_estimate;
+        return doctor_notes({without_repeats(reference.read.poses, kept_reference),
+                             without_repeats(estimate.poses, kept_estimate),
                              run.reference,
                              run.estimate,
                              has_stamps},

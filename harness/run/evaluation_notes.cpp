@@ -99,11 +99,17 @@ std::vector<metrics::InputFinding> findings_of(
     const ReadPair& pair, const std::vector<metrics::NamedProtocol>& protocols) {
   if (protocols.empty() || pair.reference.empty() || pair.estimate.empty()) return {};
   const double offset = protocols.front().rules.offset;
-  Trajectory shifted = pair.estimate;
-  for (StampedPose& pose : shifted) pose.stamp += offset;
+  Trajectory shifted;
+  if (offset != 0.0) {
+    shifted = pair.estimate;
+    for (StampedPose& pose : shifted) pose.stamp += offset;
+  }
   std::vector<metrics::InputFinding> out =
-      metrics::diagnosis(
-          pair.reference, shifted, pair.reference_name, pair.estimate_name, pair.has_stamps)
+      metrics::diagnosis(pair.reference,
+                         offset != 0.0 ? shifted : pair.estimate,
+                         pair.reference_name,
+                         pair.estimate_name,
+                         pair.has_stamps)
           .findings;
   const bool is_aligned = std::ranges::all_of(protocols, [](const metrics::NamedProtocol& each) {
     const metrics::Align align = each.rules.align;

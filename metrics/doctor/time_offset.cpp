@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,7 +53,7 @@ struct SpeedScore {
 class SpeedMatch {
  public:
   SpeedMatch(const Trajectory& reference,
-             const Trajectory& estimate,
+             std::span<const StampedPose> estimate,
              std::size_t most,
              double shortest,
              double begin,
@@ -132,7 +133,7 @@ BestOffset search_offsets(const SpeedMatch& match, double low, double high, doub
 }
 
 /// Shortest interval over which speeds exceed noise [s].
-double least_interval(const Trajectory& reference, const Trajectory& estimate) {
+double least_interval(const Trajectory& reference, std::span<const StampedPose> estimate) {
   constexpr double kShortest = 0.1;
   return std::max({kShortest, usual_interval(reference), 0.99 * usual_interval(estimate)});
 }
@@ -156,7 +157,7 @@ void refine(const SpeedMatch& match, double step, TimeOffset& out) {
 }
 
 constexpr std::size_t kManyIntervals = 600;  // correlations are known to 0.04
-constexpr std::size_t kFewIntervals = 120;   // for many offsets: to 0.1
+constexpr std::size_t kFewIntervals = 60;    // for many offsets: to 0.13
 
 }  // namespace
 
@@ -172,7 +173,7 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
                                                const Trajectory& estimate,
                                                double searched,
                                                bool is_limited) {
-  constexpr double kSteps = 400.0;  // of the search of all overlaps
+  constexpr double kSteps = 200.0;  // of the search of all overlaps
   if (std::min(reference.size(), estimate.size()) < kFewestCommonPoses) return std::nullopt;
   const double first = estimate.front().stamp, interval = least_interval(reference, estimate);
   const SpeedMatch match(reference, estimate, kManyIntervals, interval, first);
@@ -181,7 +182,7 @@ std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
   const SpeedScore before = match.score(0.0);
   out.before = std::max(0.0, before.best());
   out.has_common_time = before.is_known;
-  const double coarse = std::clamp(interval, 0.1, 0.5), fine = 0.2 * coarse;
+  const double coarse = std::clamp(interval, 0.2, 0.5), fine = 0.2 * coarse;
   const bool agrees =
       before.best() > std::max({kSameCorrelation, match.at(-coarse), match.at(coarse)});
   BestOffset best{0.0, before.best()};
@@ -265,6 +266,7 @@ std::optional<InputFinding> check_dropped_frames(const Trajectory& reference,
   constexpr double kOtherRate = 0.07;  // logarithm; the parts below see smaller ones
   constexpr double kCells = 120.0;     // of the reference, whose speeds are compared
   constexpr int kSearched = 6;         // per cent of the rate, and cells
+  constexpr double kOfCell = 0.5, kCellsOfParts = 8.0;  // steps and range of the offsets of parts
   constexpr std::size_t kParts = 5, kFewest = 4;
   const auto finding = [&](Fault::Name fault, const std::string& evidence, double value) {
     return InputFinding{
@@ -294,11 +296,17 @@ std::optional<InputFinding> check_dropped_frames(const Trajectory& reference,
   }
   std::vector<double> offsets;
   for (std::size_t k = 0; k < kParts; ++k) {
-    const auto at = [&](std::size_t part) {
-      return estimate.begin() + static_cast<std::ptrdiff_t>(part * estimate.size() / kParts);
-    };
-    const auto part = estimate_time_offset(reference, Trajectory(at(k), at(k + 1)));
-    if (part && part->correlation > kSameCorrelation) offsets.push_back(part->offset);
+    const std::size_t begin = k * estimate.size() / kParts,
+                      end = (k + 1) * estimate.size() / kParts;
+    const auto part = std::span(estimate).subspan(begin, end - begin);
+    const SpeedMatch match(reference,
+                           part,
+                           kFewIntervals,
+                           std::max(least_interval(reference, part), kOfCell * cell),
+                           part.front().stamp);
+    const double most = kCellsOfParts * cell;
+    const BestOffset found = search_offsets(match, -most, most, kOfCell * cell);
+    if (found.score > kSameCorrelation) offsets.push_back(found.offset);
   }
   if (offsets.size() < kFewest || !std::ranges::is_sorted(offsets)) return std::nullopt;
   return finding(Fault::missing_poses,
