@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "datasets/core/pose_rule.hpp"
@@ -134,7 +135,7 @@ void check_scores(const std::vector<metrics::Score>& scores) {
   if (scores.size() > kMostItems) {
     reject("the metric returned {} scores, expected at most {}", scores.size(), kMostItems);
   }
-  std::set<std::pair<std::string_view, std::string_view>> names;
+  std::set<std::tuple<std::string_view, std::string_view, std::string_view>> names;
   for (std::size_t i = 0; i < scores.size(); ++i) {
     const auto name = [&] { return fmt::format("score {}: a text", i + 1); };
     const metrics::Score& score = scores[i];
@@ -148,7 +149,7 @@ void check_scores(const std::vector<metrics::Score>& scores) {
              score.statistics.count,
              kMostErrors);
     }
-    if (!names.emplace(score.relation, score.axis).second) {
+    if (!names.emplace(score.relation, score.axis, score.unit).second) {
       reject("two scores are named {}{}",
              quoted_name(score.relation),
              score.axis.empty() ? "" : " with axis " + quoted_name(score.axis));

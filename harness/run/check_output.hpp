@@ -65,7 +65,7 @@ void check_report(const methods::Report& report);
 /// Throws std::runtime_error if a score cannot be stored or displayed: more scores or longer texts
 /// than the limits, texts that are not UTF-8 or contain control characters, a direction that is
 /// none of Better, a target that is not finite, a count that can only be a mistake (-1), or two of
-/// one name and axis.
+/// one name, axis and unit.
 void check_scores(const std::vector<metrics::Score>& scores);
 
 /// Text of an exception or a reason as it is stored: one line of printable(), at most kLongestNote

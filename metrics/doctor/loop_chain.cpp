@@ -37,7 +37,7 @@ Chain chain_of(const Problem& problem) {
   for (std::size_t i = 0; i < stated.size(); ++i) {
     const Edge& step = problem.odometry[i];
     out.has_scale |= step.scale != 1.0;
-    out.poses.push_back(out.poses.back() * ScaledPose{step.from_from_to, step.scale});
+    out.poses.push_back(normalized(out.poses.back() * ScaledPose{step.from_from_to, step.scale}));
     out.distances.push_back(out.distances.back() + step.from_from_to.translation.norm());
     out.steps.push_back(out.steps.back() +
                         std::max(of_translation[i] / translation, of_rotation[i] / rotation));

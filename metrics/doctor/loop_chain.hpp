@@ -8,20 +8,11 @@
 #include <vector>
 
 #include "datasets/core/problem.hpp"
+#include "methods/solvers/groups/scaled_pose.hpp"
 
 namespace loopbench::metrics {
 
-/// Relative pose with the scale of its end relative to its begin.
-struct ScaledPose {
-  Pose pose;
-  double scale = 1.0;
-
-  friend ScaledPose operator*(const ScaledPose& a, const ScaledPose& b) {
-    return {normalized(Pose{a.pose.rotation * b.pose.rotation,
-                            a.pose.translation + a.scale * (a.pose.rotation * b.pose.translation)}),
-            a.scale * b.scale};
-  }
-};
+using methods::ScaledPose;
 
 struct Chain {
   std::vector<ScaledPose> poses;     ///< first_from_keyframe
