@@ -31,7 +31,6 @@ std::vector<Fault::Name> faults_after(const std::function<void(Edge&, const Prob
   return out;
 }
 
-
 struct Change {
   const char* name;
   std::function<void(Edge&, const Problem&)> change;
