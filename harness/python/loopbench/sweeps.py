@@ -80,6 +80,19 @@ def run(
             return run(file.name, folder, jobs, shard)
 
 
+def _check(file: Path) -> None:
+    """Raises ValueError if the store is damaged: SQL sees no hashes."""
+    try:
+        from . import _core
+    except ImportError:  # a build without the module
+        try:
+            _call("export", str(file))
+        except RuntimeError as error:
+            raise ValueError(str(error)) from None
+    else:
+        _core.check_store(str(file))
+
+
 def _select(store: str | Path) -> tuple[list[str], list[Any]]:
     file = Path(store)
     if file.is_dir():
@@ -92,11 +105,9 @@ def _select(store: str | Path) -> tuple[list[str], list[Any]]:
     )
     if not file.exists():
         raise FileNotFoundError(f"{file}: no such file, expected the store of a sweep")
-    from . import _core  # loads the libraries of the program
-
+    _check(file)
     database = sqlite3.connect(f"file:{file}?mode=ro", uri=True)
     try:
-        _core.check_store(str(file))
         cursor = database.execute(query)
         return [column[0] for column in cursor.description], cursor.fetchall()
     finally:
