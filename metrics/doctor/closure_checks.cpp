@@ -11,6 +11,7 @@
 namespace loopbench::metrics {
 namespace {
 
+constexpr double kMost = 36.0;       // chi-squared: six standard deviations
 constexpr double kMostDrift = 0.35;  // of the length of a loop; odometry is better
 
 Pose as_stated(const Pose& p) { return p; }
@@ -76,7 +77,6 @@ std::optional<InputFinding> remove_placeholders(std::vector<Edge>& closures, con
 /// median shows nothing, the gap also has to exceed 35 % of the loop's length. O(closures).
 std::vector<CheckedClosure> contradicted_closures(const std::vector<LoopPaths>& loops,
                                                   const Chain& chain) {
-  constexpr double kMost = 36.0;        // six standard deviations
   constexpr double kLeastGap = 0.3;     // [m] or [rad]: smaller ones do little harm
   constexpr double kUsualDrift = 0.01;  // of the length of a loop, which stated noise can neglect
   constexpr std::size_t kFewest = 4, kVotes = 3;
@@ -191,15 +191,23 @@ std::vector<InputFinding> check_closures(const Problem& problem, const KeyframeN
     out.push_back(std::move(*repair));
     return out;
   }
-  const std::vector<CheckedClosure> found = contradicted_closures(loops, chain);
-  if (!found.empty()) out.push_back(contradiction(found, loops.size(), chain, name));
-  if (5 * found.size() >= loops.size()) return out;  // false closures show no information
-  std::erase_if(loops, [&](const LoopPaths& each) {
-    return std::ranges::any_of(found, [&](const CheckedClosure& one) {
-      return one.paths->odometry.closure == each.odometry.closure;
+  std::vector<CheckedClosure> found = contradicted_closures(loops, chain);
+  std::optional<InputFinding> information;
+  if (5 * found.size() < loops.size()) {  // more false closures would show no information
+    std::vector<LoopPaths> others;
+    for (const LoopPaths& each : loops) {
+      if (std::ranges::count(found, &each, &CheckedClosure::paths) == 0) others.push_back(each);
+    }
+    information = check_information(others, chain);
+  }
+  if (information) {
+    std::erase_if(found, [&](const CheckedClosure& each) {
+      return each.odometry < kMost * information->value &&
+             each.over_closures < kMost * information->value;
     });
-  });
-  if (auto information = check_information(loops, chain)) out.push_back(std::move(*information));
+  }
+  if (!found.empty()) out.push_back(contradiction(found, loops.size(), chain, name));
+  if (information) out.push_back(std::move(*information));
   return out;
 }
 

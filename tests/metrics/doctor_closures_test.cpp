@@ -17,7 +17,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// Two rounds on a circle with closures between them, and drift in the odometry.
-Problem rounds() {
+/// `noise_scale`: of errors and stated deviations.
+Problem rounds(double noise_scale = 1.0) {
   Problem out;
   const std::size_t round = 60;
   const auto pose = [&](std::size_t i) {
@@ -27,13 +28,15 @@ Problem rounds() {
     // On another lane in the second round.
     return on_circle * Pose{Rotation::Identity(), {0, i < round ? 0.0 : 1.5, 0}};
   };
-  const auto noise = [](std::size_t i) {
+  const auto noise = [&](std::size_t i) {
     const auto k = static_cast<double>(i);
-    return exp_se3(twist(0.02 * Vector3(std::sin(k * k), std::cos(3 * k * k), std::sin(k + 1)),
+    return exp_se3(noise_scale *
+                   twist(0.02 * Vector3(std::sin(k * k), std::cos(3 * k * k), std::sin(k + 1)),
                          0.004 * Vector3(std::sin(5 * k * k), std::cos(k * k), std::sin(2 * k))));
   };
   Matrix6 information = Matrix6::Zero();
   information.diagonal() << 2500, 2500, 2500, 62500, 62500, 62500;
+  information /= noise_scale * noise_scale;
   for (std::size_t i = 0; i < 2 * round; ++i) {
     out.keyframes.push_back({static_cast<double>(i), pose(i)});
     if (i == 0) continue;
@@ -209,6 +212,15 @@ TEST(DoctorOfClosures, AFalseClosureWithASmallerGapThanMost) {
 TEST(DoctorOfClosures, InformationOfTheOdometry) {
   Problem problem = rounds();
   scale_information(problem.odometry, 1e6);
+  only(check_closures(problem), Fault::information);
+}
+
+TEST(DoctorOfClosures, GapsThatSmallVariancesExplainAreNoContradictions) {
+  Problem problem = rounds(10.0);
+  add_false_closure(problem, 10, 14, 3.2);  // within the noise
+  EXPECT_THAT(closure_faults(problem), IsEmpty());
+  scale_information(problem.odometry, 1e6);
+  scale_information(problem.closures, 1e6);
   only(check_closures(problem), Fault::information);
 }
 
