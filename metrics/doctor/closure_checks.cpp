@@ -159,7 +159,8 @@ std::optional<InputFinding> check_information(const std::vector<LoopPaths>& loop
   double found = median_value(std::move(direct));
   const bool has_neighbours = around.size() >= kFewest;
   const double of_neighbours = median_value(std::move(around));
-  if (has_neighbours && of_neighbours < kTooSmall) found = of_neighbours;
+  // One step of the odometry with a large deviation makes all direct paths certain of nothing.
+  if (has_neighbours && std::min(found, of_neighbours) < kTooSmall) found = of_neighbours;
   if (loops.size() < kFewest || (found < kTooLarge && found > kTooSmall) ||
       median_value(std::move(gaps)) < kExact) {
     return std::nullopt;
