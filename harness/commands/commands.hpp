@@ -22,6 +22,7 @@ inline constexpr int kExitInterrupted = 130;
 /// MissingPart to 4.
 void add_run(CLI::App& app, int& exit_code, const Source& source);
 void add_list(CLI::App& app, int& exit_code);
+void add_loops(CLI::App& app, int& exit_code);
 void add_table(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
 void add_correct(CLI::App& app, int& exit_code);

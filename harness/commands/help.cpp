@@ -63,6 +63,9 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench correct graph.g2o -o corrected.g2o --plot corrected.svg\n"
      "  loopbench correct run.txt --loops loops.txt --method dual_pcm -o corrected.txt\n"
      "  loopbench correct run.txt --anchors points.txt --method dual -o corrected.txt\n"},
+    {"loops",
+     "  loopbench loops graph.g2o\n"
+     "  loopbench loops run.txt --loops loops.txt --csv ledger.csv --plot loops.svg\n"},
     {"export",
      "  loopbench run configs/quickstart.yaml --save-trajectories\n"
      "  loopbench export results/quickstart --what trajectories -o estimates\n"
@@ -135,6 +138,10 @@ const std::map<std::string, std::string> kExitCodes{
     {"compare",
      "0 success, 1 an assertion is not shown, 2 invalid input or output, 3 internal error."},
     {"check", "0 passed, 1 regressions, 2 invalid input or output, 3 internal error."},
+    {"loops",
+     "0 no contradiction, 1 closures contradict each other, 2 invalid input or output, 3 "
+     "internal "
+     "error."},
     {"doctor",
      "0 nothing found, 1 mistakes found or nothing could be checked, 2 invalid input or output, 3 "
      "internal error."},

@@ -239,6 +239,7 @@ int main(int argc, char** argv) {
   add_check(app, exit_code);
   add_eval(app, exit_code, source);
   add_correct(app, exit_code);
+  add_loops(app, exit_code);
   add_export(app, exit_code);
   add_merge(app, exit_code);
   add_submit(app, exit_code);

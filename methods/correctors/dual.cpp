@@ -93,35 +93,16 @@ Trajectory correct_rigid(const Dual::Options& options, const Problem& stated, Re
   if (options.rescale) scaled = with_estimated_factors(stated, report);
   const Problem& problem = scaled ? *scaled : stated;
   const NoiseModel noise_model = stated_noise_model(problem);
-  const std::size_t dof = degrees_of_freedom(problem);
-  LoopedChain first(problem, noise_model);
-  report.count("chi2_before", 2.0 * first.cost());
-  if (!std::isfinite(first.cost())) throw std::runtime_error("dual: the cost is not finite");
-  int iterations = first.minimise(options.max_iterations, options.tolerance);
-  const LoopedChain* best = &first;
-  const bool is_implausible = is_too_large(2.0 * first.cost(), dof);
-  std::optional<LoopedChain> second = options.start == Dual::Start::automatic && is_implausible
-                                          ? chordal_chain(problem, noise_model)
-                                          : std::nullopt;
-  if (second) {
-    constexpr double kOtherMinimum = 1e-6;  // relative cost difference between two minima
-    iterations += second->minimise(options.max_iterations, options.tolerance);
-    if (second->cost() < first.cost() * (1.0 - kOtherMinimum)) {
-      best = &*second;
-      report.notes.push_back(fmt::format(
-          "two minima: chi2 {:.6g} from the keyframes, {:.6g} from chordal relaxation; the lower "
-          "one is returned",
-          2.0 * first.cost(),
-          2.0 * second->cost()));
-    }
-  }
-  report.count("iterations", iterations);
-  report.count("chi2", 2.0 * best->cost());
-  report_chi2(2.0 * best->cost(), dof, report);
+  const LoopedChain solved = lowest_minimum(
+      problem,
+      noise_model,
+      {options.max_iterations, options.tolerance, options.start == Dual::Start::automatic},
+      report);
+  report_chi2(2.0 * solved.cost(), degrees_of_freedom(problem), report);
   if (options.covariances) {
-    report.covariances = report.time("covariances", [&] { return best->covariances(); });
+    report.covariances = report.time("covariances", [&] { return solved.covariances(); });
   }
-  return best->keyframes();
+  return solved.keyframes();
 }
 
 Trajectory correct_anchored(const Dual::Options& options, const Problem& stated, Report& report) {

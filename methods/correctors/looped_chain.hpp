@@ -6,6 +6,7 @@
 
 #include "datasets/core/problem.hpp"
 #include "methods/correctors/loop_equations.hpp"
+#include "methods/report.hpp"
 
 namespace loopbench::methods {
 
@@ -52,6 +53,9 @@ class LoopedChain {
   const LoopSums& sums() const { return sums_; }
 
   Trajectory keyframes() const;
+
+  /// Poses with positions relative to the chain's centroid, as in the equations.
+  const std::vector<Pose>& centred_poses() const { return poses_; }
 
   /// Covariance of each keyframe in fixed axes (datasets/core/covariance.hpp) to first order at the
   /// current poses: that of the open chain minus the reduction by the loops. It equals
@@ -101,5 +105,19 @@ class LoopedChain {
 /// Returns the chain at its chordal relaxation (initial_values.hpp), or nullopt if that is singular
 /// to rounding or its cost is not finite.
 std::optional<LoopedChain> chordal_chain(const Problem& problem, const NoiseModel& noise_model);
+
+struct MinimumSettings {
+  int max_iterations = 500;
+  double tolerance = 1e-10;   ///< relative change of the cost at which a solution has converged
+  bool tries_chordal = true;  ///< also from chordal relaxation, if chi2 is implausibly large
+};
+
+/// Returns the chain at the lower of the minima that are found from the keyframes and, if wanted,
+/// from chordal relaxation. Adds the counts `chi2_before`, `iterations` and `chi2`, and a note if
+/// there are two minima. Throws std::runtime_error when the cost is not finite, and as step().
+LoopedChain lowest_minimum(const Problem& problem,
+                           const NoiseModel& noise_model,
+                           const MinimumSettings& settings,
+                           Report& report);
 
 }  // namespace loopbench::methods

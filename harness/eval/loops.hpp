@@ -1,0 +1,45 @@
+/// What the loop closures of one trajectory or pose graph state about each other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "datasets/core/problem.hpp"
+#include "harness/report/draw.hpp"
+#include "methods/correctors/closure_ledger.hpp"
+
+namespace loopbench::harness {
+
+struct LoopsResult {
+  std::string estimate;
+  Problem problem;
+  std::vector<std::string> names;  ///< of the keyframes: vertex ids of the file, or stamps
+  methods::ClosureLedger ledger;
+};
+
+/// Computes the ledger of a problem. `names`: one per keyframe. Throws InputError with `estimate`
+/// if the ledger does not apply.
+LoopsResult loops(Problem problem, std::string estimate, std::vector<std::string> names);
+
+/// "1590 -> 145": the keyframes of a closure, the later one first.
+std::string closure_name(const LoopsResult& result, std::size_t closure);
+
+/// One to three sentences: whether the correction probably helps, or which closure contradicts the
+/// others, or why nothing can be stated and what would change that.
+std::string verdict_text(const LoopsResult& result);
+
+/// The verdict and a table of the closures, the most suspicious first, at most `rows`.
+std::string text(const LoopsResult& result, std::size_t rows);
+
+/// One row per closure in the order of `suspects`, with a header; lengths in metres, angles in
+/// degrees, `sd` in standard deviations, names of keyframes as in the file.
+std::string csv(const LoopsResult& result);
+
+/// Object with keys verdict, sentence, places, better_places, ratio, covered and closures, the rows
+/// of csv().
+std::string json(const LoopsResult& result);
+
+/// Map of the keyframes with the closures coloured by what the others state about them.
+FigureData loops_figure(const LoopsResult& result);
+
+}  // namespace loopbench::harness

@@ -1,0 +1,173 @@
+#include "methods/correctors/closure_ledger.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "methods/correctors/closure_places.hpp"
+#include "methods/correctors/dual.hpp"
+#include "tests/support/corrected.hpp"
+#include "tests/support/problems.hpp"
+
+namespace loopbench::closure_ledger_test {
+
+using namespace methods;
+
+namespace {
+
+using namespace test;
+
+constexpr double kStepSigma = 0.01;  // of the odometry [m] and [rad]
+
+/// Three rounds of a circle. Odometry has noise and a bias of a fifth of its deviation in yaw,
+/// closures between the rounds have noise.
+Problem rounds(std::uint64_t seed, double sigma = kStepSigma) {
+  constexpr std::size_t kRound = 60;
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  const auto noise = [&](double size) {
+    Twist out;
+    for (int i = 0; i < 6; ++i) out[i] = size * normal(random);
+    return out;
+  };
+  const Pose step = exp_se3(twist(Vector3(1.0, 0.0, 0.0), Vector3(0.0, 0.0, 2.0 * M_PI / kRound)));
+  Problem out;
+  Trajectory truth;
+  const Matrix6 information = Matrix6::Identity() / (sigma * sigma);
+  for (std::size_t i = 0; i < 3 * kRound; ++i) {
+    if (i == 0) {
+      truth.push_back({0.0, Pose{}});
+      out.keyframes.push_back({0.0, Pose{}});
+      continue;
+    }
+    const auto stamp = static_cast<double>(i);
+    truth.push_back({stamp, normalized(truth.back().world_from_body * step)});
+    const Pose measured = normalized(step * exp_se3(noise(sigma) + 0.2 * sigma * Twist::Unit(5)));
+    out.odometry.push_back({i - 1, i, measured, information});
+    out.keyframes.push_back({stamp, normalized(out.keyframes.back().world_from_body * measured)});
+  }
+  for (const std::size_t from : {2UL, 28UL, 54UL, 80UL, 106UL}) {
+    const std::size_t to = from + kRound;
+    const Pose loop = truth[from].world_from_body.inverse() * truth[to].world_from_body;
+    out.closures.push_back({from, to, normalized(loop * exp_se3(noise(sigma))), information});
+  }
+  return out;
+}
+
+TEST(ClosureLedger, PredictsAPlaceLikeASolutionWithoutIt) {
+  const Problem problem = rounds(3, 1e-5);  // nearly linear
+  const ClosureLedger ledger = closure_ledger(problem);
+  ASSERT_EQ(ledger.places, problem.closures.size());
+  for (std::size_t k = 0; k < problem.closures.size(); ++k) {
+    Problem rest = problem;
+    rest.closures.erase(rest.closures.begin() + static_cast<std::ptrdiff_t>(k));
+    Report with_report, without_report;
+    const Trajectory solved = Dual({}).correct(rest, without_report);
+    const Trajectory joint = Dual({}).correct(problem, with_report);
+    const Edge& loop = problem.closures[k];
+    const Twist error =
+        edge_error(loop, solved[loop.from].world_from_body, solved[loop.to].world_from_body);
+    const LedgerRow& row = ledger.rows[k];
+    const double expected = error.head<3>().norm();
+    EXPECT_NEAR(row.predicted->metres / expected, 1.0, 1e-3) << k;
+    EXPECT_NEAR(row.cost_drop,
+                count(with_report, "chi2") - count(without_report, "chi2"),
+                1e-3 * row.cost_drop);
+    EXPECT_NEAR(row.moves_rms, rmse(solved, joint), 1e-3 * row.moves_rms) << k;
+    EXPECT_NEAR(row.moves_max, largest_distance(solved, joint), 1e-3 * row.moves_max) << k;
+  }
+}
+
+TEST(ClosureLedger, StatesOneScalarLoopAnalytically) {
+  // Four steps of 1 m with variance 1 each; closures 0 -> 4 measures 5 m, 0 -> 2 measures 2 m, both
+  // with variance 1. All lie at one place, so nothing predicts the other.
+  Problem problem = along_x({0, 1, 2, 3, 4});
+  problem.closures.push_back({0, 2, at_x(2.0)});
+  problem.closures.push_back({0, 4, at_x(5.0)});
+  const ClosureLedger ledger = closure_ledger(problem);
+  EXPECT_EQ(ledger.places, 1u);
+  EXPECT_EQ(ledger.verdict, LedgerVerdict::few_places);
+  const LedgerRow& row = ledger.rows[1];
+  EXPECT_NEAR(row.loop_length, 4.0, 1e-12);
+  EXPECT_NEAR(row.in_odometry.metres, 1.0, 1e-12);
+  EXPECT_NEAR(row.in_odometry.chi2, 1.0 / 5.0 / 6.0, 1e-12);  // variance 4 + 1, six degrees
+  EXPECT_FALSE(row.predicted);
+  // Without it the chain keeps its odometry: gap 1, variance 2 * (1 / (2 / 2 + 1 / 1)) ...
+  const double variance = 4.0 + 1.0 - 2.0 * 2.0 / 3.0;  // given closure 0 -> 2
+  EXPECT_NEAR(row.cost_drop, 1.0 / variance, 1e-9);
+}
+
+TEST(ClosureLedger, SaysThatACorrectionHelps) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const ClosureLedger ledger = closure_ledger(rounds(seed));
+    EXPECT_EQ(ledger.verdict, LedgerVerdict::helps) << seed << " ratio " << ledger.ratio;
+  }
+}
+
+TEST(ClosureLedger, NamesOneFalseClosureAmongTheFirstTwo) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    for (std::size_t k = 0; k < 5; ++k) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", closure " << k);
+      Problem problem = rounds(seed);
+      problem.closures[k].from_from_to.translation += Vector3(8.0, 0.0, 0.0);
+      const ClosureLedger ledger = closure_ledger(problem);
+      EXPECT_EQ(ledger.verdict, LedgerVerdict::contradiction);
+      EXPECT_TRUE(ledger.suspects[0] == k || ledger.suspects[1] == k);
+    }
+  }
+}
+
+TEST(ClosureLedger, FindsAFalseClosureAmongItsNeighbours) {
+  Problem problem = rounds(1);
+  const Edge& loop = problem.closures[2];
+  const auto add = [&](std::size_t shift) {
+    Edge near = loop;
+    near.from += shift, near.to += shift;
+    Pose between;
+    for (std::size_t i = near.from; i < near.to; ++i) {
+      between = normalized(between * problem.odometry[i].from_from_to);
+    }
+    near.from_from_to = between;
+    return near;
+  };
+  problem.closures = {add(0), add(1), add(2)};
+  problem.closures[1].from_from_to.translation.x() += 4.0;
+  const ClosureLedger ledger = closure_ledger(problem);
+  EXPECT_EQ(ledger.places, 1u);
+  EXPECT_EQ(ledger.verdict, LedgerVerdict::contradiction);
+  EXPECT_EQ(ledger.suspects[0], 1u);
+}
+
+TEST(ClosureLedger, TellsSmallCovariancesFromFalseClosures) {
+  Problem problem = rounds(1);
+  for (Edge& edge : problem.odometry) edge.information *= 400.0;
+  for (Edge& edge : problem.closures) edge.information *= 400.0;
+  EXPECT_EQ(closure_ledger(problem).verdict, LedgerVerdict::covariances);
+}
+
+TEST(ClosureLedger, DeclinesWhatItDoesNotCover) {
+  Problem problem = rounds(1);
+  EXPECT_EQ(why_no_ledger(problem), "");
+  problem.closures[0].scale = 1.1;
+  EXPECT_EQ(why_no_ledger(problem), "edges change the scale, which the ledger does not estimate");
+  problem.closures.clear();
+  EXPECT_EQ(why_no_ledger(problem), "the problem has no loop closures");
+}
+
+TEST(ClosurePlaces, JoinsClosuresThroughOthers) {
+  const auto loop = [](std::size_t from, std::size_t to) { return Edge{from, to, {}}; };
+  const std::vector<Edge> closures{loop(0, 100), loop(40, 140), loop(20, 120), loop(0, 160)};
+  const std::vector<std::vector<std::size_t>> expected{{0, 1, 2}, {3}};
+  EXPECT_EQ(closure_places(closures), expected);
+}
+
+TEST(ClosurePlaces, CoveredShareCountsPlacesNotClosures) {
+  Problem problem = along_x({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+  problem.closures = {{0, 6, at_x(6.0)}, {1, 7, at_x(6.0)}, {5, 10, at_x(5.0)}};
+  EXPECT_DOUBLE_EQ(covered_share(problem, {{0, 1}, {2}}), 0.2);  // from 5 to 7
+  EXPECT_DOUBLE_EQ(covered_share(problem, {{0, 1, 2}}), 0.0);
+}
+
+}  // namespace
+}  // namespace loopbench::closure_ledger_test
