@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "datasets/core/disabled_options.hpp"
 #include "datasets/derive/closures.hpp"
 #include "datasets/derive/graph_parts.hpp"
+#include "datasets/derive/odometry.hpp"
 #include "datasets/formats/formats.hpp"
 
 namespace loopbench {
@@ -21,8 +24,11 @@ Rotation camera_from_vehicle() {
 
 std::vector<std::size_t> kept_poses(std::size_t size,
                                     std::size_t step,
-                                    const std::vector<Edge>& closures) {
+                                    const std::vector<Edge>& closures,
+                                    const PoseGraph& graph) {
   std::vector<bool> keep(size, false);
+  for (const std::size_t vertex : graph.fixed) keep[vertex] = true;
+  for (const Anchor& prior : graph.priors) keep[prior.keyframe] = true;
   for (std::size_t i = 0; i < size; i += step) keep[i] = true;
   if (size > 0) keep.back() = true;
   for (const Edge& edge : closures) keep[edge.from] = keep[edge.to] = true;
@@ -89,6 +95,39 @@ std::string closure_provenance(const PoseGraphOptions& o,
   return text;
 }
 
+/// Adds closures with the poses of fixed vertices relative to the first of them and much more
+/// information than the odometry has, so that every method that uses closures holds them.
+void hold_fixed(const PoseGraph& graph, Sequence& sequence) {
+  if (graph.fixed.empty() || graph.vertices.empty()) return;
+  Problem& problem = sequence.problem;
+  Provenance& provenance = sequence.provenance;
+  for (const std::size_t vertex : graph.fixed) {
+    const auto found = std::ranges::lower_bound(problem.ids, graph.ids[vertex]);
+    provenance.fixed.push_back(static_cast<std::size_t>(found - problem.ids.begin()));
+  }
+  double translation = 0.0, rotation = 0.0;
+  for (const Edge& edge : problem.odometry) {
+    translation = std::max(translation, edge.information.diagonal().head<3>().maxCoeff());
+    rotation = std::max(rotation, edge.information.diagonal().tail<3>().maxCoeff());
+  }
+  constexpr double kHold = 1e5;  // below the stiffness that solvers bound
+  const Matrix6 information =
+      isotropic_information(1.0 / (kHold * translation), 1.0 / (kHold * rotation));
+  const auto& poses = problem.keyframes;
+  const std::size_t first = provenance.fixed.front();
+  for (const std::size_t k : provenance.fixed) {
+    if (k == first) continue;
+    const Pose step = poses[first].world_from_body.inverse() * poses[k].world_from_body;
+    provenance.held.push_back({first, k, normalized(step), information});
+  }
+  problem.closures.insert(problem.closures.end(), provenance.held.begin(), provenance.held.end());
+  sort_closures(problem.closures);
+  if (provenance.held.empty()) return;
+  provenance.notes.push_back(fmt::format(
+      "FIX: {} vertices are held by closures with 1e5 times the information of the odometry",
+      graph.fixed.size()));
+}
+
 }  // namespace
 
 void check_combination(const PoseGraphOptions& o, const Params& given) {
@@ -122,7 +161,8 @@ Problem derive_problem(const PoseGraph& graph,
   if (o.skip_placeholders) drop_placeholders(closures);
   subsample_closures(closures, poses, static_cast<std::size_t>(o.closures_max));
 
-  const auto kept = kept_poses(poses.size(), static_cast<std::size_t>(o.keyframes_every), closures);
+  const auto kept =
+      kept_poses(poses.size(), static_cast<std::size_t>(o.keyframes_every), closures, graph);
   std::vector<std::size_t> keyframe_of(poses.size(), 0);
   for (std::size_t k = 0; k < kept.size(); ++k) keyframe_of[kept[k]] = k;
   for (Edge& edge : closures) {
@@ -140,6 +180,10 @@ Problem derive_problem(const PoseGraph& graph,
   problem.odometry =
       kept.size() < poses.size() ? bridge(parts.odometry, kept) : std::move(parts.odometry);
   problem.closures = std::move(closures);
+  for (const std::size_t k : kept) problem.ids.push_back(graph.ids[k]);
+  problem.anchors = graph.priors;
+  for (Anchor& anchor : problem.anchors) anchor.keyframe = keyframe_of[anchor.keyframe];
+  std::ranges::stable_sort(problem.anchors, {}, &Anchor::keyframe);
   problem.planar = graph.planar;
   const std::size_t added =
       add_false_closures(problem, o.false_closures, identity(o, problem.keyframes));
@@ -167,6 +211,12 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
         read_truth(sequence.provenance.reference, vertex_stamps(graph, o.period), o);
   }
 
+  hold_fixed(graph, sequence);
+  if (!graph.priors.empty()) {
+    sequence.provenance.notes.push_back(
+        fmt::format("priors are anchors ({}): their positions are used, their rotations are not",
+                    graph.priors.size()));
+  }
   sequence.name = o.name.empty() ? default_name(o.path) : o.name;
   sequence.provenance.sensor = o.sensor;
   sequence.provenance.licence = o.licence;

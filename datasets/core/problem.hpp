@@ -3,11 +3,13 @@
 
 #include <Eigen/Cholesky>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "datasets/core/anchor.hpp"
+#include "datasets/core/params.hpp"
 #include "datasets/core/se3.hpp"
 #include "datasets/core/trajectory.hpp"
 
@@ -35,6 +37,12 @@ struct Problem {
   std::vector<std::size_t> shared_landmarks = {};
   /// Measured positions, sorted by keyframe. The keyframes may be in another world frame.
   std::vector<Anchor> anchors = {};
+  std::vector<std::int64_t> ids = {};  ///< of the keyframes in their graph; empty: none
+
+  /// For messages: the id of a graph, otherwise the stamp "12.5 s".
+  std::string name_of(std::size_t keyframe) const {
+    return ids.empty() ? to_text(keyframes[keyframe].stamp) + " s" : std::to_string(ids[keyframe]);
+  }
 };
 
 /// Throws InputError with `name` and the violated rule if edges or trajectories are invalid.

@@ -1,6 +1,7 @@
 /// A benchmark sequence: the problem, its reference trajectory and their provenance.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -27,6 +28,8 @@ struct Provenance {
   /// Assumed extrinsic offset of the reference's body; empty: unknown.
   std::optional<Pose> body_from_reference = {};
   std::filesystem::path reference = {};  ///< reference file among `inputs`; empty: none
+  std::vector<std::size_t> fixed = {};   ///< keyframes that FIX lines hold, ascending
+  std::vector<Edge> held = {};           ///< closures that hold them relative to the first
   std::string noise = {};  ///< stream and seed of simulated noise; empty: measured data
 };
 

@@ -135,8 +135,8 @@ std::vector<Edge> with_local_scale(std::vector<Edge> edges,
     const double other_length = other[last] - other[first];
     if (!(length > 0.0) || !(other_length > 0.0)) {
       throw InputError(
-          "keyframe " + std::to_string(keyframe) +
-          ": found no motion around it, expected motion in both runs to compare their scales");
+          "keyframe at " + to_text(keyframes[keyframe].stamp) +
+          " s: found no motion around it, expected motion in both runs to compare their scales");
     }
     return other_length / length;
   };

@@ -14,7 +14,8 @@ namespace loopbench {
 namespace {
 
 bool is_tag(std::string_view word) {
-  return word.starts_with("VERTEX") || word.starts_with("EDGE") || word == "FIX";
+  return word.starts_with("VERTEX") || word.starts_with("EDGE") || word.starts_with("PARAMS_") ||
+         word == "FIX";
 }
 
 /// EuRoC stamps are nanoseconds since 1970: no decimal point, and more digits than microseconds.

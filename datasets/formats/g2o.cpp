@@ -45,11 +45,12 @@ void ids_of_edges(const std::vector<EdgeEnds>& edges, PoseGraph& out) {
 std::size_t index_of(const TextFile& file,
                      const PoseGraph& graph,
                      std::int64_t id,
-                     std::size_t line) {
+                     std::size_t line,
+                     const std::string& what = "edge") {
   const auto found = std::lower_bound(graph.ids.begin(), graph.ids.end(), id);
   if (found == graph.ids.end() || *found != id) {
-    throw file.error(line,
-                     "edge refers to vertex " + std::to_string(id) + ", which has no VERTEX line");
+    throw file.error(
+        line, what + " refers to vertex " + std::to_string(id) + ", which has no VERTEX line");
   }
   return static_cast<std::size_t>(found - graph.ids.begin());
 }
@@ -79,6 +80,15 @@ PoseGraph read_g2o(const std::filesystem::path& path, const InformationRules& ru
   } else {
     sort_vertices(file, std::move(records.vertices), out);
   }
+  for (PriorRecord& prior : records.priors) {
+    prior.anchor.keyframe = index_of(file, out, prior.id, prior.line, "prior");
+    out.priors.push_back(prior.anchor);
+  }
+  for (const EdgeEnds& fixed : records.fixed) {
+    out.fixed.push_back(index_of(file, out, fixed.from, fixed.line, "FIX"));
+  }
+  std::ranges::sort(out.fixed);
+  out.fixed.erase(std::unique(out.fixed.begin(), out.fixed.end()), out.fixed.end());
   out.edges = std::move(records.edges);
   out.lines.reserve(out.edges.size());
   for (std::size_t i = 0; i < out.edges.size(); ++i) {
@@ -111,6 +121,40 @@ std::vector<double> vertex_stamps(const PoseGraph& graph, double period) {
   return out;
 }
 
+namespace {
+
+/// Poses along the fewest edges from the first vertex.
+std::vector<Pose> spanning_tree(const PoseGraph& graph, const std::string& name) {
+  const std::size_t count = graph.ids.size();
+  std::vector<std::vector<const Edge*>> edges_of(count);
+  for (const Edge& edge : graph.edges) {
+    for (const std::size_t end : {edge.from, edge.to}) edges_of[end].push_back(&edge);
+  }
+  std::vector<Pose> out(count);
+  std::vector<double> scale(count, 0.0);  // relative to the first vertex; 0: not reached
+  std::vector<std::size_t> queue{0};
+  scale[0] = 1.0;
+  for (std::size_t k = 0; k < queue.size(); ++k) {
+    const std::size_t at = queue[k];
+    for (const Edge* const edge : edges_of[at]) {
+      const std::size_t next = edge->from == at ? edge->to : edge->from;
+      if (scale[next] != 0.0) continue;
+      Edge step = edge->from == at ? *edge : inverted(*edge);
+      step.from_from_to.translation *= scale[at];
+      out[next] = normalized(out[at] * step.from_from_to);
+      scale[next] = scale[at] * step.scale;
+      queue.push_back(next);
+    }
+  }
+  if (queue.size() == count) return out;
+  const auto lost = std::ranges::find(scale, 0.0) - scale.begin();
+  throw InputError(name + ": no edges connect vertices " + std::to_string(graph.ids[0]) + " and " +
+                   std::to_string(graph.ids[static_cast<std::size_t>(lost)]) +
+                   ", expected a connected graph in a file without VERTEX lines");
+}
+
+}  // namespace
+
 std::vector<Pose> chain(const PoseGraph& graph, const std::string& name) {
   const std::size_t count = graph.ids.size();
   std::vector<const Edge*> step(count, nullptr);
@@ -118,13 +162,9 @@ std::vector<Pose> chain(const PoseGraph& graph, const std::string& name) {
     if (edge.from + 1 == edge.to && step[edge.from] == nullptr) step[edge.from] = &edge;
   }
   std::vector<Pose> out(count);
+  if (std::ranges::count(step, nullptr) > 1) return spanning_tree(graph, name);
   double scale = 1.0;  // of vertex i relative to the first vertex
   for (std::size_t i = 0; i + 1 < count; ++i) {
-    if (step[i] == nullptr) {
-      throw InputError(name + ": no edge between vertices " + std::to_string(graph.ids[i]) +
-                       " and " + std::to_string(graph.ids[i + 1]) +
-                       ", expected one between consecutive vertices of a file without poses");
-    }
     Pose move = step[i]->from_from_to;
     move.translation *= scale;
     out[i + 1] = normalized(out[i] * move);
@@ -170,6 +210,7 @@ void write_g2o(const std::filesystem::path& file, const PoseGraph& graph) {
     if (graph.similarity) out.number(1.0);
     out.end_line();
   }
+  for (const std::size_t fixed : graph.fixed) out.word("FIX").integer(graph.ids[fixed]).end_line();
   for (const Edge& e : graph.edges) {
     out.word(edge).integer(graph.ids[e.from]).integer(graph.ids[e.to]);
     write_pose(out, graph, e.from_from_to);

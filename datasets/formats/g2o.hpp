@@ -14,13 +14,15 @@ namespace loopbench {
 /// Edges refer to vertices by their index in `ids`, not by id. from < to always: other edges are
 /// inverted on reading, and their information is transformed by the adjoint.
 struct PoseGraph {
-  std::vector<std::int64_t> ids;   ///< ascending
-  std::vector<Pose> vertices;      ///< one per id; empty if the file has no VERTEX lines
-  std::vector<Edge> edges;         ///< in file order; information in twist order [rho; phi]
-  std::vector<std::size_t> lines;  ///< line number of each edge, for error messages
-  bool planar = false;             ///< SE2 lines, lifted to z = roll = pitch = 0
-  bool similarity = false;         ///< RST3 lines, with edge.scale
-  std::size_t altered = 0;         ///< edges whose information was not positive definite
+  std::vector<std::int64_t> ids;        ///< ascending
+  std::vector<Pose> vertices;           ///< one per id; empty if the file has no VERTEX lines
+  std::vector<Edge> edges;              ///< in file order; information in twist order [rho; phi]
+  std::vector<std::size_t> lines;       ///< line number of each edge, for error messages
+  bool planar = false;                  ///< SE2 lines, lifted to z = roll = pitch = 0
+  bool similarity = false;              ///< RST3 lines, with edge.scale
+  std::size_t altered = 0;              ///< edges whose information was not positive definite
+  std::vector<std::size_t> fixed = {};  ///< vertices of FIX lines, ascending
+  std::vector<Anchor> priors = {};      ///< positions of PRIOR lines; Anchor::keyframe is a vertex
 };
 
 /// Convention of the rotation block of the information of :QUAT edges. g2o minimises the vector
@@ -55,13 +57,15 @@ struct InformationRules {
 /// - The scale column of RST3 edges is the inverse of edge.scale. Scales of vertices are checked
 /// and
 ///   discarded.
-/// - FIX lines and comments are skipped; other tags are rejected.
+/// - EDGE_SE3_PRIOR, EDGE_PRIOR_SE2, EDGE_PRIOR_SE2_XY, EDGE_SE2_XYPRIOR and EDGE_POINTXYZ measure
+///   the position of a vertex; the covariance is the marginal one if there is a rotation.
+/// - PARAMS lines and comments are skipped; other tags are rejected.
 /// Throws InputError `file:line: what`. O(n log n) in the number of lines.
 PoseGraph read_g2o(const std::filesystem::path& file, const InformationRules& rules = {});
 
-/// Writes vertices and edges as SE2 lines if `planar`, as RST3 if `similarity`, else as SE3:QUAT.
-/// read_g2o returns yaw angles and scales up to rounding, all other values bit-identical. Throws
-/// InputError if the file cannot be written.
+/// Writes vertices, FIX lines and edges, as SE2 lines if `planar`, as RST3 if `similarity`, else as
+/// SE3:QUAT. read_g2o returns yaw angles and scales up to rounding, all other values bit-identical.
+/// Throws InputError if the file cannot be written.
 void write_g2o(const std::filesystem::path& file, const PoseGraph& graph);
 
 /// Stamps of all vertices: id * period [s]. Of ids that are symbols of GTSAM (a letter in the
@@ -69,10 +73,11 @@ void write_g2o(const std::filesystem::path& file, const PoseGraph& graph);
 /// share indices.
 std::vector<double> vertex_stamps(const PoseGraph& graph, double period);
 
-/// Returns one pose per id, composed from the edges between consecutive ids; the first pose is the
-/// identity. If several edges connect the same vertices, the first in the file is used.
-/// Translations of a similarity graph are converted to the scale of the first vertex. Throws
-/// InputError (`name: ...` with the ids) if consecutive ids have no edge. O(edges + ids).
+/// Returns one pose per id, composed from the edges between consecutive ids, or along the fewest
+/// edges if one of these is missing; the first pose is the identity. If several edges connect the
+/// same vertices, the first in the file is used. Translations of a similarity graph are converted
+/// to the scale of the first vertex. Throws InputError (`name: ...` with the ids) if the edges do
+/// not connect them. O(edges + ids).
 std::vector<Pose> chain(const PoseGraph& graph, const std::string& name = "pose graph");
 
 }  // namespace loopbench

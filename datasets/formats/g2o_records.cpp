@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 
 #include "datasets/core/params.hpp"
 #include "datasets/formats/columns.hpp"
@@ -43,6 +44,17 @@ constexpr std::array kTags{
     Tag{"VERTEX3", Layout::euler, "8: VERTEX3 id x y z roll pitch yaw"},
     Tag{"EDGE3", Layout::euler, "30: EDGE3 i j x y z roll pitch yaw and 21 of information"},
 };
+
+/// Throws InputError for lines of switchable constraints.
+void reject_switch(const TextFile& file, const Line& line, std::string_view word) {
+  if (word.find("SWITCH") == std::string_view::npos) return;
+  throw file.error(
+      line.number,
+      "found " + std::string(word) +
+          ", a switchable constraint: expected EDGE_SE2 or EDGE_SE3:QUAT lines without "
+          "switches, which the methods pose_graph_dcs and pose_graph_gnc_tls weight "
+          "themselves");
+}
 
 const Tag& find_tag(const TextFile& file, const Line& line, std::string_view word) {
   for (const Tag& tag : kTags) {
@@ -214,7 +226,19 @@ Records read_g2o_part(TextFile& file, const InformationRules& rules) {
   std::size_t first_line_number = 0;
   for (Line line; file.next(line);) {
     const std::string_view word = Columns(file, line).peek();
-    if (word == "FIX") continue;
+    if (word.starts_with("PARAMS")) continue;
+    if (word == "FIX") {
+      Columns columns(file, line);
+      for (columns.word(); !columns.done();) {
+        out.fixed.push_back({columns.integer("id"), 0, line.number});
+      }
+      continue;
+    }
+    if (auto prior = read_prior(file, line, word)) {
+      out.priors.push_back(std::move(*prior));
+      continue;
+    }
+    reject_switch(file, line, word);
     const Tag& tag = find_tag(file, line, word);
     if (first == nullptr) {
       first = &tag;
@@ -256,9 +280,13 @@ Records read_records(TextFile& file, const InformationRules& rules) {
     Records& more = parts[i];
     for (VertexRecord& vertex : more.vertices) vertex.line += out.lines;
     for (EdgeEnds& ends : more.ends) ends.line += out.lines;
+    for (EdgeEnds& fixed : more.fixed) fixed.line += out.lines;
+    for (PriorRecord& prior : more.priors) prior.line += out.lines;
     append(out.vertices, std::move(more.vertices));
     append(out.ends, std::move(more.ends));
     append(out.edges, std::move(more.edges));
+    append(out.fixed, std::move(more.fixed));
+    append(out.priors, std::move(more.priors));
     out.lines += more.lines;
     out.altered += more.altered;
   }

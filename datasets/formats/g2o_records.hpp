@@ -6,6 +6,7 @@
 
 #include "datasets/core/problem.hpp"
 #include "datasets/formats/g2o.hpp"
+#include "datasets/formats/g2o_priors.hpp"
 #include "datasets/formats/text_file.hpp"
 
 namespace loopbench {
@@ -31,14 +32,16 @@ struct Records {
   std::vector<VertexRecord> vertices;
   std::vector<EdgeEnds> ends;
   std::vector<Edge> edges;  ///< one per `ends`; indices not set, information of a twist
-  std::size_t lines = 0;    ///< of the part of the file
-  std::size_t altered = 0;  ///< edges whose information was not positive definite
+  std::vector<PriorRecord> priors;
+  std::vector<EdgeEnds> fixed;  ///< `from` of each
+  std::size_t lines = 0;        ///< of the part of the file
+  std::size_t altered = 0;      ///< edges whose information was not positive definite
 };
 
-/// Reads every VERTEX and EDGE line; FIX lines are skipped. Throws InputError for unknown tags, a
-/// wrong number of columns, mixed kinds, quaternions that are not unit, scales that are not
-/// positive, information that `rules` cannot make positive definite, and edges from a vertex to
-/// itself.
+/// Reads every VERTEX, EDGE, PRIOR and FIX line; PARAMS lines are skipped. Throws InputError for
+/// unknown tags, a wrong number of columns, mixed kinds, quaternions that are not unit, scales that
+/// are not positive, information that `rules` cannot make positive definite, and edges from a
+/// vertex to itself.
 Records read_records(TextFile& file, const InformationRules& rules);
 
 }  // namespace loopbench

@@ -89,7 +89,7 @@ void walk(Archive& a, T& edge) {
 
 template <class Archive, Either<Problem> T>
 void walk(Archive& a, T& p) {
-  a(p.keyframes)(p.odometry)(p.closures)(p.frames)(p.planar)(p.shared_landmarks)(p.anchors);
+  a(p.keyframes)(p.odometry)(p.closures)(p.frames)(p.planar)(p.shared_landmarks)(p.anchors)(p.ids);
 }
 
 template <class Archive, Either<std::filesystem::path> T>
@@ -107,7 +107,7 @@ void walk(Archive& a, T& input) {
 template <class Archive, Either<Provenance> T>
 void walk(Archive& a, T& p) {
   a(p.sensor)(p.closures)(p.oracle_closures)(p.licence)(p.inputs)(p.notes);
-  a(p.body_from_reference)(p.reference)(p.noise);
+  a(p.body_from_reference)(p.reference)(p.noise)(p.fixed)(p.held);
 }
 
 template <class Archive, Either<LoopCandidate> T>

@@ -214,8 +214,84 @@ TEST(Chain, MissingStepsAreNamed) {
   const auto graph = read_g2o(sample("bad/g2o_chain_gap.g2o"));
   EXPECT_EQ(
       refusal([&] { chain(graph, "odd.g2o"); }),
-      "odd.g2o: no edge between vertices 1 and 2, expected one between consecutive vertices of "
-      "a file without poses");
+      "odd.g2o: no edges connect vertices 0 and 2, expected a connected graph in a file without "
+      "VERTEX lines");
+}
+
+TEST(Chain, FollowsTheFewestEdgesIfAStepIsMissing) {
+  PoseGraph graph;
+  graph.ids = {0, 1, 2, 3};
+  graph.similarity = true;
+  graph.edges = {{0, 2, planar(1, 0, kQuarter), Matrix6::Identity(), 2.0},
+                 {2, 3, planar(1, 0, 0)},
+                 {1, 3, planar(0, 5, 0)}};  // against its direction
+  const std::vector<Pose> poses = chain(graph);
+  EXPECT_POSE_NEAR(poses[2], planar(1, 0, kQuarter), 1e-15, 1e-15);
+  EXPECT_POSE_NEAR(poses[3], planar(1, 2, kQuarter), 1e-15, 1e-15);
+  EXPECT_POSE_NEAR(poses[1], planar(11, 2, kQuarter), 1e-14, 1e-15);
+}
+
+/// Two vertices 3 and 7, with lines before and after.
+PoseGraph with_lines(const std::string& before, const std::string& after, bool spatial = true) {
+  const TemporaryFolder scratch;
+  const std::string vertices =
+      spatial ? "VERTEX_SE3:QUAT 3 0 0 0 0 0 0 1\nVERTEX_SE3:QUAT 7 1 0 0 0 0 0 1\n"
+              : "VERTEX_SE2 3 0 0 0\nVERTEX_SE2 7 1 0 0\n";
+  return read_g2o(scratch.file("lines.g2o", before + vertices + after));
+}
+
+TEST(G2o, ReadsFixedVerticesAndParameters) {
+  const PoseGraph graph = with_lines("PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\nFIX 7\n", "FIX 3 7\n");
+  EXPECT_EQ(graph.fixed, (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(graph.ids.size(), 2u);
+  const std::string why = refusal([] { with_lines("", "FIX 8\n"); });
+  EXPECT_NE(why.find(":3: FIX refers to vertex 8, which has no VERTEX line"), std::string::npos);
+  const TemporaryFolder scratch;
+  write_g2o(scratch.path() / "fixed.g2o", graph);
+  EXPECT_EQ(read_g2o(scratch.path() / "fixed.g2o").fixed, graph.fixed);
+  const auto first = scratch.file("first.g2o", "PARAMS_CAMERACALIB 0 0 0 0 0 0 0 1 1 1 1 1\n");
+  EXPECT_EQ(detect_format(first), Format::g2o);
+}
+
+void expect_prior(const PoseGraph& graph, const Vector3& position, const Matrix3& covariance) {
+  ASSERT_EQ(graph.priors.size(), 1u);
+  const Anchor& anchor = graph.priors.front();
+  EXPECT_EQ(anchor.keyframe, 1u);
+  EXPECT_NEAR((anchor.position - position).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((anchor.covariance - covariance).norm(), 0.0, 1e-12);
+}
+
+TEST(G2o, PriorsAreAnchors) {
+  const std::string full = "4 0 0 0 0 0 16 0 0 0 0 25 0 0 0 1 0 0 1 0 1\n";
+  const std::string gnss = "4 0 0 0 0 0 16 0 0 0 0 25 0 0 0 0 0 0 0 0 0\n";
+  // A rotation of 90 deg about z exchanges x and y.
+  const std::string pose = " 9 8 7 0 0 0.70710678118654752 0.70710678118654752 ";
+  const Matrix3 turned = Vector3(1.0 / 16, 1.0 / 4, 1.0 / 25).asDiagonal();
+  expect_prior(with_lines("", "EDGE_SE3_PRIOR 7" + pose + full), {9, 8, 7}, turned);
+  expect_prior(with_lines("", "EDGE_SE3_PRIOR 7 0" + pose + gnss), {9, 8, 7}, turned);
+  expect_prior(
+      with_lines("", "EDGE_POINTXYZ 7 9 8 7 4 0 0 4 0 4\n"), {9, 8, 7}, 0.25 * Matrix3::Identity());
+  const auto in_plane = [](const std::string& line) { return with_lines("", line, false); };
+  expect_prior(in_plane("EDGE_PRIOR_SE2 7 9 8 1.5707963267948966 4 0 0 16 0 1\n"),
+               {9, 8, 0},
+               Vector3(1.0 / 16, 1.0 / 4, 1.0 / 4).asDiagonal());
+  for (const std::string tag : {"EDGE_PRIOR_SE2_XY", "EDGE_SE2_XYPRIOR"}) {
+    const Matrix3 flat = Vector3(0.25, 0.0625, 0.25).asDiagonal();
+    expect_prior(in_plane(tag + " 7 9 8 4 0 16\n"), {9, 8, 0}, flat);
+  }
+  EXPECT_NE(
+      refusal([&] { in_plane("EDGE_PRIOR_SE2_XY 7 9 8 4 0\n"); }).find("7: EDGE_PRIOR_SE2_XY"),
+      std::string::npos);
+  EXPECT_NE(refusal([&] { in_plane("EDGE_PRIOR_SE2_XY 7 9 8 0 0 0\n"); }).find("not positive"),
+            std::string::npos);
+}
+
+TEST(G2o, SwitchableEdgesAreRefusedWithWhatReplacesThem) {
+  for (const char* line :
+       {"VERTEX_SWITCH 5 1\n", "EDGE_SE2_SWITCHABLE 3 7 5 1 0 0 1 0 0 1 0 1\n"}) {
+    const std::string why = refusal([&] { with_lines("", line, false); });
+    EXPECT_NE(why.find("pose_graph_dcs and pose_graph_gnc_tls"), std::string::npos) << why;
+  }
 }
 
 TEST(G2o, GivesATrajectoryOfVerticesOrOfTheChain) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "datasets/derive/graph_parts.hpp"
 #include "datasets/derive/odometry.hpp"
 #include "tests/datasets/random_poses.hpp"
@@ -61,6 +63,7 @@ TEST(PoseGraphDataset, LoopEndsStayKeyframes) {
   std::vector<double> expected;  // 0 10 19 and 3 17 5 12 4
   for (const double id : {100, 103, 104, 105, 110, 112, 117, 119}) expected.push_back(id * 0.1);
   EXPECT_EQ(stamps(problem.keyframes), expected);
+  EXPECT_EQ(problem.ids, (std::vector<std::int64_t>{100, 103, 104, 105, 110, 112, 117, 119}));
   EXPECT_EQ(problem.frames.size(), 12u);
   ASSERT_EQ(problem.closures.size(), 3u);
   EXPECT_EQ(problem.closures[1].from, 3u);  // pose 5
@@ -71,6 +74,33 @@ TEST(PoseGraphDataset, LoopEndsStayKeyframes) {
                       problem.keyframes[edge.to].world_from_body;
     EXPECT_POSE_NEAR(edge.from_from_to, step, 1e-9, 1e-9);
   }
+}
+
+TEST(PoseGraphDataset, HoldsFixedVerticesAndAnchorsPriors) {
+  const TemporaryFolder scratch;
+  PoseGraph graph = small_graph(true);
+  graph.fixed = {2, 9, 15};
+  write_g2o(scratch.path() / "held.g2o", graph);
+  std::ofstream(scratch.path() / "held.g2o", std::ios::app)
+      << "EDGE_SE3_PRIOR 111 1 2 3 0 0 0 1 4 0 0 0 0 0 4 0 0 0 0 4 0 0 0 1 0 0 1 0 1\n";
+  PoseGraphOptions options = every(10);
+  options.path = "held.g2o";
+  const Sequence loaded = load_pose_graph(options, {{scratch.path()}});
+  const Problem& problem = loaded.problem;
+  ASSERT_EQ(loaded.provenance.fixed.size(), 3u);
+  EXPECT_EQ(problem.ids[loaded.provenance.fixed[1]], 109);
+  EXPECT_EQ(problem.closures.size(), 3u + 2u);
+  ASSERT_EQ(loaded.provenance.held.size(), 2u);
+  for (const Edge& held : loaded.provenance.held) {
+    EXPECT_EQ(problem.ids[held.from], 102);
+    EXPECT_POSE_NEAR(problem.keyframes[held.from].world_from_body * held.from_from_to,
+                     problem.keyframes[held.to].world_from_body,
+                     1e-9,
+                     1e-9);
+  }
+  ASSERT_EQ(problem.anchors.size(), 1u);
+  EXPECT_EQ(problem.ids[problem.anchors[0].keyframe], 111);
+  ASSERT_EQ(loaded.provenance.notes.size(), 2u);
 }
 
 TEST(PoseGraphDataset, ChainsOdometryWithoutVertices) {
