@@ -69,9 +69,9 @@ Diagnosed of_graph(const std::string& file) {
   GraphParts parts = split_graph(graph, file);
   const Problem problem{.keyframes = initial_poses(graph, ReadOptions{}.period),
                         .odometry = std::move(parts.odometry),
-                        .closures = std::move(parts.closures)};
-  const auto id = [&](std::size_t keyframe) { return std::to_string(graph.ids[keyframe]); };
-  Diagnosed out = of_closures(file, problem, metrics::check_closures(problem, id));
+                        .closures = std::move(parts.closures),
+                        .ids = graph.ids};
+  Diagnosed out = of_closures(file, problem, metrics::check_closures(problem));
   if (graph.altered > 0) {  // other commands refuse such a graph
     std::erase_if(out.result.findings, [](const metrics::InputFinding& finding) {
       return finding.fault == metrics::Fault::information;  // of what is left of it

@@ -114,14 +114,29 @@ void write(const CorrectArguments& a, const Correction& done) {
   if (a.dense || !a.at.empty()) {
     throw InputError(a.out + ": a graph contains the keyframes, expected no --dense and no --at");
   }
-  std::vector<std::int64_t> ids;
-  const InformationRules any{.indefinite = IndefiniteInformation::project};  // only ids are used
-  if (is_graph(a)) ids = read_g2o(a.estimate, any).ids;
-  if (ids.size() != done.keyframes.size()) ids.clear();  // some poses are frames
-  write_g2o(a.out, problem_graph(done.problem, done.keyframes, std::move(ids)));
+  PoseGraph graph = problem_graph(done.problem, done.keyframes, done.problem.ids);
+  std::erase_if(graph.edges, [&](const Edge& edge) {
+    return std::ranges::any_of(done.provenance.held, [&](const Edge& held) {
+      return edge.from == held.from && edge.to == held.to && edge.information == held.information;
+    });
+  });
+  graph.fixed = done.provenance.fixed;
+  write_g2o(a.out, graph);
+}
+
+/// Moves the result so that the first vertex of FIX lines keeps its pose; methods hold keyframe 0.
+void hold_first_fixed(Correction& done) {
+  const std::vector<std::size_t>& fixed = done.provenance.fixed;
+  if (fixed.empty() || fixed.front() == 0 || !done.problem.anchors.empty()) return;
+  const Pose& before = done.problem.keyframes[fixed.front()].world_from_body;
+  const Pose motion = before * done.keyframes[fixed.front()].world_from_body.inverse();
+  for (Trajectory* const poses : {&done.keyframes, &done.output}) {
+    for (auto& [stamp, pose] : *poses) pose = normalized(motion * pose);
+  }
 }
 
 std::optional<std::size_t> rejected_closures(const Correction& done) {
+  if (done.report.rejected) return done.report.rejected->size();
   for (const methods::Count& count : done.report.counts) {
     if (count.name == "closures_kept" || count.name == "closures_consistent") {
       return done.problem.closures.size() - static_cast<std::size_t>(count.value);
@@ -174,7 +189,7 @@ Correction correct(Problem problem,
 
 Problem load_problem(const CorrectArguments& a,
                      const Catalogue& catalogue,
-                     std::vector<std::string>* notes) {
+                     Provenance* provenance) {
   const bool graph = is_graph(a);
   if (graph && !(a.loops.empty() && a.frames.empty() && a.anchors.empty())) {
     throw InputError(a.estimate +
@@ -199,7 +214,7 @@ Problem load_problem(const CorrectArguments& a,
     sort_closures(out.closures);
   }
   check(out, a.estimate);
-  if (notes != nullptr) *notes = std::move(loaded.provenance.notes);
+  if (provenance != nullptr) *provenance = std::move(loaded.provenance);
   return std::move(out);
 }
 
@@ -220,8 +235,8 @@ Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   if (!a.out.empty() && !is_dash(a.out))
     reject_overwriting({a.estimate, a.loops, a.anchors, a.frames, a.at}, a.out);
   const MethodChoice choice = method_without_reference(a.method, catalogue);
-  std::vector<std::string> notes;
-  Problem problem = load_problem(a, catalogue, &notes);
+  Provenance provenance;
+  Problem problem = load_problem(a, catalogue, &provenance);
   const bool has_measurements = !problem.closures.empty() || !problem.anchors.empty();
   if (!has_measurements && !is_graph(a) && uses_closures(choice, catalogue)) {
     throw InputError(a.estimate + ": " + choice.label +
@@ -231,6 +246,9 @@ Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   const std::vector<double> at = output_stamps(a, problem, outside);
   Correction out = correct(std::move(problem), a.estimate, choice, at, catalogue);
   out.outside = outside;
+  out.provenance = std::move(provenance);
+  hold_first_fixed(out);
+  const std::vector<std::string>& notes = out.provenance.notes;
   out.report.notes.insert(out.report.notes.begin(), notes.begin(), notes.end());
   const bool loses_stamps = a.format == Format::kitti || a.format == Format::g2o;
   if (!a.out.empty()) write(a, out);

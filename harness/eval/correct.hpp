@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "datasets/core/problem.hpp"
+#include "datasets/core/sequence.hpp"
 #include "datasets/formats/formats.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/config/entry.hpp"
@@ -47,6 +47,7 @@ struct Correction {
   std::optional<std::vector<Residual>> before;
   std::optional<std::vector<Residual>> after;
   std::optional<std::size_t> rejected;  ///< closures; unset: the method rejects none
+  Provenance provenance = {};           ///< of the file
   double seconds = 0.0;                 ///< wall time of the method
   methods::Report report;
   std::string out;  ///< file that was written; empty: none
@@ -71,10 +72,10 @@ Correction correct(Problem problem,
 Correction correct(const CorrectArguments& arguments, const Catalogue& catalogue);
 
 /// The problem that correct() would correct, from `estimate`, `loops`, `anchors`, `frames` and
-/// `settings`. Appends remarks of its dataset to `notes` unless it is null. Throws InputError.
+/// `settings`. Sets `provenance` to that of its dataset unless it is null. Throws InputError.
 Problem load_problem(const CorrectArguments& arguments,
                      const Catalogue& catalogue,
-                     std::vector<std::string>* notes = nullptr);
+                     Provenance* provenance = nullptr);
 
 /// Summary for a terminal: sizes, residuals before and after, counts and notes of the method.
 std::string text(const Correction& correction);
@@ -82,10 +83,11 @@ std::string text(const Correction& correction);
 /// Map of the keyframes before and after, without files.
 FigureData before_and_after(const Correction& correction);
 
-/// Object with keys estimate, method, keyframes, odometry, closures, anchors, rejected, seconds,
-/// before, after {translation_rms, translation_max, rotation_rms, rotation_max, chi2_odometry,
-/// chi2_closures, and with anchors anchor_rms, anchor_max} or null, counts {name: value}, phases
-/// [{name, seconds}], notes [text], output {file, poses, outside}.
+/// Object with keys estimate, method, keyframes, odometry, closures, anchors, rejected,
+/// rejected_closures [{from, to}] by ids or stamps, seconds, before, after {translation_rms,
+/// translation_max, rotation_rms, rotation_max, chi2_odometry, chi2_closures, and with anchors
+/// anchor_rms, anchor_max} or null, counts {name: value}, phases [{name, seconds}], notes [text],
+/// output {file, poses, outside}. `rejected` and its list are null if the method rejects none.
 std::string json(const Correction& correction);
 
 }  // namespace loopbench::harness

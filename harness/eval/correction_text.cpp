@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -23,6 +24,35 @@ nlohmann::json residuals_json(const std::optional<std::vector<Residual>>& residu
   return out;
 }
 
+/// The rejected closures by ids or stamps, at most twenty of them.
+std::string rejected_text(const Correction& c) {
+  constexpr std::size_t kMost = 20;
+  if (!c.report.rejected || c.report.rejected->empty()) return "";
+  const std::vector<std::size_t>& all = *c.report.rejected;
+  std::string out = "rejected:";
+  for (std::size_t i = 0; i < std::min(all.size(), kMost); ++i) {
+    const Edge& edge = c.problem.closures[all[i]];
+    out += fmt::format(
+        "{} {} -> {}", i == 0 ? "" : ",", c.problem.name_of(edge.from), c.problem.name_of(edge.to));
+  }
+  if (all.size() > kMost) out += fmt::format(" and {} more (--json lists all)", all.size() - kMost);
+  return out + "\n\n";
+}
+
+nlohmann::json rejected_json(const Correction& c) {
+  if (!c.report.rejected) return nullptr;
+  nlohmann::json out = nlohmann::json::array();
+  const auto end = [&](std::size_t keyframe) -> nlohmann::json {
+    if (!c.problem.ids.empty()) return c.problem.ids[keyframe];
+    return c.problem.keyframes[keyframe].stamp;
+  };
+  for (const std::size_t k : *c.report.rejected) {
+    const Edge& edge = c.problem.closures[k];
+    out.push_back({{"from", end(edge.from)}, {"to", end(edge.to)}});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string text(const Correction& c) {
@@ -32,9 +62,10 @@ std::string text(const Correction& c) {
                                 c.keyframes.size(),
                                 counted(c.problem.odometry.size(), "odometry edge"),
                                 counted(c.problem.closures.size(), "closure"));
-  if (!c.problem.anchors.empty()) out += ", " + counted(c.problem.anchors.size(), "anchor");
   if (c.rejected) out += fmt::format(" ({} rejected)", *c.rejected);
+  if (!c.problem.anchors.empty()) out += ", " + counted(c.problem.anchors.size(), "anchor");
   out += fmt::format(", {:.1f} ms\n\n", 1e3 * c.seconds);
+  out += rejected_text(c);
   if (c.before && c.after) {
     out += fmt::format("{:<28}{:>14}{:>14}\n", "", "before", "after");
     for (std::size_t i = 0; i < c.before->size(); ++i) {
@@ -75,6 +106,7 @@ std::string json(const Correction& c) {
       {"closures", c.problem.closures.size()},
       {"anchors", c.problem.anchors.size()},
       {"rejected", c.rejected ? nlohmann::json(*c.rejected) : nlohmann::json(nullptr)},
+      {"rejected_closures", rejected_json(c)},
       {"seconds", c.seconds},
       {"before", residuals_json(c.before)},
       {"after", residuals_json(c.after)},

@@ -19,9 +19,9 @@ inline std::string why_no_chain(const Problem& problem) {
   for (std::size_t i = 0; i < expected; ++i) {
     const Edge& edge = problem.odometry[i];
     if (edge.from != i || edge.to != i + 1) {
-      return "odometry edge " + std::to_string(i) + " joins keyframes " +
-             std::to_string(edge.from) + " and " + std::to_string(edge.to) + ", expected " +
-             std::to_string(i) + " and " + std::to_string(i + 1);
+      return "an odometry edge joins keyframes " + problem.name_of(edge.from) + " and " +
+             problem.name_of(edge.to) + ", expected " + problem.name_of(i) + " and " +
+             problem.name_of(i + 1);
     }
   }
   return "";

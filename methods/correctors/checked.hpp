@@ -1,6 +1,11 @@
 /// Runs any corrector on the pairwise consistent loop closures only.
 #pragma once
 
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
 #include "datasets/core/error.hpp"
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/consistency.hpp"
@@ -48,10 +53,17 @@ class PairwiseConsistent final : public Corrector {
   Trajectory correct(const Problem& problem, Report& report) const override {
     Problem reduced{problem.keyframes, problem.odometry, {}, {}, problem.planar};
     reduced.anchors = problem.anchors;
+    reduced.ids = problem.ids;
     const ConsistentClosures found =
         report.time("check", [&] { return consistent_closures(problem); });
     for (const std::size_t k : found.kept) reduced.closures.push_back(problem.closures[k]);
     report.count("closures_consistent", static_cast<double>(found.kept.size()));
+    std::vector<std::size_t> rejected;
+    for (std::size_t k = 0; k < problem.closures.size(); ++k) {
+      if (!std::ranges::binary_search(found.kept, k)) rejected.push_back(k);
+    }
+    report.rejected = rejected;
+    if (problem.closures.size() == 1) report.notes.emplace_back(kOneClosure);
     if (2 * found.kept.size() < problem.closures.size() && !found.kept.empty()) {
       report.notes.push_back("only " + std::to_string(found.kept.size()) + " of " +
                              std::to_string(problem.closures.size()) +
@@ -67,7 +79,14 @@ class PairwiseConsistent final : public Corrector {
     if (const std::string why = base_.why_declined(reduced); !why.empty()) {
       throw Declined(why);
     }
-    return base_.correct(reduced, report);
+    report.rejected.reset();
+    Trajectory out = base_.correct(reduced, report);
+    for (const std::size_t k : report.rejected.value_or(std::vector<std::size_t>{})) {
+      rejected.push_back(found.kept[k]);
+    }
+    std::ranges::sort(rejected);
+    report.rejected = std::move(rejected);
+    return out;
   }
 
  private:

@@ -28,6 +28,9 @@ struct ConsistentClosures {
   bool is_largest = false;        ///< the set is proved to be the largest
 };
 
+/// Note of robust methods that use a single closure.
+inline constexpr const char* kOneClosure = "one closure cannot be checked by others";
+
 /// Returns the largest set of pairwise consistent closures (PCM). A closure that is consistent with
 /// no other is dropped, unless it is the only one. Requires complete odometry: see why_no_chain().
 /// O(n + K^2) plus a clique search. Source: Mangelson, Dominic, Eustice, Vasudevan, Pairwise

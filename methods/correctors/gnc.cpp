@@ -95,6 +95,17 @@ class GncRuns {
     run({std::move(poses), std::vector<double>(of_.problem.closures.size(), 1.0), std::nullopt});
   }
 
+  /// Odometry alone, at which all closures are rejected.
+  void without_closures() {
+    GncSolution out{tree_values(of_.problem), std::vector<double>(of_.problem.closures.size())};
+    const double cost = cost_of(out.poses);
+    if (cost >= kSameMinimum * lowest_cost_) return;
+    out.iterations = best_.iterations;
+    out.cost_before = best_.cost_before;
+    best_ = std::move(out);
+    lowest_cost_ = cost;
+  }
+
  private:
   void run(GncStartPoint start) {
     // Until the end only the weights are needed, and rough solutions are sufficient for them.
@@ -161,6 +172,7 @@ GncSolution solve_gnc(const GncProblem& of, Report& report) {
   const std::size_t closures = of.problem.closures.size();
   const std::vector<std::size_t> consistent =
       report.time("check", [&] { return indices_of_consistent(of.problem); });
+  const bool is_unchecked = closures <= 2 && consistent.empty() && why_no_chain(of.problem).empty();
   const GncSolution out = report.time("graduate", [&] {
     GncRuns runs(of);
     if (!consistent.empty()) runs.from_consistent(consistent);
@@ -169,8 +181,10 @@ GncSolution solve_gnc(const GncProblem& of, Report& report) {
     }
     const bool rejects = kept_count(runs.best().weights) < closures;
     if (consistent.empty() && rejects) runs.from_all(tree_values(of.problem));
+    if (is_unchecked) runs.without_closures();
     return runs.best();
   });
+  if (is_unchecked && kept_count(out.weights) == 1) report.notes.emplace_back(kOneClosure);
   if (2 * kept_count(out.weights) < closures) {
     report.notes.push_back(
         "graduated non-convexity kept " + std::to_string(kept_count(out.weights)) + " of " +

@@ -42,8 +42,9 @@ std::size_t kept_count(const std::vector<double>& weights);
 /// when no consistent set is available: the odometry is not a complete chain, edges change the
 /// scale, or there are too many closures to compare. If that start rejects a closure, the
 /// odometry's spanning tree is tried as well. All closures are also tried when the first start
-/// keeps fewer than half of them. Returns the solution of lowest cost, where the cost of a closure
-/// is its squared error, bounded by `inlier_chi2`.
+/// keeps fewer than half of them. For one closure, or two that contradict each other, the odometry
+/// alone is a candidate, too. Returns the solution of lowest cost, where the cost of a closure is
+/// its squared error, bounded by `inlier_chi2`.
 ///
 /// Adds the phases "check" and "graduate_weights", and a note when fewer than half of the closures
 /// are kept. Throws what solve_pose_graph() throws. O(starts rounds) sparse solves.

@@ -204,6 +204,10 @@ PoseGraphSummary solve_graduated(Optimisation& run, Report& report) {
   run.iterations = gnc.iterations;
   report.count("gnc_rounds", gnc.rounds);
   report.count("closures_kept", static_cast<double>(kept_count(run.weights)));
+  report.rejected.emplace();
+  for (std::size_t k = 0; k < run.weights.size(); ++k) {
+    if (!(run.weights[k] > 0.5)) report.rejected->push_back(k);
+  }
   PoseGraphSummary out = report.time("solve", [&] { return run.solve(run.settings); });
   out.cost_before = gnc.cost_before;
   return out;
@@ -270,8 +274,8 @@ std::string PoseGraphOptimizer::why_declined(const Problem& problem) const {
     if (std::string fault = why_no_chain(problem); !fault.empty()) return fault;
   }
   if (const auto unreached = first_unconnected(problem)) {
-    return "the graph is not connected: no path from keyframe 0 to keyframe " +
-           std::to_string(*unreached);
+    return "the graph is not connected: no path from keyframe " + problem.name_of(0) +
+           " to keyframe " + problem.name_of(*unreached);
   }
   return "";
 }

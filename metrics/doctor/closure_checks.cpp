@@ -119,7 +119,7 @@ std::vector<CheckedClosure> contradicted_closures(const std::vector<LoopPaths>& 
 InputFinding contradiction(const std::vector<CheckedClosure>& found,
                            std::size_t all,
                            const Chain& chain,
-                           const KeyframeName& name) {
+                           const Problem& problem) {
   constexpr std::size_t kListed = 5;
   std::string list;
   for (std::size_t i = 0; i < std::min(kListed, found.size()); ++i) {
@@ -127,8 +127,8 @@ InputFinding contradiction(const std::vector<CheckedClosure>& found,
     const auto& [from, to, pose, information, scale] = *path.closure;
     list += fmt::format("{}{} -> {} (gap of {:.3g} m after {:.3g} m)",
                         i == 0 ? "" : ", ",
-                        name(from),
-                        name(to),
+                        problem.name_of(from),
+                        problem.name_of(to),
                         gap_of(path, chain),
                         chain.distance(from, to));
   }
@@ -180,7 +180,7 @@ std::optional<InputFinding> check_information(const std::vector<LoopPaths>& loop
 
 }  // namespace
 
-std::vector<InputFinding> check_closures(const Problem& problem, const KeyframeName& name) {
+std::vector<InputFinding> check_closures(const Problem& problem) {
   std::vector<InputFinding> out;
   const bool is_chain = problem.odometry.size() + 1 == problem.keyframes.size();
   if (problem.closures.empty() || !is_chain) return out;
@@ -207,15 +207,9 @@ std::vector<InputFinding> check_closures(const Problem& problem, const KeyframeN
              each.over_closures < kMost * information->value;
     });
   }
-  if (!found.empty()) out.push_back(contradiction(found, loops.size(), chain, name));
+  if (!found.empty()) out.push_back(contradiction(found, loops.size(), chain, problem));
   if (information) out.push_back(std::move(*information));
   return out;
-}
-
-std::vector<InputFinding> check_closures(const Problem& problem) {
-  return check_closures(problem, [&](std::size_t keyframe) {
-    return fmt::format("{:.15g} s", problem.keyframes[keyframe].stamp);
-  });
 }
 
 }  // namespace loopbench::metrics

@@ -1,7 +1,6 @@
 /// Checks of the edges of a pose graph: conventions, false closures, information.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,9 +10,6 @@
 #include "metrics/doctor/loop_chain.hpp"
 
 namespace loopbench::metrics {
-
-/// Name of a keyframe in messages: the id or the stamp in its file.
-using KeyframeName = std::function<std::string(std::size_t keyframe)>;
 
 /// The correction of direction, order of quaternions or frame of the closures with which odometry
 /// and other closures predict them better: chosen by every other closure, it has to reduce the
@@ -35,9 +31,6 @@ std::optional<InputFinding> check_loop_stamps(const std::vector<double>& loops,
 /// - information, by the median chi-squared of the gaps (above 100 or below 10^-4), without the
 ///   closures found before, and only if these are less than a fifth.
 /// Nothing if the odometry is no chain. O(closures^2 + keyframes).
-std::vector<InputFinding> check_closures(const Problem& problem, const KeyframeName& name);
-
-/// The same with stamps as names.
 std::vector<InputFinding> check_closures(const Problem& problem);
 
 }  // namespace loopbench::metrics

@@ -107,10 +107,35 @@ TEST(Consistency, CheckedCorrectorUsesConsistentClosuresOnly) {
   test::expect_close(checked, test::corrected<Dual>(consistent_only), 1e-12);
   EXPECT_EQ(report.counts.front().name, "closures_consistent");
   EXPECT_EQ(report.counts.front().value, 3.0);
+  EXPECT_EQ(report.rejected, std::vector<std::size_t>{1});
   PairwiseConsistentOptions<Dual> few;
   few.max_closures = 3;
   EXPECT_EQ(PairwiseConsistent<Dual>(few).why_declined(problem),
             "4 closures exceed pcm.max_closures = 3");
+}
+
+TEST(Consistency, OneClosureIsUsedWithANote) {
+  Report report;
+  test::corrected<PairwiseConsistent<Dual>>(line({{0, 9, -40.0}}), {}, &report);
+  EXPECT_EQ(report.rejected, std::vector<std::size_t>{});
+  ASSERT_FALSE(report.notes.empty());
+  EXPECT_EQ(report.notes.front(), kOneClosure);
+}
+
+TEST(Consistency, RejectionsOfTheBaseAreIndicesOfTheWholeProblem) {
+  // -200 is inconsistent; the other pairs agree, but their differences sum up.
+  Problem problem = line({{3, 8, -200.0}, {0, 9, 9.0}, {0, 10, 10.0}, {1, 10, 9.0}, {1, 9, 16.5}});
+  PairwiseConsistentOptions<PoseGraphOptimizer> options;
+  options.base.gnc = Gnc::tls;
+  Report report;
+  test::corrected<PairwiseConsistent<PoseGraphOptimizer>>(problem, options, &report);
+  ASSERT_TRUE(report.rejected);
+  double kept = -1.0;
+  for (const Count& count : report.counts) {
+    if (count.name == "closures_kept") kept = count.value;
+  }
+  EXPECT_EQ(report.rejected->size(), 5 - static_cast<std::size_t>(kept));
+  EXPECT_EQ(report.rejected->front(), 0u);
 }
 
 TEST(Consistency, CheckedCorrectorDeclinesWhatItsBaseDeclines) {

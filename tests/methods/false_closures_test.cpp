@@ -4,7 +4,9 @@
 
 #include <Eigen/Geometry>
 #include <cstdlib>
+#include <numeric>
 
+#include "datasets/derive/odometry.hpp"
 #include "datasets/pose_graph_dataset.hpp"
 #include "datasets/simulated/simulated.hpp"
 #include "methods/correctors/plausibility.hpp"
@@ -12,6 +14,7 @@
 #include "methods/method.hpp"
 #include "methods/solvers/pose_graph_solver.hpp"
 #include "tests/support/corrected.hpp"
+#include "tests/support/problems.hpp"
 #include "tests/support/simulated_drive.hpp"
 
 namespace loopbench::false_closures_test {
@@ -72,6 +75,39 @@ TEST(GncStart, ReportsKeptClosuresAndWarnsWhenTheyAreFew) {
   EXPECT_NE(few.report.notes[0].find("of " + std::to_string(mixed.closures.size()) + " closures"),
             std::string::npos)
       << few.report.notes[0];
+}
+
+/// 40 steps of 1 m along x with a deviation of 2 cm, and closures that measure `metres`.
+Problem few_closures(const std::vector<double>& metres) {
+  std::vector<double> x(41);
+  std::iota(x.begin(), x.end(), 0.0);
+  Problem out = test::along_x(x);
+  for (Edge& edge : out.odometry) edge.information = isotropic_information(4e-4, 4e-6);
+  for (std::size_t k = 0; k < metres.size(); ++k) {
+    out.closures.push_back({k, 40 - k, test::at_x(metres[k]), isotropic_information(4e-4, 4e-6)});
+  }
+  return out;
+}
+
+TEST(GncStart, RejectsTheOnlyClosureIfTheOdometryContradictsIt) {
+  for (const std::vector<double>& metres : {std::vector{2.0}, std::vector{2.0, 60.0}}) {
+    const Problem problem = few_closures(metres);
+    const Corrected done = corrected("pose_graph_gnc_tls", problem);
+    ASSERT_TRUE(done.report.rejected);
+    EXPECT_EQ(done.report.rejected->size(), metres.size());
+    test::expect_close(done.keyframes, problem.keyframes, 1e-9);
+  }
+}
+
+TEST(GncStart, KeepsTheOnlyClosureThatTheOdometryAllows) {
+  const Corrected one = corrected("pose_graph_gnc_tls", few_closures({40.2}));
+  EXPECT_EQ(one.report.rejected, std::vector<std::size_t>{});
+  EXPECT_EQ(one.report.notes, std::vector<std::string>{"one closure cannot be checked by others"});
+  const Corrected first = corrected("pose_graph_gnc_tls", few_closures({40.1, 70.0}));
+  EXPECT_EQ(first.report.rejected, std::vector<std::size_t>{1});
+  const Corrected both = corrected("pose_graph_gnc_tls", few_closures({40.2, 38.2}));
+  EXPECT_EQ(both.report.rejected, std::vector<std::size_t>{});
+  EXPECT_TRUE(both.report.notes.empty());
 }
 
 TEST(GncStart, ExactClosuresAreSolvedAsWellAsPreciseOnes) {

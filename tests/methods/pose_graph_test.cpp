@@ -175,7 +175,10 @@ TEST(PoseGraph, AcceptsConnectedGraphsOnly) {
   std::erase_if(problem.closures, [](const Edge& e) { return e.from < 21 && e.to >= 21; });
   ASSERT_FALSE(problem.closures.empty());
   EXPECT_EQ(method.why_declined(problem),
-            "the graph is not connected: no path from keyframe 0 to keyframe 21");
+            "the graph is not connected: no path from keyframe 0.0 s to keyframe 21.0 s");
+  for (int i = 0; i < 30; ++i) problem.ids.push_back(100 + 2 * i);
+  EXPECT_EQ(method.why_declined(problem),
+            "the graph is not connected: no path from keyframe 100 to keyframe 142");
 }
 
 TEST(PoseGraph, FindsTheSameMinimumInThePlaneAndInSpace) {

@@ -191,7 +191,7 @@ TEST(DoctorOfClosures, AFalseClosureThatOnlyOtherClosuresContradict) {
   const InputFinding found = only(check_closures(problem), Fault::closure_gap);
   EXPECT_EQ(found.value, 1.0);
   EXPECT_THAT(found.evidence, HasSubstr("contradict the odometry or other closures"));
-  EXPECT_THAT(found.evidence, HasSubstr("10 s -> 110 s (gap of "));
+  EXPECT_THAT(found.evidence, HasSubstr("10.0 s -> 110.0 s (gap of "));
 }
 
 /// Drift makes the gaps of long loops larger than that of the false closure, so that the odometry
@@ -206,7 +206,7 @@ TEST(DoctorOfClosures, AFalseClosureWithASmallerGapThanMost) {
   ASSERT_FALSE(found.empty());  // the drift is larger than stated, too
   EXPECT_EQ(found[0].fault, Fault::closure_gap);
   EXPECT_THAT(found[0].evidence, HasSubstr("contradict the odometry or other closures"));
-  EXPECT_THAT(found[0].evidence, HasSubstr("10 s -> 14 s"));
+  EXPECT_THAT(found[0].evidence, HasSubstr("10.0 s -> 14.0 s"));
 }
 
 TEST(DoctorOfClosures, InformationOfTheOdometry) {
