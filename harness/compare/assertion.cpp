@@ -10,7 +10,6 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/base/suggest.hpp"
-#include "harness/compare/ratio_text.hpp"
 
 namespace loopbench::harness {
 namespace {

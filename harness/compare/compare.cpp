@@ -117,14 +117,25 @@ KeptRuns select_runs(const Observations& all, Comparison& out) {
   return kept;
 }
 
+/// Of each sequence with a typical ratio, if there are several with several groups.
+std::vector<SequenceRatio> sequence_ratios(const Pair& pair, const KeptRuns& kept, double sign) {
+  std::vector<SequenceRatio> out;
+  if (pair.by_sequence.size() < 2 || 2 * pair.by_sequence.size() > pair.values.size()) return out;
+  for (const auto& [sequence, own] : pair.by_sequence) {
+    const double middle = own.middle();
+    if (std::abs(middle) > 0.1 * kNoRatio) continue;
+    const double ratio = std::exp(sign * middle);
+    out.push_back({kept.sequences[sequence], ratio, middle == 0.0 ? 1.0 : tested(own).p});
+  }
+  return out;
+}
+
 /// None where differences are no ratios, or most runs of one of the methods failed.
 std::optional<Ratio> ratio_of(const Pair& pair, const KeptRuns& kept, const Comparison& of) {
   if (!pair.is_ratio || pair.values.empty()) return std::nullopt;
   const double sign = of.kind.better == metrics::Better::higher ? -1.0 : 1.0;
-  const auto interval = pair.typical(level_of_one(of.options.alpha, of.tests));
-  std::vector<double> sorted = pair.values;
-  std::ranges::sort(sorted);
-  const double estimate = interval ? interval->estimate : pseudo_median(sorted);
+  const auto interval = pair.typical_interval(level_of_one(of.options.alpha, of.tests));
+  const double estimate = interval ? interval->estimate : pair.typical();
   if (std::abs(estimate) > 0.1 * kNoRatio) return std::nullopt;
   Ratio out;
   out.has_interval = interval.has_value();
@@ -132,13 +143,7 @@ std::optional<Ratio> ratio_of(const Pair& pair, const KeptRuns& kept, const Comp
   const double high = std::exp(sign * (interval ? interval->high : estimate));
   out.typical = {std::exp(sign * estimate), std::min(low, high), std::max(low, high)};
   if (pair.mean && !pair.has_zero) out.geometric_mean = std::exp(sign * *pair.mean);
-  const auto sequences = pair.by_sequence();
-  if (2 * sequences.size() > pair.values.size() || sequences.size() < 2) return out;
-  for (const SequenceMean& one : sequences) {
-    out.by_sequence.push_back({kept.sequences[one.sequence],
-                               std::exp(sign * one.mean),
-                               std::abs(one.mean) > 2.0 * one.error});
-  }
+  out.by_sequence = sequence_ratios(pair, kept, sign);
   return out;
 }
 
@@ -153,9 +158,38 @@ void add_baseline(MethodVerdict& method,
   const double p = corrected(pair.p, of.tests);
   if (of.can_show) method.p = p;
   method.is_contradicted = p <= of.options.alpha && pair.is_contradicted();
-  const bool is_significant = pair.is_significant(of.options.alpha, of.tests);
+  const bool is_significant = pair.is_significant(level_of_one(of.options.alpha, of.tests));
   method.beats_baseline = is_significant && pair.is_first_ahead();
   method.is_beaten = is_significant && !pair.is_first_ahead();
+}
+
+/// Holm's correction over the sequences and the methods that differ. A method that is better on one
+/// sequence and worse on another has no claim over all.
+void test_sequences(Comparison& c) {
+  std::vector<SequenceRatio*> all;
+  std::size_t sequences = 0;
+  for (MethodVerdict& m : c.methods) {
+    if (!m.ratio || m.method == c.options.baseline) continue;
+    sequences = std::max(sequences, m.ratio->by_sequence.size());
+    for (SequenceRatio& one : m.ratio->by_sequence) all.push_back(&one);
+  }
+  std::ranges::stable_sort(all, {}, &SequenceRatio::p);
+  std::size_t left = c.tests * sequences;
+  for (SequenceRatio* one : all) {
+    if (one->p > c.options.alpha / static_cast<double>(std::max<std::size_t>(1, left))) break;
+    one->is_clear = true;
+    if (left > 0) --left;
+  }
+  for (MethodVerdict& m : c.methods) {
+    if (!m.ratio) continue;
+    const auto is_clear = [&](bool above) {
+      return std::ranges::any_of(m.ratio->by_sequence, [&](const SequenceRatio& one) {
+        return one.is_clear && (one.ratio > 1.0) == above;
+      });
+    };
+    m.is_divided = is_clear(true) && is_clear(false);
+    if (m.is_divided) m.beats_baseline = m.is_beaten = m.ratio->has_interval = false;
+  }
 }
 
 MethodVerdict counts_of(const Observations& all, const KeptRuns& kept, std::size_t method_index) {
@@ -170,9 +204,6 @@ MethodVerdict counts_of(const Observations& all, const KeptRuns& kept, std::size
     if (one.value) covered += one.coverage;
     if (one.is_loss) reasons.push_back(one.status);
   }
-  for (const Observed& one : all.values[kept.methods[method_index]]) {
-    if (one.status == to_text(Status::declined)) ++out.declines;
-  }
   if (!values.empty()) out.coverage = covered / static_cast<double>(values.size());
   out.median = values.empty() ? std::nan("") : metrics::median(values);
   out.runs = values.size();
@@ -181,7 +212,7 @@ MethodVerdict counts_of(const Observations& all, const KeptRuns& kept, std::size
   return out;
 }
 
-/// The leader, then by the typical ratio to the baseline; methods without one are last.
+/// The first place, then by the typical ratio to the baseline; methods without one are last.
 void sort_methods(std::vector<MethodVerdict>& methods, metrics::Better better) {
   const auto key = [&](const MethodVerdict& m) {
     const double sign = better == metrics::Better::higher ? -1.0 : 1.0;
@@ -189,68 +220,66 @@ void sort_methods(std::vector<MethodVerdict>& methods, metrics::Better better) {
     const double ratio = m.ratio        ? sign * m.ratio->typical.estimate
                          : behind < 0.0 ? -kNoRatio
                                         : kNoRatio;
-    return std::tuple(m.standing != Standing::leader, ratio, behind);
+    return std::tuple(m.is_worse, ratio, behind);
   };
   std::ranges::stable_sort(methods, {}, key);
 }
 
-/// Sets what does not depend on a ranking; drops duplicates.
-KeptRuns kept_runs(Observations& all, Comparison& out) {
+/// Sets all that does not depend on a baseline; drops duplicates.
+KeptRuns ranked(Observations& all, Comparison& out) {
   out.kind = all.kind;
   out.oracles = all.oracles;
   out.copies = drop_duplicates(all);
   out.unstable.assign(all.unstable.begin(), all.unstable.end());
-  return select_runs(all, out);
-}
-
-/// Sets counts, standings and whether the leading methods are best.
-Ranking rank(const Levels& levels, const Observations& all, const KeptRuns& kept, Comparison& out) {
-  Ranking ranking = rank_methods(levels, out.options);
+  KeptRuns kept = select_runs(all, out);
+  if (out.groups == 0 || kept.methods.size() < 2) return kept;
+  for (std::size_t m = 0; m < kept.methods.size(); ++m) {
+    out.methods.push_back(counts_of(all, kept, m));
+  }
+  const std::vector<std::string> partial = methods_with_less_coverage(out);
+  std::vector<bool> can_lead;
+  for (const MethodVerdict& m : out.methods) {
+    can_lead.push_back(std::ranges::count(partial, m.method) == 0);
+  }
+  const Ranking ranking = rank_methods(Levels(kept.values, out.options.tie), out.options, can_lead);
   out.tests = ranking.tests;
   out.can_show = ranking.can_show;
   out.groups_needed = ranking.groups_needed;
-  for (std::size_t m = 0; m < kept.methods.size(); ++m) {
-    out.methods.push_back(counts_of(all, kept, m));
-    out.methods.back().standing = ranking.standings[m];
+  out.has_strata = ranking.has_strata;
+  out.is_best = ranking.is_best;
+  for (std::size_t m = 0; m < out.methods.size(); ++m) {
+    out.methods[m].is_worse = ranking.is_worse[m];
   }
-  out.is_best = ranking.is_best() && leaders_with_less_coverage(out).empty();
-  return ranking;
+  return kept;
 }
 
 Comparison compare_one(Observations& all, const CompareOptions& options) {
   Comparison out;
   out.options = options;
-  const KeptRuns kept = kept_runs(all, out);
-  const auto is_baseline = [&](std::size_t m) { return all.methods[m] == options.baseline; };
-  const auto found = std::ranges::find_if(kept.methods, is_baseline);
-  if (out.groups == 0 || kept.methods.size() < 2 || found == kept.methods.end()) return out;
-  const auto baseline = static_cast<std::size_t>(found - kept.methods.begin());
+  const KeptRuns kept = ranked(all, out);
+  const auto found = std::ranges::find(out.methods, options.baseline, &MethodVerdict::method);
+  if (found == out.methods.end()) {
+    out.methods.clear();
+    return out;
+  }
+  const auto baseline = static_cast<std::size_t>(found - out.methods.begin());
   const Levels levels(kept.values, options.tie);
-  const Ranking ranking = rank(levels, all, kept, out);
   for (std::size_t m = 0; m < out.methods.size(); ++m) {
-    MethodVerdict& method = out.methods[m];
     const Pair pair = compared(levels, m, baseline);
     out.is_ratio = out.is_ratio && pair.is_ratio;
-    out.has_strata = out.has_strata || !pair.strata.empty();
-    add_baseline(method, pair, kept, out);
-    if (m != ranking.leader) method.from_leader = ratio_of(ranking.from_leader[m], kept, out);
+    add_baseline(out.methods[m], pair, kept, out);
   }
+  test_sequences(out);
   sort_methods(out.methods, out.kind.better);
   return out;
 }
 
 }  // namespace
 
-bool is_leading(const MethodVerdict& method) { return method.standing < Standing::behind; }
-
 Comparison standings(Observations all, const CompareOptions& options) {
   Comparison out;
   out.options = options;
-  const KeptRuns kept = kept_runs(all, out);
-  if (out.groups == 0 || kept.methods.size() < 2) return out;
-  const Ranking ranking = rank(Levels(kept.values, options.tie), all, kept, out);
-  out.has_strata = std::ranges::any_of(ranking.from_leader,
-                                       [](const Pair& pair) { return !pair.strata.empty(); });
+  ranked(all, out);
   return out;
 }
 

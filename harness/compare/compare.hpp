@@ -5,11 +5,9 @@
 /// No correction for multiple scores.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "harness/compare/observations.hpp"
@@ -34,55 +32,41 @@ struct CompareOptions {
   bool paired = false;     ///< also pair runs of files, by their names; those of sweeps always are
 };
 
-/// How a method compares with the leader.
-enum class Standing {
-  leader,
-  equal,   ///< on every run
-  near,    ///< significantly worse, but typically by less than a relevant difference
-  behind,  ///< significantly worse
-  open     ///< not significantly different
-};
-inline auto choices(Standing) {
-  return std::array{std::pair{"leader", Standing::leader},
-                    std::pair{"equal", Standing::equal},
-                    std::pair{"near", Standing::near},
-                    std::pair{"behind", Standing::behind},
-                    std::pair{"open", Standing::open}};
-}
-
 /// The best of several methods.
 ///
-/// A method is significantly better than another if their pair's p, corrected for the number of
-/// other methods, is at most alpha: that covers each method against the baseline, or each against
-/// the leader. Equal methods count once. The leader was run on half of the groups or more
-/// and is ahead of all others by ranks, if there is such a method, and best if it is significantly
-/// better than all of them; methods behind it by less than a relevant difference are best with it.
+/// A method is best if it is significantly better than each rival, p <= alpha in every pair: that
+/// is one hypothesis about all rivals, which needs no correction (union-intersection), and all
+/// others are worse. Otherwise a method is worse if the test of some pair says so, with Holm's
+/// correction over all pairs. Together they mark a truly best method as worse with probability
+/// alpha at most (results/methods/verdicts.md). Equal methods count once. A method that is behind
+/// by less than a relevant difference shares the place of the other.
 struct Ranking {
-  std::size_t leader = 0;
-  std::vector<Standing> standings;  ///< of each method
-  std::vector<Pair> from_leader;    ///< the leader against each method
-  std::size_t tests = 1;            ///< different methods, but one
-  bool can_show = false;            ///< whether p of some pair can be small enough
+  std::vector<bool> is_worse;  ///< of each method; the others share the first place
+  bool is_best = false;     ///< the first methods are best: all others are worse than one of them
+  std::size_t tests = 1;    ///< different methods, but one
+  bool can_show = false;    ///< whether p of some pair can be small enough
+  bool has_strata = false;  ///< compared by rank sums within sequences
   /// Fewest groups for which it can be; of independent runs, fewest of each method and sequence.
   std::size_t groups_needed = 1;
-
-  /// Whether the leading methods are significantly better than all others; false if all are equal.
-  bool is_best() const;
 };
 
-/// Deterministic. O(methods * (runs log runs + groups^3)), groups^3 for up to 50 groups only.
-Ranking rank_methods(const Levels& levels, const CompareOptions& options);
+/// `can_lead`: of each method, whether it can be better than another; empty: all can.
+/// Deterministic. O(methods^2 * (runs log runs + groups^3)), groups^3 for up to 50 groups only.
+Ranking rank_methods(const Levels& levels,
+                     const CompareOptions& options,
+                     const std::vector<bool>& can_lead = {});
 
-/// Mean ratio on one sequence.
+/// Typical ratio on one sequence.
 struct SequenceRatio {
   std::string sequence;
   double ratio = 1.0;
-  bool is_clear = false;  ///< differs from 1 by more than two standard errors
+  double p = 1.0;         ///< of the test within the sequence, not corrected
+  bool is_clear = false;  ///< significant with Holm's correction over methods and sequences
 };
 
 /// Ratio of two methods, the first by the second.
 struct Ratio {
-  Interval typical;           ///< Hodges-Lehmann, with a simultaneous interval
+  Interval typical;           ///< with a simultaneous interval, see Pair::typical()
   bool has_interval = false;  ///< false: too few groups; typical.low and high equal the estimate
   std::optional<double> geometric_mean;  ///< over groups on which both have values; none with zeros
   std::vector<SequenceRatio> by_sequence;  ///< if each sequence has several groups
@@ -94,7 +78,6 @@ struct MethodVerdict {
   std::size_t runs = 0;        ///< runs with a value
   std::size_t fails = 0;       ///< runs that count as a loss
   std::string why_fails;       ///< "crashed 1, failed 2"
-  std::size_t declines = 0;    ///< of all possible runs
   double coverage = 1.0;       ///< of the reference, mean over its values, 0..1
   std::optional<Ratio> ratio;  ///< to the baseline; none for values below zero, most runs failed
   std::size_t wins = 0;        ///< groups better than the baseline
@@ -104,8 +87,8 @@ struct MethodVerdict {
   bool beats_baseline = false;   ///< significantly better
   bool is_beaten = false;        ///< significantly worse than the baseline
   bool is_contradicted = false;  ///< p is at most alpha, but the geometric mean disagrees
-  Standing standing = Standing::open;  ///< relative to the leader
-  std::optional<Ratio> from_leader;    ///< the leader's ratio to this method
+  bool is_divided = false;       ///< significantly better on a sequence, worse on another
+  bool is_worse = false;         ///< than some method; otherwise it shares the first place
 };
 
 /// A method that lacks values on some or all runs.
@@ -128,11 +111,11 @@ struct Comparison {
   /// Sequences with an earlier one's recording: "c2 of c1".
   std::vector<std::string> same_recordings;
   std::vector<std::string> unstable;   ///< methods with different values on equal data
-  std::vector<MethodVerdict> methods;  ///< the leader first, others by their ratio to the baseline
+  std::vector<MethodVerdict> methods;  ///< the first place first, then by ratio to the baseline
   std::vector<Gap> gaps;
   std::vector<std::string> oracles;          ///< excluded methods that use the reference
   std::vector<std::string> oracle_closures;  ///< sequences with closures from the reference
-  bool is_best = false;           ///< the leading methods are significantly better than all others
+  bool is_best = false;           ///< the methods of the first place are best, see Ranking
   bool is_ratio = true;           ///< false: plain differences, some value is negative
   bool is_paired = true;          ///< false: independent runs of the same sequences
   bool has_strata = false;        ///< compared by rank sums within sequences
@@ -140,9 +123,6 @@ struct Comparison {
   bool can_show = false;          ///< whether the observations can be significant at all
   std::size_t groups_needed = 0;  ///< minimum for that; if has_strata, per method and sequence
 };
-
-/// Whether the method leads: it is first, or as good as the first.
-bool is_leading(const MethodVerdict& method);
 
 /// One comparison for each score that has a direction. Deterministic. Throws InputError if the
 /// baseline is not a method of the records, if `where` leaves no score, and for an unknown
@@ -166,16 +146,27 @@ std::string coverage_text(const Comparison& comparison, const std::vector<std::s
 /// "8 runs", "20 sequences", "6 groups (30 runs)": the observations of a comparison.
 std::string unit_text(const Comparison& comparison);
 
-/// One-line verdict: the best method, its gain, and the methods that do not differ significantly.
+/// "12.3 % below raw [8.1, 15.2], p = 0.02": the difference of a method to the baseline.
+std::string result_text(const Comparison& comparison, const MethodVerdict& method);
+
+/// "5 runs decide nothing: a test needs 6".
+std::string cannot_show_text(const Comparison& comparison);
+
+/// "ate rotation rmse, dense, loopbench".
+std::string title(const Comparison& comparison);
+
+/// One sentence of at most 25 words: what is best, or which methods share the first place, and the
+/// difference to the baseline.
 std::string verdict(const Comparison& comparison);
 
-/// "translation ate, rmse [m], dense, loopbench: " and the verdict.
+/// The title and the verdict.
 std::string statement(const Comparison& comparison);
 
-/// Properties of the data that limit the claims: observations, copies, gaps and oracles.
-std::vector<std::string> conditions(const Comparison& comparison);
+/// Methods that are significantly worse than the baseline on a sequence, or depend on the sequence;
+/// then properties of the data that limit the claims: observations, copies, gaps and oracles.
+std::vector<std::string> cautions(const Comparison& comparison);
 
-/// The conditions, the tests and their limitations.
+/// The cautions, the tests and their limitations.
 std::vector<std::string> remarks(const Comparison& comparison);
 
 }  // namespace loopbench::harness

@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <utility>
 
-#include "harness/compare/signed_rank.hpp"
 #include "metrics/numerics/average.hpp"
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-/// A sequence with this many groups can estimate its own typical difference.
-constexpr std::size_t kFewestOfSequence = 5;
+/// The fewest groups for which an interval of 95 % exists.
+constexpr std::size_t kFewestOfSequence = 6;
 
 /// Log ratio to an error of zero in means, a factor of 1e-12.
 constexpr double kZeroRatio = 27.6;
@@ -26,49 +23,10 @@ std::vector<double> sorted(std::vector<double> values) {
   return values;
 }
 
-/// Values by sequence.
-std::map<std::size_t, std::vector<double>> split(const Pair& pair) {
-  std::map<std::size_t, std::vector<double>> out;
-  for (std::size_t i = 0; i < pair.values.size(); ++i) {
-    out[pair.sequence[i]].push_back(pair.values[i]);
-  }
-  for (auto& [sequence, values] : out) std::ranges::sort(values);
-  return out;
-}
-
-/// Sorted values whose sequences have the same typical value, the mean of all. The deviations are
-/// larger by as much as they are too small for having been measured from an estimate.
-std::vector<double> aligned(const Pair& pair) {
-  const auto sequences = split(pair);
-  std::map<std::size_t, double> middles;
-  double common = 0.0;
-  for (const auto& [sequence, values] : sequences) {
-    if (sequences.size() < 2 || values.size() < kFewestOfSequence) return sorted(pair.values);
-    const double middle = middles[sequence] = pseudo_median(values);
-    if (!is_finite(middle)) return sorted(pair.values);
-    common += middle * static_cast<double>(values.size()) / static_cast<double>(pair.values.size());
-  }
-  std::vector<double> out;
-  for (const auto& [sequence, values] : sequences) {
-    const auto n = static_cast<double>(values.size());
-    for (const double value : values) {
-      const double deviation = (value - middles[sequence]) * std::sqrt(n / (n - 1.0));
-      out.push_back(is_finite(value) ? common + deviation : value);
-    }
-  }
-  return sorted(out);
-}
-
 /// Median of differences of which some are +-kNoRatio.
 double middle_of(const std::vector<double>& values) {
   const double middle = metrics::median(values);
   return is_finite(middle) ? middle : std::copysign(kNoRatio, middle);
-}
-
-void add(Pair& out, double value, std::size_t sequence) {
-  out.values.push_back(value);
-  out.sequence.push_back(sequence);
-  ++(value < 0.0 ? out.wins : value > 0.0 ? out.losses : out.ties);
 }
 
 /// Sets the mean over groups of the mean over their runs on which both have a value.
@@ -85,25 +43,7 @@ void set_mean(Pair& out, std::vector<std::vector<double>> groups) {
   if (!means.empty()) out.mean = metrics::mean(means);
 }
 
-void test_signed_ranks(Pair& out) {
-  const SignedRank ranks = signed_rank(out.values);
-  out.lead = ranks.negative - ranks.positive;
-  out.p = ranks.p;
-  out.least_p = least_p(out.values.size());
-}
-
-/// Ties are counted for the method that is behind, which is the order that is worst for the claim.
-void test_rank_sums(Pair& out) {
-  out.lead = static_cast<double>(out.wins) - static_cast<double>(out.losses);
-  const std::size_t against = out.values.size() - std::max(out.wins, out.losses);
-  if (2 * against < out.values.size()) {
-    out.p = std::min(1.0, 2.0 * rank_sum_tail(out.strata, against));
-  }
-  out.least_p = std::min(1.0, 2.0 * rank_sum_tail(out.strata, 0));
-}
-
-Pair of_paired_runs(const Levels& levels, std::size_t first, std::size_t second) {
-  Pair out;
+void add_paired_runs(Pair& out, const Levels& levels, std::size_t first, std::size_t second) {
   std::vector<std::vector<double>> both(levels.groups());  // differences of runs with both values
   for (std::size_t group = 0; group < levels.groups(); ++group) {
     std::vector<double> all;
@@ -115,18 +55,15 @@ Pair of_paired_runs(const Levels& levels, std::size_t first, std::size_t second)
       all.push_back(levels.difference(first, second, run));
       if (has_first && has_second) both[group].push_back(all.back());
     }
-    if (!all.empty()) add(out, middle_of(all), levels.sequence_of(group));
+    if (all.empty()) continue;
+    out.by_sequence[levels.sequence_of(group)].values.push_back(middle_of(all));
   }
   set_mean(out, std::move(both));
-  test_signed_ranks(out);
-  return out;
 }
 
 /// Levels of a method by sequence. Equal ones are copies of one file and count once.
-using Samples = std::map<std::size_t, std::vector<double>>;
-
-Samples samples_of(const Levels& levels, std::size_t method) {
-  Samples out;
+std::map<std::size_t, std::vector<double>> samples_of(const Levels& levels, std::size_t method) {
+  std::map<std::size_t, std::vector<double>> out;
   for (std::size_t group = 0; group < levels.groups(); ++group) {
     const std::optional<double> level = levels.level(method, group);
     if (!level) continue;
@@ -138,44 +75,53 @@ Samples samples_of(const Levels& levels, std::size_t method) {
 
 /// Where most sequences have one run of either method, a sequence is an observation, as for paired
 /// runs.
-Pair of_independent_runs(const Levels& levels, std::size_t first, std::size_t second) {
-  const Samples firsts = samples_of(levels, first);
-  const Samples seconds = samples_of(levels, second);
-  std::vector<Stratum> strata;
-  std::map<std::size_t, std::vector<double>> differences;
-  Pair out;
+void add_independent_runs(Pair& out, const Levels& levels, std::size_t first, std::size_t second) {
+  const auto seconds = samples_of(levels, second);
   std::vector<std::vector<double>> both;  // differences of two values, by sequence
-  for (const auto& [sequence, of_first] : firsts) {
+  std::size_t repeated = 0;
+  for (const auto& [sequence, of_first] : samples_of(levels, first)) {
     const auto found = seconds.find(sequence);
     if (found == seconds.end()) continue;
-    strata.push_back({of_first.size(), found->second.size()});
     both.emplace_back();
+    Sample& own = out.by_sequence[sequence];
+    own.strata.push_back({of_first.size(), found->second.size()});
+    repeated += own.strata[0].pairs() > 1 ? 1 : 0;
     for (const double a : of_first) {
       for (const double b : found->second) {
-        differences[sequence].push_back(levels.difference(first, second, a, b));
-        const bool has_both = !std::isnan(a) && !std::isnan(b);
-        if (has_both) both.back().push_back(differences[sequence].back());
+        own.values.push_back(levels.difference(first, second, a, b));
+        if (!std::isnan(a) && !std::isnan(b)) both.back().push_back(own.values.back());
       }
     }
   }
   set_mean(out, std::move(both));
-  const auto repeated =
-      std::ranges::count_if(strata, [](const Stratum& one) { return one.pairs() > 1; });
-  const bool has_runs = 2 * repeated >= std::ssize(strata);
-  for (const auto& [sequence, of_sequence] : differences) {
-    if (!has_runs) {
-      add(out, middle_of(of_sequence), sequence);
-      continue;
-    }
-    for (const double value : of_sequence) add(out, value, sequence);
+  if (2 * repeated >= out.by_sequence.size()) return;
+  for (auto& [sequence, own] : out.by_sequence) own = {{middle_of(own.values)}, {}};
+}
+
+/// Ties are counted for the method that is behind, which is the order that is worst for the claim.
+TestResult tested_rank_sums(const Sample& sample) {
+  const auto is_negative = [](double value) { return value < 0.0; };
+  const auto is_positive = [](double value) { return value > 0.0; };
+  const auto wins = static_cast<std::size_t>(std::ranges::count_if(sample.values, is_negative));
+  const auto losses = static_cast<std::size_t>(std::ranges::count_if(sample.values, is_positive));
+  TestResult out{.lead = static_cast<double>(wins) - static_cast<double>(losses)};
+  const std::size_t against = sample.values.size() - std::max(wins, losses);
+  if (2 * against < sample.values.size()) {
+    out.p = std::min(1.0, 2.0 * rank_sum_tail(sample.strata, against));
   }
-  if (!has_runs || strata.empty()) {
-    test_signed_ranks(out);
-  } else {
-    out.strata = std::move(strata);
-    test_rank_sums(out);
-  }
+  out.least_p = std::min(1.0, 2.0 * rank_sum_tail(sample.strata, 0));
   return out;
+}
+
+/// Whether each sequence counts once.
+bool is_over_sequences(const Pair& pair) {
+  return pair.by_sequence.size() > 1 && std::ranges::all_of(pair.by_sequence, [](const auto& each) {
+           const Sample& own = each.second;
+           const std::size_t groups = own.strata.empty()
+                                          ? own.values.size()
+                                          : std::min(own.strata[0].first, own.strata[0].second);
+           return groups >= kFewestOfSequence && is_finite(own.middle());
+         });
 }
 
 }  // namespace
@@ -188,59 +134,103 @@ double level_of_one(double alpha, std::size_t tests) {
   return tests == 1 ? alpha : -std::expm1(std::log1p(-alpha) / static_cast<double>(tests));
 }
 
+double Sample::middle() const {
+  return strata.empty() ? pseudo_median(sorted(values)) : middle_of(values);
+}
+
+std::optional<Interval> Sample::interval(double alpha) const {
+  const std::vector<double> all = sorted(values);
+  if (strata.empty()) return shift_interval(all, alpha);
+  const std::optional<std::size_t> outside = critical_pairs(strata, alpha);
+  if (!outside) return std::nullopt;
+  return Interval{middle_of(all), all[*outside], all[all.size() - 1 - *outside]};
+}
+
+TestResult tested(const Sample& sample) {
+  if (!sample.strata.empty()) return tested_rank_sums(sample);
+  const SignedRank ranks = signed_rank(sample.values);
+  return {ranks.negative - ranks.positive, ranks.p, least_p(sample.values.size())};
+}
+
 bool Pair::is_first_ahead() const { return lead != 0.0 ? lead > 0.0 : mean && *mean < 0.0; }
 
+double Pair::typical() const {
+  if (!is_over_sequences(*this)) return middle();
+  double sum = 0.0;
+  for (const auto& [sequence, own] : by_sequence) sum += own.middle();
+  return sum / static_cast<double>(by_sequence.size());
+}
+
 bool Pair::is_contradicted() const {
-  if (!mean || *mean == 0.0 || (*mean < 0.0) == is_first_ahead()) return false;
+  if (values.empty()) return false;
+  const auto opposes = [&](double value) {
+    return value != 0.0 && (value < 0.0) != is_first_ahead();
+  };
+  if (!(mean && opposes(*mean)) && !opposes(typical())) return false;
   const double beyond = is_first_ahead() ? -kNoRatio : kNoRatio;  // decided without a ratio
   const auto decided = static_cast<std::size_t>(std::ranges::count(values, beyond));
   return decided <= (is_first_ahead() ? losses : wins);
 }
 
-bool Pair::is_significant(double alpha, std::size_t tests) const {
-  return p <= level_of_one(alpha, tests) && !is_contradicted();
+bool Pair::is_divided() const {
+  bool has_better = false;
+  bool has_worse = false;
+  const double level = 0.05 / static_cast<double>(by_sequence.size());
+  for (const auto& [sequence, own] : by_sequence) {
+    const TestResult test = tested(own);
+    if (test.p <= level) (test.lead > 0.0 ? has_better : has_worse) = true;
+  }
+  return has_better && has_worse;
 }
 
-std::optional<Interval> Pair::typical(double alpha) const {
-  if (!strata.empty()) {
-    const std::optional<std::size_t> outside = critical_pairs(strata, alpha);
-    if (!outside) return std::nullopt;
-    const std::vector<double> all = sorted(values);
-    return Interval{middle_of(all), all[*outside], all[all.size() - 1 - *outside]};
+bool Pair::is_significant(double level) const {
+  return p <= level && !is_contradicted() && !is_divided();
+}
+
+std::optional<Interval> Pair::typical_interval(double alpha) const {
+  std::optional<Interval> out;
+  if (is_over_sequences(*this)) {
+    const double middle = typical();
+    double below = 0.0;
+    double above = 0.0;
+    for (const auto& [sequence, own] : by_sequence) {
+      const std::optional<Interval> one = own.interval(alpha);
+      if (!one) return std::nullopt;
+      below = std::hypot(below, one->estimate - one->low);
+      above = std::hypot(above, one->high - one->estimate);
+    }
+    const auto sequences = static_cast<double>(by_sequence.size());
+    out = Interval{middle, middle - below / sequences, middle + above / sequences};
+  } else {
+    out = interval(alpha);
   }
-  std::optional<Interval> out = shift_interval(aligned(*this), alpha);
   if (!out) return out;
   if (p > alpha) {
     out->low = std::min(out->low, 0.0);
     out->high = std::max(out->high, 0.0);
-  } else {  // ties and the differences between sequences can leave 0 inside
-    (is_first_ahead() ? out->high : out->low) =
-        is_first_ahead() ? std::min(out->high, 0.0) : std::max(out->low, 0.0);
+  } else if (is_first_ahead() ? out->low > 0.0 : out->high < 0.0) {
+    return std::nullopt;
+  } else if (is_first_ahead()) {  // ties and the differences between sequences can leave 0 inside
+    out->high = std::min(out->high, 0.0);
+  } else {
+    out->low = std::max(out->low, 0.0);
   }
   out->estimate = std::clamp(out->estimate, out->low, out->high);
   return out;
 }
 
-std::vector<SequenceMean> Pair::by_sequence() const {
-  std::vector<SequenceMean> out;
-  std::map<std::size_t, std::vector<double>> sequences = split(*this);
-  for (auto& [number, of_sequence] : sequences) {
-    std::erase_if(of_sequence, [](double value) { return !is_finite(value); });
-    if (of_sequence.empty()) continue;
-    double observations = static_cast<double>(of_sequence.size());
-    if (!strata.empty()) observations = std::sqrt(observations);  // runs, not pairs of them
-    const double error = observations > 1.0
-                             ? metrics::sample_deviation(of_sequence) / std::sqrt(observations)
-                             : std::numeric_limits<double>::infinity();
-    out.push_back({number, metrics::mean(of_sequence), error});
-  }
-  return out;
-}
-
 Pair compared(const Levels& levels, std::size_t first, std::size_t second) {
-  Pair out = levels.is_paired() ? of_paired_runs(levels, first, second)
-                                : of_independent_runs(levels, first, second);
+  Pair out;
   out.is_ratio = levels.is_ratio(first, second);
+  (levels.is_paired() ? add_paired_runs : add_independent_runs)(out, levels, first, second);
+  for (const auto& [sequence, own] : out.by_sequence) {
+    out.values.insert(out.values.end(), own.values.begin(), own.values.end());
+    out.strata.insert(out.strata.end(), own.strata.begin(), own.strata.end());
+  }
+  for (const double value : out.values) {
+    ++(value < 0.0 ? out.wins : value > 0.0 ? out.losses : out.ties);
+  }
+  static_cast<TestResult&>(out) = tested(out);
   return out;
 }
 

@@ -3,48 +3,40 @@
 #include <optional>
 
 #include "harness/compare/compare.hpp"
-#include "harness/compare/signed_rank.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-/// Methods that differ from all before them, less one.
-std::size_t count_tests(const Levels& levels) {
-  std::vector<std::size_t> different;
+/// Two methods of which the first is better with this p.
+struct Order {
+  double p = 1.0;
+  std::size_t better = 0;
+  std::size_t worse = 0;
+  bool is_relevant = true;  ///< typically by a relevant difference, or by failures
+};
+
+/// The first method that each is equal to.
+std::vector<std::size_t> first_equals(const Levels& levels) {
+  std::vector<std::size_t> out;
   for (std::size_t m = 0; m < levels.methods(); ++m) {
-    const auto is_copy = [&](std::size_t other) { return levels.are_equal(m, other); };
-    if (std::ranges::none_of(different, is_copy)) different.push_back(m);
+    std::size_t first = 0;
+    while (first < m && (out[first] != first || !levels.are_equal(m, first))) ++first;
+    out.push_back(first);
   }
-  return std::max<std::size_t>(1, different.size() - 1);
+  return out;
 }
 
-/// Of the methods that were run on half of the groups or more, a method that is ahead of all others
-/// is found in any order of them.
-std::size_t find_leader(const Levels& levels) {
-  constexpr double kMost = 0.5;
-  std::vector<std::size_t> known;  // groups of each method
-  for (std::size_t m = 0; m < levels.methods(); ++m) known.push_back(levels.known_groups(m));
-  const auto most = static_cast<double>(std::ranges::max(known));
-  std::optional<std::size_t> leader;
-  for (std::size_t m = 0; m < known.size(); ++m) {
-    if (static_cast<double>(known[m]) < kMost * most) continue;
-    if (!leader || compared(levels, m, *leader).is_first_ahead()) leader = m;
-  }
-  return *leader;
-}
-
-Standing standing_of(const Pair& from_leader, std::size_t tests, const CompareOptions& options) {
-  if (!from_leader.has_difference()) {
-    return from_leader.values.empty() ? Standing::open : Standing::equal;
-  }
-  if (!from_leader.is_first_ahead() || !from_leader.is_significant(options.alpha, tests)) {
-    return Standing::open;
-  }
-  const auto typical = from_leader.typical(level_of_one(options.alpha, tests));
-  const bool is_near = from_leader.is_ratio && typical &&
-                       -typical->estimate < std::log1p(options.relevant) &&
-                       std::ranges::count(from_leader.values, -kNoRatio) == 0;
-  return is_near ? Standing::near : Standing::behind;
+std::optional<Order> order_of(const Pair& pair,
+                              std::size_t first,
+                              std::size_t second,
+                              const CompareOptions& options) {
+  if (!pair.has_difference() || !pair.is_significant(options.alpha)) return std::nullopt;
+  Order out{pair.p, first, second};
+  if (!pair.is_first_ahead()) std::swap(out.better, out.worse);
+  const double beyond = pair.is_first_ahead() ? -kNoRatio : kNoRatio;
+  out.is_relevant = !pair.is_ratio || std::abs(pair.typical()) >= std::log1p(options.relevant) ||
+                    std::ranges::count(pair.values, beyond) > 0;
+  return out;
 }
 
 /// The smallest p of `groups` groups, or of so many independent runs of each method and sequence.
@@ -55,31 +47,49 @@ double least_p_of(std::size_t groups, std::size_t strata) {
 
 }  // namespace
 
-bool Ranking::is_best() const {
-  return std::ranges::count(standings, Standing::open) == 0 &&
-         std::ranges::any_of(
-             standings, [](Standing s) { return s == Standing::behind || s == Standing::near; });
-}
-
-Ranking rank_methods(const Levels& levels, const CompareOptions& options) {
+Ranking rank_methods(const Levels& levels,
+                     const CompareOptions& options,
+                     const std::vector<bool>& can_lead) {
   Ranking out;
-  out.tests = count_tests(levels);
-  out.leader = find_leader(levels);
-  out.standings.resize(levels.methods());
-  out.from_leader.resize(levels.methods());
+  out.is_worse.resize(levels.methods());
+  const std::vector<std::size_t> equals = first_equals(levels);
+  std::vector<std::size_t> different;
+  for (std::size_t m = 0; m < equals.size(); ++m) {
+    if (equals[m] == m) different.push_back(m);
+  }
+  std::vector<Order> orders;
+  std::vector<std::size_t> rivals_beaten(levels.methods());
+  std::size_t pairs = 0;
   std::size_t strata = 0;
-  for (std::size_t m = 0; m < levels.methods(); ++m) {
-    if (m == out.leader) continue;
-    out.from_leader[m] = compared(levels, out.leader, m);
-    out.standings[m] = standing_of(out.from_leader[m], out.tests, options);
-    strata = std::max(strata, out.from_leader[m].strata.size());
-    out.can_show =
-        out.can_show || corrected(out.from_leader[m].least_p, out.tests) <= options.alpha;
+  for (const std::size_t second : different) {
+    for (const std::size_t first : different) {
+      if (first >= second) break;
+      const Pair pair = compared(levels, first, second);
+      ++pairs;
+      strata = std::max(strata, pair.strata.size());
+      out.can_show = out.can_show || pair.least_p <= options.alpha;
+      const auto order = order_of(pair, first, second, options);
+      if (!order || (!can_lead.empty() && !can_lead[order->better])) continue;
+      orders.push_back(*order);
+      ++rivals_beaten[order->better];
+    }
   }
-  out.standings[out.leader] = Standing::leader;
-  while (corrected(least_p_of(out.groups_needed, strata), out.tests) > options.alpha) {
-    ++out.groups_needed;
+  out.has_strata = strata > 0;
+  out.tests = std::max<std::size_t>(1, different.size() - 1);
+  while (least_p_of(out.groups_needed, strata) > options.alpha) ++out.groups_needed;
+  const auto best = std::ranges::max_element(rivals_beaten);
+  const bool has_best = different.size() > 1 && *best + 1 == different.size();
+  const auto best_method = static_cast<std::size_t>(best - rivals_beaten.begin());
+  std::ranges::sort(orders, {}, &Order::p);
+  std::size_t rejected = 0;
+  for (const Order& order : orders) {
+    const double level = options.alpha / static_cast<double>(pairs - rejected);
+    if (has_best ? order.better != best_method : order.p > level) continue;
+    ++rejected;
+    if (order.is_relevant) out.is_worse[order.worse] = true;
   }
+  out.is_best = has_best && std::ranges::count(out.is_worse, true) > 0;
+  for (std::size_t m = 0; m < equals.size(); ++m) out.is_worse[m] = out.is_worse[equals[m]];
   return out;
 }
 

@@ -2,8 +2,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
-#include "harness/compare/ratio_text.hpp"
+#include "harness/base/counted.hpp"
+#include "harness/compare/compare.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -11,6 +13,51 @@ namespace {
 using Lines = std::vector<std::string>;
 
 std::string joined(const Lines& names) { return fmt::format("{}", fmt::join(names, ", ")); }
+
+/// Whether a ratio is better than 1 by more than a relevant difference.
+bool is_gain(double ratio, const Comparison& c) {
+  const double gain = c.kind.better == metrics::Better::higher ? std::log(ratio) : -std::log(ratio);
+  return gain > std::log1p(c.options.relevant);
+}
+
+std::string percent_on(const SequenceRatio& one) {
+  return fmt::format("{} ({:.1f} %)", one.sequence, 100.0 * std::abs(one.ratio - 1.0));
+}
+
+/// Methods that are significantly worse than the baseline on a sequence, the worst first.
+Lines about_sequences(const Comparison& c) {
+  constexpr std::size_t kMost = 3;
+  std::vector<std::pair<double, std::string>> found;
+  for (const MethodVerdict& m : c.methods) {
+    if (!m.ratio || m.is_beaten) continue;
+    Lines better;
+    Lines worse;
+    double worst = 0.0;
+    for (const SequenceRatio& one : m.ratio->by_sequence) {
+      if (!one.is_clear) continue;
+      if (is_gain(one.ratio, c)) better.push_back(percent_on(one));
+      if (!is_gain(1.0 / one.ratio, c)) continue;
+      worse.push_back(percent_on(one));
+      worst = std::max(worst, std::abs(std::log(one.ratio)));
+    }
+    if (worse.empty()) continue;
+    std::string text =
+        m.method + " is significantly worse than " + c.options.baseline + " on " + joined(worse);
+    if (!better.empty()) text += ", better on " + joined(better) + ": it depends on the sequence";
+    found.emplace_back(-worst, text);
+  }
+  std::ranges::stable_sort(found, {}, &std::pair<double, std::string>::first);
+  Lines out;
+  for (const auto& [order, text] : found) {
+    if (out.size() < kMost) out.push_back(text);
+  }
+  if (found.size() > kMost) {
+    out.push_back(fmt::format("{} more methods are significantly worse than {} on a sequence",
+                              found.size() - kMost,
+                              c.options.baseline));
+  }
+  return out;
+}
 
 Lines about_runs(const Comparison& c) {
   Lines out;
@@ -35,21 +82,25 @@ Lines about_runs(const Comparison& c) {
         "group): " +
         joined(c.same_recordings));
   }
+  const std::string unit = unit_text(c);
   if (c.has_strata) {
-    out.push_back(
-        fmt::format("the runs of a sequence are independent: methods are compared by rank sums "
-                    "within {}, for more runs of {}; --paired pairs runs of equal names",
-                    c.sequences == 1 ? "it" : "the sequences",
-                    c.sequences == 1 ? "it" : "them"));
+    out.push_back(unit +
+                  ": those of a sequence are independent, methods are compared by rank sums within "
+                  "sequences, and claims hold for more runs of them; --paired pairs runs of equal "
+                  "names");
   } else if (!c.is_paired && c.sequences < c.runs) {
-    out.push_back(
-        "the runs of a sequence are independent, and most sequences have one: an "
-        "observation is the median ratio of a sequence");
+    out.push_back(unit + ": one observation is the median ratio of a sequence");
   } else if (c.sequences < c.groups) {
-    const std::string these =
-        c.sequences == 1 ? "this sequence" : fmt::format("these {} sequences", c.sequences);
-    out.push_back("claims hold for more runs of " + these +
-                  "; --over sequences tests whether they hold for other sequences");
+    out.push_back(fmt::format(
+        "{}: one observation is a {}; claims hold for more of them on {}, and for other sequences "
+        "only if --over sequences, with 6 sequences or more, shows them",
+        unit,
+        c.groups < c.runs ? "group of dependent runs" : "run",
+        c.sequences == 1 ? "this sequence" : fmt::format("these {} sequences", c.sequences)));
+  } else {
+    out.push_back(fmt::format("{}: one observation is a {}; claims hold for more like them",
+                              unit,
+                              c.groups < c.runs ? "group of dependent runs" : "sequence"));
   }
   return out;
 }
@@ -91,15 +142,6 @@ Lines about_methods(const Comparison& c) {
   return out;
 }
 
-/// "room 0.52, city 0.61".
-std::string by_sequence(const Ratio& ratio) {
-  Lines out;
-  for (const SequenceRatio& one : ratio.by_sequence) {
-    out.push_back(fmt::format("{} {:.3f}", one.sequence, one.ratio));
-  }
-  return joined(out);
-}
-
 Lines about_ratios(const Comparison& c) {
   Lines out;
   if (!c.is_ratio) {
@@ -110,7 +152,7 @@ Lines about_ratios(const Comparison& c) {
   for (const MethodVerdict& m : c.methods) {
     if (m.ratio && !m.ratio->geometric_mean && m.runs > 0) zero.push_back(m.method);
     if (m.is_contradicted) {
-      out.push_back(m.method + ": ranks and the geometric mean ratio to " + c.options.baseline +
+      out.push_back(m.method + ": ranks and the mean ratio to " + c.options.baseline +
                     " contradict each other, so that nothing is claimed");
     }
   }
@@ -118,47 +160,48 @@ Lines about_ratios(const Comparison& c) {
     out.push_back("no geometric mean ratio to " + c.options.baseline +
                   " where an error is zero (or no run is common): " + joined(zero));
   }
-  const MethodVerdict& first = c.methods.front();
-  if (first.ratio && !first.ratio->by_sequence.empty() && first.method != c.options.baseline) {
-    out.push_back(fmt::format("mean ratio {} / {} by sequence: {}",
-                              first.method,
-                              c.options.baseline,
-                              by_sequence(*first.ratio)));
+  const auto first = std::ranges::find_if(
+      c.methods, [&](const MethodVerdict& m) { return m.method != c.options.baseline; });
+  if (!first->ratio || first->ratio->by_sequence.empty()) return out;
+  Lines ratios;
+  for (const SequenceRatio& one : first->ratio->by_sequence) {
+    ratios.push_back(fmt::format("{} {:.3f}{}", one.sequence, one.ratio, one.is_clear ? "*" : ""));
   }
+  out.push_back(fmt::format("typical ratio {} / {} by sequence (*: significant): {}",
+                            first->method,
+                            c.options.baseline,
+                            joined(ratios)));
   return out;
 }
 
 }  // namespace
 
-Lines conditions(const Comparison& c) {
-  Lines out = about_runs(c);
-  for (std::string& line : about_methods(c)) out.push_back(std::move(line));
+Lines cautions(const Comparison& c) {
+  Lines out = about_sequences(c);
+  for (const Lines& lines : {about_methods(c), about_runs(c)}) {
+    out.insert(out.end(), lines.begin(), lines.end());
+  }
   return out;
 }
 
 Lines remarks(const Comparison& c) {
-  Lines out = conditions(c);
+  Lines out = cautions(c);
   if (c.methods.empty()) return out;
-  const double level = 100.0 * (1.0 - c.options.alpha);
   out.push_back(fmt::format(
-      "ratio: typical {} / {} (Hodges-Lehmann) with its interval, which inverts the test, {:g} % "
-      "for "
-      "all methods together; mean: geometric mean ratio over runs on which both have values; "
-      "behind: "
-      "typical ratio to the first method, less 1",
+      "ratio: typical {} / {} with its interval, {:g} % for all methods together, over several "
+      "sequences of 6 groups or more their geometric mean; mean: geometric mean ratio over runs",
       c.kind.better == metrics::Better::target ? fmt::format("|value - {:g}|", c.kind.target)
                                                : "value",
       c.options.baseline,
-      level));
+      100.0 * (1.0 - c.options.alpha)));
   out.push_back(fmt::format(
-      "p: {} against {}, a failure being the largest loss, corrected for {} test{}; significantly "
-      "better: p <= {:g}, and the geometric mean does not disagree; differences up to {:g} of a "
-      "value are ties, up to {:g} are not relevant for \"best\"",
+      "p: {} against {}, a failure being the largest loss, corrected for {}; = shares the first "
+      "place, > is significantly worse (Holm over all pairs at {:g}, or than a method that beats "
+      "each rival); differences up to {:g} of a value are ties, up to {:g} are not relevant",
       c.has_strata ? "rank sums of runs within sequences"
                    : "Wilcoxon's exact signed-rank test of log ratios",
       c.options.baseline,
-      c.tests,
-      c.tests == 1 ? "" : "s",
+      counted(c.tests, "test"),
       c.options.alpha,
       c.options.tie,
       c.options.relevant));

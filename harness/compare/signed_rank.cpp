@@ -10,9 +10,9 @@
 namespace loopbench::harness {
 namespace {
 
-/// P(S <= s) for the sum S of the scores with positive sign, which are whole numbers. The
-/// distribution is symmetric, so that `s` up to half of the sum of all is enough.
-double exact_tail(const std::vector<std::size_t>& scores, std::size_t s) {
+/// P(S = 0), ..., P(S = s) for the sum S of the scores with positive sign, which are whole numbers.
+/// The distribution is symmetric, so that `s` up to half of the sum of all is enough.
+std::vector<double> exact_chances(const std::vector<std::size_t>& scores, std::size_t s) {
   // Up to 53 scores all probabilities are multiples of 2^-53, without rounding.
   std::vector<double> chance(s + 1, 0.0);
   std::vector<double> next(s + 1, 0.0);
@@ -28,7 +28,7 @@ double exact_tail(const std::vector<std::size_t>& scores, std::size_t s) {
     }
     std::swap(chance, next);
   }
-  return std::accumulate(chance.begin(), chance.end(), 0.0);
+  return chance;
 }
 
 /// The same for a sum `t` of `count` of the ranks; among equal sums of few ranks, more ranks are
@@ -43,7 +43,8 @@ double exact_tail(const std::vector<double>& ranks, double t, std::size_t count)
   };
   std::vector<std::size_t> scores;
   for (const double rank : ranks) scores.push_back(score(rank, 1));
-  return exact_tail(scores, score(t, count));
+  const std::vector<double> chances = exact_chances(scores, score(t, count));
+  return std::accumulate(chances.begin(), chances.end(), 0.0);
 }
 
 /// Variance given the observed ranks, which is correct with ties and dropped zeros.
@@ -100,10 +101,20 @@ SignedRank signed_rank(std::span<const double> differences, std::size_t most_exa
 std::optional<std::size_t> critical_rank_sum(std::size_t n, double alpha) {
   std::vector<double> ranks(n);
   std::iota(ranks.begin(), ranks.end(), 1.0);
-  return largest_rejected(n * (n + 1) / 4, alpha, [&](std::size_t sum) {
-    const auto t = static_cast<double>(sum);
-    return n <= kMostExact ? exact_tail(ranks, t, n) : normal_tail(ranks, t);
-  });
+  const std::size_t most = n * (n + 1) / 4;
+  if (n > kMostExact) {
+    return largest_rejected(
+        most, alpha, [&](std::size_t sum) { return normal_tail(ranks, static_cast<double>(sum)); });
+  }
+  const bool is_ordered = n <= kMostOrdered;  // scores as in exact_tail()
+  const std::size_t weight = is_ordered ? n + 1 : 1;
+  std::vector<std::size_t> scores;
+  for (std::size_t rank = 1; rank <= n; ++rank)
+    scores.push_back(weight * rank + (is_ordered ? 1 : 0));
+  std::vector<double> tail = exact_chances(scores, weight * (most + 1) - 1);
+  std::partial_sum(tail.begin(), tail.end(), tail.begin());
+  return largest_rejected(
+      most, alpha, [&](std::size_t sum) { return tail[weight * (sum + 1) - 1]; });
 }
 
 double least_p(std::size_t n) { return std::min(1.0, std::pow(2.0, 1.0 - static_cast<double>(n))); }

@@ -2,21 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <utility>
 
 #include "harness/base/counted.hpp"
-#include "harness/compare/ratio_text.hpp"
+#include "harness/compare/compare.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-std::string p_sentence(double p) {
-  return p < 0.0001 ? "p < 0.0001" : fmt::format("p = {:.2g}", p);
-}
+using Names = std::vector<std::string>;
 
-const MethodVerdict* find(const Comparison& comparison, const std::string& method) {
-  const auto found = std::ranges::find(comparison.methods, method, &MethodVerdict::method);
-  return found == comparison.methods.end() ? nullptr : &*found;
+const MethodVerdict& find(const Comparison& c, const std::string& method) {
+  return *std::ranges::find(c.methods, method, &MethodVerdict::method);
 }
 
 double largest_coverage(const Comparison& c) {
@@ -27,86 +24,75 @@ double largest_coverage(const Comparison& c) {
 
 /// Names of the methods for which `holds`.
 template <class Holds>
-std::vector<std::string> names_where(const Comparison& c, Holds holds) {
-  std::vector<std::string> out;
+Names names_where(const Comparison& c, Holds holds) {
+  Names out;
   for (const MethodVerdict& m : c.methods) {
     if (holds(m)) out.push_back(m.method);
   }
   return out;
 }
 
+/// "a, b and c"; of more than three names the first two and "5 more".
+std::string joined_names(Names names) {
+  constexpr std::size_t kMost = 3;
+  if (names.size() > kMost) {
+    names[kMost - 1] = fmt::format("{} more", names.size() - (kMost - 1));
+    names.resize(kMost);
+  }
+  std::string out;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    out += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  }
+  return out;
+}
+
+/// One decimal, or two digits if that would be 0.0.
+std::string percent_text(double percent) {
+  return std::abs(percent) >= 0.95 || percent == 0.0 ? fmt::format("{:.1f}", percent + 0.0)
+                                                     : fmt::format("{:.2g}", percent);
+}
+
+double percent_of(const MethodVerdict& m) { return 100.0 * (m.ratio->typical.estimate - 1.0); }
+
+/// "below raw", for a score with a target "closer to 1 than raw".
+std::string relation_text(bool is_below, const Comparison& c) {
+  if (c.kind.better != metrics::Better::target) {
+    return (is_below ? "below " : "above ") + c.options.baseline;
+  }
+  return fmt::format("{} {:g} than {}",
+                     is_below ? "closer to" : "farther from",
+                     c.kind.target,
+                     c.options.baseline);
+}
+
 /// Difference of a method to the baseline: its ratio or, where none is defined, "better than raw on
 /// 14 of 16 groups".
-std::string distance(const MethodVerdict& m, const Comparison& c) {
+std::string distance_text(const MethodVerdict& m, const Comparison& c) {
   const std::size_t groups = m.wins + m.losses + m.ties;
   if (groups > 0 && m.ties == groups) return "equal to " + c.options.baseline;
-  if (m.ratio) return ratio_text(*m.ratio, c.options.baseline, c);
-  return fmt::format("{} than {} on {} of {} groups",
-                     m.wins >= m.losses ? "better" : "worse",
-                     c.options.baseline,
-                     std::max(m.wins, m.losses),
-                     groups);
-}
-
-/// "; fails: dual 2, raw 6 of 8 runs; declines: pcm 3": methods and their numbers of runs.
-std::string missing_text(const Comparison& c) {
-  const auto listed = [&](const char* what, std::size_t MethodVerdict::*count, std::size_t runs) {
-    std::vector<std::string> named;
-    for (const MethodVerdict& m : c.methods) {
-      if (m.*count > 0) named.push_back(fmt::format("{} {}", m.method, m.*count));
-    }
-    if (named.empty()) return std::string();
-    return fmt::format("; {}: {} of {} runs", what, joined_names(named), runs);
-  };
-  return listed("fails", &MethodVerdict::fails, c.runs) +
-         listed("declines", &MethodVerdict::declines, c.possible);
-}
-
-std::string contradiction_text(const Comparison& c, const MethodVerdict& method) {
-  if (!method.is_contradicted) return "";
-  const bool has_mean = method.ratio && method.ratio->geometric_mean;
-  return has_mean ? fmt::format(" on most {}, but the geometric mean ratio is {:.3f}",
-                                c.groups < c.runs ? "groups" : "runs",
-                                *method.ratio->geometric_mean)
-                  : " on most runs, but not in the mean";
-}
-
-/// "; 5.2 % below dual, the next [2.0, 8.1]": the margin to the best method that is behind.
-std::string next_text(const Comparison& c) {
-  const MethodVerdict* next = nullptr;
-  const auto margin = [](const MethodVerdict& m) {
-    return std::abs(std::log(m.from_leader->typical.estimate));
-  };
-  for (const MethodVerdict& m : c.methods) {
-    const bool is_behind = m.standing == Standing::behind && m.method != c.options.baseline;
-    if (!is_behind || !m.from_leader) continue;
-    if (next == nullptr || margin(m) < margin(*next)) next = &m;
+  if (!m.ratio) {
+    return fmt::format("{} than {} on {} of {} groups",
+                       m.wins >= m.losses ? "better" : "worse",
+                       c.options.baseline,
+                       std::max(m.wins, m.losses),
+                       groups);
   }
-  if (next == nullptr || c.methods.size() == 2) return "";
-  const std::string named =
-      next->method + (c.is_best ? ", the next" : ", the next that is significantly worse");
-  return "; " + ratio_text(*next->from_leader, named, c) + sequences_text(*next->from_leader, c);
+  const Interval& typical = m.ratio->typical;
+  const double sign = typical.estimate <= 1.0 ? -100.0 : 100.0;
+  std::string out = percent_text(std::abs(percent_of(m))) + " % " + relation_text(sign < 0.0, c);
+  if (!m.ratio->has_interval) return out;
+  const std::pair low_high = std::minmax({sign * (typical.low - 1.0), sign * (typical.high - 1.0)});
+  return out +
+         fmt::format(" [{}, {}]", percent_text(low_high.first), percent_text(low_high.second));
 }
 
-/// "; on sparse, dm and gp are better": where the order of methods that are not significantly
-/// different depends on the sequence.
-std::string exceptions_text(const Comparison& c) {
-  std::map<std::string, std::vector<std::string>> better;  // by sequence
-  for (const MethodVerdict& m : c.methods) {
-    if (m.standing != Standing::open || !m.from_leader) continue;
-    for (const SequenceRatio& one : m.from_leader->by_sequence) {
-      if (one.is_clear && is_gain(1.0 / one.ratio, c)) better[one.sequence].push_back(m.method);
-    }
-  }
-  std::vector<std::string> parts;
-  for (const auto& [sequence, methods] : better) {
-    parts.push_back(fmt::format("on {} {} {} better than {}",
-                                sequence,
-                                joined_names(methods),
-                                methods.size() == 1 ? "is" : "are",
-                                c.methods.front().method));
-  }
-  return parts.empty() ? "" : "; the order depends on the sequence: " + joined_names(parts);
+std::string contradiction_text(const MethodVerdict& m) {
+  if (m.is_divided) return ", depends on the sequence";
+  if (!m.is_contradicted) return "";
+  return m.ratio && m.ratio->geometric_mean
+             ? fmt::format(" on most runs, but the geometric mean ratio is {:.3f}",
+                           *m.ratio->geometric_mean)
+             : " on most runs, but not in the mean";
 }
 
 std::string why_no_comparison(const Comparison& c) {
@@ -115,93 +101,73 @@ std::string why_no_comparison(const Comparison& c) {
       return "the baseline " + gap.method + " has no value on any run: nothing is compared";
     }
   }
-  if (c.runs == 0) return "no run has values of two methods: nothing is compared";
-  return "one method alone has values: nothing is compared";
+  return c.runs == 0 ? "no run has values of two methods: nothing is compared"
+                     : "one method alone has values: nothing is compared";
 }
 
-/// ": B is 12.3 % above A [8.1, 15.2], p = 0.004" if A is the baseline and B the only other method.
-std::string only_other(const Comparison& c) {
-  if (c.methods.size() != 2) return "";
-  const bool is_first = c.methods.front().method != c.options.baseline;
-  const MethodVerdict& other = is_first ? c.methods.front() : c.methods.back();
-  return ": " + other.method + " is " + result_text(c, other);
+/// The first method that is not the baseline: "dual is 13.5 % below raw".
+std::string other_text(const Comparison& c) {
+  const auto other = std::ranges::find_if(
+      c.methods, [&](const MethodVerdict& m) { return m.method != c.options.baseline; });
+  return other->method + " is " + result_text(c, *other);
 }
 
-/// "dual is ", or of several "dual and twin are equal, ".
-std::string leaders_text(const Comparison& c) {
-  const auto equal = names_where(c, [](const MethodVerdict& m) {
-    return m.standing == Standing::leader || m.standing == Standing::equal;
-  });
-  return joined_names(equal) + (equal.size() == 1 ? " is " : " are equal, ");
-}
-
-std::string best_text(const Comparison& c, const std::vector<std::string>& leaders) {
-  const MethodVerdict& baseline = *find(c, c.options.baseline);
-  const std::size_t others = c.methods.size() - leaders.size();
-  const std::string better = others == 0 ? ""
-                             : others == 1
-                                 ? "; significantly better than the other method"
-                                 : "; significantly better than each of the other methods";
-  const std::string tail = better + next_text(c);
-  const std::string names = joined_names(leaders);
-  if (leaders.size() == 1) {
-    return baseline.standing == Standing::leader
-               ? "the baseline " + names + " is best" + only_other(c) + tail
-               : names + " is best: " + result_text(c, c.methods.front()) + tail;
+/// Difference of several methods to the baseline: "43.2 to 44.1 % below raw", or that of the first.
+std::string distances_text(const Comparison& c, const Names& methods) {
+  double low = HUGE_VAL;
+  double high = -HUGE_VAL;
+  for (const std::string& name : methods) {
+    const MethodVerdict& m = find(c, name);
+    if (!m.ratio || m.is_divided || m.is_contradicted) continue;
+    low = std::min(low, percent_of(m));
+    high = std::max(high, percent_of(m));
   }
-  const bool has_near = std::ranges::any_of(
-      c.methods, [](const MethodVerdict& m) { return m.standing == Standing::near; });
-  std::string out = names + " are best";
-  out += has_near ? fmt::format(", within {:g} % of one another", 100.0 * c.options.relevant)
-                  : " and equal";
-  if (baseline.standing == Standing::leader || baseline.standing == Standing::equal) {
-    return out + tail;
+  if (!(high - low >= 1.0)) return result_text(c, find(c, methods.front()));
+  if (low * high <= 0.0) {
+    return fmt::format("{:+.1f} to {:+.1f} % of {}", low, high, c.options.baseline);
   }
-  return out + ": " + (has_near ? leaders_text(c) : "") + result_text(c, c.methods.front()) + tail;
+  const auto [least, most] = std::minmax({std::abs(low), std::abs(high)});
+  return fmt::format(
+      "{} to {} % {}", percent_text(least), percent_text(most), relation_text(low < 0.0, c));
+}
+
+std::string best_text(const Comparison& c, const Names& first, bool has_baseline) {
+  const std::string names = (has_baseline && first.size() == 1 ? "the baseline " : "") +
+                            joined_names(first) + (first.size() == 1 ? " is best" : " are best");
+  if (!has_baseline) return names + ", " + distances_text(c, first);
+  return first.size() == 1 ? names + ": " + other_text(c) : names;
 }
 
 /// What holds although no method is best.
-std::string undecided_text(const Comparison& c) {
-  const MethodVerdict& first = c.methods.front();
-  const auto open =
-      names_where(c, [](const MethodVerdict& m) { return m.standing == Standing::open; });
-  const auto winners = names_where(c, [](const MethodVerdict& m) { return m.beats_baseline; });
-  const std::string rest = open.size() + 1 == c.methods.size() && open.size() > 1
-                               ? "any other method"
-                               : joined_names(open, " or ");
-  const Standing baseline = find(c, c.options.baseline)->standing;
-  if (baseline == Standing::leader || baseline == Standing::equal) {
-    return "no method is significantly better than the baseline " + c.options.baseline +
-           ", which is not significantly better than " + rest + only_other(c);
+std::string shared_text(const Comparison& c, const Names& first, bool has_baseline) {
+  const std::string covered = coverage_text(c, leaders_with_less_coverage(c));
+  if (!covered.empty()) return "no method is best: " + covered;
+  if (!has_baseline) {
+    return joined_names(first) + " share the first place, " + distances_text(c, first);
   }
-  const std::string lead = leaders_text(c) + result_text(c, first);
-  const std::string tail = exceptions_text(c) + next_text(c);
-  if (first.beats_baseline) {
-    return "no method is significantly best: " + lead + ", but not significantly better than " +
-           rest + tail;
+  const Names better = names_where(c, [](const MethodVerdict& m) { return m.beats_baseline; });
+  if (better.empty()) {
+    return "no method is significantly better than " + c.options.baseline + ": " + other_text(c);
   }
-  if (winners.empty()) {
-    return "no method is significantly better than the baseline " + c.options.baseline + ": " +
-           lead + exceptions_text(c);
-  }
-  return "no method is significantly best: significantly better than " + c.options.baseline +
-         (winners.size() == 1 ? " is " : " are ") + joined_names(winners) + "; " + lead + tail;
+  return fmt::format("no method is best: {} {} {}",
+                     joined_names(better),
+                     better.size() == 1 ? "is" : "are",
+                     distances_text(c, better));
 }
 
 }  // namespace
 
-std::string result_text(const Comparison& c, const MethodVerdict& method) {
-  std::string out = distance(method, c);
-  if (method.ratio && method.standing == Standing::leader) out += sequences_text(*method.ratio, c);
-  if (method.p) out += ", " + p_sentence(*method.p);
-  return out + contradiction_text(c, method);
+std::string result_text(const Comparison& c, const MethodVerdict& m) {
+  std::string out = distance_text(m, c);
+  if (m.p) out += *m.p < 0.0001 ? ", p < 0.0001" : fmt::format(", p = {:.2g}", *m.p);
+  return out + contradiction_text(m);
 }
 
 std::string cannot_show_text(const Comparison& c) {
-  return fmt::format("{} cannot show a difference among {} methods at {:g} ({}{} are needed)",
-                     unit_text(c),
-                     c.methods.size(),
-                     c.options.alpha,
+  const std::string unit = unit_text(c);
+  return fmt::format("{} {} nothing: a test needs {}{}",
+                     unit,
+                     unit.starts_with("1 ") ? "decides" : "decide",
                      c.groups_needed,
                      c.has_strata ? " runs of each method and sequence" : "");
 }
@@ -218,67 +184,48 @@ std::string unit_text(const Comparison& c) {
   return counted(c.runs, "run") + (c.runs > 1 ? " of " + counted(c.sequences, "sequence") : "");
 }
 
-std::vector<std::string> methods_with_less_coverage(const Comparison& c) {
+Names methods_with_less_coverage(const Comparison& c) {
   constexpr double kLess = 0.9;  // of the largest coverage
   return names_where(
       c, [&](const MethodVerdict& m) { return m.coverage < kLess * largest_coverage(c); });
 }
 
-std::vector<std::string> leaders_with_less_coverage(const Comparison& c) {
-  std::vector<std::string> out = methods_with_less_coverage(c);
-  std::erase_if(out, [&](const std::string& m) { return !is_leading(*find(c, m)); });
+Names leaders_with_less_coverage(const Comparison& c) {
+  Names out = methods_with_less_coverage(c);
+  std::erase_if(out, [&](const std::string& m) { return find(c, m).is_worse; });
   return out;
 }
 
-std::string coverage_text(const Comparison& c, const std::vector<std::string>& methods) {
+std::string coverage_text(const Comparison& c, const Names& methods) {
   std::string out;
   for (const std::string& method : methods) {
     out += fmt::format(
-        "{}{} covers {:.0f} %", out.empty() ? "" : ", ", method, 100.0 * find(c, method)->coverage);
+        "{}{} covers {:.0f} %", out.empty() ? "" : ", ", method, 100.0 * find(c, method).coverage);
   }
   if (out.empty()) return "";
   return out + fmt::format(" of the reference, others up to {:.0f} %", 100.0 * largest_coverage(c));
 }
 
-std::string verdict(const Comparison& c) {
-  if (c.methods.empty()) return why_no_comparison(c);
-  const auto leaders = names_where(c, is_leading);
-  const std::string over = missing_text(c) + "; over " + unit_text(c);
-  const auto is_equal = [](const MethodVerdict& m) {
-    return m.standing == Standing::leader || m.standing == Standing::equal;
-  };
-  if (std::ranges::all_of(c.methods, is_equal)) return "all methods are equal" + over;
-  const std::string covered = coverage_text(c, leaders_with_less_coverage(c));
-  if (c.can_show && !covered.empty()) {
-    return "no method is called best: " + covered + "; " + leaders_text(c) +
-           result_text(c, c.methods.front()) + over;
+std::string title(const Comparison& c) {
+  std::string out;
+  const std::string relation = c.kind.relation == "translation" ? "" : c.kind.relation;
+  const std::string axis = c.kind.axis == "3d" ? "" : c.kind.axis;
+  for (const std::string& word : {c.kind.metric_label(), relation, axis, c.options.value}) {
+    if (!word.empty()) out += (out.empty() ? "" : " ") + word;
   }
-  if (c.can_show) return (c.is_best ? best_text(c, leaders) : undecided_text(c)) + over;
-  const std::string lead =
-      is_leading(*find(c, c.options.baseline))
-          ? "the baseline " + c.options.baseline + " ranks first" + only_other(c)
-          : leaders_text(c) + result_text(c, c.methods.front());
-  return fmt::format("nothing can be shown: {}{}{}, but {}",
-                     lead,
-                     covered.empty() ? "" : ", and " + covered,
-                     missing_text(c),
-                     cannot_show_text(c));
+  return out + ", " + c.kind.times + ", " + c.kind.protocol;
 }
 
-std::string statement(const Comparison& c) {
-  std::string out;
-  for (const std::string& word : {c.kind.relation, c.kind.axis == "3d" ? "" : c.kind.axis}) {
-    if (!word.empty()) out += word + " ";
-  }
-  const std::string unit = c.kind.unit.empty() ? "" : " [" + c.kind.unit + "]";
-  return fmt::format("{}{}, {}{}, {}, {}: {}",
-                     out,
-                     c.kind.metric_label(),
-                     c.options.value,
-                     unit,
-                     c.kind.times,
-                     c.kind.protocol,
-                     verdict(c));
+std::string verdict(const Comparison& c) {
+  if (c.methods.empty()) return why_no_comparison(c);
+  const auto is_equal = [](const MethodVerdict& m) { return m.ties > 0 && m.wins + m.losses == 0; };
+  if (std::ranges::all_of(c.methods, is_equal)) return "all methods are equal";
+  if (!c.can_show) return other_text(c) + "; " + cannot_show_text(c);
+  const Names first = names_where(c, [](const MethodVerdict& m) { return !m.is_worse; });
+  const bool has_baseline = !find(c, c.options.baseline).is_worse;
+  return (c.is_best ? best_text : shared_text)(c, first, has_baseline);
 }
+
+std::string statement(const Comparison& c) { return title(c) + ": " + verdict(c); }
 
 }  // namespace loopbench::harness

@@ -83,7 +83,7 @@ std::string report_of(const std::vector<Record>& records,
   options.paired = paired;
   for (const Comparison& comparison : compare(records, options)) {
     out += "\n" + lines_of("verdict: " + statement(comparison), style);
-    for (const std::string& limit : conditions(comparison)) out += lines_of("- " + limit, style);
+    for (const std::string& limit : cautions(comparison)) out += lines_of("- " + limit, style);
   }
   return out;
 }

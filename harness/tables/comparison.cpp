@@ -21,15 +21,6 @@ std::string interval_text(const Ratio& ratio) {
                             : "-";
 }
 
-/// "+5.2 %" behind the leader; "=" for methods that are equal to it.
-std::string behind_text(const MethodVerdict& m) {
-  if (m.standing == Standing::leader) return "";
-  if (m.standing == Standing::equal) return "=";
-  if (!m.from_leader) return m.standing == Standing::open ? "~" : ">";
-  const double percent = 100.0 * (1.0 / m.from_leader->typical.estimate - 1.0);
-  return fmt::format("{}{:+.2f} %", m.standing == Standing::open ? "~" : "", percent);
-}
-
 /// With the number of runs if not all runs are included.
 std::string median_text(const Comparison& c, const MethodVerdict& m, int digits) {
   if (m.runs == 0) return "-";
@@ -64,16 +55,6 @@ std::optional<double> typical_of(const std::optional<Ratio>& ratio) {
 
 }  // namespace
 
-std::string title(const Comparison& c) {
-  std::string out;
-  const std::string relation = c.kind.relation == "translation" ? "" : c.kind.relation;
-  const std::string axis = c.kind.axis == "3d" ? "" : c.kind.axis;
-  for (const std::string& word : {c.kind.metric_label(), relation, axis, c.options.value}) {
-    if (!word.empty()) out += (out.empty() ? "" : " ") + word;
-  }
-  return out + ", " + c.kind.times + ", " + c.kind.protocol;
-}
-
 Table table_view(const Comparison& c) {
   const std::string unit = c.kind.unit.empty() ? "" : " [" + c.kind.unit + "]";
   Table out{title(c),
@@ -84,7 +65,7 @@ Table table_view(const Comparison& c) {
              "better/worse/equal",
              "p",
              "mean",
-             "behind"},
+             "place"},
             {},
             {statement(c)}};
   double largest = 0.0;
@@ -93,14 +74,14 @@ Table table_view(const Comparison& c) {
     const bool is_baseline = m.method == c.options.baseline;
     const auto unless_baseline = [&](const std::string& text) { return is_baseline ? "" : text; };
     out.lines.push_back(
-        {{m.method, c.is_best && is_leading(m)},
+        {{m.method, c.is_best && !m.is_worse},
          {median_text(c, m, decimals(largest))},
          {m.ratio ? fixed(m.ratio->typical.estimate, 4) : "-"},
          {unless_baseline(m.ratio ? interval_text(*m.ratio) : "-")},
          {unless_baseline(fmt::format("{}/{}/{}", m.wins, m.losses, m.ties))},
          {unless_baseline(m.p ? p_text(*m.p) : "-")},
          {m.ratio && m.ratio->geometric_mean ? fixed(*m.ratio->geometric_mean, 4) : "-"},
-         {behind_text(m)}});
+         {m.is_worse ? ">" : "="}});
   }
   for (const std::string& remark : remarks(c)) out.notes.push_back(remark);
   return out;
@@ -109,9 +90,8 @@ Table table_view(const Comparison& c) {
 std::string csv(const std::vector<Comparison>& comparisons) {
   std::string out =
       "protocol,times,metric,label,relation,axis,unit,value,baseline,over,groups,runs,method,"
-      "median,"
-      "with_value,fails,ratio,ratio_low,ratio_high,geometric_mean,better,worse,equal,p,standing,"
-      "leader_ratio,leader_low,leader_high\n";
+      "median,with_value,fails,ratio,ratio_low,ratio_high,geometric_mean,better,worse,equal,p,"
+      "place\n";
   for (const Comparison& c : comparisons) {
     for (const MethodVerdict& m : c.methods) {
       out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},",
@@ -127,7 +107,7 @@ std::string csv(const std::vector<Comparison>& comparisons) {
                          over_name(c.options.over),
                          c.groups,
                          c.runs);
-      out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n",
+      out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n",
                          quoted(m.method),
                          m.runs > 0 ? fmt::format("{}", m.median) : "",
                          m.runs,
@@ -138,8 +118,7 @@ std::string csv(const std::vector<Comparison>& comparisons) {
                          m.losses,
                          m.ties,
                          number_or_empty(m.p),
-                         to_text(m.standing),
-                         fields(m.from_leader));
+                         m.is_worse ? ">" : "=");
     }
   }
   return out;
@@ -172,8 +151,12 @@ std::string json(const std::vector<Comparison>& comparisons, int indent) {
                   {"gaps", Json::array()}});
     for (const MethodVerdict& m : c.methods) {
       Json by_sequence = Json::object();
+      Json significant = Json::array();
       if (m.ratio) {
-        for (const SequenceRatio& one : m.ratio->by_sequence) by_sequence[one.sequence] = one.ratio;
+        for (const SequenceRatio& one : m.ratio->by_sequence) {
+          by_sequence[one.sequence] = one.ratio;
+          if (one.is_clear) significant.push_back(one.sequence);
+        }
       }
       entry["methods"].push_back(
           {{"method", m.method},
@@ -185,13 +168,12 @@ std::string json(const std::vector<Comparison>& comparisons, int indent) {
            {"interval", interval_json(m.ratio)},
            {"geometric_mean", number_or_null(m.ratio ? m.ratio->geometric_mean : std::nullopt)},
            {"by_sequence", by_sequence},
+           {"significant_on", significant},
            {"better", m.wins},
            {"worse", m.losses},
            {"equal", m.ties},
            {"p", number_or_null(m.p)},
-           {"standing", to_text(m.standing)},
-           {"leader_ratio", number_or_null(typical_of(m.from_leader))},
-           {"leader_interval", interval_json(m.from_leader)}});
+           {"place", m.is_worse ? ">" : "="}});
     }
     for (const Gap& gap : c.gaps) {
       entry["gaps"].push_back({{"method", gap.method},

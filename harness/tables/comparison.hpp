@@ -9,12 +9,9 @@
 
 namespace loopbench::harness {
 
-/// "ate rotation rmse, dense, loopbench".
-std::string title(const Comparison& comparison);
-
-/// One line per method, the leader first: median, typical ratio to the baseline with its interval,
-/// wins, losses and ties against it, p, geometric mean ratio, and how far it is behind the leader
-/// (~: not significantly). Best methods are marked. Notes: verdict, remarks.
+/// One line per method, the first place first: median, typical ratio to the baseline with its
+/// interval, wins, losses and ties against it, p, geometric mean ratio, and place (=: shares the
+/// first one, >: significantly worse). Best methods are marked. Notes: verdict, remarks.
 Table table_view(const Comparison& comparison);
 
 /// One line per method of every comparison, numbers in full precision; missing values are empty.

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "harness/compare/compare.hpp"
-#include "harness/compare/ratio_text.hpp"
 #include "harness/tables/table_numbers.hpp"
 
 namespace loopbench::harness {
@@ -63,12 +62,9 @@ std::vector<Lane> lanes_of(const TableNumbers& table, const TableSpec& spec, boo
   return out;
 }
 
-/// Empty if a value is best, all are equal, or nothing is compared.
+/// Empty if a value is best, or nothing is compared.
 std::string why_none_is_best(const Comparison& c) {
-  const bool is_equal = std::ranges::all_of(c.methods, [](const MethodVerdict& m) {
-    return m.standing == Standing::leader || m.standing == Standing::equal;
-  });
-  if (c.is_best || is_equal) return "";
+  if (c.is_best || c.methods.empty()) return "";
   return c.can_show ? coverage_text(c, leaders_with_less_coverage(c)) : cannot_show_text(c);
 }
 
@@ -96,7 +92,7 @@ void mark_best(Table& out,
     const Comparison c = standings(std::move(scores[0]), how);
     if (why_none.empty()) why_none = why_none_is_best(c);
     for (const MethodVerdict& m : c.methods) {
-      if (!c.is_best || !is_leading(m)) continue;
+      if (!c.is_best || m.is_worse) continue;
       const std::size_t entry = lane.entries.at(m.method);
       out.lines[along_columns ? entry : l][1 + (along_columns ? l : entry)].is_best = true;
       is_marked = true;

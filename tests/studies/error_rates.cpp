@@ -26,30 +26,64 @@ std::tuple<bool, double, double> burden(const Truth& truth, std::size_t method) 
   return {fails > 0.5, truth.effects[method], fails + (is_last ? truth.diverges : 0.0)};
 }
 
-/// The only method with the least burden; the number of methods if several share it.
-std::size_t truly_best(const Truth& truth) {
-  std::size_t best = 0;
-  bool is_shared = false;
-  for (std::size_t m = 1; m < truth.effects.size(); ++m) {
-    is_shared = burden(truth, m) == burden(truth, best) ||
-                (is_shared && burden(truth, m) > burden(truth, best));
-    if (burden(truth, m) < burden(truth, best)) best = m;
+bool is_truly_best(const Truth& truth, std::size_t method) {
+  for (std::size_t m = 0; m < truth.effects.size(); ++m) {
+    if (burden(truth, m) < burden(truth, method)) return false;
   }
-  return is_shared ? truth.effects.size() : best;
+  return true;
+}
+
+std::size_t number_of(const std::string& method) {
+  return static_cast<std::size_t>(std::stoi(method.substr(1)));
 }
 
 /// Whether a method is claimed to differ from the baseline in a direction that does not hold. Of
 /// methods with equal effects, the one that fails less often is better.
 bool has_false_claim(const Comparison& c, const Truth& truth) {
-  const auto error = [&](const std::string& method) {
-    return burden(truth, static_cast<std::size_t>(std::stoi(method.substr(1))));
-  };
-  const auto baseline = error(c.options.baseline);
+  const auto baseline = burden(truth, number_of(c.options.baseline));
   return std::ranges::any_of(c.methods, [&](const MethodVerdict& m) {
-    const bool is_worse = m.p && *m.p <= c.options.alpha && !m.is_contradicted && !m.beats_baseline;
-    return (m.beats_baseline && error(m.method) >= baseline) ||
-           (is_worse && error(m.method) <= baseline);
+    const auto own = burden(truth, number_of(m.method));
+    return (m.beats_baseline && own >= baseline) || (m.is_beaten && own <= baseline);
   });
+}
+
+bool has_false_clause(const Comparison& c, const Truth& truth) {
+  return std::ranges::any_of(c.methods, [&](const MethodVerdict& m) {
+    if (!m.ratio) return false;
+    const std::size_t own = number_of(m.method);
+    return std::ranges::any_of(m.ratio->by_sequence, [&](const SequenceRatio& one) {
+      const std::vector<double>& effects = truth.sequences[number_of("m" + one.sequence)];
+      const double effect = truth.effects[own] - truth.effects[0] + effects[own] - effects[0];
+      return one.is_clear && (one.ratio < 1.0 ? effect >= 0.0 : effect <= 0.0);
+    });
+  });
+}
+
+/// Whether method 1 is ahead of each rival, with Holm's correction over the rivals.
+bool beats_by_holm(const Observations& all) {
+  GroupedValues values;
+  for (const std::vector<Observed>& row : all.values) {
+    values.values.emplace_back();
+    for (const Observed& one : row) values.values.back().push_back(one.value);
+  }
+  for (std::size_t run = 0; run < all.runs.size(); ++run) values.group.push_back(run);
+  const Levels levels(values, kTieShare);
+  std::vector<double> p;
+  for (std::size_t m = 0; m < levels.methods(); ++m) {
+    if (m == 1) continue;
+    const Pair pair = compared(levels, 1, m);
+    p.push_back(pair.is_first_ahead() ? pair.p : 1.0);
+  }
+  std::ranges::sort(p);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (p[i] > 0.05 / static_cast<double>(p.size() - i)) return false;
+  }
+  return true;
+}
+
+bool is_plain(const Truth& t) {
+  return t.runs_in_group == 1 && t.failures.empty() && t.copies == 0.0 && t.diverges == 0.0 &&
+         t.hard == 0.0 && !t.is_independent && !t.baseline_is_fixed && t.dispersions.empty();
 }
 
 }  // namespace
@@ -57,15 +91,30 @@ bool has_false_claim(const Comparison& c, const Truth& truth) {
 ErrorRates error_rates(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed) {
   std::mt19937_64 bits(seed);
   ErrorRates out;
-  const std::size_t best = truly_best(truth);
+  const bool is_fast = is_plain(truth);
   for (int i = 0; i < repeats; ++i) {
-    const Comparison c = compare(records(truth, shape, bits), {.baseline = "m0"}).at(0);
-    const bool is_right = c.is_best && c.methods[0].method == "m" + std::to_string(best);
-    out.found += is_right ? 1.0 : 0.0;
-    out.false_best += c.is_best && !is_right ? 1.0 : 0.0;
-    out.false_better += has_false_claim(c, truth) ? 1.0 : 0.0;
+    std::vector<Observations> all;
+    if (is_fast) {
+      all.push_back(observations(truth, shape, bits));
+    } else {
+      all = harness::observations(records(truth, shape, bits), "rmse");
+    }
+    const bool is_power = is_fast && truth.effects[1] < 0.0;
+    out.holm += is_power && beats_by_holm(all[0]) ? 1.0 : 0.0;
+    const Comparison c = compare(std::move(all), {.baseline = "m0"}).at(0);
+    bool is_false = false;
+    std::size_t best = 0;
+    for (const MethodVerdict& m : c.methods) {
+      const bool is_true = is_truly_best(truth, number_of(m.method));
+      is_false = is_false || (is_true && m.is_worse);
+      best += is_true || !m.is_worse ? 1 : 0;
+    }
+    out.best += is_false ? 1.0 : 0.0;
+    out.found += c.is_best && !is_false && best == 1 ? 1.0 : 0.0;
+    out.baseline += has_false_claim(c, truth) ? 1.0 : 0.0;
+    out.sequences += is_fast && !truth.sequences.empty() && has_false_clause(c, truth) ? 1.0 : 0.0;
   }
-  for (double* rate : {&out.found, &out.false_best, &out.false_better}) {
+  for (double* rate : {&out.baseline, &out.best, &out.sequences, &out.found, &out.holm}) {
     *rate /= repeats;
   }
   return out;
@@ -101,16 +150,6 @@ IntervalCoverage coverage(const Truth& truth, const Shape& shape, int repeats, s
   }
   return {given > 0 ? static_cast<double>(held) / given : 1.0,
           1.0 - static_cast<double>(given) / repeats};
-}
-
-double power(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed) {
-  std::mt19937_64 bits(seed);
-  int found = 0;
-  for (int i = 0; i < repeats; ++i) {
-    const Comparison c = compare(records(truth, shape, bits), {.baseline = "m0"}).at(0);
-    found += verdict_of(c, 1)->beats_baseline ? 1 : 0;
-  }
-  return static_cast<double>(found) / repeats;
 }
 
 }  // namespace loopbench::synthetic

@@ -1,6 +1,8 @@
 /// Error rates of verdicts and coverage of intervals on synthetic records.
 #pragma once
 
+#include <algorithm>
+
 #include "harness/compare/compare.hpp"
 #include "tests/studies/synthetic_records.hpp"
 
@@ -8,10 +10,15 @@ namespace loopbench::synthetic {
 
 using namespace metrics;
 
+/// Shares of comparisons with a false statement of each family, judged by the truth.
 struct ErrorRates {
-  double false_best = 0.0;    ///< a method is reported as best that is not
-  double false_better = 0.0;  ///< a method is wrongly better or worse than the baseline
-  double found = 0.0;         ///< the truly best method is reported as best
+  double baseline = 0.0;   ///< a method is wrongly better or worse than the baseline
+  double best = 0.0;       ///< a truly best method is marked as worse, so also any wrong best
+  double sequences = 0.0;  ///< a method is wrongly better or worse than the baseline on a sequence
+  double found = 0.0;      ///< the truly best method is reported as best
+  double holm = 0.0;       ///< it beats each rival with Holm's correction over the rivals
+
+  double largest() const { return std::max({baseline, best, sequences}); }
 };
 
 /// Rates over `repeats` draws. Equal effects are true ties: none of them is best.
@@ -25,8 +32,5 @@ struct IntervalCoverage {
 /// Share of draws in which the intervals of all methods hold their typical ratio to the baseline;
 /// of methods that differ by sequence, the mean over the sequences.
 IntervalCoverage coverage(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed);
-
-/// Share of draws in which method 1 is significantly better than the baseline.
-double power(const Truth& truth, const Shape& shape, int repeats, std::uint64_t seed);
 
 }  // namespace loopbench::synthetic

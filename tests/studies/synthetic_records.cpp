@@ -107,7 +107,9 @@ std::vector<Record> records(const Truth& truth, const Shape& shape, std::mt19937
         r.cell.edit().content = r.cell->sequence + " " + std::to_string(r.cell->repeat);
         const double effect =
             truth.effects[m] + (truth.sequences.empty() ? 0.0 : truth.sequences[sequence][m]);
-        r.statistics.rmse = size * std::exp(effect + truth.dispersion * deviation);
+        const double scatter =
+            truth.dispersion * (truth.dispersions.empty() ? 1.0 : truth.dispersions[sequence]);
+        r.statistics.rmse = size * std::exp(effect + scatter * deviation);
         if (truth.diverges > 0.0 && m + 1 == methods && uniform(bits) < truth.diverges) {
           r.statistics.rmse *= 1e12;
         }
@@ -125,6 +127,27 @@ std::vector<Record> records(const Truth& truth, const Shape& shape, std::mt19937
         copy.cell.edit().sequence = copy.cell->sequence + " again";
         out.push_back(copy);
       }
+    }
+  }
+  return out;
+}
+
+Observations observations(const Truth& truth, const Shape& shape, std::mt19937_64& bits) {
+  Observations out;
+  out.kind = *compared_sweep::score("", 0, "", 0.0).kind;
+  out.values.resize(truth.effects.size());
+  for (std::size_t m = 0; m < truth.effects.size(); ++m)
+    out.methods.push_back("m" + std::to_string(m));
+  for (std::size_t group = 0; group < truth.groups; ++group) {
+    const std::size_t sequences = truth.sequences.size();
+    const std::size_t sequence = sequences == 0 ? group : group % sequences;
+    const std::string name = std::to_string(group);
+    out.runs.push_back({name, std::to_string(sequence), name, ""});
+    for (std::size_t m = 0; m < truth.effects.size(); ++m) {
+      const double effect =
+          truth.effects[m] + (sequences == 0 ? 0.0 : truth.sequences[sequence][m]);
+      const double deviation = shape.draw(bits) - shape.typical;
+      out.values[m].push_back({std::exp(effect + truth.dispersion * deviation), false, ""});
     }
   }
   return out;

@@ -146,14 +146,13 @@ class ComparedMethod:
     ratio: float | None  #: typical value / baseline (Hodges-Lehmann)
     interval: tuple[float, float] | None  #: of the ratio, simultaneous; None: too few runs
     geometric_mean: float | None  #: of the ratios
-    by_sequence: dict[str, float]  #: mean ratios, if sequences have several runs
+    by_sequence: dict[str, float]  #: typical ratios, if sequences have several runs
+    significant_on: list[str]  #: sequences on which the ratio is significantly not 1
     better: int
     worse: int
     equal: int
     p: float | None
-    standing: str  #: leader, equal, near, behind or open (not significantly different)
-    leader_ratio: float | None  #: typical ratio of the leader to this method
-    leader_interval: tuple[float, float] | None
+    place: str  #: "=" shares the first place, ">" is significantly worse
 
 
 @dataclass(frozen=True, repr=False)
@@ -174,10 +173,10 @@ class Comparison:
     groups: int
     runs: int  #: compared
     possible: int  #: runs of the store
-    is_best: bool  #: the leading methods are significantly better than all others
+    is_best: bool  #: the methods of the first place are best: all others are worse
     verdict: str
     remarks: list[str]
-    methods: list[ComparedMethod]  #: the leader first
+    methods: list[ComparedMethod]  #: the first place first
     gaps: list[dict[str, Any]]  #: methods without a value in some run, and why
 
     def __repr__(self) -> str:
@@ -196,8 +195,7 @@ def _known(kind: type[Any], entry: Mapping[str, Any]) -> Any:
 
 
 def _compared(entry: dict[str, Any]) -> ComparedMethod:
-    for name in ("interval", "leader_interval"):
-        entry[name] = entry[name] and tuple(entry[name])
+    entry["interval"] = entry["interval"] and tuple(entry["interval"])
     found: ComparedMethod = _known(ComparedMethod, entry)
     return found
 

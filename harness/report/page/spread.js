@@ -66,7 +66,7 @@
               .attr("stroke", "currentColor").attr("stroke-width", 3).attr("stroke-linecap", "round");
           }
           g.append("circle").attr("cx", x(m.ratio)).attr("cy", middle).attr("r", 5.5).attr("fill", "currentColor");
-          g.append("title").text(`${m.method}: ${R.number(m.ratio)}` + (m.interval ? ` [${m.interval.map(R.number).join(", ")}]` : "") + `, p = ${R.number(m.p)}, ${m.standing}` + (m.fails ? `, fails ${m.fails}` : ""));
+          g.append("title").text(`${m.method}: ${R.number(m.ratio)}` + (m.interval ? ` [${m.interval.map(R.number).join(", ")}]` : "") + `, p = ${R.number(m.p)}, ${m.place === "=" ? "shares the first place" : "significantly worse"}` + (m.fails ? `, fails ${m.fails}` : ""));
         }
       },
     });
