@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 #include "metrics/doctor/graph_checks.hpp"
@@ -81,8 +82,9 @@ TEST(DoctorAccusations, ScalesOfEdges) {
 TEST(DoctorAccusations, NamesTheIdsOfTheFile) {
   Problem problem = square(3, many_loops());
   problem.closures[4].from_from_to.translation += Vector3(8, 5, 0);
-  const auto name = [](std::size_t keyframe) { return std::to_string(keyframe + 1); };
-  const InputFinding found = only(check_closures(problem, name), Fault::closure_gap);
+  for (std::size_t i = 0; i < problem.keyframes.size(); ++i)
+    problem.ids.push_back(static_cast<std::int64_t>(i + 1));
+  const InputFinding found = only(check_closures(problem), Fault::closure_gap);
   const Edge& wrong = problem.closures[4];
   EXPECT_THAT(found.evidence,
               HasSubstr("1 of 10 closures contradict the odometry or other closures"));
