@@ -12,8 +12,11 @@ namespace loopbench::methods {
 /// maximum likelihood, separately for position and rotation. GCV is the default: if the motion is
 /// smooth rather than a random walk in velocity, the likelihood smooths too little (Wahba 1985).
 /// The curve is C2 in position and C1 in rotation. The method removes white noise of the keyframes;
-/// neither criterion detects slow drift. O(n) for each of about 35 values of lambda, O(1) amortised
-/// per query. Sources: Reinsch 1967; Craven & Wahba 1979; Wahba 1985; Jupp & Kent 1987.
+/// neither criterion detects slow drift. Keyframes that are too sparse for their motion look like
+/// white noise: where the result leaves the odometry by more than five of its standard deviations,
+/// and by more than its input does, it interpolates and says so in a note. O(n) for each of about
+/// 35 values of lambda, O(1) amortised per query. Sources: Reinsch 1967; Craven & Wahba 1979; Wahba
+/// 1985; Jupp & Kent 1987.
 class SmoothingSpline final : public Smoother {
  public:
   struct Options {

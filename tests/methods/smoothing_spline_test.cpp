@@ -1,11 +1,13 @@
 // smoothing_spline and its parts.
 #include "methods/smoothers/smoothing_spline.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "datasets/simulated/simulated.hpp"
 #include "methods/smoothers/interpolating_splines.hpp"
 #include "methods/smoothers/penalised/unrolled.hpp"
 #include "tests/support/corrected.hpp"
@@ -18,6 +20,8 @@ using namespace methods;
 namespace {
 
 using namespace test;
+using testing::Contains;
+using testing::StartsWith;
 
 /// Dense hat matrix: A = (I + lambda Q R^-1 Q')^-1 (Green & Silverman 1994, 2.3.3).
 Eigen::MatrixXd hat_matrix(const std::vector<double>& t, double lambda) {
@@ -163,6 +167,21 @@ TEST(SmoothingSpline, RemovesAFifthOrMoreOfWhiteNoise) {
           *smooth<SmoothingSpline>(keyframes, {{"criterion", std::string(criterion)}}), truth);
     }
     EXPECT_LT(after, 0.8 * before) << criterion;
+  }
+}
+
+/// At 40 keyframes the hand turns too fast between them, at 20 the path does too; the criterion
+/// finds noise of 16 degrees and 0.3 m.
+TEST(SmoothingSpline, InterpolatesWhereKeyframesDoNotResolveTheMotion) {
+  for (const int keyframes : {20, 40}) {
+    SimulatedOptions options;
+    options.path = SimulatedPath::room;
+    options.keyframes = keyframes;
+    const Problem problem = load_simulated(options).problem;
+    Report report;
+    const auto curve = SmoothingSpline({}).smooth(problem, report);
+    EXPECT_THAT(report.notes, Contains(StartsWith("rotations interpolated: smoothed, they would")));
+    expect_close(curve->sample(stamps(problem.keyframes)), problem.keyframes, 1e-3);
   }
 }
 

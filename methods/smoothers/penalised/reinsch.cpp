@@ -78,14 +78,28 @@ double score(Criterion criterion, const Reinsch::Fit& fit, std::size_t n) {
   return (size - 2.0) * std::log(fit.energy.sum() + kTiny) - fit.log_determinant;
 }
 
+namespace {
+
+constexpr int kPerDecade = 8, kSmallest = -6 * kPerDecade, kLargest = 12 * kPerDecade;
+
+double lambda_at(const std::vector<double>& stamps, int k) {
+  const double interval = (stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
+  return std::pow(interval, 3) * std::pow(10.0, static_cast<double>(k) / kPerDecade);
+}
+
+}  // namespace
+
+double interpolating_lambda(const std::vector<double>& stamps) {
+  return lambda_at(stamps, kSmallest);
+}
+
 double select_lambda(const Reinsch& reinsch,
                      const std::vector<double>& stamps,
                      const std::vector<Vector3>& y,
                      Criterion criterion) {
-  const double interval = (stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
-  const auto lambda = [&](int k) { return std::pow(interval, 3) * std::pow(10.0, k / 8.0); };
-  return lambda(minimise_on_lattice(
-      -48, 96, 8, [&](int k) { return score(criterion, reinsch.fit(y, lambda(k)), y.size()); }));
+  return lambda_at(stamps, minimise_on_lattice(kSmallest, kLargest, kPerDecade, [&](int k) {
+                     return score(criterion, reinsch.fit(y, lambda_at(stamps, k)), y.size());
+                   }));
 }
 
 }  // namespace loopbench::methods

@@ -197,4 +197,7 @@ double select_lambda(const Reinsch& reinsch,
                      const std::vector<Vector3>& y,
                      Criterion criterion);
 
+/// Smallest lambda [s^3] of that lattice, which interpolates.
+double interpolating_lambda(const std::vector<double>& stamps);
+
 }  // namespace loopbench::methods
