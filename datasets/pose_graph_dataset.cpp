@@ -39,8 +39,8 @@ std::vector<std::size_t> kept_poses(std::size_t size,
   return kept;
 }
 
-/// A g2o ground truth must have the ids of the graph. Other formats have no ids and must have one
-/// pose per vertex.
+/// A g2o ground truth must have ids of the graph, but can lack some. Other formats have no ids and
+/// must have one pose per vertex.
 Trajectory read_truth(const std::filesystem::path& file,
                       const std::vector<double>& stamps,
                       const PoseGraphOptions& o) {
@@ -49,16 +49,19 @@ Trajectory read_truth(const std::filesystem::path& file,
   options.period = o.period;
   Trajectory truth = read_trajectory(file, options);
   const auto invalid = [&](const std::string& what) { return input_error(file.string(), 0, what); };
-  if (truth.size() != stamps.size()) {
+  if (options.format == Format::g2o) {
+    for (const StampedPose& pose : truth) {
+      if (std::ranges::binary_search(stamps, pose.stamp)) continue;
+      throw invalid(fmt::format("id {:.0f} is not in the graph, expected the ids of the graph",
+                                pose.stamp / o.period));
+    }
+  } else if (truth.size() != stamps.size()) {
     throw invalid(fmt::format("found {} poses, expected {}, the number of vertices of the graph",
                               truth.size(),
                               stamps.size()));
   }
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    if (options.format == Format::g2o && truth[i].stamp != stamps[i]) {
-      throw invalid(fmt::format("id number {} differs, expected the ids of the graph", i + 1));
-    }
-    truth[i].stamp = stamps[i];
+    if (options.format != Format::g2o) truth[i].stamp = stamps[i];
   }
   if (o.truth_axes == TruthAxes::kitti_camera) {
     const Pose camera_from_body{camera_from_vehicle(), Vector3::Zero()};

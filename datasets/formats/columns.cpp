@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "datasets/formats/detect_format.hpp"
 
 namespace loopbench {
@@ -27,8 +30,10 @@ void Columns::reject_number(const char* what, std::errc error, const char* stop)
     throw refusal(what, "is out of the range of a double");
   }
   if (error == std::errc{} && ends_column(stop) && peek().substr(0, 2) != "+-") {
-    throw refusal(what, "is not finite, expected a number");
+    throw InvalidRow(refusal(what, "is not finite, expected a number"));
   }
+  constexpr std::array kMissing{"", "None", "null", "NULL", "NA"};  // of programs that write tables
+  if (std::ranges::count(kMissing, peek()) > 0) throw InvalidRow(refusal(what, "is not a number"));
   throw refusal(what, "is not a number");
 }
 

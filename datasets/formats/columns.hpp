@@ -18,8 +18,13 @@ namespace loopbench {
 
 class Columns {
  public:
-  Columns(const TextFile& file, const Line& line)
-      : file_(file), line_(line), at_(line.text.data()), end_(at_ + line.text.size()) {
+  /// `index`: of the first column of `line`.
+  Columns(const TextFile& file, const Line& line, std::size_t index = 0)
+      : file_(file),
+        line_(line),
+        at_(line.text.data()),
+        end_(at_ + line.text.size()),
+        index_(index) {
     skip_separators();
   }
 
@@ -91,15 +96,13 @@ class Columns {
   const Line& line_;
   const char* at_;
   const char* end_;
-  std::size_t index_ = 0;
+  std::size_t index_;
 };
 
-/// Returns the next column as a stamp in seconds or, if it is in nanoseconds, in these. Throws
-/// InputError.
-inline ReadStamp next_stamp(Columns& columns, bool small_nanoseconds = false) {
+/// Returns the next column as a stamp in units of 10^exponent seconds. Throws InputError.
+inline ReadStamp next_stamp(Columns& columns, int exponent) {
   const std::string_view word = columns.peek();
-  const double number = columns.number("stamp");
-  return read_stamp(word, number, is_in_nanoseconds(number, small_nanoseconds) ? -9 : 0);
+  return read_stamp(word, columns.number("stamp"), exponent);
 }
 
 /// Returns the number of columns of a line.

@@ -8,6 +8,7 @@
 #include "datasets/core/covariance.hpp"
 #include "datasets/core/params.hpp"
 #include "datasets/formats/detect_format.hpp"
+#include "datasets/formats/stamp_unit.hpp"
 #include "datasets/formats/stamps.hpp"
 
 namespace loopbench {
@@ -184,6 +185,7 @@ std::vector<Matrix6> read_covariance_file(const std::filesystem::path& path,
   if (!layout) {
     throw file.error(0, "expected a stamp and 6, 9 (position), 21 or 36 numbers of a covariance");
   }
+  const int exponent = stamp_exponent(file, 0, {});
   assumed_axes = layout->axes == 6 && !layout->is_stated;
   std::vector<Matrix6> out;
   for (Line line; file.next(line);) {
@@ -193,7 +195,7 @@ std::vector<Matrix6> read_covariance_file(const std::filesystem::path& path,
                            columns_text(1 + layout->count()) + " as in the first row");
     }
     Columns columns(file, line);
-    const double stamp = next_stamp(columns).seconds;
+    const double stamp = next_stamp(columns, exponent).seconds;
     const std::size_t i = out.size();
     if (i == poses.size() || !(std::abs(stamp - poses[i].stamp) <= kSameStamp)) {
       throw file.error(line.number,

@@ -1,11 +1,15 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "datasets/formats/covariance_columns.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
+#include "datasets/formats/stamp_unit.hpp"
+#include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_formats.hpp"
 
 namespace loopbench {
@@ -23,23 +27,30 @@ void split_row(const TextFile& file, const Line& line, const CsvColumns& columns
                        (line.unterminated ? " (the file ends in the middle of this line)" : ""));
 }
 
-double csv_number(const TextFile& file, const Line& line, std::string_view text, const char* what) {
+/// The number in column `index` of a row, or in the name of an image there.
+double csv_number(const TextFile& file,
+                  const Line& line,
+                  const CsvColumns& columns,
+                  const CsvRow& row,
+                  std::size_t index) {
+  const std::string& name = columns.names[index];
   Line column = line;
-  column.text = text;
-  Columns parsed(file, column);
-  const double out = parsed.number(what);
+  column.text = index == columns.index[0] ? stamp_word(row[index]) : row[index];
+  Columns parsed(file, column, index);
+  const double out = parsed.number(name.c_str());
   if (parsed.done()) return out;
   throw file.error(line.number,
-                   "column " + std::string(what) + ": '" + std::string(text) + "' is not a number");
+                   "column " + name + ": '" + std::string(row[index]) + "' is not a number");
 }
 
 /// Whole seconds and a column of nanoseconds, as in messages of ROS.
 ReadStamp split_stamp(const TextFile& file,
                       const Line& line,
-                      std::string_view seconds,
-                      std::string_view nanoseconds) {
-  const double whole = csv_number(file, line, seconds, "seconds");
-  const double rest = csv_number(file, line, nanoseconds, "nanoseconds");
+                      const CsvColumns& columns,
+                      const CsvRow& row) {
+  const std::string_view seconds = row[columns.index[0]], nanoseconds = row[*columns.nanoseconds];
+  const double whole = csv_number(file, line, columns, row, columns.index[0]);
+  const double rest = csv_number(file, line, columns, row, *columns.nanoseconds);
   if (rest < 0.0 || rest >= 1e9 || rest != std::floor(rest) || whole != std::floor(whole)) {
     throw file.error(line.number,
                      "stamp has '" + std::string(seconds) + "' s and '" + std::string(nanoseconds) +
@@ -58,18 +69,16 @@ ReadStamp split_stamp(const TextFile& file,
 ReadStamp stamp_of_row(const TextFile& file,
                        const Line& line,
                        const CsvColumns& columns,
-                       const CsvRow& row) {
-  const std::string_view text = row[columns.index[0]];
-  if (columns.nanoseconds) return split_stamp(file, line, text, row[*columns.nanoseconds]);
-  const double number = csv_number(file, line, text, kPoseColumns[0]);
-  int exponent = columns.time_exponent.value_or(0);
-  if (exponent == 0 && is_in_nanoseconds(number, false)) exponent = -9;
-  return read_stamp(text, number, exponent);
+                       const CsvRow& row,
+                       int exponent) {
+  if (columns.nanoseconds) return split_stamp(file, line, columns, row);
+  const double number = csv_number(file, line, columns, row, columns.index[0]);
+  return read_stamp(stamp_word(row[columns.index[0]]), number, exponent);
 }
 
 /// False for a NavSatFix without a position, whose coordinates need not be numbers.
 bool has_fix(const TextFile& file, const Line& line, const CsvColumns& columns, const CsvRow& row) {
-  if (!columns.fix || csv_number(file, line, row[*columns.fix], "status") >= 0.0) return true;
+  if (!columns.fix || csv_number(file, line, columns, row, *columns.fix) >= 0.0) return true;
   ++file.repaired.without_fix;
   return false;
 }
@@ -83,25 +92,27 @@ Matrix6 covariance_of_row(const TextFile& file,
   std::size_t k = 0;
   for (Eigen::Index i = 0; i < axes; ++i) {
     for (Eigen::Index j = i; j < axes; ++j) {
-      const std::string_view text = row[columns.covariance[k++]];
-      out(i, j) = out(j, i) = csv_number(file, line, text, "covariance");
+      out(i, j) = out(j, i) = csv_number(file, line, columns, row, columns.covariance[k++]);
     }
   }
   if (is_covariance(out, columns.has_rotation)) return out;
   throw file.error(line.number, "covariance is not positive definite");
 }
 
-Trajectory read_csv_part(TextFile& file, const CsvColumns& columns, const ReadOptions& options) {
+Trajectory read_csv_part(TextFile& file,
+                         const CsvColumns& columns,
+                         int exponent,
+                         const ReadOptions& options) {
   Trajectory out;
-  StampOrder order(file, options.repeats);
+  StampOrder order(file, options, exponent, columns.index[0]);
   CsvRow row;
   std::array<double, kPoseColumns.size()> v{};
-  for (Line line; file.next(line);) {
+  for_each_row(file, options, [&](const Line& line) {
     split_row(file, line, columns, row);
-    if (!has_fix(file, line, columns, row)) continue;
-    const double stamp = stamp_of_row(file, line, columns, row).seconds;
+    if (!has_fix(file, line, columns, row)) return;
+    const ReadStamp stamp = stamp_of_row(file, line, columns, row, exponent);
     for (std::size_t i = 1; i < (columns.has_rotation ? v.size() : 4); ++i) {
-      v[i] = csv_number(file, line, row[columns.index[i]], kPoseColumns[i]);
+      v[i] = csv_number(file, line, columns, row, columns.index[i]);
     }
     for (std::size_t i = 0; i < columns.per_metre.size(); ++i) v[1 + i] /= columns.per_metre[i];
     const Vector3 position(v[1], v[2], v[3]);
@@ -110,10 +121,35 @@ Trajectory read_csv_part(TextFile& file, const CsvColumns& columns, const ReadOp
         columns.has_rotation
             ? rotation_of_row(file, line, {v[4], v[5], v[6], v[7]}, out, options.positions)
             : no_rotation();
-    order.put(stamp, line.number, {rotation, position}, out);
-    if (columns.covariance.empty()) continue;
-    put_covariance(file, covariance_of_row(file, line, columns, row), out.size(), options.repeats);
+    std::optional<Matrix6> covariance;
+    if (!columns.covariance.empty()) covariance = covariance_of_row(file, line, columns, row);
+    const bool is_split = columns.nanoseconds && stamp.exact;
+    const std::string split = is_split ? seconds_text(*stamp.exact) : std::string();
+    order.put(stamp.seconds,
+              is_split ? split : row[columns.index[0]],
+              line.number,
+              {rotation, position},
+              out);
+    if (covariance) put_covariance(file, *covariance, out.size(), options.repeats);
+  });
+  return out;
+}
+
+/// The header that fits a row of `ros2 topic echo --csv`, which has none: whole seconds and
+/// nanoseconds, one or two frames, position, quaternion, and what follows. Empty for other rows.
+std::string header_of_ros2(const CsvRow& row) {
+  constexpr std::size_t kFewest = 10;
+  const auto number = [&](std::size_t i) { return stamp_number(row[i]); };
+  if (row.size() < kFewest || !number(0) || !number(1) || number(2)) return "";
+  const std::size_t first = number(3) ? 3 : 4;
+  double square = 0.0;
+  for (std::size_t i = first + 3; i < std::min(first + 7, row.size()); ++i) {
+    square += std::pow(number(i).value_or(std::nan("")), 2);
   }
+  if (!(std::abs(square - 1.0) < 1e-3) || row[0].find('.') != row[0].npos) return "";
+  std::string out = "secs,nsecs,frame_id,";
+  out += first == 4 ? "child_frame_id,x,y,z,qx,qy,qz,qw" : "x,y,z,qx,qy,qz,qw";
+  for (std::size_t i = first + 7; i < row.size(); ++i) out += ",\"\"";
   return out;
 }
 
@@ -122,23 +158,35 @@ Trajectory read_csv_part(TextFile& file, const CsvColumns& columns, const ReadOp
 std::optional<CsvColumns> csv_columns(const TextFile& file) {
   const bool is_row = !file.header().empty();
   auto out = csv_header(is_row ? file.header() : file.comment()).columns;
-  if (!out) return std::nullopt;
-  if (!is_row) {
-    TextFile reopened = file.reopened();
-    Line line;
-    CsvRow row;
-    if (reopened.next(line)) split_columns(line.text, row);
-    if (row.size() != out->width) return std::nullopt;
-  }
-  const bool is_stated = out->time_exponent || out->nanoseconds;
-  if (!is_stated && out->index[0] == 0 && has_small_nanoseconds(file)) out->time_exponent = -9;
+  if (is_row) return out;
+  TextFile reopened = file.reopened();
+  Line line;
+  CsvRow row;
+  if (reopened.next(line)) split_columns(line.text, row);
+  if (!out) out = csv_header(header_of_ros2(row)).columns;
+  if (!out || row.size() != out->width) return std::nullopt;
   return out;
 }
 
-ReadStamp csv_stamp(const TextFile& file, const Line& line, const CsvColumns& columns) {
+int csv_exponent(const TextFile& file, const CsvColumns& columns, const ReadOptions& options) {
+  if (columns.nanoseconds) return 0;
+  if (columns.time_exponent.value_or(0) != 0) return *columns.time_exponent;
+  const int found = stamp_exponent(file, columns.index[0], options);
+  const bool is_epoch =
+      found == -9 && file.repaired.has_clear_unit;  // of ROS, whose header is bare
+  if (!columns.time_exponent || is_epoch) return found;
+  file.repaired.units = {StampUnit::s};
+  file.repaired.has_clear_unit = true;
+  return 0;
+}
+
+ReadStamp csv_stamp(const TextFile& file,
+                    const Line& line,
+                    const CsvColumns& columns,
+                    int exponent) {
   CsvRow row;
   split_row(file, line, columns, row);
-  return stamp_of_row(file, line, columns, row);
+  return stamp_of_row(file, line, columns, row, exponent);
 }
 
 Trajectory read_csv(TextFile& file, const ReadOptions& options) {
@@ -152,12 +200,17 @@ Trajectory read_csv(TextFile& file, const ReadOptions& options) {
                      "has no header that names time, x, y, z, qx, qy, qz and qw, expected one in a "
                      "csv file");
   }
+  const int exponent = csv_exponent(file, *columns, options);
   Trajectory out = joined(read_parallel(
       file,
-      [&](TextFile& part) { return read_csv_part(part, *columns, options); },
-      [](const Trajectory& a, const Trajectory& b) {
-        return !a.empty() && !b.empty() && follows(a, b);
-      }));
+      [&](TextFile& part) { return read_csv_part(part, *columns, exponent, options); },
+      [&](const Trajectory& a, const Trajectory& b) { return follows(a, b, options.sort); }));
+  file.repaired.time_column = columns->time_column;
+  file.repaired.ignored_columns = columns->ignored;
+  if (columns->names_frames && !out.empty() && has_frame_numbers(file, columns->index[0])) {
+    file.repaired.clock = Clock::ids;
+    set_stamps(file, options, out);
+  }
   if (!columns->is_geodetic) return out;
   return local_positions(std::move(out), options);
 }

@@ -79,12 +79,14 @@ struct PoseNames {
     return out;
   }
 
-  std::string unknown() const {
+  /// Names of columns that have no meaning; `used` are the indices of others.
+  std::string unknown(const std::vector<std::size_t>& used = {}) const {
     constexpr std::size_t kMost = 6;
     std::string out;
     std::size_t count = 0;
     for (std::size_t i = 0; i < names.size(); ++i) {
-      if (meanings[i] || names[i].empty()) continue;
+      const bool is_used = used.empty() ? meanings[i].has_value() : std::ranges::count(used, i) > 0;
+      if (is_used || names[i].empty()) continue;
       if (++count <= kMost) out += (count == 1 ? "" : ", ") + shortened(names[i]);
     }
     return out + (count > kMost ? ", ..." : "");
@@ -162,6 +164,36 @@ std::optional<std::size_t> nanoseconds_column(const PoseNames& all, std::string&
   return std::nullopt;
 }
 
+/// Takes a column of another name as the time if none is named so.
+void assume_time(PoseNames& all, CsvColumns& columns) {
+  if (all.has(Role::time) || all.names.empty()) return;
+  const auto named = std::ranges::find_if(all.names, names_frames);
+  const bool lacks_one = std::ranges::count_if(all.meanings, std::logical_not{}) == 1;
+  columns.names_frames = named != all.names.end();
+  if (!columns.names_frames && (!lacks_one || all.meanings[0])) return;
+  const auto i = columns.names_frames ? named - all.names.begin() : 0;
+  auto& meaning = all.meanings[static_cast<std::size_t>(i)];
+  if (!meaning) meaning = assumed_time(all.names[static_cast<std::size_t>(i)]);
+}
+
+/// Drops other times beside stamps of messages, and returns their names.
+std::string prefer_message_stamps(PoseNames& all) {
+  const auto is_time = [&](std::size_t i) {
+    return all.meanings[i] && all.meanings[i]->role == Role::time;
+  };
+  bool has_any = false;
+  for (std::size_t i = 0; i < all.names.size(); ++i) {
+    has_any |= is_time(i) && is_message_stamp(all.names[i]);
+  }
+  std::string out;
+  for (std::size_t i = 0; has_any && i < all.names.size(); ++i) {
+    if (!is_time(i) || is_message_stamp(all.names[i])) continue;
+    out += (out.empty() ? "" : ", ") + shortened(all.names[i]);
+    all.meanings[i].reset();
+  }
+  return out;
+}
+
 }  // namespace
 
 void split_columns(std::string_view text, std::vector<std::string_view>& out) {
@@ -186,20 +218,22 @@ void split_columns(std::string_view text, std::vector<std::string_view>& out) {
 CsvHeader csv_header(std::string_view header) {
   constexpr std::string_view kTrajectopy = "fields ";  // its comment `#fields t,px,py,...`
   if (header.starts_with(kTrajectopy)) header.remove_prefix(kTrajectopy.size());
+  if (const auto colon = header.find(": "); colon != header.npos) {  // "format: t x y z ..."
+    if (header.find_first_of(" \t,", header.find_first_not_of(kBlanks)) > colon)
+      header.remove_prefix(colon + 1);
+  }
   PoseNames all;
   all.names = header_names(header);
   for (const std::string& name : all.names) all.meanings.push_back(pose_column(name));
   CsvHeader out;
   out.width = all.names.size();
-  const bool lacks_one = std::ranges::count_if(all.meanings, std::logical_not{}) == 1;
-  if (lacks_one && !all.meanings[0] && !all.has(Role::time)) {
-    all.meanings[0] = assumed_time(all.names[0]);
-  }
+  CsvColumns columns;
+  assume_time(all, columns);
+  const std::string other_times = prefer_message_stamps(all);
   out.names_time = all.has(Role::time);
   out.names_position = all.has_any(Role::x, 3);
   out.names_quaternion = all.has_any(Role::qw, 4);
   out.why_not = why_not_understood(all, true);
-  CsvColumns columns;
   columns.has_rotation = out.names_quaternion;
   if (!why_not_understood(all, columns.has_rotation).empty()) return out;
   columns.is_geodetic = all.is_geodetic();
@@ -220,6 +254,17 @@ CsvHeader csv_header(std::string_view header) {
   columns.time_exponent = all.meaning(columns.index[0]).time_exponent;
   for (std::size_t i = 0; i < columns.per_metre.size(); ++i) {
     columns.per_metre[i] = all.meaning(columns.index[1 + i]).per_metre;
+  }
+  columns.names = all.names;
+  std::vector<std::size_t> used(columns.index.begin(),
+                                columns.index.begin() + (columns.has_rotation ? 8 : 4));
+  used.insert(used.end(), columns.covariance.begin(), columns.covariance.end());
+  for (const auto& index : {columns.nanoseconds, columns.fix}) {
+    if (index) used.push_back(*index);
+  }
+  columns.ignored = all.unknown(used);
+  if (!other_times.empty()) {
+    columns.time_column = all.names[columns.index[0]] + ", not " + other_times;
   }
   out.columns = columns;
   return out;

@@ -24,6 +24,10 @@ struct CsvColumns {
   bool is_geodetic = false;                  ///< x, y, z: latitude, longitude [deg], height
   std::optional<std::size_t> fix;            ///< status of a NavSatFix; negative: no position
   std::vector<std::size_t> covariance = {};  ///< upper triangle by rows: 21, without rotation 6
+  std::vector<std::string> names = {};       ///< of all columns
+  bool names_frames = false;                 ///< the time is in a column such as frame_id or image
+  std::string time_column = {};              ///< name of the time, if others name times, too
+  std::string ignored = {};                  ///< names of columns that are not read
 };
 
 struct CsvHeader {
@@ -40,8 +44,9 @@ struct CsvHeader {
 /// taken if a rare one (epoch, rx) is present, too. Without any column of a quaternion, the rows
 /// are positions; instead of x, y and z they can have latitude (lat), longitude (lon) and height
 /// (alt). cov_x_x, cov_x_y, ... cov_yaw_yaw are the upper triangle of a covariance, which has to be
-/// complete. If only the first column is unknown and only the time is missing, this is the time.
-/// Columns with an empty name are ignored.
+/// complete. If only the time is missing, it is in a column such as frame_id, id or image, or else
+/// in the first column, if no other one is unknown. The stamp of a message (header.stamp) is taken
+/// rather than the time of its receipt. Columns with an empty name are ignored.
 CsvHeader csv_header(std::string_view header);
 
 /// Splits a row or a header at commas, or at blanks if it has none. Quotes around a column are

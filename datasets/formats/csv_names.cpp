@@ -168,14 +168,24 @@ std::optional<PoseColumn> pose_column(std::string_view full_name) {
   return is_position ? column : std::nullopt;
 }
 
-std::optional<PoseColumn> assumed_time(std::string_view name) {
+bool names_frames(std::string_view name) {
+  constexpr std::string_view kFrames =
+      "|id|idx|index|seq|frame|frames|frameid|frameidx|frameindex|frameno|framenumber|kf|kfid|"
+      "keyframe|keyframeid|image|imageid|imagename|imagefile|img|imgname|filename|file|name";
+  return is_one_of(plain_name(name), kFrames);
+}
+
+bool is_message_stamp(std::string_view name) {
+  return plain_name(name).find("headerstamp") != std::string::npos;
+}
+
+PoseColumn assumed_time(std::string_view name) {
   NamedColumn column = named_column(name);
-  if (is_one_of(column.base, "|id|idx|index|frame|frameid|seq")) return std::nullopt;
   if (const std::size_t at = name.rfind('_'); column.unit.empty() && at != name.npos) {
     const std::string suffix = plain_name(name.substr(at));
     if (unit_value(suffix, kTimeExponents)) column.unit = suffix;
   }
-  return time_column({"t", column.unit});
+  return *time_column({"t", column.unit});
 }
 
 }  // namespace loopbench

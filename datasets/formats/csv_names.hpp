@@ -32,7 +32,13 @@ struct PoseColumn {
 /// The meaning of a name; nothing for other columns.
 std::optional<PoseColumn> pose_column(std::string_view name);
 
-/// The time in a column of another name, with the unit that it ends in; nothing for counters.
-std::optional<PoseColumn> assumed_time(std::string_view name);
+/// The time in a column of another name, with the unit that it ends in.
+PoseColumn assumed_time(std::string_view name);
+
+/// Whether a name is that of a number or an image for each pose: id, frame, frame_id, image_name.
+bool names_frames(std::string_view name);
+
+/// Whether a time is the stamp in the header of a message.
+bool is_message_stamp(std::string_view name);
 
 }  // namespace loopbench

@@ -1,5 +1,7 @@
 #include "datasets/formats/detect_format.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -8,6 +10,8 @@
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/bags/messages.hpp"
 #include "datasets/formats/columns.hpp"
+#include "datasets/formats/stamp_unit.hpp"
+#include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_formats.hpp"
 
 namespace loopbench {
@@ -42,10 +46,20 @@ double square_of_columns(const TextFile& file, const Line& line, std::size_t fir
 
 bool is_one(double square) { return std::abs(square - 1.0) <= 1e-3; }
 
-/// Whether a line has a stamp and a 3 x 4 matrix whose first two rows begin with unit vectors.
-bool is_stamped_matrix(const TextFile& file, const Line& line) {
-  return count_columns(file, line) == 13 && is_one(square_of_columns(file, line, 1, 3)) &&
-         is_one(square_of_columns(file, line, 5, 3));
+/// Whether a line has a 4 x 4 matrix, or a matrix after a stamp, whose first two rows begin with
+/// unit vectors.
+bool is_other_matrix(const TextFile& file, const Line& line) {
+  const std::size_t count = count_columns(file, line);
+  const std::size_t first = count == 16 ? 0 : 1;
+  return (count == 13 || count == 16 || count == 17) &&
+         is_one(square_of_columns(file, line, first, 3)) &&
+         is_one(square_of_columns(file, line, first + 4, 3));
+}
+
+/// Whether the stamps of a file are whole numbers that cannot be seconds.
+bool has_whole_ticks(const TextFile& file, std::string_view stamp) {
+  const bool is_whole = stamp.find_first_not_of("0123456789") == stamp.npos;
+  return is_whole && fitting_units(file, 0).units.front() != StampUnit::s;
 }
 
 }  // namespace
@@ -56,20 +70,13 @@ bool has_node_id(const TextFile& file, const Line& line) {
          is_one(square_of_columns(file, line, 4, 4));
 }
 
-bool has_small_nanoseconds(const TextFile& file) {
-  constexpr std::int64_t kMinStep = 100'000;             // [ns]
-  constexpr std::int64_t kMost = 1'000'000'000'000'000;  // [ns]; microseconds since 1970 are above
+bool takes_times(const TextFile& file, Format format) {
   TextFile reopened = file.reopened();
-  std::optional<std::int64_t> previous;
-  for (int i = 0; i < 2; ++i) {
-    Line line;
-    if (!reopened.next(line)) return false;
-    const auto stamp = exact_nanoseconds(Columns(reopened, line).word(), -9);
-    if (!stamp || *stamp < 0 || *stamp > kMost) return false;
-    if (previous) return *stamp - *previous >= kMinStep;
-    previous = stamp;
-  }
-  return false;
+  const auto csv = format == Format::csv ? csv_columns(file) : std::nullopt;
+  if (csv) return csv->names_frames && has_frame_numbers(file, csv->index[0]);
+  if (format != Format::kitti) return false;
+  const std::size_t count = count_columns(file, first_line(reopened));
+  return (count != 13 && count != 17) || has_frame_numbers(file, 0);
 }
 
 std::optional<Format> guess(const TextFile& file, const Line& line) {
@@ -77,7 +84,7 @@ std::optional<Format> guess(const TextFile& file, const Line& line) {
   if (is_tag(first)) return Format::g2o;
   const std::size_t count = count_columns(file, line);
   if (is_nanoseconds(first) && (count >= 8 || count == 4)) return Format::euroc;
-  if (first.find_first_not_of("+-.0123456789eE") != std::string_view::npos) return std::nullopt;
+  if (!stamp_number(first)) return std::nullopt;
   if (count == 12) return Format::kitti;
   if (has_node_id(file, line)) return Format::tum;
   if (count == 8 || count == 4 || count == 29 || count == 44) return Format::tum;
@@ -93,19 +100,45 @@ Line first_line(TextFile& file) {
 
 namespace {
 
+/// Throws InputError with the line that converts a file, if it has a known layout without a reader.
+void reject_known(const TextFile& file, const Line& line) {
+  const std::string& name = file.name();
+  if (line.text.starts_with('{') || line.text.starts_with('[')) {
+    throw file.error(line.number,
+                     "is JSON, expected rows of numbers; for a list of objects with t, x, y, z and "
+                     "a quaternion: jq -r '.[] | [.t, .x, .y, .z, .qx, .qy, .qz, .qw] | @tsv' " +
+                         name + " > poses.txt");
+  }
+  const std::size_t count = count_columns(file, line);
+  if (count == 10 && is_one(square_of_columns(file, line, 1, 4))) {
+    throw file.error(line.number,
+                     "has 10 columns as images.txt of COLMAP (camera_from_world): convert it by "
+                     "awk '!/^#/ && ++n%2 {print $1,$6,$7,$8,$3,$4,$5,$2}' " +
+                         name +
+                         " > images.tum, then traj transform images.tum --sort --invert-poses -o "
+                         "poses.txt; stamps are numbers of images, or take the time from the name "
+                         "in column 10");
+  }
+  if (count == 7 && is_one(square_of_columns(file, line, 3, 4))) {
+    throw file.error(line.number,
+                     "has 7 columns, a pose x y z qx qy qz qw without a stamp? Expected one in the "
+                     "first column: paste -d' ' TIMES " +
+                         name + " > poses.txt, with one time per line");
+  }
+}
+
 /// Detects by the numbers of the first lines.
 Format detect_by_numbers(const TextFile& file, const Line& line) {
-  if (is_stamped_matrix(file, line)) return Format::kitti;
+  if (is_other_matrix(file, line)) return Format::kitti;
   const std::string_view stamp = Columns(file, line).word();
-  const bool is_integer = stamp.find_first_not_of("0123456789") == stamp.npos;
-  const bool is_small = is_integer && has_small_nanoseconds(file);
-  const bool is_orb_slam3 = (is_small || is_nanoseconds(stamp)) && count_columns(file, line) == 8 &&
-                            line.text.find(',') == std::string_view::npos;
+  const std::size_t count = count_columns(file, line);
+  const bool has_ticks = has_whole_ticks(file, stamp);
+  const bool is_orb_slam3 = has_ticks && count == 8 && line.text.find(',') == line.text.npos;
   if (is_orb_slam3) return Format::tum;  // files of EuRoC have commas
-  if (is_small && count_columns(file, line) >= 8) return Format::euroc;
+  if (has_ticks && count >= 8 && count != 12) return Format::euroc;
   if (const auto format = guess(file, line)) return *format;
   constexpr std::size_t kShownText = 40;
-  const std::size_t count = count_columns(file, line);
+  reject_known(file, line);
   std::string what = "has " + columns_text(count) + " and starts '" +
                      std::string(line.text.substr(0, kShownText)) + "'";
   if (line.text.find(';') != std::string_view::npos) {
@@ -115,8 +148,8 @@ Format detect_by_numbers(const TextFile& file, const Line& line) {
   throw file.error(line.number,
                    what +
                        ", expected tum (8 columns, 9 with a node id, 29 or 44 with a covariance), "
-                       "kitti (12 columns, 13 with a stamp), euroc (whole nanoseconds and 7 or "
-                       "more columns) or g2o (VERTEX and EDGE lines)");
+                       "kitti (12 or 16 columns, one more with a stamp), euroc (whole nanoseconds "
+                       "and 7 or more columns) or g2o (VERTEX and EDGE lines)");
 }
 
 /// Whether the reader of `format` reads columns in this order and these units anyway.
@@ -164,6 +197,32 @@ Format detect_format(const std::filesystem::path& file) {
   TextFile text(file);
   text.skip_header();
   return detect_format(text);
+}
+
+bool takes_times(const std::filesystem::path& file, Format format) {
+  if (format != Format::kitti && format != Format::csv) return false;
+  TextFile text(file);
+  text.skip_header();
+  return takes_times(text, format);
+}
+
+std::string why_no_common_time(const FileClock& one, const FileClock& other) {
+  const bool is_first = one.clock == Clock::stamps;
+  if (is_first != (other.clock == Clock::stamps)) {
+    return fmt::format(
+        "{} has no stamps, and {} has: expected one time for each row (--times) or --period",
+        (is_first ? other : one).name,
+        (is_first ? one : other).name);
+  }
+  const bool by_rows = one.clock == Clock::rows || other.clock == Clock::rows;
+  if (!by_rows || one.rows == other.rows) return "";
+  return fmt::format(
+      "{} has {} rows and {} has {}, both without stamps, so that rows of one time are not known: "
+      "expected times, one for each row (traj convert FILE --times TIMES -o NEW)",
+      one.name,
+      one.rows,
+      other.name,
+      other.rows);
 }
 
 }  // namespace loopbench

@@ -13,6 +13,9 @@ namespace loopbench {
 /// least 8 columns, 12 numbers, 4, 8, 29 or 44 numbers, or 9 with a node id.
 std::optional<Format> guess(const TextFile& file, const Line& line);
 
+/// Whether the rows have no stamps of their own: KITTI, tables with numbers of frames.
+bool takes_times(const TextFile& file, Format format);
+
 /// Detects the format from the first line of data, without consuming it. Throws InputError with the
 /// line and the known formats if none matches.
 Format detect_format(TextFile& file);
@@ -20,10 +23,6 @@ Format detect_format(TextFile& file);
 /// Whether a line of TUM has a ninth column, the number of a node, as RTAB-Map exports it: the
 /// stamp has decimals, unlike that of EuRoC, and columns 5 to 8 are a unit quaternion.
 bool has_node_id(const TextFile& file, const Line& line);
-
-/// Whether the first two stamps are whole numbers at least 1e5 apart: nanoseconds of a clock that
-/// starts near 0, as in simulators, at 10 kHz or less. In seconds this would be more than a day.
-bool has_small_nanoseconds(const TextFile& file);
 
 /// Returns the first line of data without consuming it. Throws InputError if there is none.
 Line first_line(TextFile& file);

@@ -1,6 +1,8 @@
 #include "datasets/formats/columns.hpp"
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/pose_rules.hpp"
+#include "datasets/formats/stamp_unit.hpp"
+#include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_formats.hpp"
 
 namespace loopbench {
@@ -15,9 +17,10 @@ Trajectory read_euroc(TextFile& file, const ReadOptions& options) {
   const Line first = first_line(file);
   const std::size_t width = count_columns(file, first);
   out.reserve(file.estimated_lines(first));
-  StampOrder order(file, options.repeats);
+  const int exponent = stamp_exponent(file, 0, options);
+  StampOrder order(file, options, exponent);
   std::array<double, kEurocColumns.size()> v{};
-  for (Line line; file.next(line);) {
+  for_each_row(file, options, [&](const Line& line) {
     const std::size_t count = count_columns(file, line);
     if (count < 1 + kEurocColumns.size() && !(options.positions && count == 4)) {
       throw wrong_columns(
@@ -30,14 +33,16 @@ Trajectory read_euroc(TextFile& file, const ReadOptions& options) {
                           std::to_string(width) + " as on line " + std::to_string(first.number));
     }
     Columns columns(file, line);
-    const double stamp = seconds_of(columns.integer("nanoseconds"));
+    const std::string_view word = columns.peek();
+    const auto whole = static_cast<double>(columns.integer("nanoseconds"));
+    const double stamp = read_stamp(word, whole, exponent).seconds;
     for (std::size_t i = 0; i < std::min(count - 1, v.size()); ++i) {
       v[i] = columns.number(kEurocColumns[i]);
     }
     const Rotation rotation =
         rotation_of_row(file, line, {v[3], v[4], v[5], v[6]}, out, options.positions);
-    order.put(stamp, line.number, {rotation, {v[0], v[1], v[2]}}, out);
-  }
+    order.put(stamp, word, line.number, {rotation, {v[0], v[1], v[2]}}, out);
+  });
   return out;
 }
 

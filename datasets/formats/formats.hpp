@@ -14,11 +14,9 @@
 
 namespace loopbench {
 
-/// `automatic` detects the format from the content, not from the file extension. Stamps of tum are
-/// seconds, or nanoseconds if they are 1e16 or more or if the first two are whole numbers at least
-/// 1e5 apart and below 1e15 (clocks of simulators start at 0; microseconds since 1970 are above). A
-/// header row is skipped; csv is a table whose
-/// header names time, position and quaternion, in any order. bag is a ROS bag (datasets/bags).
+/// `automatic` detects the format from the content, not from the file extension. A header row is
+/// skipped; csv is a table whose header names time, position and quaternion, in any order. bag is a
+/// ROS bag (datasets/bags).
 enum class Format { automatic, tum, kitti, euroc, g2o, csv, bag };
 inline auto choices(Format) {
   return std::array{std::pair{"auto", Format::automatic},
@@ -41,7 +39,21 @@ inline auto choices(Repeats) {
                     std::pair{"keep_last", Repeats::keep_last}};
 }
 
-/// Corrections made by the readers of tum, euroc, csv and bags.
+/// Unit of stamps; `automatic` decides by their size and their intervals (stamp_unit.hpp).
+enum class StampUnit { automatic, s, ms, us, ns };
+inline auto choices(StampUnit) {
+  return std::array{std::pair{"auto", StampUnit::automatic},
+                    std::pair{"s", StampUnit::s},
+                    std::pair{"ms", StampUnit::ms},
+                    std::pair{"us", StampUnit::us},
+                    std::pair{"ns", StampUnit::ns}};
+}
+
+/// What the stamps of a file are: its own, multiples of the period for the ids of vertices and
+/// frames, or multiples of the period for the numbers of rows.
+enum class Clock { stamps, ids, rows };
+
+/// Remarks of the readers, and the corrections that they made.
 struct ReadFindings {
   double off_unit = 0.0;                      ///< maximum | |q| - 1 | before normalisation
   std::size_t repeated = 0;                   ///< poses dropped because of a repeated stamp
@@ -52,15 +64,25 @@ struct ReadFindings {
   /// positions without rotation have zeros for the rotation.
   std::vector<Matrix6> covariances = {};
   bool assumed_axes = false;  ///< the file does not state their convention
+  Clock clock = Clock::stamps;
+  std::size_t invalid = 0;                        ///< rows dropped by `drop_invalid`
+  std::size_t unsorted = 0;                       ///< rows moved by `sort`
+  std::vector<StampUnit> units = {StampUnit::s};  ///< all that fit; the first one was used
+  bool has_clear_unit = true;                     ///< the first of `units` fits best
+  std::string time_column = {};                   ///< that was chosen among several
+  std::string ignored_columns = {};               ///< names of a header that were not read
 };
 
 struct ReadOptions {
   Format format = Format::automatic;
-  /// Times file for KITTI poses, one time per line [s]. Without it stamps are multiples of
+  /// Times file for poses without stamps, one time per line. Without it stamps are multiples of
   /// `period`.
   std::optional<std::filesystem::path> times;
   double period = 0.1;  ///< between poses of KITTI and consecutive ids of g2o [s]
   Repeats repeats = Repeats::refuse;
+  bool sort = false;          ///< accepts rows in any order of time
+  bool drop_invalid = false;  ///< drops rows with numbers that are not finite, or zero quaternions
+  StampUnit stamp_unit = StampUnit::automatic;  ///< of stamps without a stated unit
   /// Accepts positions without rotations (lacks_rotations()): rows `stamp x y z`, zero quaternions,
   /// tables without a quaternion, PointStamped, NavSatFix.
   bool positions = false;
@@ -78,6 +100,18 @@ Trajectory read_trajectory(const std::filesystem::path& file, const ReadOptions&
 
 /// Detects the format from the content. Throws InputError if it is unknown.
 Format detect_format(const std::filesystem::path& file);
+
+/// Whether the rows of a file of this format have no stamps, so that they take those of a times
+/// file.
+bool takes_times(const std::filesystem::path& file, Format format);
+
+/// Why two files have no common time; empty if they have: stamps, ids, or equal numbers of rows.
+struct FileClock {
+  std::string name;
+  Clock clock = Clock::stamps;
+  std::size_t rows = 0;
+};
+std::string why_no_common_time(const FileClock& one, const FileClock& other);
 
 /// Writes a TUM file. Doubles are printed so that reading them is bit-identical; `comments` become
 /// `# ` lines at the top. Throws InputError for an invalid trajectory and if the file cannot be

@@ -6,6 +6,7 @@
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
+#include "datasets/formats/stamp_unit.hpp"
 #include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_formats.hpp"
 
@@ -34,97 +35,130 @@ PoseMatrix matrix_of(const TextFile& file, std::size_t line, const Row& v) {
   return out;
 }
 
-bool has_stamps(const TextFile& file, const Line& line) {
-  return count_columns(file, line) == kKittiColumns.size() + 1;
+/// 12 numbers or 16, the last four of which are 0 0 0 1; one more with a stamp or a frame.
+bool is_stamped(const TextFile& file, const Line& line) {
+  const std::size_t count = count_columns(file, line);
+  return count == 13 || count == 17;
 }
 
 /// Calls visit(stamp, matrix, line) for every line, in order; without stamps, stamps are zero.
 template <class Visit>
-void each_row(TextFile& file, Visit visit) {
+void each_row(TextFile& file, const ReadOptions& options, int exponent, Visit visit) {
   Row v;
-  Line line;
-  if (!file.next(line)) return;
-  const bool is_stamped = has_stamps(file, line);
-  const char* const expected =
-      is_stamped ? "13: a stamp and a 3 x 4 pose row by row" : "12: a 3 x 4 pose row by row";
-  do {
+  const Line first = first_line(file);
+  const bool has_stamp = is_stamped(file, first);
+  const std::size_t width = count_columns(file, first);
+  const bool is_square = width >= 16;
+  const std::string expected =
+      width < 13 ? "12: a 3 x 4 pose row by row" : std::to_string(width) + " as in the first row";
+  for_each_row(file, options, [&](const Line& line) {
+    if (count_columns(file, line) != (width < 13 ? 12 : width)) {
+      throw wrong_columns(file, line, Format::kitti, expected);
+    }
     Columns columns(file, line);
-    double stamp = 0.0;
-    if (is_stamped) {
-      stamp = next_stamp(columns).seconds;
+    const std::string_view word = has_stamp ? columns.peek() : std::string_view();
+    const double stamp = has_stamp ? next_stamp(columns, exponent).seconds : 0.0;
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = columns.number(kKittiColumns[i]);
+    for (const double last : {0.0, 0.0, 0.0, 1.0}) {
+      if (is_square && columns.number("last row") != last) {
+        throw file.error(line.number, "the last row of the matrix is not 0 0 0 1");
+      }
     }
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      if (columns.done()) throw wrong_columns(file, line, Format::kitti, expected);
-      v[i] = columns.number(kKittiColumns[i]);
-    }
-    if (!columns.done()) throw wrong_columns(file, line, Format::kitti, expected);
-    visit(stamp, matrix_of(file, line.number, v), line.number);
-  } while (file.next(line));
+    visit(stamp, word, matrix_of(file, line.number, v), line.number);
+  });
 }
 
-/// Reads the poses of a part of a file; stamps are not set.
-Trajectory read_kitti_part(TextFile& file) {
+/// Reads the poses of a part of a file; stamps are the numbers of its rows.
+Trajectory read_kitti_part(TextFile& file, const ReadOptions& options) {
   Trajectory out;
   out.reserve(file.estimated_lines(first_line(file)));
-  each_row(file, [&](double, const PoseMatrix& m, std::size_t) {
-    out.push_back({0.0, pose_of(m)});
+  each_row(file, options, 0, [&](double, std::string_view, const PoseMatrix& m, std::size_t) {
+    out.push_back({static_cast<double>(out.size() + file.repaired.invalid), pose_of(m)});
   });
   return out;
 }
 
 /// Reads a file whose rows begin with a stamp.
-Trajectory read_stamped(TextFile& file, const ReadOptions& options) {
+Trajectory read_stamped(TextFile& file, const ReadOptions& options, int exponent) {
   Trajectory out;
-  StampOrder order(file, options.repeats);
-  each_row(file, [&](double stamp, const PoseMatrix& m, std::size_t line) {
-    order.put(stamp, line, pose_of(m), out);
-  });
+  StampOrder order(file, options, exponent);
+  each_row(file,
+           options,
+           exponent,
+           [&](double stamp, std::string_view word, const PoseMatrix& m, std::size_t line) {
+             order.put(stamp, word, line, pose_of(m), out);
+           });
   return out;
 }
 
 }  // namespace
 
-std::vector<double> read_times(const std::filesystem::path& path) {
+void set_stamps(const TextFile& file, const ReadOptions& options, Trajectory& poses) {
+  if (!options.times) {
+    for (StampedPose& pose : poses) pose.stamp *= options.period;
+    return;
+  }
+  const std::vector<double> times = read_times(*options.times, options);
+  const std::size_t rows = poses.size() + file.repaired.invalid;
+  const auto last = static_cast<std::size_t>(poses.back().stamp);
+  const bool by_rows = file.repaired.clock == Clock::rows;
+  if (by_rows ? times.size() != rows : times.size() <= last) {
+    throw file.error(
+        0,
+        fmt::format("has {}, but {} has {} times, expected {}",
+                    by_rows ? fmt::format("{} poses", rows) : fmt::format("frame {}", last),
+                    options.times->string(),
+                    times.size(),
+                    by_rows ? "equal numbers" : "one for each frame from 0 on"));
+  }
+  for (StampedPose& pose : poses) pose.stamp = times[static_cast<std::size_t>(pose.stamp)];
+  file.repaired.clock = Clock::stamps;
+}
+
+std::vector<double> read_times(const std::filesystem::path& path, const ReadOptions& options) {
   TextFile file(path);
   first_line(file);
+  ReadOptions own{.sort = options.sort, .stamp_unit = options.stamp_unit};
+  const int exponent = stamp_exponent(file, 0, own);
   std::vector<double> out;
-  StampOrder order(file, Repeats::refuse, "");
+  StampOrder order(file, own, exponent);
   for (Line line; file.next(line);) {
     Columns columns(file, line);
-    out.push_back(columns.number("time"));
+    const std::string_view word = columns.peek();
+    out.push_back(next_stamp(columns, exponent).seconds);
     if (!columns.done()) throw wrong_columns(file, line, Format::automatic, "1: a time in seconds");
-    order.accepts(out.back(), line.number);
+    order.accepts(out.back(), word, line.number);
   }
   return out;
 }
 
 Trajectory read_kitti(TextFile& file, const ReadOptions& options) {
-  if (has_stamps(file, first_line(file))) {
-    if (options.times) throw file.error(0, "has stamps: found --times, expected none");
-    return read_stamped(file, options);
+  const Line first = first_line(file);
+  const bool has_frames = is_stamped(file, first) && has_frame_numbers(file, 0);
+  if (is_stamped(file, first) && !has_frames) {
+    return read_stamped(file, options, stamp_exponent(file, 0, options));
   }
-  Trajectory out = joined(read_parallel(
-      file, read_kitti_part, [](const Trajectory&, const Trajectory&) { return true; }));
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i].stamp = static_cast<double>(i) * options.period;
+  Trajectory out;
+  if (has_frames || options.drop_invalid) {
+    out = has_frames ? read_stamped(file, options, 0) : read_kitti_part(file, options);
+  } else {
+    out = joined(read_parallel(
+        file,
+        [&](TextFile& part) { return read_kitti_part(part, options); },
+        [](const Trajectory&, const Trajectory&) { return true; }));
+    for (std::size_t i = 0; i < out.size(); ++i) out[i].stamp = static_cast<double>(i);
   }
-  if (!options.times) return out;
-  const std::vector<double> times = read_times(*options.times);
-  if (times.size() != out.size()) {
-    throw file.error(0,
-                     "has " + std::to_string(out.size()) + " poses, but " +
-                         options.times->string() + " has " + std::to_string(times.size()) +
-                         " times, expected equal numbers");
-  }
-  for (std::size_t i = 0; i < out.size(); ++i) out[i].stamp = times[i];
+  file.repaired.clock = has_frames ? Clock::ids : Clock::rows;
+  if (!out.empty()) set_stamps(file, options, out);
   return out;
 }
 
 std::vector<PoseMatrix> read_kitti_matrices(const std::filesystem::path& path) {
   TextFile file(path);
-  first_line(file);
   std::vector<PoseMatrix> out;
-  each_row(file, [&](double, const PoseMatrix& matrix, std::size_t) { out.push_back(matrix); });
+  each_row(file, {}, 0, [&](double, std::string_view, const PoseMatrix& matrix, std::size_t) {
+    out.push_back(matrix);
+  });
   return out;
 }
 

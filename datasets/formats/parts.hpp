@@ -30,6 +30,7 @@ auto read_parallel(TextFile& file, const Parse& parse, const Fits& fits) {
         for (const TextFile& text : texts) {
           file.repaired.off_unit = std::max(file.repaired.off_unit, text.repaired.off_unit);
           file.repaired.repeated += text.repaired.repeated;
+          file.repaired.invalid += text.repaired.invalid;
           file.repaired.without_fix += text.repaired.without_fix;
           const auto& covariances = text.repaired.covariances;
           file.repaired.covariances.insert(

@@ -2,14 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "datasets/core/params.hpp"
+#include "datasets/formats/csv_header.hpp"
+#include "datasets/formats/stamps.hpp"
 
 namespace loopbench {
 
 InputError wrong_norm(const TextFile& file, std::size_t line, double norm) {
-  if (norm < 1e-12) return file.error(line, "quaternion is zero, expected norm 1");
+  if (norm < 1e-12) throw InvalidRow(file.error(line, "quaternion is zero, expected norm 1"));
   return file.error(line, fmt::format("quaternion has norm {:.6g}, expected 1 +- 0.01", norm));
 }
 
@@ -21,10 +27,55 @@ Trajectory local_positions(Trajectory geodetic, const ReadOptions& options) {
 }
 
 InputError mixed_rows(const TextFile& file, const Line& line, bool is_zero) {
+  if (is_zero) {
+    throw InvalidRow(
+        file.error(line.number, "quaternion is zero, expected norm 1 as in the rows above"));
+  }
   return file.error(line.number,
-                    is_zero ? "quaternion is zero, expected norm 1 as in the rows above"
-                            : "has a rotation, expected a zero quaternion (positions without "
-                              "rotation) as in the rows above");
+                    "has a rotation, expected a zero quaternion (positions without rotation) as in "
+                    "the rows above");
+}
+
+InputError with_remedy(const InvalidRow& error) {
+  return InputError(std::string(error.what()) +
+                    " (--drop-invalid, or drop_invalid: true in a config)");
+}
+
+namespace {
+
+/// Why many different rows repeat the stamp above them, as far as the stamps show; otherwise empty.
+/// O(rows).
+std::string few_stamps(const TextFile& file, std::size_t column) {
+  TextFile reopened = file.reopened();
+  std::vector<std::string_view> row;
+  std::string stamp, text;
+  std::size_t rows = 0, repeated = 0;
+  for (Line line; reopened.next(line); text = line.text) {
+    split_columns(line.text, row);
+    if (row.size() <= column) continue;
+    if (row[column] == stamp && line.text != text) ++repeated;
+    stamp = row[column];
+    ++rows;
+  }
+  if (repeated < 2 || 5 * repeated < rows) return "";
+  return fmt::format(
+      "{} of {} rows have the stamp of the row above: {}. Write stamps with all digits (%.9f); if "
+      "no pose is missing, `eval --association index` pairs row by row",
+      repeated,
+      rows,
+      stamp_number(stamp) == 0.0 ? "stamps are 0, were they recorded?"
+                                 : "stamps have too few digits");
+}
+
+}  // namespace
+
+bool StampOrder::is_later(double& stamp, std::string_view word) const {
+  if (stamp_word(word) == stamp_word(last_word_)) return false;
+  const auto exact = exact_nanoseconds(stamp_word(word), exponent_);
+  const auto before = exact_nanoseconds(stamp_word(last_word_), exponent_);
+  if (!exact || !before || *exact <= *before) return false;
+  stamp = std::nextafter(last_stamp_, std::numeric_limits<double>::infinity());
+  return true;
 }
 
 void StampOrder::reject_or_drop(double stamp, std::size_t line) const {
@@ -32,12 +83,15 @@ void StampOrder::reject_or_drop(double stamp, std::size_t line) const {
   if (stamp < last_stamp_) {
     throw file_.error(line,
                       "stamp " + to_text(stamp) + " is smaller than stamp " + to_text(last_stamp_) +
-                          on_line + ", expected increasing stamps");
+                          on_line +
+                          ", expected increasing stamps (--sort, or sort: true in a config)");
   }
-  if (repeats_ == Repeats::refuse) {
+  if (options_.repeats == Repeats::refuse) {
+    const std::string few = few_stamps(file_, column_);
+    if (!few.empty()) throw file_.error(line, few);
     throw file_.error(line,
                       "stamp " + to_text(stamp) + " is already" + on_line +
-                          ", expected increasing stamps" + hint_);
+                          ", expected increasing stamps (or repeats: keep_first, keep_last)");
   }
   ++file_.repaired.repeated;
 }

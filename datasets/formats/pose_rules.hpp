@@ -1,6 +1,10 @@
 /// Checks common to all trajectory formats: unit quaternions and increasing stamps.
 #pragma once
 
+#include <cstddef>
+#include <string>
+#include <string_view>
+
 #include "datasets/core/trajectory.hpp"
 #include "datasets/formats/formats.hpp"
 #include "datasets/formats/text_file.hpp"
@@ -22,6 +26,9 @@ Trajectory local_positions(Trajectory geodetic, const ReadOptions& options);
 /// Error for a row with a zero quaternion below rows with rotations, or the reverse.
 InputError mixed_rows(const TextFile& file, const Line& line, bool is_zero);
 
+/// The error of an invalid row, with the option that drops such rows.
+InputError with_remedy(const InvalidRow& error);
+
 /// Normalises a quaternion. Throws InputError if it is not unit, see normalise().
 inline Rotation normalized_rotation(const TextFile& file, std::size_t line, Rotation given) {
   if (normalise(given, file.repaired.off_unit)) return given;
@@ -42,48 +49,70 @@ inline Rotation rotation_of_row(const TextFile& file,
 }
 
 /// Whether the rows of `b` can be below those of `a`.
-inline bool follows(const Trajectory& a, const Trajectory& b) {
-  return a.back().stamp < b.front().stamp && lacks_rotations(a) == lacks_rotations(b);
+inline bool follows(const Trajectory& a, const Trajectory& b, bool in_any_order) {
+  if (a.empty() || b.empty()) return false;
+  const bool are_ordered = in_any_order || a.back().stamp < b.front().stamp;
+  return are_ordered && lacks_rotations(a) == lacks_rotations(b);
+}
+
+/// Calls read(line) for every line of data; drops those that throw InvalidRow, if `options` say so.
+template <class Read>
+void for_each_row(TextFile& file, const ReadOptions& options, Read read) {
+  for (Line line; file.next(line);) {
+    try {
+      read(line);
+    } catch (const InvalidRow& error) {
+      if (!options.drop_invalid) throw with_remedy(error);
+      ++file.repaired.invalid;
+    }
+  }
 }
 
 /// Enforces strictly increasing stamps. Errors state both lines.
 class StampOrder {
  public:
-  /// `hint` is appended to the error for a repeated stamp.
-  StampOrder(const TextFile& file,
-             Repeats repeats,
-             const char* hint = " (or repeats: keep_first, keep_last)")
-      : file_(file), repeats_(repeats), hint_(hint) {}
+  /// `exponent`: unit of the stamps. `column`: of the stamps, for the error of repeated ones.
+  StampOrder(const TextFile& file, const ReadOptions& options, int exponent, std::size_t column = 0)
+      : file_(file), options_(options), exponent_(exponent), column_(column) {}
 
   /// Appends a pose to `poses`. A pose with a repeated stamp replaces the last one or is dropped,
-  /// depending on `repeats`. Throws InputError.
-  void put(double stamp, std::size_t line, const Pose& pose, Trajectory& poses) {
-    if (accepts(stamp, line)) {
-      poses.push_back({stamp, pose});
-    } else if (repeats_ == Repeats::keep_last) {
-      poses.back() = {stamp, pose};
+  /// depending on `repeats`. Different stamps (`word`) that are one double become consecutive
+  /// doubles. Throws InputError.
+  void put(
+      double stamp, std::string_view word, std::size_t line, const Pose& pose, Trajectory& poses) {
+    if (accepts(stamp, word, line)) {
+      poses.push_back({last_stamp_, pose});
+    } else if (options_.repeats == Repeats::keep_last) {
+      poses.back().world_from_body = pose;
     }
   }
 
   /// Returns false if `stamp` repeats the last one, which is not kept. Throws InputError.
-  bool accepts(double stamp, std::size_t line) {
-    const bool is_kept = repeats_ == Repeats::keep_all && stamp == last_stamp_;
-    if (last_line_ != 0 && !(stamp > last_stamp_) && !is_kept) {
-      reject_or_drop(stamp, line);
-      return false;
+  bool accepts(double stamp, std::string_view word, std::size_t line) {
+    const bool is_ordered = last_line_ == 0 || options_.sort || stamp > last_stamp_;
+    if (!is_ordered && !is_later(stamp, word)) {
+      const bool is_kept = options_.repeats == Repeats::keep_all && stamp == last_stamp_;
+      if (!is_kept) {
+        reject_or_drop(stamp, line);
+        return false;
+      }
     }
     last_stamp_ = stamp;
+    last_word_ = word;
     last_line_ = line;
     return true;
   }
 
  private:
   void reject_or_drop(double stamp, std::size_t line) const;
+  bool is_later(double& stamp, std::string_view word) const;
 
   const TextFile& file_;
-  Repeats repeats_;
-  const char* hint_;
+  const ReadOptions& options_;
+  int exponent_;
+  std::size_t column_;
   double last_stamp_ = 0.0;
+  std::string last_word_;
   std::size_t last_line_ = 0;
 };
 

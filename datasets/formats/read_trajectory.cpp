@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "datasets/bags/bag_trajectory.hpp"
@@ -6,6 +9,7 @@
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "datasets/formats/pose_rules.hpp"
+#include "datasets/formats/stamp_unit.hpp"
 #include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_formats.hpp"
 #include "datasets/formats/trajectory_file.hpp"
@@ -43,7 +47,10 @@ TrajectoryFile from_bag(const std::string& name, const ReadOptions& options) {
   bool has_covariances = true;
   const PoseMessage* last = nullptr;
   for (const PoseMessage& pose : bag.poses) {
-    const double stamp = seconds_of(pose.nanoseconds);
+    double stamp = seconds_of(pose.nanoseconds);
+    if (last != nullptr && pose.nanoseconds > last->nanoseconds) {
+      stamp = std::max(stamp, std::nextafter(out.poses.back().stamp, HUGE_VAL));
+    }
     if (bag.is_geodetic) {
       const std::string rule = violated_degrees(pose.frame_from_child.translation);
       if (!rule.empty()) throw InputError(name + ": " + rule);
@@ -52,6 +59,9 @@ TrajectoryFile from_bag(const std::string& name, const ReadOptions& options) {
                          stamp == out.poses.back().stamp;
     if (repeats && is_same_pose(*last, pose)) continue;
     if (repeats) {
+      if (pose.nanoseconds == 0) {
+        throw InputError(name + ": several messages have stamp 0: header.stamp was not recorded");
+      }
       if (options.repeats == Repeats::refuse) {
         throw InputError(name + ": stamp " + seconds_text(pose.nanoseconds) +
                          " has two poses, expected increasing stamps (or repeats: keep_first, "
@@ -85,61 +95,90 @@ TrajectoryFile from_text(const std::filesystem::path& path, const ReadOptions& o
   TextFile file(path);
   file.skip_header();
   const Format format = options.format == Format::automatic ? detect_format(file) : options.format;
-  if (options.times && format != Format::kitti) {
-    throw file.error(
-        0, "has format " + to_text(format) + ", which contains stamps, expected no times file");
+  if (options.times && !takes_times(file, format)) {
+    throw file.error(0, "has format " + to_text(format) + " with stamps, expected no times file");
   }
   TrajectoryFile out{.poses = {}, .format = format};
-  if (format == Format::kitti) {
-    out.poses = read_kitti(file, options);
-    out.has_stamps = options.times.has_value();
-    return out;
-  }
   if (format == Format::g2o) {
     // Poses do not depend on the information, which programs write with six digits.
     const InformationRules any{.indefinite = IndefiniteInformation::project};
     out.poses = trajectory_of(read_g2o(path, any), file.name(), options.period);
-    out.has_stamps = false;
-    return out;
+    file.repaired.clock = Clock::ids;
+  } else {
+    out.poses = format == Format::kitti   ? read_kitti(file, options)
+                : format == Format::euroc ? read_euroc(file, options)
+                : format == Format::csv   ? read_csv(file, options)
+                                          : read_tum(file, options);
   }
-  out.poses = format == Format::euroc ? read_euroc(file, options)
-              : format == Format::csv ? read_csv(file, options)
-                                      : read_tum(file, options);
+  out.has_stamps = file.repaired.clock == Clock::stamps;
   out.covariances = std::move(file.repaired.covariances);
+  file.repaired.covariances.clear();
   if (options.findings) {
-    options.findings->off_unit = file.repaired.off_unit;
-    options.findings->repeated = file.repaired.repeated;
-    options.findings->without_fix = file.repaired.without_fix;
-    options.findings->assumed_axes = file.repaired.assumed_axes;
+    const auto origin = options.findings->origin;  // of positions in WGS 84, already written
+    *options.findings = std::move(file.repaired);
+    options.findings->origin = origin;
   }
   return out;
-}
-
-/// The stamp in the first column of a tum or euroc file.
-ReadStamp first_stamp(const TextFile& text, const Line& line, Format format, bool small) {
-  Columns columns(text, line);
-  if (format != Format::euroc) return next_stamp(columns, small);
-  const std::string_view word = columns.peek();
-  return read_stamp(word, columns.number("stamp"), -9);
 }
 
 /// Exact stamps of the poses in `file`, in order; empty if one is not a number of nanoseconds.
 std::vector<std::int64_t> exact_stamps(const std::filesystem::path& path,
-                                       const TrajectoryFile& file) {
+                                       const TrajectoryFile& file,
+                                       const ReadOptions& options) {
+  constexpr double kRounding = 1e-6;  // of large stamps as doubles [s]
   TextFile text(path);
   text.skip_header();
   const auto csv = file.format == Format::csv ? csv_columns(text) : std::nullopt;
-  const bool small = file.format == Format::tum && has_small_nanoseconds(text);
+  const int exponent = csv ? csv_exponent(text, *csv, options) : stamp_exponent(text, 0, options);
+  const auto stamp_of = [&](const Line& line) {
+    Columns columns(text, line);
+    return csv ? csv_stamp(text, line, *csv, exponent) : next_stamp(columns, exponent);
+  };
   std::vector<std::int64_t> out;
   for (Line line; text.next(line) && out.size() < file.poses.size();) {
-    const ReadStamp stamp =
-        csv ? csv_stamp(text, line, *csv) : first_stamp(text, line, file.format, small);
+    ReadStamp stamp;
+    try {
+      stamp = stamp_of(line);
+    } catch (const InvalidRow&) {
+      continue;  // dropped
+    }
     if (!stamp.exact) return {};
     // A repeated stamp belongs to the pose that was kept.
-    if (stamp.seconds == file.poses[out.size()].stamp) out.push_back(*stamp.exact);
+    const bool is_repeated = !out.empty() && out.back() == *stamp.exact &&
+                             options.repeats != Repeats::keep_all && !options.sort;
+    const bool is_next = std::abs(stamp.seconds - file.poses[out.size()].stamp) < kRounding;
+    if (is_next && !is_repeated) out.push_back(*stamp.exact);
   }
   if (out.size() != file.poses.size()) out.clear();
   return out;
+}
+
+/// Sorts by stamp and applies `repeats`. Throws InputError. O(n log n).
+void sort_rows(TrajectoryFile& file, const std::string& name, const ReadOptions& options) {
+  if (!options.sort) return;
+  std::vector<std::size_t> order(file.poses.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto stamp = [&](std::size_t i) { return file.poses[i].stamp; };
+  std::ranges::stable_sort(order, {}, stamp);
+  std::vector<std::size_t> kept;
+  std::size_t moved = 0, repeated = 0;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (k > 0 && order[k] < order[k - 1]) ++moved;
+    const bool repeats = !kept.empty() && stamp(order[k]) == stamp(kept.back()) &&
+                         options.repeats != Repeats::keep_all;
+    if (repeats && options.repeats == Repeats::refuse) {
+      throw InputError(name + ": stamp " + to_text(stamp(order[k])) +
+                       " is in two rows, expected different stamps (or repeats: keep_first, "
+                       "keep_last)");
+    }
+    repeated += repeats ? 1 : 0;
+    if (repeats && options.repeats == Repeats::keep_last) kept.back() = order[k];
+    if (!repeats) kept.push_back(order[k]);
+  }
+  if (moved > 0 || repeated > 0) file = selected(file, kept);
+  if (options.findings == nullptr) return;
+  options.findings->unsorted = moved;
+  options.findings->repeated += repeated;
 }
 
 void check_period(const ReadOptions& options) {
@@ -153,6 +192,7 @@ Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions&
   check_period(options);
   const bool is_recorded = is_bag(path, options.format);
   TrajectoryFile out = is_recorded ? from_bag(path.string(), options) : from_text(path, options);
+  sort_rows(out, path.string(), options);
   if (options.findings) options.findings->covariances = std::move(out.covariances);
   return std::move(out.poses);
 }
@@ -161,8 +201,8 @@ TrajectoryFile read_trajectory_file(const std::filesystem::path& path, const Rea
   check_period(options);
   if (is_bag(path, options.format)) return from_bag(path.string(), options);
   TrajectoryFile out = from_text(path, options);
-  const bool has_text_stamps = out.format != Format::kitti && out.format != Format::g2o;
-  if (has_text_stamps) out.nanoseconds = exact_stamps(path, out);
+  if (out.has_stamps && !options.times) out.nanoseconds = exact_stamps(path, out, options);
+  sort_rows(out, path.string(), options);
   return out;
 }
 

@@ -1,5 +1,6 @@
 #include "datasets/formats/stamps.hpp"
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -12,6 +13,25 @@ constexpr int kDecimals = 9;  // of a second in nanoseconds
 bool is_digit(char c) { return '0' <= c && c <= '9'; }
 
 }  // namespace
+
+std::string_view stamp_word(std::string_view column) {
+  const bool is_name = !column.empty() && std::isalpha(static_cast<unsigned char>(column.back()));
+  const std::size_t dot = column.rfind('.');
+  if (!is_name || dot == column.npos) return column;
+  column = column.substr(0, dot);
+  const std::size_t before = column.find_last_not_of("0123456789.");
+  if (before != column.npos) column.remove_prefix(before + 1);
+  return column;
+}
+
+std::optional<double> stamp_number(std::string_view column) {
+  std::string_view word = stamp_word(column);
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double out = 0.0;
+  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), out);
+  if (error != std::errc{} || rest != word.data() + word.size()) return std::nullopt;
+  return out;
+}
 
 double seconds_of(std::int64_t nanoseconds) {
   constexpr std::int64_t kPerSecond = 1'000'000'000;

@@ -8,11 +8,12 @@
 
 namespace loopbench {
 
-/// Whether a stamp is so large that it cannot be in seconds (1e16: 1970 + 115 days in nanoseconds)
-/// and fits into 64 bits of nanoseconds (9e18: + 285 years).
-inline bool is_in_nanoseconds(double stamp, bool small_nanoseconds) {
-  return stamp <= 9e18 && (stamp >= 1e16 || small_nanoseconds);
-}
+/// The number in a column of stamps, also as the name of an image: 1.5 of `1.5`, `1.5.png` and
+/// `rgb/left_1.5.png`. Empty if there is none.
+std::string_view stamp_word(std::string_view column);
+
+/// The value of stamp_word(); not finite for a stamp such as nan.
+std::optional<double> stamp_number(std::string_view column);
 
 /// Exact nanoseconds of a decimal number of 10^exponent seconds, also in the form 1.3e+09. Nothing
 /// if it is no whole number of nanoseconds or does not fit into 64 bits.

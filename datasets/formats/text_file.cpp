@@ -94,7 +94,9 @@ void TextFile::skip_header() {
   const std::size_t end = probe.offset();
   if (!probe.next(line)) return;
   const std::vector<std::string_view> words = words_of(line.text);
-  if (words.empty() || !is_number(words[0])) return;  // commas only: no words
+  constexpr std::ptrdiff_t kFewestNumbers = 4;  // a stamp, or none, and a position
+  const bool is_row = !words.empty() && is_number(words[0]);
+  if (!is_row && std::ranges::count_if(words, is_number) < kFewestNumbers) return;
   next(line);
   header_ = std::move(header);
   begin_ = end;

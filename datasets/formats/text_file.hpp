@@ -12,7 +12,7 @@
 
 #include "datasets/compressed/input_file.hpp"
 #include "datasets/core/error.hpp"
-#include "datasets/core/se3.hpp"
+#include "datasets/formats/formats.hpp"
 
 namespace loopbench {
 
@@ -21,6 +21,12 @@ struct Line {
   std::string_view text;      ///< without line ending; not blank and not a comment
   std::size_t number = 0;     ///< starts at 1
   bool unterminated = false;  ///< the last line of a file that does not end in a newline
+};
+
+/// A row without a valid pose: `drop_invalid` leaves it out.
+class InvalidRow : public InputError {
+ public:
+  explicit InvalidRow(const InputError& error) : InputError(error) {}
 };
 
 /// Reads a file through a small window, which grows to the longest line. Unix and Windows line
@@ -40,8 +46,8 @@ class alignas(64) TextFile {
   void put_back(const Line& line);
 
   /// Skips the first line of data if it names columns: three or more words with letters, none a
-  /// number, followed by a line that starts with a number. Words can be quoted, the first name can
-  /// be empty. Only before the first call of next().
+  /// number, followed by a line that starts with a number or has four. Words can be quoted, the
+  /// first name can be empty. Only before the first call of next().
   void skip_header();
 
   /// The line skipped by skip_header(); empty: none.
@@ -72,15 +78,7 @@ class alignas(64) TextFile {
     return input_error(file_.name, line, what);
   }
 
-  /// Corrections made by the readers in this part.
-  struct Repaired {
-    double off_unit = 0.0;
-    std::size_t repeated = 0;
-    std::size_t without_fix = 0;
-    std::vector<Matrix6> covariances;
-    bool assumed_axes = false;
-  };
-  mutable Repaired repaired;
+  mutable ReadFindings repaired;  ///< of this part
 
   /// Whether numbers are short enough for short_number(): until it has failed for some of this
   /// part, after which trying it first would only take time.

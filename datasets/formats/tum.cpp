@@ -2,6 +2,7 @@
 #include "datasets/formats/detect_format.hpp"
 #include "datasets/formats/parts.hpp"
 #include "datasets/formats/pose_rules.hpp"
+#include "datasets/formats/stamp_unit.hpp"
 #include "datasets/formats/stamps.hpp"
 #include "datasets/formats/text_formats.hpp"
 
@@ -14,16 +15,16 @@ struct TumColumns {
   std::size_t pose = kTumColumns.size();
   std::optional<CovarianceColumns> covariance;
   bool has_id = false;  ///< a ninth column with the number of a node, as RTAB-Map exports it
-  bool small_nanoseconds = false;
+  int exponent = 0;     ///< unit of the stamps
 };
 
-TumColumns tum_columns(TextFile& file, bool positions) {
+TumColumns tum_columns(TextFile& file, const ReadOptions& options) {
   const Line first = first_line(file);
   TumColumns out;
-  if (positions && count_columns(file, first) == 4) out.pose = 4;
+  if (options.positions && count_columns(file, first) == 4) out.pose = 4;
   out.covariance = covariance_columns(file, first, kTumColumns.size());
   out.has_id = !out.covariance && has_node_id(file, first);
-  out.small_nanoseconds = has_small_nanoseconds(file);
+  out.exponent = stamp_exponent(file, 0, options);
   return out;
 }
 
@@ -59,10 +60,11 @@ Trajectory read_tum_part(TextFile& file, const ReadOptions& options, const TumCo
   Trajectory out;
   const bool positions = options.positions;
   out.reserve(file.estimated_lines(first_line(file)));
-  StampOrder order(file, options.repeats);
+  StampOrder order(file, options, layout.exponent);
   std::array<double, kTumColumns.size()> v{};
-  for (Line line; file.next(line);) {
+  for_each_row(file, options, [&](const Line& line) {
     Columns columns(file, line);
+    const std::string_view stamp = columns.peek();
     for (std::size_t i = 0; i < layout.pose; ++i) {
       if (columns.done()) throw wrong_row(file, line, positions, layout);
       v[i] = columns.number(kTumColumns[i]);
@@ -78,28 +80,28 @@ Trajectory read_tum_part(TextFile& file, const ReadOptions& options, const TumCo
     } else if (!columns.done()) {
       throw wrong_row(file, line, positions, layout);
     }
-    if (is_in_nanoseconds(v[0], layout.small_nanoseconds)) {
-      v[0] = read_stamp(Columns(file, line).peek(), v[0], -9).seconds;
-    }
+    if (layout.exponent != 0) v[0] = read_stamp(stamp, v[0], layout.exponent).seconds;
     const Rotation rotation = rotation_of_row(file, line, {v[7], v[4], v[5], v[6]}, out, positions);
     const Pose pose{rotation, {v[1], v[2], v[3]}};
-    order.put(v[0], line.number, pose, out);
-    if (!layout.covariance) continue;
-    put_covariance(file,
-                   read_covariance(file, line, columns, *layout.covariance, pose),
-                   out.size(),
-                   options.repeats);
-  }
+    std::optional<Matrix6> covariance;
+    if (layout.covariance) {
+      covariance = read_covariance(file, line, columns, *layout.covariance, pose);
+    }
+    order.put(v[0], stamp, line.number, pose, out);
+    if (covariance) put_covariance(file, *covariance, out.size(), options.repeats);
+  });
   return out;
 }
 
 }  // namespace
 
 Trajectory read_tum(TextFile& file, const ReadOptions& options) {
-  const TumColumns layout = tum_columns(file, options.positions);
+  const TumColumns layout = tum_columns(file, options);
   file.repaired.assumed_axes = layout.covariance && !layout.covariance->is_stated;
   return joined(read_parallel(
-      file, [&](TextFile& part) { return read_tum_part(part, options, layout); }, follows));
+      file,
+      [&](TextFile& part) { return read_tum_part(part, options, layout); },
+      [&](const Trajectory& a, const Trajectory& b) { return follows(a, b, options.sort); }));
 }
 
 }  // namespace loopbench

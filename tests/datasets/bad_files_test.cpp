@@ -81,7 +81,8 @@ TEST(BadFiles, TimesMustMatchThePoses) {
                 " has 2 times, expected equal numbers");
   EXPECT_EQ(refuse("times_unsorted.txt"),
             sample("bad/times_unsorted.txt").string() +
-                ":3: stamp 0.1 is smaller than stamp 0.2 on line 2, expected increasing stamps");
+                ":3: stamp 0.1 is smaller than stamp 0.2 on line 2, expected increasing stamps "
+                "(--sort, or sort: true in a config)");
   EXPECT_EQ(refuse("times_two_columns.txt"),
             sample("bad/times_two_columns.txt").string() +
                 ":1: has 2 columns, expected 1: a time in seconds");
@@ -111,7 +112,7 @@ TEST(BadFiles, TimesBesideAFormatWithStampsAreRefused) {
   options.times = sample("good/kitti_times.txt");
   const auto file = sample("good/tum.txt");
   EXPECT_EQ(refusal([&] { read_trajectory(file, options); }),
-            file.string() + ": has format tum, which contains stamps, expected no times file");
+            file.string() + ": has format tum with stamps, expected no times file");
   options = {};
   options.period = 0.0;
   EXPECT_THROW(read_trajectory(file, options), OptionError);

@@ -79,7 +79,7 @@ TEST(Parts, StampsAreInOrderAcrossACut) {
   EXPECT_EQ(
       refusal([&] { read_trajectory(file); }),
       fmt::format("{}:{}: stamp 0.5 is smaller than stamp {}.5 on line {}, expected increasing "
-                  "stamps",
+                  "stamps (--sort, or sort: true in a config)",
                   file.string(),
                   kRows + 5,
                   kRows - 1,

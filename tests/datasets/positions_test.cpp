@@ -72,9 +72,11 @@ TEST(Positions, ARowOfTheOtherKindIsRejectedWithItsLine) {
             ":2: has a rotation, expected a zero quaternion (positions without rotation) as in the "
             "rows above");
   EXPECT_EQ(reason("1 1 2 3 0 0 0 1\n2 1 2 3 0 0 0 0\n"),
-            ":2: quaternion is zero, expected norm 1 as in the rows above");
+            ":2: quaternion is zero, expected norm 1 as in the rows above (--drop-invalid, or "
+            "drop_invalid: true in a config)");
   EXPECT_EQ(reason("t,x,y,z,qx,qy,qz,qw\n1,1,2,3,0,0,0,1\n2,1,2,3,0,0,0,0\n"),
-            ":3: quaternion is zero, expected norm 1 as in the rows above");
+            ":3: quaternion is zero, expected norm 1 as in the rows above (--drop-invalid, or "
+            "drop_invalid: true in a config)");
   EXPECT_THAT(reason("t,x,y,z,qx,qy\n1,1,2,3,0,0\n"), HasSubstr("a header without qw, qz"));
 }
 

@@ -151,7 +151,7 @@ TEST(Tum, GoingBackIsRefusedEvenWhenRepeatsAreDropped) {
   EXPECT_EQ(refusal([&] { read_trajectory(file, {.repeats = Repeats::keep_first}); }),
             file.string() +
                 ":3: stamp 0.0 is smaller than stamp 1.0 on line 1, expected increasing "
-                "stamps");
+                "stamps (--sort, or sort: true in a config)");
 }
 
 TEST(Tum, BrokenTrajectoriesAndPathsAreNotWritten) {

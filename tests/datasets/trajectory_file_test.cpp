@@ -72,18 +72,6 @@ TEST(TrajectoryFile, StampsThatAreNoNanosecondsAreNotWritten) {
   EXPECT_EQ(why(1.0, 2.0, Format::euroc), "");
 }
 
-TEST(TrajectoryFile, MicrosecondsAreNoNanoseconds) {
-  const TemporaryFolder scratch;
-  for (const std::int64_t step : {50'000, 100'000}) {
-    std::string text;
-    for (std::int64_t i = 0; i < 3; ++i) {
-      text += std::to_string(1'700'000'000'000'000 + i * step) + " 0 0 0 0 0 0 1\n";
-    }
-    const auto file = read_trajectory_file(scratch.file("us.txt", text));
-    EXPECT_EQ(file.poses[1].stamp - file.poses[0].stamp, static_cast<double>(step));
-  }
-}
-
 TEST(TrajectoryFile, StampsAreExactDecimals) {
   EXPECT_EQ(exact_nanoseconds("1.305031102175304e+09"), 1305031102175304000);
   EXPECT_EQ(exact_nanoseconds("-0.5"), -500'000'000);

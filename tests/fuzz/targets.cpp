@@ -84,7 +84,7 @@ void fuzz_g2o(const Path& file) {
 }
 
 void fuzz_times(const Path& file) {
-  const std::vector<double> times = read_or_refuse([&] { return read_times(file); });
+  const std::vector<double> times = read_or_refuse([&] { return read_times(file, {}); });
   for (std::size_t i = 0; i < times.size(); ++i) {
     check_holds(std::isfinite(times[i]), "times are finite");
     check_holds(i == 0 || times[i - 1] < times[i], "times increase");

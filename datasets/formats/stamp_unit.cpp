@@ -1,0 +1,168 @@
+#include "datasets/formats/stamp_unit.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "datasets/core/fields.hpp"
+#include "datasets/formats/csv_header.hpp"
+#include "datasets/formats/stamps.hpp"
+
+namespace loopbench {
+namespace {
+
+constexpr std::array kUnits{StampUnit::s, StampUnit::ms, StampUnit::us, StampUnit::ns};
+
+struct SampledStamps {
+  std::vector<double> values;
+  bool are_whole = true;
+  bool have_point = false;  ///< as in 12.0, but not in 1.6e18
+  std::string first;
+
+  double median_interval() const {
+    std::vector<double> intervals;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      if (values[i] != values[i - 1]) intervals.push_back(std::abs(values[i] - values[i - 1]));
+    }
+    if (intervals.empty()) return 0.0;
+    const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+    std::nth_element(intervals.begin(), middle, intervals.end());
+    return *middle;
+  }
+};
+
+SampledStamps sampled(const TextFile& file, std::size_t column) {
+  constexpr std::size_t kMost = 60;
+  SampledStamps out;
+  TextFile reopened = file.reopened();
+  std::vector<std::string_view> row;
+  for (Line line; out.values.size() < kMost && reopened.next(line);) {
+    split_columns(line.text, row);
+    if (row.size() <= column) continue;
+    const std::string word(row[column]);
+    const std::optional<double> value = stamp_number(word);
+    if (!value || !std::isfinite(*value)) continue;
+    if (out.values.empty()) out.first = word;
+    out.are_whole &= *value == std::floor(*value);
+    out.have_point |= word.find('.') != word.npos && word.find_first_of("eE") == word.npos;
+    out.values.push_back(*value);
+  }
+  return out;
+}
+
+double size_of(const SampledStamps& stamps) {
+  double out = 0.0;
+  for (const double value : stamps.values) out = std::max(out, std::abs(value));
+  return out;
+}
+
+constexpr int kCertain = 5;
+
+/// How well a unit fits; negative: not at all.
+int fit(StampUnit unit, double size, double interval, bool are_whole) {
+  constexpr double kLatest = 4.1e9, kEarliest = 6.3e8;   // 2099 and 1990 [s]
+  constexpr double kShortest = 2e-5, kLongest = 200.0;   // possible intervals [s]
+  constexpr double kUsual = 1e-3, kMostUsual = 2.5;      // [s]
+  constexpr double kMostSeconds = 1000.0, kSmall = 1e4;  // interval and time of whole numbers [s]
+  const double factor = std::pow(10.0, exponent_of(unit));
+  const double time = size * factor, step = interval * factor;
+  if (time > kLatest) return -1;
+  if (unit == StampUnit::s) {
+    if (are_whole && step >= kMostSeconds && time >= kSmall) return -1;
+    return time >= kEarliest ? kCertain : 4;
+  }
+  if (step != 0.0 && (step < kShortest || step > kLongest)) return -1;
+  if (time >= kEarliest) return 3;
+  // A clock that starts at 0 has decimals only in seconds.
+  return kUsual <= step && step <= kMostUsual ? 2 : step == 0.0 ? -1 : 1;
+}
+
+bool are_keys_of_gtsam(double size) { return size > 4.1e18 && size < 9.2e18; }
+
+}  // namespace
+
+int exponent_of(StampUnit unit) {
+  if (unit == StampUnit::automatic) return 0;
+  return -3 * (static_cast<int>(unit) - static_cast<int>(StampUnit::s));
+}
+
+FittingUnits fitting_units(const TextFile& file, std::size_t column) {
+  const SampledStamps stamps = sampled(file, column);
+  FittingUnits out;
+  if (stamps.values.empty()) return out;
+  const double size = size_of(stamps), interval = stamps.median_interval();
+  const auto fit_of = [&](StampUnit unit) { return fit(unit, size, interval, stamps.are_whole); };
+  out.units.clear();
+  for (const StampUnit unit : kUnits) {
+    if (fit_of(unit) >= 0) out.units.push_back(unit);
+  }
+  std::ranges::stable_sort(out.units, std::greater{}, fit_of);
+  if (!out.units.empty() && fit_of(out.units.front()) == kCertain) out.units.resize(1);
+  if (out.units.empty() && are_keys_of_gtsam(size)) {
+    const auto key = static_cast<std::uint64_t>(stamps.values.front());
+    throw file.error(0,
+                     fmt::format("stamp {} is in 2100 or later: a key of GTSAM ({}...)? Expected "
+                                 "the time of each pose in its place",
+                                 stamps.first,
+                                 static_cast<char>(key >> 56)));
+  }
+  if (out.units.empty()) out.units = {size >= 1e16 ? StampUnit::ns : StampUnit::s};
+  out.is_clear = out.units.size() < 2 || fit_of(out.units[0]) > fit_of(out.units[1]);
+  return out;
+}
+
+int stamp_exponent(const TextFile& file, std::size_t column, const ReadOptions& options) {
+  if (options.stamp_unit != StampUnit::automatic) {
+    file.repaired.units = {options.stamp_unit};
+  } else {
+    const FittingUnits found = fitting_units(file, column);
+    file.repaired.units = found.units;
+    file.repaired.has_clear_unit = found.is_clear;
+  }
+  return exponent_of(file.repaired.units.front());
+}
+
+bool has_frame_numbers(const TextFile& file, std::size_t column) {
+  constexpr double kMost = 1e7, kLargestStep = 50.0;
+  const SampledStamps stamps = sampled(file, column);
+  return stamps.are_whole && !stamps.have_point && !stamps.values.empty() &&
+         size_of(stamps) < kMost && stamps.median_interval() <= kLargestStep;
+}
+
+StampUnit better_unit(const Trajectory& own,
+                      const ReadFindings& findings,
+                      const Trajectory& other) {
+  constexpr double kClearly = 5.0;
+  if (findings.units.size() < 2 || own.empty() || other.empty()) return StampUnit::automatic;
+  const int used = exponent_of(findings.units.front());
+  double best = 0.0, before = 0.0;
+  StampUnit out = StampUnit::automatic;
+  for (const StampUnit unit : findings.units) {
+    const double factor = std::pow(10.0, exponent_of(unit) - used);
+    const double begin = own.front().stamp * factor, end = own.back().stamp * factor;
+    const double common = std::min(end, other.back().stamp) - std::max(begin, other.front().stamp);
+    const double longer = std::max(end - begin, other.back().stamp - other.front().stamp);
+    const double share = longer > 0.0 ? std::max(0.0, common / longer) : 0.0;
+    if (unit == findings.units.front()) before = share;
+    if (share > best) out = unit;
+    best = std::max(best, share);
+  }
+  const bool is_better = best > (findings.has_clear_unit ? kClearly * before : 0.0);
+  return is_better ? out : StampUnit::automatic;
+}
+
+void require_clear_unit(const std::string& file, const ReadFindings& findings) {
+  if (findings.has_clear_unit) return;
+  throw InputError(fmt::format(
+      "{}: stamps are whole numbers, in {} or in {}: expected --stamp-unit, or stamp_unit in a "
+      "config",
+      file,
+      to_text(findings.units[0]),
+      to_text(findings.units[1])));
+}
+
+}  // namespace loopbench
