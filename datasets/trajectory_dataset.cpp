@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/disabled_options.hpp"
+#include "datasets/formats/stamp_unit.hpp"
 
 namespace loopbench {
 namespace {
@@ -85,6 +87,16 @@ void require_no_rotations(const TrajectoryOptions& o) {
   require(!has_offset(o.reference_body),
           "reference_body",
           "needs rotations, but " + why + "; `eval --ref-body` moves the estimates instead");
+}
+
+/// A stated offset or period is accepted instead of stamps.
+void require_common_time(const FileClock& estimate,
+                         const FileClock& other,
+                         const TrajectoryOptions& o) {
+  const bool is_mixed = (estimate.clock == Clock::stamps) != (other.clock == Clock::stamps);
+  if (o.offset != 0.0 || (is_mixed && o.period != TrajectoryOptions{}.period)) return;
+  const std::string why = why_no_common_time(estimate, other);
+  if (!why.empty()) throw InputError(why);
 }
 
 std::uint64_t identity(const TrajectoryOptions& o, const Trajectory& keyframes) {
@@ -202,10 +214,12 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
     return sequence.provenance.inputs.emplace_back(InputPath{root.find(file_of(path)), option})
         .path;
   };
-  ReadOptions options;
-  options.period = o.period;
-  options.repeats = o.repeats;
-  if (!o.times.empty()) options.times = open(o.times, "times");
+  ReadOptions options{
+      .period = o.period, .repeats = o.repeats, .sort = o.sort, .drop_invalid = o.drop_invalid};
+  std::optional<std::filesystem::path> times;
+  if (!o.times.empty()) times = open(o.times, "times");
+  std::optional<FileClock> first;  // the estimate
+  TrajectoryInputs in;
   const auto read = [&](const std::string& path, const std::string& option, Format format) {
     if (path.empty()) return Trajectory();
     options.format = format;
@@ -214,7 +228,26 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
     if (names_bag(path)) file = to_text(BagName{file.string(), bag_name(path).topic});
     ReadFindings findings;
     options.findings = &findings;
+    options.stamp_unit = o.stamp_unit;
+    options.times.reset();
+    if (times && (names_bag(path) || takes_times(file, detect_format(file)))) options.times = times;
     Trajectory out = read_trajectory(file, options);
+    if (first) options.stamp_unit = better_unit(out, findings, in.estimate);
+    if (first && options.stamp_unit != StampUnit::automatic) {
+      findings = {};
+      out = read_trajectory(file, options);
+    }
+    require_clear_unit(path, findings);
+    const FileClock clock{path, findings.clock, out.size() + findings.invalid};
+    if (!first) first = clock;
+    require_common_time(*first, clock, o);
+    if (findings.invalid + findings.unsorted > 0) {
+      sequence.provenance.notes.push_back(
+          fmt::format("{}: {} rows without a valid pose dropped, rows sorted at {} places",
+                      path,
+                      findings.invalid,
+                      findings.unsorted));
+    }
     if (findings.origin) {
       sequence.provenance.notes.push_back(path + ": " + to_text(*findings.origin));
     }
@@ -224,10 +257,10 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
     return out;
   };
 
-  TrajectoryInputs in;
   in.estimate = read(o.estimate, "estimate", o.format);
   in.frames = read(o.frames, "frames", o.format);
   in.reference = read(o.reference, "reference", o.reference_format);
+  for (StampedPose& pose : in.reference) pose.stamp -= o.offset;
   if (!o.reference.empty()) sequence.provenance.reference = sequence.provenance.inputs.back().path;
   if (lacks_rotations(in.reference)) require_no_rotations(o);
   if (o.closures == ClosureSource::estimate) {

@@ -39,6 +39,10 @@ struct TrajectoryOptions {
   std::string times;
   double period = 0.1;
   Repeats repeats = Repeats::refuse;
+  bool sort = false;
+  bool drop_invalid = false;
+  StampUnit stamp_unit = StampUnit::automatic;
+  double offset = 0.0;  ///< reference stamp - estimate stamp [s]
   KeyframeChoice keyframes;
   EdgeNoise odometry;
   ClosureSource closures = ClosureSource::none;
@@ -74,10 +78,21 @@ void fields(TrajectoryOptions& o, Visit visit) {
         o.format,
         "file format of estimate, frames and, for closures.source: estimate, closures.file");
   visit("reference_format", o.reference_format, "file format of the reference");
-  visit(
-      "times", o.times, "file with the times of KITTI poses, one per line [s]; empty: use period");
+  visit("times",
+        o.times,
+        "file with the times of poses without stamps, one per line [s]; empty: use period");
   visit("period", o.period, "time between poses in formats without stamps [s]", GreaterThan{0.0});
   visit("repeats", o.repeats, "handling of a pose with the same stamp as the previous one");
+  visit("sort", o.sort, "sort rows that are not in order of time");
+  visit("drop_invalid",
+        o.drop_invalid,
+        "drop rows with numbers that are not finite, or zero quaternions");
+  visit("stamp_unit", o.stamp_unit, "unit of stamps that state none");
+  visit("offset",
+        o.offset,
+        "time offset between the clocks: stamps of the reference are those of the estimate plus "
+        "this [s]",
+        Between{-1e10, 1e10});
   visit("keyframes.rule", o.keyframes.rule, "rule that selects keyframes from the estimate");
   visit("keyframes.value",
         o.keyframes.value,
