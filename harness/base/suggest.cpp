@@ -28,10 +28,15 @@ std::size_t distance(const std::string& a, const std::string& b) {
 std::string closest(const std::string& given, const std::vector<std::string>& known) {
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(given.size() < 5 ? 1 : 2, given.size() / 3) + 1;
+  const auto alike = [&](const std::string& name) {
+    return std::ranges::mismatch(given, name).in1 - given.begin();
+  };
   for (const std::string& name : known) {
     // Each surplus character is an edit, so much longer names need no comparison.
     if (given.size() >= name.size() + best_distance) continue;
-    if (const std::size_t d = distance(given, name); d < best_distance) {
+    const std::size_t d = distance(given, name);
+    const bool begins_alike = d == best_distance && !best.empty() && alike(name) > alike(best);
+    if (d < best_distance || begins_alike) {
       best = name;
       best_distance = d;
     }
