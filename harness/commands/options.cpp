@@ -24,10 +24,15 @@ void declare_reading(CLI::App& command,
                      ReadArguments& reading,
                      const std::vector<std::string>& without) {
   add(command, "-f,--format", reading.format, "Format of the files");
-  add(command, "--times FILE", reading.times, "Times of KITTI poses, one per line [s]");
+  add(command, "--times FILE", reading.times, "Times of poses without stamps, one per line [s]");
   command.add_option("--period", reading.period, "Time between poses without stamps [s]")
       ->check(finite_number());
+  add(command, "--stamp-unit", reading.stamp_unit, "Unit of stamps that state none");
   add(command, "--repeats", reading.repeats, "Poses with a repeated stamp");
+  command.add_flag("--sort", reading.sort, "Sort rows that are not in order of time");
+  command.add_flag("--drop-invalid",
+                   reading.drop_invalid,
+                   "Drop rows with numbers that are not finite, or zero quaternions");
   add(command, "--tf PARENT.CHILD", reading.tf, "Frames in the TF tree of bags without a topic");
   command.add_flag("--all-topics", reading.all_topics, "All trajectories of bags without a topic");
   for (const std::string& name : without) command.remove_option(command.get_option(name));

@@ -4,13 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "datasets/core/fields.hpp"
+#include "harness/eval/pairing_remedies.hpp"
 #include "harness/eval/recorded_evaluation.hpp"
 #include "harness/run/evaluation_notes.hpp"
 #include "metrics/checks/diagnostics.hpp"
 #include "metrics/checks/extrinsic_offset.hpp"
+#include "metrics/doctor/finding.hpp"
 #include "metrics/errors/ate.hpp"
 
 namespace loopbench::harness {
@@ -65,6 +68,41 @@ inline std::string reference_error(const metrics::Evaluation& evaluation, double
                             std::sqrt(error * error - own * own));
 }
 
+/// What pairs more poses, if less than half of the file with fewer are paired; otherwise empty.
+inline std::string few_pairs(const metrics::Evaluation& evaluation,
+                             const Trajectory& reference,
+                             const Trajectory& estimate) {
+  const auto& [pairs, possible, span, bridged] = evaluation.coverage;
+  if (2 * pairs >= std::min(possible, reference.size())) return "";
+  const std::string remedies = pairing_remedies(reference, estimate, evaluation.protocol);
+  return remedies.empty() ? ""
+                          : fmt::format("{} of {} poses are paired", pairs, possible) + remedies;
+}
+
+/// A note if the files have no stamps, and therefore pairs of rows; otherwise empty.
+inline std::string paired_rows(const metrics::Evaluation& evaluation,
+                               const FileClock& one,
+                               const FileClock& other) {
+  const bool by_rows = one.clock == Clock::rows && other.clock == Clock::rows;
+  if (!by_rows || one.rows != other.rows || evaluation.protocol.offset != 0.0) return "";
+  return fmt::format("paired by row: the files have {} rows each and no stamps", one.rows);
+}
+
+/// Whether a finding of the doctor explains errors that another body would explain, too.
+inline bool explains_other_body(const std::string& note) {
+  using metrics::Fault;
+  constexpr std::array kFaults{Fault::time_offset,
+                               Fault::constant_rotation,
+                               Fault::inverted_poses,
+                               Fault::quaternion_order,
+                               Fault::axes,
+                               Fault::mirrored,
+                               Fault::wrong_recording};
+  return std::ranges::any_of(kFaults, [&](Fault::Name fault) {
+    return note.starts_with("doctor: " + std::string(fault) + ":");
+  });
+}
+
 /// Sets diagnosis, notes and other_body. O(n log n).
 inline void add_checks(EvaluationResult& out,
                        const metrics::Evaluation& evaluation,
@@ -75,7 +113,9 @@ inline void add_checks(EvaluationResult& out,
   out.notes = evaluation_notes(reference.poses, evaluation);
   for (const std::string& note :
        {shared_datum(evaluation, reference.findings.origin && estimate.findings.origin),
-        reference_error(evaluation, files.arguments.reference_sigma)}) {
+        reference_error(evaluation, files.arguments.reference_sigma),
+        paired_rows(evaluation, reference.clock, estimate.clock),
+        few_pairs(evaluation, reference.poses, estimate.poses)}) {
     if (!note.empty()) out.notes.push_back(note);
   }
   const double off_unit = std::max(reference.findings.off_unit, estimate.findings.off_unit);

@@ -8,6 +8,8 @@
 
 #include "datasets/bags/bag_trajectory.hpp"
 #include "datasets/core/fields.hpp"
+#include "datasets/formats/stamp_unit.hpp"
+#include "harness/base/counted.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
 
@@ -51,18 +53,46 @@ std::vector<std::string> expanded_names(const std::vector<std::string>& names,
   return out;
 }
 
+ReadOptions read_options(const ReadArguments& arguments) {
+  ReadOptions out{.format = arguments.format,
+                  .sort = arguments.sort,
+                  .drop_invalid = arguments.drop_invalid,
+                  .stamp_unit = arguments.stamp_unit,
+                  .positions = true};
+  out.repeats = arguments.repeats.value_or(out.repeats);
+  out.period = arguments.period.value_or(out.period);
+  return out;
+}
+
+std::vector<std::string> reading_notes(const ReadFindings& findings) {
+  std::vector<std::string> out;
+  if (findings.invalid > 0) {
+    out.push_back(counted(findings.invalid, "row") + " without a valid pose dropped");
+  }
+  if (findings.unsorted > 0) {
+    out.push_back("rows were not in order of time at " + counted(findings.unsorted, "place") +
+                  ", and were sorted");
+  }
+  const StampUnit unit = findings.units.front();
+  if (unit == StampUnit::ms || unit == StampUnit::us) {
+    out.push_back("stamps are read in " + to_text(unit));
+  }
+  if (!findings.time_column.empty()) out.push_back("time is " + findings.time_column);
+  if (!findings.ignored_columns.empty()) {
+    out.push_back("columns that are not read: " + findings.ignored_columns);
+  }
+  return out;
+}
+
 NamedTrajectory read_named(const std::string& name, const ReadArguments& arguments) {
   NamedTrajectory out;
   out.name = name;
-  ReadOptions options;
-  options.format = arguments.format;
-  options.repeats = arguments.repeats.value_or(options.repeats);
+  ReadOptions options = read_options(arguments);
   if (!arguments.times.empty()) options.times = arguments.times;
-  if (arguments.period) options.period = *arguments.period;
-  options.positions = true;
   options.findings = &out.findings;
   out.file = read_trajectory_file(name, options);
   if (out.file.poses.empty()) throw InputError(name + ": has no poses, expected at least one");
+  require_clear_unit(name, out.findings);
   if (!out.findings.damage.empty()) {
     fmt::print(
         stderr, "{}\n", printable("loopbench: warning: " + name + ": " + out.findings.damage));
@@ -95,15 +125,13 @@ void shift_stamps(TrajectoryFile& file, double offset) {
 void reject_two_clocks(const NamedTrajectory& a,
                        const NamedTrajectory& b,
                        const ReadArguments& arguments) {
-  if (arguments.period || a.file.has_stamps == b.file.has_stamps) return;
-  const NamedTrajectory& without = a.file.has_stamps ? b : a;
-  const NamedTrajectory& with = a.file.has_stamps ? a : b;
-  throw InputError(fmt::format(
-      "{}: is {}, poses without stamps, and {} has stamps: expected --period S, or a file with "
-      "stamps (traj convert FILE --times TIMES -o NEW)",
-      without.name,
-      to_text(without.file.format),
-      with.name));
+  const auto clock_of = [](const NamedTrajectory& each) {
+    return FileClock{
+        each.name, each.findings.clock, each.file.poses.size() + each.findings.invalid};
+  };
+  if (a.file.has_stamps != b.file.has_stamps && arguments.period) return;
+  const std::string why = why_no_common_time(clock_of(a), clock_of(b));
+  if (!why.empty()) throw InputError(why);
 }
 
 std::string assumed_period(const TrajectoryFile& file, const ReadArguments& arguments) {

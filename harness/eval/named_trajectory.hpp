@@ -17,7 +17,16 @@ struct ReadArguments {
   std::optional<Repeats> repeats = {};  ///< none: refuse in a file, keep_first across merged files
   std::string tf = {};                  ///< PARENT.CHILD for bags without a topic; empty: none
   bool all_topics = false;              ///< every trajectory of bags named without a topic
+  bool sort = false;                    ///< accept rows in any order of time
+  bool drop_invalid = false;            ///< drop rows that are no poses
+  StampUnit stamp_unit = StampUnit::automatic;
 };
+
+/// The arguments as options, without times.
+ReadOptions read_options(const ReadArguments& arguments);
+
+/// What the readers dropped, moved, chose and ignored, for a note.
+std::vector<std::string> reading_notes(const ReadFindings& findings);
 
 struct NamedTrajectory {
   std::string name;  ///< as given, with the topic of a bag
@@ -41,7 +50,7 @@ std::vector<NamedTrajectory> read_all_named(const std::vector<std::string>& name
 void shift_stamps(TrajectoryFile& file, double offset);
 
 /// Throws InputError if two trajectories have no common clock: only one of them has stamps, and
-/// `arguments` state no period for the other one.
+/// `arguments` state no period for the other one, or both have none and different numbers of rows.
 void reject_two_clocks(const NamedTrajectory& a,
                        const NamedTrajectory& b,
                        const ReadArguments& arguments);

@@ -12,6 +12,7 @@
 #include "harness/eval/common_parts.hpp"
 #include "harness/eval/eval_figures.hpp"
 #include "harness/eval/evaluation_checks.hpp"
+#include "harness/eval/pairing_remedies.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/run/add_scores.hpp"
 #include "harness/run/check_output.hpp"
@@ -55,18 +56,6 @@ SequenceMetadata metadata_of(const RecordedRun& run,
   return out;
 }
 
-/// Error if only one file has stamps, since numbers and stamps would be paired by chance.
-std::string why_two_clocks(const EvalArguments& a,
-                           const metrics::Protocol& protocol,
-                           const std::string& one,
-                           const std::string& other) {
-  const bool uses_stamps = protocol.association != metrics::Association::index;
-  if (a.period || !uses_stamps || one.empty() == other.empty()) return "";
-  return one + other +
-         ", poses without stamps, and the other file has stamps: expected --times FILE (KITTI), "
-         "--period S or --association index";
-}
-
 std::string common_times_note(const Trajectory& estimate, const std::string& common) {
   const std::size_t kept = poses_within(estimate, common).size();
   return fmt::format(
@@ -102,11 +91,14 @@ struct PairEvaluation {
     ScoreResult row;
     row.protocol = number;
     ScoreResult failure = row;
-    failure.why = why_two_clocks(files.arguments, rules, reference.unstamped, estimate.unstamped);
+    failure.why = why_two_clocks(files.arguments, rules, reference.clock, estimate.clock);
     if (!failure.why.empty()) {
       failure.status = Status::failed;
     } else {
       catch_errors(failure, [&] { add(own, row, rules); });
+    }
+    if (own.coverage.pairs == 0 && failure.why.starts_with("no pose of the estimate")) {
+      failure.why += pairing_remedies(reference.poses, estimate.poses, rules);
     }
     if (failure.status == Status::ok) return;
     own.why_failed = failure.why;
@@ -210,6 +202,7 @@ void share_notes(std::vector<EvaluationResult>& evaluations, std::vector<std::st
       if (std::ranges::count(of_cell, note) == 0) of_cell.push_back(note);
     }
     own.notes.insert(own.notes.end(), of_files.begin(), of_files.end());
+    if (std::ranges::any_of(of_files, explains_other_body)) own.other_body.clear();
   }
 }
 
@@ -227,7 +220,9 @@ const Trajectory& without_repeats(const Trajectory& poses, Trajectory& kept) {
 
 SharedReference shared_reference(const std::string& file, const RecordedSweep& files) {
   const EvalArguments& a = files.arguments;
-  SharedReference out{recorded_reference(file, a, files.has_digits)};
+  const auto run = std::ranges::find(files.runs, file, &RecordedRun::reference);
+  const std::string estimate = run == files.runs.end() ? std::string() : run->estimate;
+  SharedReference out{recorded_reference(file, a, files.has_digits, estimate)};
   out.is_traced = a.keeps_traces();
   if (!a.store.empty()) out.file = hashed_input(file, "reference");
   if (out.is_traced || files.runs.size() > 1) {
@@ -249,7 +244,8 @@ EvaluatedFile evaluate_poses(const Cell& cell,
   std::future<std::vector<std::string>> doctor =
       std::async(is_large ? std::launch::async : std::launch::deferred, [&] {
         if (!files.arguments.diagnose) return std::vector<std::string>{};
-        const bool has_stamps = reference.read.unstamped.empty() && estimate.unstamped.empty();
+        const bool has_stamps =
+            reference.read.clock.clock == Clock::stamps && estimate.clock.clock == Clock::stamps;
         Trajectory kept_reference, kept_estimate;
         return doctor_notes({without_repeats(reference.read.poses, kept_reference),
                              without_repeats(estimate.poses, kept_estimate),

@@ -8,6 +8,7 @@
 #include "datasets/core/covariance.hpp"
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/covariance_columns.hpp"
+#include "datasets/formats/stamp_unit.hpp"
 #include "datasets/formats/text_formats.hpp"
 #include "harness/eval/trajectory_selection.hpp"
 #include "metrics/protocols/protocols.hpp"
@@ -45,23 +46,29 @@ RecordedFile read_recorded(const std::string& file,
                            const std::string& covariances,
                            const EvalArguments& a,
                            bool with_digits,
-                           const std::optional<GeodeticOrigin>& origin = {}) {
+                           const RecordedFile* other) {
   RecordedFile out;
-  ReadOptions options;
-  options.origin = origin;
+  ReadOptions options = read_options(a);
+  if (other) options.origin = other->findings.origin;
   options.format = format == Format::automatic ? detect_format(file) : format;
   options.repeats = repeats_of(a);
-  options.period = a.period.value_or(options.period);
-  const bool is_kitti = options.format == Format::kitti;
-  if (is_kitti && !a.times.empty()) options.times = a.times;
-  options.positions = true;
+  if (!a.times.empty() && takes_times(file, options.format)) options.times = a.times;
   options.findings = &out.findings;
   out.poses = read_trajectory(file, options);
-  if (out.poses.empty()) throw input_error(file, 0, "has no poses, expected at least one");
-  if (options.format == Format::g2o || (is_kitti && !options.times)) {
-    out.unstamped = file + ": is " + to_text(options.format);
+  if (other) {
+    options.stamp_unit = better_unit(out.poses, out.findings, other->poses);
+    if (options.stamp_unit != StampUnit::automatic) {
+      out.findings = {};
+      out.poses = read_trajectory(file, options);
+    }
+    require_clear_unit(file, out.findings);
   }
-  if (is_kitti && with_digits) out.matrices = read_kitti_matrices(file);
+  if (out.poses.empty()) throw input_error(file, 0, "has no poses, expected at least one");
+  out.clock = {file, out.findings.clock, out.poses.size() + out.findings.invalid};
+  const bool has_changed_rows = a.sort || a.drop_invalid;
+  if (options.format == Format::kitti && with_digits && !has_changed_rows) {
+    out.matrices = read_kitti_matrices(file);
+  }
   if (!covariances.empty()) {
     out.findings.covariances =
         read_covariance_file(covariances, out.poses, out.findings.assumed_axes);
@@ -76,13 +83,13 @@ RecordedFile read_recorded(const std::string& file,
   return out;
 }
 
-/// Whether any file has this format, by the arguments or its content.
-bool has_poses_of(Format wanted, const EvalArguments& a, const std::vector<RecordedRun>& runs) {
-  const auto is_wanted = [wanted](const std::string& file, Format format) {
-    if (format != Format::automatic || !std::filesystem::is_regular_file(file)) {
-      return format == wanted;
-    }
-    return detect_format(file) == wanted;
+/// Whether any file has poses without stamps, those that take `times` or those of g2o.
+bool has_unstamped(bool for_times, const EvalArguments& a, const std::vector<RecordedRun>& runs) {
+  const auto is_wanted = [for_times](const std::string& file, Format format) {
+    const bool is_readable = std::filesystem::is_regular_file(file);
+    if (format == Format::automatic && is_readable) format = detect_format(file);
+    if (format == Format::g2o) return !for_times;
+    return is_readable ? takes_times(file, format) : format == Format::kitti;
   };
   return std::ranges::any_of(runs, [&](const RecordedRun& run) {
     return is_wanted(run.reference, reference_format(a)) || is_wanted(run.estimate, a.format);
@@ -93,15 +100,31 @@ bool has_poses_of(Format wanted, const EvalArguments& a, const std::vector<Recor
 
 Repeats repeats_of(const EvalArguments& a) {
   if (a.repeats) return *a.repeats;
-  const auto is_evo = [](const metrics::NamedProtocol& each) {
-    return each.rules.association == metrics::Association::evo;
+  const auto accepts_equal_stamps = [](const metrics::NamedProtocol& each) {
+    return each.rules.association == metrics::Association::evo ||
+           each.rules.association == metrics::Association::index;
   };
-  return std::ranges::all_of(protocols(a), is_evo) ? Repeats::keep_all : Repeats::refuse;
+  return std::ranges::all_of(protocols(a), accepts_equal_stamps) ? Repeats::keep_all
+                                                                 : Repeats::refuse;
 }
 
-RecordedFile recorded_reference(const std::string& file, const EvalArguments& a, bool with_digits) {
+RecordedFile recorded_reference(const std::string& file,
+                                const EvalArguments& a,
+                                bool with_digits,
+                                const std::string& estimate) {
   RecordedFile out =
-      read_recorded(file, reference_format(a), a.reference_covariances, a, with_digits);
+      read_recorded(file, reference_format(a), a.reference_covariances, a, with_digits, nullptr);
+  if (out.findings.units.size() > 1 && std::filesystem::is_regular_file(estimate)) {
+    try {
+      const RecordedFile other = read_recorded(estimate, a.format, "", a, false, nullptr);
+      const std::string& covariances = a.reference_covariances;
+      if (other.findings.has_clear_unit) {  // otherwise its unit is decided by the reference
+        out = read_recorded(file, reference_format(a), covariances, a, with_digits, &other);
+      }
+    } catch (const InputError&) {  // reported when the estimate is evaluated
+    }
+  }
+  require_clear_unit(file, out.findings);
   if (a.start || a.end) {
     const EvaluatedRange range = evaluated_range(a);
     keep(out, within(out.poses, range.start, range.end));
@@ -121,9 +144,7 @@ RecordedFile recorded_estimate(const std::string& file,
                                const EvalArguments& a,
                                bool with_digits,
                                const RecordedFile* reference) {
-  const std::optional<GeodeticOrigin> none;
-  RecordedFile out = read_recorded(
-      file, a.format, a.covariances, a, with_digits, reference ? reference->findings.origin : none);
+  RecordedFile out = read_recorded(file, a.format, a.covariances, a, with_digits, reference);
   const ReferenceBody body = reference_body(a);
   if (reference == nullptr || !lacks_rotations(reference->poses) || !has_offset(body)) return out;
   if (metrics::is_position_only(out.poses)) {
@@ -135,6 +156,7 @@ RecordedFile recorded_estimate(const std::string& file,
 
 std::vector<std::string> reading_notes(const ReadFindings& findings, const std::string& whose) {
   std::vector<std::string> out;
+  for (const std::string& note : reading_notes(findings)) out.push_back(whose + ": " + note);
   if (findings.origin) out.push_back(whose + ": " + to_text(*findings.origin));
   if (findings.assumed_axes) {
     out.push_back(whose +
@@ -159,6 +181,9 @@ Params reading_options(const EvalArguments& a) {
              {"times", a.times},
              {"reference_body", a.reference_body.value_or("")},
              {"period", period}};
+  if (a.sort) out["sort"] = true;
+  if (a.drop_invalid) out["drop_invalid"] = true;
+  if (a.stamp_unit != StampUnit::automatic) out["stamp_unit"] = to_text(a.stamp_unit);
   if (!a.covariances.empty()) out["covariances"] = a.covariances;
   if (!a.reference_covariances.empty()) out["reference_covariances"] = a.reference_covariances;
   if (a.start) out["start"] = *a.start;
@@ -171,12 +196,11 @@ Params reading_options(const EvalArguments& a) {
 }
 
 void check_stamp_options(const EvalArguments& a, const std::vector<RecordedRun>& runs) {
-  const bool has_kitti = (!a.times.empty() || a.period) && has_poses_of(Format::kitti, a, runs);
-  if (!a.times.empty() && !has_kitti) {
+  if (!a.times.empty() && !has_unstamped(true, a, runs)) {
     throw InputError(a.times + ": is a times file, but no file has KITTI poses");
   }
-  const bool has_unstamped = has_kitti && a.times.empty();
-  if (a.period && !has_unstamped && !has_poses_of(Format::g2o, a, runs)) {
+  if (a.period && !(a.times.empty() && has_unstamped(true, a, runs)) &&
+      !has_unstamped(false, a, runs)) {
     throw InputError("--period " + to_text(*a.period) +
                      ": all files have stamps, expected KITTI poses without --times, or g2o");
   }

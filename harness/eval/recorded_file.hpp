@@ -16,17 +16,20 @@ struct RecordedFile {
   Trajectory poses;
   std::vector<PoseMatrix> matrices = {};  ///< as printed; only of KITTI files, and if needed
   ReadFindings findings = {};             ///< its covariances are of `poses`
-  std::string unstamped = {};  ///< file and format if the stamps were generated, otherwise empty
+  FileClock clock = {};  ///< with the rows of the file, also those that are not poses
 };
 
 /// Read a file as the arguments state, without poses that they filter out; the reference is in the
-/// body of the estimates and within the time range.
+/// body of the estimates and within the time range. The unit of its stamps is that under which it
+/// has most time in common with `estimate`, if several fit.
 /// `with_digits`: also the digits of KITTI files. Throw InputError, OptionError.
 RecordedFile recorded_reference(const std::string& file,
                                 const EvalArguments& arguments,
-                                bool with_digits);
-/// If the positions of `reference` have no rotation, the estimate is converted to its body; local
-/// coordinates of latitudes and longitudes have its origin.
+                                bool with_digits,
+                                const std::string& estimate = {});
+/// The unit of the stamps is likewise decided by `reference`. If the positions of `reference` have
+/// no rotation, the estimate is converted to its body; local coordinates of latitudes and
+/// longitudes have its origin.
 RecordedFile recorded_estimate(const std::string& file,
                                const EvalArguments& arguments,
                                bool with_digits,

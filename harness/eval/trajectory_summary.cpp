@@ -8,6 +8,7 @@
 #include "datasets/core/fields.hpp"
 #include "datasets/core/upper_median.hpp"
 #include "harness/base/counted.hpp"
+#include "harness/eval/named_trajectory.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::harness {
@@ -59,6 +60,7 @@ TrajectorySummary summarise(const std::string& name,
   if (findings.without_fix > 0) {
     out.remarks.push_back(counted(findings.without_fix, "dropped row") + " without a fix");
   }
+  for (const std::string& note : reading_notes(findings)) out.remarks.push_back(note);
   if (findings.repeated > 0) {
     out.remarks.push_back(counted(findings.repeated, "repeated stamp") + " dropped");
   }
