@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <regex>
 
 #include "datasets/core/error.hpp"
@@ -14,6 +16,7 @@
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/compare/assertion.hpp"
+#include "harness/store/merge.hpp"
 #include "harness/tables/comparison.hpp"
 #include "harness/tables/store_tables.hpp"
 
@@ -32,7 +35,7 @@ const char* const kAssertions =
     "`not above` and `not shown to differ` hold, too.";
 
 struct CompareArguments {
-  std::string store;
+  std::vector<std::filesystem::path> stores;
   std::string metric;
   std::vector<std::string> where;
   CompareOptions options;
@@ -70,11 +73,36 @@ void require_one_score(const std::vector<Comparison>& comparisons) {
                   titles));
 }
 
+/// The only store, or all of them merged in a temporary folder, which the destructor removes.
+class ComparedStore {
+ public:
+  explicit ComparedStore(const std::vector<std::filesystem::path>& stores) : file_(stores.front()) {
+    if (stores.size() == 1) return;
+    std::string folder = (std::filesystem::temp_directory_path() / "loopbench-XXXXXX").string();
+    if (mkdtemp(folder.data()) == nullptr) throw InputError(folder + ": cannot be created");
+    folder_ = folder;
+    file_ = folder_ / "results.sqlite";
+    merge_stores(stores, file_, {.mixed_builds = true});
+  }
+  ComparedStore(const ComparedStore&) = delete;
+  ComparedStore& operator=(const ComparedStore&) = delete;
+  ~ComparedStore() {
+    std::error_code none;
+    if (!folder_.empty()) std::filesystem::remove_all(folder_, none);
+  }
+
+  std::string name() const { return file_.string(); }
+
+ private:
+  std::filesystem::path file_, folder_;
+};
+
 int print_comparison(const CompareArguments& arguments) {
+  const ComparedStore store(arguments.stores);
   const auto compared = [&](const std::string& baseline) {
     CompareOptions options = arguments.options;
     options.baseline = baseline;
-    return compare_store(arguments.store, metric_of(arguments), arguments.where, options);
+    return compare_store(store.name(), metric_of(arguments), arguments.where, options);
   };
   const std::vector<Comparison> comparisons = compared(arguments.options.baseline);
   if (!arguments.assertions.empty()) require_one_score(comparisons);
@@ -85,7 +113,7 @@ int print_comparison(const CompareArguments& arguments) {
   write_output(comparisons_text(comparisons, arguments.output),
                arguments.output,
                "comparisons",
-               arguments.store);
+               store.name());
   for (const std::string& failure : failures) print_error("loopbench: {}\n", printable(failure));
   return failures.empty() ? kExitOk : kExitNotShown;
 }
@@ -96,8 +124,12 @@ void add_compare(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command =
       app.add_subcommand("compare", "Compare and rank methods with significance tests");
-  command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
-      ->required();
+  command
+      ->add_option("store",
+                   arguments->stores,
+                   "Folders of results, or their results.sqlite; several are compared as one")
+      ->required()
+      ->expected(1, -1);
   command
       ->add_option(
           "--baseline", arguments->options.baseline, "Method that others are compared with")
