@@ -160,14 +160,6 @@ TEST(Alignment, RefusesAMirrorImageWithoutAPreferredAxis) {
   EXPECT_NE(text.find("are mirror images of the reference"), std::string::npos) << text;
 }
 
-TEST(Alignment, OriginPutsTheFirstPosesTogether) {
-  std::mt19937_64 random(6);
-  const Trajectory reference = random_walk(random, 20);
-  const Trajectory estimate = moved_by(random_pose(random, 9.0, 2.0), 1.0, reference);
-  EXPECT_NEAR(
-      worst(reference, moved(align(reference, estimate, Align::origin), estimate)), 0.0, 1e-12);
-}
-
 TEST(Alignment, PosyawTurnsAboutZOnly) {
   std::mt19937_64 random(8);
   const Trajectory reference = random_walk(random, 50);
@@ -188,40 +180,6 @@ TEST(Alignment, PosyawRefusesWhatMovesAlongZOnly) {
   const Trajectory lift = at_points({{0, 0, 0}, {0, 0, 1}, {0, 0, 3}});
   const auto text = why<std::runtime_error>([&] { align(lift, lift, Align::posyaw); });
   EXPECT_NE(text.find("have no common motion normal to z"), std::string::npos) << text;
-}
-
-TEST(Alignment, ScaleAloneLeavesPlaceAndTurn) {
-  std::mt19937_64 random(9);
-  const Trajectory reference = random_walk(random, 50);
-  const Trajectory estimate = moved_by(random_pose(random, 9.0, 2.0), 0.25, reference);
-  const Alignment found = align(reference, estimate, Align::scale);
-  EXPECT_NEAR(found.scale, 4.0, 1e-12);
-  EXPECT_TRUE(is_close(found.reference_from_estimate, Pose{}, 0.0, 0.0));
-}
-
-TEST(Alignment, FirstPairsDecideAloneWhenAsked) {
-  std::mt19937_64 random(10);
-  const Trajectory reference = random_walk(random, 50);
-  Trajectory estimate = moved_by(random_pose(random, 9.0, 2.0), 1.0, reference);
-  estimate.back().world_from_body.translation += Vector3(100.0, 0.0, 0.0);
-  const Alignment found = align(reference, estimate, Align::se3, 49);
-  const Trajectory there = moved(found, estimate);
-  EXPECT_NEAR(
-      (there[0].world_from_body.translation - reference[0].world_from_body.translation).norm(),
-      0.0,
-      1e-12);
-  // More pairs than exist means all pairs.
-  EXPECT_TRUE(is_close(align(reference, estimate, Align::se3, 500).reference_from_estimate,
-                       align(reference, estimate, Align::se3).reference_from_estimate,
-                       0.0,
-                       0.0));
-}
-
-TEST(Alignment, NoneChangesNoBit) {
-  std::mt19937_64 random(7);
-  const Trajectory estimate = random_walk(random, 20);
-  const Trajectory same = moved(align(estimate, estimate, Align::none), estimate);
-  EXPECT_EQ(worst(estimate, same), 0.0);
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 /// Each score has the documented direction.
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <set>
+#include <sstream>
 
 #include "evaluated_cell.hpp"
 #include "metrics/metric.hpp"
@@ -17,28 +19,19 @@ namespace {
 
 using test::EvaluatedCell;
 
+std::set<std::string> words(const std::string& text) {
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
 // Every metric is in one of these lists: lower is better, no direction, or has a test of its own.
-const std::set<std::string> kErrors{"ate",
-                                    "axis_error",
-                                    "ape",
-                                    "rpe",
-                                    "segments",
-                                    "along_cross",
-                                    "jumps",
-                                    "causal_ate",
-                                    "causal_rpe",
-                                    "closure_jumps",
-                                    "update_time"};
-const std::set<std::string> kDescriptions{
-    "closure_residual", "interpolation_floor", "coverage", "extrinsic_offset", "diagnostics"};
-const std::set<std::string> kOthers{"path_length",
-                                    "jerk",
-                                    "graph_cost",
-                                    "optimality",
-                                    "loop_detection",
-                                    "accuracy",
-                                    "control_points",
-                                    "nees"};
+const std::set<std::string> kErrors = words(
+    "ate axis_error ape rpe segments along_cross jumps causal_ate causal_rpe closure_jumps "
+    "update_time");
+const std::set<std::string> kDescriptions =
+    words("closure_residual interpolation_floor coverage extrinsic_offset diagnostics");
+const std::set<std::string> kOthers =
+    words("path_length jerk graph_cost optimality loop_detection accuracy control_points nees");
 
 /// A circle in steps of 5 cm, back to its start; `stray` bends it upwards.
 Trajectory circle(double stray) {

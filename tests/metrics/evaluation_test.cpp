@@ -135,17 +135,6 @@ TEST(Evaluation, CoordinatesBeyondDoublesSquaresAreToldSo) {
             "not unique; use align = origin or none");
 }
 
-TEST(Evaluation, MovesTheEstimateOntoTheReference) {
-  std::mt19937_64 random(1);
-  const Trajectory reference = test::random_walk(random, 60);
-  const Trajectory estimate = test::moved_by(test::random_pose(random, 3.0, 1.0), 0.5, reference);
-  const Evaluation got = evaluate(reference, estimate, {.align = Align::sim3});
-  EXPECT_NEAR(got.alignment.scale, 2.0, 1e-12);
-  for (std::size_t i = 0; i < reference.size(); ++i) {
-    EXPECT_POSE_NEAR(got.estimate[i].world_from_body, reference[i].world_from_body, 1e-12, 1e-12);
-  }
-}
-
 TEST(Evaluation, SaysWhatDidNotMeet) {
   EXPECT_EQ(why<std::runtime_error>([] {
               evaluate(at({0, 1}), at({5, 6.5}), kPlain);

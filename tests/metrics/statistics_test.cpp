@@ -50,12 +50,6 @@ TEST(Statistics, PercentilesDoNotDependOnTheOrder) {
   EXPECT_EQ(statistics({7.0}).p99, 7.0);
 }
 
-TEST(Statistics, MedianOfAnOddCountIsTheMiddleOne) {
-  EXPECT_EQ(statistics({9.0, 1.0, 5.0}).median, 5.0);
-  EXPECT_EQ(statistics({7.0}).median, 7.0);
-  EXPECT_EQ(statistics({7.0}).std, 0.0);
-}
-
 TEST(Statistics, SumsOfAMillionKeepTheirDigits) {
   // 0.1 is not representable; plain summation gives an error of 1.3e-12 in the mean of a million.
   const Statistics s = statistics(std::vector<double>(1'000'000, 0.1));
