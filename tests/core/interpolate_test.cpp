@@ -118,12 +118,6 @@ TEST(Polyline, InterpolatesByTime) {
   EXPECT_POSE_NEAR(Polyline(nodes).at(2.5), wanted, 1e-14, 1e-14);
 }
 
-TEST(Polyline, TakesTimesInAnyOrder) {
-  const Polyline line(three_poses());
-  const Trajectory mixed = line.sample(std::vector<double>{3.9, 1.1, 2.0, 1.0, 4.0});
-  for (const auto& [stamp, pose] : mixed) EXPECT_TRUE(is_close(pose, line.at(stamp), 0.0, 1e-15));
-}
-
 TEST(Polyline, OnePoseIsACurveOfOneInstant) {
   const Polyline line({{2.0, general_poses()[0]}});
   EXPECT_EQ(line.at(2.0).translation, general_poses()[0].translation);

@@ -44,27 +44,6 @@ TEST(WithKeyframes, DropsFramesOutsideTheKeyframes) {
   EXPECT_EQ(stamps(with_keyframes(before, before.keyframes).frames), std::vector{1.5});
 }
 
-TEST(Compose, RejectsACorrectorThatDropsAKeyframeOrChangesAStamp) {
-  const auto expect_rejected = [](const CorrectingFunction& work) {
-    const auto alone = compose(std::make_unique<FunctionCorrector>(work), nullptr);
-    const auto both = compose(std::make_unique<FunctionCorrector>(work),
-                              std::make_unique<CubicSpline>(CubicSpline::Options{}));
-    Report report;
-    EXPECT_THROW(alone->estimate(hand_held(), report), std::runtime_error);
-    EXPECT_THROW(both->estimate(hand_held(), report), std::runtime_error);
-  };
-  expect_rejected([](const Problem& problem) {
-    Trajectory poses = problem.keyframes;
-    poses.pop_back();
-    return poses;
-  });
-  expect_rejected([](const Problem& problem) {
-    Trajectory poses = problem.keyframes;
-    poses[3].stamp += 0.001;
-    return poses;
-  });
-}
-
 TEST(Compose, SmoothsTheCorrectedKeyframes) {
   const Problem problem = hand_held();
   const auto both = compose(std::make_unique<Uniform>(Uniform::Options{}),
