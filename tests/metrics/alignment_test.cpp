@@ -46,6 +46,8 @@ TEST(Alignment, FindsTheMotionAndTheScale) {
     EXPECT_EQ(se3.scale, 1.0);
     EXPECT_EQ(se3.rank, 3);
     EXPECT_NEAR(worst(reference, moved(se3, rigid)), 0.0, 1e-11);
+    const Alignment all = align(reference, rigid, Align::se3, 5000);  // more than there are
+    EXPECT_NEAR(worst(reference, moved(all, rigid)), 0.0, 1e-11);
 
     const Trajectory similar = moved_by(elsewhere, scale, reference);
     const Alignment sim3 = align(reference, similar, Align::sim3);
