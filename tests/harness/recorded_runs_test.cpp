@@ -1,18 +1,13 @@
 // Methods and runs by the names of recorded files.
 #include "harness/eval/recorded_runs.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "harness/eval/recorded_sweep.hpp"
-#include "tests/support/eval_command.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace loopbench::recorded_runs_test {
 namespace {
 
-using testing::ContainsRegex;
-using testing::HasSubstr;
 using namespace harness;
 
 TEST(RecordedRuns, NamesGiveMethodAndRun) {
@@ -67,23 +62,6 @@ TEST(RecordedRuns, EqualNamesInOtherFoldersAreOtherMethods) {
   EXPECT_EQ(runs[1].method, "two/odom");
   EXPECT_THROW(recorded_runs("t/a.txt", {"one/odom.txt", "one/odom.txt"}, ""), InputError);
   EXPECT_EQ(runs_of_manifest(recorded_sweep(runs, EvalArguments{}).sweep.text), runs);
-}
-
-TEST(RecordedRuns, RealRunsOfTwoSystems) {
-  const char* const data = std::getenv("LOOPBENCH_DATA");
-  if (data == nullptr) GTEST_SKIP() << "needs LOOPBENCH_DATA";
-  const TemporaryFolder folder;
-  const std::string root = std::string(data) + "/euroc_repeats";
-  std::vector<std::string> arguments{root + "/truth/V201.csv"};
-  for (int run = 0; run < 10; ++run) {
-    for (const char* const method : {"vislam_ba", "vislam_rp"}) {
-      arguments.push_back(root + "/" + method + "/V201/" + std::to_string(run) + ".txt");
-    }
-  }
-  arguments.insert(arguments.end(), {"--store", (folder.path() / "s").string()});
-  const std::string out = test::eval(arguments);
-  EXPECT_THAT(out, ContainsRegex("\n\\| V201, vislam_ba +\\| +\\**0[.0-9]+ ± "));
-  EXPECT_THAT(out, HasSubstr("verdict: ate rmse, keyframes, loopbench: "));
 }
 
 }  // namespace

@@ -1,73 +1,18 @@
 /// Failures are assigned to the affected cell or score.
-#include <cmath>
 #include <limits>
 
 #include "tests/support/tiny_store.hpp"
 
 namespace loopbench::run_failures_test {
 
-using namespace methods;
-using namespace metrics;
 using namespace harness;
 
 namespace {
 
 using namespace tiny_store;  // NOLINT: the fixture
 
-/// A polyline that is not finite around `bad` [s].
-struct Gappy final : Curve {
-  Gappy(Trajectory poses, double when) : line(std::move(poses)), bad(when) {}
-  double start() const override { return line.start(); }
-  double end() const override { return line.end(); }
-  using Curve::sample;
-  void sample(std::span<const double> times, std::span<Pose> poses) const override {
-    line.sample(times, poses);
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      if (std::abs(times[i] - bad) < 0.01) poses[i].translation.x() = std::nan("");
-    }
-  }
-  Polyline line;
-  double bad;
-};
-
-struct GappySmoother final : Smoother {
-  struct Options {
-    double bad = 1.0;
-  };
-  explicit GappySmoother(const Options& o) : options(o) {}
-  std::unique_ptr<const Curve> smooth(const Problem& problem, Report&) const override {
-    return std::make_unique<Gappy>(problem.keyframes, options.bad);
-  }
-  Options options;
-};
-template <class Visit>
-void fields(GappySmoother::Options& o, Visit visit) {
-  visit("bad", o.bad, "time without a finite pose [s]");
-}
-
-/// A polyline with a section whose end is not a number.
-struct BadSection final : Smoother {
-  struct Options {};
-  explicit BadSection(const Options&) {}
-  std::unique_ptr<const Curve> smooth(const Problem& problem, Report& report) const override {
-    report.sections = {{"window", 0.0, 1.0, ""}, {"window", 1.0, std::nan(""), ""}};
-    return std::make_unique<Polyline>(problem.keyframes);
-  }
-};
-template <class Visit>
-void fields(BadSection::Options&, Visit) {}
-
 class RunFailures : public TinyStore {
  protected:
-  RunFailures() {
-    known_.methods.push_back(method<BadSection>("bad_section", "reports a section without end"));
-    known_.methods.push_back(method<GappySmoother>("gappy", "is not finite at one time"));
-    known_.datasets[0].load = [](const Params& given, const DataRoot& root) {
-      Sequence out = tiny::load_line(with(tiny::LineOptions{}, given), root);
-      out.reference.insert(out.reference.begin() + 1, {0.5, Pose{}});
-      return out;
-    };
-  }
   /// Records of the method beside `straight` on one sequence.
   std::vector<Record> records_of(const std::string& method, const std::string& more = "") {
     run("datasets: [line]\nprotocol: {base: loopbench, align: none}\nmethods: [straight, " +
@@ -77,24 +22,6 @@ class RunFailures : public TinyStore {
     return records;
   }
 };
-
-TEST_F(RunFailures, OutputThatIsNotFiniteFailsItsCellAndNotTheSweep) {
-  const std::string between = "{method: gappy, bad: 0.5}";
-  for (const auto& [method, why] :
-       {std::pair<std::string, std::string>{"{method: gappy, bad: 3.0}",
-                                            "the curve at 3.0 s: the position is not finite"},
-        {between, "the curve at 0.5 s: the position is not finite"},
-        {"bad_section", "section 2 ('window') is from 1.0 to nan s, expected finite stamps"}}) {
-    const std::vector<Record> records = records_of(method);
-    ASSERT_EQ(records.size(), 1u) << method;
-    EXPECT_EQ(records[0].status, Status::failed) << method;
-    EXPECT_EQ(records[0].kind->metric, "");
-    EXPECT_EQ(records[0].why, why);
-  }
-  const std::vector<Record> unseen = records_of(between, "metrics: [ate]\ntimes: keyframes\n");
-  ASSERT_EQ(unseen.size(), 1u);
-  EXPECT_EQ(unseen[0].status, Status::ok) << "nobody looks between";
-}
 
 TEST_F(RunFailures, AFailedMetricFailsTheScoresThatItGivesElsewhereAndNoOther) {
   known_.metrics[0].score = [](const Evaluation& evaluation, const Params&) {

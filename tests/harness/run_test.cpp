@@ -12,7 +12,6 @@
 
 namespace loopbench::run_test {
 
-using namespace methods;
 using namespace metrics;
 using namespace harness;
 
@@ -66,12 +65,6 @@ TEST_F(RunSweep, EveryCellLeavesItsRow) {
   const auto undefined =
       std::ranges::find(records, "undefined", [](const Record& r) { return r.kind->label; });
   EXPECT_EQ(undefined->why, "set to be undefined");
-}
-
-TEST_F(RunSweep, RepeatsGetSeedsOfTheirOwn) {
-  const std::vector<Record> records = run();
-  EXPECT_NE(records[0].statistics.rmse, records[6].statistics.rmse);
-  EXPECT_EQ(records[6].cell->repeat, 1);
 }
 
 /// The reference lasts 9 s, the keyframes end after 3 s: coverage is a third at either times.

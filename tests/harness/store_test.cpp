@@ -7,8 +7,6 @@
 
 namespace loopbench::store_test {
 
-using namespace methods;
-using namespace metrics;
 using namespace harness;
 
 namespace {
@@ -76,14 +74,6 @@ TEST_F(StoreTest, NamesAreNotContent) {
   EXPECT_EQ(run(config("straight, {method: shift, by: 1.0, label: renamed}")).cells, Labels{});
   EXPECT_EQ(methods_of("a"), (Labels{"straight", "renamed"}));
   EXPECT_EQ(run(config("straight, shift")).cells, Labels{}) << "1 is the default";
-}
-
-TEST_F(StoreTest, TwoCellsOfOneContentKeepTheirNames) {
-  const std::string twins =
-      config("straight, {method: shift, label: one}, {method: shift, label: two}");
-  EXPECT_EQ(run(twins).cells.size(), 6u);
-  EXPECT_EQ(run(twins).cells, Labels{});
-  EXPECT_EQ(methods_of("a"), (Labels{"straight", "one", "two"}));
 }
 
 TEST_F(StoreTest, WhatEvaluatesIsContent) {
