@@ -1,6 +1,5 @@
 #include "datasets/noise/noise_stream.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "datasets/compressed/decompress.hpp"
 #include "datasets/formats/formats.hpp"
 #include "tests/datasets/scratch.hpp"

@@ -11,8 +11,6 @@
 
 namespace loopbench::command_test {
 
-using namespace methods;
-using namespace metrics;
 using namespace harness;
 
 namespace {

@@ -6,8 +6,6 @@
 
 namespace loopbench::config_text_test {
 
-using namespace methods;
-using namespace metrics;
 using namespace harness;
 
 namespace {

@@ -1,5 +1,4 @@
 /// Stores with changed bytes: an error or the original result, never another number.
-#include <algorithm>
 #include <random>
 #include <tuple>
 

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <regex>
-#include <set>
 
 #include "datasets/formats/formats.hpp"
 #include "tests/support/bag_writer.hpp"

@@ -13,8 +13,6 @@
 
 namespace loopbench::gate_file_test {
 
-using namespace methods;
-using namespace metrics;
 using namespace harness;
 
 namespace {

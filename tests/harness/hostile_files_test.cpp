@@ -1,6 +1,6 @@
 /// Written files are complete or an error is reported; links, pipes and devices in place of files,
 /// and texts that steer programs.
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <atomic>

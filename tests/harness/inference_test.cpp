@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "harness/compare/rank_sum.hpp"
 #include "harness/compare/signed_rank.hpp"

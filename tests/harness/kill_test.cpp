@@ -17,8 +17,6 @@
 
 namespace loopbench::kill_test {
 
-using namespace methods;
-using namespace metrics;
 using namespace harness;
 
 namespace {

@@ -6,7 +6,6 @@
 
 namespace loopbench::merge_test {
 
-using namespace methods;
 using namespace harness;
 
 namespace {

@@ -1,15 +1,12 @@
 /// Sentence, standings and ratios of random sweeps never contradict each other.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "harness/compare/compare.hpp"
 #include "tests/studies/synthetic_records.hpp"
 #include "tests/support/compared_sweep.hpp"
 
 namespace loopbench::ranking_test {
 
-using namespace methods;
 using namespace harness;
 
 namespace {

@@ -6,7 +6,6 @@
 
 namespace loopbench::read_sweep_test {
 
-using namespace methods;
 using namespace metrics;
 using namespace harness;
 

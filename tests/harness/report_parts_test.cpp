@@ -18,7 +18,6 @@
 
 namespace loopbench::report_parts_test {
 
-using namespace methods;
 using namespace harness;
 
 namespace {

@@ -10,7 +10,6 @@
 
 namespace loopbench::verdict_defects_test {
 
-using namespace metrics;
 using namespace harness;
 
 namespace {

@@ -5,7 +5,6 @@
 
 namespace loopbench::synthetic::verdict_error_rates_test {
 
-using namespace metrics;
 using namespace harness;
 
 namespace {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "datasets/core/error.hpp"
 #include "tests/support/refusal_of.hpp"
 
 namespace loopbench::yaml_test {

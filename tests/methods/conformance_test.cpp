@@ -7,7 +7,6 @@
 #include <cstring>
 #include <thread>
 
-#include "datasets/core/error.hpp"
 #include "datasets/core/polyline.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/method.hpp"

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <algorithm>
 
 #include "methods/correctors/chain.hpp"
 #include "methods/correctors/dual.hpp"

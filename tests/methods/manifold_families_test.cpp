@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "datasets/core/fields.hpp"
 #include "manifold_paths.hpp"

@@ -1,7 +1,5 @@
 #include "metrics/errors/along_cross.hpp"
 
-#include <cmath>
-
 #include "metrics/correction/smoothness.hpp"
 #include "metrics/errors/ate.hpp"
 #include "support.hpp"

@@ -1,9 +1,7 @@
 #include "metrics/checks/diagnostics.hpp"
 
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <numbers>
 
 #include "datasets/formats/formats.hpp"
 #include "metrics/errors/ate.hpp"

@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "support.hpp"
+#include <random>
 
 namespace loopbench::pair_search_test {
 

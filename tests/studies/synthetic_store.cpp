@@ -6,7 +6,6 @@
 
 namespace loopbench::synthetic {
 
-using namespace methods;
 using namespace metrics;
 using namespace harness;
 

@@ -5,7 +5,6 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <iomanip>

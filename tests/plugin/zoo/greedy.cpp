@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <memory>
 
 #include "tests/plugin/zoo/beast.hpp"
 
