@@ -159,30 +159,6 @@ TEST(TrajectoryDataset, OnlyClosuresOfTheReferenceAreOracles) {
   EXPECT_TRUE(without.reference.empty());
 }
 
-TEST(TrajectoryDataset, ClosuresOfARunThatIsTheReferenceAreOracles) {
-  const TemporaryFolder folder;
-  std::string drifting;
-  for (int i = 0; i <= 12; ++i) {
-    drifting += std::to_string(i) + " " + std::to_string(1.01 * std::abs(i - 6)) + " 0 0 0 0 0 1\n";
-  }
-  folder.file("est.txt", drifting);
-  folder.file("gt.txt", walk());
-  folder.file("run.txt", "# a copy\n" + walk());
-  folder.file("other.txt", drifting);
-  const auto sequence = [&](const std::string& run) {
-    return load(folder.path(),
-                {{"estimate", "est.txt"},
-                 {"reference", "gt.txt"},
-                 {"reference_body.x", 0.5},
-                 {"closures.source", "estimate"},
-                 {"closures.file", run}});
-  };
-  EXPECT_TRUE(sequence("run.txt").provenance.oracle_closures);
-  EXPECT_THAT(sequence("run.txt").provenance.closures,
-              HasSubstr("run.txt (4), which is the reference"));
-  EXPECT_FALSE(sequence("other.txt").provenance.oracle_closures);
-}
-
 TEST(TrajectoryDataset, RefusesWhatDoesNotFitTogether) {
   const TemporaryFolder folder;
   folder.file("est.txt", walk());

@@ -12,8 +12,6 @@
 
 namespace loopbench::sequence_identity_test {
 
-using namespace methods;
-using namespace metrics;
 using namespace harness;
 
 namespace {
@@ -166,14 +164,18 @@ TEST_F(Group, IsTheNoiseOfSimulatedData) {
 TEST_F(OracleClosures, AreThoseThatTheDatasetDeclares) {
   folder_.file("est.txt", walk(1.01));
   folder_.file("gt.txt", walk(1.0));
+  folder_.file("copy.txt", "# a copy\n" + walk(1.0));
   folder_.file("exact.txt", "1 19 0 1.8 0 0 0 0 1\n");
-  const std::string common = "  - {dataset: trajectory, estimate: est.txt, reference: gt.txt, ";
+  const std::string common =
+      "  - {dataset: trajectory, estimate: est.txt, reference: gt.txt, reference_body.x: 0.5, ";
   read(common + "label: file, closures: {source: file, file: exact.txt}}\n" + common +
-       "label: run, closures: {source: estimate, file: gt.txt}}\n" + common +
-       "label: reference, closures: {source: reference}}\n");
+       "label: run, closures: {source: estimate, file: copy.txt}}\n" + common +
+       "label: reference, closures: {source: reference}}\n" + common +
+       "label: other, closures: {source: estimate, file: est.txt}}\n");
   EXPECT_FALSE(metadata(0).oracle_closures);
   EXPECT_TRUE(metadata(1).oracle_closures);
   EXPECT_THAT(metadata(1).closures, HasSubstr("which is the reference"));
+  EXPECT_FALSE(metadata(3).oracle_closures);
   EXPECT_TRUE(metadata(2).oracle_closures);
 }
 
