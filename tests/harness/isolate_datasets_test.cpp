@@ -55,10 +55,7 @@ TEST_F(IsolatedDatasets, ADatasetHasNoConnectionToTheSweep) {
     for_sockets([&](int socket) { send(socket, stray.data(), stray.size(), MSG_NOSIGNAL); });
     for_sockets([](int socket) { close(socket); });
   }));
-  const std::vector<CellResult> results =
-      run("datasets: [writes, line]\nmethods: [straight, shift]\nmetrics: [ate]\n", 2);
-  ASSERT_EQ(results.size(), 4u);
-  for (const CellResult& result : results) EXPECT_EQ(result.status, Status::ok) << result.why;
+  expect_ok("datasets: [writes, line]\nmethods: [straight, shift]\nmetrics: [ate]\n", 2, 4);
 }
 
 TEST_F(IsolatedDatasets, OutputOfADatasetOfAPluginIsLimited) {
@@ -89,15 +86,12 @@ TEST_F(IsolatedDatasets, NothingOfADatasetRunsInItsCells) {
     setitimer(ITIMER_REAL, &soon, nullptr);
     std::signal(SIGALRM, SIG_IGN);
   }));
-  const std::vector<CellResult> results =
-      run("datasets: [leaves, line]\nmethods: [straight, shift]\nmetrics: [ate]\n", 1);
-  ASSERT_EQ(results.size(), 4u);
-  for (const CellResult& result : results) EXPECT_EQ(result.status, Status::ok) << result.why;
+  expect_ok("datasets: [leaves, line]\nmethods: [straight, shift]\nmetrics: [ate]\n", 1, 4);
 }
 
 /// Reports the state of its process.
 struct ReportsState final : Corrector {
-  struct Options {};
+  using Options = NoOptions;
   explicit ReportsState(const Options&) {}
   Trajectory correct(const Problem& problem, Report& report) const override {
     sigset_t blocked;
@@ -111,8 +105,6 @@ struct ReportsState final : Corrector {
     return problem.keyframes;
   }
 };
-template <class Visit>
-void fields(ReportsState::Options&, Visit) {}
 
 TEST_F(IsolatedDatasets, ADatasetDoesNotChangeTheStateOfLaterCells) {
   known_.methods.push_back(method<ReportsState>("reports_state", ""));

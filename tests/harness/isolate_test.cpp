@@ -3,17 +3,17 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <csignal>
-#include <map>
 
 #include "harness/catalogue/load_sequence.hpp"
 #include "harness/config/read_sweep.hpp"
 #include "harness/run/cell_queue.hpp"
 #include "harness/run/pack.hpp"
+#include "methods/function_method.hpp"
 #include "tests/support/isolated_fixture.hpp"
 #include "tests/support/problems.hpp"
+#include "tests/support/refusal_of.hpp"
 
 namespace loopbench::isolate_test {
 
@@ -64,25 +64,16 @@ TEST_F(Isolated, GivesTheSameBitsAsOneProcess) {
 
 std::atomic<int>* shared_counter = nullptr;  // of all processes
 
-/// Ends its process by a signal once.
-struct KilledOnce final : Corrector {
-  struct Options {};
-  explicit KilledOnce(const Options&) {}
-  Trajectory correct(const Problem& problem, Report&) const override {
-    if ((*shared_counter)++ == 0) raise(SIGTERM);
-    return problem.keyframes;
-  }
-};
-template <class Visit>
-void fields(KilledOnce::Options&, Visit) {}
-
 TEST_F(Isolated, ACellEndedByASignalFromOutsideRunsAgain) {
   // As a scheduler does that ends all processes of a job in any order, the sweep last.
   void* memory = mmap(
       nullptr, sizeof(std::atomic<int>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(memory, MAP_FAILED);
   shared_counter = new (memory) std::atomic<int>(0);
-  known_.methods.push_back(method<KilledOnce>("killed_once", ""));
+  known_.methods.push_back(method("killed_once", "", [](const Problem& problem) {
+    if ((*shared_counter)++ == 0) raise(SIGTERM);
+    return problem.keyframes;
+  }));
   known_.datasets.push_back(dataset<tiny::LineOptions>(
       "killed_line", "", [](const tiny::LineOptions& options, const DataRoot& root) {
         if ((*shared_counter)++ == 0) raise(SIGKILL);
@@ -91,11 +82,7 @@ TEST_F(Isolated, ACellEndedByASignalFromOutsideRunsAgain) {
   const char* const text = "metrics: [ate]\nmethods: [killed_once, straight]\n";
   for (const std::string dataset : {"line", "killed_line"}) {
     *shared_counter = 0;
-    const std::vector<CellResult> results = run("datasets: [" + dataset + "]\n" + text, 1);
-    ASSERT_EQ(results.size(), 2u);
-    for (const CellResult& result : results) {
-      EXPECT_EQ(result.status, Status::ok) << dataset << ": " << result.why;
-    }
+    expect_ok("datasets: [" + dataset + "]\n" + text, 1, 2);
     EXPECT_GE(*shared_counter, 2) << dataset;
   }
   munmap(memory, sizeof(std::atomic<int>));
@@ -118,20 +105,10 @@ TEST_F(Isolated, ABrokenDatasetEndsItBeforeTheFirstCell) {
       "broken", "", [](const tiny::LineOptions&, const DataRoot&) -> Sequence {
         throw InputError("broken.txt: no such file");
       }));
-  std::size_t count = 0;
-  const Sweep sweep = parse_sweep(
-      "datasets: [line, broken]\nmethods: [straight]\nmetrics: [ate]\n", "c.yaml", known_);
-  const StopRequests stop = 0;
-  EXPECT_THROW(run_isolated(sweep,
-                            cells(sweep, seeded(sweep, known_), ""),
-                            known_,
-                            {},
-                            2,
-                            sandbox_,
-                            stop,
-                            [&](const CellResult&) { ++count; }),
-               InputError);
-  EXPECT_EQ(count, 0u);
+  EXPECT_EQ(refusal_of(
+                [&] { run("datasets: [line, broken]\nmethods: [straight]\nmetrics: [ate]\n", 2); }),
+            "broken.txt: no such file");
+  EXPECT_TRUE(results_.empty());
 }
 
 TEST_F(Isolated, ADatasetThatCrashesCostsItsCells) {
@@ -144,19 +121,6 @@ TEST_F(Isolated, ADatasetThatCrashesCostsItsCells) {
   EXPECT_THAT(results[0].why, testing::HasSubstr("while loading"));
   EXPECT_EQ(results[1].status, Status::crashed);
   EXPECT_EQ(results[2].status, Status::ok);
-}
-
-TEST_F(Isolated, EveryCellHasAProcessOfItsOwn) {
-  const std::vector<CellResult> results =
-      run("datasets: [line]\nmetrics: [ate]\n"
-          "methods: [{method: counts_cells, label: a}, straight, {method: counts_cells, label: "
-          "b}]\n",
-          1);
-  ASSERT_EQ(results.size(), 3u);
-  for (const std::size_t i : {0u, 2u}) {
-    // Short runs are repeated for their time, and the first run is reported.
-    EXPECT_EQ(results[i].report.counts.at(0).value, 1.0) << "something of another cell is left";
-  }
 }
 
 TEST_F(Isolated, ASequenceThatExceedsALimitIsNotLoadedForEachOfItsCells) {

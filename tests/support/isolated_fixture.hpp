@@ -16,41 +16,31 @@ using namespace methods;
 using namespace metrics;
 using namespace harness;
 
-/// Counts the cells of its process.
-struct CountsCells final : Corrector {
-  struct Options {};
-  explicit CountsCells(const Options&) {}
-  Trajectory correct(const Problem& problem, Report& report) const override {
-    static int cells_of_process = 0;
-    report.count("cells of this process", ++cells_of_process);
-    return problem.keyframes;
-  }
-};
-template <class Visit>
-void fields(CountsCells::Options&, Visit) {}
-
 class IsolatedFixture : public testing::Test {
  protected:
   std::vector<CellResult> run(const std::string& text, int jobs) {
     const Sweep sweep = parse_sweep(text, "c.yaml", known_);
     return run(sweep, cells(sweep, seeded(sweep, known_), ""), jobs);
   }
+  /// Expects `count` cells, all ok.
+  void expect_ok(const std::string& text, int jobs, std::size_t count) {
+    const std::vector<CellResult> results = run(text, jobs);
+    ASSERT_EQ(results.size(), count);
+    for (const CellResult& result : results) EXPECT_EQ(result.status, Status::ok) << result.why;
+  }
   std::vector<CellResult> run(const Sweep& sweep, const std::vector<Cell>& planned, int jobs) {
-    std::vector<CellResult> out;
+    results_.clear();
     const StopRequests stop = 0;
     run_isolated(sweep, planned, known_, {}, jobs, sandbox_, stop, [&](const CellResult& result) {
-      out.push_back(result);
+      results_.push_back(result);
     });
-    std::ranges::sort(out, {}, [](const CellResult& r) { return r.cell.index; });
-    return out;
+    std::ranges::sort(results_, {}, [](const CellResult& r) { return r.cell.index; });
+    return results_;
   }
 
+  std::vector<CellResult> results_;  // also of a run that threw
   SandboxOptions sandbox_;
-  Catalogue known_ = [] {
-    Catalogue out = tiny::catalogue();
-    out.methods.push_back(method<CountsCells>("counts_cells", ""));
-    return out;
-  }();
+  Catalogue known_ = tiny::catalogue();
 };
 
 }  // namespace loopbench::isolated
