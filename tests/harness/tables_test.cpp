@@ -1,10 +1,9 @@
-/// Row filters and output formats of tables. Averages: pivot_test.cpp, marks: mark_best_test.cpp.
+/// Row filters and lists, output formats of tables. Averages: pivot_test.cpp, marks:
+/// mark_best_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "datasets/core/error.hpp"
-#include "harness/compare/derived.hpp"
 #include "harness/model/where.hpp"
 #include "harness/tables/notes.hpp"
 #include "harness/tables/pivot.hpp"
@@ -15,8 +14,6 @@
 
 namespace loopbench::tables_test {
 
-using namespace methods;
-using namespace metrics;
 using namespace harness;
 
 namespace {
@@ -71,6 +68,35 @@ TEST(Where, RefusesByName) {
             "where: 'method~(': '(' is not a regular expression (missing ): ()");
   EXPECT_NE(refusal_of([] { where({"metric=ate,"}); }), "");
   EXPECT_NE(refusal_of([] { where({"metric!ate"}); }), "");
+}
+
+bool keeps_method(const std::string& rule, const std::string& method) {
+  Record record;
+  record.kind.edit().metric = "ate";
+  record.cell.edit().method = method;
+  return where({rule})(record);
+}
+
+TEST(Where, SelectsLabelsWithCommas) {
+  EXPECT_TRUE(keeps_method("method=\"a, b=2\"", "a, b=2"));
+  EXPECT_FALSE(keeps_method("method=\"a, b=2\"", "a"));
+  EXPECT_TRUE(keeps_method("method!=\"a, b\",metric=ate", "a"));
+  EXPECT_FALSE(keeps_method("method!=\"a, b\",metric=ate", "a, b"));
+  EXPECT_TRUE(keeps_method("method~\"a, b\"", "x a, b y"));
+  EXPECT_TRUE(keeps_method("metric=ate,method=\"a, b\"", "a, b"));
+  EXPECT_TRUE(keeps_method("method=5\" wheel", "5\" wheel"));  // a quote inside a text is literal
+  EXPECT_TRUE(keeps_method("method=dm (x=1, y=2)", "dm (x=1, y=2)"));
+}
+
+TEST(Where, NamesAQuoteThatIsNotClosed) {
+  EXPECT_EQ(refusal_of([] { where({"method=\"a, b"}); }), "'method=\"a, b': missing closing quote");
+}
+
+TEST(SplitList, KeepsWhatBracketsAndQuotesHold) {
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(split_list("a,b"), (Words{"a", "b"}));
+  EXPECT_EQ(split_list("dm (x=1, y=2),raw"), (Words{"dm (x=1, y=2)", "raw"}));
+  EXPECT_EQ(split_list("\"a, b\",c"), (Words{"a, b", "c"}));
 }
 
 std::vector<Table> marked() {
