@@ -8,39 +8,6 @@ namespace {
 
 using namespace test;
 
-/// Reports in its title what does not fit the window.
-const char* const kProbe = R"probe(
-  const said = [];
-  const wide = document.documentElement.clientWidth;
-  if (document.documentElement.scrollWidth > wide) said.push("page wider than the window: " + document.documentElement.scrollWidth);
-  for (const chart of document.querySelectorAll("figure > svg")) {
-    const box = chart.getBoundingClientRect();
-    if (box.width > 0 && (box.right > wide || box.left < 0)) said.push("chart outside: " + chart.getAttribute("aria-label"));
-  }
-  for (const box of document.querySelectorAll(".scroll")) {
-    const style = getComputedStyle(box);
-    const isShown = style.overflowX === "auto" && style.backgroundImage.includes("gradient");
-    if (box.scrollWidth > box.clientWidth && !isShown) said.push("no sign of more columns: " + box.getAttribute("aria-label"));
-  }
-  if (wide >= 1200) {
-    for (const heading of document.querySelectorAll("#scores figure:not([hidden]) thead th")) {
-      const isWanted = /^(gain|time)/.test(heading.textContent);
-      if (isWanted && heading.getBoundingClientRect().right > wide) said.push("hidden column " + heading.textContent);
-    }
-  }
-  for (const figure of document.querySelectorAll("#sweep-figures figure")) {
-    const [chart, text] = [figure.querySelector("svg"), figure.querySelector("svg text")];
-    const size = parseFloat(getComputedStyle(text).fontSize) * chart.getBoundingClientRect().width / chart.viewBox.baseVal.width;
-    if (size < 8 || size > 16) said.push("text of " + size + " px");
-  }
-  if (document.querySelectorAll("#sweep-figures rect[style*=fill]").length !== 4) said.push("no heat map");
-  if (document.querySelectorAll("#sweep-figures path.curve").length !== 1) said.push("no curve");
-  const dark = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
-  const option = document.querySelector("#controls select").selectedOptions[0].textContent;
-  document.title = `${wide} ${dark} ${option}: ` + (said.join("; ") || "well");
-  if (parent !== window) parent.postMessage(document.title, "*");
-)probe";
-
 class ReportScreens : public testing::Test {
  protected:
   void SetUp() override {
@@ -54,7 +21,7 @@ class ReportScreens : public testing::Test {
                  "metrics: [ate, axis_error, rpe]\nrepeats: 2\n");
     ASSERT_EQ(loopbench_command("run c.yaml", folder_).exit_code, 0);
     ASSERT_EQ(loopbench_command("report results/c -o page.html", folder_).exit_code, 0);
-    folder_.file("page.html", with_script(read_all(folder_.path() / "page.html"), kProbe));
+    folder_.file("page.html", with_probe(read_all(folder_.path() / "page.html"), "fits.js"));
     // Chromium has no window narrower than 500 pixels, but frames.
     folder_.file("phone.html",
                  "<title></title><iframe src='page.html' width='390' height='844' "
@@ -79,21 +46,12 @@ TEST_F(ReportScreens, FitAndPrint) {
   EXPECT_EQ(read_all(folder_.path() / "page.pdf").compare(0, 5, "%PDF-"), 0);
 }
 
-/// Names the cells of scores and verdicts that are outside the window.
-const char* const kCellProbe = R"probe(
-  const wide = document.documentElement.clientWidth;
-  const cells = [...document.querySelectorAll("#scores th, #scores td, .texts td:last-child")];
-  const outside = cells.filter(cell => !cell.closest("[hidden]") && cell.getBoundingClientRect().right > wide);
-  document.title = `${wide} of ${cells.length > 40}: ` + (outside.map(cell => cell.textContent).join("; ") || "well");
-  if (parent !== window) parent.postMessage(document.title, "*");
-)probe";
-
 TEST_F(ReportScreens, EveryScoreOfTwoEstimatesIsInTheWindow) {
   const std::string golden = LOOPBENCH_TEST_DATA "/golden/";
   const std::string eval = "eval " + golden + "gt.txt " + golden + "est_drift.txt " + golden +
                            "est_corrected.txt --report page.html";
   ASSERT_EQ(loopbench_command(eval, folder_).exit_code, 0);
-  folder_.file("page.html", with_script(read_all(folder_.path() / "page.html"), kCellProbe));
+  folder_.file("page.html", with_probe(read_all(folder_.path() / "page.html"), "cells.js"));
   const std::string dump = "--virtual-time-budget=5000 --dump-dom";
   EXPECT_EQ(title(dump, "phone.html"), "390 of true: well");
   EXPECT_EQ(title("--window-size=1280,800 " + dump), "1280 of true: well");

@@ -34,8 +34,10 @@ inline std::string title_of(const std::string& document) {
   return document.substr(begin + 7, document.find("</title>", begin) - begin - 7);
 }
 
-/// `page` with `script` at its end, in an element with the nonce of the page's policy.
-inline std::string with_script(std::string page, const std::string& script) {
+/// `page` with a script of tests/data/probes at its end, in an element with the nonce of the
+/// page's policy.
+inline std::string with_probe(std::string page, const std::string& name) {
+  const std::string script = read_all(LOOPBENCH_TEST_DATA "/probes/" + name);
   const std::size_t nonce = page.find("<script nonce=");
   const std::string element = page.substr(nonce, page.find('>', nonce) + 1 - nonce);
   page.insert(page.rfind("</body>"), element + script + "</script>");

@@ -1,0 +1,30 @@
+// Reports in its title what does not fit the window.
+const said = [];
+const wide = document.documentElement.clientWidth;
+if (document.documentElement.scrollWidth > wide) said.push("page wider than the window: " + document.documentElement.scrollWidth);
+for (const chart of document.querySelectorAll("figure > svg")) {
+  const box = chart.getBoundingClientRect();
+  if (box.width > 0 && (box.right > wide || box.left < 0)) said.push("chart outside: " + chart.getAttribute("aria-label"));
+}
+for (const box of document.querySelectorAll(".scroll")) {
+  const style = getComputedStyle(box);
+  const isShown = style.overflowX === "auto" && style.backgroundImage.includes("gradient");
+  if (box.scrollWidth > box.clientWidth && !isShown) said.push("no sign of more columns: " + box.getAttribute("aria-label"));
+}
+if (wide >= 1200) {
+  for (const heading of document.querySelectorAll("#scores figure:not([hidden]) thead th")) {
+    const isWanted = /^(gain|time)/.test(heading.textContent);
+    if (isWanted && heading.getBoundingClientRect().right > wide) said.push("hidden column " + heading.textContent);
+  }
+}
+for (const figure of document.querySelectorAll("#sweep-figures figure")) {
+  const [chart, text] = [figure.querySelector("svg"), figure.querySelector("svg text")];
+  const size = parseFloat(getComputedStyle(text).fontSize) * chart.getBoundingClientRect().width / chart.viewBox.baseVal.width;
+  if (size < 8 || size > 16) said.push("text of " + size + " px");
+}
+if (document.querySelectorAll("#sweep-figures rect[style*=fill]").length !== 4) said.push("no heat map");
+if (document.querySelectorAll("#sweep-figures path.curve").length !== 1) said.push("no curve");
+const dark = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+const option = document.querySelector("#controls select").selectedOptions[0].textContent;
+document.title = `${wide} ${dark} ${option}: ` + (said.join("; ") || "well");
+if (parent !== window) parent.postMessage(document.title, "*");
