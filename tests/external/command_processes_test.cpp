@@ -15,8 +15,6 @@
 
 namespace loopbench::command_processes_test {
 
-using namespace methods;
-using namespace metrics;
 using namespace harness;
 
 namespace {
@@ -35,6 +33,16 @@ class CommandProcesses : public test::ProgramSweep {
                  "reference.txt}]\ntimes: keyframes\nmetrics: [ate]\nmethods:\n" +
                      entries);
   }
+  /// The same of `raw` on a dataset that is a program, with its cache in the folder of the test.
+  void write_program_dataset(const std::string& options) {
+    setenv("LOOPBENCH_CACHE", (folder_.path() / "cache").c_str(), 1);
+    write_recorded_sweep("  - raw\n");
+    const std::string config = read_all(folder_.path() / "c.yaml");
+    folder_.file(
+        "c.yaml",
+        "datasets: [{dataset: command, " + options + "}]\n" + config.substr(config.find('\n') + 1));
+  }
+  ~CommandProcesses() override { unsetenv("LOOPBENCH_CACHE"); }
 };
 
 /// Whether a process has this command line, with blanks between its words.
@@ -181,13 +189,9 @@ TEST_F(CommandProcesses, CpuTimeAndMemoryAreThoseOfTheProgram) {
 
 TEST_F(CommandProcesses, ADatasetCannotReadTheReferenceOrWriteElsewhere) {
   if (!has_bubblewrap()) GTEST_SKIP() << "no bubblewrap";
-  setenv("LOOPBENCH_CACHE", (folder_.path() / "cache").c_str(), 1);
-  write_recorded_sweep("  - raw\n");
-  const std::string config = read_all(folder_.path() / "c.yaml");
-  folder_.file("c.yaml",
-               "datasets: [{dataset: command, sequence: estimate.txt, reference: reference.txt, "
-               "run: 'sh curious.sh {sequence} {trajectory}'}]\n" +
-                   config.substr(config.find('\n') + 1));
+  write_program_dataset(
+      "sequence: estimate.txt, reference: reference.txt, run: 'sh curious.sh {sequence} "
+      "{trajectory}'");
   const std::string script =
       "cat reference.txt && exit 9\necho x >outside && exit 8\n"
       "echo x >$TMPDIR/inside && cp $1 $2\n";
@@ -196,20 +200,14 @@ TEST_F(CommandProcesses, ADatasetCannotReadTheReferenceOrWriteElsewhere) {
   folder_.file("curious.sh", script + "\n");
   EXPECT_EQ(loopbench_command("run c.yaml --no-sandbox --out r", folder_).exit_code, 1);
   EXPECT_THAT(read_cells(folder_.path() / "r").at(0).why.text(), HasSubstr("exited with code 9"));
-  unsetenv("LOOPBENCH_CACHE");
 }
 
 /// A dataset that copies the reference if it can, otherwise the estimate without its first pose.
 TEST_F(CommandProcesses, NoOutputOfAnUnrestrictedDatasetIsUsedByASweep) {
   if (!has_bubblewrap()) GTEST_SKIP() << "no bubblewrap";
-  setenv("LOOPBENCH_CACHE", (folder_.path() / "cache").c_str(), 1);
-  write_recorded_sweep("  - raw\n");
-  const std::string config = read_all(folder_.path() / "c.yaml");
-  const std::string rest = config.substr(config.find('\n') + 1);
   const auto write = [&](const std::string& options) {
-    folder_.file("c.yaml",
-                 "datasets: [{dataset: command, sequence: estimate.txt, " + options +
-                     "run: 'sh copies.sh {sequence} {trajectory}'}]\n" + rest);
+    write_program_dataset("sequence: estimate.txt, " + options +
+                          "run: 'sh copies.sh {sequence} {trajectory}'");
   };
   folder_.file("copies.sh",
                "touch outside 2>/dev/null\ncp reference.txt $2 2>/dev/null || sed 1d $1 >$2\n");
@@ -229,17 +227,12 @@ TEST_F(CommandProcesses, NoOutputOfAnUnrestrictedDatasetIsUsedByASweep) {
   successful_command("run c.yaml --out other", folder_);
   write("reference: reference.txt, ");
   EXPECT_EQ(poses(), 40u);
-  unsetenv("LOOPBENCH_CACHE");
 }
 
 TEST_F(CommandProcesses, AProgramEndsWithTheDryRunThatWaitsForIt) {
-  setenv("LOOPBENCH_CACHE", (folder_.path() / "cache").c_str(), 1);
-  write_recorded_sweep("  - raw\n");
-  const std::string config = read_all(folder_.path() / "c.yaml");
-  folder_.file("c.yaml",
-               "datasets: [{dataset: command, seconds: 1, reference: reference.txt, run: \"sh -c "
-               "'trap : TERM; sleep 8781; : $0' {trajectory}\"}]\n" +
-                   config.substr(config.find('\n') + 1));
+  write_program_dataset(
+      "seconds: 1, reference: reference.txt, run: \"sh -c 'trap : TERM; sleep 8781; : $0' "
+      "{trajectory}\"");
   for (const char* option : {"", " --no-sandbox"}) {
     const CommandResult ran =
         loopbench_command("run c.yaml --dry-run" + std::string(option), folder_);
@@ -247,7 +240,6 @@ TEST_F(CommandProcesses, AProgramEndsWithTheDryRunThatWaitsForIt) {
     EXPECT_THAT(ran.err, HasSubstr("took longer than 1 s"));
     EXPECT_TRUE(ends_soon("sleep 8781")) << option;
   }
-  unsetenv("LOOPBENCH_CACHE");
 }
 
 TEST_F(CommandProcesses, FilesInMemoryCountAsMemory) {

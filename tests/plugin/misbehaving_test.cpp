@@ -17,36 +17,42 @@ using namespace harness;
 
 namespace {
 
-TEST(Misbehaving, ItsCodeDoesNotRunInTheSweep) {
+struct Ran {
+  CommandResult command;
+  std::vector<CellRow> cells;
+  std::vector<Record> records;
+};
+
+/// Runs a sweep of one simulated sequence with these lines of a config and the plugin.
+Ran run_with(const std::string& lines, const std::string& plugin = LOOPBENCH_MISBEHAVING) {
   const TemporaryFolder folder;
-  const std::string data = "datasets: [{dataset: simulated, path: room, keyframes: 40}]\n";
-  folder.file("c.yaml", data + "methods: [raw]\nmetrics: [ate]\n");
+  folder.file("c.yaml", "datasets: [{dataset: simulated, path: room, keyframes: 40}]\n" + lines);
+  Ran out{loopbench_command("run c.yaml --out r --plugin '" + plugin + "'", folder), {}, {}};
+  if (out.command.exit_code < 2) {
+    out.cells = read_cells(folder.path() / "r");
+    out.records = read_records(folder.path() / "r");
+  }
+  return out;
+}
+
+TEST(Misbehaving, ItsCodeDoesNotRunInTheSweep) {
   const CommandResult loaded =
-      loopbench_command("run c.yaml --plugin '" LOOPBENCH_EXITS_WHEN_LOADED "'", folder);
+      run_with("methods: [raw]\nmetrics: [ate]", LOOPBENCH_EXITS_WHEN_LOADED).command;
   EXPECT_EQ(loaded.exit_code, 2);
   EXPECT_NE(loaded.err.find("exits_when_loaded.so: a process that loaded it exited with code 0"),
             std::string::npos)
       << loaded.err;
   // Its constructor hangs: in the check of its options for 10 s, and in its cell.
-  folder.file("h.yaml",
-              data + "methods: [raw, hangs_when_made]\nmetrics: [ate]\nlimits: {seconds: 1}\n");
-  const CommandResult made =
-      loopbench_command("run h.yaml --out h --plugin '" LOOPBENCH_MISBEHAVING "'", folder);
-  const std::vector<CellRow> cells = read_cells(folder.path() / "h");
+  const auto [made, cells, records] =
+      run_with("methods: [raw, hangs_when_made]\nmetrics: [ate]\nlimits: {seconds: 1}");
   ASSERT_EQ(cells.size(), 2u) << made.err;
   EXPECT_EQ(cells[0].status, Status::ok);
   EXPECT_EQ(cells[1].status, Status::timeout) << cells[1].why;
 }
 
 TEST(Misbehaving, AConstructorThatThrowsCostsItsOwnCells) {
-  const TemporaryFolder folder;
-  folder.file("c.yaml",
-              "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmetrics: [ate]\n"
-              "methods: [raw, throws_when_made]\n");
-  const CommandResult ran =
-      loopbench_command("run c.yaml --out r --plugin '" LOOPBENCH_MISBEHAVING "'", folder);
+  const auto [ran, cells, records] = run_with("metrics: [ate]\nmethods: [raw, throws_when_made]");
   EXPECT_EQ(ran.exit_code, 1) << ran.err;
-  const std::vector<CellRow> cells = read_cells(folder.path() / "r");
   ASSERT_EQ(cells.size(), 2u);
   EXPECT_EQ(cells[0].status, Status::ok);
   EXPECT_EQ(cells[1].status, Status::failed);
@@ -54,12 +60,8 @@ TEST(Misbehaving, AConstructorThatThrowsCostsItsOwnCells) {
 }
 
 TEST(Misbehaving, AFileInMemoryCountsAsMemory) {
-  const TemporaryFolder folder;
-  folder.file("c.yaml",
-              "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmetrics: [ate]\n"
-              "methods: [fills_memory_file]\nlimits: {memory: 256MiB}\n");
-  loopbench_command("run c.yaml --out r --plugin '" LOOPBENCH_MISBEHAVING "'", folder);
-  const std::vector<CellRow> cells = read_cells(folder.path() / "r");
+  const std::vector<CellRow> cells =
+      run_with("metrics: [ate]\nmethods: [fills_memory_file]\nlimits: {memory: 256MiB}").cells;
   ASSERT_EQ(cells.size(), 1u);
   EXPECT_EQ(cells[0].status, Status::out_of_memory) << cells[0].why;
 }
@@ -75,15 +77,12 @@ TEST(Misbehaving, LoadingEndsAtItsLimit) {
 
 /// Expects that all cells of a sweep with these methods of the plugin are ok.
 void expect_all_ok(const std::string& plugin, const std::string& methods, int seconds) {
-  const TemporaryFolder folder;
-  folder.file("c.yaml",
-              "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nrepeats: 3\n"
-              "metrics: [ate]\nmethods: [" +
-                  methods + "]\nlimits: {seconds: " + std::to_string(seconds) + "}\n");
-  const CommandResult result =
-      loopbench_command("run c.yaml --out r --plugin '" + plugin + "'", folder);
+  const auto [result, cells, records] =
+      run_with("repeats: 3\nmetrics: [ate]\nmethods: [" + methods +
+                   "]\nlimits: {seconds: " + std::to_string(seconds) + "}",
+               plugin);
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-  for (const CellRow& cell : read_cells(folder.path() / "r")) {
+  for (const CellRow& cell : cells) {
     EXPECT_EQ(cell.status, Status::ok) << cell.method << ": " << cell.why;
   }
 }
@@ -101,13 +100,9 @@ TEST(Misbehaving, APluginWithOpenMPHangsNoCell) {
 #endif
 
 TEST(Misbehaving, AMetricDoesNotChangeWhatOthersRead) {
-  const TemporaryFolder folder;
-  const std::string config =
-      "datasets: [{dataset: simulated, path: room, keyframes: 40}]\nmethods: [raw]\nmetrics: [";
-  const auto ate = [&](const std::string& before) {
-    folder.file("c.yaml", config + before + "ate]\n");
-    loopbench_command("run c.yaml --fresh --out r --plugin '" LOOPBENCH_MISBEHAVING "'", folder);
-    const std::vector<Record> records = read_records(folder.path() / "r");
+  const auto ate = [](const std::string& before) {
+    const std::vector<Record> records =
+        run_with("methods: [raw]\nmetrics: [" + before + "ate]").records;
     return records.empty() ? 0.0 : records.back().statistics.rmse;
   };
   const double expected = ate("");

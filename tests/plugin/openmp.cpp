@@ -7,7 +7,7 @@ using namespace loopbench::methods;
 namespace {
 
 struct InParallel final : Corrector {
-  struct Options {};
+  using Options = NoOptions;
   explicit InParallel(const Options&) {}
   Trajectory correct(const Problem& problem, Report& report) const override {
     double length = 0.0;
@@ -21,8 +21,6 @@ struct InParallel final : Corrector {
     return problem.keyframes;
   }
 };
-template <class Visit>
-void fields(InParallel::Options&, Visit) {}
 
 }  // namespace
 

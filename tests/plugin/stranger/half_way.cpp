@@ -45,7 +45,7 @@ void fields(HalfWay::Options& o, Visit visit) {
 /// Extends its solution in replays: every keyframe is raised by one metre per closure so far.
 class Steps final : public Corrector {
  public:
-  struct Options {};
+  using Options = NoOptions;
   explicit Steps(const Options&) {}
 
   class Updates final : public Incremental {
@@ -73,34 +73,25 @@ class Steps final : public Corrector {
   }
 };
 
-template <class Visit>
-void fields(Steps::Options&, Visit) {}
-
 /// A smoother whose curve type is defined in this shared object.
 class Lines final : public Smoother {
  public:
-  struct Options {};
+  using Options = NoOptions;
   explicit Lines(const Options&) {}
   std::unique_ptr<const Curve> smooth(const Problem& problem, Report&) const override {
     return std::make_unique<Polyline>(problem.keyframes);
   }
 };
 
-template <class Visit>
-void fields(Lines::Options&, Visit) {}
-
 /// Fails on every problem, to test the isolation of cells.
 class Thrower final : public Estimator {
  public:
-  struct Options {};
+  using Options = NoOptions;
   explicit Thrower(const Options&) {}
   std::unique_ptr<const Curve> estimate(const Problem&, Report&) const override {
     throw std::runtime_error("thrown inside the plugin");
   }
 };
-
-template <class Visit>
-void fields(Thrower::Options&, Visit) {}
 
 /// A dataset: keyframes along x.
 struct StraightOptions {
