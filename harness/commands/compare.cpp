@@ -135,10 +135,10 @@ void add_compare(CLI::App& app, int& exit_code) {
           "--baseline", arguments->options.baseline, "Method that others are compared with")
       ->type_name("METHOD");
   command
-      ->add_option(
-          "--metric",
-          arguments->metric,
-          "Label or name of a metric, or a score: ate, error x; ate unless --where selects one")
+      ->add_option("--metric",
+                   arguments->metric,
+                   "Label or name of a metric, or a score: ate, error x, cpu; ate unless --where "
+                   "selects one")
       ->type_name("METRIC");
   command
       ->add_option("--assert",

@@ -175,7 +175,8 @@ void tell(const RunPlan& plan, const CellCounts& counts, std::optional<Store>& s
   } else {
     const bool has_tables = plan.all.size() <= kMostCellsInTables;
     if (has_tables) {
-      const std::vector<Record> records = all_records(plan.store());
+      const std::vector<Record> records =
+          all_records(plan.store(), asked_by(plan.sweep.table, plan.sweep.table.where));
       fmt::print("{}", summary_text(records, plan.sweep));  // even if a table of it fails
       write_tables(plan.store(), plan.sweep, records, plan.out);
     }

@@ -71,7 +71,7 @@ bool choose_sequences(TableArguments& arguments) {
   std::set<SharedText> sequences;
   RecordReader reader(arguments.store);
   reader.for_each_chunk([&](std::vector<Record>& records) {
-    add_derived(records, baseline);
+    add_derived(records, baseline, asked_by(spec, arguments.where));
     for (const Record& r : records) {
       if (!is_kept(r)) continue;
       sequences.insert(r.cell->sequence);
@@ -162,11 +162,11 @@ void add_table(CLI::App& app, int& exit_code) {
   command->add_flag("--plus-minus",
                     arguments->spec.plus_minus,
                     "Add the standard deviation over the averaged cells to each number");
-  command->add_option(
-      "--show",
-      arguments->spec.show,
-      "Scores to show: ate,error x,gain,time; default: all, with --format latex or markdown the "
-      "first (of a single sequence with gain and time)");
+  command->add_option("--show",
+                      arguments->spec.show,
+                      "Scores to show: ate,error x,gain,time,cpu,wall,memory; default: all but "
+                      "costs, with --format latex or markdown the "
+                      "first (of a single sequence with gain and time)");
   command
       ->add_option("--success",
                    arguments->success,

@@ -63,6 +63,7 @@ std::vector<std::size_t> first_scores(const std::vector<Record>& records) {
 /// A score of a cell that is a single number: every statistic has this value.
 struct CellScore {
   const char* metric;
+  const char* label;
   const char* unit;
   metrics::Better better;
   double (*value)(const Record&);  ///< NaN: none
@@ -82,7 +83,7 @@ std::vector<Record> scores_of_cells(const std::vector<Record>& records, const Ce
              .protocol_version = own.protocol_version,
              .times = own.times,
              .metric = score.metric,
-             .label = "",
+             .label = score.label,
              .relation = "",
              .axis = "",
              .unit = score.unit,
@@ -96,9 +97,19 @@ std::vector<Record> scores_of_cells(const std::vector<Record>& records, const Ce
   return out;
 }
 
+double milliseconds_of(const Record& r) { return r.cell->milliseconds(); }
+double cpu_of(const Record& r) { return 1e3 * r.cell->cpu_seconds.value_or(std::nan("")); }
+double memory_of(const Record& r) {
+  return r.cell->peak_memory ? 1e-6 * static_cast<double>(*r.cell->peak_memory) : std::nan("");
+}
+
+constexpr CellScore kCosts[] = {{"cpu_ms", "cpu", "ms", metrics::Better::lower, cpu_of},
+                                {"wall_ms", "wall", "ms", metrics::Better::lower, milliseconds_of},
+                                {"memory_mb", "memory", "MB", metrics::Better::lower, memory_of}};
+
 /// Number of pose pairs of the scores.
 std::vector<Record> pair_counts(const std::vector<Record>& records) {
-  return scores_of_cells(records, {"pairs", "", metrics::Better::neither, [](const Record& r) {
+  return scores_of_cells(records, {"pairs", "", "", metrics::Better::neither, [](const Record& r) {
                                      return static_cast<double>(r.pairs);
                                    }});
 }
@@ -140,15 +151,30 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
 }
 
 std::vector<Record> run_times(const std::vector<Record>& records) {
-  return scores_of_cells(records, {"time", "ms", metrics::Better::lower, [](const Record& r) {
-                                     return r.cell->milliseconds();
-                                   }});
+  return scores_of_cells(records, {"time", "", "ms", metrics::Better::lower, milliseconds_of});
 }
 
-void add_derived(std::vector<Record>& records, const std::string& baseline) {
+std::vector<Record> cost_scores(const std::vector<Record>& records,
+                                const std::vector<std::string>& asked) {
+  std::vector<Record> out;
+  for (const CellScore& cost : kCosts) {
+    const auto is_about = [&](const std::string& text) {
+      return text == cost.label || text.find(cost.metric) != std::string::npos ||
+             text.find(std::string("label=") + cost.label) != std::string::npos;
+    };
+    if (std::ranges::none_of(asked, is_about)) continue;
+    std::ranges::move(scores_of_cells(records, cost), std::back_inserter(out));
+  }
+  return out;
+}
+
+void add_derived(std::vector<Record>& records,
+                 const std::string& baseline,
+                 const std::vector<std::string>& asked) {
   std::vector<Record> derived = gains(records, baseline);
   std::ranges::move(pair_counts(records), std::back_inserter(derived));
   std::ranges::move(run_times(records), std::back_inserter(derived));
+  std::ranges::move(cost_scores(records, asked), std::back_inserter(derived));
   std::ranges::move(derived, std::back_inserter(records));
 }
 

@@ -19,8 +19,17 @@ std::vector<Record> gains(const std::vector<Record>& records, const std::string&
 /// wall time. None of files that `eval --store` evaluated.
 std::vector<Record> run_times(const std::vector<Record>& records);
 
-/// Appends gains, run times, and the numbers of pose pairs of the scores (metric `pairs`);
-/// `records`: complete sequences.
-void add_derived(std::vector<Record>& records, const std::string& baseline);
+/// The costs of a cell as scores, one record each per cell, protocol and times: its median
+/// processor time `cpu_ms`, its median wall time `wall_ms` (the same as `time`) and its peak memory
+/// `memory_mb`, with the labels cpu, wall and memory; those that a text of `asked` is or selects:
+/// "cpu", "cpu_ms", "metric=cpu_ms".
+std::vector<Record> cost_scores(const std::vector<Record>& records,
+                                const std::vector<std::string>& asked);
+
+/// Appends gains, run times, cost_scores() of `asked`, and the numbers of pose pairs of the scores
+/// (metric `pairs`); `records`: complete sequences.
+void add_derived(std::vector<Record>& records,
+                 const std::string& baseline,
+                 const std::vector<std::string>& asked = {});
 
 }  // namespace loopbench::harness

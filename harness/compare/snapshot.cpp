@@ -158,11 +158,17 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
   out.metrics = definitions(text_of(run, "metrics", store), "\t", 0);
   out.methods = definitions(text_of(run, "methods", store), "\t", 0);
   const bool has_times = limits_time(limits);
+  std::vector<std::string> asked;
   for (const Tolerance& limit : limits) {  // rejects an unknown statistic
     for (const std::string& statistic : limit.values) value({}, statistic);
+    asked.insert(asked.end(), limit.where.begin(), limit.where.end());
   }
   RecordReader(store).for_each_chunk([&](std::vector<Record>& records) {
-    if (has_times) std::ranges::move(run_times(records), std::back_inserter(records));
+    if (has_times) {
+      std::vector<Record> costs = cost_scores(records, asked);
+      std::ranges::move(run_times(records), std::back_inserter(records));
+      std::ranges::move(costs, std::back_inserter(records));
+    }
     std::ranges::move(checked_records(std::move(records), limits), std::back_inserter(out.records));
     if (out.records.size() <= kMostScores) return true;
     throw InputError(fmt::format(

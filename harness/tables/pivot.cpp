@@ -105,7 +105,8 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
     if (is_loss(record)) entry.lost.insert(run);
     return;
   }
-  if (record.kind->metric == "time" && record.cell->is_stated()) {
+  if ((record.kind->metric == "time" || record.kind->metric == "wall_ms") &&
+      record.cell->is_stated()) {
     entry.is_stated = true;
     table.note(kStatedNote);
   }

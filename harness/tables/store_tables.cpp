@@ -21,9 +21,10 @@ namespace {
 
 void for_each_with_derived(RecordReader& reader,
                            const std::string& baseline,
+                           const std::vector<std::string>& asked,
                            const std::function<void(const Record&)>& visit) {
   reader.for_each_chunk([&](std::vector<Record>& records) {
-    add_derived(records, baseline);
+    add_derived(records, baseline, asked);
     std::ranges::for_each(records, visit);
     return true;
   });
@@ -32,7 +33,10 @@ void for_each_with_derived(RecordReader& reader,
 /// Records of the scores of a store, of a cell without a name.
 std::vector<Record> stored_kinds(const RecordReader& reader) {
   Record any;
-  any.cell.edit().runs = 1;  // so that it has a time
+  CellRow& cell = any.cell.edit();
+  cell.runs = 1;  // so that it has costs
+  cell.cpu_seconds = 0.0;
+  cell.peak_memory = 0;
   std::vector<Record> out;
   for (const Shared<ScoreKind>& kind : reader.kinds()) out.emplace_back(any).kind = kind;
   return out;
@@ -153,7 +157,7 @@ std::vector<Table> tables_by_sequence(const std::filesystem::path& store,
   reader.for_each_chunk([&](std::vector<Record>& records) {
     if (begun.size() >= most) take_first();
     begun.push_back(std::async(std::launch::async, [&, own = std::move(records)]() mutable {
-      add_derived(own, baseline);
+      add_derived(own, baseline, asked_by(spec, rules));
       if (!rules.empty()) std::erase_if(own, [&](const Record& r) { return !is_kept(r); });
       if (own.empty()) return PivotedTables{};
       has_records = true;
@@ -172,14 +176,17 @@ std::vector<Table> tables_by_sequence(const std::filesystem::path& store,
 }  // namespace
 
 void for_each_record(const std::filesystem::path& store,
-                     const std::function<void(const Record&)>& visit) {
+                     const std::function<void(const Record&)>& visit,
+                     const std::vector<std::string>& asked) {
   RecordReader reader(store);
-  for_each_with_derived(reader, read_run(store).at("baseline"), visit);
+  for_each_with_derived(reader, read_run(store).at("baseline"), asked, visit);
 }
 
-std::vector<Record> all_records(const std::filesystem::path& store) {
+std::vector<Record> all_records(const std::filesystem::path& store,
+                                const std::vector<std::string>& asked) {
   std::vector<Record> out;
-  for_each_record(store, [&](const Record& r) { out.push_back(r); });
+  for_each_record(
+      store, [&](const Record& r) { out.push_back(r); }, asked);
   return out;
 }
 
@@ -198,7 +205,9 @@ std::vector<Comparison> compare_store(const std::filesystem::path& store,
   const std::vector<Record> stored = stored_kinds(reader);
   if (stored.empty()) throw InputError(nothing);
   std::vector<Record> definitions = stored;
-  add_derived(definitions, "");  // of any method: definitions have none
+  std::vector<std::string> asked = rules;
+  asked.push_back(metric);
+  add_derived(definitions, "", asked);  // of any method: definitions have none
   const char* const name = metric.empty() ? nullptr : matching_field(definitions, metric);
   const auto is_wanted = [&](const Record& r) { return !name || field(r, name) == metric; };
   std::set<ScoreKind> kept;
@@ -217,7 +226,7 @@ std::vector<Comparison> compare_store(const std::filesystem::path& store,
   const auto add = [&](const Record& r) {
     if (passes(r) && (!r.has_score() || is_wanted(r))) wanted.add(r);
   };
-  is_derived ? for_each_with_derived(reader, baseline, add) : reader.for_each(add);
+  is_derived ? for_each_with_derived(reader, baseline, asked, add) : reader.for_each(add);
   std::vector<Observations> all = wanted.build();
   if (all.empty()) throw InputError(nothing);
   return compare(std::move(all), options);
@@ -229,7 +238,7 @@ std::vector<Table> store_tables(const std::filesystem::path& store,
                                 const CompareOptions& options) {
   for (auto* names : {&spec.rows, &spec.columns, &spec.split}) std::erase(*names, "");
   if (is_by_sequence(spec)) return tables_by_sequence(store, rules, spec, options);
-  std::vector<Record> records = all_records(store);
+  std::vector<Record> records = all_records(store, asked_by(spec, rules));
   keep_where(records, rules);
   if (records.empty()) reject_empty(store, rules);
   const std::string note = complete_layout(records, spec);

@@ -13,12 +13,23 @@
 
 namespace loopbench::harness {
 
-/// Visits the records sequence by sequence: those that are stored, then the derived ones.
+/// Visits the records sequence by sequence: those that are stored, then the derived ones, of costs
+/// those that are `asked` for (see cost_scores()).
 void for_each_record(const std::filesystem::path& store,
-                     const std::function<void(const Record&)>& visit);
+                     const std::function<void(const Record&)>& visit,
+                     const std::vector<std::string>& asked = {});
 
 /// All of for_each_record().
-std::vector<Record> all_records(const std::filesystem::path& store);
+std::vector<Record> all_records(const std::filesystem::path& store,
+                                const std::vector<std::string>& asked = {});
+
+/// The texts by which a table can ask for costs: the scores that it shows, and the filters.
+inline std::vector<std::string> asked_by(const TableSpec& spec,
+                                         const std::vector<std::string>& rules) {
+  std::vector<std::string> out = spec.show;
+  out.insert(out.end(), rules.begin(), rules.end());
+  return out;
+}
 
 /// The comparisons that `loopbench compare` prints, for one metric selected by its label, the short
 /// name of a score ("error x") or its name, over the records that pass the filters `rules` (see

@@ -128,7 +128,7 @@ TEST(Gate, LooksAtTimesOnlyWhenALimitIsAboutThem) {
     for (const Record& r : to.records) {
       all.push_back(r);
       all.push_back(r);
-      all.back().kind.edit().metric = "time";
+      all.back().kind.edit().metric = "cpu_ms";
       all.back().statistics.rmse = ms;
     }
     to.records = all;

@@ -175,6 +175,19 @@ TEST(RunTimes, AreOnePerCellAndTimes) {
   ASSERT_EQ(t.size(), 1u);
   EXPECT_EQ(t[0].statistics.rmse, 2.5);
   EXPECT_EQ(t[0].kind->unit, "ms");
+
+  // Other costs are scores only if a filter or a list asks for them.
+  EXPECT_TRUE(cost_scores(records, {"ate", "method=cpu"}).empty());
+  EXPECT_TRUE(cost_scores(records, {"cpu"}).empty());  // unknown
+  for (Record& r : records) {
+    r.cell.edit().cpu_seconds = 0.002;
+    r.cell.edit().peak_memory = 3'000'000;
+  }
+  const std::vector<Record> costs = cost_scores(records, {"cpu", "metric=memory_mb,times=dense"});
+  ASSERT_EQ(costs.size(), 2u);
+  EXPECT_EQ(costs[0].kind->label + " " + costs[1].kind->label, "cpu memory");
+  EXPECT_EQ(costs[0].statistics.rmse, 2.0);
+  EXPECT_EQ(costs[1].statistics.max, 3.0);
 }
 
 TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
