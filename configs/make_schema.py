@@ -158,7 +158,8 @@ def config_keys(listed):
         "processes": COUNT, "cells": COUNT}))
     table = map_of(keys_of("table", dict.fromkeys(("rows", "columns", "split", "show", "where"), TEXTS)
                            | {"value": TEXT, "plus_minus": FLAG}))
-    timing = {"anyOf": [COUNT, FLAG, map_of(keys_of("timing", {"runs": COUNT, "serial": FLAG}))]}
+    timing = {"anyOf": [COUNT, FLAG, map_of(keys_of("timing", {
+        "runs": COUNT, "precision": {"type": "number", "minimum": 0, "maximum": 1}, "serial": FLAG}))]}
     excluded = map_of(keys_of("exclude", {"dataset": TEXT, "method": TEXT}))
     return keys_of("config", {
         "description": TEXT, "plugins": TEXTS, "datasets": entries, "methods": entries, "metrics": entries,

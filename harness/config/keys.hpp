@@ -32,7 +32,9 @@ inline const std::vector<ConfigKey>& config_keys(const std::string& map) {
         {"baseline", "label of the method that gain refers to"},
         {"min_coverage", "smallest coverage of a complete result [1]"},
         {"repeats", "instances of every dataset with a seed"},
-        {"timing", "timed runs of each method; true: 5 runs, one cell at a time"},
+        {"timing",
+         "timed runs of each method; true: until their CPU time is known to 2 %, one cell at a "
+         "time"},
         {"traces", "whether trajectories are stored for reports"},
         {"limits", "limits of one cell and of the sweep"},
         {"exclude", "cells to leave out"},
@@ -43,7 +45,11 @@ inline const std::vector<ConfigKey>& config_keys(const std::string& map) {
         {"processes", "largest number of processes of one cell, apart from threads"},
         {"cells", "largest number of cells of the sweep"}}},
       {"timing",
-       {{"runs", "timed runs of each method"},
+       {{"runs", "timed runs of each method; with a precision the most, default 100"},
+        {"precision",
+         "relative standard error of the mean CPU time at which the runs end, after at least 5 "
+         "[1]; "
+         "0: none"},
         {"serial", "whether cells run one at a time, on one core"}}},
       {"table",
        {{"rows", "columns of the long table that name a row"},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "harness/config/keys.hpp"
@@ -37,16 +38,23 @@ inline std::vector<metrics::Times> as_times(const YamlNode& node, const std::str
   return out;
 }
 
-/// A number of runs; true for timing cells alone; or {runs: N, serial: true}.
+/// A number of runs; true for timing cells alone until their CPU time is known to 2 %; or {runs: N,
+/// precision: 0.02, serial: true}.
 inline void read_timing(const YamlNode& node, Sweep& sweep) {
-  constexpr int kRunsWhenAlone = 5;  // for a median that one disturbance does not change
+  constexpr int kMostRuns = 100;  // with a precision
+  constexpr double kPrecision = 0.02;
   if (node.type == YamlNode::Type::map) {
     require_keys(node, "timing", config_key_names("timing"));
+    const auto share = [](const YamlNode& given, const std::string& key) {
+      return as_number(given, key, Between{0.0, 1.0});
+    };
+    read_key(node, "timing.precision", sweep.precision, share);
+    if (sweep.precision > 0.0) sweep.timing = kMostRuns;
     read_key(node, "timing.runs", sweep.timing, as_count);
     read_key(node, "timing.serial", sweep.serial, as_flag);
   } else if (std::holds_alternative<bool>(node.scalar)) {
     sweep.serial = as_flag(node, "timing");
-    if (sweep.serial) sweep.timing = kRunsWhenAlone;
+    if (sweep.serial) std::tie(sweep.timing, sweep.precision) = std::pair(kMostRuns, kPrecision);
   } else {
     sweep.timing = as_count(node, "timing");
   }

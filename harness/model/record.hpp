@@ -43,7 +43,10 @@ struct CellRow {
   double seconds = 0.0;   ///< time of the method: median, then minimum and maximum
   double seconds_min = 0.0;
   double seconds_max = 0.0;
-  std::optional<double> cpu_seconds;         ///< median
+  std::optional<double> cpu_seconds;  ///< median
+  std::optional<double> cpu_seconds_min;
+  std::optional<double> cpu_variation;       ///< standard deviation by mean; none of a single run
+  std::optional<double> waiting;             ///< share of the wall time without a processor, 0..1
   std::optional<std::int64_t> peak_memory;   ///< of the process [bytes]
   std::optional<std::int64_t> added_memory;  ///< increase of the resident size [bytes]
   Status status = Status::ok;

@@ -1,8 +1,10 @@
 /// Result of one cell.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -61,6 +63,7 @@ struct CellResult {
   Worker worker;
   std::vector<double> seconds;      ///< wall time of the method, one value per timed run
   std::vector<double> cpu_seconds;  ///< CPU time of the process in these runs; empty: unknown
+  std::optional<double> waiting;    ///< share of the wall time without a processor; empty: unknown
   std::optional<std::int64_t> peak_memory;   ///< largest resident size of the process [bytes]
   std::optional<std::int64_t> added_memory;  ///< increase of the resident size [bytes]
   methods::Report report;                    ///< of the last timed run
@@ -69,6 +72,16 @@ struct CellResult {
   CellTrace trace;             ///< under the first protocol, dense if the sweep evaluates densely
   std::shared_ptr<const SequenceMetadata> metadata;  ///< null if its sequence could not be loaded
 };
+
+/// Standard deviation by mean; none for fewer than two values or a mean of zero.
+inline std::optional<double> variation(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  if (values.size() < 2 || mean == 0.0) return std::nullopt;
+  double squares = 0.0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return std::sqrt(squares / (n - 1.0)) / mean;
+}
 
 /// What a score states for each evaluated pose.
 struct PoseValues {

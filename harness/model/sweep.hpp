@@ -74,9 +74,10 @@ struct Sweep {
   std::string baseline;           ///< label of the method that gain is relative to; empty: no gain
   double min_coverage = 0.0;      ///< share and span below this are `incomplete`, 0..1
   int repeats = 1;                ///< instances of each seeded dataset
-  int timing = 1;                 ///< timed runs of each method
-  bool serial = false;            ///< runs one cell at a time, on one core, for reliable times
-  bool traces = true;             ///< stores subsampled trajectories of every cell for reports
+  int timing = 1;                 ///< timed runs of each method; the most if there is a precision
+  double precision = 0.0;  ///< relative standard error of the mean CPU time that ends them; 0: none
+  bool serial = false;     ///< runs one cell at a time, on one core, for reliable times
+  bool traces = true;      ///< stores subsampled trajectories of every cell for reports
   Limits limits;
   std::vector<Exclusion> exclude;
   TableSpec table;

@@ -55,6 +55,14 @@ std::string time_text(const std::vector<const CellRow*>& cells) {
   return wall.empty() ? time : time + " (s), wall " + milliseconds(wall);
 }
 
+std::string least_milliseconds(const std::vector<double>& seconds) {
+  return seconds.empty() ? "-" : fmt::format("{:.4g}", 1e3 * std::ranges::min(seconds));
+}
+
+std::string median_percent(const std::vector<double>& shares) {
+  return shares.empty() ? "-" : fmt::format("{:.1f}", 100.0 * metrics::median(shares));
+}
+
 std::string median_count(const std::vector<double>& counts) {
   return counts.empty() ? "-" : fmt::format("{:.6g}", metrics::median(counts));
 }
@@ -101,12 +109,16 @@ Table costs(const std::vector<CellRow>& cells) {
              "failed",
              "time [ms]",
              "CPU [ms]",
+             "least CPU [ms]",
+             "CPU variation [%]",
+             "runs",
              "peak memory [MB]",
              "added [MB]",
              "iterations"},
             {},
             {"medians over cells; time: wall time from the problem to the result, or (s) as the "
-             "program states it; memory: the largest resident size of the process while the "
+             "program states it; variation: standard deviation by mean over the runs of a cell; "
+             "memory: the largest resident size of the process while the "
              "method ran, and its increase (memory that an earlier cell returned to the allocator "
              "is reused without being counted). CPU and memory of a program are its own"}};
   const bool has_times = std::ranges::any_of(cells, [](const auto& cell) { return cell.runs > 0; });
@@ -118,14 +130,29 @@ Table costs(const std::vector<CellRow>& cells) {
       return !has_numbers(cell->status) && cell->status != Status::declined;
     });
     const auto values = [&](const auto& get) { return values_of(method.timed, get); };
-    out.lines.push_back({method.name,
-                         std::to_string(method.all.size()),
-                         std::to_string(failed),
-                         time_text(method.timed),
-                         milliseconds(values([](const auto& c) { return c.cpu_seconds; })),
-                         megabytes(values([](const auto& c) { return c.peak_memory; })),
-                         megabytes(values([](const auto& c) { return c.added_memory; })),
-                         median_count(values(iterations))});
+    out.lines.push_back(
+        {method.name,
+         std::to_string(method.all.size()),
+         std::to_string(failed),
+         time_text(method.timed),
+         milliseconds(values([](const auto& c) { return c.cpu_seconds; })),
+         least_milliseconds(values([](const auto& c) { return c.cpu_seconds_min; })),
+         median_percent(values([](const auto& c) { return c.cpu_variation; })),
+         median_count(values([](const auto& c) { return std::optional(c.runs); })),
+         megabytes(values([](const auto& c) { return c.peak_memory; })),
+         megabytes(values([](const auto& c) { return c.added_memory; })),
+         median_count(values(iterations))});
+  }
+  constexpr double kBusy = 0.1;  // share of the time
+  const auto busy = std::ranges::count_if(
+      cells, [](const auto& cell) { return cell.waiting.value_or(0.0) > kBusy; });
+  if (busy > 0) {
+    out.notes.push_back(fmt::format(
+        "busy machine: {} of {} cells waited for a processor for more than {:.0f} % of their wall "
+        "time, so compare processor times",
+        busy,
+        cells.size(),
+        100.0 * kBusy));
   }
   const auto alone = std::ranges::count_if(cells, [](const auto& cell) {
     return cell.worker.text().find("serial") != std::string::npos;

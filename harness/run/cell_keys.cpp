@@ -51,6 +51,7 @@ std::string evaluation_fields(const Sweep& sweep, const Catalogue& catalogue) {
   if (uses_programs(sweep) && !is_sandboxed()) fields.add("no sandbox");
   for (const metrics::Times times : sweep.times) fields.add(to_text(times));
   fields.add(to_text(sweep.min_coverage)).add(std::to_string(sweep.timing));
+  if (sweep.precision > 0.0) fields.add(to_text(sweep.precision));
   fields.add(sweep.serial ? "serial" : "").add(sweep.traces ? "traces" : "");
   return fields.hashed();
 }

@@ -67,7 +67,7 @@ void walk(Archive& a, T& values) {
 template <class Archive, Either<harness::CellResult> T>
 void walk(Archive& a, T& r) {
   a(r.cell)(r.status)(r.why)(r.signal)(r.worker)(r.oracle_method)(r.seconds)(r.cpu_seconds);
-  a(r.peak_memory)(r.added_memory);
+  a(r.waiting)(r.peak_memory)(r.added_memory);
   a(r.report.phases)(r.report.counts)(r.report.notes)(r.report.sections);
   a(r.scores)(r.trace.times)(r.trace.samples)(r.trace.values);
 }

@@ -5,11 +5,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
+#include <numeric>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <utility>
 
+#include "harness/base/system_file.hpp"
 #include "harness/catalogue/external_methods.hpp"
 #include "harness/catalogue/floating_point_guard.hpp"
 #include "harness/catalogue/server.hpp"
@@ -67,6 +71,14 @@ double process_cpu_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+/// Time that this thread was ready and had no processor [s]; none without the kernel's statistics.
+std::optional<double> seconds_without_processor() {
+  std::istringstream in(read_system_file("/proc/self/schedstat"));
+  double running = 0.0, waiting = 0.0;
+  if (!(in >> running >> waiting)) return std::nullopt;
+  return 1e-9 * waiting;
+}
+
 /// Largest resident size of this process [bytes].
 std::int64_t peak_memory() {
   rusage usage{};
@@ -119,6 +131,17 @@ std::string hash_of_curve(const Curve* curve, const Problem& problem) try {
   return "";
 }
 
+/// Whether the runs of a cell are enough: the standard error of the mean CPU time is below the
+/// precision, or they took long.
+bool are_enough_runs(const CellResult& result, double precision) {
+  constexpr std::size_t kFewest = 5;  // for a median that one disturbance does not change
+  constexpr double kMost = 2.0;       // CPU time [s]
+  const std::vector<double>& runs = result.cpu_seconds;
+  if (precision == 0.0 || runs.size() < kFewest) return false;
+  if (std::accumulate(runs.begin(), runs.end(), 0.0) > kMost) return true;
+  return variation(runs).value_or(0.0) < precision * std::sqrt(static_cast<double>(runs.size()));
+}
+
 /// Runs and measures the method; memory is that of the first run, measured outside the timed part.
 /// Every run asks a new process of a program that serves, so that no answer is from its memory.
 /// The times of a short first run are replaced by those of another run, because this process is
@@ -126,12 +149,14 @@ std::string hash_of_curve(const Curve* curve, const Problem& problem) try {
 std::unique_ptr<const Curve> timed(CellResult& result,
                                    const methods::Estimator& method,
                                    const Problem& problem,
-                                   int runs) {
+                                   const Sweep& sweep) {
   const FloatingPointGuard guard;
+  const auto waited = seconds_without_processor();
+  const auto begin = Clock::now();
   const std::int64_t before = peak_memory();
   TimedRun last;
   std::set<std::string> results;
-  for (int run = 0; run < runs; ++run) {
+  for (int run = 0; run < sweep.timing && !are_enough_runs(result, sweep.precision); ++run) {
     if (run > 0) end_servers();
     last = {};  // so that the destruction of its curve is not timed with the next run
     last = timed_run(method, problem);
@@ -150,7 +175,11 @@ std::unique_ptr<const Curve> timed(CellResult& result,
       result.added_memory = *result.peak_memory - before;
     }
     use_costs_of_program(result, last.report);
-    if (runs > 1) results.insert(hash_of_curve(last.curve.get(), problem));
+    if (sweep.timing > 1) results.insert(hash_of_curve(last.curve.get(), problem));
+  }
+  if (const auto now = seconds_without_processor(); waited && now) {
+    const std::chrono::duration<double> took = Clock::now() - begin;
+    result.waiting = std::clamp((*now - *waited) / took.count(), 0.0, 1.0);
   }
   result.worker.stated = wall_beside_stated(last.report).has_value();
   result.report = std::move(last.report);
@@ -158,7 +187,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
     result.report.notes.push_back(
         fmt::format("{}{} runs on the same input gave {} different trajectories",
                     kNondeterministic,
-                    runs,
+                    result.seconds.size(),
                     results.size()));
   }
   return std::move(last.curve);
@@ -248,7 +277,7 @@ CellResult run_cell(const Cell& cell,
     // The method of a plugin can write through `const`, and metrics read the same.
     const Problem copy = is_foreign ? sequence.problem : Problem{};
     const std::unique_ptr<const Curve> curve =
-        timed(result, *method, is_foreign ? copy : sequence.problem, sweep.timing);
+        timed(result, *method, is_foreign ? copy : sequence.problem, sweep);
     check_span(curve.get(), sequence.problem.keyframes);
     const CheckedCurve checked(*curve);
     // Only metrics read them: they are neither sent to the sweep nor stored.

@@ -120,9 +120,11 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
   const SequenceMetadata& metadata = result.metadata ? *result.metadata : none;
   const auto [low, high] = std::ranges::minmax_element(result.seconds);
   const bool timed = !result.seconds.empty();
-  const auto cpu = result.cpu_seconds.empty()
-                       ? std::nullopt
-                       : std::optional<double>(metrics::median(result.cpu_seconds));
+  std::optional<double> cpu, least_cpu;
+  if (!result.cpu_seconds.empty()) {
+    cpu = metrics::median(result.cpu_seconds);
+    least_cpu = std::ranges::min(result.cpu_seconds);
+  }
   cell_.bind(cell.index, keys.key(cell, metadata.inputs), keys.build());
   cell_.bind(keys.sequence_key(cell, metadata.inputs), provenance_key_);
   cell_.bind(dataset.label, cell.repeat, method.label);
@@ -131,7 +133,8 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
   cell_.bind(text_of(result.worker), result.seconds.size());
   cell_.bind(
       timed ? metrics::median(result.seconds) : 0.0, timed ? *low : 0.0, timed ? *high : 0.0);
-  cell_.bind(cpu, result.peak_memory, result.added_memory);
+  cell_.bind(cpu, least_cpu, variation(result.cpu_seconds), result.waiting);
+  cell_.bind(result.peak_memory, result.added_memory);
   cell_.bind(to_text(result.status), result.signal, result.why);
   cell_.bind(std::ranges::count_if(result.scores, is_failure, &ScoreResult::status));
   cell_.bind(result.scores.size()).run();

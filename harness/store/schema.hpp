@@ -8,7 +8,7 @@
 namespace loopbench::harness {
 
 /// Incremented when the meaning of a table or column changes; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 15;
+inline constexpr int kSchemaVersion = 16;
 
 /// The columns of statistics but count: "rmse,", with texts before and after each name, in one
 /// line, or percentiles after `gap`.
@@ -79,6 +79,9 @@ inline const std::string kSchema = R"sql(
     seconds_min REAL NOT NULL,
     seconds_max REAL NOT NULL,
     cpu_seconds_median REAL,           -- CPU time of the process; NULL: unknown
+    cpu_seconds_min REAL,
+    cpu_variation REAL,                -- standard deviation by mean of the runs; NULL: one run
+    waiting REAL,                      -- share of their wall time without a processor, 0..1
     peak_memory INTEGER,               -- largest resident size of the process [bytes]
     added_memory INTEGER,              -- increase of the resident size [bytes]
     status TEXT NOT NULL,              -- ok | declined | incomplete; failed | crashed | timeout |
@@ -187,7 +190,8 @@ inline const CellTable kCellTables[] = {
 inline constexpr const char* kCellColumns =
     "position, key, build, cell.sequence_key, provenance_key, cell.sequence, repeat, method, "
     "dataset_options, method_options, cell.closures, oracle_closures, oracle, worker, runs, "
-    "seconds_median, seconds_min, seconds_max, cpu_seconds_median, peak_memory, added_memory, "
+    "seconds_median, seconds_min, seconds_max, cpu_seconds_median, cpu_seconds_min, cpu_variation, "
+    "waiting, peak_memory, added_memory, "
     "status, signal, why, failed_scores, scores, trace_hash";
 
 /// A cell's row and that of its sequence, which `hash` covers.

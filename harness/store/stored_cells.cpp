@@ -85,8 +85,9 @@ std::vector<StoredCell> read_stored_cells(Database& database) {
     row.read(position, c.key, c.build, c.sequence_key, provenance_key, c.sequence);
     row.read(c.repeat, c.method, c.dataset_options, c.method_options, c.closures);
     row.read(c.oracle_closures, c.oracle, c.worker, c.runs);
-    row.read(c.seconds, c.seconds_min, c.seconds_max, c.cpu_seconds, c.peak_memory);
-    row.read(c.added_memory, status, c.signal, c.why, c.failed_scores, c.scores, c.trace_hash);
+    row.read(c.seconds, c.seconds_min, c.seconds_max, c.cpu_seconds);
+    row.read(c.cpu_seconds_min, c.cpu_variation, c.waiting, c.peak_memory, c.added_memory);
+    row.read(status, c.signal, c.why, c.failed_scores, c.scores, c.trace_hash);
     c.intact =
         !damaged_provenance.contains(provenance_key) && !damaged_inputs.contains(c.sequence_key);
     c.placed = position.has_value();

@@ -95,8 +95,9 @@ TEST_F(Isolated, TimedCellsRunAloneOnOneCore) {
   for (const CellResult& result : results) {
     EXPECT_TRUE(result.worker.serial);
     EXPECT_TRUE(result.worker.pinned);
-    EXPECT_EQ(result.seconds.size(), 5u);
-    EXPECT_EQ(result.cpu_seconds.size(), 5u);
+    EXPECT_GE(result.seconds.size(), 5u);  // until the CPU time is known to 2 %
+    EXPECT_LE(result.seconds.size(), 100u);
+    EXPECT_EQ(result.cpu_seconds.size(), result.seconds.size());
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "tests/support/tiny_catalogue.hpp"
 
 namespace loopbench::read_sweep_test {
@@ -38,6 +40,17 @@ TEST(ReadSweep, FillsInDefaults) {
   EXPECT_EQ(sweep.protocols[0].label(), "loopbench");
   EXPECT_EQ(sweep.baseline, "");
   EXPECT_EQ(sweep.min_coverage, 0.0);
+}
+
+TEST(ReadSweep, TimingIsANumberOfRunsOrAPrecision) {
+  const auto timing = [](const std::string& text) {
+    const Sweep sweep = parse(with_setting("timing: " + text));
+    return std::tuple(sweep.timing, sweep.precision, sweep.serial);
+  };
+  EXPECT_EQ(timing("3"), std::tuple(3, 0.0, false));
+  EXPECT_EQ(timing("true"), std::tuple(100, 0.02, true));
+  EXPECT_EQ(timing("{precision: 0.05}"), std::tuple(100, 0.05, false));
+  EXPECT_EQ(timing("{precision: 0.05, runs: 20, serial: true}"), std::tuple(20, 0.05, true));
 }
 
 TEST(ReadSweep, ComposesStagesAndDistributesOptions) {
