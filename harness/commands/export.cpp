@@ -17,6 +17,7 @@
 #include "harness/run/estimate_files.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/read.hpp"
+#include "harness/tables/benchmark_json.hpp"
 #include "harness/tables/record_csv.hpp"
 #include "harness/tables/store_tables.hpp"
 
@@ -146,22 +147,31 @@ void add_export(CLI::App& app, int& exit_code) {
     std::filesystem::path out;
   };
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("export", "Write the rows or trajectories of a store");
+  CLI::App* command =
+      app.add_subcommand("export", "Write the rows, trajectories or costs of a store");
   command->add_option("store", a->store, "Folder of results, or its results.sqlite")->required();
   command
-      ->add_option("--what",
-                   a->what,
-                   "rows: every score, as CSV; trajectories: TUM files of the estimates and "
-                   "references, with index.csv, see `run --save-trajectories`")
-      ->check(CLI::IsMember({"rows", "trajectories"}))
+      ->add_option(
+          "--what",
+          a->what,
+          "rows: every score, as CSV; trajectories: TUM files of the estimates and "
+          "references, with index.csv, see `run --save-trajectories`; benchmark: costs and "
+          "their growth as JSON of Google Benchmark")
+      ->check(CLI::IsMember({"rows", "trajectories", "benchmark"}))
       ->capture_default_str();
-  command->add_option("-o,--out", a->out, "CSV file (default: standard output), or folder");
+  command->add_option("-o,--out", a->out, "File (default: standard output), or folder");
   command->callback([a, &exit_code] {
     if (a->what == "trajectories") {
       exit_code = export_trajectories(a->store, a->out);
       return;
     }
     exit_code = kExitOk;
+    if (a->what == "benchmark") {
+      if (!a->out.empty()) reject_overwriting({store_file(a->store)}, a->out);
+      write_file(a->out.empty() ? "-" : a->out,
+                 benchmark_json(read_cells(a->store), read_provenance(a->store)));
+      return;
+    }
     export_rows(a->store, a->out);
   });
 }

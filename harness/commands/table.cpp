@@ -12,6 +12,7 @@
 #include "harness/compare/derived.hpp"
 #include "harness/model/where.hpp"
 #include "harness/store/read.hpp"
+#include "harness/tables/growth.hpp"
 #include "harness/tables/store_tables.hpp"
 #include "harness/tables/success.hpp"
 
@@ -25,6 +26,7 @@ struct TableArguments {
   std::optional<double> success;  ///< limit of the error of a successful run
   CompareOptions ranking;
   OutputOptions output;
+  bool growth = false;
   bool has_default_layout = true;  ///< no --rows, --columns, --split
   bool is_for_paper = false;       ///< --format latex or markdown
 
@@ -34,7 +36,13 @@ struct TableArguments {
 std::string tables_text(const TableArguments& arguments) {
   const ExportFormat format = arguments.output.format();
   std::vector<Table> tables;
-  if (arguments.success) {
+  if (arguments.growth) {
+    tables = {growth_table(read_cells(arguments.store))};
+    if (tables.front().lines.empty()) {
+      throw InputError(arguments.store + ": has no sweep over three sizes of a sequence, such as " +
+                       "{dataset: simulated, sweep: {keyframes: [60, 240, 960]}}");
+    }
+  } else if (arguments.success) {
     std::vector<Record> records = read_records(arguments.store);
     keep_where(records, arguments.where);
     tables = {success_table(records, arguments.spec.value, *arguments.success)};
@@ -116,7 +124,7 @@ int print_table(TableArguments arguments) {
     for (std::string& score : split_list(word)) show.push_back(std::move(score));
   }
   arguments.spec.show = std::move(show);
-  if (arguments.has_default_layout && !arguments.success) {
+  if (arguments.has_default_layout && !arguments.success && !arguments.growth) {
     if (arguments.is_selected()) {  // otherwise there are several scores
       choose_sequences(arguments);
     } else if (arguments.is_for_paper) {
@@ -174,6 +182,10 @@ void add_table(CLI::App& app, int& exit_code) {
                    "unit); failed and incomplete runs do not succeed. Default: the first score, "
                    "usually ATE; others by --where and --value")
       ->check(finite_number());
+  command->add_flag("--growth",
+                    arguments->growth,
+                    "Print how processor time and memory of each method grow with the keyframes or "
+                    "closures of a sweep over them: fitted exponents with intervals");
   command->add_option("--where",
                       arguments->where,
                       "Filter of rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, comma-separated; "

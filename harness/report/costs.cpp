@@ -5,6 +5,7 @@
 #include "harness/catalogue/exchange.hpp"
 #include "harness/model/name_order.hpp"
 #include "harness/report/sections.hpp"
+#include "harness/tables/growth.hpp"
 #include "metrics/numerics/median.hpp"
 
 namespace loopbench::harness {
@@ -167,7 +168,8 @@ Table costs(const std::vector<CellRow>& cells) {
 
 std::string costs_html(const ReportContent& content) {
   std::string out;
-  for (const Table& listing : {costs(content.cells), reported(content.cells)}) {
+  for (const Table& listing :
+       {costs(content.cells), growth_table(content.cells), reported(content.cells)}) {
     if (!listing.lines.empty()) out += html_table(listing);
   }
   return out.empty() ? "<p>No run times are recorded.</p>\n" : out;
