@@ -3,11 +3,14 @@
 /// synthetic_sweep FOLDER CELLS [SHARDS]   stores of CELLS cells (a multiple of 2000) of 20 scores
 ///                                         each: FOLDER, or FOLDER/shards/I-of-N
 /// synthetic_sweep FOLDER CELLS resume     matches the store with its sweep, as `run` does
+/// synthetic_sweep FOLDER CELLS one        a store whose cells are all of one sequence, 4 scores
+/// each
 ///
 /// Prints the processor time of each step and the largest resident size.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <ctime>
 
@@ -29,14 +32,15 @@ constexpr const char* kMetrics[] = {
 double uniform(std::uint64_t bits) { return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53; }
 
 /// 40 methods, 50 repeats, 5 scores or more of translation and rotation at two kinds of times.
-Sweep sweep_of(std::size_t cells) {
+Sweep sweep_of(std::size_t cells, bool one_sequence) {
+  const std::size_t repeats = one_sequence ? cells / kMethods : kRepeats;
   Sweep out;
   out.name = "synthetic";
   out.baseline = "m0";
-  out.repeats = static_cast<int>(kRepeats);
+  out.repeats = static_cast<int>(repeats);
   out.limits.cells = 100'000'000;
   for (const char* metric : kMetrics) out.metrics.push_back({metric, {"ate", {}}});
-  for (std::size_t i = 0; i < cells / kMethods / kRepeats; ++i) {
+  for (std::size_t i = 0; i < cells / kMethods / repeats; ++i) {
     out.datasets.push_back(
         {fmt::format("sequence {}", i), {"line", {{"bias", 1e-6 * static_cast<double>(i)}}}});
   }
@@ -46,7 +50,7 @@ Sweep sweep_of(std::size_t cells) {
   return out;
 }
 
-CellResult result_of(const Cell& cell) {
+CellResult result_of(const Cell& cell, std::size_t metrics) {
   CellResult out;
   out.cell = cell;
   out.worker.isolated = true;
@@ -60,7 +64,7 @@ CellResult result_of(const Cell& cell) {
   out.seconds = {1e-3 * (1.0 + uniform(own.low))};
   out.cpu_seconds = out.seconds;
   for (const metrics::Times times : {metrics::Times::keyframes, metrics::Times::dense}) {
-    for (std::size_t i = 0; i < std::size(kMetrics); ++i) {
+    for (std::size_t i = 0; i < metrics; ++i) {
       // The run decides most of the error, the method little of it.
       const double noise = uniform(hash_of(fmt::format("{} {}", hex(own), i)).low);
       const double error = (0.5 + uniform(run.low)) *
@@ -95,12 +99,12 @@ void report(const char* step, std::size_t cells, double since) {
 
 int main(int count, char** words) {
   if (count < 3) {
-    fmt::print("usage: synthetic_sweep FOLDER CELLS [SHARDS | resume]\n");
+    fmt::print("usage: synthetic_sweep FOLDER CELLS [SHARDS | resume | one]\n");
     return 2;
   }
   const std::filesystem::path folder = words[1];
   const std::string mode = count > 3 ? words[3] : "1";
-  const Sweep sweep = sweep_of(std::strtoull(words[2], nullptr, 10));
+  const Sweep sweep = sweep_of(std::strtoull(words[2], nullptr, 10), mode == "one");
   const Catalogue known = tiny::catalogue();
   const std::vector<Cell> all = cells(sweep, std::vector<bool>(sweep.datasets.size(), true), "");
   CellKeys keys(sweep, known, DataRoot{{folder}}, "synthetic");
@@ -111,7 +115,7 @@ int main(int count, char** words) {
     report("resume", found.there, begin);
     return found.there == all.size() ? 0 : 1;
   }
-  const std::size_t shards = std::strtoull(mode.c_str(), nullptr, 10);
+  const std::size_t shards = mode == "one" ? 1 : std::strtoull(mode.c_str(), nullptr, 10);
   for (std::size_t i = 1; i <= shards; ++i) {
     const Shard shard{i, shards};
     const std::filesystem::path own = shards == 1 ? folder : folder / "shards" / shard.folder();
@@ -119,7 +123,8 @@ int main(int count, char** words) {
     Store store(own / "results.sqlite", keys, {});
     if (shards > 1) store.set_shard(shard.name() + " " + division_hash(all));
     store.resume(all, planned, Retry::none);
-    for (const Cell& cell : planned) store.write(result_of(cell));
+    for (const Cell& cell : planned)
+      store.write(result_of(cell, mode == "one" ? 2 : std::size(kMetrics)));
   }
   report("write", all.size(), begin);
   return 0;
