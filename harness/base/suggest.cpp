@@ -1,6 +1,7 @@
 #include "harness/base/suggest.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <string_view>
 
@@ -56,14 +57,14 @@ std::string unknown_name(const std::string& kind,
   return all.empty() ? what : what + " (known: " + all + ")";
 }
 
-std::string with_guess(const OptionError& error) {
+std::string with_guess(const OptionError& error, const std::vector<std::string>& further) {
   std::string why = error.what();
   constexpr std::string_view kOptions = " (has: ", kValues = ": expected one of ";
   const std::size_t options = why.rfind(kOptions), values = why.rfind(kValues);
   const std::size_t begin = error.option().size() + 3;  // of VALUE after "NAME = "
   const bool has_options = options != std::string::npos;
   if (!has_options && (values == std::string::npos || values < begin)) return why;
-  std::vector<std::string> known;
+  std::vector<std::string> known = has_options ? further : std::vector<std::string>{};
   std::istringstream list(
       why.substr(has_options ? options + kOptions.size() : values + kValues.size()));
   for (std::string word; list >> word;) {
@@ -73,6 +74,23 @@ std::string with_guess(const OptionError& error) {
       closest(has_options ? error.option() : why.substr(begin, values - begin), known);
   if (best.empty()) return why;
   return why.insert(std::min(options, why.size()), "; did you mean '" + best + "'?");
+}
+
+std::string with_similar_file(std::string message) {
+  namespace fs = std::filesystem;
+  const std::size_t end = message.find(": no such file");
+  if (end == std::string::npos) return message;
+  const std::size_t place = message.rfind(": ", end - 1);  // of a config that names the file
+  const std::size_t begin = place == std::string::npos ? 0 : place + 2;
+  const fs::path file = message.substr(begin, end - begin);
+  std::vector<std::string> names;
+  std::error_code error;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  for (fs::directory_iterator entry(folder, error), none; entry != none; entry.increment(error)) {
+    if (entry->is_regular_file(error)) names.push_back(entry->path().filename());
+  }
+  const std::string best = closest(file.filename(), names);
+  return best.empty() ? message : message + "; did you mean '" + best + "'?";
 }
 
 }  // namespace loopbench::harness

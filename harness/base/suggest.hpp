@@ -18,7 +18,11 @@ std::string unknown_name(const std::string& kind,
                          const std::string& given,
                          const std::vector<std::string>& known);
 
-/// The message, with the closest of the options or words that it lists ("did you mean 'y'?").
-std::string with_guess(const OptionError& error);
+/// The message, with the closest of the options or words that it lists, or of further names that
+/// can take the place of an option ("did you mean 'y'?").
+std::string with_guess(const OptionError& error, const std::vector<std::string>& further = {});
+
+/// The message, with the closest name in the same folder if it is "FILE: no such file". O(files).
+std::string with_similar_file(std::string message);
 
 }  // namespace loopbench::harness

@@ -190,7 +190,7 @@ int run(CLI::App& app,
     print_error_lines(parse_error_text(app, error));
     return kExitBadInput;
   } catch (const InputError& error) {
-    return fail(error.what(), kExitBadInput);
+    return fail(with_similar_file(error.what()), kExitBadInput);
   } catch (const OptionError& error) {
     return fail(with_guess(error), kExitBadInput);
   } catch (const MissingPart& error) {

@@ -13,13 +13,14 @@ template <class Check>
 void located(const ConfigEntry& entry,
              const std::string& name,
              const std::vector<Setting>& settings,
-             Check check) {
+             Check check,
+             const std::vector<std::string>& keys = {"label"}) {
   try {
     check();
   } catch (const OptionError& error) {
     const auto setting = std::ranges::find(settings, error.option(), &Setting::name);
     const Place& place = setting == settings.end() ? entry.place : setting->place;
-    throw place.error(name + ": " + with_guess(error));
+    throw place.error(name + ": " + with_guess(error, keys));
   }
 }
 
@@ -111,7 +112,7 @@ std::vector<DatasetChoice> dataset_choices(const ConfigEntry& entry,
   for (GridPoint& point : points) {
     restore_text_options(point.settings, known.options);
     const Params options = to_params(point.settings);
-    located(entry, entry.name, point.settings, [&] { known.check(options); });
+    located(entry, entry.name, point.settings, [&] { known.check(options); }, {"label", "group"});
     out.push_back({label_of(entry, point), {entry.name, options}});
   }
   return out;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/suggest.hpp"
 #include "harness/config/grid.hpp"
 #include "harness/config/values.hpp"
 
@@ -52,7 +53,12 @@ inline ConfigEntry read_entry(const YamlNode& node,
   if (node.type == YamlNode::Type::scalar) return {node, node.text, "", {GridPoint{}}};
   const YamlNode* name = node.find(key);
   if (name == nullptr || name->type != YamlNode::Type::scalar) {
-    throw node.error("expected a name or a map with '" + key + ": NAME'");
+    std::string hint;
+    for (const YamlEntry& entry : node.map) {
+      if (closest(key, {entry.key}).empty()) continue;
+      hint = ", found '" + entry.key + "'; did you mean '" + key + "'?";
+    }
+    throw node.error("expected a name or a map with '" + key + ": NAME'" + hint);
   }
   ConfigEntry out{node, name->text, "", {}};
   read_key(node, "label", out.label, as_text);
