@@ -27,11 +27,7 @@ struct CorrectCommand {
 };
 
 void draw_correction(const Correction& done, const CorrectCommand& a) {
-  DrawnFigure figure{{}, {"plane"}, a.figure};
-  std::filesystem::path name = a.plot;
-  for (const std::string& suffix : take_suffixes(name)) {
-    figure.files.emplace_back(name.string() + suffix);
-  }
+  const DrawnFigure figure{{figure_name(a.plot)}, {"plane"}, a.figure};
   FigureData data = before_and_after(done);
   const std::vector<std::string> labels = labels_of(a.figure, {"before", "after"});
   for (std::size_t i = 0; i < labels.size(); ++i) data.curves[i].name = labels[i];
@@ -110,10 +106,9 @@ void add_correct(CLI::App& app, int& exit_code) {
       "Output format (default: csv, g2o or kitti if -o ends in .csv, .g2o or .kitti, otherwise "
       "tum); g2o contains all edges");
   add(*command,
-      "--plot PREFIX",
+      "--plot FILE",
       a->plot,
-      "Map of the keyframes before and after, as PREFIX.svg, .pdf and .png, or as one of these or "
-      ".pgf if PREFIX ends in it");
+      "Map of the keyframes before and after: .pdf, .svg, .png or .pgf (default: FILE.pdf)");
   declare_figures(*command, a->figure, "--plot");
   add(*command, "--plugin FILE", a->plugins, "Shared object with additional methods")
       ->allow_extra_args(false);

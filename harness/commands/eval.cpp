@@ -23,8 +23,8 @@ namespace {
 
 /// Set if standard output is a terminal: its width, without colours, because names of files are
 /// escaped after the layout.
-std::optional<TerminalStyle> terminal_style() {
-  if (!prints_to_terminal()) return std::nullopt;
+std::optional<TerminalStyle> terminal_style(const EvalArguments& a) {
+  if (!is_dash(a.out) || !prints_to_terminal()) return std::nullopt;
   return TerminalStyle{standard_output_style().width, false};
 }
 
@@ -73,7 +73,7 @@ Detail detail_of(const EvalArguments& a) {
 
 std::string result_text(const EvalArguments& a, const Evaluations& evaluations) {
   const std::vector<EvaluationResult>& all = evaluations.results;
-  const std::optional<TerminalStyle> style = terminal_style();
+  const std::optional<TerminalStyle> style = terminal_style(a);
   const Detail detail = detail_of(a);
   if (all.size() == 1) return text(all.front(), style, detail, a.columns);
   const std::vector<Table> tables = comparison(all, detail, a.columns);
@@ -94,9 +94,7 @@ void write_figures(const EvalArguments& a, const Evaluations& all) {
   if (!data.note.empty()) {
     fmt::print(stderr, "{}\n", printable("loopbench: note: figures: " + data.note));
   }
-  std::filesystem::path plot = a.plot;
-  const std::vector<std::string> suffixes = take_suffixes(plot);
-  data.figures = figures_for_paper(plot.string(), suffixes, a.figures);
+  data.figures = figures_for_paper(a.plot, a.figures);
   draw({data});
   for (const DrawnFigure& figure : data.figures) {
     fmt::print(stderr, "{}", printable(file_list(figure)));
@@ -116,8 +114,8 @@ int print_stored(const EvalArguments& a, const Evaluations& stored) {
   for (const std::string& note : stored.notes) {
     fmt::print(stderr, "{}\n", printable("loopbench: note: " + note));
   }
-  const std::string report = run_report(stored.records, terminal_style(), a.paired);
-  fmt::print("{}\n{}", printable(report), printable(stored.summary));
+  const std::string report = run_report(stored.records, terminal_style(a), a.paired);
+  write_file(a.out, printable(report) + "\n" + printable(stored.summary));
   return stored.are_ok ? kExitOk : kExitSomeCellsFailed;
 }
 
@@ -137,13 +135,10 @@ int eval(const EvalArguments& a, const Source& source) {
   if (!a.store.empty()) return print_stored(a, all);
   if (!a.per_pose.empty()) write_file(a.per_pose, pose_csv(all.results));
   write_figures(a, all);
-  if (a.json) {
-    fmt::print("{}", json(all.results));
-  } else if (a.csv) {
-    fmt::print("{}", csv(all.records, a.columns));
-  } else {
-    fmt::print("{}", printable(result_text(a, all)));
-  }
+  write_file(a.out,
+             a.json  ? json(all.results)
+             : a.csv ? csv(all.records, a.columns)
+                     : printable(result_text(a, all)));
   const bool all_ok = std::ranges::all_of(
       all.results, [](const EvaluationResult& result) { return status_of(result).first == "ok"; });
   return all_ok ? kExitOk : kExitSomeCellsFailed;

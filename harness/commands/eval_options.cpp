@@ -170,6 +170,7 @@ void declare_output(CLI::App& command, EvalArguments& a) {
       .add_flag(
           "--csv", a.csv, "Print a CSV line per score in full precision, as `export --what rows`")
       ->excludes("--json");
+  add(command, "-o,--out FILE", a.out, "File for what is printed (default: standard output)");
   add(command,
       "--per-pose FILE",
       a.per_pose,
@@ -177,9 +178,9 @@ void declare_output(CLI::App& command, EvalArguments& a) {
   add(command,
       "--plot,--save_plot PREFIX",
       a.plot,
-      "Figures PREFIX_trajectories, PREFIX_errors and PREFIX_axes as .svg, .pdf and .png, or as "
-      ".pgf for PREFIX.pgf (likewise .svg, .pdf, .png), as wide as one column of a paper (3.5 in); "
-      "for other sizes and styles see `plot`");
+      "All figures on one page, PREFIX.pdf; for PREFIX.svg (or .pdf, .png, .pgf) "
+      "PREFIX_trajectories.svg, PREFIX_errors.svg and PREFIX_axes.svg, as wide as one column of a "
+      "paper (3.5 in); for other sizes and styles see `plot`");
   declare_curves(command, a.figures);
   add(command,
       "--report FILE",

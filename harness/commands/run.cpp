@@ -265,7 +265,7 @@ void add_run(CLI::App& app, int& exit_code, const Source& source) {
   command->add_flag("--no-sandbox", arguments->no_sandbox, "Let external programs read all files");
   add(*command, "--data DIR", arguments->data, "Folder with real datasets")
       ->envname("LOOPBENCH_DATA");
-  add(*command, "--out DIR", arguments->out, "Output folder (default: results/CONFIG)");
+  add(*command, "-o,--out DIR", arguments->out, "Output folder (default: results/CONFIG)");
   add(*command,
       "--plugin FILE",
       arguments->plugins,

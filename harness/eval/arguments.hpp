@@ -46,6 +46,7 @@ struct EvalArguments : ReadArguments {
   bool full = false;                 ///< print all scores and the diagnosis
   bool json = false;
   bool csv = false;
+  std::string out = "-";       ///< file for what is printed; -: standard output
   std::string per_pose;        ///< output file; empty: none
   bool pose_errors = false;    ///< keep EvaluationResult::poses
   std::string plot;            ///< prefix of figure files; empty: none

@@ -164,8 +164,7 @@ FigureData drawn_runs(const std::vector<EvaluationResult>& all,
   return out;
 }
 
-std::vector<DrawnFigure> figures_for_paper(const std::string& prefix,
-                                           const std::vector<std::string>& suffixes,
+std::vector<DrawnFigure> figures_for_paper(std::filesystem::path name,
                                            const FigureOptions& options) {
   constexpr double kColumnWidth = 3.5;                  // of a paper [in]
   constexpr double kMapShape = 0.9, kCurveShape = 0.4;  // height over width
@@ -174,6 +173,16 @@ std::vector<DrawnFigure> figures_for_paper(const std::string& prefix,
       {"error by time", "angle by time", "histogram", "boxes"},
       {"x by time", "y by time", "z by time", "roll by time", "pitch by time", "yaw by time"}};
   std::vector<DrawnFigure> out;
+  if (!is_figure_name(name)) {
+    DrawnFigure& page = out.emplace_back(DrawnFigure{{figure_name(name)}, {}, options});
+    for (const auto& some : panels) page.panels.insert(page.panels.end(), some.begin(), some.end());
+    page.options.columns = 3;
+    page.options.size = {2.4, 2.1};
+    page.options.font = 7.0;
+    return out;
+  }
+  const std::string suffix = name.extension().string();
+  const std::string prefix = name.replace_extension().string();
   for (std::size_t i = 0; i < kErrorFigures.size(); ++i) {
     const bool is_map = i == 0;
     DrawnFigure& figure = out.emplace_back(DrawnFigure{{}, panels[i], options});
@@ -182,9 +191,7 @@ std::vector<DrawnFigure> figures_for_paper(const std::string& prefix,
     figure.options.columns = columns;
     figure.options.size = {width, width * (is_map ? kMapShape : kCurveShape)};
     figure.options.font = 7.0;
-    for (const std::string& suffix : suffixes) {
-      figure.files.emplace_back(prefix + "_" + kErrorFigures[i] + suffix);
-    }
+    figure.files.emplace_back(prefix + "_" + kErrorFigures[i] + suffix);
   }
   return out;
 }

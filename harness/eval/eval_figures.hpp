@@ -35,10 +35,10 @@ FigureData drawn_runs(const std::vector<EvaluationResult>& all,
 /// - axes: x, y, z, roll, pitch and yaw over time, with the complete reference.
 inline constexpr std::array kErrorFigures{"trajectories", "errors", "axes"};
 
-/// kErrorFigures as PREFIX_NAME and each suffix (".svg"), as wide as one column of a paper, with 2
-/// maps or 1 panel of curves in a row. `options`: labels and plane.
-std::vector<DrawnFigure> figures_for_paper(const std::string& prefix,
-                                           const std::vector<std::string>& suffixes,
+/// For PREFIX.svg (or another of kFigureFormats) kErrorFigures as PREFIX_NAME.svg, as wide as one
+/// column of a paper, with 2 maps or 1 panel of curves in a row; for any other name all panels on
+/// one page, NAME.pdf. `options`: labels and plane.
+std::vector<DrawnFigure> figures_for_paper(std::filesystem::path name,
                                            const FigureOptions& options);
 
 /// The plane of the largest extent and space; x, y, z, roll, pitch, yaw and speed over time. Any

@@ -221,6 +221,7 @@ Evaluations evaluate_files(const EvalArguments& a, const Source& source) {
   std::vector<std::filesystem::path> inputs{a.times, a.reference};
   inputs.insert(inputs.end(), a.estimates.begin(), a.estimates.end());
   reject_overwriting(inputs, a.per_pose);
+  reject_overwriting(inputs, a.out);
   const std::vector<RecordedRun> added = runs_of(a);
   Evaluations out;
   std::vector<RecordedRun> runs =

@@ -154,11 +154,8 @@ bool is_figure_name(const std::filesystem::path& file) {
       kFigureFormats, [&](const char* format) { return "." + std::string(format) == extension; });
 }
 
-std::vector<std::string> take_suffixes(std::filesystem::path& name) {
-  if (!is_figure_name(name)) return {".svg", ".pdf", ".png"};
-  const std::string own = name.extension().string();
-  name.replace_extension();
-  return {own};
+std::filesystem::path figure_name(std::filesystem::path name) {
+  return is_figure_name(name) ? name : name += ".pdf";
 }
 
 std::string file_list(const DrawnFigure& figure) {

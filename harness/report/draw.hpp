@@ -56,9 +56,8 @@ void draw(const std::vector<FigureData>& all);
 /// Whether the file name ends in one of kFigureFormats.
 bool is_figure_name(const std::filesystem::path& file);
 
-/// Suffixes of the files that `name` stands for: its own, which is removed from it, if that is one
-/// of kFigureFormats, otherwise .svg, .pdf and .png.
-std::vector<std::string> take_suffixes(std::filesystem::path& name);
+/// The name, with .pdf added unless it ends in one of kFigureFormats.
+std::filesystem::path figure_name(std::filesystem::path name);
 
 /// Names of panels: trajectories in the plane of the largest extent ("plane"), in "xy", "xz", "yz"
 /// and in space ("xyz"); errors "x", "y", "z" [m] and "angle" [deg] along the path.
