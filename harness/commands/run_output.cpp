@@ -212,13 +212,16 @@ std::string summary_text(std::vector<Record> records, const Sweep& sweep) {
   if (view.lines.empty()) {
     return reasons_text(records, [](const Record& r) { return r.status != Status::ok; });
   }
-  const auto is_noted = [&](const std::string& why) {
-    return std::ranges::any_of(
-        view.notes, [&](const std::string& note) { return note.find(why) != std::string::npos; });
+  const auto is_noted = [&](const Record& r) {
+    const std::string begin = std::string(r.cell->method) + ": ";
+    return std::ranges::any_of(view.notes, [&](const std::string& note) {
+      return note.find(r.why.text()) != std::string::npos ||
+             (note.starts_with(begin) && note.find(kFirstReason) != std::string::npos);
+    });
   };
   return (prints_to_terminal() ? terminal(view, standard_output_style()) : markdown(view)) + "\n" +
          reasons_text(records,
-                      [&](const Record& r) { return is_failure(r.status) && !is_noted(r.why); });
+                      [&](const Record& r) { return is_failure(r.status) && !is_noted(r); });
 }
 
 std::string merge_command(const std::filesystem::path& out) {

@@ -43,16 +43,29 @@ class ListsByKey {
   std::map<Key, std::size_t> place_;
 };
 
+/// Between the number of reasons and the first of them.
+inline constexpr const char* kFirstReason = " reasons, the first: ";
+
 /// One line for each reason, in order of appearance: "ROWS: WHATS STATUS: WHY". Groups values of
-/// one row with the same reason, then rows with the same groups. O(n log n).
+/// one row with the same reason, then rows with the same groups. More than three reasons of the
+/// same values are one line, so that a method that fails everywhere is not one line for each
+/// sequence. O(n log n).
 inline std::vector<std::string> grouped(const std::vector<Missing>& missing) {
   using Reason = std::tuple<std::string, std::string, std::string>;  // first of row, then of whats
   ListsByKey<Reason> items;
   for (const Missing& m : missing) items.add({m.row, m.status, m.why}, m.what);
+  std::map<Reason, std::size_t> reasons;  // by row, whats and status
+  for (const auto& [reason, list] : items.lists) {
+    ++reasons[{std::get<0>(reason), listed(list), std::get<1>(reason)}];
+  }
   ListsByKey<Reason> rows;
   for (const auto& [reason, list] : items.lists) {
     const auto& [row, status, why] = reason;
-    rows.add({listed(list), status, why}, row);
+    std::size_t& count = reasons[{row, listed(list), status}];
+    if (count == 0) continue;  // all are in the line of the first
+    const std::string several = count > 3 ? std::to_string(count) + kFirstReason : "";
+    rows.add({listed(list), status, several + why}, row);
+    if (count > 3) count = 0;
   }
   std::vector<std::string> out;
   for (const auto& [reason, list] : rows.lists) {
