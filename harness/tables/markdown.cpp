@@ -23,14 +23,11 @@ std::string escaped_markdown(const std::string& text) {
         (is_word(i + 1) || std::ispunct(static_cast<unsigned char>(line[i + 1])) != 0);
     const bool is_link = c == ']' && i + 1 < line.size() && line[i + 1] == '(';
     const bool is_emphasis = c == '_' && !(i > 0 && is_word(i - 1) && is_word(i + 1));
-    if (c == '<' && is_tag && line[i + 1] != '=') {
-      out += "&lt;";
-    } else if (c == '&' && is_tag) {
-      out += "&amp;";
-    } else {
-      if (is_emphasis || is_link || c == '|' || c == '\\' || c == '*' || c == '`') out += '\\';
-      out += c;
+    const bool is_html = is_tag && (c == '&' || (c == '<' && line[i + 1] != '='));
+    if (is_emphasis || is_link || is_html || c == '|' || c == '\\' || c == '*' || c == '`') {
+      out += '\\';
     }
+    out += c;
   }
   return out;
 }

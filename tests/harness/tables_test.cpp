@@ -127,11 +127,11 @@ TEST(Formats, EscapeNamesAndMarkTheBest) {
   const std::string notes = "marked: the methods that compare calls best\n";
   EXPECT_EQ(markdown(tables),
             "### dense\n\n"
-            "| method                  |   ate [m] |\n"
-            "| ----------------------- | --------: |\n"
-            "| a\\|b\\_&amp;%&lt;\"x\" \\_c | **0.135** |\n"
-            "| raw                     |     1.035 |\n"
-            "| dm_n3                   |     2.035 |\n\n"
+            "| method             |   ate [m] |\n"
+            "| ------------------ | --------: |\n"
+            "| a\\|b\\_\\&%\\<\"x\" \\_c | **0.135** |\n"
+            "| raw                |     1.035 |\n"
+            "| dm_n3              |     2.035 |\n\n"
             "- " +
                 notes + "- each number is the mean of up to 8 cells\n");
   EXPECT_EQ(terminal(tables[0]),
@@ -177,7 +177,7 @@ TEST(Formats, KeepNamesAndNumbersForMachines) {
 
 TEST(Formats, KeepLessOrEqualReadable) {
   EXPECT_NE(
-      markdown(Table{"p <= 0.05, p < 1, <b>", {"a"}, {}, {}}).find("### p <= 0.05, p < 1, &lt;b>"),
+      markdown(Table{"p <= 0.05, p < 1, <b>", {"a"}, {}, {}}).find("### p <= 0.05, p < 1, \\<b>"),
       std::string::npos);
 }
 
