@@ -53,12 +53,13 @@ std::string metric_of(const CompareArguments& arguments) {
 }
 
 std::string comparisons_text(const std::vector<Comparison>& comparisons,
-                             const OutputOptions& output) {
+                             const OutputOptions& output,
+                             const std::string& store) {
   if (output.format() == ExportFormat::csv) return csv(comparisons);
   if (output.format() == ExportFormat::json) return json(comparisons);
   std::vector<Table> tables;
   for (const Comparison& comparison : comparisons) tables.push_back(table_view(comparison));
-  return text(tables, output);
+  return text(tables, output, store);
 }
 
 /// Assertions are about one score.
@@ -110,7 +111,7 @@ int print_comparison(const CompareArguments& arguments) {
       not_shown(arguments.assertions, comparisons.front(), [&](const std::string& baseline) {
         return compared(baseline).front();
       });
-  write_output(comparisons_text(comparisons, arguments.output),
+  write_output(comparisons_text(comparisons, arguments.output, arguments.store),
                arguments.output,
                "comparisons",
                store.name());

@@ -51,7 +51,7 @@ std::string tables_text(const TableArguments& arguments) {
   }
   if (format == ExportFormat::csv) return csv(tables);
   if (format == ExportFormat::json) return json(tables);
-  return text(tables, arguments.output);
+  return text(tables, arguments.output, arguments.store);
 }
 
 /// The first record of a score with a direction; empty if there is none.
@@ -144,7 +144,7 @@ void add_table(CLI::App& app, int& exit_code) {
       ->required();
   const std::string columns =
       "comma-separated fields (sequence, repeat, method, closures, protocol, times, metric, label, "
-      "relation, axis, unit, status, score)";
+      "relation, axis, unit, status, score) or options of methods (planar)";
   command
       ->add_option(
           "--rows", arguments->spec.rows, "Rows: " + columns + "; sequence: sequences by methods")

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <regex>
 
 #include "harness/base/print_error.hpp"
 #include "harness/base/write_file.hpp"
@@ -18,6 +19,17 @@ namespace loopbench::harness {
 namespace {
 
 bool is_printed(const OutputOptions& output) { return output.file.empty() || is_dash(output.file); }
+
+/// "protocol loopbench [3], alignment se3", from "loopbench [3]: align=se3, ..." of each protocol.
+std::string alignments(const std::string& protocols) {
+  static const std::regex kAlign("([^\n]+): align=([^,\n]+)");
+  std::string out;
+  for (std::sregex_iterator each(protocols.begin(), protocols.end(), kAlign), end; each != end;
+       ++each) {
+    out += (out.empty() ? "protocol " : "; ") + each->str(1) + ", alignment " + each->str(2);
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -45,19 +57,27 @@ void declare(CLI::App& command, OutputOptions& output, const std::vector<ExportF
                   output.file,
                   "File to write (-: standard output); for CSV also its provenance")
       ->type_name("FILE");
+  command.add_flag("--wide",
+                   output.wide,
+                   "LaTeX tables as wide as the text (174 mm) instead of one column (84 mm)");
   command.add_flag("--provenance",
                    output.provenance,
                    "Add config, inputs, seeds and machine to Markdown and LaTeX, as a comment");
 }
 
-std::string text(const std::vector<Table>& tables, const OutputOptions& output) {
+std::string text(std::vector<Table> tables,
+                 const OutputOptions& output,
+                 const std::filesystem::path& store) {
   const TerminalStyle style = is_printed(output) ? standard_output_style() : TerminalStyle{};
   const ExportFormat format = output.format();
+  const std::string alignment =
+      format == ExportFormat::latex ? alignments(read_store_provenance(store).run["protocol"]) : "";
   std::string out;
-  for (const Table& table : tables) {
+  for (Table& table : tables) {
     out += out.empty() ? "" : "\n";
+    if (!alignment.empty()) table.facts += (table.facts.empty() ? "" : "; ") + alignment;
     out += format == ExportFormat::csv     ? text_csv(table)
-           : format == ExportFormat::latex ? latex(table)
+           : format == ExportFormat::latex ? latex(table, output.wide)
            : format == ExportFormat::terminal
                ? terminal(with_common_unit(without_empty_columns(table)), style)
                : markdown(table);

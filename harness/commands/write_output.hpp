@@ -19,6 +19,7 @@ struct OutputOptions {
   std::optional<ExportFormat> given;  ///< none: terminal on a terminal, otherwise Markdown
   std::string file;                   ///< empty or "-": standard output
   bool provenance = false;            ///< all provenance in Markdown and LaTeX, not one line
+  bool wide = false;                  ///< LaTeX as wide as the text, not one column
 
   ExportFormat format() const;
 };
@@ -26,8 +27,11 @@ struct OutputOptions {
 /// Adds --format with these formats, --provenance, and -o.
 void declare(CLI::App& command, OutputOptions& output, const std::vector<ExportFormat>& formats);
 
-/// The tables one below the other: Markdown, LaTeX, text_csv(), or for the terminal in its width.
-std::string text(const std::vector<Table>& tables, const OutputOptions& output);
+/// The tables of a store one below the other: Markdown, LaTeX with the alignment in the captions,
+/// text_csv(), or for the terminal in its width.
+std::string text(std::vector<Table> tables,
+                 const OutputOptions& output,
+                 const std::filesystem::path& store);
 
 /// Writes or prints `text`. A comment in Markdown and LaTeX names the source in one line, or has
 /// the provenance of the store if requested; JSON is {provenance, KEY: text}. CSV has no comments:

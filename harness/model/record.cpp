@@ -32,6 +32,30 @@ std::string ScoreKind::name() const {
   return out + ", " + times + ", " + protocol;
 }
 
+namespace {
+
+/// The value in "dual, use=all; + dm, planar=3, spatial=0".
+std::optional<std::string> option_of(const CellRow& cell, const std::string& name) {
+  const std::string& all = cell.all_method_options;
+  const std::size_t at = all.find(" " + name + "=");
+  if (at == std::string::npos) return std::nullopt;
+  const std::size_t begin = at + name.size() + 2;
+  return all.substr(begin, std::min(all.find(", ", begin), all.find("; + ", begin)) - begin);
+}
+
+std::vector<std::string> known_fields() {
+  std::vector<std::string> out{"sequence", "repeat", "method", "closures"};
+  for (const KindField& each : kKindFields) out.emplace_back(each.name);
+  out.insert(out.end(), {"status", "score"});
+  return out;
+}
+
+}  // namespace
+
+bool has_field(const Record& record, const std::string& name) {
+  return std::ranges::count(known_fields(), name) > 0 || option_of(*record.cell, name);
+}
+
 std::string field(const Record& record, const std::string& name) {
   if (name == "sequence") return record.cell->sequence;
   if (name == "repeat") return std::to_string(record.cell->repeat);
@@ -43,10 +67,8 @@ std::string field(const Record& record, const std::string& name) {
   for (const KindField& each : kKindFields) {
     if (name == each.name) return (*record.kind).*each.text;
   }
-  std::vector<std::string> known{"sequence", "repeat", "method", "closures"};
-  for (const KindField& each : kKindFields) known.emplace_back(each.name);
-  known.insert(known.end(), {"status", "score"});
-  throw InputError(unknown_name("column", name, known));
+  if (const auto option = option_of(*record.cell, name)) return *option;
+  throw InputError(unknown_name("column", name, known_fields()));
 }
 
 double value(const Record& record, const std::string& name) {

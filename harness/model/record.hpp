@@ -30,6 +30,7 @@ struct CellRow {
   SharedText method;
   SharedText dataset_options;
   SharedText method_options;
+  SharedText all_method_options;  ///< with the defaults, of a cell that was read from a store
   SharedText closures;
   bool oracle_closures = false;
   bool oracle = false;  ///< the method has access to the reference
@@ -131,9 +132,12 @@ struct Record {
 };
 
 /// Text in the named column of a record: sequence, repeat, method, closures, protocol,
-/// protocol_version, times, metric, label, relation, axis, unit, status, or `score`: the short
-/// name. Throws InputError with a suggestion for another name.
+/// protocol_version, times, metric, label, relation, axis, unit, status, `score`: the short name,
+/// or an option of its method. Throws InputError with a suggestion for another name.
 std::string field(const Record& record, const std::string& name);
+
+/// Whether field() accepts the name; Record() has no options.
+bool has_field(const Record& record, const std::string& name);
 
 /// Value of a record's named statistic; p50 is the median. Throws InputError with a suggestion for
 /// another name.

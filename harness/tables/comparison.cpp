@@ -84,6 +84,7 @@ Table table_view(const Comparison& c) {
          {m.is_worse ? ">" : "="}});
   }
   for (const std::string& remark : remarks(c)) out.notes.push_back(remark);
+  out.facts = fmt::format("{} runs in {} independent groups", c.runs, c.groups);
   return out;
 }
 

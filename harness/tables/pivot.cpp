@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/observations.hpp"
@@ -99,6 +100,11 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
                      "' with '" + kind_text(*record.kind) +
                      "'; add the column in which they differ");
   }
+  const auto is_other = [&](const auto& v) { return v.method != record.cell->method; };
+  if (std::ranges::any_of(entry.values, is_other) && is_by_option(spec)) {
+    throw InputError("an entry of this table would average '" + entry.values.front().method +
+                     "' with '" + record.cell->method + "'; choose methods with --where");
+  }
   entry.tried.insert(run);
   if (!is_ok) {
     entry.status = to_text(record.status);
@@ -119,7 +125,7 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
       {run, table.group_of_run[run], record.cell->method, value(record, spec.value)});
 }
 
-/// Adds a note on how the numbers were averaged.
+/// Adds a note on how the numbers were averaged, and facts for a caption.
 void explain_averages(Table& out, const TableNumbers& table, const TableSpec& spec) {
   std::size_t most = 1;
   bool has_gain = false;
@@ -129,6 +135,13 @@ void explain_averages(Table& out, const TableNumbers& table, const TableSpec& sp
       has_gain = has_gain || entry.is_gain;
     }
   }
+  std::set<std::string> times;
+  for (const PlacedRecord& each : table.records) {
+    if (each.column) times.insert(each.record->kind->times);
+  }
+  times.erase("");
+  out.facts = fmt::format(
+      "{}; times: {}; runs per number: at most {}", spec.value, fmt::join(times, ", "), most);
   if (most < 2) return;
   std::string text = "each number is the mean of up to " + std::to_string(most) + " cells";
   if (spec.plus_minus) text += ", \u00b1 their standard deviation";
@@ -264,6 +277,12 @@ PivotedTables pivot_parts(const std::vector<Record>& records,
     out.tables.push_back(finish(builders[t], titles.names()[t], spec, options));
   }
   return out;
+}
+
+bool is_by_option(const TableSpec& spec) {
+  const auto is_option = [](const std::string& name) { return !has_field(Record(), name); };
+  return !separates(spec, {"method"}) && (std::ranges::any_of(spec.rows, is_option) ||
+                                          std::ranges::any_of(spec.columns, is_option));
 }
 
 bool separates(const TableSpec& spec, std::initializer_list<const char*> any_of) {

@@ -37,6 +37,9 @@ PivotedTables pivot_parts(const std::vector<Record>& records,
                           const TableSpec& spec,
                           const CompareOptions& options);
 
+/// Whether the layout is by options of methods, without the methods themselves.
+bool is_by_option(const TableSpec& spec);
+
 /// Whether rows, columns or split contain one of the fields.
 bool separates(const TableSpec& spec, std::initializer_list<const char*> any_of);
 

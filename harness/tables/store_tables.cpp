@@ -15,6 +15,7 @@
 #include "harness/model/name_order.hpp"
 #include "harness/model/where.hpp"
 #include "harness/store/read.hpp"
+#include "harness/tables/notes.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -92,14 +93,31 @@ std::string keep_one_score(std::vector<Record>& records, const std::vector<std::
   return kept.kind->short_name();
 }
 
+/// Removes the records that lack an option of the layout, unless all do; returns their methods.
+std::string keep_with_options(std::vector<Record>& records, const TableSpec& spec) {
+  const auto lacks_one = [&](const Record& r) {
+    const auto is_lacking = [&](const std::string& name) { return !has_field(r, name); };
+    return std::ranges::any_of(spec.rows, is_lacking) ||
+           std::ranges::any_of(spec.columns, is_lacking);
+  };
+  if (!is_by_option(spec) || std::ranges::all_of(records, lacks_one)) return "";
+  NameOrder methods;
+  for (const Record& r : records) {
+    if (lacks_one(r)) methods.index(r.cell->method);
+  }
+  std::erase_if(records, lacks_one);
+  return listed(methods.names());
+}
+
 /// Layouts such as `--split ''` or `--rows sequence` leave open which times and scores a cell
 /// contains. Keeps dense times (without any: the first) if the layout does not separate times;
 /// makes methods the columns if the layout does not contain them, and then keeps the first shown
 /// score. Returns a note about what is shown; empty if nothing was selected. O(n).
 std::string complete_layout(std::vector<Record>& records, TableSpec& spec) {
   std::string score;
+  const std::string without = keep_with_options(records, spec);
   if (!separates(spec, {"method"})) {
-    spec.columns = {"method"};
+    if (!is_by_option(spec)) spec.columns = {"method"};
     std::erase(spec.split, "sequence");
     std::erase(spec.split, "times");
     if (!separates(spec, {"score", "metric", "label"})) score = keep_one_score(records, spec.show);
@@ -109,6 +127,7 @@ std::string complete_layout(std::vector<Record>& records, TableSpec& spec) {
   if (!score.empty()) out = "score: " + score + " (others: --show)";
   if (!times.empty())
     out += (out.empty() ? "" : "; ") + ("times: " + times) + " (others: --where times=...)";
+  if (!without.empty()) out += (out.empty() ? "" : "; ") + ("left out, without option: " + without);
   return out;
 }
 

@@ -41,6 +41,7 @@ struct Table {
   std::vector<std::string> headings;          ///< with units
   std::vector<std::vector<TableCell>> lines;  ///< [row][column]
   std::vector<std::string> notes;             ///< one per line, below the table
+  std::string facts = {};  ///< for captions of papers: statistic, times, alignment, number of runs
 };
 
 /// Properties of the terminal that a table is printed on.
@@ -90,9 +91,11 @@ std::string markdown(const std::vector<Table>& tables);
 /// distributed over several blocks that each repeat the row names. Notes are wrapped.
 std::string terminal(const Table& table, const TerminalStyle& style = {});
 
-/// A booktabs tabular, in a table with a caption if it has a title; notes as comments. Best in
-/// bold. Escaped; needs \usepackage{booktabs} and UTF-8.
-std::string latex(const Table& table);
+/// Floats with title and facts as caption and the notes below, as wide as one column (84 mm) or, if
+/// `wide`, the text (174 mm). Wider tables have several parts that each repeat the row names; a
+/// part that is still too wide is scaled down. Best in bold. Escaped; needs
+/// \usepackage{booktabs,graphicx} and UTF-8.
+std::string latex(const Table& table, bool wide = false);
 
 /// The texts of the cells (RFC 4180), with the title as first column and without marks and notes.
 std::string text_csv(const Table& table);

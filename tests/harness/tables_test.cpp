@@ -142,17 +142,37 @@ TEST(Formats, EscapeNamesAndMarkTheBest) {
             "raw              1.035\n"
             "dm_n3            2.035\n" +
                 notes + "each number is the mean of up to 8 cells\n");
-  EXPECT_EQ(latex(tables[0]),
-            "\\begin{table}\n\\centering\n\\caption{dense}\n"
-            "\\begin{tabular}{lr}\n\\toprule\n"
-            "method & ate {[}m] \\\\\n\\midrule\n"
-            "a\\textbar{}b\\_\\&\\%\\textless{}\\textquotedbl{}x\\textquotedbl{} \\_c & "
-            "\\textbf{0.135} \\\\\n"
-            "raw & 1.035 \\\\\n"
-            "dm\\_n3 & 2.035 \\\\\n"
-            "\\bottomrule\n\\end{tabular}\n\\end{table}\n"
-            "% " +
-                notes + "% each number is the mean of up to 8 cells\n");
+  const std::string paper = latex(tables[0], true);
+  for (const char* const part :
+       {"\\begin{table*}\n",
+        "\\caption{dense; rmse; times: dense; runs per number: at most 8}",
+        "\\begin{tabular}{@{}lr@{}}\n\\toprule\nmethod & ate {[}m] \\\\\n\\midrule\n"
+        "a\\textbar{}b\\_\\allowbreak{}\\&\\%\\textless{}\\char34{}x\\char34{} \\_\\allowbreak{}c "
+        "& "
+        "\\textbf{0.135} \\\\\nraw & 1.035 \\\\\n",
+        "marked: the methods that compare calls best\\par\n"}) {
+    EXPECT_NE(paper.find(part), std::string::npos) << part << paper;
+  }
+}
+
+TEST(Formats, LatexDistributesWideTablesOverPartsOfOneColumn) {
+  Table table{
+      "wide", {"method"}, {{"a name that is longer than two fifths of a column"}}, {"a--b"}};
+  for (int column = 0; column < 12; ++column) {
+    table.headings.push_back("rotation error [deg]");
+    table.lines[0].emplace_back("0.1234");
+  }
+  const auto count = [&](const std::string& what, bool wide) {
+    const std::string text = latex(table, wide);
+    std::size_t out = 0;
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++out;
+    return out;
+  };
+  EXPECT_EQ(count("\\begin{tabular}{@{}p{", false), 4U);
+  EXPECT_EQ(count("\\begin{tabular}", true), 2U);
+  EXPECT_EQ(count("\\shortstack[r]{rotation\\\\error}", false), 12U);
+  EXPECT_EQ(count("(part 4 of 4)}", false), 1U);
+  EXPECT_EQ(count("a{-}{-}b\\par", false), 1U);
 }
 
 TEST(Formats, StateACommonUnitOnce) {
