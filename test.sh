@@ -72,6 +72,7 @@ for preset in "$@"; do
     results/claims.sh $checked $loopbench
     tests/documented_outputs.sh $loopbench . $checked
     tests/documented_runs.sh $loopbench . $checked
+    tests/latex.sh $loopbench $checked
   fi
 done
 [[ $* == "tsan debug release" || $* == "lint tsan debug release" ]] && counts+=("slurm: skipped, run ./test.sh slurm")
