@@ -85,17 +85,7 @@ void add_correct(CLI::App& app, int& exit_code) {
       ->check(finite_number())
       ->check(positive_number());
   file("--frames", c.frames, "All tracked poses of the run, if ESTIMATE contains only keyframes");
-  const auto set = [&c](const std::vector<std::string>& texts) {
-    for (const std::string& text : texts) c.settings.push_back({text});
-  };
-  command
-      ->add_option_function<std::vector<std::string>>(
-          "--set",
-          set,
-          "Option of dataset trajectory (or pose_graph for a graph), see `list datasets`")
-      ->type_name("OPTION=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  declare_dataset_settings(*command, c.settings);
   auto* dense = command->add_flag("--dense", c.dense, "Output keyframes and frames");
   add(*command, "--at FILE", c.at, "Output poses at the stamps of this trajectory file")
       ->excludes(dense);
@@ -110,6 +100,10 @@ void add_correct(CLI::App& app, int& exit_code) {
       a->plot,
       "Map of the keyframes before and after: .pdf, .svg, .png or .pgf (default: FILE.pdf)");
   declare_figures(*command, a->figure, "--plot");
+  add(*command,
+      "--ledger FILE",
+      c.ledger,
+      "Write one row per closure: how well others predict it (as `loops --csv`)");
   add(*command, "--plugin FILE", a->plugins, "Shared object with additional methods")
       ->allow_extra_args(false);
   command->add_flag("--json", a->json, "Print JSON instead of text");

@@ -139,8 +139,7 @@ const std::map<std::string, std::string> kExitCodes{
      "0 success, 1 an assertion is not shown, 2 invalid input or output, 3 internal error."},
     {"check", "0 passed, 1 regressions, 2 invalid input or output, 3 internal error."},
     {"loops",
-     "0 no contradiction, 1 closures contradict each other, 2 invalid input or output, 3 "
-     "internal "
+     "0 no contradiction, 1 closures contradict each other, 2 invalid input or output, 3 internal "
      "error."},
     {"doctor",
      "0 nothing found, 1 mistakes found or nothing could be checked, 2 invalid input or output, 3 "

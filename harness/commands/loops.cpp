@@ -6,9 +6,9 @@
 #include <memory>
 #include <sstream>
 
-#include "datasets/formats/g2o.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
+#include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/options.hpp"
 #include "harness/commands/standard_output.hpp"
@@ -25,21 +25,6 @@ struct LoopsCommand {
   bool json = false;
 };
 
-/// Vertex ids of a graph, stamps of a trajectory.
-std::vector<std::string> keyframe_names(const CorrectArguments& input, const Problem& problem) {
-  std::vector<std::string> out;
-  if (detect_format(input.estimate) == Format::g2o) {
-    const InformationRules any{.indefinite = IndefiniteInformation::project};  // only ids are used
-    for (const std::int64_t id : read_g2o(input.estimate, any).ids) {
-      out.push_back(std::to_string(id));
-    }
-  }
-  if (out.size() == problem.keyframes.size()) return out;
-  out.clear();
-  for (const StampedPose& pose : problem.keyframes) out.push_back(to_text(pose.stamp));
-  return out;
-}
-
 void draw_loops(const LoopsResult& result, const LoopsCommand& a) {
   DrawnFigure figure{{}, {"plane"}, a.figure};
   std::filesystem::path name = a.plot;
@@ -54,9 +39,9 @@ void draw_loops(const LoopsResult& result, const LoopsCommand& a) {
 
 int run_loops(const LoopsCommand& a) {
   constexpr std::size_t kMostRows = 20;  // of a table that fits a screen
-  Problem problem = load_problem(a.input, catalogue({}));
-  std::vector<std::string> names = keyframe_names(a.input, problem);
-  const LoopsResult result = loops(std::move(problem), a.input.estimate, std::move(names));
+  if (!a.csv.empty()) reject_overwriting({a.input.estimate, a.input.loops}, a.csv);
+  LoopsResult result = loops(load_problem(a.input, catalogue({})), a.input.estimate);
+  add_rejections(result);
   if (a.json) {
     fmt::print("{}", json(result));
   } else {
@@ -75,37 +60,21 @@ void add_loops(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "loops", "Check each loop closure by the closures of other places, without a reference");
   CorrectArguments& c = a->input;
-  command->add_option("estimate", c.estimate, "Trajectory file, or a g2o graph")
-      ->type_name("ESTIMATE")
-      ->required();
-  command
-      ->add_option(
-          "--loops",
-          c.loops,
-          "Loop closures: stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r], or a "
-          "g2o graph whose vertices are the poses of ESTIMATE")
-      ->type_name("FILE");
-  const auto set = [&c](const std::vector<std::string>& texts) {
-    for (const std::string& text : texts) c.settings.push_back({text});
-  };
-  command
-      ->add_option_function<std::vector<std::string>>(
-          "--set",
-          set,
-          "Option of dataset trajectory (or pose_graph for a graph), see `list datasets`")
-      ->type_name("OPTION=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--csv", a->csv, "Write one row per closure; - is standard output")
-      ->type_name("FILE");
-  command
-      ->add_option(
-          "--plot",
-          a->plot,
-          "Map of the keyframes with the closures, as PREFIX.svg, .pdf and .png, or as one "
-          "of these or .pgf if PREFIX ends in it")
-      ->type_name("PREFIX");
+  add(*command, "estimate ESTIMATE", c.estimate, "Trajectory file, or a g2o graph")->required();
+  add(*command,
+      "--loops FILE",
+      c.loops,
+      "Loop closures: stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r], or a g2o graph "
+      "whose vertices are the poses of ESTIMATE");
+  declare_dataset_settings(*command, c.settings);
+  add(*command, "--csv FILE", a->csv, "Write one row per closure; - is standard output");
+  add(*command,
+      "--plot PREFIX",
+      a->plot,
+      "Map of the keyframes with the closures, as PREFIX.svg, .pdf and .png, or as one of these or "
+      ".pgf if PREFIX ends in it");
   declare_figures(*command, a->figure, "--plot");
+  command->remove_option(command->get_option("--labels"));  // colours have a fixed meaning
   command->add_flag("--json", a->json, "Print JSON instead of text");
   command->callback([a, &exit_code] { exit_code = run_loops(*a); });
 }

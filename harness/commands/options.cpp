@@ -71,6 +71,19 @@ void declare_pose_filters(CLI::App& command,
       ->check(number_between(0.0, 1e9));
 }
 
+void declare_dataset_settings(CLI::App& command, std::vector<GivenSetting>& settings) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&settings](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) settings.push_back({text});
+          },
+          "Option of dataset trajectory (or pose_graph for a graph), see `list datasets`")
+      ->type_name("OPTION=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 void declare_curves(CLI::App& command, FigureOptions& options) {
   add(command,
       "--labels NAMES",

@@ -29,6 +29,9 @@ void declare_fields(CLI::App& command,
                     const std::vector<FieldOption>& options,
                     std::vector<GivenSetting>& given);
 
+/// Declares --set for the dataset that reads a file.
+void declare_dataset_settings(CLI::App& command, std::vector<GivenSetting>& settings);
+
 /// Declares --downsample and --motion_filter.
 void declare_pose_filters(CLI::App& command,
                           std::optional<std::size_t>& downsample,

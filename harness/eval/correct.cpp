@@ -13,6 +13,7 @@
 #include "harness/base/write_file.hpp"
 #include "harness/catalogue/external_methods.hpp"
 #include "harness/config/choices.hpp"
+#include "harness/eval/loops.hpp"
 #include "harness/run/check_output.hpp"
 #include "harness/run/evaluation_notes.hpp"
 #include "harness/run/run_cell.hpp"
@@ -135,6 +136,23 @@ void hold_first_fixed(Correction& done) {
   }
 }
 
+/// Writes the ledger if its file is wanted. Returns the verdict of loops.hpp; an empty text if
+/// there is none or it would take long.
+std::string closure_verdict(const CorrectArguments& a, const Problem& problem) {
+  constexpr std::size_t kFew = 200;  // closures whose ledger takes about a second
+  const bool is_wanted = !a.ledger.empty();
+  const bool is_quick = problem.closures.size() <= kFew && methods::why_no_ledger(problem).empty();
+  if (!is_wanted && !is_quick) return {};
+  try {
+    LoopsResult result = loops(problem, a.estimate);
+    if (is_wanted) add_rejections(result), write_file(a.ledger, csv(result));
+    return verdict_text(result);
+  } catch (const std::runtime_error&) {  // the joint solution fails
+    if (is_wanted) throw;
+    return {};
+  }
+}
+
 std::optional<std::size_t> rejected_closures(const Correction& done) {
   if (done.report.rejected) return done.report.rejected->size();
   for (const methods::Count& count : done.report.counts) {
@@ -232,8 +250,10 @@ FigureData before_and_after(const Correction& done) {
 }
 
 Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
-  if (!a.out.empty() && !is_dash(a.out))
-    reject_overwriting({a.estimate, a.loops, a.anchors, a.frames, a.at}, a.out);
+  for (const std::string& file : {a.out, a.ledger}) {
+    if (file.empty() || is_dash(file)) continue;
+    reject_overwriting({a.estimate, a.loops, a.anchors, a.frames, a.at}, file);
+  }
   const MethodChoice choice = method_without_reference(a.method, catalogue);
   Provenance provenance;
   Problem problem = load_problem(a, catalogue, &provenance);
@@ -249,6 +269,9 @@ Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   out.provenance = std::move(provenance);
   hold_first_fixed(out);
   const std::vector<std::string>& notes = out.provenance.notes;
+  if (!a.ledger.empty() || uses_closures(choice, catalogue)) {
+    out.verdict = closure_verdict(a, out.problem);
+  }
   out.report.notes.insert(out.report.notes.begin(), notes.begin(), notes.end());
   const bool loses_stamps = a.format == Format::kitti || a.format == Format::g2o;
   if (!a.out.empty()) write(a, out);

@@ -27,6 +27,7 @@ struct CorrectArguments {
   bool dense = false;                  ///< output keyframes and frames
   std::string out;                     ///< empty: no file; "-": standard output
   Format format = Format::tum;         ///< of the file; g2o: a graph with all edges
+  std::string ledger;                  ///< file for csv() of loops.hpp; empty: none
 };
 
 /// Disagreement of poses with edges of one kind of their problem.
@@ -50,7 +51,8 @@ struct Correction {
   Provenance provenance = {};           ///< of the file
   double seconds = 0.0;                 ///< wall time of the method
   methods::Report report;
-  std::string out;  ///< file that was written; empty: none
+  std::string out;      ///< file that was written; empty: none
+  std::string verdict;  ///< on all closures, verdict_text() of loops.hpp; empty: not computed
 };
 
 /// A method as in a config, with its options: NAME:option=value,... Throws InputError also for an
@@ -67,8 +69,9 @@ Correction correct(Problem problem,
                    const Catalogue& catalogue);
 
 /// Loads the input as the datasets `trajectory` and `pose_graph` of a sweep do, runs the method and
-/// writes the output file. Numbers are written so that reading them is bit-identical. Throws
-/// InputError, also if the method declines; other exceptions of the method are not caught.
+/// writes the output file. Numbers are written so that reading them is bit-identical. Computes the
+/// ledger of the closures if its file is wanted, or if it takes little time. Throws InputError,
+/// also if the method declines; other exceptions of the method are not caught.
 Correction correct(const CorrectArguments& arguments, const Catalogue& catalogue);
 
 /// The problem that correct() would correct, from `estimate`, `loops`, `anchors`, `frames` and
@@ -87,7 +90,8 @@ FigureData before_and_after(const Correction& correction);
 /// rejected_closures [{from, to}] by ids or stamps, seconds, before, after {translation_rms,
 /// translation_max, rotation_rms, rotation_max, chi2_odometry, chi2_closures, and with anchors
 /// anchor_rms, anchor_max} or null, counts {name: value}, phases [{name, seconds}], notes [text],
-/// output {file, poses, outside}. `rejected` and its list are null if the method rejects none.
+/// verdict text or null, output {file, poses, outside}. `rejected` and its list are null if the
+/// method rejects none.
 std::string json(const Correction& correction);
 
 }  // namespace loopbench::harness

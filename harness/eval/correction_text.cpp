@@ -81,6 +81,7 @@ std::string text(const Correction& c) {
     counts += fmt::format("{}{} {:.6g}", counts.empty() ? "" : ", ", count.name, count.value);
   }
   if (!counts.empty()) out += "counts: " + counts + "\n";
+  if (!c.verdict.empty()) out += "closures: " + c.verdict + "\n";
   for (const std::string& note : c.report.notes) out += "note: " + note + "\n";
   if (!c.out.empty() && !is_dash(c.out)) {
     out += fmt::format("\n{} in {}\n", counted(c.output.size(), "pose"), c.out);
@@ -113,6 +114,7 @@ std::string json(const Correction& c) {
       {"counts", counts},
       {"phases", phases},
       {"notes", c.report.notes},
+      {"verdict", c.verdict.empty() ? nlohmann::json(nullptr) : nlohmann::json(c.verdict)},
       {"output", {{"file", c.out}, {"poses", c.output.size()}, {"outside", c.outside}}}};
   return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

@@ -1,6 +1,7 @@
 /// What the loop closures of one trajectory or pose graph state about each other.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,16 @@ namespace loopbench::harness {
 struct LoopsResult {
   std::string estimate;
   Problem problem;
-  std::vector<std::string> names;  ///< of the keyframes: vertex ids of the file, or stamps
   methods::ClosureLedger ledger;
+  /// Robust methods that ran, and the closures that each rejects, as indices in the problem.
+  std::map<std::string, std::vector<std::size_t>> rejected = {};
 };
 
-/// Computes the ledger of a problem. `names`: one per keyframe. Throws InputError with `estimate`
-/// if the ledger does not apply.
-LoopsResult loops(Problem problem, std::string estimate, std::vector<std::string> names);
+/// Computes the ledger of a problem. Throws InputError with `estimate` if it does not apply.
+LoopsResult loops(Problem problem, std::string estimate);
+
+/// Runs pose_graph_pcm and pose_graph_gnc_tls, unless they decline or fail, for `rejected`.
+void add_rejections(LoopsResult& result);
 
 /// "1590 -> 145": the keyframes of a closure, the later one first.
 std::string closure_name(const LoopsResult& result, std::size_t closure);

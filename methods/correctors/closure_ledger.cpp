@@ -143,18 +143,10 @@ void add_ratio(const std::vector<std::vector<std::size_t>>& places, ClosureLedge
   ledger.ratio = std::exp(sum / static_cast<double>(places.size()));
 }
 
-/// Median of the squared distances to the odometry. False closures do not change those of others,
-/// so it stays near 1 while most closures are true and the covariances are right.
-double median_odometry_chi2(const ClosureLedger& ledger) {
-  std::vector<double> chi2;
-  for (const LedgerRow& row : ledger.rows) chi2.push_back(row.in_odometry.chi2);
-  return upper_median(chi2);
-}
-
 LedgerVerdict verdict_of(const ClosureLedger& ledger) {
   if (ledger.rows.size() > 1 && ledger.largest_chi2 > kContradiction) {
-    return median_odometry_chi2(ledger) > kTooSmall ? LedgerVerdict::covariances
-                                                    : LedgerVerdict::contradiction;
+    return ledger.odometry_chi2 > kTooSmall ? LedgerVerdict::covariances
+                                            : LedgerVerdict::contradiction;
   }
   if (ledger.places < kMinPlaces) return LedgerVerdict::few_places;
   if (ledger.covered < kMinCovered) return LedgerVerdict::little_covered;
@@ -186,10 +178,13 @@ ClosureLedger unranked_ledger(const Problem& problem) {
   add_influence(problem, noise, joint, out);
   if (out.places >= 2) add_ratio(places, out);
   const double dof = problem.planar ? 3.0 : 6.0;
+  std::vector<double> odometry_chi2;
   for (const LedgerRow& row : out.rows) {
+    odometry_chi2.push_back(row.in_odometry.chi2);
     const double by_places = row.predicted ? row.predicted->chi2 : 0.0;
     out.largest_chi2 = std::max({out.largest_chi2, by_places, row.cost_drop / dof});
   }
+  out.odometry_chi2 = upper_median(odometry_chi2);
   out.verdict = verdict_of(out);
   return out;
 }

@@ -55,6 +55,9 @@ struct ClosureLedger {
   /// Largest squared distance per degree of freedom of a closure to the solution without it, or
   /// without its place [-].
   double largest_chi2 = 0.0;
+  /// Median over closures of `in_odometry.chi2`. False closures do not change that of others, so it
+  /// stays near 1 while most closures are true and the covariances are right.
+  double odometry_chi2 = 0.0;
   LedgerVerdict verdict = LedgerVerdict::few_places;
 };
 
