@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "harness/config/choices.hpp"
 #include "harness/eval/correct.hpp"
 #include "harness/eval/evaluate_files.hpp"
+#include "harness/eval/loops.hpp"
 #include "harness/eval/recorded_file.hpp"
 #include "harness/python/arrays.hpp"
 #include "harness/store/open.hpp"
@@ -212,6 +214,16 @@ py::tuple correct(const Problem& problem, const std::string& method, std::vector
   return py::make_tuple(rows_of(done.output), harness::json(done));
 }
 
+/// JSON of `loops --json`; keyframes are named by their indices.
+std::string loops(Problem problem) {
+  const py::gil_scoped_release unlocked;
+  problem.ids.resize(problem.keyframes.size());
+  std::iota(problem.ids.begin(), problem.ids.end(), 0);
+  harness::LoopsResult result = harness::loops(std::move(problem), "problem");
+  harness::add_rejections(result);
+  return harness::json(result);
+}
+
 /// Edges between consecutive keyframes, with the default noise of measured odometry.
 Array odometry(const Array& keyframes) {
   return edge_rows(odometry_edges(checked(keyframes, "keyframes"), {}));
@@ -298,6 +310,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("align", &python::align, "aligned rows, scale, rank, condition, transform");
   module.def("tracking_gaps", &python::tracking_gaps, "begin and end of each gap");
   module.def("correct", &python::correct, "rows, and the JSON of `correct --json`");
+  module.def("loops", &python::loops, "the JSON of `loops --json`");
   module.def("odometry", &python::odometry, "edges between consecutive keyframes");
   module.def("load", &python::load, "keyframes, frames, odometry, closures, planar, reference");
   module.def("check_store", &python::check_store, "raises InputError if it is damaged");

@@ -327,6 +327,25 @@ class Methods(unittest.TestCase):
                     self.assertLess(report["after"]["translation_rms"],
                                     report["before"]["translation_rms"])
 
+    def test_loops_are_those_of_the_command(self):
+        drive = rows_of(GOLDEN / "est_drift.txt")[:60]
+        closures = [(b, e, [0.5, 0.1, 0, 0, 0, 0, 1]) for b, e in ((0, 22), (2, 50), (30, 58))]
+        with tempfile.TemporaryDirectory() as folder:
+            estimate, loops = (f"{folder}/{name}.txt" for name in ("est", "loops"))
+            np.savetxt(estimate, drive, fmt="%.17g")
+            rows = [[drive[b, 0], drive[e, 0], *pose, 0.02, 0.01] for b, e, pose in closures]
+            np.savetxt(loops, rows, fmt="%.17g")
+            done = subprocess.run([PROGRAM, "loops", estimate, "--loops", loops, "--json"],
+                                  check=False, capture_output=True)
+        expected = json.loads(done.stdout)
+        found = loopbench.loops(loopbench.problem_of(drive, closures))
+        self.assertEqual(done.returncode, 1)
+        for key in ("verdict", "places", "ratio", "covered"):
+            self.assertEqual(found[key], expected[key])
+        for mine, row in zip(found["closures"], expected["closures"]):
+            self.assertEqual(drive[mine["from"], 0], row["from"])
+            self.assertEqual(mine["chi2_drop"], row["chi2_drop"])
+
     def test_a_python_method_runs_in_this_process(self):
         problem, reference = loopbench.load("simulated", path="room", keyframes=40)
         calls = []
@@ -348,6 +367,7 @@ class Methods(unittest.TestCase):
         for text, call in (
                 ("dual_", lambda: loopbench.correct(problem, "dual_")),
                 ("oracle", lambda: loopbench.correct(problem, "oracle_abscissa")),
+                ("no loop closures", lambda: loopbench.loops(loopbench.problem_of(keyframes))),
                 ("declines", lambda: loopbench.correct(loopbench.problem_of(keyframes), "dual")),
                 ("expected 0", lambda: loopbench.correct(problem, "cubic_spline", at=[-1.0])),
                 ("found keyframes 0 and 99", lambda: loopbench.correct(

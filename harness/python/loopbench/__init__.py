@@ -31,14 +31,14 @@ from .serving import corrector, dataset, incremental, metric, serve, solve
 __version__ = "0.3.0"
 
 if TYPE_CHECKING:
-    from .correction import correct, load, methods, problem_of
+    from .correction import correct, load, loops, methods, problem_of
     from .evaluation import Alignment, align, associate, evaluate, read_trajectory, score, tracking_gaps
     from .figures import plot_errors, plot_scores, plot_trajectories
     from .sweeps import ComparedMethod, Comparison, compare, read, rows, run
 
 # Imported when they are used: a served method starts without them.
 _MODULES = {
-    "correction": ("correct", "load", "methods", "problem_of"),
+    "correction": ("correct", "load", "loops", "methods", "problem_of"),
     "evaluation": (
         "Alignment", "align", "associate", "evaluate", "read_trajectory", "score", "tracking_gaps"
     ),
@@ -65,6 +65,7 @@ __all__ = [
     "evaluate",
     "incremental",
     "load",
+    "loops",
     "methods",
     "metric",
     "plot_errors",

@@ -119,8 +119,29 @@ def correct(
     for stamp in stamps:
         if not first <= stamp <= last:
             raise ValueError(f"at: found stamp {stamp}, expected {first} to {last}, the keyframes")
+    poses, text = interruptible(_core.correct, core_of(problem), method, stamps.tolist())
+    return poses, json.loads(text)
+
+
+def loops(problem: Problem) -> dict[str, Any]:
+    """Checks each loop closure by the closures of other places, without a reference.
+
+    Returns what `loopbench loops --json` prints: the verdict with a sentence, and one dictionary per
+    closure, the most suspicious first; `from`, `to` and `moves_max_at` are indices of keyframes.
+    Raises ValueError if the problem has no closures, or more than 1,000, or edges that change the
+    scale.
+
+    >>> problem, reference = load("simulated", path="room", keyframes=40)
+    >>> found = loops(problem)
+    >>> found["verdict"], found["places"], found["closures"][0]["to"]
+    ('few_places', 1, 39)
+    """
+    found: dict[str, Any] = json.loads(interruptible(_core.loops, core_of(problem)))
+    return found
+
+
+def core_of(problem: Problem) -> _core.Problem:
+    """The problem in the compiled module. Raises ValueError."""
     problem.check()
     odometry, closures = problem.odometry.to_rows(), problem.closures.to_rows()
-    core = _core.Problem(problem.keyframes, problem.frames, odometry, closures, problem.planar)
-    poses, text = interruptible(_core.correct, core, method, stamps.tolist())
-    return poses, json.loads(text)
+    return _core.Problem(problem.keyframes, problem.frames, odometry, closures, problem.planar)
