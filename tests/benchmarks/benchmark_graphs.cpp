@@ -13,15 +13,14 @@
 #include "datasets/pose_graph_dataset.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
-#include "methods/solvers/groups/se2.hpp"
-#include "methods/solvers/groups/se3.hpp"
-#include "methods/solvers/residuals.hpp"
 #include "metrics/correction/optimality.hpp"
+#include "tests/benchmarks/normal_equations.hpp"
 #include "tests/benchmarks/peak_memory.hpp"
 
 namespace loopbench {
 
 using namespace methods;
+using test::Sparse;
 
 namespace {
 
@@ -36,46 +35,9 @@ constexpr const char* kPublicGraphs[] = {"intel",
                                          "torus3D",
                                          "cubicle"};
 
-using Sparse = Eigen::SparseMatrix<double>;
-
-/// J' Omega J at the keyframes, with the first one fixed.
-template <class G>
-Sparse normal_equations(const Problem& problem) {
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto element = [&](std::size_t i) {
-    const Pose& first = problem.keyframes[0].world_from_body;
-    return G::from({first.inverse() * problem.keyframes[i].world_from_body, 1.0});
-  };
-  for (const std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
-    for (const Edge& edge : *edges) {
-      const auto at = edge_residual<G>(
-          G::inverse(G::from(measured(edge))), element(edge.from), element(edge.to));
-      const auto W = G::information(edge, 1.0);
-      const std::size_t ends[] = {edge.from, edge.to};
-      const typename G::Square* J[] = {&at.by_from, &at.by_to};
-      for (int a = 0; a < 2; ++a) {
-        for (int b = 0; b < 2; ++b) {
-          if (ends[a] == 0 || ends[b] == 0) continue;
-          const typename G::Square block = J[a]->transpose() * W * *J[b];
-          const auto row = static_cast<int>(ends[a] - 1) * G::kDof;
-          const auto column = static_cast<int>(ends[b] - 1) * G::kDof;
-          for (int r = 0; r < G::kDof; ++r) {
-            for (int c = 0; c < G::kDof; ++c)
-              entries.emplace_back(row + r, column + c, block(r, c));
-          }
-        }
-      }
-    }
-  }
-  const auto size = static_cast<Eigen::Index>(problem.keyframes.size() - 1) * G::kDof;
-  Sparse H(size, size);
-  H.setFromTriplets(entries.begin(), entries.end());
-  return H;
-}
-
 template <class Factor>
 void factorise(const Problem& problem, benchmark::State& state) {
-  const Sparse H = problem.planar ? normal_equations<Se2>(problem) : normal_equations<Se3>(problem);
+  const Sparse H = test::normal_equations(problem);
   const double before = test::reset_peak();
   for (auto _ : state) {
     Factor factor(H);

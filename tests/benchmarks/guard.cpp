@@ -1,0 +1,224 @@
+// Guards against slow-downs: ratios of processor times, which hardly depend on the machine.
+//
+//   guard LIMITS LOOPBENCH SYNTHETIC_SWEEP FOLDER [ROWS]
+//
+// LIMITS is a file with a line `LIMIT | ROW | REASON` for each row; ROWS a regular expression of
+// names. The least time of both parts counts, and a row above its limit is measured again twice
+// before it fails. Prints all rows; exit code 1 if a ratio exceeds its limit or has none.
+#include <fmt/format.h>
+
+#include <Eigen/SparseCholesky>
+#include <cstdlib>
+#include <iostream>
+#include <limits>
+#include <regex>
+#include <sstream>
+
+#ifdef LOOPBENCH_CHOLMOD
+#include <Eigen/CholmodSupport>
+#endif
+
+#include "datasets/core/error.hpp"
+#include "datasets/pose_graph_dataset.hpp"
+#include "methods/correctors/pose_graph.hpp"
+#include "tests/benchmarks/costs.hpp"
+#include "tests/benchmarks/guarded_inputs.hpp"
+#include "tests/benchmarks/normal_equations.hpp"
+
+namespace loopbench {
+
+using namespace methods;
+
+namespace {
+
+/// Limits by name of the row.
+std::map<std::string, double> read_limits(const std::string& file) {
+  std::map<std::string, double> out;
+  std::ifstream in(file);
+  const std::regex pattern(R"(([0-9.]+) +\| (.*?) +\| .+)");
+  for (std::string line; std::getline(in, line);) {
+    std::smatch found;
+    if (line.empty() || line.front() == '#') continue;
+    if (!std::regex_match(line, found, pattern)) throw InputError(file + ": " + line);
+    out[found[2]] = std::stod(found[1]);
+  }
+  return out;
+}
+
+class Guard {
+ public:
+  Guard(const std::string& limits, const std::string& rows)
+      : limits_(read_limits(limits)), rows_(rows) {
+    fmt::print("{:<48} {:>11} {:>11} {:>7} {:>7}\n", "row", "[ms]", "over [ms]", "ratio", "limit");
+  }
+
+  bool is_wanted(const std::string& row) const { return std::regex_search(row, rows_); }
+
+  /// Measures the ratio of two processor times [s].
+  template <class Above, class Below>
+  void add(const std::string& row, Above above, Below below) {
+    if (!is_wanted(row)) return;
+    const auto limit = limits_.find(row);
+    double most = std::numeric_limits<double>::infinity(), least = most, ratio = 0.0;
+    for (int run = 0; run < 6; ++run) {
+      most = std::min(most, above());
+      least = std::min(least, below());
+      ratio = most / least;
+      if (run >= 1 && limit != limits_.end() && ratio <= limit->second) break;
+    }
+    const bool fails = limit == limits_.end() || ratio > limit->second;
+    failed_ += fails ? 1 : 0;
+    const std::string allowed =
+        limit == limits_.end() ? "none" : fmt::format("{:g}", limit->second);
+    fmt::print("{:<48} {:>11.3f} {:>11.3f} {:>7.2f} {:>7}{}\n",
+               row,
+               1e3 * most,
+               1e3 * least,
+               ratio,
+               allowed,
+               fails ? "  FAILED" : "");
+    std::fflush(stdout);
+  }
+
+  int failed() const { return failed_; }
+
+ private:
+  std::map<std::string, double> limits_;
+  std::regex rows_;
+  int failed_ = 0;
+};
+
+struct Programs {
+  std::string loopbench, synthetic_sweep;
+  std::filesystem::path folder;
+};
+
+void guard_eval(Guard& guard, const Programs& programs) {
+  const std::string reference = programs.folder / "reference.txt";
+  const std::string estimate = programs.folder / "estimate.txt";
+  for (const auto& [size, poses] :
+       {std::pair<const char*, std::size_t>{"1e4", 10'000}, {"1e5", 100'000}}) {
+    for (const auto& [name, motion] : test::motions()) {
+      const std::string row = fmt::format("eval over reading, {}, {} poses", name, size);
+      if (!guard.is_wanted(row)) continue;
+      test::write_pair(programs.folder, name, motion, poses);
+      guard.add(
+          row,
+          [&] {
+            return test::cpu_of({programs.loopbench, "eval", reference, estimate}, 2);
+          },
+          [&] {
+            return test::cpu_of({programs.loopbench, "traj", "info", reference, estimate});
+          });
+    }
+  }
+}
+
+#ifdef LOOPBENCH_CHOLMOD
+using Factor = Eigen::CholmodDecomposition<test::Sparse, Eigen::Lower>;
+#else
+using Factor = Eigen::SimplicialLDLT<test::Sparse, Eigen::Lower>;
+#endif
+
+void guard_graph(Guard& guard, const std::string& name, const Problem& problem) {
+  const test::Sparse H = test::normal_equations(problem);
+  const PoseGraphOptimizer solver({.start = PoseGraphOptimizer::Start::chordal});
+  guard.add(
+      "pose_graph over a factorisation, " + name,
+      [&] {
+        return test::cpu_of([&] {
+          Report report;
+          solver.correct(problem, report);
+        });
+      },
+      [&] { return test::cpu_of([&] { Factor factor(H); }); });
+}
+
+void guard_graphs(Guard& guard) {
+  if (guard.is_wanted("pose_graph")) guard_graph(guard, "simulated", test::manhattan(3500));
+  const char* root = std::getenv("LOOPBENCH_DATA");
+  for (const auto& [name, file] : {std::pair{"intel", "intel"}, {"M3500", "M3500_with_vertices"}}) {
+    if (root == nullptr || !guard.is_wanted("pose_graph")) continue;
+    PoseGraphOptions options;
+    options.path = fmt::format("pose_graphs/{}.g2o", file);
+    options.rules.indefinite = IndefiniteInformation::repair;
+    try {
+      guard_graph(guard, name, load_pose_graph(options, {{root}}).problem);
+    } catch (const DataMissing& missing) {
+      fmt::print("{}\n", missing.what());
+    }
+  }
+}
+
+/// Fitting a curve to keyframes over sampling it as often.
+void guard_smoothers(Guard& guard) {
+  constexpr std::size_t kKeyframes = 2'000;
+  const std::vector<MethodEntry> known = methods::methods();
+  const Problem problem{.keyframes = test::manhattan(kKeyframes).keyframes};
+  const std::vector<double> times = stamps(problem.keyframes);
+  std::vector<Pose> poses(times.size());
+  for (const char* name : {"cubic_spline", "smoothing_spline", "dm_n4", "dm_robust"}) {
+    const auto entry = std::ranges::find(known, name, &MethodEntry::name);
+    const auto smoother = std::get<std::unique_ptr<const Smoother>>(entry->make({}));
+    Report report;
+    const auto curve = smoother->smooth(problem, report);
+    guard.add(
+        fmt::format("smoothing over evaluating, {}", name),
+        [&] {
+          return test::cpu_of([&] {
+            Report own;
+            smoother->smooth(problem, own);
+          });
+        },
+        [&] { return test::cpu_of([&] { curve->sample(times, poses); }); });
+  }
+}
+
+/// Growth: the time per cell of a large store over that of one with a tenth of the cells.
+void guard_stores(Guard& guard, const Programs& programs) {
+  const auto store = [&](int cells) {
+    const auto folder = programs.folder / fmt::format("{}", cells);
+    if (!std::filesystem::exists(folder))
+      test::cpu_of({programs.synthetic_sweep, folder, std::to_string(cells), "one"});
+    return folder;
+  };
+  for (const auto& [command, cells] :
+       {std::pair<std::string, int>{"compare", 40'000}, {"table", 40'000}, {"report", 10'000}}) {
+    const auto cost = [&, command = command](int size) {
+      std::vector<std::string> words{
+          programs.loopbench, command, store(size), "-o", programs.folder / "page"};
+      if (command == "report") words.insert(words.end(), {"--size", "100"});
+      return test::cpu_of(words) / size;
+    };
+    guard.add(
+        fmt::format("growth of {} per cell", command),
+        [&, cells = cells] { return cost(cells); },
+        [&, cells = cells] { return cost(cells / 10); });
+  }
+}
+
+}  // namespace
+}  // namespace loopbench
+
+int main(int count, char** words) try {
+  using namespace loopbench;
+  if (count < 5) {
+    std::cerr << "usage: guard LIMITS LOOPBENCH SYNTHETIC_SWEEP FOLDER [ROWS]\n";
+    return 2;
+  }
+  const Programs programs{words[2], words[3], words[4]};
+  std::filesystem::remove_all(programs.folder);
+  std::filesystem::create_directories(programs.folder);
+  Guard guard(words[1], count > 5 ? words[5] : "");
+  guard_eval(guard, programs);
+  guard_stores(guard, programs);
+  guard_graphs(guard);
+  guard_smoothers(guard);
+  std::filesystem::remove_all(programs.folder);
+  if (guard.failed() > 0)
+    fmt::print("{} ratios exceed their limit in {}\n", guard.failed(), words[1]);
+  return guard.failed() > 0 ? 1 : 0;
+} catch (const std::exception& error) {
+  std::cerr << "guard: " << error.what() << '\n';
+  return 2;
+}
