@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "datasets/core/error.hpp"
 #include "harness/base/counted.hpp"
@@ -36,6 +37,28 @@ void print_summary(bool stdout_in_use, const std::string& text) {
   }
 }
 
+/// "room / dual: timeout: 600 s"
+std::vector<std::string> failed_cells(const Snapshot& snapshot) {
+  std::vector<std::string> out;
+  for (const auto& cell : by_cell(snapshot.records)) {
+    const Record& first = cell.front();
+    if (first.has_score() || !is_failure(first.status)) continue;
+    out.push_back(first.cell->name() + ": " + to_text(first.status) + ": " + first.why);
+  }
+  return out;
+}
+
+std::string failures_text(const std::vector<std::string>& failed) {
+  constexpr std::size_t kMost = 5;
+  if (failed.empty()) return "";
+  std::string out =
+      fmt::format("{} failed, and the baseline expects that:\n", counted(failed.size(), "cell"));
+  for (std::size_t i = 0; i < std::min(kMost, failed.size()); ++i) {
+    out += "  " + printable(failed[i]) + "\n";
+  }
+  return failed.size() <= kMost ? out : out + fmt::format("  and {} more\n", failed.size() - kMost);
+}
+
 /// --update keeps the limits, which are set by hand.
 int update(const CheckArguments& arguments) {
   Baseline baseline;
@@ -64,12 +87,19 @@ int update(const CheckArguments& arguments) {
                      ": was computed by a build with uncommitted changes, which cannot be "
                      "reproduced; commit, build and run again, or accept it with --allow-dirty");
   }
+  const std::vector<std::string> failed = failed_cells(baseline.snapshot);
+  const std::size_t cells = by_cell(baseline.snapshot.records).size();
+  if (failed.size() == cells) {
+    throw InputError(arguments.store +
+                     ": every cell failed, a baseline needs results: " + failed.front());
+  }
   reject_overwriting({store_file(arguments.store)}, arguments.baseline);
   write_file(arguments.baseline, json(baseline));
   print_summary(is_dash(arguments.baseline),
-                fmt::format("{}: {} written\n",
+                fmt::format("{}: {} written\n{}",
                             printable(arguments.baseline),
-                            counted(by_cell(baseline.snapshot.records).size(), "cell")));
+                            counted(cells, "cell"),
+                            failures_text(failed)));
   return kExitOk;
 }
 

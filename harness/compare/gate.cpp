@@ -66,6 +66,14 @@ Status status_of(const CellRecords& cell) {
   return cell.front().has_score() ? Status::ok : cell.front().status;
 }
 
+/// Larger relative differences of a method whose runs on equal input differ are regressions.
+constexpr double kMostUnsteady = 0.05;
+
+bool is_unsteady(const CellRow& cell) {
+  return std::ranges::any_of(
+      cell.notes, [](const std::string& note) { return note.starts_with(kNondeterministic); });
+}
+
 class Checker {
  public:
   Checker(const Baseline& baseline, const Snapshot& now, GateExtent extent)
@@ -79,6 +87,14 @@ class Checker {
                        baseline.snapshot.sweep + "'");
     }
     for (const CellRecords& cell : before) add(cell);
+    merge_failures();
+    for (const auto& [method, most] : unsteady_) {
+      report_.notes.push_back(
+          fmt::format("not deterministic: {}: runs on equal input differ, so that differences of "
+                      "up to {:.2g} % from the baseline are no finding",
+                      method,
+                      100.0 * most));
+    }
     for (const CellRecords& cell : cells) {
       if (now_.contains(name(cell)))
         find(Finding::Kind::added, name(cell), "", "not in the baseline");
@@ -145,6 +161,12 @@ class Checker {
     }
     const CellRecords now = found->second;
     now_.erase(found);
+    const std::string& method = now.front().cell->method;
+    ++cells_of_[method];
+    if (is_failure(status_of(now))) {
+      report_.failed[label] = to_text(status_of(now)) + ": " + now.front().why;
+      if (!is_failure(status_of(before))) newly_failed_[method].push_back(label);
+    }
     oracle(*before.front().cell, *now.front().cell);
     if (!status(status_of(before), status_of(now), label, "")) return;
     std::map<std::string, const Record*> scores;
@@ -161,8 +183,27 @@ class Checker {
     }
   }
 
+  /// One finding for a method that fails on all its cells, instead of one for each.
+  void merge_failures() {
+    for (const auto& each : newly_failed_) {
+      const std::vector<std::string>& labels = each.second;
+      if (labels.size() < 2 || labels.size() < cells_of_[each.first]) continue;
+      const std::string what = fmt::format("fails on all {} cells; {}: {}",
+                                           labels.size(),
+                                           labels.front(),
+                                           report_.failed[labels.front()]);
+      const auto is_own = [&](const Finding& f) {
+        return f.score.empty() && std::ranges::count(labels, f.cell) > 0;
+      };
+      *std::ranges::find_if(report_.findings, is_own) = {
+          Finding::Kind::regression, each.first, "", what};
+      std::erase_if(report_.findings, is_own);
+    }
+  }
+
   void compare(const Record& before, const Record& now) {
     const Tolerance* const limit = limit_of_(before);
+    is_unsteady_ = is_unsteady(*now.cell);
     ++(limit == nullptr ? unlimited_ : report_.scores);
     const auto regression = [&](const std::string& what) {
       find(Finding::Kind::regression, before.cell->name(), before.kind->name(), what);
@@ -199,6 +240,12 @@ class Checker {
     const double allowed = limit.absolute + limit.relative * std::abs(before);
     const double worse = loss(*score.kind, before, now);
     if (std::abs(worse) <= allowed) return;  // NaN exceeds every limit
+    const double share = std::abs(worse) / std::abs(before);
+    if (share <= kMostUnsteady && is_unsteady_ && !is_measured_time(score)) {
+      double& most = unsteady_[score.cell->method];
+      most = std::max(most, share);
+      return;
+    }
     if (has_vanished(score, before, now) && ++implausible_ == 1) {
       first_implausible_ = score.cell->name() + ", " + score.kind->name();
     }
@@ -218,7 +265,11 @@ class Checker {
   std::function<const Tolerance*(const Record&)> limit_of_;
   std::size_t implausible_ = 0;  // errors that nearly vanished
   std::string first_implausible_;
-  std::size_t unlimited_ = 0;               // scores without a limit
+  std::map<std::string, std::size_t> cells_of_;                   // by method
+  std::map<std::string, std::vector<std::string>> newly_failed_;  // cells by method
+  std::map<std::string, double> unsteady_;                        // largest difference, by method
+  bool is_unsteady_ = false;                                      // the present cell
+  std::size_t unlimited_ = 0;                                     // scores without a limit
   std::map<std::string, CellRecords> now_;  // cells that the baseline did not have so far
   GateReport report_;
 };

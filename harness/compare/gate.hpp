@@ -35,17 +35,18 @@ struct Finding {
     added         ///< not in the baseline
   };
   Kind kind = Kind::regression;
-  std::string cell;   ///< result of `name`
+  std::string cell;   ///< result of `name`; of a method that fails everywhere its name
   std::string score;  ///< empty: the complete cell
   std::string what;   ///< old and new value, with the limit
 };
 
 struct GateReport {
-  std::size_t cells = 0;           ///< of the baseline
-  std::size_t scores = 0;          ///< compared scores, that is, those with a limit
-  std::vector<std::string> names;  ///< of the baseline's cells, in order
-  std::vector<Finding> findings;   ///< in the order of the baseline
-  std::vector<std::string> notes;  ///< checks that were not possible, with the reason
+  std::size_t cells = 0;                      ///< of the baseline
+  std::size_t scores = 0;                     ///< compared scores, that is, those with a limit
+  std::vector<std::string> names;             ///< of the baseline's cells, in order
+  std::vector<Finding> findings;              ///< in the order of the baseline
+  std::map<std::string, std::string> failed;  ///< cells that failed now, with the stored reason
+  std::vector<std::string> notes;  ///< checks that were not possible, and what is not checked
 
   std::size_t count(Finding::Kind kind) const;
   bool passes() const { return count(Finding::Kind::regression) == 0; }

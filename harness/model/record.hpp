@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -19,6 +20,9 @@ namespace loopbench::harness {
 
 /// In `CellRow::worker`: the times are statements of a program.
 inline constexpr const char* kStatedTimes = ", times as stated";
+
+/// Begins the note of a cell of which several runs gave different trajectories.
+inline constexpr std::string_view kNondeterministic = "nondeterministic: ";
 
 /// What is known about a cell, apart from its scores.
 struct CellRow {

@@ -145,7 +145,7 @@ bool are_enough_runs(const CellResult& result, double precision) {
 /// Runs and measures the method; memory is that of the first run, measured outside the timed part.
 /// Every run asks a new process of a program that serves, so that no answer is from its memory.
 /// The times of a short first run are replaced by those of another run, because this process is
-/// new; its result is kept. Results of several runs that are not bit-identical are noted.
+/// new; its result is kept. Results of these runs that are not bit-identical are noted.
 std::unique_ptr<const Curve> timed(CellResult& result,
                                    const methods::Estimator& method,
                                    const Problem& problem,
@@ -156,6 +156,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
   const std::int64_t before = peak_memory();
   TimedRun last;
   std::set<std::string> results;
+  std::size_t warm_runs = 0;
   for (int run = 0; run < sweep.timing && !are_enough_runs(result, sweep.precision); ++run) {
     if (run > 0) end_servers();
     last = {};  // so that the destruction of its curve is not timed with the next run
@@ -164,6 +165,8 @@ std::unique_ptr<const Curve> timed(CellResult& result,
     const bool is_first = run == 0 && !uses_exchange(last.report);
     if (is_first && last.seconds < kShortRun) {
       const TimedRun warm = timed_run(method, problem);
+      results.insert(hash_of_curve(warm.curve.get(), problem));
+      ++warm_runs;
       last.seconds = warm.seconds;
       last.cpu_seconds = warm.cpu_seconds;
       last.report.phases = warm.report.phases;
@@ -175,7 +178,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
       result.added_memory = *result.peak_memory - before;
     }
     use_costs_of_program(result, last.report);
-    if (sweep.timing > 1) results.insert(hash_of_curve(last.curve.get(), problem));
+    if (sweep.timing > 1 || warm_runs > 0) results.insert(hash_of_curve(last.curve.get(), problem));
   }
   if (const auto now = seconds_without_processor(); waited && now) {
     const std::chrono::duration<double> took = Clock::now() - begin;
@@ -187,7 +190,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
     result.report.notes.push_back(
         fmt::format("{}{} runs on the same input gave {} different trajectories",
                     kNondeterministic,
-                    result.seconds.size(),
+                    result.seconds.size() + warm_runs,
                     results.size()));
   }
   return std::move(last.curve);

@@ -1,17 +1,12 @@
 /// Runs one cell; only the method is timed, and its exceptions are stored in its row.
 #pragma once
 
-#include <string_view>
-
 #include "datasets/core/sequence.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/model/result.hpp"
 #include "harness/model/sweep.hpp"
 
 namespace loopbench::harness {
-
-/// Begins the note of a cell whose timed runs gave different trajectories.
-inline constexpr std::string_view kNondeterministic = "nondeterministic: ";
 
 /// Call it in a new process, for its memory and time. Does not throw for errors of a method or
 /// metric: they are stored as status and why.

@@ -40,17 +40,20 @@ inline std::string xml(const std::string& text) {
 
 inline std::string test_case(const std::string& sweep,
                              const std::string& name,
-                             const std::vector<const Finding*>& regressions) {
+                             const std::vector<const Finding*>& regressions,
+                             const std::string& why_failed) {
   std::string out = fmt::format("  <testcase classname=\"{}\" name=\"{}\"", xml(sweep), xml(name));
-  if (regressions.empty()) return out + "/>\n";
-  std::string all;
+  if (regressions.empty() && why_failed.empty()) return out + "/>\n";
+  std::string all = why_failed;
   for (const Finding* finding : regressions) {
     all += (all.empty() ? "" : "; ") + (finding->score.empty() ? "" : finding->score + ": ") +
            finding->what;
   }
-  return out + fmt::format(">\n    <failure message=\"{}\">{}</failure>\n  </testcase>\n",
-                           xml(counted_findings(regressions.size(), "regression")),
-                           xml(all));
+  return out +
+         fmt::format(">\n    <failure message=\"{}\">{}</failure>\n  </testcase>\n",
+                     xml(why_failed.empty() ? counted_findings(regressions.size(), "regression")
+                                            : why_failed),
+                     xml(all));
 }
 
 /// Verdict, counts, notes and table of findings.
@@ -74,8 +77,8 @@ inline std::string markdown(const GateReport& report, const std::string& sweep) 
   return text;
 }
 
-/// JUnit test suite with one case per cell of the baseline, failed if it has a regression. Escaped
-/// for XML 1.0.
+/// JUnit test suite with one case per cell of the baseline, failed if the cell failed, then or now,
+/// with its reason, or has a regression. Escaped for XML 1.0.
 inline std::string junit(const GateReport& report, const std::string& sweep) {
   std::map<std::string, std::vector<const Finding*>> regressions;
   for (const Finding& finding : report.findings) {
@@ -84,8 +87,10 @@ inline std::string junit(const GateReport& report, const std::string& sweep) {
   std::size_t failures = 0;
   std::string cases;
   for (const std::string& cell : report.names) {
-    if (!regressions[cell].empty()) ++failures;
-    cases += test_case(sweep, cell, regressions[cell]);
+    const auto failed = report.failed.find(cell);
+    const std::string why = failed == report.failed.end() ? "" : failed->second;
+    if (!why.empty() || !regressions[cell].empty()) ++failures;
+    cases += test_case(sweep, cell, regressions[cell], why);
   }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"

@@ -143,6 +143,16 @@ TEST(GateText, IsMarkdownAndJUnit) {
             "relative 0.001, absolute 1e-06)\n");
 }
 
+TEST(GateText, NamesTheReasonOfACellThatFails) {
+  Baseline broken = baseline();
+  fail(broken.snapshot, 0, Status::failed);
+  Snapshot now = broken.snapshot;
+  now.records[0].why = "no solution";
+  const GateReport report = check(broken, now);
+  EXPECT_TRUE(report.passes());  // as the baseline expects
+  EXPECT_THAT(junit(report, "q"), HasSubstr("<failure message=\"failed: no solution\">"));
+}
+
 TEST(GateText, DoubtsErrorsThatVanish) {
   const auto doubts = [](double factor) {
     const GateReport report = after([&](Snapshot& now) { rmse(now, 3) *= factor; });

@@ -49,6 +49,40 @@ TEST(Gate, FailsOnWhatFailsNewly) {
   EXPECT_EQ(pairs.findings.at(0).what, "evaluated 399 pose pairs, was 400");
 }
 
+TEST(Gate, HasOneFindingForAMethodThatFailsEverywhere) {
+  const GateReport report = after([](Snapshot& now) {
+    for (std::size_t cell = 1; cell < 16; cell += 2) {
+      fail(now, cell, Status::crashed);
+      now.records[cell].why = "segmentation fault";
+    }
+  });
+  ASSERT_EQ(report.findings.size(), 1u);
+  EXPECT_EQ(report.findings[0].cell, "uniform");
+  EXPECT_EQ(report.findings[0].what,
+            "fails on all 8 cells; room / uniform: crashed: segmentation fault");
+  EXPECT_EQ(report.failed.size(), 8u);
+  EXPECT_FALSE(report.passes());
+}
+
+TEST(Gate, ReportsSmallDifferencesOfAnUnsteadyMethodAsNotDeterministic) {
+  const auto noisy = [](double factor) {
+    return after([&](Snapshot& now) {
+      for (std::size_t cell = 1; cell < 16; cell += 2) {
+        rmse(now, cell) *= cell % 4 == 1 ? factor : 1.0;
+        now.records[cell].cell.edit().notes = {"nondeterministic: 2 runs gave 2 trajectories"};
+      }
+    });
+  };
+  const GateReport report = noisy(1.01);
+  EXPECT_TRUE(report.passes());
+  EXPECT_TRUE(report.findings.empty());
+  EXPECT_EQ(std::ranges::count(report.notes,
+                               "not deterministic: uniform: runs on equal input differ, so that "
+                               "differences of up to 1 % from the baseline are no finding"),
+            1);
+  EXPECT_EQ(noisy(1.2).count(Finding::Kind::regression), 4u);
+}
+
 TEST(Gate, ReportsWhatIsNewOrWorksAgain) {
   const GateReport added = after([](Snapshot& now) {
     now.records.push_back(ate(0, "dual", 0.1));
