@@ -24,20 +24,27 @@ std::vector<Shape> studied_shapes() {
   return out;
 }
 
-bool print_rates(const Truth& truth, const Shape& shape, int repeats) {
-  const ErrorRates r = error_rates(truth, shape, repeats, 7);
-  fmt::print(" {:.1f}/{:.1f}", 100.0 * r.baseline, 100.0 * r.best);
-  if (!truth.sequences.empty()) fmt::print("/{:.1f}", 100.0 * r.sequences);
+/// The largest rates over the distributions.
+bool print_rates(const Truth& truth, int repeats) {
+  ErrorRates most;
+  for (const Shape& shape : studied_shapes()) {
+    const ErrorRates r = error_rates(truth, shape, repeats, 7);
+    most = {.baseline = std::max(most.baseline, r.baseline),
+            .best = std::max(most.best, r.best),
+            .sequences = std::max(most.sequences, r.sequences)};
+  }
+  fmt::print(" {:.1f}/{:.1f}", 100.0 * most.baseline, 100.0 * most.best);
+  if (!truth.sequences.empty()) fmt::print("/{:.1f}", 100.0 * most.sequences);
   fmt::print(" |");
   std::fflush(stdout);
-  return r.largest() <= 0.05 + 2.0 * std::sqrt(0.05 * 0.95 / repeats);
+  return most.largest() <= 0.05 + 2.0 * std::sqrt(0.05 * 0.95 / repeats);
 }
 
-/// A row per number of methods and distribution; runs of one sequence each, then of four.
+/// A row per number of methods; runs that are independent, then of four sequences.
 bool print_error_rates(int repeats) {
   fmt::print(
-      "| truth | errors | 8 | 15 | 40 runs | 4 x 8 | 4 x 15 | 4 x 40 runs |\n"
-      "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+      "| truth | 8 | 15 | 40 runs | 4 x 8 | 4 x 15 | 4 x 40 runs |\n"
+      "| --- | ---: | ---: | ---: | ---: | ---: | ---: |\n");
   const auto others = [](std::size_t methods, std::size_t best) {
     std::vector<double> out(methods, 0.3);
     std::fill_n(out.begin(), best, 0.0);
@@ -54,18 +61,16 @@ bool print_error_rates(int repeats) {
                          {"21 equal", others(21, 21)},
                          {"2 best of 4", others(4, 2)},
                          {"3 best of 7", others(7, 3)}}) {
-    for (const Shape& shape : studied_shapes()) {
-      fmt::print("| {} | {} |", row.name, shape.name);
-      for (const std::size_t sequences : {0u, 4u}) {
-        for (const std::size_t runs : {8u, 15u, 40u}) {
-          const Truth truth{.effects = row.effects,
-                            .groups = sequences == 0 ? runs : sequences * runs,
-                            .sequences = {sequences, std::vector<double>(row.effects.size())}};
-          is_good = print_rates(truth, shape, repeats) && is_good;
-        }
+    fmt::print("| {} |", row.name);
+    for (const std::size_t sequences : {0u, 4u}) {
+      for (const std::size_t runs : {8u, 15u, 40u}) {
+        const Truth truth{.effects = row.effects,
+                          .groups = sequences == 0 ? runs : sequences * runs,
+                          .sequences = {sequences, std::vector<double>(row.effects.size())}};
+        is_good = print_rates(truth, repeats) && is_good;
       }
-      fmt::print("\n");
     }
+    fmt::print("\n");
   }
   return is_good;
 }
