@@ -58,7 +58,16 @@ std::string comparisons_text(const std::vector<Comparison>& comparisons,
   if (output.format() == ExportFormat::csv) return csv(comparisons);
   if (output.format() == ExportFormat::json) return json(comparisons);
   std::vector<Table> tables;
-  for (const Comparison& comparison : comparisons) tables.push_back(table_view(comparison));
+  for (const Comparison& comparison : comparisons) {
+    Table verdict = verdict_table(verdict_of(comparison, comparisons));
+    Table methods = table_view(comparison);
+    if (verdict.headings.empty() || output.format() == ExportFormat::latex) {
+      methods.notes.insert(methods.notes.begin(), verdict.title);
+    } else {
+      tables.push_back(std::move(verdict));
+    }
+    tables.push_back(std::move(methods));
+  }
   return text(tables, output, store);
 }
 

@@ -208,20 +208,25 @@ void write_tables(const std::filesystem::path& store,
 
 std::string summary_text(std::vector<Record> records, const Sweep& sweep) {
   keep_where(records, sweep.table.where);
-  const Table view = summary(records, {sweep.baseline, sweep.table.value, sweep.table.show});
-  if (view.lines.empty()) {
+  const std::vector<Table> views =
+      summary(records, {sweep.baseline, sweep.table.value, sweep.table.show});
+  if (views.empty()) {
     return reasons_text(records, [](const Record& r) { return r.status != Status::ok; });
+  }
+  std::string out;
+  for (const Table& view : views) {
+    out += prints_to_terminal() ? terminal(view, standard_output_style()) : markdown(view);
+    out += "\n";
   }
   const auto is_noted = [&](const Record& r) {
     const std::string begin = std::string(r.cell->method) + ": ";
-    return std::ranges::any_of(view.notes, [&](const std::string& note) {
+    return std::ranges::any_of(views.front().notes, [&](const std::string& note) {
       return note.find(r.why.text()) != std::string::npos ||
              (note.starts_with(begin) && note.find(kFirstReason) != std::string::npos);
     });
   };
-  return (prints_to_terminal() ? terminal(view, standard_output_style()) : markdown(view)) + "\n" +
-         reasons_text(records,
-                      [&](const Record& r) { return is_failure(r.status) && !is_noted(r); });
+  return out + reasons_text(records,
+                            [&](const Record& r) { return is_failure(r.status) && !is_noted(r); });
 }
 
 std::string merge_command(const std::filesystem::path& out) {

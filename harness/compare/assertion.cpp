@@ -10,6 +10,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/base/suggest.hpp"
+#include "harness/compare/verdict.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -101,7 +102,7 @@ std::string why_not_shown(const Assertion& a, const Comparison& c) {
                     c.kind.target));
   }
   const auto m = std::ranges::find(c.methods, a.method, &MethodVerdict::method);
-  if (c.methods.empty()) return verdict(c);
+  if (c.methods.empty()) return sentence(c);
   if (m == c.methods.end()) return a.method + " has no value on any run";
   if (m->wins + m->losses + m->ties == 0) return "the methods have no run in common";
   const auto partial = methods_with_less_coverage(c);

@@ -11,6 +11,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/base/suggest.hpp"
+#include "harness/compare/verdict.hpp"
 #include "harness/model/name_order.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "metrics/numerics/median.hpp"
@@ -144,6 +145,7 @@ std::optional<Ratio> ratio_of(const Pair& pair, const KeptRuns& kept, const Comp
   out.typical = {std::exp(sign * estimate), std::min(low, high), std::max(low, high)};
   if (pair.mean && !pair.has_zero) out.geometric_mean = std::exp(sign * *pair.mean);
   out.by_sequence = sequence_ratios(pair, kept, sign);
+  out.is_of_sequences = pair.is_of_sequences();
   return out;
 }
 
@@ -161,35 +163,6 @@ void add_baseline(MethodVerdict& method,
   const bool is_significant = pair.is_significant(level_of_one(of.options.alpha, of.tests));
   method.beats_baseline = is_significant && pair.is_first_ahead();
   method.is_beaten = is_significant && !pair.is_first_ahead();
-}
-
-/// Holm's correction over the sequences and the methods that differ. A method that is better on one
-/// sequence and worse on another has no claim over all.
-void test_sequences(Comparison& c) {
-  std::vector<SequenceRatio*> all;
-  std::size_t sequences = 0;
-  for (MethodVerdict& m : c.methods) {
-    if (!m.ratio || m.method == c.options.baseline) continue;
-    sequences = std::max(sequences, m.ratio->by_sequence.size());
-    for (SequenceRatio& one : m.ratio->by_sequence) all.push_back(&one);
-  }
-  std::ranges::stable_sort(all, {}, &SequenceRatio::p);
-  std::size_t left = c.tests * sequences;
-  for (SequenceRatio* one : all) {
-    if (one->p > c.options.alpha / static_cast<double>(std::max<std::size_t>(1, left))) break;
-    one->is_clear = true;
-    if (left > 0) --left;
-  }
-  for (MethodVerdict& m : c.methods) {
-    if (!m.ratio) continue;
-    const auto is_clear = [&](bool above) {
-      return std::ranges::any_of(m.ratio->by_sequence, [&](const SequenceRatio& one) {
-        return one.is_clear && (one.ratio > 1.0) == above;
-      });
-    };
-    m.is_divided = is_clear(true) && is_clear(false);
-    if (m.is_divided) m.beats_baseline = m.is_beaten = m.ratio->has_interval = false;
-  }
 }
 
 MethodVerdict counts_of(const Observations& all, const KeptRuns& kept, std::size_t method_index) {

@@ -70,6 +70,7 @@ struct Ratio {
   bool has_interval = false;  ///< false: too few groups; typical.low and high equal the estimate
   std::optional<double> geometric_mean;  ///< over groups on which both have values; none with zeros
   std::vector<SequenceRatio> by_sequence;  ///< if each sequence has several groups
+  bool is_of_sequences = false;  ///< the typical ratio is the geometric mean over the sequences
 };
 
 struct MethodVerdict {
@@ -124,6 +125,11 @@ struct Comparison {
   std::size_t groups_needed = 0;  ///< minimum for that; if has_strata, per method and sequence
 };
 
+/// Sets which ratios of sequences are significant, with Holm's correction over the sequences and
+/// the methods that differ, and removes the claims over all of a method that is better on one
+/// sequence and worse on another.
+void test_sequences(Comparison& comparison);
+
 /// One comparison for each score that has a direction. Deterministic. Throws InputError if the
 /// baseline is not a method of the records, if `where` leaves no score, and for an unknown
 /// statistic. Comparisons without a common run, or with one method, have no methods.
@@ -135,38 +141,5 @@ std::vector<Comparison> compare(std::vector<Observations> all, const CompareOpti
 /// Which methods are best, as in compare(), but without a baseline: no ratios to it, wins and p;
 /// the methods are in the order of the observations.
 Comparison standings(Observations all, const CompareOptions& options);
-
-/// Methods that cover clearly less of the reference than another one, and those of them that lead.
-std::vector<std::string> methods_with_less_coverage(const Comparison& comparison);
-std::vector<std::string> leaders_with_less_coverage(const Comparison& comparison);
-
-/// "half covers 53 % of the reference, others up to 100 %"; empty for no methods.
-std::string coverage_text(const Comparison& comparison, const std::vector<std::string>& methods);
-
-/// "8 runs", "20 sequences", "6 groups (30 runs)": the observations of a comparison.
-std::string unit_text(const Comparison& comparison);
-
-/// "12.3 % below raw [8.1, 15.2], p = 0.02": the difference of a method to the baseline.
-std::string result_text(const Comparison& comparison, const MethodVerdict& method);
-
-/// "5 runs decide nothing: a test needs 6".
-std::string cannot_show_text(const Comparison& comparison);
-
-/// "ate rotation rmse, dense, loopbench".
-std::string title(const Comparison& comparison);
-
-/// One sentence of at most 25 words: what is best, or which methods share the first place, and the
-/// difference to the baseline.
-std::string verdict(const Comparison& comparison);
-
-/// The title and the verdict.
-std::string statement(const Comparison& comparison);
-
-/// Methods that are significantly worse than the baseline on a sequence, or depend on the sequence;
-/// then properties of the data that limit the claims: observations, copies, gaps and oracles.
-std::vector<std::string> cautions(const Comparison& comparison);
-
-/// The cautions, the tests and their limitations.
-std::vector<std::string> remarks(const Comparison& comparison);
 
 }  // namespace loopbench::harness

@@ -113,17 +113,6 @@ TestResult tested_rank_sums(const Sample& sample) {
   return out;
 }
 
-/// Whether each sequence counts once.
-bool is_over_sequences(const Pair& pair) {
-  return pair.by_sequence.size() > 1 && std::ranges::all_of(pair.by_sequence, [](const auto& each) {
-           const Sample& own = each.second;
-           const std::size_t groups = own.strata.empty()
-                                          ? own.values.size()
-                                          : std::min(own.strata[0].first, own.strata[0].second);
-           return groups >= kFewestOfSequence && is_finite(own.middle());
-         });
-}
-
 }  // namespace
 
 double corrected(double p, std::size_t tests) {
@@ -154,8 +143,18 @@ TestResult tested(const Sample& sample) {
 
 bool Pair::is_first_ahead() const { return lead != 0.0 ? lead > 0.0 : mean && *mean < 0.0; }
 
+bool Pair::is_of_sequences() const {
+  return by_sequence.size() > 1 && std::ranges::all_of(by_sequence, [](const auto& each) {
+           const Sample& own = each.second;
+           const std::size_t groups = own.strata.empty()
+                                          ? own.values.size()
+                                          : std::min(own.strata[0].first, own.strata[0].second);
+           return groups >= kFewestOfSequence && is_finite(own.middle());
+         });
+}
+
 double Pair::typical() const {
-  if (!is_over_sequences(*this)) return middle();
+  if (!is_of_sequences()) return middle();
   double sum = 0.0;
   for (const auto& [sequence, own] : by_sequence) sum += own.middle();
   return sum / static_cast<double>(by_sequence.size());
@@ -189,7 +188,7 @@ bool Pair::is_significant(double level) const {
 
 std::optional<Interval> Pair::typical_interval(double alpha) const {
   std::optional<Interval> out;
-  if (is_over_sequences(*this)) {
+  if (is_of_sequences()) {
     const double middle = typical();
     double below = 0.0;
     double above = 0.0;

@@ -62,8 +62,10 @@ struct Pair : Sample, TestResult {
   /// By ranks, and by the mean if they are balanced.
   bool is_first_ahead() const;
 
-  /// If there are several sequences of six groups or more, the mean over the sequences of their
-  /// typical differences: each sequence counts once. Otherwise that of all values.
+  /// Whether each sequence counts once: several sequences of six groups or more.
+  bool is_of_sequences() const;
+
+  /// The typical difference: of sequences that count once, the mean of theirs.
   double typical() const;
 
   /// Whether the typical or the mean difference favours the other method than the ranks do, and it

@@ -93,4 +93,31 @@ Ranking rank_methods(const Levels& levels,
   return out;
 }
 
+void test_sequences(Comparison& c) {
+  std::vector<SequenceRatio*> all;
+  std::size_t sequences = 0;
+  for (MethodVerdict& m : c.methods) {
+    if (!m.ratio || m.method == c.options.baseline) continue;
+    sequences = std::max(sequences, m.ratio->by_sequence.size());
+    for (SequenceRatio& one : m.ratio->by_sequence) all.push_back(&one);
+  }
+  std::ranges::stable_sort(all, {}, &SequenceRatio::p);
+  std::size_t left = c.tests * sequences;
+  for (SequenceRatio* one : all) {
+    if (one->p > c.options.alpha / static_cast<double>(std::max<std::size_t>(1, left))) break;
+    one->is_clear = true;
+    if (left > 0) --left;
+  }
+  for (MethodVerdict& m : c.methods) {
+    if (!m.ratio) continue;
+    const auto is_clear = [&](bool above) {
+      return std::ranges::any_of(m.ratio->by_sequence, [&](const SequenceRatio& one) {
+        return one.is_clear && (one.ratio > 1.0) == above;
+      });
+    };
+    m.is_divided = is_clear(true) && is_clear(false);
+    if (m.is_divided) m.beats_baseline = m.is_beaten = m.ratio->has_interval = false;
+  }
+}
+
 }  // namespace loopbench::harness

@@ -2,10 +2,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "harness/base/counted.hpp"
-#include "harness/compare/compare.hpp"
+#include "harness/compare/verdict.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -14,48 +13,9 @@ using Lines = std::vector<std::string>;
 
 std::string joined(const Lines& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
-/// Whether a ratio is better than 1 by more than a relevant difference.
-bool is_gain(double ratio, const Comparison& c) {
-  const double gain = c.kind.better == metrics::Better::higher ? std::log(ratio) : -std::log(ratio);
-  return gain > std::log1p(c.options.relevant);
-}
-
-std::string percent_on(const SequenceRatio& one) {
-  return fmt::format("{} ({:.1f} %)", one.sequence, 100.0 * std::abs(one.ratio - 1.0));
-}
-
-/// Methods that are significantly worse than the baseline on a sequence, the worst first.
-Lines about_sequences(const Comparison& c) {
-  constexpr std::size_t kMost = 3;
-  std::vector<std::pair<double, std::string>> found;
-  for (const MethodVerdict& m : c.methods) {
-    if (!m.ratio || m.is_beaten) continue;
-    Lines better;
-    Lines worse;
-    double worst = 0.0;
-    for (const SequenceRatio& one : m.ratio->by_sequence) {
-      if (!one.is_clear) continue;
-      if (is_gain(one.ratio, c)) better.push_back(percent_on(one));
-      if (!is_gain(1.0 / one.ratio, c)) continue;
-      worse.push_back(percent_on(one));
-      worst = std::max(worst, std::abs(std::log(one.ratio)));
-    }
-    if (worse.empty()) continue;
-    std::string text =
-        m.method + " is significantly worse than " + c.options.baseline + " on " + joined(worse);
-    if (!better.empty()) text += ", better on " + joined(better) + ": it depends on the sequence";
-    found.emplace_back(-worst, text);
-  }
-  std::ranges::stable_sort(found, {}, &std::pair<double, std::string>::first);
-  Lines out;
-  for (const auto& [order, text] : found) {
-    if (out.size() < kMost) out.push_back(text);
-  }
-  if (found.size() > kMost) {
-    out.push_back(fmt::format("{} more methods are significantly worse than {} on a sequence",
-                              found.size() - kMost,
-                              c.options.baseline));
-  }
+double largest_coverage(const Comparison& c) {
+  double out = 0.0;
+  for (const MethodVerdict& m : c.methods) out = std::max(out, m.coverage);
   return out;
 }
 
@@ -81,26 +41,6 @@ Lines about_runs(const Comparison& c) {
         "not independent, because the references are one recording (equal positions, or the stated "
         "group): " +
         joined(c.same_recordings));
-  }
-  const std::string unit = unit_text(c);
-  if (c.has_strata) {
-    out.push_back(unit +
-                  ": those of a sequence are independent, methods are compared by rank sums within "
-                  "sequences, and claims hold for more runs of them; --paired pairs runs of equal "
-                  "names");
-  } else if (!c.is_paired && c.sequences < c.runs) {
-    out.push_back(unit + ": one observation is the median ratio of a sequence");
-  } else if (c.sequences < c.groups) {
-    out.push_back(fmt::format(
-        "{}: one observation is a {}; claims hold for more of them on {}, and for other sequences "
-        "only if --over sequences, with 6 sequences or more, shows them",
-        unit,
-        c.groups < c.runs ? "group of dependent runs" : "run",
-        c.sequences == 1 ? "this sequence" : fmt::format("these {} sequences", c.sequences)));
-  } else {
-    out.push_back(fmt::format("{}: one observation is a {}; claims hold for more like them",
-                              unit,
-                              c.groups < c.runs ? "group of dependent runs" : "sequence"));
   }
   return out;
 }
@@ -160,51 +100,84 @@ Lines about_ratios(const Comparison& c) {
     out.push_back("no geometric mean ratio to " + c.options.baseline +
                   " where an error is zero (or no run is common): " + joined(zero));
   }
-  const auto first = std::ranges::find_if(
-      c.methods, [&](const MethodVerdict& m) { return m.method != c.options.baseline; });
-  if (!first->ratio || first->ratio->by_sequence.empty()) return out;
-  Lines ratios;
-  for (const SequenceRatio& one : first->ratio->by_sequence) {
-    ratios.push_back(fmt::format("{} {:.3f}{}", one.sequence, one.ratio, one.is_clear ? "*" : ""));
-  }
-  out.push_back(fmt::format("typical ratio {} / {} by sequence (*: significant): {}",
-                            first->method,
-                            c.options.baseline,
-                            joined(ratios)));
   return out;
 }
 
 }  // namespace
 
-Lines cautions(const Comparison& c) {
-  Lines out = about_sequences(c);
-  for (const Lines& lines : {about_methods(c), about_runs(c)}) {
-    out.insert(out.end(), lines.begin(), lines.end());
+std::string cannot_show_text(const Comparison& c) {
+  std::string unit = unit_text(c);
+  if (unit == "1 sequence") unit = "One recording";
+  return fmt::format("{}; a test needs {}{}",
+                     unit,
+                     c.groups_needed,
+                     c.has_strata ? " runs of each method and sequence" : "");
+}
+
+std::string unit_text(const Comparison& c) {
+  if (c.options.over == Over::sequences && c.groups == c.sequences && c.groups < c.runs) {
+    return counted(c.groups, "sequence") + " (" + counted(c.runs, "run") + ")";
+  }
+  if (c.groups < c.runs) return counted(c.groups, "group") + " (" + counted(c.runs, "run") + ")";
+  // Two runs of one sequence, of which one counts, are not "1 sequence of 2 possible".
+  const bool has_one_run_each =
+      c.sequences == c.runs && (c.runs == c.possible || c.possible_sequences == c.possible);
+  if (has_one_run_each) return counted(c.runs, "sequence");
+  return counted(c.runs, "run") + (c.runs > 1 ? " of " + counted(c.sequences, "sequence") : "");
+}
+
+Lines methods_with_less_coverage(const Comparison& c) {
+  constexpr double kLess = 0.9;  // of the largest coverage
+  Lines out;
+  for (const MethodVerdict& m : c.methods) {
+    if (m.coverage < kLess * largest_coverage(c)) out.push_back(m.method);
   }
   return out;
 }
 
+Lines leaders_with_less_coverage(const Comparison& c) {
+  Lines out = methods_with_less_coverage(c);
+  std::erase_if(out, [&](const std::string& method) {
+    return std::ranges::find(c.methods, method, &MethodVerdict::method)->is_worse;
+  });
+  return out;
+}
+
+std::string coverage_text(const Comparison& c, const Lines& methods) {
+  std::string out;
+  for (const std::string& method : methods) {
+    const auto found = std::ranges::find(c.methods, method, &MethodVerdict::method);
+    out += fmt::format(
+        "{}{} covers {:.0f} %", out.empty() ? "" : ", ", method, 100.0 * found->coverage);
+  }
+  if (out.empty()) return "";
+  return out + fmt::format(" of the reference, others up to {:.0f} %", 100.0 * largest_coverage(c));
+}
+
+Lines limitations(const Comparison& c) {
+  Lines out = about_methods(c);
+  const Lines runs = about_runs(c);
+  out.insert(out.end(), runs.begin(), runs.end());
+  return out;
+}
+
 Lines remarks(const Comparison& c) {
-  Lines out = cautions(c);
+  Lines out = limitations(c);
   if (c.methods.empty()) return out;
   out.push_back(fmt::format(
-      "ratio: typical {} / {} with its interval, {:g} % for all methods together, over several "
-      "sequences of 6 groups or more their geometric mean; mean: geometric mean ratio over runs",
+      "ratio: typical {} / {} (Hodges-Lehmann; over several sequences of 6 groups or more their "
+      "geometric mean), intervals for all methods together; mean: geometric mean ratio over runs",
       c.kind.better == metrics::Better::target ? fmt::format("|value - {:g}|", c.kind.target)
                                                : "value",
-      c.options.baseline,
-      100.0 * (1.0 - c.options.alpha)));
+      c.options.baseline));
   out.push_back(fmt::format(
-      "p: {} against {}, a failure being the largest loss, corrected for {}; = shares the first "
-      "place, > is significantly worse (Holm over all pairs at {:g}, or than a method that beats "
-      "each rival); differences up to {:g} of a value are ties, up to {:g} are not relevant",
-      c.has_strata ? "rank sums of runs within sequences"
-                   : "Wilcoxon's exact signed-rank test of log ratios",
+      "p: {} against {}, corrected for {}; a failure is a loss, differences up to {:g} of a value "
+      "are ties; >: Holm over all pairs at {:g}, or worse than a method that beats each rival",
+      c.has_strata ? "rank sums of runs within sequences" : "exact signed-rank test of log ratios",
       c.options.baseline,
       counted(c.tests, "test"),
-      c.options.alpha,
       c.options.tie,
-      c.options.relevant));
+      c.options.alpha));
   for (std::string& line : about_ratios(c)) out.push_back(std::move(line));
   return out;
 }

@@ -4,9 +4,8 @@
 #include <map>
 #include <set>
 
-#include "harness/base/wrap.hpp"
-#include "harness/compare/compare.hpp"
 #include "harness/model/name_order.hpp"
+#include "harness/tables/comparison.hpp"
 #include "harness/tables/pivot.hpp"
 
 namespace loopbench::harness {
@@ -26,11 +25,15 @@ std::optional<Record> run_score(const std::vector<Record>& records, const std::s
   return first ? first : first_axis;
 }
 
-/// The scores, and the runs without any, as if under the same protocol.
+/// The scores, in translation and rotation, and the runs without any, as if under the same
+/// protocol.
 std::vector<Record> of_score(const std::vector<Record>& records, const Record& score) {
   std::vector<Record> out;
   for (const Record& r : records) {
-    if (!r.has_score() || r.kind == score.kind) out.push_back(r);
+    const bool is_own = r.kind->metric_label() == score.kind->metric_label() &&
+                        r.kind->times == score.kind->times && r.kind->axis == score.kind->axis &&
+                        r.kind->protocol == score.kind->protocol;
+    if (!r.has_score() || is_own) out.push_back(r);
   }
   for (Record& r : out) r.kind.edit().protocol = score.kind->protocol;
   return out;
@@ -43,17 +46,9 @@ bool has_repeats(const std::vector<Record>& records) {
   return std::ranges::any_of(runs, [](const auto& each) { return each.second.size() > 1; });
 }
 
-/// Indented after the first line.
-std::string lines_of(const std::string& text, const std::optional<TerminalStyle>& style) {
-  std::string out;
-  for (const std::string& line : wrapped(text, style ? style->width - 2 : 0)) {
-    out += (out.empty() ? "" : "  ") + line + "\n";
-  }
-  return out;
-}
-
 /// Table and verdict of one score.
 std::string report_of(const std::vector<Record>& records,
+                      const Record& score,
                       const std::string& title,
                       const std::optional<TerminalStyle>& style,
                       bool paired) {
@@ -72,7 +67,9 @@ std::string report_of(const std::vector<Record>& records,
     spec.rows = {"sequence", "method"};
     spec.split.clear();
     spec.plus_minus = true;
-    Table table = pivot(records, spec).front();
+    std::vector<Record> own = records;
+    std::erase_if(own, [&](const Record& r) { return r.has_score() && r.kind != score.kind; });
+    Table table = pivot(own, spec).front();
     table.title = title;
     out += "\n" + (style ? terminal(table, *style) : markdown(table));
   }
@@ -81,11 +78,12 @@ std::string report_of(const std::vector<Record>& records,
   options.baseline = *std::ranges::find_if(
       names, [&](const std::string& name) { return with_values.contains(SharedText(name)); });
   options.paired = paired;
-  for (const Comparison& comparison : compare(records, options)) {
-    out += "\n" + lines_of("verdict: " + statement(comparison), style);
-    for (const std::string& limit : cautions(comparison)) out += lines_of("- " + limit, style);
-  }
-  return out;
+  const std::vector<Comparison> all = compare(records, options);
+  const auto main = std::ranges::find(
+      all, score.kind->relation, [](const Comparison& c) { return c.kind.relation; });
+  Table verdict = verdict_table(verdict_of(*main, all));
+  for (const std::string& each : limitations(*main)) verdict.notes.push_back(each);
+  return out + "\n" + (style ? terminal(verdict, *style) : markdown(verdict));
 }
 
 }  // namespace
@@ -102,7 +100,7 @@ std::string run_report(const std::vector<Record>& records,
     const std::optional<Record> score = run_score(records, protocol);
     if (!score) continue;
     const std::string title = protocols.names().size() > 1 ? protocol : "";
-    out += report_of(of_score(records, *score), title, style, paired);
+    out += report_of(of_score(records, *score), *score, title, style, paired);
   }
   return out;
 }

@@ -39,6 +39,7 @@ std::string lines_of(const Table& table) {
 }
 
 std::string figure(const Table& all, const std::string& attributes) {
+  if (all.headings.empty()) return notes_list(all.notes);
   const Table table = without_empty_columns(all);
   const std::string title = html_text(table.title);
   std::string out = "<figure " + attributes +

@@ -30,29 +30,6 @@ bool is_shown_first(const Record& r) {
   return r.kind->metric == "gain" || r.kind->metric == "time";
 }
 
-/// The gain in large type with its interval, if it can be stated as one number.
-std::string key_figure(const Comparison& c) {
-  const MethodVerdict& best = c.methods.front();
-  if (best.method == c.options.baseline || !best.ratio) return "";
-  const auto percent = [](double ratio) { return fmt::format("{:+.1f}", 100.0 * (ratio - 1.0)); };
-  const bool is_shown = best.beats_baseline;
-  std::string out = std::string("<div class=\"key") + (is_shown ? "" : " open") +
-                    "\"><span class=\"number\">" + percent(best.ratio->typical.estimate) +
-                    " %</span><span class=\"what\">" + html_text(c.kind.short_name()) + " of <b>" +
-                    html_text(best.method) + "</b> against " + html_text(c.options.baseline);
-  if (best.ratio->has_interval) {
-    out += fmt::format("<br>{:g} % interval {} to {} %, ",
-                       100.0 * (1.0 - c.options.alpha),
-                       percent(best.ratio->typical.low),
-                       percent(best.ratio->typical.high));
-  } else {
-    out += "<br>no interval, too few runs: ";
-  }
-  out += unit_text(c);
-  if (best.fails > 0) out += fmt::format(", {} failed", best.fails);
-  return out + (is_shown ? "" : ", not significant") + "</span></div>";
-}
-
 /// The first score in large type, for a single method.
 std::string only_score(const ReportContent& content) {
   const auto first = std::ranges::find_if(
@@ -103,8 +80,10 @@ std::string summary_html(const ReportContent& content) {
            "<p class=\"verdict\">No verdict: the sweep has no baseline, or fewer than two "
            "methods with a common run.</p>\n";
   }
-  out +=
-      "<p class=\"verdict\">" + html_text(statement(*headline)) + "</p>\n" + key_figure(*headline);
+  Table groups = verdict_table(verdict_of(*headline, content.comparisons));
+  out += "<p class=\"verdict\">" + html_text(groups.title) + "</p>\n";
+  groups.title.clear();
+  out += html_table(groups);
   if (!headline->oracles.empty()) {
     out += "<p class=\"warning\">Excluded from verdicts because they use the reference: " +
            html_text(fmt::format("{}", fmt::join(headline->oracles, ", "))) + "</p>\n";
@@ -126,7 +105,7 @@ std::string verdicts_html(const ReportContent& content) {
   Table out{"verdict for every score", {"score", "times", "protocol", "verdict"}, {}, {}};
   for (const Comparison& c : content.comparisons) {
     if (c.methods.size() < 2) continue;
-    out.lines.push_back({score_name(c), c.kind.times, c.kind.protocol, verdict(c)});
+    out.lines.push_back({score_name(c), c.kind.times, c.kind.protocol, sentence(c)});
   }
   if (out.lines.empty()) return "<p>A single method, so no verdicts.</p>\n";
   out.notes.push_back(

@@ -53,7 +53,60 @@ std::optional<double> typical_of(const std::optional<Ratio>& ratio) {
   return ratio ? std::optional(ratio->typical.estimate) : std::nullopt;
 }
 
+/// "-44", of a range "-37 .. -51": the end that is nearer to zero first.
+std::string text(const std::optional<Change>& change, double precision) {
+  if (!change) return "-";
+  const auto signed_text = [](double percent) {
+    return (percent < 0.0 ? "-" : percent > 0.0 ? "+" : "") + percent_text(std::abs(percent));
+  };
+  const auto [low, high] = *change;
+  if (high - low <= precision) return signed_text(0.5 * (low + high));
+  const bool is_below = low + high <= 0.0;
+  return signed_text(is_below ? high : low) + " .. " + signed_text(is_below ? low : high);
+}
+
+nlohmann::ordered_json change_json(const std::optional<Change>& change) {
+  if (!change) return nullptr;
+  return {change->low, change->high};
+}
+
+nlohmann::ordered_json groups_json(const Verdict& verdict) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const VerdictGroup& group : verdict.groups) {
+    nlohmann::ordered_json by_sequence = nlohmann::ordered_json::object();
+    for (std::size_t s = 0; s < verdict.sequences.size(); ++s) {
+      by_sequence[verdict.sequences[s]] = change_json(group.by_sequence[s]);
+    }
+    out.push_back({{"place", group.is_first ? "=" : ">"},
+                   {"name", group.name},
+                   {"methods", group.methods},
+                   {"change", change_json(group.all)},
+                   {"interval", change_json(group.interval)},
+                   {"by_sequence", by_sequence}});
+  }
+  return out;
+}
+
 }  // namespace
+
+Table verdict_table(const Verdict& verdict) {
+  constexpr double kPoint = 1.0;  // [%]
+  Table out{verdict.sentence, {}, {}, {}};
+  if (verdict.has_table()) {
+    out.headings = {"group", "all [%]", "95 %"};
+    for (const std::string& sequence : verdict.sequences) out.headings.push_back(sequence);
+    for (const VerdictGroup& group : verdict.groups) {
+      std::vector<TableCell>& line = out.lines.emplace_back();
+      line = {(group.is_first ? "= " : "> ") + group.name,
+              text(group.all, kPoint),
+              text(group.interval, 0.0)};
+      for (const auto& change : group.by_sequence) line.emplace_back(text(change, kPoint));
+    }
+  }
+  for (const std::string& caution : verdict.cautions) out.notes.push_back("! " + caution);
+  if (!verdict.legend.empty()) out.notes.push_back(verdict.legend);
+  return out;
+}
 
 Table table_view(const Comparison& c) {
   const std::string unit = c.kind.unit.empty() ? "" : " [" + c.kind.unit + "]";
@@ -67,7 +120,7 @@ Table table_view(const Comparison& c) {
              "mean",
              "place"},
             {},
-            {statement(c)}};
+            remarks(c)};
   double largest = 0.0;
   for (const MethodVerdict& m : c.methods) largest = std::max(largest, std::abs(m.median));
   for (const MethodVerdict& m : c.methods) {
@@ -83,7 +136,6 @@ Table table_view(const Comparison& c) {
          {m.ratio && m.ratio->geometric_mean ? fixed(*m.ratio->geometric_mean, 4) : "-"},
          {m.is_worse ? ">" : "="}});
   }
-  for (const std::string& remark : remarks(c)) out.notes.push_back(remark);
   out.facts = fmt::format("{} runs in {} independent groups", c.runs, c.groups);
   return out;
 }
@@ -129,6 +181,7 @@ std::string json(const std::vector<Comparison>& comparisons, int indent) {
   using Json = nlohmann::ordered_json;
   Json out = Json::array();
   for (const Comparison& c : comparisons) {
+    const Verdict verdict = verdict_of(c, comparisons);
     Json entry = Json::object();
     for (const KindField& each : kKindFields) entry[each.name] = c.kind.*each.text;
     entry["label"] = c.kind.metric_label();
@@ -144,7 +197,10 @@ std::string json(const std::vector<Comparison>& comparisons, int indent) {
                   {"possible", c.possible},
                   {"is_best", c.is_best},
                   {"tests", c.tests},
-                  {"verdict", statement(c)},
+                  {"verdict", verdict.sentence},
+                  {"groups_of_methods", groups_json(verdict)},
+                  {"cautions", verdict.cautions},
+                  {"legend", verdict.legend},
                   {"remarks", remarks(c)},
                   {"oracle_methods", c.oracles},
                   {"oracle_closures", c.oracle_closures},

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "harness/compare/compare.hpp"
+#include "harness/compare/verdict.hpp"
 #include "harness/tables/table_numbers.hpp"
 
 namespace loopbench::harness {

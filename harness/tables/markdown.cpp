@@ -53,10 +53,7 @@ std::string line_of(const std::vector<std::string>& texts, const std::vector<std
   return out + "\n";
 }
 
-}  // namespace
-
-std::string markdown(const Table& all) {
-  const Table table = with_common_unit(without_empty_columns(all));
+std::string grid_text(const Table& table) {
   std::vector<std::vector<std::string>> grid(1);
   for (const std::string& heading : table.headings) grid[0].push_back(escaped_markdown(heading));
   for (const auto& line : table.lines) {
@@ -64,15 +61,23 @@ std::string markdown(const Table& all) {
     for (const TableCell& cell : line) grid.back().push_back(marked_markdown(cell));
   }
   const std::vector<std::size_t> wide = widths(grid);
-  std::string out = table.title.empty() ? "" : "### " + escaped_markdown(table.title) + "\n\n";
-  out += line_of(grid[0], wide);
+  std::string out = line_of(grid[0], wide);
   std::vector<std::string> rule;
   for (std::size_t c = 0; c < wide.size(); ++c) {
     rule.push_back(c == 0 ? std::string(wide[c], '-') : std::string(wide[c] - 1, '-') + ":");
   }
   out += line_of(rule, wide);
   for (std::size_t r = 1; r < grid.size(); ++r) out += line_of(grid[r], wide);
-  if (!table.notes.empty()) out += "\n";
+  return out;
+}
+
+}  // namespace
+
+std::string markdown(const Table& all) {
+  const Table table = with_common_unit(without_empty_columns(all));
+  std::string out = table.title.empty() ? "" : "### " + escaped_markdown(table.title) + "\n\n";
+  if (!table.headings.empty()) out += grid_text(table);
+  if (!table.headings.empty() && !table.notes.empty()) out += "\n";
   for (const std::string& note : table.notes) out += "- " + escaped_markdown(note) + "\n";
   return out;
 }

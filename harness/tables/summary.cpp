@@ -3,25 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
 #include <set>
 
-#include "harness/compare/compare.hpp"
-#include "harness/compare/observations.hpp"
-#include "harness/compare/signed_rank.hpp"
-#include "harness/model/name_order.hpp"
+#include "harness/base/counted.hpp"
+#include "harness/tables/comparison.hpp"
 #include "harness/tables/notes.hpp"
 #include "harness/tables/pivot.hpp"
-#include "metrics/numerics/average.hpp"
 
 namespace loopbench::harness {
 namespace {
 
 constexpr std::size_t kMostSequences = 12;
-constexpr std::size_t kMostMethods = 30;
-constexpr std::size_t kMostVerdicts = 5;
+constexpr std::size_t kMostMethods = 16;
 constexpr std::size_t kMostReasons = 5;
 
 bool is_derived(const Record& r) {
@@ -53,118 +46,6 @@ std::vector<Record> comparable(const std::vector<Record>& records, const Summary
   return out;
 }
 
-/// Texts by row name of the derived score with that label: "gain", "time".
-std::map<std::string, std::string> derived_texts(const std::vector<Record>& records,
-                                                 const std::string& label,
-                                                 const Record& lead,
-                                                 const std::string& value) {
-  std::vector<Record> own;
-  for (const Record& r : records) {
-    if (r.status == Status::ok && r.kind->times == lead.kind->times &&
-        r.kind->protocol == lead.kind->protocol && is_derived(r) &&
-        r.kind->metric_label() == label) {
-      own.push_back(r);
-    }
-  }
-  std::map<std::string, std::string> out;
-  if (own.empty()) return out;
-  const TableSpec spec{.columns = {"metric"}, .split = {}, .value = value, .show = {}, .where = {}};
-  const Table table = pivot(own, spec).front();
-  for (const auto& line : table.lines) out[line[0].text] = line[1].text;
-  return out;
-}
-
-void add_column(Table& out,
-                const std::string& heading,
-                const std::map<std::string, std::string>& texts) {
-  if (texts.empty()) return;
-  out.headings.push_back(heading);
-  for (auto& line : out.lines) {
-    const auto found = texts.find(line[0].text);
-    line.emplace_back(found == texts.end() ? "-" : found->second);
-  }
-}
-
-std::vector<std::string> verdicts(const std::vector<Record>& candidates,
-                                  const SummaryOptions& options) {
-  CompareOptions how;
-  how.baseline = options.baseline;
-  how.value = options.value;
-  std::vector<std::string> out;
-  std::vector<std::string> seen;
-  std::size_t left_out = 0;
-  const std::vector<Comparison> all = compare(candidates, how);
-  // With too few runs the sentences are the same for all scores.
-  const bool can_prove = std::ranges::any_of(all, [](const Comparison& c) { return c.can_show; });
-  const std::size_t most = can_prove ? kMostVerdicts : 1;
-  for (const Comparison& c : all) {
-    const std::string score = c.kind.short_name();
-    // The rotation of a score that also has a translation is in `compare`.
-    if (std::ranges::count(seen, score) > 0) continue;
-    seen.push_back(score);
-    if (out.size() < most) {
-      out.push_back(statement(c));
-    } else {
-      ++left_out;
-    }
-  }
-  if (left_out > 0) {
-    out.push_back(fmt::format("{}{} more score{}: see compare",
-                              can_prove ? "" : "likewise for ",
-                              left_out,
-                              left_out == 1 ? "" : "s"));
-  }
-  return out;
-}
-
-constexpr double kLost = std::numeric_limits<double>::max();  // worse than all values
-
-/// A value for which lower is better.
-double as_loss(double value, const ScoreKind& kind) {
-  switch (kind.better) {
-    case metrics::Better::higher:
-      return -value;
-    case metrics::Better::target:
-      return std::abs(value - kind.target);
-    default:
-      return value;
-  }
-}
-
-/// Mean over runs of each method's rank among the methods that ran there: 1 for the best, ties
-/// share the mean of their ranks, methods that failed share the ranks after the last value. Methods
-/// that use the reference are not ranked. `records` are those of one score, and of cells without
-/// scores. Throws InputError for an unknown statistic `value`. O(n log n).
-std::map<std::string, double> mean_ranks(const std::vector<Record>& records,
-                                         const std::string& value) {
-  std::vector<Record> ranked = records;
-  std::erase_if(ranked, [](const Record& r) { return r.cell->oracle; });
-  const std::vector<Observations> all = observations(ranked, value);
-  if (all.empty()) return {};
-  Observations kind = all.front();
-  if (kind.kind.better == metrics::Better::neither) return {};
-  drop_duplicates(kind);
-  std::map<std::string, std::vector<double>> ranks;
-  for (std::size_t run = 0; run < kind.runs.size(); ++run) {
-    std::vector<std::string> methods;
-    std::vector<double> losses;
-    bool has_value = false;
-    for (std::size_t m = 0; m < kind.methods.size(); ++m) {
-      const Observed& one = kind.values[m][run];
-      if (!one.value && !one.is_loss) continue;
-      methods.push_back(kind.methods[m]);
-      losses.push_back(one.value ? as_loss(*one.value, kind.kind) : kLost);
-      has_value = has_value || one.value;
-    }
-    if (!has_value) continue;
-    const std::vector<double> own = midranks(losses, kTieShare);
-    for (std::size_t i = 0; i < own.size(); ++i) ranks[methods[i]].push_back(own[i]);
-  }
-  std::map<std::string, double> out;
-  for (const auto& [method, own] : ranks) out[method] = metrics::mean(own);
-  return out;
-}
-
 /// Why methods have no value, grouped.
 std::vector<std::string> reasons(const std::vector<Record>& records) {
   std::vector<Missing> missing;
@@ -181,83 +62,86 @@ std::vector<std::string> reasons(const std::vector<Record>& records) {
   return out;
 }
 
+/// The leading score in translation and rotation, the first relative one, and the times.
+std::vector<Record> shown(const std::vector<Record>& records,
+                          const std::vector<Record>& candidates,
+                          const Record& lead) {
+  const std::string name = lead.kind->short_name();
+  const auto relative = std::ranges::find_if(candidates, [&](const Record& r) {
+    return r.has_score() && r.kind->metric == "rpe" && r.kind->short_name() != name;
+  });
+  std::vector<Record> out;
+  for (const Record& r : candidates) {
+    const bool is_relative = relative != candidates.end() && r.kind == relative->kind;
+    if (!r.has_score() || r.kind->short_name() == name || is_relative) out.push_back(r);
+  }
+  for (Record r : records) {
+    const bool is_time = r.status == Status::ok && r.kind->metric == "time" &&
+                         r.kind->times == lead.kind->times &&
+                         r.kind->protocol == lead.kind->protocol;
+    if (!is_time) continue;
+    if (r.cell->cpu_seconds && !r.cell->is_stated()) r.statistics.rmse = 1e3 * *r.cell->cpu_seconds;
+    out.push_back(r);
+  }
+  return out;
+}
+
+/// The order of the comparison; the last rows are left out, but not the baseline.
+void sort_lines(Table& out, const Comparison& c) {
+  const auto place = [&](const auto& line) {
+    const auto found = std::ranges::find(c.methods, line[0].text, &MethodVerdict::method);
+    return found - c.methods.begin();
+  };
+  std::ranges::stable_sort(out.lines, {}, place);
+  if (out.lines.size() <= kMostMethods) return;
+  const auto baseline = std::ranges::find_if(
+      out.lines, [&](const auto& line) { return line[0].text == c.options.baseline; });
+  const auto last = out.lines.begin() + (kMostMethods - 1);
+  if (baseline != out.lines.end() && baseline > last) std::iter_swap(last, baseline);
+}
+
 }  // namespace
 
-Table summary(const std::vector<Record>& records, const SummaryOptions& options) {
+std::vector<Table> summary(const std::vector<Record>& records, const SummaryOptions& options) {
   const std::vector<Record> candidates = comparable(records, options);
   const auto lead = std::ranges::find_if(candidates, [](const Record& r) { return r.has_score(); });
   if (lead == candidates.end()) return {};
-  std::vector<Record> own;
-  NameOrder sequences;
-  std::set<std::string> oracle_sequences;
-  for (const Record& r : candidates) {
-    if (r.has_score() && r.kind != lead->kind) continue;
-    own.push_back(r);
-    sequences.index(r.cell->sequence);
+  const std::vector<Record> own = shown(records, candidates, *lead);
+  std::set<std::string> sequences, oracle_sequences;
+  std::vector<Record> compared;
+  bool has_baseline = false;
+  for (const Record& r : own) {
+    sequences.insert(r.cell->sequence);
     if (r.cell->oracle_closures) oracle_sequences.insert(r.cell->sequence);
+    has_baseline = has_baseline || r.cell->method == options.baseline;  // `run --only` can lack it
+    if (!r.has_score() || r.kind->short_name() == lead->kind->short_name()) compared.push_back(r);
   }
-  const bool has_sequences = sequences.names().size() <= kMostSequences;
-  const TableSpec spec{.columns = {has_sequences ? "sequence" : "score"},
-                       .split = {},
-                       .value = options.value,
-                       .show = {},
-                       .where = {}};
-  std::string unit = unit_of(*lead->kind, options.value);
-  if (!unit.empty()) unit = " [" + unit + "]";
-  // Records without a score belong to their sequence's column.
-  Table out = without_empty_columns(pivot(own, spec).front());
-  if (has_sequences) {
-    for (std::size_t c = 1; c < out.headings.size(); ++c) {
-      out.headings[c].resize(out.headings[c].size() - unit.size());
-    }
-  } else {
-    out.headings.resize(1);
-    for (auto& line : out.lines) line.resize(1);
+  const TableSpec spec{
+      .columns = {"score"}, .split = {}, .value = options.value, .show = {}, .where = {}};
+  Table table = without_empty_columns(pivot(own, spec).front());
+  table.notes.clear();
+  table.title = fmt::format("{}, {}, mean over {}",
+                            lead->kind->times,
+                            options.value,
+                            sequences.size() == 1 ? "the runs of " + *sequences.begin()
+                                                  : counted(sequences.size(), "sequence"));
+  std::vector<Table> out;
+  if (has_baseline && has_direction(options.value)) {
+    const std::vector<Comparison> all =
+        compare(compared, {.baseline = options.baseline, .value = options.value});
+    sort_lines(table, all.front());
+    out.push_back(verdict_table(verdict_of(all.front(), all)));
   }
-  out.notes.clear();
-  out.title = fmt::format("{}{}, {}, {}{}",
-                          lead->kind->short_name(),
-                          unit,
-                          lead->kind->times,
-                          options.value,
-                          has_sequences ? " by sequence" : "");
-
-  const std::map<std::string, double> ranks = mean_ranks(own, options.value);
-  std::map<std::string, std::string> rank_texts;
-  for (const auto& [method, rank] : ranks) rank_texts[method] = fixed(rank, 1);
-  add_column(out, "mean rank", rank_texts);
-  const bool is_labelled = lead->kind->metric == "ate" && lead->kind->metric_label() != "ate";
-  const std::string gain = is_labelled ? "gain (" + lead->kind->metric_label() + ")" : "gain";
-  // The gain is always that of the ATE.
-  if (has_direction(options.value)) {
-    add_column(out,
-               lead->kind->metric == "ate" ? "gain [%]" : "ATE gain [%]",
-               derived_texts(records, gain, *lead, options.value));
-  }
-  add_column(out, "time [ms]", derived_texts(records, "time", *lead, "rmse"));
-
   if (std::ranges::any_of(own, [](const Record& r) { return r.cell->is_stated(); }))
-    out.notes.emplace_back(kStatedNote);
-
-  const auto rank_of = [&](const auto& line) {
-    const auto found = ranks.find(line[0].text);
-    return found == ranks.end() ? std::numeric_limits<double>::infinity() : found->second;
-  };
-  std::ranges::stable_sort(out.lines, {}, rank_of);
-  if (out.lines.size() > kMostMethods) {
-    out.notes.push_back(fmt::format("and {} more methods", out.lines.size() - kMostMethods));
-    out.lines.resize(kMostMethods);
+    table.notes.emplace_back(kStatedNote);
+  if (table.lines.size() > kMostMethods) {
+    table.notes.push_back(fmt::format("and {} more methods", table.lines.size() - kMostMethods));
+    table.lines.resize(kMostMethods);
   }
-  if (!has_sequences) out.notes.push_back(fmt::format("{} sequences", sequences.names().size()));
   const std::string oracle = oracle_closures_note(oracle_sequences, kMostSequences);
-  if (!oracle.empty()) out.notes.push_back(oracle);
-  for (std::string& line : reasons(own)) out.notes.push_back(std::move(line));
-  const auto is_baseline = [&](const Record& r) { return r.cell->method == options.baseline; };
-  const bool has_verdicts = has_direction(options.value);
-  if (has_verdicts &&
-      std::ranges::any_of(candidates, is_baseline)) {  // `run --only` can leave it out
-    for (std::string& line : verdicts(candidates, options)) out.notes.push_back(std::move(line));
-  }
+  if (!oracle.empty()) table.notes.push_back(oracle);
+  for (std::string& line : reasons(compared)) table.notes.push_back(std::move(line));
+  out.insert(out.begin(), std::move(table));
   return out;
 }
 

@@ -143,7 +143,8 @@ std::string terminal(const Table& all, const TerminalStyle& style) {
   for (const std::string& line : wrapped(one_line(table.title), style.width)) {
     if (!line.empty()) out += style.color ? "\033[1m" + line + "\033[0m\n" : line + "\n";
   }
-  const auto parts = blocks(columns, style.width);
+  const auto parts =
+      columns.empty() ? std::vector<std::vector<std::size_t>>() : blocks(columns, style.width);
   for (std::size_t b = 0; b < parts.size(); ++b) {
     out += (b == 0 ? "" : "\n") + block_text(columns, parts[b], style.color);
   }

@@ -133,7 +133,7 @@ TEST(Marks, AreNotGivenForLowCoverage) {
 
 TEST(Marks, AreExplainedWhereNothingCanBeShown) {
   EXPECT_EQ(table_of(two_methods(5), {"method"}, {"score"}).notes.back(),
-            "no best value is marked: 5 runs of 1 sequence decide nothing: a test needs 6");
+            "no best value is marked: 5 runs of 1 sequence; a test needs 6");
 }
 
 TEST(Marks, AreOfOneScoreAndOneEntryOfAMethod) {

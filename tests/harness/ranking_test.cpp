@@ -1,7 +1,9 @@
 /// Sentence, standings and ratios of random sweeps never contradict each other.
 #include <gtest/gtest.h>
 
-#include "harness/compare/compare.hpp"
+#include <algorithm>
+
+#include "harness/compare/verdict.hpp"
 #include "tests/studies/synthetic_records.hpp"
 #include "tests/support/compared_sweep.hpp"
 
@@ -12,7 +14,7 @@ using namespace harness;
 namespace {
 
 void expect_consistent(const Comparison& c) {
-  const std::string text = statement(c);
+  const std::string text = verdict_of(c, {}).sentence;
   EXPECT_FALSE(c.methods.front().is_worse) << text;
   EXPECT_LE(std::ranges::count(text, ' ') + 1, 25) << text;
   bool has_worse = false;

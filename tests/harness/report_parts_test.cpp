@@ -102,7 +102,7 @@ TEST(Report, LeavesOutSequencesThatDoNotFit) {
   EXPECT_NE(part.find("show the first 9 of 10 sequences"), std::string::npos);
   EXPECT_NE(part.find("data-sequence=\"sequence 8\""), std::string::npos);
   EXPECT_EQ(part.find("data-sequence=\"sequence 9\""), std::string::npos);
-  EXPECT_NE(part.find("m1 is 100.0 % above m0, p = 0.073"), std::string::npos)
+  EXPECT_NE(part.find("m1 is 100 % above m0"), std::string::npos)
       << "verdicts cover all: " << part.substr(part.find("10 sequences"), 300);
 
   const ReportContent little = read_report_content(folder.path(), 1000);

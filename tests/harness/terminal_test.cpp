@@ -115,12 +115,13 @@ TEST_F(OnATerminal, RunEndsWithOneTableThatFits) {
   ASSERT_EQ(piped("run c.yaml").exit_code, 0);
   for (const std::size_t columns : {80UL, 120UL}) {
     const std::string text = run("run c.yaml", columns, "TERM=dumb").out;
-    EXPECT_EQ(text.find("ate [m], dense, rmse by sequence\n"), 0u) << text;
+    EXPECT_EQ(text.find("dense, rmse, mean over 2 sequences\n"), 0u) << text;
     EXPECT_LE(widest_line(text), columns) << text;
     EXPECT_EQ(text.find('|'), std::string::npos) << text;
-    EXPECT_NE(text.find("rank"), std::string::npos) << text;
-    EXPECT_NE(text.find("\nate rmse, dense, "), std::string::npos) << text;
-    EXPECT_NE(text.find("\naxis_error x rmse, dense, "), std::string::npos) << text;
+    EXPECT_LE(std::ranges::count(text, '\n'), 40) << text;
+    EXPECT_NE(text.find("\nate, dense: uniform + cubic_spline is best, "), std::string::npos)
+        << text;
+    EXPECT_NE(text.find("\n= uniform + cubic_spline "), std::string::npos) << text;
     EXPECT_NE(text.find("  loopbench compare results/c "), std::string::npos) << text;
   }
   EXPECT_NE(
@@ -217,13 +218,13 @@ TEST_F(EvalOnATerminal, SeveralEstimatesFitAndEndWithAVerdict) {
     const std::string text = run("eval gt.txt a.txt b.txt", columns).out;
     EXPECT_LE(widest_line(text), columns) << text;
     EXPECT_THAT(text, Not(HasSubstr("|")));
-    EXPECT_THAT(text, HasSubstr("\nverdict: ate rmse, keyframes, loopbench: b is 94.0 % below a"));
+    EXPECT_THAT(text, HasSubstr("\nate, keyframes: a 0.676 m, b 0.0406 m (-94 %). "));
   }
   const std::string piped = loopbench_command("eval gt.txt a.txt b.txt", folder_).out;
   EXPECT_THAT(piped, HasSubstr("\n| a.txt "));
-  EXPECT_THAT(piped, HasSubstr(" % below a; 1 sequence decides nothing: a test needs 6"));
+  EXPECT_THAT(piped, HasSubstr(" (-94 %). One recording; a test needs 6.\n"));
   EXPECT_THAT(run("eval gt.txt a.txt b.txt --protocol evo,tum", 80).out,
-              HasSubstr("\nverdict: ate rmse, keyframes, evo: "));
+              HasSubstr("\nate, keyframes, evo: a 12.7 m, b 11"));
 }
 
 }  // namespace

@@ -75,8 +75,8 @@ TEST(Defect2, AMethodThatFailsNearlyAlwaysVetoesNothing) {
                                : failed("room", run, "mostly fails"));
   }
   const Comparison c = compared(records, kAgainstRaw);
-  EXPECT_TRUE(verdict(c).starts_with("dual is best, ")) << verdict(c);
-  EXPECT_TRUE(has(cautions(c)[0], "failed on 23 of 24 runs (failed 23)")) << cautions(c)[0];
+  EXPECT_TRUE(sentence(c).starts_with("dual is best, ")) << sentence(c);
+  EXPECT_TRUE(has(limitations(c)[0], "failed on 23 of 24 runs (failed 23)")) << limitations(c)[0];
 }
 
 TEST(Defect3, PIsThatOfTheTestWhereRankAndMeanDisagree) {
@@ -88,7 +88,8 @@ TEST(Defect3, PIsThatOfTheTestWhereRankAndMeanDisagree) {
   EXPECT_GT(dual.ratio->typical.low, 1.0);
   EXPECT_LT(*dual.ratio->geometric_mean, 1.0);
   EXPECT_FALSE(c.is_best);
-  EXPECT_TRUE(has(verdict(c), "on most runs, but the geometric mean ratio is 0.8")) << verdict(c);
+  EXPECT_TRUE(has(sentence(c), "dual is behind raw on most runs, but not in the mean"))
+      << sentence(c);
 }
 
 TEST(Defect5, MethodsWhoseOrderDependsOnTheSequenceShareThePlace) {
@@ -105,7 +106,7 @@ TEST(Defect5, MethodsWhoseOrderDependsOnTheSequenceShareThePlace) {
     }
   }
   const Comparison c = compared(records, kAgainstRaw);
-  EXPECT_TRUE(verdict(c).starts_with("dm and smooth share the first place, ")) << verdict(c);
+  EXPECT_TRUE(sentence(c).starts_with("dm and smooth share the first place, ")) << sentence(c);
   EXPECT_TRUE(find(c, "dual").is_worse);
 }
 
@@ -120,7 +121,7 @@ TEST(Defect7, AFailureIsALossWhateverAThirdMethodsErrors) {
   const Comparison c = compared(records, kAgainstRaw);
   EXPECT_EQ(find(c, "dual").losses, alone.losses);
   EXPECT_TRUE(alone.beats_baseline);
-  EXPECT_TRUE(c.is_best) << verdict(c);
+  EXPECT_TRUE(c.is_best) << sentence(c);
 }
 
 TEST(Defect12, TheLeadersIntervalHoldsAmongTwentyOneEqualMethods) {
@@ -143,12 +144,12 @@ TEST(Defect13, ADifferenceThatDoesNotMatterIsNoAdvantage) {
         score("room", run, "near", 1.005 * 0.56 * (1.0 + 0.001 * run) * size_of(run)));
     records.push_back(score("room", run, "next", 1.03 * 0.56 * (1.0 + 0.001 * run) * size_of(run)));
   }
-  const std::string text = verdict(compared(records, kAgainstRaw));
-  EXPECT_TRUE(text.starts_with("dual and near are best, 43.7 % below raw [")) << text;
+  const std::string text = sentence(compared(records, kAgainstRaw));
+  EXPECT_TRUE(text.starts_with("dual and near are best, 44 % below raw (95 %: ")) << text;
   std::vector<double> ratios;
   for (int run = 0; run < 40; ++run) ratios.push_back(1.0 - 1e-5 * (1.0 + 0.01 * run));
-  const std::string same = verdict(compared(pairs(ratios), kAgainstRaw));
-  EXPECT_TRUE(same.starts_with("no method is best: dual is 0.0012 % below raw [")) << same;
+  const std::string same = sentence(compared(pairs(ratios), kAgainstRaw));
+  EXPECT_TRUE(same.starts_with("no method is best: dual is 0.0012 % below raw (95 %: ")) << same;
 }
 
 TEST(Defect14, MethodsThatAreExcludedOnSomeRunsDoNotEndTheComparison) {
@@ -172,14 +173,14 @@ TEST(Defect14, DeclinesAreNoFailures) {
   const Comparison c = compared(records, kAgainstRaw);
   EXPECT_EQ(find(c, "dual").fails, 0u);
   EXPECT_EQ(find(c, "dual").losses, 0u);
-  EXPECT_TRUE(has(cautions(c)[0], "no value on 2 of 8 runs (declined 2): dual"));
+  EXPECT_TRUE(has(limitations(c)[0], "no value on 2 of 8 runs (declined 2): dual"));
 }
 
 TEST(Defect14, DifferentValuesOnEqualDataAreReported) {
   std::vector<Record> records = pairs(about(0.7, 3));
   for (Record& r : records) r.cell.edit().content = "c0ffee";
   for (std::size_t i = 0; i < records.size(); i += 2) records[i].statistics.rmse = 0.1;
-  const std::vector<std::string> notes = cautions(compared(records, kAgainstRaw));
+  const std::vector<std::string> notes = limitations(compared(records, kAgainstRaw));
   EXPECT_EQ(std::ranges::count(notes, "not deterministic, values differ on equal data: dual"), 1);
 }
 

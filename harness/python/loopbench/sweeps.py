@@ -174,7 +174,10 @@ class Comparison:
     runs: int  #: compared
     possible: int  #: runs of the store
     is_best: bool  #: the methods of the first place are best: all others are worse
-    verdict: str
+    verdict: str  #: one sentence
+    groups_of_methods: list[dict[str, Any]]  #: the first place first, changes in percent
+    cautions: list[str]
+    legend: str  #: what the numbers of the groups are
     remarks: list[str]
     methods: list[ComparedMethod]  #: the first place first
     gaps: list[dict[str, Any]]  #: methods without a value in some run, and why

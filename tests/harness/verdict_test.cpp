@@ -1,0 +1,174 @@
+/// The verdict: sentence, groups, cautions.
+#include "harness/compare/verdict.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "harness/tables/comparison.hpp"
+#include "tests/support/compared_sweep.hpp"
+
+namespace loopbench::verdict_test {
+namespace {
+
+using namespace compared_sweep;  // NOLINT: its records are what every test here is about
+
+std::vector<Comparison> against_raw(const std::vector<Record>& records) {
+  return compare(records, {.baseline = "raw"});
+}
+
+/// Sixteen seeds of two sequences; errors of each method by sequence.
+std::vector<Record> errors(const std::vector<std::pair<std::string, std::array<double, 2>>>& of) {
+  std::vector<Record> out;
+  for (int seed = 0; seed < 16; ++seed) {
+    for (const std::size_t s : {0u, 1u}) {
+      for (std::size_t m = 0; m < of.size(); ++m) {
+        const double noise = 1.0 + 0.001 * ((seed * (5 + 2 * static_cast<int>(m))) % 16 - 7.5);
+        out.push_back(
+            score(s == 0 ? "room" : "sparse", seed, of[m].first, noise * of[m].second[s]));
+      }
+    }
+  }
+  return out;
+}
+
+Record in_rotation(Record r, double error) {
+  r.kind.edit().relation = "rotation";
+  r.kind.edit().unit = "deg";
+  r.statistics.rmse = error;
+  return r;
+}
+
+/// `dual` with three smoothers that are equal on average, and correctors.
+std::vector<Record> smoothers() {
+  return errors({{"raw", {1.0, 1.0}},
+                 {"two_pass", {0.7, 0.9}},
+                 {"dual", {0.6, 0.8}},
+                 {"pose_graph", {0.6, 0.803}},
+                 {"dual + a", {0.6, 0.5}},
+                 {"dual + b", {0.5995, 0.5004}},
+                 {"dual + c", {0.6002, 0.4998}}});
+}
+
+TEST(VerdictTable, NamesGroupsByWhatTheyHaveInCommon) {
+  const std::vector<Comparison> all = against_raw(smoothers());
+  const Verdict v = verdict_of(all[0], all);
+  EXPECT_TRUE(
+      v.sentence.starts_with("ate, dense: dual with a smoother is best, 45 % below raw (95 %: "))
+      << v.sentence;
+  EXPECT_LE(std::ranges::count(v.sentence, ' ') + 1, 25) << v.sentence;
+  ASSERT_EQ(v.groups.size(), 3u);  // without the baseline
+  EXPECT_TRUE(v.groups[0].name.starts_with("dual + ")) << v.groups[0].name;
+  EXPECT_EQ(v.groups[0].name.size(), std::string("dual + a, b, c").size());
+  const Table table = verdict_table(v);
+  const auto line = [&](std::size_t group) {
+    std::string out;
+    for (const TableCell& cell : table.lines[group]) out += cell.text + "|";
+    return out;
+  };
+  EXPECT_EQ(line(1), "> dual, pose_graph|-31|-30 .. -31|-40|-20|");
+  EXPECT_EQ(line(2), "> two_pass|-21|-20 .. -21|-30|-10|");
+  EXPECT_TRUE(
+      has(v.legend, "all: mean over the sequences of their typical change to raw over 32 runs"))
+      << v.legend;
+  EXPECT_TRUE(v.cautions.empty());
+}
+
+TEST(VerdictTable, ShowsTheRangeOfMembersThatDiffer) {
+  const std::vector<Record> records = errors({{"raw", {1.0, 1.0}},
+                                              {"a", {0.5, 0.6}},
+                                              {"b", {0.5, 0.6001}},
+                                              {"far", {0.9, 0.9}},
+                                              {"c", {0.4, 0.75}}});
+  const Comparison c = against_raw(records)[0];
+  ASSERT_FALSE(c.methods[2].is_worse);  // better on one, worse on the other
+  const std::string text = terminal(verdict_table(verdict_of(c, {})));
+  EXPECT_TRUE(has(text, "  -50 .. -60  -25 .. -40\n")) << text;
+}
+
+TEST(VerdictTable, HasTheSamePartsInEveryFormat) {
+  const std::vector<Comparison> all = against_raw(smoothers());
+  const Verdict v = verdict_of(all[0], all);
+  const std::string text = json(all);
+  EXPECT_TRUE(has(text, "\"verdict\": \"" + v.sentence + "\"")) << text;
+  EXPECT_TRUE(has(text, "\"name\": \"dual, pose_graph\""));
+  EXPECT_TRUE(has(text, "\"legend\": \"" + v.legend + "\""));
+  EXPECT_TRUE(markdown(verdict_table(v)).starts_with("### " + v.sentence + "\n\n| group"));
+}
+
+TEST(VerdictSentence, OfTwoFilesHasTheirValues) {
+  const Comparison c = compared({score("day", 0, "open", 0.064), score("day", 0, "other", 0.1222)},
+                                {.baseline = "open"});
+  const Verdict v = verdict_of(c, {});
+  EXPECT_EQ(v.sentence,
+            "ate, dense: open 0.064 m, other 0.122 m (+91 %). One recording; a test needs 6.");
+  EXPECT_FALSE(v.has_table());
+  EXPECT_EQ(v.legend, "");
+}
+
+TEST(VerdictSentence, StatesWhatWouldDecide) {
+  std::vector<Record> records;  // 4 % better on average, with much noise
+  for (int run = 0; run < 12; ++run) {
+    records.push_back(score("room", run, "raw", 1.0 + 0.1 * run));
+    const double noise = std::exp(0.03 * ((run * 5) % 12 - 5.5));
+    records.push_back(score("room", run, "dual", (1.0 + 0.1 * run) * 0.96 * noise));
+  }
+  const std::string text = verdict_of(compared(records, {.baseline = "raw"}), {}).sentence;
+  EXPECT_TRUE(text.starts_with("ate, dense: nothing is decided: dual is 4.")) << text;
+  EXPECT_TRUE(has(text, "; about ")) << text;
+  EXPECT_TRUE(text.ends_with(" runs would decide (now 12).")) << text;
+  EXPECT_LE(std::ranges::count(text, ' ') + 1, 25) << text;
+}
+
+TEST(Cautions, AreAboutSequencesAndRotation) {
+  std::vector<Record> records = smoothers();
+  for (const Record& r : smoothers()) {
+    const bool is_sparse = r.cell->sequence == "sparse";
+    const double factor = r.cell->method == "dual + a"   ? (is_sparse ? 1.68 : 0.9)
+                          : r.cell->method == "dual + b" ? (is_sparse ? 0.34 : 0.9)
+                                                         : 1.0;
+    records.push_back(in_rotation(
+        r,
+        r.cell->method == "raw" ? r.statistics.rmse
+                                : factor * (1.0 + 0.001 * static_cast<double>(r.cell->repeat))));
+  }
+  std::erase_if(records, [](const Record& r) { return r.cell->method == "dual + c"; });
+  const std::vector<Comparison> all = against_raw(records);
+  ASSERT_EQ(all.size(), 2u);
+  const Verdict v = verdict_of(all[0], all);
+  ASSERT_FALSE(v.cautions.empty());
+  EXPECT_TRUE(has(v.cautions[0], "rotation: dual + a is 6")) << v.cautions[0];
+  EXPECT_TRUE(has(v.cautions[0], " % worse than raw on sparse, dual + b 6")) << v.cautions[0];
+  EXPECT_TRUE(verdict_of(all[1], all).cautions[0].starts_with("dual + a is 6"));
+}
+
+TEST(Cautions, OfAMethodThatDependsOnTheSequenceLeaveNoNumberOverAll) {
+  std::vector<Record> records = one_of_four();
+  for (Record& r : records) {
+    if (r.cell->method == "dual" && r.cell->sequence == "city") r.statistics.rmse *= 1.1;
+  }
+  const Comparison c = compared(records, {.baseline = "raw"});
+  const Verdict v = verdict_of(c, {});
+  EXPECT_EQ(v.sentence,
+            "ate, dense: nothing is decided: dual is better or worse than raw: it depends on the "
+            "sequence.");
+  ASSERT_EQ(v.cautions.size(), 1u);
+  EXPECT_TRUE(has(v.cautions[0], "dual is 9.9 % worse than raw on city")) << v.cautions[0];
+  EXPECT_TRUE(std::ranges::all_of(v.groups, [](const VerdictGroup& g) { return !g.all; }));
+}
+
+TEST(Cautions, AreTheThreeWorst) {
+  std::vector<std::pair<std::string, std::array<double, 2>>> methods{{"raw", {1.0, 1.0}}};
+  for (int m = 0; m < 5; ++m) {
+    methods.push_back({"m" + std::to_string(m), {0.3, 1.2 + 0.1 * m}});
+  }
+  const Verdict v = verdict_of(against_raw(errors(methods))[0], {});
+  ASSERT_EQ(v.cautions.size(), 4u);
+  EXPECT_TRUE(v.cautions[0].starts_with("m4 is 60 % worse than raw on sparse")) << v.cautions[0];
+  EXPECT_EQ(v.cautions[3], "2 more like that");
+}
+
+}  // namespace
+}  // namespace loopbench::verdict_test
