@@ -120,7 +120,7 @@ int print_comparison(const CompareArguments& arguments) {
       not_shown(arguments.assertions, comparisons.front(), [&](const std::string& baseline) {
         return compared(baseline).front();
       });
-  write_output(comparisons_text(comparisons, arguments.output, arguments.store),
+  write_output(comparisons_text(comparisons, arguments.output, store.name()),
                arguments.output,
                "comparisons",
                store.name());

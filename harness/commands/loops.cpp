@@ -26,11 +26,7 @@ struct LoopsCommand {
 };
 
 void draw_loops(const LoopsResult& result, const LoopsCommand& a) {
-  DrawnFigure figure{{}, {"plane"}, a.figure};
-  std::filesystem::path name = a.plot;
-  for (const std::string& suffix : take_suffixes(name)) {
-    figure.files.emplace_back(name.string() + suffix);
-  }
+  const DrawnFigure figure{{figure_name(a.plot)}, {"plane"}, a.figure};
   FigureData data = loops_figure(result);
   data.figures.push_back(figure);
   draw({data});
@@ -69,10 +65,9 @@ void add_loops(CLI::App& app, int& exit_code) {
   declare_dataset_settings(*command, c.settings);
   add(*command, "--csv FILE", a->csv, "Write one row per closure; - is standard output");
   add(*command,
-      "--plot PREFIX",
+      "--plot FILE",
       a->plot,
-      "Map of the keyframes with the closures, as PREFIX.svg, .pdf and .png, or as one of these or "
-      ".pgf if PREFIX ends in it");
+      "Map of the keyframes with the closures: .pdf, .svg, .png or .pgf (default: FILE.pdf)");
   declare_figures(*command, a->figure, "--plot");
   command->remove_option(command->get_option("--labels"));  // colours have a fixed meaning
   command->add_flag("--json", a->json, "Print JSON instead of text");
