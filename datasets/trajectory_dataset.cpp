@@ -241,19 +241,10 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
     const FileClock clock{path, findings.clock, out.size() + findings.invalid};
     if (!first) first = clock;
     require_common_time(*first, clock, o);
-    if (findings.invalid + findings.unsorted > 0) {
-      sequence.provenance.notes.push_back(
-          fmt::format("{}: {} rows without a valid pose dropped, rows sorted at {} places",
-                      path,
-                      findings.invalid,
-                      findings.unsorted));
-    }
-    if (findings.origin) {
-      sequence.provenance.notes.push_back(path + ": " + to_text(*findings.origin));
-    }
-    if (!findings.damage.empty()) {
-      sequence.provenance.notes.push_back(path + ": " + findings.damage);
-    }
+    std::vector<std::string>& notes = sequence.provenance.notes;
+    for (const std::string& note : reading_notes(findings)) notes.push_back(path + ": " + note);
+    if (findings.origin) notes.push_back(path + ": " + to_text(*findings.origin));
+    if (!findings.damage.empty()) notes.push_back(path + ": " + findings.damage);
     return out;
   };
 

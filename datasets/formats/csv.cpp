@@ -118,9 +118,8 @@ Trajectory read_csv_part(TextFile& file,
     const Vector3 position(v[1], v[2], v[3]);
     if (columns.is_geodetic) require_degrees(file, line.number, position);
     const Rotation rotation =
-        columns.has_rotation
-            ? rotation_of_row(file, line, {v[4], v[5], v[6], v[7]}, out, options.positions)
-            : no_rotation();
+        columns.has_rotation ? rotation_of_row(file, line, {v[4], v[5], v[6], v[7]}, out, options)
+                             : no_rotation();
     std::optional<Matrix6> covariance;
     if (!columns.covariance.empty()) covariance = covariance_of_row(file, line, columns, row);
     const bool is_split = columns.nanoseconds && stamp.exact;

@@ -222,6 +222,10 @@ CsvHeader csv_header(std::string_view header) {
     if (header.find_first_of(" \t,", header.find_first_not_of(kBlanks)) > colon)
       header.remove_prefix(colon + 1);
   }
+  const std::size_t bracket = header.find_first_of("[(");  // the only one in "[t, x, y, z]"
+  if (bracket == header.find_first_not_of(kBlanks) && bracket == header.find_last_of("[(")) {
+    header = header.substr(bracket + 1, header.find_first_of("])") - bracket - 1);
+  }
   PoseNames all;
   all.names = header_names(header);
   for (const std::string& name : all.names) all.meanings.push_back(pose_column(name));

@@ -100,31 +100,56 @@ Line first_line(TextFile& file) {
 
 namespace {
 
-/// Throws InputError with the line that converts a file, if it has a known layout without a reader.
+/// Whether the first lines are the rows of a 4 x 4 matrix, perhaps below a line of numbers.
+bool has_matrix_lines(const TextFile& file) {
+  TextFile reopened = file.reopened();
+  Line line;
+  if (!reopened.next(line)) return false;
+  if (count_columns(file, line) != 4 && !reopened.next(line)) return false;
+  const bool begins = count_columns(file, line) == 4 && is_one(square_of_columns(file, line, 0, 3));
+  for (int i = 0; i < 3; ++i) reopened.next(line);
+  return begins && count_columns(file, line) == 4 && square_of_columns(file, line, 0, 3) == 0.0;
+}
+
+/// A number, a quaternion, a position, the number of a camera, and a name.
+bool is_of_colmap(const TextFile& file, const Line& line) {
+  return count_columns(file, line) == 10 && is_one(square_of_columns(file, line, 1, 4)) &&
+         std::isnan(square_of_columns(file, line, 9, 1));
+}
+
+/// Throws InputError with the command that converts a file, if it has a known layout without a
+/// reader.
 void reject_known(const TextFile& file, const Line& line) {
-  const std::string& name = file.name();
-  if (line.text.starts_with('{') || line.text.starts_with('[')) {
-    throw file.error(line.number,
-                     "is JSON, expected rows of numbers; for a list of objects with t, x, y, z and "
-                     "a quaternion: jq -r '.[] | [.t, .x, .y, .z, .qx, .qy, .qz, .qw] | @tsv' " +
-                         name + " > poses.txt");
-  }
   const std::size_t count = count_columns(file, line);
-  if (count == 10 && is_one(square_of_columns(file, line, 1, 4))) {
-    throw file.error(line.number,
-                     "has 10 columns as images.txt of COLMAP (camera_from_world): convert it by "
-                     "awk '!/^#/ && ++n%2 {print $1,$6,$7,$8,$3,$4,$5,$2}' " +
-                         name +
-                         " > images.tum, then traj transform images.tum --sort --invert-poses -o "
-                         "poses.txt; stamps are numbers of images, or take the time from the name "
-                         "in column 10");
+  const auto is_unit = [&](std::size_t first, int n) {
+    return is_one(square_of_columns(file, line, first, n));
+  };
+  std::string what;
+  if (line.text.starts_with('{') || line.text.starts_with('[')) {
+    what =
+        "is JSON, expected rows of numbers; for a list of objects with t, x, y, z and a "
+        "quaternion: jq -r '.[] | [.t, .x, .y, .z, .qx, .qy, .qz, .qw] | @tsv' FILE > poses.txt";
+  } else if (is_of_colmap(file, line)) {
+    what =
+        "has 10 columns as images.txt of COLMAP (camera_from_world): awk '!/^#/ && ++n%2 {print "
+        "$1,$6,$7,$8,$3,$4,$5,$2}' FILE > images.tum; loopbench traj transform images.tum "
+        "--sort --invert-poses -o poses.txt; stamps are numbers of images, or take the time "
+        "from the name in column 10";
+  } else if (count == 7 && is_unit(3, 4)) {
+    what =
+        "has 7 columns, a pose x y z qx qy qz qw without a stamp? Expected one in the first "
+        "column: paste -d' ' TIMES FILE > poses.txt, with one time per line";
+  } else if (count == 7) {
+    what =
+        "has 7 columns, a stamp, a position and three angles? Expected a quaternion; for the "
+        "positions alone: awk '{print $1,$2,$3,$4}' FILE > poses.txt";
+  } else if ((count == 3 || count == 4) && has_matrix_lines(file)) {
+    what =
+        "has a 4 x 4 matrix over four lines, expected one line: awk 'NF == 4' FILE | "
+        "paste -d' ' - - - - > poses.txt";
   }
-  if (count == 7 && is_one(square_of_columns(file, line, 3, 4))) {
-    throw file.error(line.number,
-                     "has 7 columns, a pose x y z qx qy qz qw without a stamp? Expected one in the "
-                     "first column: paste -d' ' TIMES " +
-                         name + " > poses.txt, with one time per line");
-  }
+  if (what.empty()) return;
+  throw file.error(line.number, what.replace(what.find("FILE"), 4, file.name()));
 }
 
 /// Detects by the numbers of the first lines.
@@ -138,7 +163,6 @@ Format detect_by_numbers(const TextFile& file, const Line& line) {
   if (has_ticks && count >= 8 && count != 12) return Format::euroc;
   if (const auto format = guess(file, line)) return *format;
   constexpr std::size_t kShownText = 40;
-  reject_known(file, line);
   std::string what = "has " + columns_text(count) + " and starts '" +
                      std::string(line.text.substr(0, kShownText)) + "'";
   if (line.text.find(';') != std::string_view::npos) {
@@ -182,11 +206,15 @@ Format detect_format(TextFile& file) {
   if (!file.header().empty()) {
     if (columns) return Format::csv;
     check_header(file, line);
+  } else if (!columns || is_of_colmap(file, line)) {
+    reject_known(file, line);
   }
   if (!columns) return detect_by_numbers(file, line);
   try {
     const Format found = detect_by_numbers(file, line);
-    return found == Format::g2o || is_usual_order(found, *columns) ? found : Format::csv;
+    const std::string_view stamp = Columns(file, line).word();
+    const bool is_plain = stamp == stamp_word(stamp) && is_usual_order(found, *columns);
+    return found == Format::g2o || is_plain ? found : Format::csv;
   } catch (const InputError&) {
     return Format::csv;  // only the comment above the first line names its columns
   }

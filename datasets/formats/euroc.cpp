@@ -39,8 +39,7 @@ Trajectory read_euroc(TextFile& file, const ReadOptions& options) {
     for (std::size_t i = 0; i < std::min(count - 1, v.size()); ++i) {
       v[i] = columns.number(kEurocColumns[i]);
     }
-    const Rotation rotation =
-        rotation_of_row(file, line, {v[3], v[4], v[5], v[6]}, out, options.positions);
+    const Rotation rotation = rotation_of_row(file, line, {v[3], v[4], v[5], v[6]}, out, options);
     order.put(stamp, word, line.number, {rotation, {v[0], v[1], v[2]}}, out);
   });
   return out;

@@ -73,6 +73,9 @@ struct ReadFindings {
   std::string ignored_columns = {};               ///< names of a header that were not read
 };
 
+/// What the readers dropped, moved, chose and ignored, for notes.
+std::vector<std::string> reading_notes(const ReadFindings& findings);
+
 struct ReadOptions {
   Format format = Format::automatic;
   /// Times file for poses without stamps, one time per line. Without it stamps are multiples of

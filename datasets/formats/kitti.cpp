@@ -61,7 +61,8 @@ void each_row(TextFile& file, const ReadOptions& options, int exponent, Visit vi
     for (std::size_t i = 0; i < v.size(); ++i) v[i] = columns.number(kKittiColumns[i]);
     for (const double last : {0.0, 0.0, 0.0, 1.0}) {
       if (is_square && columns.number("last row") != last) {
-        throw file.error(line.number, "the last row of the matrix is not 0 0 0 1");
+        throw file.error(line.number,
+                         "the last row of the matrix is not 0 0 0 1 (written by columns?)");
       }
     }
     visit(stamp, word, matrix_of(file, line.number, v), line.number);

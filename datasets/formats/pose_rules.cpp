@@ -26,14 +26,23 @@ Trajectory local_positions(Trajectory geodetic, const ReadOptions& options) {
   return to_local(std::move(geodetic), origin);
 }
 
-InputError mixed_rows(const TextFile& file, const Line& line, bool is_zero) {
+void reject_mixed_rows(const TextFile& file,
+                       const Line& line,
+                       bool is_zero,
+                       const ReadOptions& options,
+                       Trajectory& above) {
   if (is_zero) {
     throw InvalidRow(
         file.error(line.number, "quaternion is zero, expected norm 1 as in the rows above"));
   }
-  return file.error(line.number,
-                    "has a rotation, expected a zero quaternion (positions without rotation) as in "
-                    "the rows above");
+  if (!options.drop_invalid) {
+    throw file.error(line.number,
+                     "has a rotation, expected a zero quaternion (positions without rotation) as "
+                     "in the rows above (or --drop-invalid)");
+  }
+  file.repaired.invalid += above.size();
+  file.repaired.covariances.clear();
+  above.clear();
 }
 
 InputError with_remedy(const InvalidRow& error) {
@@ -63,7 +72,7 @@ std::string few_stamps(const TextFile& file, std::size_t column) {
       "no pose is missing, `eval --association index` pairs row by row",
       repeated,
       rows,
-      stamp_number(stamp) == 0.0 ? "stamps are 0, were they recorded?"
+      stamp_number(stamp) == 0.0 ? "stamps are 0, as if they were not recorded"
                                  : "stamps have too few digits");
 }
 

@@ -23,8 +23,13 @@ inline void require_degrees(const TextFile& file, std::size_t line, const Vector
 /// Converts what was read to local coordinates, with the origin of the options if they state one.
 Trajectory local_positions(Trajectory geodetic, const ReadOptions& options);
 
-/// Error for a row with a zero quaternion below rows with rotations, or the reverse.
-InputError mixed_rows(const TextFile& file, const Line& line, bool is_zero);
+/// Throws InvalidRow for a row with a zero quaternion below rows with rotations, and InputError for
+/// the reverse, unless `options` drop the invalid rows `above`.
+void reject_mixed_rows(const TextFile& file,
+                       const Line& line,
+                       bool is_zero,
+                       const ReadOptions& options,
+                       Trajectory& above);
 
 /// The error of an invalid row, with the option that drops such rows.
 InputError with_remedy(const InvalidRow& error);
@@ -36,15 +41,17 @@ inline Rotation normalized_rotation(const TextFile& file, std::size_t line, Rota
 }
 
 /// The rotation of a row below `above`. Files of positions can have a zero quaternion in every row:
-/// then it is no_rotation(), if `positions` accepts them. Throws InputError for rows of both kinds,
-/// and like normalized_rotation().
+/// then it is no_rotation(), if the options accept positions. Throws InputError for rows of both
+/// kinds, and like normalized_rotation().
 inline Rotation rotation_of_row(const TextFile& file,
                                 const Line& line,
                                 const Rotation& given,
-                                const Trajectory& above,
-                                bool positions) {
-  const bool is_zero = positions && given.coeffs().isZero(0.0);
-  if (!above.empty() && is_zero != lacks_rotations(above)) throw mixed_rows(file, line, is_zero);
+                                Trajectory& above,
+                                const ReadOptions& options) {
+  const bool is_zero = options.positions && given.coeffs().isZero(0.0);
+  if (!above.empty() && is_zero != lacks_rotations(above)) {
+    reject_mixed_rows(file, line, is_zero, options, above);
+  }
   return is_zero ? no_rotation() : normalized_rotation(file, line.number, given);
 }
 
@@ -80,7 +87,7 @@ class StampOrder {
   /// doubles. Throws InputError.
   void put(
       double stamp, std::string_view word, std::size_t line, const Pose& pose, Trajectory& poses) {
-    if (accepts(stamp, word, line)) {
+    if (accepts(stamp, word, line) || poses.empty()) {
       poses.push_back({last_stamp_, pose});
     } else if (options_.repeats == Repeats::keep_last) {
       poses.back().world_from_body = pose;

@@ -188,6 +188,21 @@ void check_period(const ReadOptions& options) {
 
 }  // namespace
 
+std::vector<std::string> reading_notes(const ReadFindings& findings) {
+  std::vector<std::string> out;
+  const auto note = [&](bool is_found, const std::string& text) {
+    if (is_found) out.push_back(text);
+  };
+  const StampUnit unit = findings.units.front();
+  note(findings.invalid > 0, fmt::format("invalid rows dropped: {}", findings.invalid));
+  note(findings.unsorted > 0,
+       fmt::format("rows sorted, places out of order: {}", findings.unsorted));
+  note(unit == StampUnit::ms || unit == StampUnit::us, "stamps are read in " + to_text(unit));
+  note(!findings.time_column.empty(), "time is " + findings.time_column);
+  note(!findings.ignored_columns.empty(), "columns that are not read: " + findings.ignored_columns);
+  return out;
+}
+
 Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions& options) {
   check_period(options);
   const bool is_recorded = is_bag(path, options.format);

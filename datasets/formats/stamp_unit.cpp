@@ -1,14 +1,14 @@
 #include "datasets/formats/stamp_unit.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <iterator>
 #include <string>
 
 #include "datasets/core/fields.hpp"
+#include "datasets/core/upper_median.hpp"
 #include "datasets/formats/csv_header.hpp"
 #include "datasets/formats/stamps.hpp"
 
@@ -17,22 +17,11 @@ namespace {
 
 constexpr std::array kUnits{StampUnit::s, StampUnit::ms, StampUnit::us, StampUnit::ns};
 
+/// The first stamps of a file.
 struct SampledStamps {
-  std::vector<double> values;
-  bool are_whole = true;
-  bool have_point = false;  ///< as in 12.0, but not in 1.6e18
   std::string first;
-
-  double median_interval() const {
-    std::vector<double> intervals;
-    for (std::size_t i = 1; i < values.size(); ++i) {
-      if (values[i] != values[i - 1]) intervals.push_back(std::abs(values[i] - values[i - 1]));
-    }
-    if (intervals.empty()) return 0.0;
-    const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-    std::nth_element(intervals.begin(), middle, intervals.end());
-    return *middle;
-  }
+  double size = 0.0, interval = 0.0;           ///< largest; median of those that are not 0
+  bool are_whole = true, are_integers = true;  ///< 12.0 is whole, 1.6e18 is an integer, too
 };
 
 SampledStamps sampled(const TextFile& file, std::size_t column) {
@@ -40,39 +29,39 @@ SampledStamps sampled(const TextFile& file, std::size_t column) {
   SampledStamps out;
   TextFile reopened = file.reopened();
   std::vector<std::string_view> row;
-  for (Line line; out.values.size() < kMost && reopened.next(line);) {
+  std::vector<double> intervals;
+  double last = 0.0;
+  std::size_t count = 0;
+  for (Line line; count < kMost && reopened.next(line);) {
     split_columns(line.text, row);
     if (row.size() <= column) continue;
-    const std::string word(row[column]);
-    const std::optional<double> value = stamp_number(word);
-    if (!value || !std::isfinite(*value)) continue;
-    if (out.values.empty()) out.first = word;
-    out.are_whole &= *value == std::floor(*value);
-    out.have_point |= word.find('.') != word.npos && word.find_first_of("eE") == word.npos;
-    out.values.push_back(*value);
+    const std::string_view word = row[column];
+    const double value = stamp_number(word).value_or(HUGE_VAL);
+    if (!std::isfinite(value)) continue;
+    if (++count == 1) out.first = word;
+    if (count > 1 && value != last) intervals.push_back(std::abs(value - last));
+    last = value;
+    out.size = std::max(out.size, std::abs(value));
+    out.are_whole &= value == std::floor(value);
+    out.are_integers &= word.find('.') == word.npos || word.find_first_of("eE") != word.npos;
   }
-  return out;
-}
-
-double size_of(const SampledStamps& stamps) {
-  double out = 0.0;
-  for (const double value : stamps.values) out = std::max(out, std::abs(value));
+  if (!intervals.empty()) out.interval = upper_median(intervals);
   return out;
 }
 
 constexpr int kCertain = 5;
 
 /// How well a unit fits; negative: not at all.
-int fit(StampUnit unit, double size, double interval, bool are_whole) {
+int fit(StampUnit unit, const SampledStamps& stamps) {
   constexpr double kLatest = 4.1e9, kEarliest = 6.3e8;   // 2099 and 1990 [s]
   constexpr double kShortest = 2e-5, kLongest = 200.0;   // possible intervals [s]
   constexpr double kUsual = 1e-3, kMostUsual = 2.5;      // [s]
   constexpr double kMostSeconds = 1000.0, kSmall = 1e4;  // interval and time of whole numbers [s]
   const double factor = std::pow(10.0, exponent_of(unit));
-  const double time = size * factor, step = interval * factor;
+  const double time = stamps.size * factor, step = stamps.interval * factor;
   if (time > kLatest) return -1;
   if (unit == StampUnit::s) {
-    if (are_whole && step >= kMostSeconds && time >= kSmall) return -1;
+    if (stamps.are_whole && step >= kMostSeconds && time >= kSmall) return -1;
     return time >= kEarliest ? kCertain : 4;
   }
   if (step != 0.0 && (step < kShortest || step > kLongest)) return -1;
@@ -80,8 +69,6 @@ int fit(StampUnit unit, double size, double interval, bool are_whole) {
   // A clock that starts at 0 has decimals only in seconds.
   return kUsual <= step && step <= kMostUsual ? 2 : step == 0.0 ? -1 : 1;
 }
-
-bool are_keys_of_gtsam(double size) { return size > 4.1e18 && size < 9.2e18; }
 
 }  // namespace
 
@@ -92,25 +79,21 @@ int exponent_of(StampUnit unit) {
 
 FittingUnits fitting_units(const TextFile& file, std::size_t column) {
   const SampledStamps stamps = sampled(file, column);
-  FittingUnits out;
-  if (stamps.values.empty()) return out;
-  const double size = size_of(stamps), interval = stamps.median_interval();
-  const auto fit_of = [&](StampUnit unit) { return fit(unit, size, interval, stamps.are_whole); };
-  out.units.clear();
-  for (const StampUnit unit : kUnits) {
-    if (fit_of(unit) >= 0) out.units.push_back(unit);
-  }
+  if (stamps.first.empty()) return {};
+  const auto fit_of = [&](StampUnit unit) { return fit(unit, stamps); };
+  FittingUnits out{.units = {}};
+  std::ranges::copy_if(
+      kUnits, std::back_inserter(out.units), [&](StampUnit unit) { return fit_of(unit) >= 0; });
   std::ranges::stable_sort(out.units, std::greater{}, fit_of);
-  if (!out.units.empty() && fit_of(out.units.front()) == kCertain) out.units.resize(1);
-  if (out.units.empty() && are_keys_of_gtsam(size)) {
-    const auto key = static_cast<std::uint64_t>(stamps.values.front());
-    throw file.error(0,
-                     fmt::format("stamp {} is in 2100 or later: a key of GTSAM ({}...)? Expected "
-                                 "the time of each pose in its place",
-                                 stamps.first,
-                                 static_cast<char>(key >> 56)));
+  const bool are_keys = stamps.size > 4.1e18 && stamps.size < 9.2e18;
+  if (out.units.empty() && are_keys) {
+    throw file.error(
+        0,
+        "stamp " + stamps.first +
+            " is in 2100 or later, perhaps the key of a pose in GTSAM: expected its time");
   }
-  if (out.units.empty()) out.units = {size >= 1e16 ? StampUnit::ns : StampUnit::s};
+  if (out.units.empty()) out.units = {stamps.size >= 1e16 ? StampUnit::ns : StampUnit::s};
+  if (fit_of(out.units.front()) == kCertain) out.units.resize(1);
   out.is_clear = out.units.size() < 2 || fit_of(out.units[0]) > fit_of(out.units[1]);
   return out;
 }
@@ -129,8 +112,8 @@ int stamp_exponent(const TextFile& file, std::size_t column, const ReadOptions& 
 bool has_frame_numbers(const TextFile& file, std::size_t column) {
   constexpr double kMost = 1e7, kLargestStep = 50.0;
   const SampledStamps stamps = sampled(file, column);
-  return stamps.are_whole && !stamps.have_point && !stamps.values.empty() &&
-         size_of(stamps) < kMost && stamps.median_interval() <= kLargestStep;
+  return !stamps.first.empty() && stamps.are_whole && stamps.are_integers && stamps.size < kMost &&
+         stamps.interval <= kLargestStep;
 }
 
 StampUnit better_unit(const Trajectory& own,

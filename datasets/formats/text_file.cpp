@@ -41,10 +41,10 @@ std::vector<std::string_view> words_of(std::string_view text) {
 bool names_columns(std::string_view text) {
   constexpr std::size_t kFewest = 3;
   const std::vector<std::string_view> words = words_of(text);
-  // `rostopic echo -p` starts its header with %.
+  // `rostopic echo -p` starts its header with %, PlotJuggler with __time.
   const bool starts_with_letter =
-      !words.empty() &&
-      (std::isalpha(static_cast<unsigned char>(words[0][0])) != 0 || words[0][0] == '%');
+      !words.empty() && (std::isalpha(static_cast<unsigned char>(words[0][0])) != 0 ||
+                         words[0][0] == '%' || words[0].starts_with("__"));
   // A number that is not finite is an invalid pose, not a name.
   return starts_with_letter && words.size() >= kFewest && std::ranges::none_of(words, is_number);
 }

@@ -81,7 +81,7 @@ Trajectory read_tum_part(TextFile& file, const ReadOptions& options, const TumCo
       throw wrong_row(file, line, positions, layout);
     }
     if (layout.exponent != 0) v[0] = read_stamp(stamp, v[0], layout.exponent).seconds;
-    const Rotation rotation = rotation_of_row(file, line, {v[7], v[4], v[5], v[6]}, out, positions);
+    const Rotation rotation = rotation_of_row(file, line, {v[7], v[4], v[5], v[6]}, out, options);
     const Pose pose{rotation, {v[1], v[2], v[3]}};
     std::optional<Matrix6> covariance;
     if (layout.covariance) {

@@ -103,6 +103,23 @@ inline bool explains_other_body(const std::string& note) {
   });
 }
 
+/// Poses with the increasing stamps that the doctor needs: the first pose of each stamp, or
+/// multiples of the period. Copies into `kept` only if some change.
+inline const Trajectory& for_doctor(const Trajectory& poses, bool by_index, Trajectory& kept) {
+  if (by_index) {
+    kept = poses;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      kept[i].stamp = static_cast<double>(i) * ReadOptions{}.period;
+    }
+    return kept;
+  }
+  const auto are_equal = [](const auto& a, const auto& b) { return a.stamp == b.stamp; };
+  if (std::ranges::adjacent_find(poses, are_equal) == poses.end()) return poses;
+  kept = poses;
+  kept.erase(std::unique(kept.begin(), kept.end(), are_equal), kept.end());
+  return kept;
+}
+
 /// Sets diagnosis, notes and other_body. O(n log n).
 inline void add_checks(EvaluationResult& out,
                        const metrics::Evaluation& evaluation,

@@ -64,26 +64,6 @@ ReadOptions read_options(const ReadArguments& arguments) {
   return out;
 }
 
-std::vector<std::string> reading_notes(const ReadFindings& findings) {
-  std::vector<std::string> out;
-  if (findings.invalid > 0) {
-    out.push_back(counted(findings.invalid, "row") + " without a valid pose dropped");
-  }
-  if (findings.unsorted > 0) {
-    out.push_back("rows were not in order of time at " + counted(findings.unsorted, "place") +
-                  ", and were sorted");
-  }
-  const StampUnit unit = findings.units.front();
-  if (unit == StampUnit::ms || unit == StampUnit::us) {
-    out.push_back("stamps are read in " + to_text(unit));
-  }
-  if (!findings.time_column.empty()) out.push_back("time is " + findings.time_column);
-  if (!findings.ignored_columns.empty()) {
-    out.push_back("columns that are not read: " + findings.ignored_columns);
-  }
-  return out;
-}
-
 NamedTrajectory read_named(const std::string& name, const ReadArguments& arguments) {
   NamedTrajectory out;
   out.name = name;

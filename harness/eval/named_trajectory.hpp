@@ -25,9 +25,6 @@ struct ReadArguments {
 /// The arguments as options, without times.
 ReadOptions read_options(const ReadArguments& arguments);
 
-/// What the readers dropped, moved, chose and ignored, for a note.
-std::vector<std::string> reading_notes(const ReadFindings& findings);
-
 struct NamedTrajectory {
   std::string name;  ///< as given, with the topic of a bag
   TrajectoryFile file;

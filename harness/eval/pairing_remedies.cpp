@@ -76,7 +76,7 @@ std::string pairing_remedies(const Trajectory& reference,
   metrics::Protocol changed = rules;
   const auto offer = [&](const std::string& option) {
     const std::size_t pairs = pairs_of(reference, estimate, changed);
-    if (pairs > 0 && pairs >= 2 * now) out += fmt::format("; {}: {} pairs", option, pairs);
+    if (pairs > 2 && pairs >= 2 * now) out += fmt::format("; {}: {} pairs", option, pairs);
     changed = rules;
   };
   const double begin = estimate.front().stamp + rules.offset;

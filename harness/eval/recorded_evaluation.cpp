@@ -206,16 +206,6 @@ void share_notes(std::vector<EvaluationResult>& evaluations, std::vector<std::st
   }
 }
 
-/// The first pose of each stamp: the doctor needs increasing stamps. Copies into `kept` only if
-/// some are repeated.
-const Trajectory& without_repeats(const Trajectory& poses, Trajectory& kept) {
-  const auto are_equal = [](const auto& a, const auto& b) { return a.stamp == b.stamp; };
-  if (std::ranges::adjacent_find(poses, are_equal) == poses.end()) return poses;
-  kept = poses;
-  kept.erase(std::unique(kept.begin(), kept.end(), are_equal), kept.end());
-  return kept;
-}
-
 }  // namespace
 
 SharedReference shared_reference(const std::string& file, const RecordedSweep& files) {
@@ -244,11 +234,14 @@ EvaluatedFile evaluate_poses(const Cell& cell,
   std::future<std::vector<std::string>> doctor =
       std::async(is_large ? std::launch::async : std::launch::deferred, [&] {
         if (!files.arguments.diagnose) return std::vector<std::string>{};
-        const bool has_stamps =
-            reference.read.clock.clock == Clock::stamps && estimate.clock.clock == Clock::stamps;
+        const bool by_index = std::ranges::all_of(files.sweep.protocols, [](const auto& each) {
+          return each.rules.association == metrics::Association::index;
+        });
+        const bool has_stamps = !by_index && reference.read.clock.clock == Clock::stamps &&
+                                estimate.clock.clock == Clock::stamps;
         Trajectory kept_reference, kept_estimate;
-        return doctor_notes({without_repeats(reference.read.poses, kept_reference),
-                             without_repeats(estimate.poses, kept_estimate),
+        return doctor_notes({for_doctor(reference.read.poses, by_index, kept_reference),
+                             for_doctor(estimate.poses, by_index, kept_estimate),
                              run.reference,
                              run.estimate,
                              has_stamps},

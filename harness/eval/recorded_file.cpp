@@ -197,7 +197,7 @@ Params reading_options(const EvalArguments& a) {
 
 void check_stamp_options(const EvalArguments& a, const std::vector<RecordedRun>& runs) {
   if (!a.times.empty() && !has_unstamped(true, a, runs)) {
-    throw InputError(a.times + ": is a times file, but no file has KITTI poses");
+    throw InputError(a.times + ": is a times file, but all files have stamps");
   }
   if (a.period && !(a.times.empty() && has_unstamped(true, a, runs)) &&
       !has_unstamped(false, a, runs)) {

@@ -70,7 +70,7 @@ TEST(Positions, ARowOfTheOtherKindIsRejectedWithItsLine) {
             "ty tz qx qy qz qw");
   EXPECT_EQ(reason("1 1 2 3 0 0 0 0\n2 1 2 3 0 0 0 1\n"),
             ":2: has a rotation, expected a zero quaternion (positions without rotation) as in the "
-            "rows above");
+            "rows above (or --drop-invalid)");
   EXPECT_EQ(reason("1 1 2 3 0 0 0 1\n2 1 2 3 0 0 0 0\n"),
             ":2: quaternion is zero, expected norm 1 as in the rows above (--drop-invalid, or "
             "drop_invalid: true in a config)");
