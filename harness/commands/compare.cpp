@@ -5,13 +5,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <regex>
 
 #include "datasets/core/error.hpp"
 #include "harness/base/print_error.hpp"
 #include "harness/base/printable.hpp"
+#include "harness/catalogue/scratch.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
@@ -83,36 +84,18 @@ void require_one_score(const std::vector<Comparison>& comparisons) {
                   titles));
 }
 
-/// The only store, or all of them merged in a temporary folder, which the destructor removes.
-class ComparedStore {
- public:
-  explicit ComparedStore(const std::vector<std::filesystem::path>& stores) : file_(stores.front()) {
-    if (stores.size() == 1) return;
-    std::string folder = (std::filesystem::temp_directory_path() / "loopbench-XXXXXX").string();
-    if (mkdtemp(folder.data()) == nullptr) throw InputError(folder + ": cannot be created");
-    folder_ = folder;
-    file_ = folder_ / "results.sqlite";
-    merge_stores(stores, file_, {.mixed_builds = true});
-  }
-  ComparedStore(const ComparedStore&) = delete;
-  ComparedStore& operator=(const ComparedStore&) = delete;
-  ~ComparedStore() {
-    std::error_code none;
-    if (!folder_.empty()) std::filesystem::remove_all(folder_, none);
-  }
-
-  std::string name() const { return file_.string(); }
-
- private:
-  std::filesystem::path file_, folder_;
-};
-
 int print_comparison(const CompareArguments& arguments) {
-  const ComparedStore store(arguments.stores);
+  std::string store = arguments.stores.front().string();
+  std::optional<NewFolder> merged;
+  if (arguments.stores.size() > 1) {
+    merged.emplace("loopbench-compare-");
+    store = (merged->path() / "results.sqlite").string();
+    merge_stores(arguments.stores, store, {.mixed_builds = true});
+  }
   const auto compared = [&](const std::string& baseline) {
     CompareOptions options = arguments.options;
     options.baseline = baseline;
-    return compare_store(store.name(), metric_of(arguments), arguments.where, options);
+    return compare_store(store, metric_of(arguments), arguments.where, options);
   };
   const std::vector<Comparison> comparisons = compared(arguments.options.baseline);
   if (!arguments.assertions.empty()) require_one_score(comparisons);
@@ -120,10 +103,10 @@ int print_comparison(const CompareArguments& arguments) {
       not_shown(arguments.assertions, comparisons.front(), [&](const std::string& baseline) {
         return compared(baseline).front();
       });
-  write_output(comparisons_text(comparisons, arguments.output, store.name()),
+  write_output(comparisons_text(comparisons, arguments.output, store),
                arguments.output,
                "comparisons",
-               store.name());
+               store);
   for (const std::string& failure : failures) print_error("loopbench: {}\n", printable(failure));
   return failures.empty() ? kExitOk : kExitNotShown;
 }
