@@ -73,7 +73,9 @@ def values_schema():
 
 
 def dataset_keys():
-    return {"group": {"description": "name of runs that are not independent"} | TEXT}
+    align = {"$ref": "#/definitions/protocol/else/properties/align"}
+    return {"group": {"description": "name of runs that are not independent"} | TEXT,
+            "protocol": {"description": "rules of this dataset under every protocol"} | map_of({"align": align})}
 
 
 def entry_schema(kind, entry):

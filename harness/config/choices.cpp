@@ -123,9 +123,19 @@ std::vector<DatasetChoice> read_datasets(const YamlNode& entry,
                                          const Folders& folders) {
   std::string group;
   read_key(entry, "group", group, as_text);
+  std::optional<metrics::Align> align;
+  if (const YamlNode* rules = entry.find("protocol")) {
+    if (rules->map.size() != 1 || rules->find("align") == nullptr) {
+      throw rules->error("protocol of a dataset: expected {align: NAME}");
+    }
+    align = protocol_choices(*rules).front().rules.align;
+  }
   std::vector<DatasetChoice> out =
-      dataset_choices(read_entry(entry, "dataset", {"group"}), catalogue, folders);
-  for (DatasetChoice& choice : out) choice.group = group;
+      dataset_choices(read_entry(entry, "dataset", {"group", "protocol"}), catalogue, folders);
+  for (DatasetChoice& choice : out) {
+    choice.group = group;
+    choice.align = align;
+  }
   return out;
 }
 

@@ -24,7 +24,7 @@ inline const std::vector<ConfigKey>& config_keys(const std::string& map) {
       {"",
        {{"description", "text about the sweep"},
         {"plugins", "shared objects with methods, metrics or datasets, relative to this file"},
-        {"datasets", "sequences: names, or maps with dataset, label, group and options"},
+        {"datasets", "sequences: names, or maps with dataset, label, group, protocol and options"},
         {"methods", "methods: names, corrector + smoother, or maps with method, label and options"},
         {"metrics", "metrics: names, or maps with metric, label and options"},
         {"times", "evaluation times: keyframes, dense or both"},

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct DatasetChoice {
   std::string label;  ///< name, plus the swept options
   Choice dataset;
   std::string group = {};  ///< name of a group of dependent runs; empty: see source_of()
+  std::optional<metrics::Align> align = {};  ///< under every protocol; none: as the protocol states
 };
 
 struct MethodChoice {
@@ -82,5 +84,15 @@ struct Sweep {
   std::vector<Exclusion> exclude;
   TableSpec table;
 };
+
+/// The sweep with the alignment of a dataset in all protocols; none if the dataset states none.
+inline std::optional<Sweep> with_alignment_of(std::size_t dataset, const Sweep& sweep) {
+  const std::optional<metrics::Align> align = sweep.datasets[dataset].align;
+  if (!align) return std::nullopt;
+  Sweep out = sweep;
+  out.datasets[dataset].align.reset();
+  for (metrics::NamedProtocol& protocol : out.protocols) protocol.rules.align = *align;
+  return out;
+}
 
 }  // namespace loopbench::harness

@@ -82,12 +82,14 @@ const std::string& CellKeys::configuration_hash(const Cell& cell) {
   fields.add(choice.dataset.name).add(hashed(options_of(cell, sweep_, catalogue_)));
   fields.add(plugin_version(catalogue_, "dataset", choice.dataset.name));
   if (!choice.group.empty()) fields.add(choice.group);  // stored with the sequence
+  if (choice.align) fields.add("protocol").add(to_text(*choice.align));
   return found->second = fields.hashed();
 }
 
 std::string CellKeys::dataset_text(const Cell& cell) const {
-  return sweep_.datasets[cell.dataset].dataset.name + ": " +
-         to_text(options_of(cell, sweep_, catalogue_));
+  const DatasetChoice& choice = sweep_.datasets[cell.dataset];
+  return choice.dataset.name + ": " + to_text(options_of(cell, sweep_, catalogue_)) +
+         (choice.align ? ", protocol.align=" + to_text(*choice.align) : "");
 }
 
 std::string CellKeys::metric_definitions() const {

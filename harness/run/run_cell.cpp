@@ -258,6 +258,9 @@ CellResult run_cell(const Cell& cell,
                     const Sweep& sweep,
                     const Sequence& sequence,
                     const Catalogue& catalogue) {
+  if (const auto own = with_alignment_of(cell.dataset, sweep)) {
+    return run_cell(cell, *own, sequence, catalogue);
+  }
   CellResult result;
   result.cell = cell;
   const MethodChoice& choice = sweep.methods[cell.method];

@@ -211,6 +211,12 @@ SequenceMetadata sequence_metadata(const Sequence& sequence, bool with_trace) {
 }
 
 SequenceMetadata metadata_of(const Sequence& sequence, const Cell& cell, const Sweep& sweep) {
+  if (const auto own = with_alignment_of(cell.dataset, sweep)) {
+    SequenceMetadata out = metadata_of(sequence, cell, *own);
+    out.notes.push_back("aligned by " + to_text(*sweep.datasets[cell.dataset].align) +
+                        " under every protocol");
+    return out;
+  }
   SequenceMetadata out = sequence_metadata(sequence, sweep.traces);
   const std::string& group = sweep.datasets[cell.dataset].group;
   if (!group.empty()) out.group = "group:" + group;
