@@ -16,7 +16,7 @@ geodetic_packages=(libgeographiclib-dev)  # latitudes and longitudes; optional i
 # OpenCV's development packages depend on some 280 others, so run.sh installs them when first needed.
 image_packages=(libstb-dev libopencv-features2d-dev libopencv-calib3d-dev)
 plot_packages=(python3-matplotlib)
-latex_packages=(texlive-latex-base texlive-latex-recommended)  # tests/latex.sh compiles tables; .ci/run installs it
+latex_packages=(texlive-latex-base texlive-latex-recommended texlive-pictures)  # tables and figures; .ci/run installs it
 sanitizer_packages=(libclang-rt-dev llvm)  # llvm: names of functions in reports
 lint_packages=(clang-format clang-tidy shellcheck)
 slurm_packages=(slurm-wlm munge)  # a real cluster for tests/slurm

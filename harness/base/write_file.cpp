@@ -1,5 +1,7 @@
 #include "harness/base/write_file.hpp"
 
+#include <fmt/core.h>
+
 #include <cstdio>
 
 #include "datasets/core/error.hpp"
@@ -25,7 +27,7 @@ void reject_standard_output(const std::string& option, const std::filesystem::pa
 
 void write_file(const std::filesystem::path& file, const std::string& text) {
   if (is_dash(file)) {
-    std::fwrite(text.data(), 1, text.size(), stdout);  // main() reports write errors
+    fmt::print("{}", text);  // throws what fails, which main() reports
     return;
   }
   create_folder_of(file);

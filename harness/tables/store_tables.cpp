@@ -242,11 +242,7 @@ std::vector<Comparison> compare_store(const std::filesystem::path& store,
   }
   const auto passes = where(rules);
   ObservationsBuilder wanted(options.value);
-  std::vector<double> planted;
   const auto add = [&](const Record& r) {
-    planted.push_back(r.statistics.rmse);
-    volatile double sum = 0;
-    for (const double x : planted) sum = sum + x;
     if (passes(r) && (!r.has_score() || is_wanted(r))) wanted.add(r);
   };
   is_derived ? for_each_with_derived(reader, baseline, asked, add) : reader.for_each(add);
