@@ -39,6 +39,7 @@ const Params kWorldAxes{{"planar", std::int64_t{3}},
 
 CellResult run(const std::vector<Choice>& stages, const Sequence& sequence) {
   Sweep sweep;
+  sweep.datasets.emplace_back();
   sweep.methods = {{"it", stages}};
   sweep.metrics = {{"ate", {"ate", {}}}};
   return run_cell({}, sweep, sequence, readings());
