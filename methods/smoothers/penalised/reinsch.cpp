@@ -80,7 +80,7 @@ double score(Criterion criterion, const Reinsch::Fit& fit, std::size_t n) {
 
 namespace {
 
-constexpr int kPerDecade = 8, kSmallest = -6 * kPerDecade, kLargest = 12 * kPerDecade;
+constexpr int kPerDecade = 8, kSmallestPower = -6 * kPerDecade, kLargestPower = 12 * kPerDecade;
 
 double lambda_at(const std::vector<double>& stamps, int k) {
   const double interval = (stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
@@ -90,14 +90,15 @@ double lambda_at(const std::vector<double>& stamps, int k) {
 }  // namespace
 
 double interpolating_lambda(const std::vector<double>& stamps) {
-  return lambda_at(stamps, kSmallest);
+  return lambda_at(stamps, kSmallestPower);
 }
 
 double select_lambda(const Reinsch& reinsch,
                      const std::vector<double>& stamps,
                      const std::vector<Vector3>& y,
                      Criterion criterion) {
-  return lambda_at(stamps, minimise_on_lattice(kSmallest, kLargest, kPerDecade, [&](int k) {
+  return lambda_at(stamps,
+                   minimise_on_lattice(kSmallestPower, kLargestPower, kPerDecade, [&](int k) {
                      return score(criterion, reinsch.fit(y, lambda_at(stamps, k)), y.size());
                    }));
 }
