@@ -1,4 +1,5 @@
 /// Right data that `doctor` once accused.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
