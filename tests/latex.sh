@@ -18,6 +18,7 @@ for kind in "${!kinds[@]}"; do
 \documentclass[twocolumn]{article}
 \usepackage[textwidth=174mm,columnsep=6mm,textheight=240mm]{geometry}
 \usepackage{booktabs,graphicx}
+\extrafloats{500}  % tables without text between them
 \begin{document}
 \input{table}
 \end{document}
