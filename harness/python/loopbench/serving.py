@@ -216,6 +216,7 @@ def answer_all(
             problem = _problem(request, arrays)
             report, poses = solve(function or _function("method"), problem)
         body = json.dumps({**report, "poses": len(poses)}, default=_plain).encode()
+        sys.stderr.flush()  # what the method printed belongs to this answer, also without a line end
         answers.write(_HEADER.pack(_MAGIC, number, len(body), poses.nbytes) + body)
         answers.write(poses.tobytes())
         answers.flush()
