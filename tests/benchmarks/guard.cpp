@@ -9,6 +9,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <limits>
 #include <regex>
@@ -114,6 +115,25 @@ void guard_eval(Guard& guard, const Programs& programs) {
   }
 }
 
+/// A further cell of the method that does nothing, with its process, scores and rows of the store,
+/// over a process that does nothing at all.
+void guard_cells(Guard& guard, const Programs& programs) {
+  constexpr int kFew = 20, kMany = 220;
+  const auto sweep = [&](int cells) {
+    const std::filesystem::path config = programs.folder / fmt::format("{}.yaml", cells);
+    std::ofstream(config)
+        << "datasets: [{dataset: simulated, path: room, keyframes: 20}]\nmethods: [raw]\n"
+        << "metrics: [ate]\nrepeats: " << cells << '\n';
+    const std::filesystem::path out = programs.folder / "cells";
+    std::filesystem::remove_all(out);
+    return test::cpu_of({programs.loopbench, "run", config, "--out", out});
+  };
+  guard.add(
+      "a cell of raw over a bare fork",
+      [&] { return (sweep(kMany) - sweep(kFew)) / (kMany - kFew); },
+      [] { return test::cpu_of_fork(200); });
+}
+
 #ifdef LOOPBENCH_CHOLMOD
 using Factor = Eigen::CholmodDecomposition<test::Sparse, Eigen::Lower>;
 #else
@@ -210,6 +230,7 @@ int main(int count, char** words) try {
   std::filesystem::remove_all(programs.folder);
   std::filesystem::create_directories(programs.folder);
   Guard guard(words[1], count > 5 ? words[5] : "");
+  guard_cells(guard, programs);
   guard_eval(guard, programs);
   guard_stores(guard, programs);
   guard_graphs(guard);
