@@ -62,13 +62,13 @@ inline std::vector<Score> ape(const Evaluation& evaluation, const ApeOptions& op
     const Pose& P = estimate[i].world_from_body;
     if (relation == Relation::rpy) {
       rotation_errors.set(i, P.rotation * Q.rotation.conjugate());
-    } else if (relation == Relation::point_distance) {
+    } else if (is_distance) {
       errors[i] = (P.translation - Q.translation).norm();
+    } else if (printed) {
+      errors[i] = measure(
+          relation, printed_relative_pose(printed->estimate[i], printed->reference[i]), angle);
     } else {
-      const Pose E =
-          printed ? pose_of(printed_relative_pose(printed->estimate[i], printed->reference[i]))
-                  : relative_pose(P, Q);
-      errors[i] = measure(relation, E, angle);
+      errors[i] = measure(relation, relative_pose(P, Q), angle);
     }
   };
   parallel_for_blocks(n, [&](std::size_t i, std::size_t end) {

@@ -79,6 +79,16 @@ inline double measure(Relation relation, const Pose& E, AngleFormula formula) {
   }
 }
 
+/// Value of the relation for E with the digits of files: evo's norms of E - I use a rotation that
+/// is not orthonormal as it is. Throws as above.
+inline double measure(Relation relation, const PoseMatrix& E, AngleFormula formula) {
+  const double rotation = (E.linear() - Matrix3::Identity()).norm();
+  if (relation == Relation::rotation_part) return rotation;
+  if (relation == Relation::full_transformation)
+    return std::hypot(rotation, E.translation().norm());
+  return measure(relation, pose_of(E), formula);
+}
+
 /// Magnitudes of the Euler angles of many rotations [deg].
 class Rpy {
  public:

@@ -29,12 +29,14 @@ struct Motions {
   std::string why_no_attitude;  ///< set for position-only files: scores with rotation are undefined
   std::optional<PrintedPoses> printed{};  ///< printed matrices of both files, where they are used
 
+  PoseMatrix printed_error(std::size_t i, std::size_t j) const {
+    const auto& [Q, P] = *printed;
+    return printed_relative_pose(printed_relative_pose(Q[i], Q[j]),
+                                 printed_relative_pose(P[i], P[j]));
+  }
+
   Pose error(std::size_t i, std::size_t j) const {
-    if (printed) {
-      const auto& [Q, P] = *printed;
-      return pose_of(printed_relative_pose(printed_relative_pose(Q[i], Q[j]),
-                                           printed_relative_pose(P[i], P[j])));
-    }
+    if (printed) return pose_of(printed_error(i, j));
     const auto [Q_i, Q_j, P_i, P_j] = poses(i, j);
     return motion_error(protocol.form, Q_i, Q_j, P_i, P_j);
   }
@@ -162,8 +164,11 @@ std::vector<Score> scores(const Motions& motions,
     require_pairs(errors.size(), poses, min_pairs, options, Measured::reference);
   } else {
     errors.resize(motions.pairs.size());
+    const AngleFormula angle = motions.protocol.angle;
     motions.each([&](std::size_t k, const Pose& E, const PairedPoses&) {
-      errors[k] = measure(relation, E, motions.protocol.angle);
+      const auto& [i, j] = motions.pairs[k];
+      errors[k] = motions.printed ? measure(relation, motions.printed_error(i, j), angle)
+                                  : measure(relation, E, angle);
     });
   }
   return {{to_text(relation),
