@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
@@ -104,6 +105,19 @@ std::vector<std::string> default_methods(const ReportContent& content) {
     return out;
   }
   add(headline->options.baseline);
+  std::set<std::string> chains;
+  for (const auto& [name, options] : method_definitions(content)) {
+    if (options.find("; + ") != std::string::npos) chains.insert(name);
+  }
+  if (!chains.empty()) {
+    for (const bool is_plain : {false, true}) {
+      const auto best = std::ranges::find_if(headline->methods, [&](const MethodVerdict& m) {
+        return m.method != headline->options.baseline && !(is_plain && chains.contains(m.method));
+      });
+      if (best != headline->methods.end()) add(best->method);
+    }
+    return out;
+  }
   std::vector<double> drawn;
   for (const MethodVerdict& m : headline->methods) {
     const bool coincides = std::ranges::any_of(
@@ -114,6 +128,17 @@ std::vector<std::string> default_methods(const ReportContent& content) {
   }
   for (const MethodVerdict& m : headline->methods) {
     if (out.size() < kFewestMethods) add(m.method);
+  }
+  return out;
+}
+
+std::vector<std::pair<std::string, std::string>> method_definitions(const ReportContent& content) {
+  std::vector<std::pair<std::string, std::string>> out;
+  const auto found = content.run.find("methods");
+  std::istringstream lines(found == content.run.end() ? "" : found->second);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t tab = line.find('\t');
+    if (tab != std::string::npos) out.emplace_back(line.substr(0, tab), line.substr(tab + 1));
   }
   return out;
 }

@@ -50,7 +50,7 @@ std::string script_elements(const std::string& nonce) {
   std::vector<std::string> scripts{"/*\n" + asset_text("assets/d3.LICENSE") + "*/\n" +
                                    asset_text("assets/d3.min.js")};
   std::istringstream names(
-      "data state chart map space along cut spread sweeps front pareto tables start");
+      "data state chart answer front pareto map space along cut spread sweeps tables start");
   for (std::string name; names >> name;) {
     scripts.push_back("\n" + asset_text("page/" + name + ".js"));
   }
@@ -90,6 +90,7 @@ std::string thinned_html(const ReportContent& content, std::size_t bytes) {
                       {"nonce", nonce},
                       {"style", "\n" + asset_text("page/report.css") + "\n"},
                       {"summary", summary_html(content)},
+                      {"answers", answers_html(content)},
                       {"verdicts", verdicts_html(content)},
                       {"comparison", comparison_html(content)},
                       {"scores", scores_html(content)},

@@ -47,11 +47,16 @@ struct ReportContent {
 ReportContent read_report_content(const std::filesystem::path& store,
                                   std::size_t bytes = kReportBytes);
 
-/// The methods that `plot` and the report draw by default: the baseline and the best-ranked
-/// methods, at most five. Methods whose medians differ by less than 3 % are not drawn twice, as
+/// The methods whose trajectories `plot` and the report draw by default: the baseline, the best one
+/// and, if some are chains of a corrector and a smoother, the best one without a smoother. If none
+/// are chains, the five best; methods whose medians differ by less than 3 % are not drawn twice, as
 /// their curves coincide, unless only one would remain. Without a ranking the first methods of the
 /// sweep.
 std::vector<std::string> default_methods(const ReportContent& content);
+
+/// Labels of the methods with all their options as stores have them, "dual, use=all; + dm,
+/// planar=3".
+std::vector<std::pair<std::string, std::string>> method_definitions(const ReportContent& content);
 
 /// All methods, the baseline first, then in the order of the sweep; if there are more methods than
 /// colours, default_methods() first. Their indices determine their styles (curve_style()) in `plot`

@@ -3,6 +3,7 @@
 
 #include "harness/report/curve.hpp"
 #include "harness/report/data.hpp"
+#include "harness/tables/growth.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -13,6 +14,67 @@ nlohmann::json statistics_json(const metrics::Statistics& s) {
   nlohmann::json out = nlohmann::json::array();
   for (const double value : {s.rmse, s.mean, s.median, s.max}) {
     out.push_back(rounded_number(value, kDigits));
+  }
+  return out;
+}
+
+/// Places of the entries of these kinds by their names.
+using Places = std::map<std::string, std::size_t>;
+
+/// "dual + dm" of "dual, use=all; + dm, planar=3".
+std::string catalogue_names(const std::string& options) {
+  std::string out;
+  for (std::size_t at = 0; at < options.size();) {
+    const std::size_t end = std::min(options.find("; ", at), options.size());
+    out += out.empty() ? "" : " ";
+    out += options.substr(at, std::min(end, options.find(',', at)) - at);
+    at = end + 2;
+  }
+  return out;
+}
+
+/// [{of, name, options, members}]: the families of sequences or of methods; a member is its place
+/// followed by the values of the options.
+nlohmann::json families_json(const ReportContent& content,
+                             const Places& sequences,
+                             const Places& methods) {
+  nlohmann::json out = nlohmann::json::array();
+  const auto add = [&](const char* of,
+                       const OptionFamily& family,
+                       const std::string& name,
+                       const Places& places) {
+    nlohmann::json members = nlohmann::json::array();
+    for (const OptionFamily::Member& member : family.members) {
+      const auto place = places.find(member.name);
+      if (place == places.end()) continue;
+      nlohmann::json& entry = members.emplace_back(nlohmann::json::array({place->second}));
+      for (const double value : member.values) entry.push_back(value);
+    }
+    out.push_back({{"of", of}, {"name", name}, {"options", family.options}, {"members", members}});
+  };
+  for (const OptionFamily& family : sequence_families(content.shown_cells)) {
+    add("sequence", family, family.name, sequences);
+  }
+  const auto definitions = method_definitions(content);
+  const std::map<std::string, std::string> options(definitions.begin(), definitions.end());
+  for (const OptionFamily& family : option_families(definitions)) {
+    add("method", family, catalogue_names(options.at(family.members.front().name)), methods);
+  }
+  return out;
+}
+
+/// [{family, unit, method, sizes, cpu, memory, cpu_law, memory_law}] as in growth_table().
+nlohmann::json growth_json(const ReportContent& content, const Places& methods) {
+  nlohmann::json out = nlohmann::json::array();
+  for (const Growth& g : growths(content.cells)) {
+    out.push_back({{"family", g.family},
+                   {"unit", g.unit},
+                   {"method", methods.at(g.method)},
+                   {"sizes", g.sizes},
+                   {"cpu", g.cpu},
+                   {"memory", g.memory},
+                   {"cpu_law", law_text(fitted_power(g.sizes, g.cpu))},
+                   {"memory_law", law_text(fitted_power(g.sizes, g.memory))}});
   }
   return out;
 }
@@ -40,8 +102,7 @@ nlohmann::json scores_json(const ReportContent& content) {
     }
     scores[r.cell->position][found->second] = &r;
   }
-  std::map<std::string, std::size_t> sequence;
-  std::map<std::string, std::size_t> method;
+  Places sequence, method;
   for (const std::string& name : content.shown_sequences()) sequence.emplace(name, sequence.size());
   for (const std::string& name : content.methods) method.emplace(name, method.size());
   std::vector<bool> oracle(content.methods.size(), false);
@@ -82,6 +143,8 @@ nlohmann::json scores_json(const ReportContent& content) {
           {"baseline", baseline == content.run.end() ? "" : baseline->second},
           {"statistics", {"rmse", "mean", "median", "max"}},
           {"kinds", std::move(kinds)},
+          {"families", families_json(content, sequence, method)},
+          {"growth", growth_json(content, method)},
           {"cells", std::move(cells)}};
 }
 

@@ -65,28 +65,36 @@ std::string summary_html(const ReportContent& content) {
     out += counter(number, plural(number, "cell") + " " + to_text(status), is_bad ? "bad" : "");
   }
   out += "</div>\n";
-  if (content.shown < content.sequences.size()) {
-    out += fmt::format(
-        "<p class=\"warning\">Tables by sequence and figures show the first {} of {} sequences, "
-        "because the size of the report is limited (--size). Verdicts, costs and failures cover "
-        "all.</p>\n",
-        content.shown,
-        content.sequences.size());
-  }
+  if (content.shown == content.sequences.size()) return out;
+  return out + fmt::format(
+                   "<p class=\"warning\">Tables by sequence and figures show the first {} of {} "
+                   "sequences, because the size of the report is limited (--size). Verdicts, costs "
+                   "and failures cover all.</p>\n",
+                   content.shown,
+                   content.sequences.size());
+}
+
+std::string answers_html(const ReportContent& content) {
   const Comparison* headline = content.headline();
-  if (headline == nullptr && content.methods.size() == 1) return out + only_score(content);
-  if (headline == nullptr) {
-    return out +
-           "<p class=\"verdict\">No verdict: the sweep has no baseline, or fewer than two "
-           "methods with a common run.</p>\n";
-  }
-  Table groups = verdict_table(verdict_of(*headline, content.comparisons));
-  out += "<p class=\"verdict\">" + html_text(groups.title) + "</p>\n";
-  groups.title.clear();
-  out += html_table(groups);
-  if (!headline->oracles.empty()) {
-    out += "<p class=\"warning\">Excluded from verdicts because they use the reference: " +
-           html_text(fmt::format("{}", fmt::join(headline->oracles, ", "))) + "</p>\n";
+  if (headline == nullptr && content.methods.size() == 1) return only_score(content);
+  std::string out = fmt::format(
+      "<p class=\"verdict\" data-comparison=\"\"{}>No verdict: the sweep has no baseline, or fewer "
+      "than two methods with a common run and this score.</p>\n",
+      headline == nullptr ? "" : " hidden");
+  for (const Comparison& c : content.comparisons) {
+    if (c.methods.size() < 2) continue;
+    Table groups = verdict_table(verdict_of(c, content.comparisons));
+    out += fmt::format("<div data-comparison=\"{}\"{}><p class=\"verdict\">{}</p>\n",
+                       &c - content.comparisons.data(),
+                       &c == headline ? "" : " hidden",
+                       html_text(groups.title));
+    groups.title = "";
+    out += html_table(groups);
+    if (!c.oracles.empty()) {
+      out += "<p class=\"warning\">Excluded from verdicts because they use the reference: " +
+             html_text(fmt::format("{}", fmt::join(c.oracles, ", "))) + "</p>\n";
+    }
+    out += "</div>\n";
   }
   std::set<std::string> measured;
   for (const CellRow& cell : content.cells) {

@@ -21,8 +21,11 @@ std::string html_table(const Table& table, const std::string& attributes = "");
 /// The same for columns of words instead of numbers.
 std::string html_text_table(const Table& table);
 
-/// Summary: number of cells by status, and the headline verdict in large type.
+/// Number of cells by status.
 std::string summary_html(const ReportContent& content);
+
+/// The verdict of each score: sentence, groups, cautions, limits; all but the headline are hidden.
+std::string answers_html(const ReportContent& content);
 
 /// Verdict for every score.
 std::string verdicts_html(const ReportContent& content);

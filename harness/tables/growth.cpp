@@ -89,15 +89,6 @@ OptionFamily family_of(const std::vector<const Entered*>& all) {
   return out;
 }
 
-std::vector<OptionFamily> sequence_families(const std::vector<CellRow>& cells) {
-  std::vector<std::pair<std::string, std::string>> all;
-  std::set<SharedText> seen;
-  for (const CellRow& cell : cells) {
-    if (seen.insert(cell.sequence).second) all.emplace_back(cell.sequence, cell.dataset_options);
-  }
-  return option_families(all);
-}
-
 /// Quantile 0.975 of Student's t: a table, then its expansion, to 1 %.
 double student(std::size_t degrees) {
   constexpr double kTable[] = {12.71, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306};
@@ -138,11 +129,20 @@ Growth growth_of(const OptionFamily& family,
   return out;
 }
 
+}  // namespace
+
 std::string law_text(const std::optional<PowerLaw>& law) {
   return law ? fmt::format("O(n^{:.2f} \u00b1 {:.2f})", law->exponent, law->half_width) : "-";
 }
 
-}  // namespace
+std::vector<OptionFamily> sequence_families(const std::vector<CellRow>& cells) {
+  std::vector<std::pair<std::string, std::string>> all;
+  std::set<SharedText> seen;
+  for (const CellRow& cell : cells) {
+    if (seen.insert(cell.sequence).second) all.emplace_back(cell.sequence, cell.dataset_options);
+  }
+  return option_families(all);
+}
 
 std::vector<OptionFamily> option_families(
     const std::vector<std::pair<std::string, std::string>>& options_of_labels) {

@@ -26,6 +26,9 @@ struct OptionFamily {
 std::vector<OptionFamily> option_families(
     const std::vector<std::pair<std::string, std::string>>& options_of_labels);
 
+/// Those of the sequences of these cells.
+std::vector<OptionFamily> sequence_families(const std::vector<CellRow>& cells);
+
 /// y = factor * size^exponent, fitted to logarithms.
 struct PowerLaw {
   double factor = 0.0;
@@ -37,6 +40,9 @@ struct PowerLaw {
 /// None for fewer than three different sizes, or values that are not positive. O(n).
 std::optional<PowerLaw> fitted_power(const std::vector<double>& sizes,
                                      const std::vector<double>& values);
+
+/// "O(n^1.02 ± 0.05)"; "-" without a law.
+std::string law_text(const std::optional<PowerLaw>& law);
 
 /// Costs of a method on sequences that differ in size: medians over the repeats of each sequence.
 struct Growth {

@@ -80,6 +80,20 @@ TEST(Thinning, TakesPointsThenRepeatsThenPoints) {
   is_thinned(0.0, 10, 1);
 }
 
+TEST(DefaultMethods, AreTheBaselineTheBestAndTheBestWithoutASmoother) {
+  ReportContent content;
+  content.run["methods"] = "raw\traw\na\ta, x=1\nb\tb\na + s\ta, x=1; + s, y=2\n";
+  Comparison& ranked = content.comparisons.emplace_back();
+  ranked.options.baseline = "raw";
+  for (const char* const name : {"a + s", "b", "a", "raw"}) {
+    ranked.methods.emplace_back().method = name;
+    ranked.methods.back().median = 1.0;
+  }
+  EXPECT_EQ(default_methods(content), (std::vector<std::string>{"raw", "a + s", "b"}));
+  content.run.clear();  // no chains: the curve of an equal median is not drawn twice
+  EXPECT_EQ(default_methods(content), (std::vector<std::string>{"raw", "a + s"}));
+}
+
 /// Ten sequences of 40 methods.
 TEST(Report, LeavesOutSequencesThatDoNotFit) {
   std::vector<Record> records;

@@ -101,6 +101,16 @@ TEST_F(OfASweep, HoldsScoresAndTracesOfEveryRepeat) {
   EXPECT_FALSE(all["traces"]["cells"]["0"].contains("cut"));
 }
 
+TEST_F(OfASweep, ReadsSweptOptionsFromTheConfig) {
+  const nlohmann::json families = data()["scores"]["families"];
+  ASSERT_EQ(families.size(), 2u);
+  EXPECT_EQ(families[0]["options"], nlohmann::json({"bias"}));
+  EXPECT_EQ(families[0]["members"], nlohmann::json::parse("[[0, 0.1], [1, 0.2]]"));
+  EXPECT_EQ(families[1]["name"], "shift");
+  EXPECT_EQ(families[1]["options"], nlohmann::json({"by"}));
+  EXPECT_EQ(families[1]["members"].back(), nlohmann::json::parse("[3, 2.0]"));
+}
+
 TEST_F(OfASweep, MethodsHaveTheStylesAndTheChoiceOfPlot) {
   const ReportContent content = read_report_content(folder_->path());
   const nlohmann::json scores = scores_json(content);

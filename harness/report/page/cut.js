@@ -2,14 +2,8 @@
 (() => {
   "use strict";
   const R = window.R;
-  const section = document.getElementById("cut");
-  const link = document.querySelector('[data-for="cut"]');
   const has = R.methods.filter((m) => R.scores.cells.some((c, i) => c.method === m.place && R.cutOf(i)));
-  if (!has.length) {
-    section.hidden = true;
-    link.hidden = true;
-    return;
-  }
+  if (!has.length) return R.hide("cut");
   const kFamilies = ["#0068b0", "#cc4c02", "#2aa59a", "#7d1d6f", "#efb400", "#7fb8ec", "#5c3a14", "#f2a0c0"]; // of plot
   const kPlain = ["#0068b0", "#cc4c02"]; // alternating colours of unnamed neighbours
   const state = { method: has[0].place, kind: "segment" };
@@ -105,5 +99,5 @@
     const title = `${m.label}, ${R.runName(s)}`;
     map(left, trace, parts.find((p) => p.kind === state.kind), names, title);
     strip(right, trace, parts, names, title);
-  });
+  }, "cut");
 })();

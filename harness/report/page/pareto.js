@@ -6,8 +6,7 @@
   const geometric = (values) => Math.exp(d3.mean(values, (v) => Math.log(v)));
 
   if (!R.scores.cells.some((c) => c.ms > 0)) {  // results of files (`eval --store`)
-    document.getElementById("pareto").hidden = true;
-    document.querySelector('[data-for="pareto"]').hidden = true;
+    document.getElementById("pareto-all").hidden = document.getElementById("pareto-here").hidden = true;
     return;
   }
 
@@ -29,8 +28,8 @@
     host.replaceChildren();
     const kind = R.scores.kinds[R.state.kind];
     if (!kind) return;
-    R.caption(host, `${R.kindLabel(kind)} against time`, s === null
-      ? "all sequences, geometric means of methods that have every run" : R.scores.sequences[s]);
+    R.caption(host, "Error against time", s === null && R.scores.sequences.length > 1
+      ? "geometric means over all sequences" : R.scores.sequences[s || 0]);
     if (kind.better !== "lower") return R.nothing(host, "Select a score for which lower is better.");
     const all = points(s);
     if (!all.length) return R.nothing(host, "No method has a positive value of this score.");
@@ -68,9 +67,6 @@
     });
   };
 
-  R.follow(() => {
-    draw(document.getElementById("pareto-here"), R.state.sequence);
-    const all = document.getElementById("pareto-all");
-    if (R.scores.sequences.length > 1) draw(all, null);
-  });
+  R.follow(() => draw(document.getElementById("pareto-all"), null));
+  if (R.scores.sequences.length > 1) R.follow(() => draw(document.getElementById("pareto-here"), R.state.sequence), "spread");
 })();

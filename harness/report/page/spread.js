@@ -54,7 +54,7 @@
     const all = rows.flatMap((m) => [m.ratio, ...(m.interval || [])]).concat(1);
     R.chart(host, {
       label: `Ratio of ${kind.label} to the baseline, with intervals`, height: 60 + rowHeight(rows) * rows.length, margin: { left: left(R.methods) },
-      x: { label: `geometric mean ratio (${kind.better === "higher" ? "right" : "left"} is better)`, domain: R.paddedLog(d3.extent(all)), log: true },
+      x: { label: `typical ratio (${kind.better === "higher" ? "right" : "left"} is better)`, domain: R.paddedLog(d3.extent(all)), log: true },
       y: { band: rows.map((m) => place.get(m.method)), name: (m) => short(R.methods[m].label) },
       draw: (group, x, y) => {
         group.append("line").attr("class", "zero").attr("x1", x(1)).attr("x2", x(1)).attr("y1", 0).attr("y2", 1e4);
@@ -70,8 +70,7 @@
         }
       },
     });
-    const caption = d3.select(host).append("p").attr("class", "hint below");
-    caption.text(comparison.verdict + (rows.some((m) => m.interval) ? `. Bars: ${100 * (1 - comparison.alpha)} % intervals over ${comparison.unit_of_observation}.` : ""));
+    if (rows.some((m) => m.interval)) R.nothing(host, `Bars: ${100 * (1 - comparison.alpha)} % intervals over ${comparison.unit_of_observation}.`);
   };
 
   R.follow(() => {
@@ -80,5 +79,5 @@
       host.replaceChildren();
       if (R.scores.kinds.length) draw(host);
     }
-  });
+  }, "spread");
 })();

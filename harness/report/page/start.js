@@ -28,7 +28,7 @@
   const repeat = element("select");
   repeat.addEventListener("change", () => { state.repeat = Number(repeat.value); R.changed(); });
   const repeatField = element("label", { className: "field" }, "Repeat", repeat);
-  row.children[0].after(repeatField);
+  row.children[1].after(repeatField);
   R.follow(() => {
     const own = R.repeats(state.sequence);
     repeatField.hidden = own.length < 2;
@@ -59,7 +59,7 @@
   const all = R.methods.map((m) => m.place);
   const details = element("details", {}, summary,
     element("div", { className: "row" }, button("best few", R.bestFew), button("all", () => all), button("none", () => []),
-      button("different ones", () => R.defaultMethods)), chips);
+      button("default", () => R.defaultMethods)), chips);
   form.append(details);
   form.addEventListener("submit", (e) => e.preventDefault());
   R.follow(() => {
@@ -84,19 +84,26 @@
       choice("Right", names, state.after, (v) => (state.after = Number(v))), swap);
   };
   if (names.length > 1) put();
+  if (!R.scores.sequences.some((_, s) => R.repeats(s).length)) ["trajectories", "before-after", "along"].forEach(R.hide);
   R.changed();
   // Links between sections keep the selection in the address.
   const show = (name) => {
     R.section = name;
-    document.getElementById(name).scrollIntoView();
+    const target = document.getElementById(name);
+    target.open = true;
+    target.scrollIntoView();
     history.replaceState(null, "", R.link());
   };
-  for (const link of document.querySelectorAll('nav a[href^="#"], a.skip')) {
+  for (const link of document.querySelectorAll('a[href^="#"]')) {
     link.addEventListener("click", (event) => {
       event.preventDefault();
       show(link.getAttribute("href").slice(1));
     });
   }
+  addEventListener("beforeprint", () => {
+    for (const fold of document.querySelectorAll("main > details")) fold.open = true;
+    R.changed();
+  });
   if (R.section && document.getElementById(R.section)) show(R.section);
   document.documentElement.dataset.drawn = "yes";
 })();

@@ -19,23 +19,15 @@
       ["protocol", "times", "relation", "axis", "unit"].every((key) => c[key] === k[key])) || null;
   };
 
-  // The best methods by the selected score, after the baseline: by the ranking of the verdict or, without
-  // one, by their means.
+  // The best methods by the selected score, after the baseline.
   R.bestFew = () => {
-    const k = kinds[R.state.kind];
     const comparison = R.comparison(R.state.kind);
-    const mean = (m) => {
-      const value = d3.mean(R.values(R.state.kind, R.state.statistic, m), (v) => v.value);
-      return value === undefined ? NaN : k.better === "higher" ? -value : value;
-    };
-    const ranked = comparison
-      ? comparison.methods.map((m) => R.methods.findIndex((method) => method.name === m.method))
-      : d3.sort(R.methods.filter((m) => !m.oracle && Number.isFinite(mean(m.place))), (m) => mean(m.place)).map((m) => m.place);
+    const ranked = (comparison ? comparison.methods : []).map((m) => R.methods.findIndex((method) => method.name === m.method));
     const base = R.baseline ? [R.baseline.place] : [];
     return [...base, ...ranked.filter((m) => !base.includes(m)).slice(0, 4)];
   };
 
-  // The baseline, then by rank methods with distinct trajectories, as in `plot`.
+  // The baseline, the best method, then the best without a smoother, as in `plot`.
   const shown = R.scores.default_methods;
   const best = shown.find((m) => !R.baseline || m !== R.baseline.place);
   const defaultState = {
@@ -97,11 +89,17 @@
   R.kindLabel = (k, times = true) => `${k.label} ${R.scores.statistics[R.state.statistic]}` +
     (k.unit ? ` [${k.unit}]` : "") + (times ? `, ${k.times}` : "");
 
+  // A section without content, and its link.
+  R.hide = (id) => document.querySelectorAll(`#${id}, nav a[href="#${id}"]`).forEach((each) => (each.hidden = true));
+  // What is folded is drawn when it is opened.
   const followers = [];
-  R.follow = (draw) => followers.push(draw);
+  const folds = [...document.querySelectorAll("main > details")];
+  const drawIn = (fold) => followers.forEach((each) => each.fold === fold && each.draw());
+  for (const fold of folds) fold.addEventListener("toggle", () => fold.open && drawIn(fold));
+  R.follow = (draw, id = "") => followers.push({ draw, fold: id ? document.getElementById(id) : null });
   R.changed = () => {
     R.keepRepeat();
-    followers.forEach((draw) => draw());
+    for (const fold of [null, ...folds.filter((each) => each.open)]) drawIn(fold);
     if (R.link() !== (location.hash || "#")) history.replaceState(null, "", R.link());
   };
 })();

@@ -1,5 +1,7 @@
 // Reads the state of the page, operates its controls, and returns results in its title.
 const said = [];
+for (const fold of document.querySelectorAll("main > details")) fold.open = true;
+R.changed();
 for (const id of ["controls", "map", "space", "before", "after", "along-x", "along-a", "boxes",
                   "forest", "cut-map", "cut-strip", "sweep-figures", "pareto-here", "verdicts", "scores", "failures"]) {
   const box = document.getElementById(id).getBoundingClientRect();
@@ -8,7 +10,7 @@ for (const id of ["controls", "map", "space", "before", "after", "along-x", "alo
 const count = (what) => document.querySelectorAll(what).length;
 if (count("#map path.curve") < 2) said.push("no curves on the map");
 if (count("#boxes circle") < 12) said.push("runs are missing");
-if (count("script") !== 16 || count("b[onclick], main i") > 0) said.push("a name became markup");
+if (count("script") !== 17 || count("b[onclick], main i") > 0) said.push("a name became markup");
 const change = (element, value) => {
   element.value = value;
   element.dispatchEvent(new Event("change"));
@@ -18,6 +20,15 @@ const repeat = [...document.querySelectorAll("#controls label")].find((l) => l.t
 change(repeat.querySelector("select"), "2");
 if (!document.querySelector("#map figcaption").textContent.includes("(repeat 2")) said.push("repeat: " + document.querySelector("#map figcaption").textContent);
 change(repeat.querySelector("select"), "0");
+const score = [...document.querySelectorAll("#controls label")].find((l) => l.textContent.startsWith("Score")).querySelector("select");
+for (const kind of R.scores.kinds.keys()) {
+  change(score, String(kind));
+  const [answer, ...others] = document.querySelectorAll("#answer [data-comparison]:not([hidden])");
+  const comparison = R.comparison(kind);
+  const place = comparison && comparison.methods.length > 1 ? String(R.comparisons.indexOf(comparison)) : "";
+  if (others.length || answer.dataset.comparison !== place) said.push("answer of score " + kind);
+}
+change(score, String(R.scores.kinds.findIndex((k) => k.metric === "ate" && k.times === "dense")));
 change(document.querySelector("#controls select"), "1");
 if (!document.querySelector("#map figcaption").textContent.endsWith(")b")) said.push("sequence: " + document.querySelector("#map figcaption").textContent);
 const plane = [...document.querySelectorAll("#controls label")].find((l) => l.textContent.startsWith("Plane"));

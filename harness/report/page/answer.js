@@ -1,0 +1,43 @@
+// The verdict of the selected score, with a bar and an interval for each group.
+(() => {
+  "use strict";
+  const R = window.R;
+  const answers = [...document.querySelectorAll("#answer [data-comparison]")];
+  const kWidth = 130, kHeight = 18;
+
+  const bar = (row, group, x, color) => {
+    const svg = d3.select(row.insertCell(1)).attr("class", "bar").append("svg").attr("viewBox", `0 0 ${kWidth} ${kHeight}`)
+      .attr("role", "img").attr("aria-label", group.change ? `${group.change.map(R.number).join(" to ")} %` : "no change known");
+    svg.append("line").attr("class", "zero").attr("x1", x(0)).attr("x2", x(0)).attr("y2", kHeight);
+    if (!group.change) return;
+    const [low, high] = group.change;
+    const end = low + high < 0 ? low : high;
+    svg.append("rect").attr("x", Math.min(x(0), x(end))).attr("width", Math.abs(x(end) - x(0))).attr("y", 3).attr("height", kHeight - 6)
+      .style("fill", color).style("fill-opacity", 0.6);
+    if (!group.interval) return;
+    const [from, to] = group.interval.map(x);
+    svg.append("path").attr("d", `M${from},${kHeight / 2}H${to}M${from},5v8M${to},5v8`).style("stroke", "var(--ink)").style("stroke-width", 1.6);
+  };
+
+  R.comparisons.forEach((comparison, i) => {
+    const table = document.querySelector(`#answer [data-comparison="${i}"] table`);
+    if (!table) return;
+    const groups = comparison.groups_of_methods;
+    const ends = groups.flatMap((g) => [...(g.change || []), ...(g.interval || [])]).concat(0);
+    const x = d3.scaleLinear(d3.extent(ends), [3, kWidth - 3]);
+    const heading = document.createElement("th");
+    heading.textContent = `change to ${comparison.baseline}`;
+    heading.scope = "col";
+    table.tHead.rows[0].cells[0].after(heading);
+    groups.forEach((group, g) => {
+      const drawn = R.scores.default_methods.find((m) => group.methods.includes(R.methods[m].name));
+      bar(table.tBodies[0].rows[g], group, x, drawn === undefined ? "var(--soft)" : R.color(drawn));
+    });
+  });
+
+  R.follow(() => {
+    const place = String(R.comparisons.indexOf(R.comparison(R.state.kind)));
+    const known = answers.some((answer) => answer.dataset.comparison === place);
+    for (const answer of answers) answer.hidden = answer.dataset.comparison !== (known ? place : "");
+  });
+})();
