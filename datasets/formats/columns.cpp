@@ -54,12 +54,32 @@ std::string columns_text(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " column" : " columns");
 }
 
+namespace {
+
+/// Numbers as "0,5" between spaces, and none with a point.
+bool has_decimal_commas(std::string_view text) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const std::size_t first = text.find(',');
+  if (first == text.npos || text.find(' ') == text.npos || text.find('.') != text.npos)
+    return false;
+  for (std::size_t i = first; i < text.size(); ++i) {
+    const bool is_inside = i > 0 && i + 1 < text.size();
+    if (text[i] == ',' && !(is_inside && is_digit(text[i - 1]) && is_digit(text[i + 1])))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 InputError wrong_columns(const TextFile& file,
                          const Line& line,
                          Format reading,
                          const std::string& expected) {
   std::string what = "has " + columns_text(count_columns(file, line)) + ", expected " + expected;
-  if (line.unterminated) {
+  if (has_decimal_commas(line.text)) {
+    what += " (decimal commas: expected decimal points)";
+  } else if (line.unterminated) {
     what += " (the file ends in the middle of this line)";
   } else if (const auto format = guess(file, line); format && *format != reading) {
     what += " (looks like " + to_text(*format) + ")";

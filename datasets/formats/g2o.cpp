@@ -50,7 +50,9 @@ std::size_t index_of(const TextFile& file,
   const auto found = std::lower_bound(graph.ids.begin(), graph.ids.end(), id);
   if (found == graph.ids.end() || *found != id) {
     throw file.error(
-        line, what + " refers to vertex " + std::to_string(id) + ", which has no VERTEX line");
+        line,
+        what + " refers to vertex " + std::to_string(id) +
+            ", which has no VERTEX line: expected vertices of this file, not of another robot");
   }
   return static_cast<std::size_t>(found - graph.ids.begin());
 }

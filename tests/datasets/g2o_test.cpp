@@ -286,6 +286,13 @@ TEST(G2o, PriorsAreAnchors) {
             std::string::npos);
 }
 
+TEST(G2o, DecimalCommasAreNamed) {
+  const std::string why =
+      refusal([&] { with_lines("", "EDGE_SE2 3 7 0,5 0 0 1 0 0 1 0 1\n", false); });
+  EXPECT_NE(why.find(":3: has 13 columns"), std::string::npos) << why;
+  EXPECT_NE(why.find("(decimal commas: expected decimal points)"), std::string::npos) << why;
+}
+
 TEST(G2o, SwitchableEdgesAreRefusedWithWhatReplacesThem) {
   for (const char* line :
        {"VERTEX_SWITCH 5 1\n", "EDGE_SE2_SWITCHABLE 3 7 5 1 0 0 1 0 0 1 0 1\n"}) {
