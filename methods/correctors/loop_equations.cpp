@@ -127,6 +127,11 @@ NoiseModel stated_noise_model(const Problem& problem) {
   for (const Edge& edge : problem.odometry) {
     out.information.push_back(edge.information);
     out.covariance.push_back(edge.information.inverse());
+    if (!problem.planar) continue;
+    for (const int axis : {2, 3, 4}) {  // a lower minimum can be out of the plane
+      out.covariance.back().row(axis).setZero();
+      out.covariance.back().col(axis).setZero();
+    }
   }
   for (const Edge& loop : problem.closures) {
     out.closure_information.push_back(loop.information);

@@ -64,7 +64,8 @@ struct NoiseModel {
   std::vector<Matrix6> closure_information;  ///< inverse of closure_covariance
 };
 
-/// Returns the stated covariances of the problem's edges and closures.
+/// Returns the stated covariances of the problem's edges and closures. Edges of planar problems
+/// have no errors out of the plane.
 NoiseModel stated_noise_model(const Problem& problem);
 
 /// Jacobian of the closure errors with respect to the edge errors at the current poses: eta = c + A
