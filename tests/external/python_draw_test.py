@@ -52,15 +52,30 @@ class Draw(unittest.TestCase):
             for panel in ALL:
                 if panel == "xyz" and size[1] < 0.6 * size[0]:
                     continue  # a cube in a flat panel is too small for its labels
-                fig = draw.figure(data, [panel] * 2, columns, size, font)
-                page, boxes = fig.bbox, self.drawn(fig)
-                for text, box in boxes:
-                    inside = box.x0 >= -1 and box.y0 >= -1 and box.x1 <= page.x1 + 1
-                    self.assertTrue(inside and box.y1 <= page.y1 + 1, (panel, names, text, box))
-                for (one, a), (other, b) in itertools.combinations(boxes, 2):
-                    width = min(a.x1, b.x1) - max(a.x0, b.x0)
-                    height = min(a.y1, b.y1) - max(a.y0, b.y0)
-                    self.assertFalse(width > 1 and height > 1, (panel, names, one, other))
+                self.expect_apart(draw.figure(data, [panel] * 2, columns, size, font), (panel, names))
+
+    def test_numbers_of_utm_do_not_collide(self):
+        for radius, size in itertools.product((0.01, 0.15, 1.0, 8.0), ((1.75, 1.575), (3.5, 2.8))):
+            data = data_of("one", "two")
+            for each in data["curves"]:
+                for name, origin in zip("xyz", (-466512.3, 5427713.8, 312.4)):
+                    each[name] = [origin + radius * value for value in each[name]]
+            for panel in ("xy", "xz", "yz", "x by time", "y by distance"):
+                fig = draw.figure(data, [panel], 1, size)
+                self.expect_apart(fig, (panel, radius))
+        self.assertEqual(fig.axes[0].get_ylabel(), "y $-$ 5410000 [m]")
+        space = draw.figure(data, ["xyz"], 1, (3.5, 2.8)).axes[0]
+        self.assertEqual(space.get_xlabel(), "x $+$ 480000 [m]")
+
+    def expect_apart(self, fig, what):
+        page, boxes = fig.bbox, self.drawn(fig)
+        for text, box in boxes:
+            inside = box.x0 >= -1 and box.y0 >= -1 and box.x1 <= page.x1 + 1
+            self.assertTrue(inside and box.y1 <= page.y1 + 1, (what, text, box))
+        for (one, a), (other, b) in itertools.combinations(boxes, 2):
+            width = min(a.x1, b.x1) - max(a.x0, b.x0)
+            height = min(a.y1, b.y1) - max(a.y0, b.y0)
+            self.assertFalse(width > 1 and height > 1, (what, one, other))
 
     def drawn(self, fig):
         """Texts within the range of their axes: matplotlib keeps ticks beyond it, undrawn."""

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from matplotlib import colormaps, rcParams
 from matplotlib.collections import LineCollection
 from matplotlib.colors import ListedColormap
-from matplotlib.ticker import MaxNLocator, MultipleLocator
+from matplotlib.ticker import MaxNLocator, MultipleLocator, ScalarFormatter
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
 Curve = Mapping[str, Any]
@@ -129,12 +129,34 @@ def _bounds(curves: Iterable[Curve], name: str) -> tuple[float, float]:
     return (float(values.min()), float(values.max())) if len(values) else (0.0, 0.0)
 
 
+def _origin(low: float, high: float) -> float:
+    """A round number below the range of an axis whose numbers are long, as of UTM; otherwise 0."""
+    largest = max(abs(low), abs(high))
+    if not high > low or largest < min(1e5, 1e4 * (high - low)):
+        return 0.0
+    step = 10.0 ** math.floor(math.log10(high - low))
+    return step * math.floor(low / step)
+
+
+def _add_numbers(axis: Any, name: str) -> None:
+    """Labels an axis; long numbers are those above an origin, which the label contains."""
+    origin = _origin(*sorted(axis.get_view_interval()))
+    numbers = ScalarFormatter(useOffset=origin)
+    numbers.set_scientific(False)
+    axis.set_major_formatter(numbers)
+    axis.get_offset_text().set_visible(False)
+    above = f" $-$ {origin:.9g}".replace("$-$ -", "$+$ ") if origin else ""
+    axis.set_label_text(LABELS[name].replace(" [", above + " [", 1))
+
+
 def _fitting_step(step: float, limits: Sequence[float], scale: float) -> float:
     """`step` or the next 1, 2 or 5 times a power of ten whose labels do not touch."""
     em = scale * rcParams["font.size"] / 72.0  # [m]
+    origin = _origin(*limits)
     while step < limits[1] - limits[0]:
         ticks = step * np.arange(math.ceil(limits[0] / step), math.floor(limits[1] / step) + 1)
-        if max((len(f"{tick:.6g}") for tick in ticks), default=0) * 0.66 * em + 0.6 * em <= step:
+        digits = max((len(f"{tick - origin:.6g}") for tick in ticks), default=0)
+        if (0.66 * digits + 0.6) * em <= step:
             break
         step = _round_step(2.6 * step)
     return step
@@ -154,6 +176,8 @@ def _equal_scales(axes: Any, curves: Sequence[Curve], panel: str, size: Sequence
     step = _fitting_step(_round_step(0.8 * max(half)), axes.get_xlim(), scale)
     axes.xaxis.set_major_locator(MultipleLocator(step))
     axes.yaxis.set_major_locator(MultipleLocator(step))
+    _add_numbers(axes.xaxis, panel[0])
+    _add_numbers(axes.yaxis, panel[1])
 
 
 def _inner_ticks(low: float, high: float, is_small: bool) -> npt.NDArray[np.float64]:
@@ -175,14 +199,15 @@ def _spatial_scales(axes: Any, curves: Sequence[Curve], order: str, size: Sequen
     flat = (bounds[2][1] - bounds[2][0]) / longest
     factor = _round_step(0.6 / flat) if 1e-9 < flat < 0.15 else 1.0
     box = (1.0, 1.0, max(0.62, min(1.0, 1.08 * flat)))
-    for (low, high), name, side, scale in zip(bounds, "xyz", box, (1.0, 1.0, factor)):
+    for (low, high), name, shown, side, scale in zip(bounds, "xyz", order, box, (1, 1, factor)):
         middle, half = 0.5 * (low + high), 0.54 * longest * side / scale
         getattr(axes, f"set_{name}lim")(middle - half, middle + half)
         getattr(axes, f"set_{name}ticks")(_inner_ticks(middle - half, middle + half, is_small))
+        _add_numbers(getattr(axes, f"{name}axis"), shown)
     if order == "xzy":  # x, z and -y are right-handed: y points down in camera axes
         axes.invert_zaxis()
     if factor != 1.0:
-        axes.set_zlabel(f"{LABELS[order[2]]}, exaggerated {factor:g}$\\times$")
+        axes.set_zlabel(f"{axes.get_zlabel()}, exaggerated {factor:g}$\\times$")
     axes.set_box_aspect(box, zoom=1.05)
     axes.view_init(elev=28, azim=-55)
     axes.computed_zorder = False  # later curves cover earlier ones, as in planes
@@ -216,8 +241,6 @@ def draw_map(axes: Any, data: Mapping[str, Any], panel: str, size: Sequence[floa
             _add_colored(axes, points, column(curve, "error"), look["linewidth"])
         else:
             axes.plot(*points.T, **look)
-    for name, axis in zip(panel, "xyz"):
-        getattr(axes, f"set_{axis}label")(LABELS[name])
     for points, look in zip(ends(data, panel), (START, END)):
         axes.plot(*points, zorder=2.4, **look)
     if len(panel) == 3:
@@ -254,8 +277,8 @@ def draw_curves(axes: Any, data: Mapping[str, Any], panel: str, size: Sequence[f
     if high - low < 0.001:  # constant values: a range that does not magnify rounding errors
         axes.set_ylim(low - 0.001, high + 0.001)
     axes.margins(x=0.0)
-    axes.set_xlabel(LABELS[along])
-    axes.set_ylabel(LABELS[name])
+    _add_numbers(axes.xaxis, along)
+    _add_numbers(axes.yaxis, name)
     _few_ticks(axes, size, rcParams["font.size"])
 
 
