@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "harness/compare/signed_rank.hpp"
@@ -32,23 +33,20 @@ struct GroupedValues {
 class Levels {
  public:
   /// Differences up to `tie` times the larger value are ties.
-  Levels(const GroupedValues& all, double tie);
+  Levels(GroupedValues all, double tie);
 
-  std::size_t methods() const { return costs_.size(); }
+  std::size_t methods() const { return all_.values.size(); }
   std::size_t groups() const { return runs_of_.size(); }
   const std::vector<std::size_t>& runs_of(std::size_t group) const { return runs_of_[group]; }
   std::size_t sequence_of(std::size_t group) const;
 
   /// Whether the method was run: it has a value or failed.
   bool is_known(std::size_t method, std::size_t run) const {
-    return costs_[method][run].has_value();
+    return all_.values[method][run].has_value();
   }
   bool has_value(std::size_t method, std::size_t run) const;
 
-  /// Number of groups with a run that the method was run on.
-  std::size_t known_groups(std::size_t method) const;
-
-  bool is_paired() const { return is_paired_; }
+  bool is_paired() const { return all_.is_paired; }
 
   /// Median level over the runs of a group that the method was run on, kFailed if it failed on
   /// most; none without such a run.
@@ -63,61 +61,50 @@ class Levels {
 
   /// The same on a run on which both were run.
   double difference(std::size_t a, std::size_t b, std::size_t run) const {
-    return difference(a, b, *costs_[a][run], *costs_[b][run]);
+    return difference(a, b, *all_.values[a][run], *all_.values[b][run]);
   }
 
   /// Whether two methods are known, fail and are tied on the same runs.
   bool are_equal(std::size_t a, std::size_t b) const;
 
  private:
-  std::vector<std::vector<std::optional<double>>> costs_;
+  GroupedValues all_;  // distances to the target, if the score has one
   std::vector<bool> is_positive_;
   std::vector<std::vector<std::size_t>> runs_of_;
-  std::vector<std::size_t> sequence_;  // of each run
   double sign_ = 1.0;
   double tie_ = 0.0;
   double target_ = 0.0;  // relative to which distances to it are rounded
-  bool is_paired_ = true;
 };
 
 /// Errors up to this value count as zero beside an error of `largest`: rounding of coordinates,
 /// 1e-9 at most, so that an error of metres is not zero beside that of a method that diverges.
 inline double zero_floor(double largest) { return std::clamp(1e-9 * largest, 1e-12, 1e-9); }
 
-inline Levels::Levels(const GroupedValues& all, double tie)
-    : costs_(all.values),
-      sequence_(all.sequence),
-      sign_(all.better == metrics::Better::higher ? -1.0 : 1.0),
+inline Levels::Levels(GroupedValues all, double tie)
+    : all_(std::move(all)),
+      sign_(all_.better == metrics::Better::higher ? -1.0 : 1.0),
       tie_(tie),
-      target_(all.better == metrics::Better::target ? std::abs(all.target) : 0.0),
-      is_paired_(all.is_paired) {
-  for (auto& row : costs_) {
+      target_(all_.better == metrics::Better::target ? std::abs(all_.target) : 0.0) {
+  for (auto& row : all_.values) {
     bool is_positive = true;
     for (std::optional<double>& cost : row) {
-      if (cost && all.better == metrics::Better::target) cost = std::abs(*cost - all.target);
+      if (cost && all_.better == metrics::Better::target) cost = std::abs(*cost - all_.target);
       is_positive = is_positive && !(cost && *cost < 0.0);
     }
     is_positive_.push_back(is_positive);
   }
-  for (std::size_t run = 0; run < all.group.size(); ++run) {
-    if (all.group[run] >= runs_of_.size()) runs_of_.resize(all.group[run] + 1);
-    runs_of_[all.group[run]].push_back(run);
+  for (std::size_t run = 0; run < all_.group.size(); ++run) {
+    if (all_.group[run] >= runs_of_.size()) runs_of_.resize(all_.group[run] + 1);
+    runs_of_[all_.group[run]].push_back(run);
   }
 }
 
 inline std::size_t Levels::sequence_of(std::size_t group) const {
-  return sequence_.empty() ? group : sequence_[runs_of_[group].front()];
+  return all_.sequence.empty() ? group : all_.sequence[runs_of_[group].front()];
 }
 
 inline bool Levels::has_value(std::size_t method, std::size_t run) const {
-  return is_known(method, run) && !std::isnan(*costs_[method][run]);
-}
-
-inline std::size_t Levels::known_groups(std::size_t method) const {
-  const auto is_known_in = [&](const std::vector<std::size_t>& runs) {
-    return std::ranges::any_of(runs, [&](std::size_t run) { return is_known(method, run); });
-  };
-  return static_cast<std::size_t>(std::ranges::count_if(runs_of_, is_known_in));
+  return is_known(method, run) && !std::isnan(*all_.values[method][run]);
 }
 
 inline std::optional<double> Levels::level(std::size_t method, std::size_t group) const {
@@ -125,7 +112,7 @@ inline std::optional<double> Levels::level(std::size_t method, std::size_t group
   for (const std::size_t run : runs_of_[group]) {
     if (!is_known(method, run)) continue;
     const double worst = sign_ * kNoRatio;
-    known.push_back(has_value(method, run) ? *costs_[method][run] : worst);
+    known.push_back(has_value(method, run) ? *all_.values[method][run] : worst);
   }
   if (known.empty()) return std::nullopt;
   const double middle = metrics::median(known);
@@ -148,7 +135,7 @@ inline double Levels::difference(std::size_t a, std::size_t b, double of_a, doub
 }
 
 inline bool Levels::are_equal(std::size_t a, std::size_t b) const {
-  for (std::size_t run = 0; run < costs_[a].size(); ++run) {
+  for (std::size_t run = 0; run < all_.values[a].size(); ++run) {
     if (is_known(a, run) != is_known(b, run) || has_value(a, run) != has_value(b, run))
       return false;
     if (has_value(a, run) && difference(a, b, run) != 0.0) return false;

@@ -27,9 +27,22 @@ inline std::size_t count_pairs(std::span<const Stratum> strata) {
   return out;
 }
 
-/// The generating function of U is a product of Gaussian binomials, of which one is the product
-/// over i = 1..m of (1 - q^(n + i)) / (1 - q^i), for samples of m and n.
-inline double exact_rank_sum_tail(std::span<const Stratum> strata, std::size_t u) {
+/// P(U <= u) for equally distributed samples without ties. U is the number of pairs (one value of
+/// either sample in the same stratum) whose first value is the larger one (Mann and Whitney, 1947).
+/// Exact for up to some thousand pairs, beyond by the normal approximation. `u` up to half of the
+/// pairs. O(values * u) if exact.
+inline double rank_sum_tail(std::span<const Stratum> strata, std::size_t u) {
+  constexpr std::size_t kMostExactPairs = 5000;
+  if (const std::size_t pairs = count_pairs(strata); pairs > kMostExactPairs) {
+    double variance = 0.0;
+    for (const Stratum& one : strata) {
+      variance += static_cast<double>(one.pairs() * (one.first + one.second + 1)) / 12.0;
+    }
+    const double center = 0.5 * static_cast<double>(pairs);
+    return normal_cdf((static_cast<double>(u) + 0.5 - center) / std::sqrt(variance));
+  }
+  // The generating function of U is a product of Gaussian binomials, of which one is the product
+  // over i = 1..m of (1 - q^(n + i)) / (1 - q^i), for samples of m and n.
   std::vector<double> chance(u + 1, 0.0);
   chance[0] = 1.0;
   for (const Stratum& one : strata) {
@@ -43,25 +56,6 @@ inline double exact_rank_sum_tail(std::span<const Stratum> strata, std::size_t u
     }
   }
   return std::accumulate(chance.begin(), chance.end(), 0.0);
-}
-
-inline double normal_rank_sum_tail(std::span<const Stratum> strata, std::size_t u) {
-  double variance = 0.0;
-  for (const Stratum& one : strata) {
-    variance += static_cast<double>(one.pairs() * (one.first + one.second + 1)) / 12.0;
-  }
-  const double center = 0.5 * static_cast<double>(count_pairs(strata));
-  return normal_cdf((static_cast<double>(u) + 0.5 - center) / std::sqrt(variance));
-}
-
-/// P(U <= u) for equally distributed samples without ties. U is the number of pairs (one value of
-/// either sample in the same stratum) whose first value is the larger one (Mann and Whitney, 1947).
-/// Exact for up to some thousand pairs, beyond by the normal approximation. `u` up to half of the
-/// pairs. O(values * u) if exact.
-inline double rank_sum_tail(std::span<const Stratum> strata, std::size_t u) {
-  constexpr std::size_t kMostExactPairs = 5000;
-  return count_pairs(strata) <= kMostExactPairs ? exact_rank_sum_tail(strata, u)
-                                                : normal_rank_sum_tail(strata, u);
 }
 
 /// The largest c with 2 P(U <= c) <= alpha; nullopt if there is none.

@@ -31,9 +31,9 @@ std::vector<double> exact_chances(const std::vector<std::size_t>& scores, std::s
   return chance;
 }
 
-/// The same for a sum `t` of `count` of the ranks; among equal sums of few ranks, more ranks are
-/// the larger score. Midranks are doubled to be integers.
-double exact_tail(const std::vector<double>& ranks, double t, std::size_t count) {
+/// P(S <= 0), ..., P(S <= s), where `s` is the score of a sum `t` of `count` of the ranks. Midranks
+/// are doubled to be integers; among equal sums of few ranks, more ranks are the larger score.
+std::vector<double> exact_tails(const std::vector<double>& ranks, double t, std::size_t count) {
   const bool is_whole = std::ranges::all_of(ranks, [](double r) { return r == std::floor(r); });
   const bool is_ordered = ranks.size() <= kMostOrdered;
   const std::size_t weight = is_ordered ? ranks.size() + 1 : 1;
@@ -43,8 +43,9 @@ double exact_tail(const std::vector<double>& ranks, double t, std::size_t count)
   };
   std::vector<std::size_t> scores;
   for (const double rank : ranks) scores.push_back(score(rank, 1));
-  const std::vector<double> chances = exact_chances(scores, score(t, count));
-  return std::accumulate(chances.begin(), chances.end(), 0.0);
+  std::vector<double> out = exact_chances(scores, score(t, count));
+  std::partial_sum(out.begin(), out.end(), out.begin());
+  return out;
 }
 
 /// Variance given the observed ranks, which is correct with ties and dropped zeros.
@@ -93,8 +94,9 @@ SignedRank signed_rank(std::span<const double> differences, std::size_t most_exa
   const auto [smaller, count] =
       std::min(std::pair(out.positive, positive), std::pair(out.negative, out.count - positive));
   const bool is_exact = ranks.size() <= most_exact;
-  out.p = std::min(
-      1.0, 2.0 * (is_exact ? exact_tail(ranks, smaller, count) : normal_tail(ranks, smaller)));
+  const double tail =
+      is_exact ? exact_tails(ranks, smaller, count).back() : normal_tail(ranks, smaller);
+  out.p = std::min(1.0, 2.0 * tail);
   return out;
 }
 
@@ -102,19 +104,13 @@ std::optional<std::size_t> critical_rank_sum(std::size_t n, double alpha) {
   std::vector<double> ranks(n);
   std::iota(ranks.begin(), ranks.end(), 1.0);
   const std::size_t most = n * (n + 1) / 4;
-  if (n > kMostExact) {
-    return largest_rejected(
-        most, alpha, [&](std::size_t sum) { return normal_tail(ranks, static_cast<double>(sum)); });
-  }
-  const bool is_ordered = n <= kMostOrdered;  // scores as in exact_tail()
-  const std::size_t weight = is_ordered ? n + 1 : 1;
-  std::vector<std::size_t> scores;
-  for (std::size_t rank = 1; rank <= n; ++rank)
-    scores.push_back(weight * rank + (is_ordered ? 1 : 0));
-  std::vector<double> tail = exact_chances(scores, weight * (most + 1) - 1);
-  std::partial_sum(tail.begin(), tail.end(), tail.begin());
-  return largest_rejected(
-      most, alpha, [&](std::size_t sum) { return tail[weight * (sum + 1) - 1]; });
+  const std::size_t weight = n <= kMostOrdered ? n + 1 : 1;  // scores as in exact_tails()
+  std::vector<double> tails;
+  if (n <= kMostExact) tails = exact_tails(ranks, static_cast<double>(most), n);
+  return largest_rejected(most, alpha, [&](std::size_t sum) {
+    return tails.empty() ? normal_tail(ranks, static_cast<double>(sum))
+                         : tails[weight * (sum + 1) - 1];
+  });
 }
 
 double least_p(std::size_t n) { return std::min(1.0, std::pow(2.0, 1.0 - static_cast<double>(n))); }

@@ -22,16 +22,15 @@ inline bool tied(double a, double b, double tie) {
   return std::abs(a - b) <= tie * std::max(std::abs(a), std::abs(b));
 }
 
-/// 1 for the smallest; ties get the mean of their ranks. Neighbouring values that are `tied` share
-/// a rank, also in chains; 0 ties only equal values. No NaN. O(n log n).
-inline std::vector<double> midranks(std::span<const double> values, double tie = 0.0) {
+/// 1 for the smallest; equal values get the mean of their ranks. No NaN. O(n log n).
+inline std::vector<double> midranks(std::span<const double> values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return values[i]; });
   std::vector<double> ranks(values.size());
   for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
     end = begin + 1;
-    while (end < order.size() && tied(values[order[end - 1]], values[order[end]], tie)) ++end;
+    while (end < order.size() && values[order[end]] == values[order[begin]]) ++end;
     const double shared = 0.5 * static_cast<double>(begin + 1 + end);
     for (std::size_t i = begin; i < end; ++i) ranks[order[i]] = shared;
   }
