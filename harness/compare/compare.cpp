@@ -209,20 +209,7 @@ KeptRuns ranked(Observations& all, Comparison& out) {
   for (std::size_t m = 0; m < kept.methods.size(); ++m) {
     out.methods.push_back(counts_of(all, kept, m));
   }
-  const std::vector<std::string> partial = methods_with_less_coverage(out);
-  std::vector<bool> can_lead;
-  for (const MethodVerdict& m : out.methods) {
-    can_lead.push_back(std::ranges::count(partial, m.method) == 0);
-  }
-  const Ranking ranking = rank_methods(Levels(kept.values, out.options.tie), out.options, can_lead);
-  out.tests = ranking.tests;
-  out.can_show = ranking.can_show;
-  out.groups_needed = ranking.groups_needed;
-  out.has_strata = ranking.has_strata;
-  out.is_best = ranking.is_best;
-  for (std::size_t m = 0; m < out.methods.size(); ++m) {
-    out.methods[m].is_worse = ranking.is_worse[m];
-  }
+  rank_methods(Levels(kept.values, out.options.tie), out);
   return kept;
 }
 

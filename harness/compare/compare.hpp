@@ -32,30 +32,6 @@ struct CompareOptions {
   bool paired = false;     ///< also pair runs of files, by their names; those of sweeps always are
 };
 
-/// The best of several methods.
-///
-/// A method is best if it is significantly better than each rival, p <= alpha in every pair: that
-/// is one hypothesis about all rivals, which needs no correction (union-intersection), and all
-/// others are worse. Otherwise a method is worse if the test of some pair says so, with Holm's
-/// correction over all pairs. Together they mark a truly best method as worse with probability
-/// alpha at most (results/methods/verdicts.md). Equal methods count once. A method that is behind
-/// by less than a relevant difference shares the place of the other.
-struct Ranking {
-  std::vector<bool> is_worse;  ///< of each method; the others share the first place
-  bool is_best = false;     ///< the first methods are best: all others are worse than one of them
-  std::size_t tests = 1;    ///< different methods, but one
-  bool can_show = false;    ///< whether p of some pair can be small enough
-  bool has_strata = false;  ///< compared by rank sums within sequences
-  /// Fewest groups for which it can be; of independent runs, fewest of each method and sequence.
-  std::size_t groups_needed = 1;
-};
-
-/// `can_lead`: of each method, whether it can be better than another; empty: all can.
-/// Deterministic. O(methods^2 * (runs log runs + groups^3)), groups^3 for up to 50 groups only.
-Ranking rank_methods(const Levels& levels,
-                     const CompareOptions& options,
-                     const std::vector<bool>& can_lead = {});
-
 /// Typical ratio on one sequence.
 struct SequenceRatio {
   std::string sequence;
@@ -116,14 +92,27 @@ struct Comparison {
   std::vector<Gap> gaps;
   std::vector<std::string> oracles;          ///< excluded methods that use the reference
   std::vector<std::string> oracle_closures;  ///< sequences with closures from the reference
-  bool is_best = false;           ///< the methods of the first place are best, see Ranking
-  bool is_ratio = true;           ///< false: plain differences, some value is negative
-  bool is_paired = true;          ///< false: independent runs of the same sequences
-  bool has_strata = false;        ///< compared by rank sums within sequences
-  std::size_t tests = 0;          ///< for whose number p is corrected
+  bool is_ratio = true;                      ///< false: plain differences, some value is negative
+  bool is_paired = true;                     ///< false: independent runs of the same sequences
+  bool is_best = false;           ///< the first methods are best: all others are worse than one
+  std::size_t tests = 0;          ///< different methods, but one, for which p is corrected
   bool can_show = false;          ///< whether the observations can be significant at all
+  bool has_strata = false;        ///< compared by rank sums within sequences
   std::size_t groups_needed = 0;  ///< minimum for that; if has_strata, per method and sequence
 };
+
+/// Sets which methods are worse than another one, the others sharing the first place, and the last
+/// five members above.
+///
+/// A method is best if it is significantly better than each rival, p <= alpha in every pair: that
+/// is one hypothesis about all rivals, which needs no correction (union-intersection), and all
+/// others are worse. Otherwise a method is worse if the test of some pair says so, with Holm's
+/// correction over all pairs. Together they mark a truly best method as worse with probability
+/// alpha at most (results/methods/verdicts.md). Equal methods count once. A method that is behind
+/// by less than a relevant difference shares the place of the other, and one with less coverage
+/// than another is better than none. `levels`: of `out.methods`. Deterministic.
+/// O(methods^2 * (runs log runs + groups^3)), groups^3 for up to 50 groups only.
+void rank_methods(const Levels& levels, Comparison& out);
 
 /// Sets which ratios of sequences are significant, with Holm's correction over the sequences and
 /// the methods that differ, and removes the claims over all of a method that is better on one

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <optional>
 
-#include "harness/compare/compare.hpp"
+#include "harness/compare/verdict.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -47,12 +47,12 @@ double least_p_of(std::size_t groups, std::size_t strata) {
 
 }  // namespace
 
-Ranking rank_methods(const Levels& levels,
-                     const CompareOptions& options,
-                     const std::vector<bool>& can_lead) {
-  Ranking out;
-  out.is_worse.resize(levels.methods());
+void rank_methods(const Levels& levels, Comparison& out) {
   const std::vector<std::size_t> equals = first_equals(levels);
+  const std::vector<std::string> partial = methods_with_less_coverage(out);
+  const auto can_lead = [&](std::size_t m) {
+    return std::ranges::count(partial, out.methods[m].method) == 0;
+  };
   std::vector<std::size_t> different;
   for (std::size_t m = 0; m < equals.size(); ++m) {
     if (equals[m] == m) different.push_back(m);
@@ -67,30 +67,31 @@ Ranking rank_methods(const Levels& levels,
       const Pair pair = compared(levels, first, second);
       ++pairs;
       strata = std::max(strata, pair.strata.size());
-      out.can_show = out.can_show || pair.least_p <= options.alpha;
-      const auto order = order_of(pair, first, second, options);
-      if (!order || (!can_lead.empty() && !can_lead[order->better])) continue;
+      out.can_show = out.can_show || pair.least_p <= out.options.alpha;
+      const auto order = order_of(pair, first, second, out.options);
+      if (!order || !can_lead(order->better)) continue;
       orders.push_back(*order);
       ++rivals_beaten[order->better];
     }
   }
   out.has_strata = strata > 0;
   out.tests = std::max<std::size_t>(1, different.size() - 1);
-  while (least_p_of(out.groups_needed, strata) > options.alpha) ++out.groups_needed;
+  out.groups_needed = 1;
+  while (least_p_of(out.groups_needed, strata) > out.options.alpha) ++out.groups_needed;
   const auto best = std::ranges::max_element(rivals_beaten);
   const bool has_best = different.size() > 1 && *best + 1 == different.size();
   const auto best_method = static_cast<std::size_t>(best - rivals_beaten.begin());
   std::ranges::sort(orders, {}, &Order::p);
   std::size_t rejected = 0;
   for (const Order& order : orders) {
-    const double level = options.alpha / static_cast<double>(pairs - rejected);
+    const double level = out.options.alpha / static_cast<double>(pairs - rejected);
     if (has_best ? order.better != best_method : order.p > level) continue;
     ++rejected;
-    if (order.is_relevant) out.is_worse[order.worse] = true;
+    if (order.is_relevant) out.methods[order.worse].is_worse = true;
   }
-  out.is_best = has_best && std::ranges::count(out.is_worse, true) > 0;
-  for (std::size_t m = 0; m < equals.size(); ++m) out.is_worse[m] = out.is_worse[equals[m]];
-  return out;
+  out.is_best = has_best && std::ranges::any_of(out.methods, &MethodVerdict::is_worse);
+  for (std::size_t m = 0; m < equals.size(); ++m)
+    out.methods[m].is_worse = out.methods[equals[m]].is_worse;
 }
 
 void test_sequences(Comparison& c) {

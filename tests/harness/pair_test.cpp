@@ -196,30 +196,41 @@ TEST(IndependentRuns, CountCopiesOfAFileOnce) {
   EXPECT_DOUBLE_EQ(pair_of(all).p, 2.0 / 11.0);
 }
 
-Ranking ranked(std::vector<std::vector<double>> values) {
-  return rank_methods(Levels(of(std::move(values)), kTieShare), {});
+Comparison ranked(const GroupedValues& all) {
+  Comparison out;
+  out.methods.resize(all.values.size());
+  rank_methods(Levels(all, kTieShare), out);
+  return out;
+}
+
+Comparison ranked(std::vector<std::vector<double>> values) { return ranked(of(std::move(values))); }
+
+std::vector<bool> worse(const Comparison& c) {
+  std::vector<bool> out;
+  for (const MethodVerdict& m : c.methods) out.push_back(m.is_worse);
+  return out;
 }
 
 TEST(Ranking, HasNoBestBesideAMethodOfFewRuns) {
   GroupedValues all =
       of({{1, 2, 3, 4, 5, 6}, {0.9, 1.8, 2.6, 3.5, 4.4, 5.1}, {0.1, 1, 1, 1, 1, 1}});
   for (std::size_t run = 1; run < 6; ++run) all.values[2][run] = std::nullopt;
-  const Ranking ranking = rank_methods(Levels(all, kTieShare), {});
+  const Comparison ranking = ranked(all);
   EXPECT_FALSE(ranking.is_best);
-  EXPECT_FALSE(ranking.is_worse[2]);
+  EXPECT_FALSE(ranking.methods[2].is_worse);
 }
 
 TEST(Ranking, CountsEqualMethodsOnce) {
   std::vector<double> raw{1, 2, 3, 4, 5, 6};
   std::vector<double> dual;
   for (const double value : raw) dual.push_back(0.8 * value - 0.01 * value * value);
-  const Ranking two = ranked({raw, dual});
+  const Comparison two = ranked({raw, dual});
   EXPECT_TRUE(two.is_best);
   EXPECT_EQ(two.groups_needed, 6u);
-  const Ranking three = ranked({raw, dual, dual});
+  const Comparison three = ranked({raw, dual, dual});
   EXPECT_TRUE(three.is_best);
   EXPECT_EQ(three.tests, 1u);
-  EXPECT_EQ(three.is_worse, (std::vector<bool>{true, false, false}));
+  EXPECT_EQ(worse(three), (std::vector<bool>{true, false, false}));
 }
 
 /// `ratio` times 1, 2, ... of which `losses` runs are as much worse.
@@ -235,19 +246,19 @@ std::vector<double> beside(double ratio, std::size_t runs, std::size_t losses) {
 
 TEST(Ranking, CallsAMethodBestThatBeatsEachRivalWithoutCorrection) {
   // Six equal signs have p = 1 / 32: too large for Holm over the six pairs of four methods.
-  const Ranking best =
+  const Comparison best =
       ranked({beside(1.0, 6, 0), beside(0.8, 6, 0), beside(1.3, 6, 0), beside(1.1, 6, 3)});
   EXPECT_TRUE(best.is_best);
-  EXPECT_EQ(best.is_worse, (std::vector<bool>{true, false, true, true}));
+  EXPECT_EQ(worse(best), (std::vector<bool>{true, false, true, true}));
 }
 
 TEST(Ranking, NamesWorseMethodsBesideASharedFirstPlace) {
   // Holm: 2^-15 is enough for the two pairs of the last method, nothing is for that of the others.
   std::vector<double> balanced = beside(1.0, 16, 0);
   for (std::size_t run = 0; run < 16; ++run) balanced[run] *= run % 4 % 3 == 0 ? 0.98 : 1.02;
-  const Ranking shared = ranked({beside(1.0, 16, 0), balanced, beside(2.0, 16, 0)});
+  const Comparison shared = ranked({beside(1.0, 16, 0), balanced, beside(2.0, 16, 0)});
   EXPECT_FALSE(shared.is_best);
-  EXPECT_EQ(shared.is_worse, (std::vector<bool>{false, false, true}));
+  EXPECT_EQ(worse(shared), (std::vector<bool>{false, false, true}));
 }
 
 /// Two methods on sequences of eight runs with these effects, and some scatter.
