@@ -94,17 +94,12 @@ void ObservationsBuilder::add(const Record& r) {
   put(tables_[kind->second], one);
 }
 
-std::set<std::size_t> ObservationsBuilder::oracle_methods() const {
-  std::set<std::size_t> out;
-  for (const auto& [method, run] : oracle_runs_) {
-    if (runs_[run].is_fair) out.insert(method);
-  }
-  return out;
-}
-
 std::vector<Observations> ObservationsBuilder::build() {
   const std::vector<std::string>& names = methods_.names();
-  const std::set<std::size_t> oracles = oracle_methods();
+  std::set<std::size_t> oracles;
+  for (const auto& [method, run] : oracle_runs_) {
+    if (runs_[run].is_fair) oracles.insert(method);
+  }
   for (Observations& table : tables_) {
     table.runs = runs_;
     table.values.resize(names.size());

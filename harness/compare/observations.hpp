@@ -70,7 +70,6 @@ class ObservationsBuilder {
   };
 
   static void put(Observations& table, const Unscored& one);
-  std::set<std::size_t> oracle_methods() const;
 
   std::string value_;
   std::map<ScoreKind, std::size_t> kinds_;
