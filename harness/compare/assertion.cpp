@@ -15,6 +15,15 @@
 namespace loopbench::harness {
 namespace {
 
+struct Assertion {
+  enum class Relation { below, not_above, not_different };
+
+  std::string method;
+  Relation relation = Relation::below;
+  std::optional<double> percent;
+  std::string baseline;
+};
+
 /// Words between the two methods, around a percentage if there is one.
 struct Form {
   std::string_view before;
@@ -32,7 +41,7 @@ constexpr std::array kForms{
 std::optional<Assertion> assertion_of(const std::string& text, const Form& form) {
   const std::size_t at = text.find(form.before);
   if (at == std::string::npos) return std::nullopt;
-  Assertion out{text, text.substr(0, at), form.relation, {}, text.substr(at + form.before.size())};
+  Assertion out{text.substr(0, at), form.relation, {}, text.substr(at + form.before.size())};
   if (!form.after.empty()) {
     const char* const begin = out.baseline.data();
     double percent = 0.0;
@@ -79,8 +88,6 @@ bool is_shown(const Assertion& a, const Comparison& c, const MethodVerdict& m) {
   return !is_lower && !is_higher;
 }
 
-}  // namespace
-
 Assertion parse_assertion(const std::string& text) {
   for (const Form& form : kForms) {
     if (const auto found = assertion_of(text, form)) return *found;
@@ -91,13 +98,13 @@ Assertion parse_assertion(const std::string& text) {
       text + "'");
 }
 
+/// Why the comparison, with the baseline of the assertion, does not show it; empty if it does.
 std::string why_not_shown(const Assertion& a, const Comparison& c) {
   const bool is_order = a.relation != Assertion::Relation::not_different;
   if (is_order && c.kind.better == metrics::Better::target) {
     throw InputError(
-        fmt::format("--assert: '{}': the best value of {} is {:g}, so that neither above "
-                    "nor below is better; expected 'A is not shown to differ from B'",
-                    a.text,
+        fmt::format("the best value of {} is {:g}, so that neither above nor below is better; "
+                    "expected 'A is not shown to differ from B'",
                     c.kind.metric_label(),
                     c.kind.target));
   }
@@ -116,6 +123,8 @@ std::string why_not_shown(const Assertion& a, const Comparison& c) {
   return out;
 }
 
+}  // namespace
+
 std::vector<std::string> not_shown(const std::vector<std::string>& sentences,
                                    const Comparison& printed,
                                    const CompareWith& compare_with) {
@@ -123,14 +132,17 @@ std::vector<std::string> not_shown(const std::vector<std::string>& sentences,
   const std::vector<std::string> known = method_names(printed);
   for (const std::string& text : sentences) {
     const Assertion a = parse_assertion(text);
-    for (const std::string& method : {a.method, a.baseline}) {
-      if (printed.methods.empty() || std::ranges::count(known, method) > 0) continue;
-      throw InputError(
-          fmt::format("--assert: '{}': {}", text, unknown_name("method", method, known)));
+    try {
+      for (const std::string& method : {a.method, a.baseline}) {
+        if (printed.methods.empty() || std::ranges::count(known, method) > 0) continue;
+        throw InputError(unknown_name("method", method, known));
+      }
+      const bool is_printed = printed.options.baseline == a.baseline;
+      const std::string why = why_not_shown(a, is_printed ? printed : compare_with(a.baseline));
+      if (!why.empty()) out.push_back(fmt::format("assertion not shown: {}: {}", text, why));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--assert: '{}': {}", text, error.what()));
     }
-    const bool is_printed = printed.options.baseline == a.baseline;
-    const std::string why = why_not_shown(a, is_printed ? printed : compare_with(a.baseline));
-    if (!why.empty()) out.push_back(fmt::format("assertion not shown: {}: {}", text, why));
   }
   return out;
 }

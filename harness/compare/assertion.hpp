@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,35 +9,19 @@
 
 namespace loopbench::harness {
 
-/// The words compare values, also of scores of which higher values are better.
-struct Assertion {
-  enum class Relation { below, not_above, not_different };
-
-  std::string text;  ///< as given
-  std::string method;
-  Relation relation = Relation::below;
-  std::optional<double> percent;  ///< of "at least 15 % below" and "at most 1 % above"
-  std::string baseline;
-};
-
-/// Throws InputError naming the accepted sentences.
-Assertion parse_assertion(const std::string& text);
-
-/// Why the comparison does not show the assertion, whose baseline it has: the measured difference
-/// with its interval and p; empty if it shows it.
-///
-/// "below" is significantly lower, "not above" not significantly higher, "not shown to differ"
-/// neither. With a percentage, the upper end of the interval of the typical ratio decides, too: it
-/// is at most 1 - percent / 100 ("at least X % below") or 1 + percent / 100 ("at most X % above").
-/// Nothing is shown about methods without a common run, and no order of a method that covers less
-/// of the reference than others. Throws InputError for an order of values with a target.
-std::string why_not_shown(const Assertion& assertion, const Comparison& comparison);
-
 /// The comparison of the same score with another baseline.
 using CompareWith = std::function<Comparison(const std::string& baseline)>;
 
-/// "assertion not shown: TEXT: REASON" for each of the sentences that is not shown. Throws
-/// InputError as above, and for a method that `printed` does not have.
+/// "assertion not shown: TEXT: REASON" for each of the sentences that is not shown. The reason is
+/// the measured difference with its interval and p.
+///
+/// The words compare values, also of scores of which higher values are better. "below" is
+/// significantly lower, "not above" not significantly higher, "not shown to differ" neither. With a
+/// percentage, the upper end of the interval of the typical ratio decides, too: it is at most
+/// 1 - percent / 100 ("at least X % below") or 1 + percent / 100 ("at most X % above"). Nothing is
+/// shown about methods without a common run, and no order of a method that covers less of the
+/// reference than others. Throws InputError for another sentence, naming the accepted ones, for an
+/// order of values with a target, and for a method that `printed` does not have.
 std::vector<std::string> not_shown(const std::vector<std::string>& sentences,
                                    const Comparison& printed,
                                    const CompareWith& compare_with);

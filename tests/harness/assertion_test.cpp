@@ -103,11 +103,13 @@ TEST(Assertion, ShowsNothingWithoutCommonRunsAndNoOrderOfAPart) {
 }
 
 TEST(Assertion, IsOneOfFiveSentences) {
-  const Assertion read = parse_assertion("dual + dm (turn_max=0.2) is at least 1.5 % below a is b");
-  EXPECT_EQ(read.method, "dual + dm (turn_max=0.2)");
-  EXPECT_EQ(read.baseline, "a is b");
-  EXPECT_EQ(read.relation, Assertion::Relation::below);
-  EXPECT_EQ(read.percent, 1.5);
+  const std::string quoted = "dual + dm (turn_max=0.2) is at least 1.5 % below a is b";
+  EXPECT_TRUE(
+      refusal_of([&] {
+        why(quoted);
+      }).starts_with("--assert: '" + quoted + "': no method is named 'dual + dm (turn_max=0.2)'"));
+  EXPECT_TRUE(has(refusal_of([] { why("dual is at least 1.5 % below a is b"); }),
+                  "no method is named 'a is b'"));
   for (const std::string text : {"dual is 15 % below raw",
                                  "dual is at least 15 % above raw",
                                  "dual is at least -1 % below raw",
@@ -115,7 +117,7 @@ TEST(Assertion, IsOneOfFiveSentences) {
                                  "dual is below ",
                                  " is below raw",
                                  ""}) {
-    EXPECT_EQ(refusal_of([&] { parse_assertion(text); }),
+    EXPECT_EQ(refusal_of([&] { why(text); }),
               "--assert: expected 'A is below B', 'A is at least X % below B', 'A is not above B', "
               "'A is at most X % above B' or 'A is not shown to differ from B', found '" +
                   text + "'");
