@@ -58,18 +58,33 @@ std::string without_number(const Comparison& c, const MethodVerdict& m) {
                      m.wins + m.losses + m.ties);
 }
 
-std::string group_text(const Comparison& c, const VerdictGroup& group) {
-  return group.all ? change_text(c, *group.all, group.interval)
-                   : without_number(c, find(c, group.methods.front()));
+/// "37 to 44 % below raw (95 %: 30 to 51)".
+std::string change_text(const Comparison& c,
+                        const Change& change,
+                        const std::optional<Change>& interval) {
+  const bool is_below = change.low + change.high <= 0.0;
+  const double sign = is_below ? -1.0 : 1.0;
+  const auto range = [&](const Change& of) {
+    const auto [least, most] = std::minmax({sign * of.low, sign * of.high});
+    return percent_text(least) + " to " + percent_text(most);
+  };
+  std::string out = change.high - change.low > 1.0
+                        ? range(change)
+                        : percent_text(0.5 * sign * (change.low + change.high));
+  out += " % " + relation_text(c, is_below);
+  if (!interval) return out;
+  return out + fmt::format(" ({:g} %: {})", 100.0 * (1.0 - c.options.alpha), range(*interval));
 }
 
 /// Change of some methods, as one group.
 std::string names_text(const Comparison& c, const Names& methods) {
-  Comparison part = c;
-  std::erase_if(part.methods,
-                [&](const MethodVerdict& m) { return std::ranges::count(methods, m.method) == 0; });
-  for (MethodVerdict& m : part.methods) m.is_worse = false;
-  return group_text(c, groups_of(part, {}).front());
+  std::vector<const MethodVerdict*> members;
+  for (const MethodVerdict& m : c.methods) {
+    if (std::ranges::count(methods, m.method) > 0) members.push_back(&m);
+  }
+  const VerdictGroup group = group_of(members, {}, c.options.baseline);
+  return group.all ? change_text(c, *group.all, group.interval)
+                   : without_number(c, *members.front());
 }
 
 /// How many observations would decide the difference of a method that has an interval.
@@ -205,23 +220,6 @@ std::string percent_text(double percent) {
                                                      : fmt::format("{:.2g}", percent);
 }
 
-std::string change_text(const Comparison& c,
-                        const Change& change,
-                        const std::optional<Change>& interval) {
-  const bool is_below = change.low + change.high <= 0.0;
-  const double sign = is_below ? -1.0 : 1.0;
-  const auto range = [&](const Change& of) {
-    const auto [least, most] = std::minmax({sign * of.low, sign * of.high});
-    return percent_text(least) + " to " + percent_text(most);
-  };
-  std::string out = change.high - change.low > 1.0
-                        ? range(change)
-                        : percent_text(0.5 * sign * (change.low + change.high));
-  out += " % " + relation_text(c, is_below);
-  if (!interval) return out;
-  return out + fmt::format(" ({:g} %: {})", 100.0 * (1.0 - c.options.alpha), range(*interval));
-}
-
 std::string result_text(const Comparison& c, const MethodVerdict& m) {
   std::string out = names_text(c, {m.method});
   if (m.ratio && !m.is_divided && !m.is_contradicted) {
@@ -271,6 +269,7 @@ Verdict verdict_of(const Comparison& c, const std::vector<Comparison>& all) {
     return out;
   }
   out.groups = groups_of(c, out.sequences);
+  out.level = 100.0 * (1.0 - c.options.alpha);
   out.legend = legend_of(c, out);
   return out;
 }

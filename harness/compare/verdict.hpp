@@ -33,6 +33,7 @@ struct Verdict {
   std::vector<VerdictGroup> groups;    ///< the first place first; empty if nothing can be tested
   std::vector<std::string> cautions;   ///< methods that are worse than the baseline somewhere
   std::string legend;                  ///< what the numbers are, and for what claims hold
+  double level = 95.0;                 ///< of the intervals [%]
 
   /// Whether the groups show more than the sentence.
   bool has_table() const { return groups.size() > 1 || !sequences.empty(); }
@@ -40,6 +41,11 @@ struct Verdict {
 
 /// `all`: comparisons among which that of the rotation is searched, for cautions.
 Verdict verdict_of(const Comparison& comparison, const std::vector<Comparison>& all);
+
+/// Some methods as one group, without the change of the baseline beside others, because it is zero.
+VerdictGroup group_of(std::vector<const MethodVerdict*> members,
+                      const std::vector<std::string>& sequences,
+                      const std::string& baseline);
 
 /// The groups: the first place, then methods whose changes, over all and on each sequence, differ
 /// by at most a point, or more if there would be more than five groups. Without the baseline,
@@ -65,11 +71,6 @@ std::string short_names(std::vector<std::string> methods, const std::string& las
 
 /// "44", "5.1", "0.0012": at least two digits.
 std::string percent_text(double percent);
-
-/// "37 to 44 % below raw (95 %: 30 to 51)".
-std::string change_text(const Comparison& comparison,
-                        const Change& change,
-                        const std::optional<Change>& interval);
 
 /// "12.3 % below raw [8.1, 15.2], p = 0.02": the difference of a method to the baseline.
 std::string result_text(const Comparison& comparison, const MethodVerdict& method);

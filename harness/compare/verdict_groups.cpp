@@ -56,27 +56,6 @@ std::optional<Change> interval_of(const std::vector<const MethodVerdict*>& membe
   return out;
 }
 
-/// The change of the baseline is not shown beside others, because it is zero.
-VerdictGroup group_of(std::vector<const MethodVerdict*> members,
-                      const Names& sequences,
-                      const std::string& baseline) {
-  VerdictGroup out;
-  out.is_first = !members.front()->is_worse;
-  for (const MethodVerdict* m : members) out.methods.push_back(m->method);
-  out.name = short_names(out.methods, ", ");
-  if (members.size() > 1) {
-    std::erase_if(members, [&](const MethodVerdict* m) { return m->method == baseline; });
-  }
-  std::vector<Changes> changes;
-  for (const MethodVerdict* m : members) changes.push_back(changes_of(*m, sequences));
-  out.all = range_of(changes, 0);
-  if (out.all) out.interval = interval_of(members);
-  for (std::size_t s = 1; s <= sequences.size(); ++s) {
-    out.by_sequence.push_back(range_of(changes, s));
-  }
-  return out;
-}
-
 /// Neighbours that differ by at most `points` from all of their group.
 std::vector<VerdictGroup> groups_within(const Comparison& c,
                                         const Names& sequences,
@@ -158,6 +137,26 @@ void add_cautions(std::vector<Caution>& out, const Comparison& c, const std::str
 }
 
 }  // namespace
+
+VerdictGroup group_of(std::vector<const MethodVerdict*> members,
+                      const Names& sequences,
+                      const std::string& baseline) {
+  VerdictGroup out;
+  out.is_first = !members.front()->is_worse;
+  for (const MethodVerdict* m : members) out.methods.push_back(m->method);
+  out.name = short_names(out.methods, ", ");
+  if (members.size() > 1) {
+    std::erase_if(members, [&](const MethodVerdict* m) { return m->method == baseline; });
+  }
+  std::vector<Changes> changes;
+  for (const MethodVerdict* m : members) changes.push_back(changes_of(*m, sequences));
+  out.all = range_of(changes, 0);
+  if (out.all) out.interval = interval_of(members);
+  for (std::size_t s = 1; s <= sequences.size(); ++s) {
+    out.by_sequence.push_back(range_of(changes, s));
+  }
+  return out;
+}
 
 std::string short_names(Names names, const std::string& last_separator) {
   constexpr std::size_t kMost = 3;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "datasets/core/fields.hpp"
 #include "harness/tables/record_csv.hpp"
@@ -13,8 +14,6 @@ namespace loopbench::harness {
 namespace {
 
 std::string p_text(double p) { return p < 0.0001 ? "< 0.0001" : fmt::format("{:.4f}", p); }
-
-const char* over_name(Over over) { return over == Over::groups ? "groups" : "sequences"; }
 
 std::string interval_text(const Ratio& ratio) {
   return ratio.has_interval ? fmt::format("{:.4f} .. {:.4f}", ratio.typical.low, ratio.typical.high)
@@ -28,30 +27,9 @@ std::string median_text(const Comparison& c, const MethodVerdict& m, int digits)
   return fixed(m.median, digits) + over;
 }
 
-std::string number_or_empty(const std::optional<double>& value) {
-  return value ? fmt::format("{}", *value) : "";
-}
+using Json = nlohmann::ordered_json;
 
-/// Estimate and ends of the interval as fields of CSV.
-std::string fields(const std::optional<Ratio>& ratio) {
-  if (!ratio) return ",,";
-  const Interval& i = ratio->typical;
-  return ratio->has_interval ? fmt::format("{},{},{}", i.estimate, i.low, i.high)
-                             : fmt::format("{},,", i.estimate);
-}
-
-nlohmann::ordered_json interval_json(const std::optional<Ratio>& ratio) {
-  if (!ratio || !ratio->has_interval) return nullptr;
-  return {ratio->typical.low, ratio->typical.high};
-}
-
-nlohmann::ordered_json number_or_null(const std::optional<double>& value) {
-  return value ? nlohmann::ordered_json(*value) : nullptr;
-}
-
-std::optional<double> typical_of(const std::optional<Ratio>& ratio) {
-  return ratio ? std::optional(ratio->typical.estimate) : std::nullopt;
-}
+Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
 /// "-44", of a range "-37 .. -51": the end that is nearer to zero first.
 std::string text(const std::optional<Change>& change, double precision) {
@@ -65,15 +43,14 @@ std::string text(const std::optional<Change>& change, double precision) {
   return signed_text(is_below ? high : low) + " .. " + signed_text(is_below ? low : high);
 }
 
-nlohmann::ordered_json change_json(const std::optional<Change>& change) {
-  if (!change) return nullptr;
-  return {change->low, change->high};
+Json change_json(const std::optional<Change>& change) {
+  return change ? Json{change->low, change->high} : Json();
 }
 
-nlohmann::ordered_json groups_json(const Verdict& verdict) {
-  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+Json groups_json(const Verdict& verdict) {
+  Json out = Json::array();
   for (const VerdictGroup& group : verdict.groups) {
-    nlohmann::ordered_json by_sequence = nlohmann::ordered_json::object();
+    Json by_sequence = Json::object();
     for (std::size_t s = 0; s < verdict.sequences.size(); ++s) {
       by_sequence[verdict.sequences[s]] = change_json(group.by_sequence[s]);
     }
@@ -87,13 +64,67 @@ nlohmann::ordered_json groups_json(const Verdict& verdict) {
   return out;
 }
 
+Json score_json(const Comparison& c) {
+  Json out = Json::object();
+  for (const KindField& each : kKindFields) out[each.name] = c.kind.*each.text;
+  out["label"] = c.kind.metric_label();
+  out.update({{"value", c.options.value},
+              {"baseline", c.options.baseline},
+              {"alpha", c.options.alpha},
+              {"tie", c.options.tie},
+              {"relevant", c.options.relevant},
+              {"over", c.options.over == Over::groups ? "groups" : "sequences"},
+              {"unit_of_observation", unit_text(c)},
+              {"groups", c.groups},
+              {"runs", c.runs}});
+  return out;
+}
+
+Json method_json(const MethodVerdict& m) {
+  Json interval, mean, typical;
+  Json by_sequence = Json::object();
+  Json significant = Json::array();
+  if (m.ratio) {
+    typical = m.ratio->typical.estimate;
+    mean = number_or_null(m.ratio->geometric_mean);
+    if (m.ratio->has_interval) interval = {m.ratio->typical.low, m.ratio->typical.high};
+    for (const SequenceRatio& one : m.ratio->by_sequence) {
+      by_sequence[one.sequence] = one.ratio;
+      if (one.is_clear) significant.push_back(one.sequence);
+    }
+  }
+  return {{"method", m.method},
+          {"median", m.median},
+          {"with_value", m.runs},
+          {"fails", m.fails},
+          {"coverage", m.coverage},
+          {"ratio", typical},
+          {"interval", interval},
+          {"geometric_mean", mean},
+          {"by_sequence", by_sequence},
+          {"significant_on", significant},
+          {"better", m.wins},
+          {"worse", m.losses},
+          {"equal", m.ties},
+          {"p", number_or_null(m.p)},
+          {"place", m.is_worse ? ">" : "="}};
+}
+
+/// A field of CSV; empty: no number.
+std::string csv_field(const Json& value) {
+  if (value.is_string()) return quoted(value.get<std::string>());
+  if (!value.is_number_float()) return value.is_null() ? "" : value.dump();
+  const auto number = value.get<double>();
+  return std::isnan(number) ? "" : fmt::format("{}", number);
+}
+
 }  // namespace
 
 Table verdict_table(const Verdict& verdict) {
   constexpr double kPoint = 1.0;  // [%]
   Table out{verdict.sentence, {}, {}, {}};
   if (verdict.has_table()) {
-    out.headings = {"group", "all [%]", "95 %"};
+    out.headings = {"group", "all [%]", fmt::format("{:g} %", verdict.level)};
     for (const std::string& sequence : verdict.sequences) out.headings.push_back(sequence);
     for (const VerdictGroup& group : verdict.groups) {
       std::vector<TableCell>& line = out.lines.emplace_back();
@@ -141,60 +172,32 @@ Table table_view(const Comparison& c) {
 }
 
 std::string csv(const std::vector<Comparison>& comparisons) {
-  std::string out =
+  const std::string columns =
       "protocol,times,metric,label,relation,axis,unit,value,baseline,over,groups,runs,method,"
-      "median,with_value,fails,ratio,ratio_low,ratio_high,geometric_mean,better,worse,equal,p,"
-      "place\n";
+      "median,with_value,fails,ratio,ratio_low,ratio_high,geometric_mean,better,worse,equal,p,";
+  std::string out = columns + "place\n";
   for (const Comparison& c : comparisons) {
     for (const MethodVerdict& m : c.methods) {
-      out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},",
-                         quoted(c.kind.protocol),
-                         c.kind.times,
-                         quoted(c.kind.metric),
-                         quoted(c.kind.metric_label()),
-                         c.kind.relation,
-                         c.kind.axis,
-                         c.kind.unit,
-                         c.options.value,
-                         quoted(c.options.baseline),
-                         over_name(c.options.over),
-                         c.groups,
-                         c.runs);
-      out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n",
-                         quoted(m.method),
-                         m.runs > 0 ? fmt::format("{}", m.median) : "",
-                         m.runs,
-                         m.fails,
-                         fields(m.ratio),
-                         m.ratio ? number_or_empty(m.ratio->geometric_mean) : "",
-                         m.wins,
-                         m.losses,
-                         m.ties,
-                         number_or_empty(m.p),
-                         m.is_worse ? ">" : "=");
+      Json all = score_json(c);
+      all.update(method_json(m));
+      if (!all["interval"].is_null()) {
+        all["ratio_low"] = all["interval"][0];
+        all["ratio_high"] = all["interval"][1];
+      }
+      std::istringstream names(columns);
+      for (std::string name; std::getline(names, name, ',');) out += csv_field(all[name]) + ",";
+      out += m.is_worse ? ">\n" : "=\n";
     }
   }
   return out;
 }
 
 std::string json(const std::vector<Comparison>& comparisons, int indent) {
-  using Json = nlohmann::ordered_json;
   Json out = Json::array();
   for (const Comparison& c : comparisons) {
     const Verdict verdict = verdict_of(c, comparisons);
-    Json entry = Json::object();
-    for (const KindField& each : kKindFields) entry[each.name] = c.kind.*each.text;
-    entry["label"] = c.kind.metric_label();
-    entry.update({{"value", c.options.value},
-                  {"baseline", c.options.baseline},
-                  {"alpha", c.options.alpha},
-                  {"tie", c.options.tie},
-                  {"relevant", c.options.relevant},
-                  {"over", over_name(c.options.over)},
-                  {"unit_of_observation", unit_text(c)},
-                  {"groups", c.groups},
-                  {"runs", c.runs},
-                  {"possible", c.possible},
+    Json entry = score_json(c);
+    entry.update({{"possible", c.possible},
                   {"is_best", c.is_best},
                   {"tests", c.tests},
                   {"verdict", verdict.sentence},
@@ -206,32 +209,7 @@ std::string json(const std::vector<Comparison>& comparisons, int indent) {
                   {"oracle_closures", c.oracle_closures},
                   {"methods", Json::array()},
                   {"gaps", Json::array()}});
-    for (const MethodVerdict& m : c.methods) {
-      Json by_sequence = Json::object();
-      Json significant = Json::array();
-      if (m.ratio) {
-        for (const SequenceRatio& one : m.ratio->by_sequence) {
-          by_sequence[one.sequence] = one.ratio;
-          if (one.is_clear) significant.push_back(one.sequence);
-        }
-      }
-      entry["methods"].push_back(
-          {{"method", m.method},
-           {"median", m.median},
-           {"with_value", m.runs},
-           {"fails", m.fails},
-           {"coverage", m.coverage},
-           {"ratio", number_or_null(typical_of(m.ratio))},
-           {"interval", interval_json(m.ratio)},
-           {"geometric_mean", number_or_null(m.ratio ? m.ratio->geometric_mean : std::nullopt)},
-           {"by_sequence", by_sequence},
-           {"significant_on", significant},
-           {"better", m.wins},
-           {"worse", m.losses},
-           {"equal", m.ties},
-           {"p", number_or_null(m.p)},
-           {"place", m.is_worse ? ">" : "="}});
-    }
+    for (const MethodVerdict& m : c.methods) entry["methods"].push_back(method_json(m));
     for (const Gap& gap : c.gaps) {
       entry["gaps"].push_back({{"method", gap.method},
                                {"missing", gap.missing},
