@@ -32,7 +32,7 @@ install(TARGETS loopbench_core loopbench_datasets loopbench_solvers loopbench_me
 set(loopbench_cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/loopbench)
 install(EXPORT loopbenchTargets NAMESPACE loopbench:: DESTINATION ${loopbench_cmake_folder} COMPONENT development)
 include(CMakePackageConfigHelpers)
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/loopbenchConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/loopbenchConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES cmake/loopbenchConfig.cmake ${PROJECT_BINARY_DIR}/loopbenchConfigVersion.cmake
   DESTINATION ${loopbench_cmake_folder} COMPONENT development)
 # The folder of loopbench.pc finds the others, so that the installed tree can be moved.

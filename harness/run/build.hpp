@@ -22,7 +22,7 @@ std::vector<std::pair<std::string, std::string>> build_metadata();
 /// build that could give other results, and not for changes of commands, tables or reports.
 std::string build_id(const std::string& code);
 
-/// "loopbench 0.3.0 (a9736e1dc55d, dirty), GNU 12.2.0, -O3 -DNDEBUG; AMD EPYC, Linux 6.1 x86_64".
+/// "loopbench 1.0.0 (a9736e1dc55d, dirty), GNU 12.2.0, -O3 -DNDEBUG; AMD EPYC, Linux 6.1 x86_64".
 /// From a store's provenance; values that differ between its cells are separated by slashes.
 std::string build_summary(const std::map<std::string, std::string>& provenance);
 
