@@ -64,6 +64,17 @@
     const root = svg.append("g").attr("transform", `translate(${margin.left},${margin.top})`);
     let [xDomain, yDomain] = [o.x.domain, o.y.domain];
     if (o.equal) [xDomain, yDomain] = equalised(xDomain, yDomain, inner.width, inner.height);
+    // Long numbers, such as those of UTM, are those above an origin, which the label contains.
+    const origin = (axis, domain) => {
+      const range = axis.band || axis.log ? 0 : domain[1] - domain[0];
+      if (!range || d3.max(domain, Math.abs) < Math.min(1e5, 1e4 * range)) return 0;
+      const step = Math.pow(10, Math.floor(Math.log10(range)));
+      return +(step * Math.floor(domain[0] / step)).toPrecision(9);
+    };
+    const [xOrigin, yOrigin] = [origin(o.x, xDomain), origin(o.y, yDomain)];
+    const withOrigin = (label, from) =>
+      from ? label.replace(" [", ` ${from < 0 ? "+" : "−"} ${Math.abs(from)} [`) : label;
+    const numbers = (axis, s, from) => axis.log ? R.number : from ? (t) => s.tickFormat(7)(t - from) : null;
     const scale = (axis, domain, range) => axis.band
       ? d3.scaleBand(axis.band, range).padding(above ? 0.5 : 0.25)
       : (axis.log ? d3.scaleLog(domain, range) : d3.scaleLinear(domain, range));
@@ -75,10 +86,11 @@
     const plot = root.append("g").attr("clip-path", `url(#${clip})`);
     const bottom = root.append("g").attr("class", "axis").attr("transform", `translate(0,${inner.height})`);
     const left = root.append("g").attr("class", "axis");
-    root.append("text").attr("x", inner.width / 2).attr("y", inner.height + 37).attr("text-anchor", "middle").text(o.x.label);
+    root.append("text").attr("x", inner.width / 2).attr("y", inner.height + 37)
+      .attr("text-anchor", "middle").text(withOrigin(o.x.label, xOrigin));
     if (o.y.label) {
       root.append("text").attr("transform", `translate(${-margin.left + 14},${inner.height / 2}) rotate(-90)`)
-        .attr("text-anchor", "middle").text(o.y.label);
+        .attr("text-anchor", "middle").text(withOrigin(o.y.label, yOrigin));
     }
     // A log axis over less than a decade has no powers of ten to label, so it gets plain ticks.
     const ticks = (s, axis, count) => {
@@ -93,13 +105,13 @@
     const apart = (values, s) => {
       let end = -Infinity;
       return values.filter((t) => {
-        const half = 3.5 * (o.x.log ? R.number(t) : s.tickFormat(7)(t)).length + 3;
+        const half = 3.5 * (o.x.log ? R.number(t) : s.tickFormat(7)(t - xOrigin)).length + 3;
         return s(t) - half >= end && ((end = s(t) + half), true);
       });
     };
     const render = (x, y) => {
       const xTicks = apart(ticks(x, o.x, Math.min(7, Math.ceil(inner.width / 60))), x);
-      bottom.call(d3.axisBottom(x).tickValues(xTicks).tickFormat(o.x.log ? R.number : null).tickSizeOuter(0));
+      bottom.call(d3.axisBottom(x).tickValues(xTicks).tickFormat(numbers(o.x, x, xOrigin)).tickSizeOuter(0));
       grid.selectAll("line").remove();
       grid.selectAll(null).data(xTicks).join("line").attr("x1", (t) => x(t)).attr("x2", (t) => x(t)).attr("y2", inner.height);
       if (o.y.band) {
@@ -108,7 +120,7 @@
       } else {
         let last = Infinity;
         const yTicks = ticks(y, o.y, 6).filter((t) => last - y(t) >= 13 && ((last = y(t)), true));
-        left.call(d3.axisLeft(y).tickValues(yTicks).tickFormat(o.y.log ? R.number : null).tickSizeOuter(0));
+        left.call(d3.axisLeft(y).tickValues(yTicks).tickFormat(numbers(o.y, y, yOrigin)).tickSizeOuter(0));
         grid.selectAll(null).data(yTicks).join("line").attr("x2", inner.width).attr("y1", (t) => y(t)).attr("y2", (t) => y(t));
       }
       plot.selectAll("*").remove();
