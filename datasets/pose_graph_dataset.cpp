@@ -131,6 +131,22 @@ void hold_fixed(const PoseGraph& graph, Sequence& sequence) {
       graph.fixed.size()));
 }
 
+/// For SE(3) edges; those of EDGE_SE2 lines are planar already.
+void make_planar(Planar wanted, Sequence& sequence) {
+  Problem& problem = sequence.problem;
+  PlanarParts parts{{{"the graph", &problem.keyframes},
+                     {"the poses between keyframes", &problem.frames},
+                     {"the truth", &sequence.reference}},
+                    {}};
+  for (std::vector<Edge>* const edges : {&problem.odometry, &problem.closures}) {
+    for (Edge& edge : *edges) parts.measurements.push_back(&edge.from_from_to);
+  }
+  const PlanarChoice plane = choose_planar(wanted, parts);
+  if (!plane.note.empty()) sequence.provenance.notes.push_back(plane.note);
+  problem.planar = plane.planar;
+  if (plane.planar) set_body(sequence, plane.body_from_plane());
+}
+
 }  // namespace
 
 void check_combination(const PoseGraphOptions& o, const Params& given) {
@@ -187,7 +203,7 @@ Problem derive_problem(const PoseGraph& graph,
   problem.anchors = graph.priors;
   for (Anchor& anchor : problem.anchors) anchor.keyframe = keyframe_of[anchor.keyframe];
   std::ranges::stable_sort(problem.anchors, {}, &Anchor::keyframe);
-  problem.planar = graph.planar;
+  problem.planar = graph.planar && o.planar != Planar::no;
   const std::size_t added =
       add_false_closures(problem, o.false_closures, identity(o, problem.keyframes));
   if (false_closures != nullptr) *false_closures = added;
@@ -214,6 +230,7 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
         read_truth(sequence.provenance.reference, vertex_stamps(graph, o.period), o);
   }
 
+  if (!graph.planar && !graph.similarity) make_planar(o.planar, sequence);
   hold_fixed(graph, sequence);
   if (!graph.priors.empty()) {
     sequence.provenance.notes.push_back(

@@ -3,6 +3,7 @@
 
 #include "datasets/dataset.hpp"
 #include "datasets/derive/false_closures.hpp"
+#include "datasets/derive/planar.hpp"
 #include "datasets/derive/reference_body.hpp"
 #include "datasets/formats/g2o.hpp"
 
@@ -48,6 +49,7 @@ struct PoseGraphOptions {
   bool skip_placeholders = false;
   std::string true_list;
   FalseClosures false_closures;
+  Planar planar = Planar::automatic;
   std::string stream;  ///< name of a shared noise stream; empty: own stream
   std::string sensor;
   std::string licence;
@@ -98,6 +100,7 @@ void fields(PoseGraphOptions& o, Visit visit) {
         o.true_list,
         "file with the true closures, `id id` per line: all others are dropped; empty: keep all");
   false_closure_fields(o.false_closures, visit);
+  planar_field(o.planar, visit);
   noise_stream_field(o.stream, visit);
   visit("sensor", o.sensor, "sensor, free text copied to the results");
   visit("licence", o.licence, "licence of the data, free text copied to the results");

@@ -74,19 +74,15 @@ std::string closure_provenance(const TrajectoryOptions& o, std::size_t count) {
   return "";
 }
 
-void require(bool condition, const std::string& option, const std::string& message) {
-  if (!condition) throw OptionError(option, option + ": " + message);
-}
-
 /// Rejects options that need the rotations of a reference without any.
 void require_no_rotations(const TrajectoryOptions& o) {
   const std::string why = o.reference + " has positions without rotation";
-  require(o.closures != ClosureSource::reference,
-          "closures.source",
-          "reference needs rotations, but " + why);
-  require(!has_offset(o.reference_body),
-          "reference_body",
-          "needs rotations, but " + why + "; `eval --ref-body` moves the estimates instead");
+  require_option(o.closures != ClosureSource::reference,
+                 "closures.source",
+                 "reference needs rotations, but " + why);
+  require_option(!has_offset(o.reference_body),
+                 "reference_body",
+                 "needs rotations, but " + why + "; `eval --ref-body` moves the estimates instead");
 }
 
 /// A stated offset or period is accepted instead of stamps.
@@ -111,58 +107,18 @@ bool same_bits(const Trajectory& a, const Trajectory& b) {
   });
 }
 
-void check_disabled(const TrajectoryOptions& o, const Params& given) {
-  const std::string source = "closures.source = " + to_text(o.closures);
-  const bool measured =
-      o.closures == ClosureSource::reference || o.closures == ClosureSource::estimate;
-  if (!measured) {
-    reject_disabled(given,
-                    {"closures.radius",
-                     "closures.angle",
-                     "closures.min_gap",
-                     "closures.max",
-                     "closures.max_interval"},
-                    source,
-                    "reference or estimate");
-  }
-  if (o.closures == ClosureSource::none) {
-    reject_disabled(given,
-                    {"closures.sigma_t", "closures.sigma_r", "closures.max_diff"},
-                    source,
-                    "file, reference or estimate");
-  }
-  if (o.closures == ClosureSource::none || o.closures == ClosureSource::reference) {
-    reject_disabled(given, {"closures.file"}, source, "file or estimate");
-  }
-  if (o.closures == ClosureSource::none && o.false_closures.share > 0.0) {
-    reject_disabled(given, {"false_closures.share"}, source, "file, reference or estimate");
-  }
-  if (o.anchors_file.empty()) reject_disabled_by_missing(given, "anchors.", "anchors.file");
-  if (o.reference.empty()) reject_disabled_by_missing(given, "reference_", "reference");
-  if (o.keyframes.rule == KeyframeRule::all) {
-    reject_disabled(
-        given, {"keyframes.value"}, "keyframes.rule = all", "every, seconds, metres or count");
-  }
+PlanarParts parts_of(TrajectoryInputs& in) {
+  PlanarParts out{{{"the estimate", &in.estimate},
+                   {"the frames", &in.frames},
+                   {"the reference", &in.reference},
+                   {"the other run", &in.other_run}},
+                  {}};
+  for (StampedClosure& each : in.closures) out.measurements.push_back(&each.from_from_to);
+  for (Edge& each : in.graph_closures) out.measurements.push_back(&each.from_from_to);
+  return out;
 }
 
 }  // namespace
-
-void check_combination(const TrajectoryOptions& o, const Params& given) {
-  require(!o.estimate.empty(), "estimate", "is empty, expected a trajectory file");
-  const bool needs_file =
-      o.closures == ClosureSource::file || o.closures == ClosureSource::estimate;
-  require(!needs_file || !o.closures_file.empty(),
-          "closures.file",
-          "is empty, expected a file for closures.source = " + to_text(o.closures));
-  require(o.closures != ClosureSource::reference || !o.reference.empty(),
-          "reference",
-          "is empty, expected a file for closures.source = reference");
-  require(o.closures_scale == ClosureScale::same || o.closures == ClosureSource::estimate,
-          "closures.scale",
-          "local has no effect without another run, expected closures.source = estimate");
-  pose_of(o.reference_body);  // throws if it is not a valid pose
-  check_disabled(o, given);
-}
 
 Problem derive_problem(const TrajectoryInputs& in,
                        const TrajectoryOptions& o,
@@ -191,8 +147,8 @@ Problem derive_problem(const TrajectoryInputs& in,
   problem.odometry = odometry_edges(problem.keyframes, o.odometry);
   const std::uint64_t noise = identity(o, problem.keyframes);
   if (o.closures == ClosureSource::reference) {
-    closures =
-        with_noise(in_run(problem.keyframes, in.reference, o), o.closures_noise, {o.seed, noise});
+    closures = with_noise(
+        in_run(problem.keyframes, in.reference, o), o.closures_noise, {o.seed, noise}, in.normal);
   } else if (o.closures == ClosureSource::estimate) {
     closures = in_run(problem.keyframes, in.other_run, o);
     if (o.closures_scale == ClosureScale::local) {
@@ -202,6 +158,7 @@ Problem derive_problem(const TrajectoryInputs& in,
     }
   }
   problem.closures = std::move(closures);
+  problem.planar = in.normal.has_value();
   const std::size_t added = add_false_closures(problem, o.false_closures, noise);
   if (false_closures != nullptr) *false_closures = added;
   return problem;
@@ -269,6 +226,10 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
     }
   }
 
+  const PlanarChoice plane = choose_planar(o.planar, parts_of(in));
+  if (plane.planar) in.normal = plane.normal;
+  if (!plane.note.empty()) sequence.provenance.notes.push_back(plane.note);
+
   sequence.name = o.name.empty() ? name_of(o.estimate) : o.name;
   std::size_t false_closures = 0;
   sequence.problem = derive_problem(in, o, &false_closures);
@@ -292,6 +253,7 @@ Sequence load_trajectory(const TrajectoryOptions& o, const DataRoot& root) {
                 o.anchors_max_gap,
                 sequence);
   }
+  if (plane.planar) set_body(sequence, plane.body_from_plane());
   check(sequence.problem, sequence.name);
   check(sequence.reference, sequence.name + ": reference", Rotations::optional);
   return sequence;

@@ -7,6 +7,7 @@
 #include "datasets/derive/false_closures.hpp"
 #include "datasets/derive/keyframes.hpp"
 #include "datasets/derive/odometry.hpp"
+#include "datasets/derive/planar.hpp"
 #include "datasets/derive/reference_body.hpp"
 #include "datasets/formats/formats.hpp"
 
@@ -58,6 +59,7 @@ struct TrajectoryOptions {
   std::string anchors_file;
   double anchors_sigma = 0.05;
   double anchors_max_gap = 1.0;
+  Planar planar = Planar::automatic;
   std::int64_t seed = 1;
   std::string stream;  ///< name of a shared noise stream; empty: own stream
   std::string sensor;
@@ -180,6 +182,7 @@ void fields(TrajectoryOptions& o, Visit visit) {
         o.anchors_max_gap,
         "maximum time between the poses around a measured position [s]",
         Between{0.0, 1e9});
+  planar_field(o.planar, visit);
   visit("seed", o.seed, "random seed of the noise on closures from the reference");
   noise_stream_field(o.stream, visit);
   visit("sensor", o.sensor, "sensor, free text copied to the results");
@@ -198,6 +201,7 @@ struct TrajectoryInputs {
   Trajectory other_run;                   ///< for closures.source estimate
   std::vector<StampedClosure> closures;   ///< for closures.source file
   std::vector<Edge> graph_closures = {};  ///< likewise, if the file is a g2o graph
+  std::optional<Vector3> normal = {};     ///< of the plane, in the body; unset: not planar
 };
 
 /// Derives a problem from the input files. Endpoints of closures from a closure file always become

@@ -8,6 +8,11 @@
 
 namespace loopbench {
 
+/// Throws OptionError with `message` about the option unless the condition holds.
+inline void require_option(bool condition, const std::string& option, const std::string& message) {
+  if (!condition) throw OptionError(option, option + ": " + message);
+}
+
 /// Throws OptionError if one of `options` is `given` although it has no effect with `disabled_by`
 /// ("closures.source = file"). `expected` lists the values of that option with which it has one.
 inline void reject_disabled(const Params& given,

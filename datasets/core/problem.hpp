@@ -32,7 +32,7 @@ struct Problem {
   std::vector<Edge> odometry;  ///< between consecutive keyframes (from + 1 == to), sorted by `from`
   std::vector<Edge> closures;  ///< from < to, sorted by (to, from)
   Trajectory frames;           ///< tracked frames, in the world frame of `keyframes`; may be empty
-  bool planar = false;         ///< measured in SE(2), lifted to z = roll = pitch = 0
+  bool planar = false;         ///< all poses are in one plane, whose normal is the body's z axis
   /// Number of landmarks seen by both keyframes k and k + 1; empty if unknown.
   std::vector<std::size_t> shared_landmarks = {};
   /// Measured positions, sorted by keyframe. The keyframes may be in another world frame.

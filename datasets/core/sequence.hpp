@@ -30,6 +30,8 @@ struct Provenance {
   std::filesystem::path reference = {};  ///< reference file among `inputs`; empty: none
   std::vector<std::size_t> fixed = {};   ///< keyframes that FIX lines hold, ascending
   std::vector<Edge> held = {};           ///< closures that hold them relative to the first
+  /// Of the problem's body in that of the files: the normal of a plane of motion became z.
+  Pose file_body_from_body = {};
   std::string noise = {};  ///< stream and seed of simulated noise; empty: measured data
 };
 

@@ -91,10 +91,15 @@ std::vector<Edge> measure_closures_in_run(const Trajectory& keyframes,
 
 std::vector<Edge> with_noise(std::vector<Edge> edges,
                              const ClosureNoise& noise,
-                             const NoiseStream& stream) {
+                             const NoiseStream& stream,
+                             const std::optional<Vector3>& normal) {
   Random random(stream, Purpose::closures);
   for (Edge& edge : edges) {
-    const Twist error = random.normal_twist(noise.sigma_t, noise.sigma_r);
+    Twist error = random.normal_twist(noise.sigma_t, noise.sigma_r);
+    if (normal) {
+      error.head<3>() -= *normal * normal->dot(error.head<3>());
+      error.tail<3>() = *normal * normal->dot(error.tail<3>());
+    }
     edge.from_from_to = normalized(edge.from_from_to * exp_se3(error));
   }
   return edges;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "datasets/core/problem.hpp"
@@ -30,10 +31,11 @@ std::vector<Edge> measure_closures_in_run(const Trajectory& keyframes,
                                           const ClosureNoise& noise);
 
 /// Adds noise to edges: measured = true * exp(e), e ~ N(0, diag(sigma_t^2, sigma_r^2)), drawn in
-/// the order of the edges.
+/// the order of the edges. With a `normal` in the axes of the body, e keeps its plane.
 std::vector<Edge> with_noise(std::vector<Edge> edges,
                              const ClosureNoise& noise,
-                             const NoiseStream& stream);
+                             const NoiseStream& stream,
+                             const std::optional<Vector3>& normal = {});
 
 /// Ratio of the path lengths of `run` and `keyframes` over their common stamps; 1 if there are
 /// fewer than two. Runs with different scales (monocular) have a ratio far from 1.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -12,9 +13,19 @@
 
 namespace loopbench {
 
+/// Whether the poses are those of SE2 lines.
+inline bool is_lifted(const Trajectory& poses) {
+  constexpr double kRounding = 1e-9;
+  return std::ranges::all_of(poses, [](const StampedPose& each) {
+    const auto& [q, t] = each.world_from_body;
+    return std::abs(t.z()) <= kRounding && std::hypot(q.x(), q.y()) <= kRounding;
+  });
+}
+
 /// Returns one vertex per pose of `keyframes`, with `ids` (empty: 0, 1, ...), then the odometry
 /// edges and the closures of `problem`, unchanged. `keyframes` are those of the problem, before or
-/// after correction. Throws InputError if there is not one id per keyframe. O(keyframes + edges).
+/// after correction. SE2 lines if they are planar at z = 0. Throws InputError if there is not one
+/// id per keyframe. O(keyframes + edges).
 inline PoseGraph problem_graph(const Problem& problem,
                                const Trajectory& keyframes,
                                std::vector<std::int64_t> ids = {}) {
@@ -32,7 +43,7 @@ inline PoseGraph problem_graph(const Problem& problem,
   for (const StampedPose& pose : keyframes) out.vertices.push_back(pose.world_from_body);
   out.edges = problem.odometry;
   out.edges.insert(out.edges.end(), problem.closures.begin(), problem.closures.end());
-  out.planar = problem.planar;
+  out.planar = problem.planar && is_lifted(problem.keyframes) && is_lifted(keyframes);
   out.similarity = std::ranges::any_of(out.edges, [](const Edge& e) { return e.scale != 1.0; });
   return out;
 }

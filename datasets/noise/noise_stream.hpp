@@ -41,7 +41,8 @@ std::string identity_text(const std::string& dataset, const Options& options, Ig
 }
 
 /// Whether an option is a file name or free text. These are excluded from identity_text(), because
-/// noise_identity() hashes the poses instead: moving a folder does not change the noise.
+/// noise_identity() hashes the poses instead: moving a folder does not change the noise. Likewise
+/// `planar`, so that the same recording in SE(2) and in SE(3) is paired by seed.
 inline bool is_data_option(const std::string& option) {
   constexpr std::array kNames{"name",
                               "estimate",
@@ -53,6 +54,7 @@ inline bool is_data_option(const std::string& option) {
                               "path",
                               "truth",
                               "closures.true_list",
+                              "planar",
                               "sensor",
                               "licence"};
   for (const char* name : kNames) {

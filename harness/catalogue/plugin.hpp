@@ -17,7 +17,7 @@ using PluginEntry = std::variant<methods::MethodEntry, DatasetEntry, metrics::Me
 /// Properties that must be equal in both binaries before they exchange our types. `interface` stays
 /// the first member: it is read before the others, whose meaning depends on it.
 struct Abi {
-  int interface = 13;  ///< raise when this file or the headers that it includes change shape
+  int interface = 14;  ///< raise when this file or the headers that it includes change shape
   struct Property {
     const char* name;
     long value;

@@ -87,10 +87,12 @@ void declare_pairing(CLI::App& command, EvalArguments& a) {
 
 void declare_alignment(CLI::App& command, EvalArguments& a) {
   command.option_defaults()->group("Alignment");
-  declare_fields(
-      command,
-      {{"align", "--align"}, {"align_first", "--n_to_align"}, {"project", "--project_to_plane"}},
-      a.settings);
+  declare_fields(command,
+                 {{"align", "--align"},
+                  {"align_first", "--n_to_align"},
+                  {"planar", "--planar"},
+                  {"project", "--project_to_plane"}},
+                 a.settings);
   // As evo's flag, or with a value: --align, --align sim3, --align=sim3.
   CLI::Option* align = command.get_option("--align");
   align->expected(0, 1)->default_str("se3");

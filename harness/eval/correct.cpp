@@ -8,6 +8,7 @@
 
 #include "datasets/core/covariance.hpp"
 #include "datasets/derive/closures.hpp"
+#include "datasets/derive/planar.hpp"
 #include "datasets/derive/problem_graph.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 #include "harness/base/write_file.hpp"
@@ -118,10 +119,14 @@ void write(const CorrectArguments& a, const Correction& done) {
   PoseGraph graph = problem_graph(done.problem, done.keyframes, done.problem.ids);
   std::erase_if(graph.edges, [&](const Edge& edge) {
     return std::ranges::any_of(done.provenance.held, [&](const Edge& held) {
-      return edge.from == held.from && edge.to == held.to && edge.information == held.information;
+      return edge.from == held.from && edge.to == held.to &&
+             edge.information.isApprox(held.information);
     });
   });
   graph.fixed = done.provenance.fixed;
+  const InformationRules any{.indefinite = IndefiniteInformation::project};
+  graph.planar =  // the lines of the input
+      graph.planar && is_graph(a) && read_g2o(a.estimate, any).planar;
   write_g2o(a.out, graph);
 }
 
@@ -267,11 +272,14 @@ Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   Correction out = correct(std::move(problem), a.estimate, choice, at, catalogue);
   out.outside = outside;
   out.provenance = std::move(provenance);
-  hold_first_fixed(out);
-  const std::vector<std::string>& notes = out.provenance.notes;
   if (!a.ledger.empty() || uses_closures(choice, catalogue)) {
     out.verdict = closure_verdict(a, out.problem);
   }
+  const Rotation body_from_file = out.provenance.file_body_from_body.rotation.conjugate();
+  change_body(out.problem, body_from_file);
+  for (Trajectory* const poses : {&out.keyframes, &out.output}) change_body(*poses, body_from_file);
+  hold_first_fixed(out);
+  const std::vector<std::string>& notes = out.provenance.notes;
   out.report.notes.insert(out.report.notes.begin(), notes.begin(), notes.end());
   const bool loses_stamps = a.format == Format::kitti || a.format == Format::g2o;
   if (!a.out.empty()) write(a, out);

@@ -120,6 +120,29 @@ inline const Trajectory& for_doctor(const Trajectory& poses, bool by_index, Traj
   return kept;
 }
 
+/// Which alignment was taken, if a trajectory is in one plane and the protocol decides. O(n).
+inline std::string plane_note(const metrics::Evaluation& evaluation) {
+  const metrics::Align align = evaluation.protocol.align;
+  const bool is_fitted = align == metrics::Align::se3 || align == metrics::Align::sim3;
+  if (evaluation.protocol.planar == Planar::no || !is_fitted) return "";
+  if (evaluation.protocol.planar == Planar::yes) {
+    return "planar, as set: both trajectories were moved to their planes and aligned there";
+  }
+  if (evaluation.planar) {
+    return "planar: both trajectories are in one plane, so they are aligned in x, y and yaw "
+           "(--planar no aligns all six)";
+  }
+  const bool is_reference = motion_plane(evaluation.reference).has_value();
+  const bool is_estimate = motion_plane(evaluation.estimate).has_value();
+  if (!is_reference && !is_estimate) return "";
+  return std::string("spatial: ") +
+         (is_reference && is_estimate ? "both trajectories are in one plane, but their bodies have "
+                                        "different axes"
+          : is_reference              ? "the reference is in one plane, but the estimate is not"
+                                      : "the estimate is in one plane, but the reference is not") +
+         ", so all six degrees of freedom are aligned";
+}
+
 /// Sets diagnosis, notes and other_body. O(n log n).
 inline void add_checks(EvaluationResult& out,
                        const metrics::Evaluation& evaluation,
@@ -132,7 +155,8 @@ inline void add_checks(EvaluationResult& out,
        {shared_datum(evaluation, reference.findings.origin && estimate.findings.origin),
         reference_error(evaluation, files.arguments.reference_sigma),
         paired_rows(evaluation, reference.clock, estimate.clock),
-        few_pairs(evaluation, reference.poses, estimate.poses)}) {
+        few_pairs(evaluation, reference.poses, estimate.poses),
+        plane_note(evaluation)}) {
     if (!note.empty()) out.notes.push_back(note);
   }
   const double off_unit = std::max(reference.findings.off_unit, estimate.findings.off_unit);

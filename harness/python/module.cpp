@@ -11,6 +11,7 @@
 
 #include "datasets/core/fields.hpp"
 #include "datasets/derive/odometry.hpp"
+#include "datasets/derive/planar.hpp"
 #include "datasets/derive/reference_body.hpp"
 #include "datasets/formats/formats.hpp"
 #include "harness/config/choices.hpp"
@@ -229,6 +230,16 @@ Array odometry(const Array& keyframes) {
   return edge_rows(odometry_edges(checked(keyframes, "keyframes"), {}));
 }
 
+/// Whether poses and closures are in one plane with the normal z of the body, within rounding.
+bool is_planar(const Array& keyframes, const Array& frames, const Array& closures) {
+  Trajectory poses = checked(keyframes, "keyframes"), between = checked(frames, "frames");
+  std::vector<Edge> edges = read_edges(closures, "closures");
+  PlanarParts parts{{{"keyframes", &poses}, {"frames", &between}}, {}};
+  for (Edge& edge : edges) parts.measurements.push_back(&edge.from_from_to);
+  const PlanarChoice choice = choose_planar(Planar::automatic, parts);
+  return choice.planar && choice.normal == Vector3::UnitZ();
+}
+
 /// The data of one sequence; `entry` is the text of one entry of a config's `datasets`.
 py::tuple load(const std::string& entry, const std::vector<std::string>& folders) {
   Sequence loaded;
@@ -312,6 +323,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("correct", &python::correct, "rows, and the JSON of `correct --json`");
   module.def("loops", &python::loops, "the JSON of `loops --json`");
   module.def("odometry", &python::odometry, "edges between consecutive keyframes");
+  module.def("is_planar", &python::is_planar, "whether keyframes, frames and closures are planar");
   module.def("load", &python::load, "keyframes, frames, odometry, closures, planar, reference");
   module.def("check_store", &python::check_store, "raises InputError if it is damaged");
   module.def("methods", &python::method_list, "name and summary of every method");

@@ -8,6 +8,7 @@
 #include "datasets/core/curve.hpp"
 #include "datasets/core/fields.hpp"
 #include "datasets/core/sequence.hpp"
+#include "datasets/derive/planar.hpp"
 #include "datasets/formats/formats.hpp"
 #include "datasets/formats/trajectory_file.hpp"
 #include "harness/model/cells.hpp"
@@ -56,19 +57,26 @@ inline void save_estimate(const Cell& cell,
                           const Sequence& sequence,
                           const Curve& curve) {
   if (estimate_folder().empty()) return;
+  const Rotation body_from_file = sequence.provenance.file_body_from_body.rotation.conjugate();
+  const auto of_file = [&](Trajectory poses) {
+    change_body(poses, body_from_file);
+    return poses;
+  };
   const std::filesystem::path reference = reference_file(estimate_folder(), content_of(sequence));
   if (!sequence.reference.empty() && !std::filesystem::exists(reference)) {
-    write_trajectory(reference, {.poses = sequence.reference}, Format::tum);
+    write_trajectory(reference, {.poses = of_file(sequence.reference)}, Format::tum);
   }
   write_tum(unnamed_file(cell, metrics::Times::keyframes),
-            curve.sample(stamps(sequence.problem.keyframes)));
+            of_file(curve.sample(stamps(sequence.problem.keyframes))));
   if (std::ranges::count(sweep.times, metrics::Times::dense) == 0) return;
   std::vector<double> times;
   for (const StampedPose& pose : sequence.reference) {
     const double time = pose.stamp - sweep.protocols.front().rules.offset;
     if (time >= curve.start() && time <= curve.end()) times.push_back(time);
   }
-  if (!times.empty()) write_tum(unnamed_file(cell, metrics::Times::dense), curve.sample(times));
+  if (!times.empty()) {
+    write_tum(unnamed_file(cell, metrics::Times::dense), of_file(curve.sample(times)));
+  }
 }
 
 /// Gives the files of a cell their final names, see estimate_file(). Does nothing if there are

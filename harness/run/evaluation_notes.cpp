@@ -21,9 +21,9 @@ int fitted_parameters(const metrics::Evaluation& evaluation) {
   if (first > 0 && first < evaluation.coverage.pairs) return 0;
   switch (evaluation.alignment.type) {
     case metrics::Align::se3:
-      return 6;
+      return evaluation.planar ? 3 : 6;
     case metrics::Align::sim3:
-      return 7;
+      return evaluation.planar ? 4 : 7;
     case metrics::Align::posyaw:
       return 4;
     case metrics::Align::scale:
@@ -37,7 +37,7 @@ int fitted_parameters(const metrics::Evaluation& evaluation) {
 
 std::string few_pairs(const metrics::Evaluation& evaluation) {
   constexpr double kMost = 0.1;  // parameters per coordinate; errors are then 5 % too small
-  const std::size_t coordinates = 3 * evaluation.coverage.pairs;
+  const std::size_t coordinates = (evaluation.planar ? 2 : 3) * evaluation.coverage.pairs;
   const int parameters = fitted_parameters(evaluation);
   const double share = parameters / static_cast<double>(coordinates);
   if (share <= kMost) return "";

@@ -108,6 +108,7 @@ template <class Archive, Either<Provenance> T>
 void walk(Archive& a, T& p) {
   a(p.sensor)(p.closures)(p.oracle_closures)(p.licence)(p.inputs)(p.notes);
   a(p.body_from_reference)(p.reference)(p.noise)(p.fixed)(p.held);
+  a(p.file_body_from_body);
 }
 
 template <class Archive, Either<LoopCandidate> T>

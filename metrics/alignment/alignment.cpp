@@ -109,7 +109,8 @@ std::runtime_error degenerate(Align type, double count, const std::string& why) 
                             ", so the rotation is not unique; use align = origin or none");
 }
 
-Alignment least_squares(const Trajectory& reference, const Trajectory& estimate, Align type) {
+/// Throws if the points are one point, or too far apart.
+Moments checked_moments(const Trajectory& reference, const Trajectory& estimate, Align type) {
   const Moments m = moments(reference, estimate);
   if (!std::isfinite(m.reference_dispersion) || !std::isfinite(m.estimate_dispersion) ||
       !m.cross.allFinite()) {
@@ -119,6 +120,11 @@ Alignment least_squares(const Trajectory& reference, const Trajectory& estimate,
       is_point(m.estimate_dispersion, m.count, m.estimate_mean)) {
     throw degenerate(type, m.count, "coincide in one point");
   }
+  return m;
+}
+
+Alignment least_squares(const Trajectory& reference, const Trajectory& estimate, Align type) {
+  const Moments m = checked_moments(reference, estimate, type);
   const Eigen::JacobiSVD<Matrix3> svd(m.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Vector3& d = svd.singularValues();
   const double mirror =
@@ -177,7 +183,55 @@ Trajectory head(const Trajectory& poses, std::size_t count) {
   return {poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(count)};
 }
 
+/// Rotation that moves one normal to the other and maximises trace(R^T cross), with that trace.
+struct PlaneRotation {
+  Rotation rotation;
+  double trace = 0.0;
+
+  PlaneRotation(const Matrix3& moments, const Vector3& from, const Vector3& n) {
+    const Rotation upright = Rotation::FromTwoVectors(from, n);
+    const Matrix3 cross = moments * upright.toRotationMatrix().transpose();
+    const double cosine = cross.trace() - n.dot(cross * n);
+    const double sine = n.dot(
+        Vector3(cross(2, 1) - cross(1, 2), cross(0, 2) - cross(2, 0), cross(1, 0) - cross(0, 1)));
+    trace = std::hypot(cosine, sine);
+    rotation = (exp_so3(std::atan2(sine, cosine) * n) * upright).normalized();
+  }
+};
+
 }  // namespace
+
+std::optional<Alignment> align_in_plane(const Trajectory& reference,
+                                        const Trajectory& estimate,
+                                        Align type,
+                                        const PlaneNormals& normals,
+                                        std::size_t first) {
+  if (first > 0 && first < reference.size()) {
+    return align_in_plane(head(reference, first), head(estimate, first), type, normals);
+  }
+  const Moments m = checked_moments(reference, estimate, type);
+  const PlaneRotation best(m.cross, normals.estimate, normals.reference);
+  const auto squared_error = [&](double trace) {
+    if (type != Align::sim3) return m.reference_dispersion + m.estimate_dispersion - 2.0 * trace;
+    return m.reference_dispersion - trace * trace / m.estimate_dispersion;
+  };
+  constexpr double kLarge = 0.1, kClear = 1.0 / 16.0;  // shares of squared errors
+  const double error = squared_error(best.trace);
+  if (!normals.are_certain && error > kLarge * m.reference_dispersion) {
+    const PlaneRotation turned(m.cross, -normals.estimate, normals.reference);
+    if (squared_error(turned.trace) < kClear * error) return std::nullopt;
+  }
+  if (!(best.trace > kFlat * std::sqrt(m.reference_dispersion * m.estimate_dispersion))) {
+    throw degenerate(type, m.count, "have no common motion in the plane");
+  }
+  Alignment out;
+  out.type = type;
+  out.rank = 2;
+  if (type == Align::sim3) out.scale = best.trace / m.estimate_dispersion;
+  const Rotation& R = best.rotation;
+  out.reference_from_estimate = {R, m.reference_mean - out.scale * (R * m.estimate_mean)};
+  return out;
+}
 
 Alignment align(const Trajectory& reference,
                 const Trajectory& estimate,

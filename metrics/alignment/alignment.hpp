@@ -4,6 +4,8 @@
 /// patterns, PAMI 13(4), 1991.
 #pragma once
 
+#include <optional>
+
 #include "datasets/core/trajectory.hpp"
 #include "metrics/protocols/protocol.hpp"
 
@@ -19,8 +21,8 @@ struct Alignment {
   /// only for se3, sim3 and scale.
   int rank = 3;
   /// First over second singular value of the cross covariance. A large value means that the pattern
-  /// is nearly a straight line, so the rotation about it is poorly determined. 1 for origin and
-  /// none.
+  /// is nearly a straight line, so the rotation about it is poorly determined. 1 for origin, none
+  /// and in the plane.
   double condition = 1.0;
 };
 
@@ -35,6 +37,23 @@ Alignment align(const Trajectory& reference,
                 const Trajectory& estimate,
                 Align type,
                 std::size_t first = 0);
+
+/// Normals of the planes in which both trajectories move, each in its own world.
+struct PlaneNormals {
+  Vector3 reference;
+  Vector3 estimate;
+  bool are_certain = false;
+};
+
+/// Aligns paired poses of planar motion by se3 or sim3: the normals coincide, and rotation about
+/// them, translation and scale are those of least squares. Unlike align(), it never turns the plane
+/// over, and a straight line determines it. Nothing if this explains large errors and the normals
+/// are not certain: z up and z down have the same axis of the body. Throws like align(). O(n).
+std::optional<Alignment> align_in_plane(const Trajectory& reference,
+                                        const Trajectory& estimate,
+                                        Align type,
+                                        const PlaneNormals& normals,
+                                        std::size_t first = 0);
 
 /// Applies the alignment: scales the positions, then left-multiplies every pose.
 Trajectory moved(const Alignment& alignment, Trajectory estimate);

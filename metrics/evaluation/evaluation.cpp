@@ -1,5 +1,7 @@
 #include "metrics/evaluation/evaluation.hpp"
 
+#include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "datasets/core/params.hpp"
@@ -56,6 +58,32 @@ void require_attitudes(const Paired& paired, Align align) {
                            "posyaw or none");
 }
 
+/// Normals of both planes, to one side; none if the protocol or the poses are spatial, or if the
+/// axes of the two bodies do not tell the sides apart. `yes` moves the poses to their planes.
+std::optional<PlaneNormals> common_plane(Paired& paired, const Protocol& protocol) {
+  const bool is_fitted = protocol.align == Align::se3 || protocol.align == Align::sim3;
+  if (protocol.planar == Planar::no || !is_fitted) return std::nullopt;
+  const auto plane = [&](Trajectory& poses) -> std::optional<MotionPlane> {
+    if (protocol.planar == Planar::automatic) return motion_plane(poses);
+    const MotionPlane nearest = nearest_plane(poses);
+    move_to_plane(poses, nearest);
+    return nearest;
+  };
+  const auto of_estimate = plane(paired.estimate);
+  if (!of_estimate) return std::nullopt;
+  const auto of_reference = plane(paired.reference);
+  if (!of_reference) return std::nullopt;
+  const bool has_positions =
+      is_position_only(paired.reference) || is_position_only(paired.estimate);
+  const double side = has_positions ? of_reference->in_world.dot(of_estimate->in_world)
+                                    : of_reference->in_body.dot(of_estimate->in_body);
+  constexpr double kClear = 0.9;
+  if (std::abs(side) < kClear) return std::nullopt;
+  return PlaneNormals{of_reference->in_world,
+                      std::copysign(1.0, side) * of_estimate->in_world,
+                      protocol.planar == Planar::yes};
+}
+
 Evaluation align_pairs(Paired paired,
                        std::size_t possible,
                        const Trajectory& reference,
@@ -64,10 +92,14 @@ Evaluation align_pairs(Paired paired,
   Evaluation out;
   out.protocol = protocol;
   out.reference_length = path_length(reference);
-  out.alignment = align(paired.reference,
-                        paired.estimate,
-                        protocol.align,
-                        static_cast<std::size_t>(protocol.align_first));
+  const auto first = static_cast<std::size_t>(protocol.align_first);
+  const auto plane = common_plane(paired, protocol);
+  const auto in_plane =
+      plane ? align_in_plane(paired.reference, paired.estimate, protocol.align, *plane, first)
+            : std::nullopt;
+  out.planar = in_plane.has_value();
+  out.alignment =
+      in_plane ? *in_plane : align(paired.reference, paired.estimate, protocol.align, first);
   out.coverage.pairs = paired.reference.size();
   out.coverage.possible = possible;
   const double duration = reference.back().stamp - reference.front().stamp;

@@ -81,6 +81,7 @@ struct Evaluation {
   Trajectory reference;
   Trajectory estimate;  ///< after alignment; both lists are projected by the protocol
   Alignment alignment;
+  bool planar = false;  ///< both move in a plane, and are aligned in x, y and yaw
   Coverage coverage;
   Protocol protocol;
   double reference_length = 0.0;  ///< path length of the complete reference [m]

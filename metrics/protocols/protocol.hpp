@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "datasets/core/fields.hpp"
+#include "datasets/core/plane.hpp"
 
 namespace loopbench::metrics {
 
@@ -189,6 +190,7 @@ struct Protocol {
   double offset = 0.0;
   Align align = Align::se3;
   int align_first = 0;
+  Planar planar = Planar::automatic;
   ProjectionPlane project = ProjectionPlane::none;
   PairRule pairs = PairRule::all;
   int max_pairs = 10'000;
@@ -225,6 +227,10 @@ void fields(Protocol& o, Visit visit) {
         o.align_first,
         "number of first pairs used for the alignment, 0 for all",
         Between{0.0});
+  visit("planar",
+        o.planar,
+        "alignment of se3 and sim3 in x, y and yaw; auto: if both trajectories are in one plane "
+        "within rounding; yes: both are moved to their planes");
   visit("project", o.project, "plane to project onto after alignment");
   visit("pairs", o.pairs, "rule that selects the pose pairs of relative errors");
   visit("max_pairs",

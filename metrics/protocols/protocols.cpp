@@ -7,10 +7,11 @@
 namespace loopbench::metrics {
 namespace {
 
-/// Common to the other tools: any number of pairs gives a relative error.
+/// Common to the other tools: any number of pairs gives a relative error, planes have no rule.
 Protocol tool() {
   Protocol p;
   p.min_pairs = 1;
+  p.planar = Planar::no;
   return p;
 }
 

@@ -49,8 +49,8 @@ TEST(Diagnostics, OfAHealthyPair) {
   EXPECT_NEAR(d.longest_pair_interval, 0.1, 1e-12);
   EXPECT_EQ(d.repeated + d.crossing + d.tracking_gaps, 0u);
   EXPECT_NEAR(d.off_unit, 0.0, 1e-15);
-  EXPECT_EQ(d.rank, 2);  // planar motion
-  EXPECT_GT(d.condition, 1.0);
+  EXPECT_EQ(d.rank, 2);         // planar motion
+  EXPECT_EQ(d.condition, 1.0);  // aligned in the plane
   // The window of 0.5 s on either side includes motion: at rest from 5.5 to 9.5 s.
   EXPECT_NEAR(d.at_rest, 40.0 / 151.0, 2.0 / 151.0);
   EXPECT_FALSE(d.position_only_reference || d.position_only_estimate);

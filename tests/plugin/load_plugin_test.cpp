@@ -158,7 +158,7 @@ TEST(LoadPlugin, RefusesWhatItCannotCall) {
   expect_refused(kOutside / "misaligned.so",
                  "was built with EIGEN_MAX_ALIGN_BYTES = 64, expected " +
                      std::to_string(EIGEN_MAX_ALIGN_BYTES));
-  expect_refused(kOutside / "outdated.so", "was built for plugin interface 1, this program has 13");
+  expect_refused(kOutside / "outdated.so", "was built for plugin interface 1, this program has 14");
   expect_refused(kOutside / "silent.so", "has no LOOPBENCH_PLUGIN line");
   expect_refused(kOutside / "nowhere.so", "No such file");
   const auto path = kOutside / "no_object.so";

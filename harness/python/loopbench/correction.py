@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from dataclasses import replace
 from typing import Any, Iterable
 
 import numpy as np
@@ -50,12 +51,15 @@ def problem_of(
     frames: npt.ArrayLike = (),
     sigma_t: float = 0.02,
     sigma_r: float = 0.01,
+    planar: bool | None = None,
 ) -> Problem:
     """A problem from an estimate (n, 8), without a file.
 
     `closures` are (begin, end, pose): indices of two keyframes, and x y z qx qy qz qw of the later
     one in the frame of the earlier one, with standard deviations sigma_t [m] and sigma_r [rad].
     Odometry is the estimate's own motion, with the noise that dataset `trajectory` has by default.
+    `planar` is true by default if all poses and closures are in one plane with the normal z of the
+    body, within rounding.
 
     >>> keyframes = np.zeros((5, 8))
     >>> keyframes[:, 0], keyframes[:, 1], keyframes[:, 7] = np.arange(5), np.arange(5), 1
@@ -79,13 +83,13 @@ def problem_of(
     rows = [np.r_[begin, end, np.asarray(pose), 1.0, information] for begin, end, pose in closures]
     rows.sort(key=lambda row: (row[1], row[0]))
     poses = np.ascontiguousarray(keyframes, dtype=float)
-    problem = Problem(
-        poses,
-        np.reshape(np.asarray(frames, dtype=float), (-1, 8)),
-        Edges.from_rows(_core.odometry(poses)),
-        Edges.from_rows(np.reshape(rows, (-1, 46))),
-    )
+    between = np.reshape(np.asarray(frames, dtype=float), (-1, 8))
+    edges = np.reshape(rows, (-1, 46))
+    odometry = Edges.from_rows(_core.odometry(poses))
+    problem = Problem(poses, between, odometry, Edges.from_rows(edges), bool(planar))
     problem.check()
+    if planar is None and _core.is_planar(poses, between, edges):
+        problem = replace(problem, planar=True)
     return problem
 
 

@@ -82,7 +82,7 @@ class Problem:
     frames: Array  #: (k, 8) tracked poses between the keyframes; may be empty
     odometry: Edges
     closures: Edges
-    planar: bool = False  #: measured in SE(2): z, roll and pitch are zero
+    planar: bool = False  #: all poses are in one plane, and their z axis is its normal
     similarity: bool = False  #: some edges change the scale
     output: str = "keyframes"  #: expected poses: keyframes, or dense (any stamps that cover them)
 
