@@ -13,6 +13,8 @@ from article.verdicts import table
 
 SMOOTHERS = ("tracked_frames", "cubic_spline", "gp_wnoa", "spline, quasi-keyframes", "smoother N4", "smoother M7",
              "smoother robust")
+FALSE_CLOSURES = ("raw", "pose_graph", "pose_graph_huber", "pose_graph_cauchy", "pose_graph_dcs", "pose_graph_gnc_tls",
+                  "pose_graph_pcm")
 ROWS = """
 select cell.id, cell.position, cell.sequence, repeat, method, cell.status, cpu_seconds_median as seconds,
   peak_memory as memory, group_name as grouped, sequence.closures as closures,
@@ -118,6 +120,20 @@ def outlier_parts(program, store):
                                    str(sum(e.get(m, math.inf) > e["raw"] for e in runs)))) for m in methods])
         head.append(f"{100 * float(share):g} % false ({len(runs)} runs, {compared['raw']['groups']} routes)")
     return {"outliers": aligned(head, [(m, *(column[k] for column in columns)) for k, m in enumerate(methods)])}
+
+
+def share_part(simulated, kitti):
+    """Mean ATE [m] by the share of false closures."""
+    lines = []
+    for title, store, first in (("drive", simulated, "driving ("), ("KITTI 00", kitti, "true list (")):
+        by_share = defaultdict(list)
+        for (sequence, _), each in ates(rows_of(store))[0].items():
+            if sequence.startswith(first):
+                by_share[100 * float(re.search(r"share=(.*)\)", sequence)[1])].append(each)
+        for share, runs in sorted(by_share.items()):
+            means = [sum(each[m] for each in runs) / len(runs) for m in FALSE_CLOSURES]
+            lines.append((f"{title} {share:g} %", *(f"{mean:.3f}" if mean < 10 else digits(mean) for mean in means)))
+    return aligned(("false", *(m.replace("pose_graph_", "") for m in FALSE_CLOSURES)), lines)
 
 
 def spacing_part(program, stores):

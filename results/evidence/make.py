@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the sweeps of results/evidence/README.md and writes the tables of that page. Needs Python's standard library and the
-program. Cells that are stored are not run again."""
+"""Runs the sweeps of results/evidence/README.md and results/methods/outliers.md and writes the tables of these pages. Needs
+Python's standard library and the program. Cells that are stored are not run again."""
 
 from __future__ import annotations
 
@@ -24,12 +24,13 @@ ROOT = RESULTS.parent
 sys.path[:0] = [str(RESULTS), str(RESULTS / "paper")]
 
 from evidence_tables import (  # noqa: E402
-    chain_parts, cost_part, graph_part, outlier_parts, spacing_part, status_text,
+    chain_parts, cost_part, graph_part, outlier_parts, share_part, spacing_part, status_text,
 )
 from pages import with_parts  # noqa: E402
 
 SWEEPS = ("configs/chains_real.yaml", "configs/outliers_real.yaml", "configs/pose_graphs.yaml",
           "results/methods/configs/spacing.yaml", "results/methods/configs/spacing_road.yaml")
+PAGES = RESULTS / "evidence" / "README.md", RESULTS / "methods" / "outliers.md"
 
 
 class Program:
@@ -89,10 +90,12 @@ def time_part(program, stores):
 
 
 def parts_of(program):
+    """Generated parts of each of PAGES."""
+    shares = {"shares": share_part(program.store("configs/outliers.yaml"), program.store("configs/outliers_kitti.yaml"))}
     chains, outliers, graphs, *spacing = stores = [program.store(config) for config in SWEEPS]
-    return {**chain_parts(program, chains), **outlier_parts(program, outliers), "graphs": graph_part(graphs),
+    return ({**chain_parts(program, chains), **outlier_parts(program, outliers), "graphs": graph_part(graphs),
             "spacing": spacing_part(program, dict(zip(("cameras", "roads"), spacing))),
-            "costs": cost_part(stores), "times": status_text(stores) + time_part(program, stores)}
+            "costs": cost_part(stores), "times": status_text(stores) + time_part(program, stores)}, shares)
 
 
 def main():
@@ -101,7 +104,6 @@ def main():
                         help="folder with real datasets (environment variable LOOPBENCH_DATA)")
     parser.add_argument("--program", help="loopbench; default: build/release, the path, or ./run.sh, which builds it")
     parser.add_argument("--stores", type=Path, default=RESULTS / "evidence" / "stores", help="folder of the sweeps' results")
-    parser.add_argument("--page", type=Path, default=RESULTS / "evidence" / "README.md", help="page to update")
     parser.add_argument("-j", "--jobs", type=int, default=2, help="number of workers")
     given = parser.parse_args()
     if not Path(given.data, "kitti").is_dir() or not given.data:
@@ -113,11 +115,12 @@ def main():
         parts = parts_of(program)
     except (RuntimeError, OSError) as reason:
         sys.exit(f"make.py: {reason}")
-    page = given.page.read_text(encoding="utf-8")
-    if missing := [name for name in parts if f"<!-- {name}, written by make.py -->\n" not in page]:
-        sys.exit(f"make.py: {given.page} has no line '<!-- {missing[0]}, written by make.py -->'")
-    given.page.write_text(with_parts(page, parts), encoding="utf-8")
-    print(given.page)
+    for page, own in zip(PAGES, parts):
+        text = page.read_text(encoding="utf-8")
+        if missing := [name for name in own if f"<!-- {name}, written by make.py -->\n" not in text]:
+            sys.exit(f"make.py: {page} has no line '<!-- {missing[0]}, written by make.py -->'")
+        page.write_text(with_parts(text, own), encoding="utf-8")
+        print(page)
 
 
 if __name__ == "__main__":
