@@ -62,10 +62,10 @@ void check_covariances(const std::vector<Matrix6>& covariances, std::size_t keyf
 /// the first such part and the rule.
 void check_report(const methods::Report& report);
 
-/// Throws std::runtime_error if a score cannot be stored or displayed: more scores or longer texts
-/// than the limits, texts that are not UTF-8 or contain control characters, a direction that is
-/// none of Better, a target that is not finite, a count that can only be a mistake (-1), or two of
-/// one name, axis and unit.
+/// Throws std::runtime_error if a score cannot be stored or displayed: none, more of them or longer
+/// texts than the limits, texts that are not UTF-8 or contain control characters, a direction that
+/// is none of Better, a target that is not finite, a count that can only be a mistake (-1), or two
+/// of one name, axis and unit.
 void check_scores(const std::vector<metrics::Score>& scores);
 
 /// Text of an exception or a reason as it is stored: one line of printable(), at most kLongestNote

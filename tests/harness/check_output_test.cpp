@@ -227,13 +227,18 @@ TEST_F(CheckOutput, ACountOrNameThatCannotBeFailsOnce) {
   score.statistics.count = static_cast<std::size_t>(-1);
   known_.metrics.push_back(metric<NoOptions>(
       "negative", "", [=](const Evaluation&, const NoOptions&) { return std::vector{score}; }));
-  run("datasets: [line]\nmethods: [straight]\nmetrics: [twins, negative, ate]\ntimes: dense\n");
+  known_.metrics.push_back(metric<NoOptions>(
+      "silent", "", [](const Evaluation&, const NoOptions&) { return std::vector<Score>(); }));
+  run("datasets: [line]\nmethods: [straight]\nmetrics: [twins, negative, silent, ate]\ntimes: "
+      "dense\n");
   std::map<std::string, std::vector<std::string>> why;
   for (const Record& record : read_records(file_)) why[record.kind->metric].push_back(record.why);
   EXPECT_EQ(why["twins"], std::vector<std::string>{"two scores are named 'x'"});
   EXPECT_EQ(why["negative"],
             std::vector<std::string>{
                 "score 1 is over 18446744073709551615 errors, expected at most 1000000000000"});
+  EXPECT_EQ(why["silent"],
+            std::vector<std::string>{"the metric returned 0 scores, expected 1 to 1000"});
   EXPECT_EQ(why["ate"].front(), "");
 }
 
