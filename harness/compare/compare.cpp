@@ -266,7 +266,8 @@ std::vector<Comparison> compare(std::vector<Observations> all, const CompareOpti
   }
   if (out.empty()) {
     throw InputError("'" + all[0].kind.metric_label() +
-                     "' is descriptive: no value is better than another");
+                     "' is descriptive, or its best value differs between cells: no value is "
+                     "better than another");
   }
   return out;
 }

@@ -90,6 +90,8 @@ void ObservationsBuilder::add(const Record& r) {
     own.better = direction_of(*r.kind, value_);
     own.unit = unit_of(*r.kind, value_);
     for (const Unscored& earlier : unscored_) put(tables_.back(), earlier);
+  } else if (kind->first.better != r.kind->better || kind->first.target != r.kind->target) {
+    tables_[kind->second].kind.better = metrics::Better::neither;  // none holds for all values
   }
   put(tables_[kind->second], one);
 }

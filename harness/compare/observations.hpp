@@ -41,7 +41,8 @@ struct ObservedRun {
 };
 
 struct Observations {
-  ScoreKind kind;  ///< of all values, with unit and direction of the statistic
+  ScoreKind kind;  ///< of all values, with unit and direction of the statistic; no direction if it
+                   ///< or the target differs between values
   std::vector<std::string> methods;
   std::vector<ObservedRun> runs;
   std::vector<std::vector<Observed>> values;  ///< [method][run]

@@ -131,8 +131,11 @@ TEST(Direction, ComesFromTheRecordNotFromItsLabel) {
   for (Record& r : records) r.kind.edit().better = Better::higher;
   EXPECT_EQ(compared(records).methods[0].method, "raw");
   EXPECT_DOUBLE_EQ(compared(records).methods[0].ratio->typical.estimate, 2.0);
-  for (Record& r : records) r.kind.edit().better = Better::neither;
-  EXPECT_NE(refusal_of([&] { compared(records); }), "");
+  records.back().kind.edit().better = Better::lower;  // a metric that changes its mind
+  EXPECT_EQ(
+      refusal_of([&] { compared(records); }),
+      "'gain_along worsened' is descriptive, or its best value differs between cells: no value "
+      "is better than another");
 }
 
 TEST(Direction, OfATargetIsTheDistanceToIt) {
