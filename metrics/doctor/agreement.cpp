@@ -119,6 +119,10 @@ void compare_motions(const Paired& poses, Agreement& out) {
 
 }  // namespace
 
+Rotation body_rotation(const Paired& poses) {
+  return Rotation(body_of(motions_of(poses, true))).conjugate();
+}
+
 Paired fitted_part(const Paired& poses) { return part_of(poses, true); }
 
 double Agreement::cost() const {

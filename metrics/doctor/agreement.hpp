@@ -40,6 +40,9 @@ struct Improvement {
 
 Improvement improvement(const Agreement& before, const Agreement& after);
 
+/// Constant rotation body_from_reference of the body, from short motions. O(n).
+Rotation body_rotation(const Paired& poses);
+
 /// reference_from_estimate of the positions in least squares (Umeyama 1991). O(n).
 Eigen::Affine3d similarity(const Paired& poses);
 

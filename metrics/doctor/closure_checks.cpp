@@ -26,6 +26,7 @@ struct CheckedClosure {
   const LoopPaths* paths = nullptr;
   double odometry = 0.0, over_closures = 0.0;
   double excess = 0.0;  ///< of the larger one over its limit; 1: contradicted
+  bool is_gross = false;
 };
 
 /// Removes closures that state exactly the identity, as if a place recogniser had measured no
@@ -49,14 +50,14 @@ std::optional<InputFinding> remove_placeholders(std::vector<Edge>& closures, con
   for (const LoopPaths& each : loop_paths(identities, chain)) {
     const auto& [from, to, pose, information, scale] = *each.odometry.closure;
     gaps.push_back(gap_of(each.odometry, chain));
-    const bool is_alone = each.over_closures.empty();
-    const LoopPath& path = is_alone ? each.odometry : each.over_closures.front();
-    const double length =
-        is_alone ? chain.distance(from, to)
-                 : chain.distance(from, path.over->from) + chain.distance(to, path.over->to);
     // Steady motion makes neighbours agree, but not with the odometry.
-    over_drift.push_back(std::max(gap_of(path, chain) / (kLeastGap + kOfLength * length),
-                                  gaps.back() / (kMostDrift * chain.distance(from, to))));
+    over_drift.push_back(gaps.back() / (kMostDrift * chain.distance(from, to)));
+    for (const LoopPath& path : each.over_closures) {
+      const double length =
+          chain.distance(from, path.over->from) + chain.distance(to, path.over->to);
+      over_drift.back() =
+          std::max(over_drift.back(), gap_of(path, chain) / (kLeastGap + kOfLength * length));
+    }
   }
   const double gap = median_value(std::move(gaps));
   if (median_value(std::move(over_drift)) < 1.0 || gap < kLeastGap) return std::nullopt;
@@ -104,12 +105,12 @@ std::vector<CheckedClosure> contradicted_closures(const std::vector<LoopPaths>& 
     const bool is_small = std::max(gap, residual.tail<3>().norm()) < kLeastGap;
     const bool is_usual = gap < kUsualDrift * distance;
     // Most closures can be false; then the usual chi-squared shows nothing.
-    const bool is_gross = gap > kMostDrift * distance && each.odometry > kMost &&
-                          (each.over_closures == 0.0 || each.over_closures > kMost);
+    each.is_gross = gap > kMostDrift * distance && each.odometry > kMost &&
+                    (each.over_closures == 0.0 || each.over_closures > kMost);
     const double relative =
         std::max(is_usual ? 0.0 : each.odometry / usual, each.over_closures / usual_over);
-    each.excess = std::sqrt((is_gross ? std::max(relative, each.odometry) : relative) / kMost);
-    const bool is_drift = loops.size() < kFewest && !is_gross;
+    each.excess = std::sqrt((each.is_gross ? std::max(relative, each.odometry) : relative) / kMost);
+    const bool is_drift = loops.size() < kFewest && !each.is_gross;
     if (each.excess > 1.0 && !is_small && !is_drift) out.push_back(each);
   }
   std::ranges::stable_sort(out, std::greater{}, &CheckedClosure::excess);
@@ -194,7 +195,7 @@ std::vector<InputFinding> check_closures(const Problem& problem) {
   }
   std::vector<CheckedClosure> found = contradicted_closures(loops, chain);
   std::optional<InputFinding> information;
-  if (5 * found.size() < loops.size()) {  // more false closures would show no information
+  if (3 * found.size() < loops.size()) {  // more false closures would show no information
     std::vector<LoopPaths> others;
     for (const LoopPaths& each : loops) {
       if (std::ranges::count(found, &each, &CheckedClosure::paths) == 0) others.push_back(each);
@@ -202,9 +203,9 @@ std::vector<InputFinding> check_closures(const Problem& problem) {
     information = check_information(others, chain);
   }
   if (information) {
+    const double most = kMost * information->value;
     std::erase_if(found, [&](const CheckedClosure& each) {
-      return each.odometry < kMost * information->value &&
-             each.over_closures < kMost * information->value;
+      return !each.is_gross || std::max(each.odometry, each.over_closures) < most;
     });
   }
   if (!found.empty()) out.push_back(contradiction(found, loops.size(), chain, problem));

@@ -88,18 +88,37 @@ struct MedianFit {
   double cost() const { return std::log(odometry) + std::log(over_closures); }
 };
 
+/// Whether a change improves the fit to other closures too often for chance. Over odometry, all
+/// closures share its drift.
+bool are_mostly_better(const std::vector<const LoopPaths*>& loops,
+                       const Chain& chain,
+                       const PoseChange& change) {
+  constexpr double kDeviations = 4.0;  // of the number of better ones
+  double better = 0.0, all = 0.0;
+  for (const LoopPaths* loop : loops) {
+    if (loop->over_closures.empty()) continue;
+    const LoopPath& path = loop->over_closures.front();
+    const double was = path.chi_squared(chain, [](const Pose& p) { return p; });
+    better += path.chi_squared(chain, change) < was ? 1.0 : 0.0;
+    all += 1.0;
+  }
+  return 2.0 * better - all > kDeviations * std::sqrt(all);
+}
+
 }  // namespace
 
 std::optional<InputFinding> find_closure_repair(const std::vector<LoopPaths>& loops,
                                                 const Chain& chain) {
   constexpr std::size_t kFewest = 3;        // one or two fit several conventions
   constexpr std::size_t kHalves = 6;        // from so many on, one half proposes, the other decides
-  constexpr std::size_t kMost = 200;        // compared
+  constexpr std::size_t kMost = 400;        // compared
   constexpr double kMostRatio = 0.3;        // of chi-squared: errors fall to 55 %
   constexpr double kMostOther = 1.2;        // of the other chi-squared; medians of few vary
   constexpr double kRefuted = 4.0;          // chi-squared that the stated noise does not explain
   constexpr double kClearRatio = 0.03;      // if the stated noise is so large that it explains all
   constexpr double kFewAlternatives = 2.0;  // factor of the penalties for less than six
+  constexpr double kCertain = 12.0;         // closures from which on penalties count less
+  constexpr double kHalved = 0.5;           // chi-squared, if nearly all closures agree
   if (loops.size() < kFewest) return std::nullopt;
   std::vector<const LoopPaths*> chosen, tested;
   const std::size_t step = even_step(loops.size(), kMost);
@@ -112,9 +131,10 @@ std::optional<InputFinding> find_closure_repair(const std::vector<LoopPaths>& lo
   const EdgeRepair* best = nullptr;
   double least = MedianFit(chosen, chain, unchanged).cost();
   static const std::vector<EdgeRepair> repairs = edge_repairs();
+  const double certainty = static_cast<double>(chosen.size()) / kCertain;
+  const double weight = loops.size() < kHalves ? kFewAlternatives : 1.0 / std::max(1.0, certainty);
   for (const EdgeRepair& repair : repairs) {
-    const double cost = MedianFit(chosen, chain, repair.change).cost() +
-                        (loops.size() < kHalves ? kFewAlternatives : 1.0) * repair.penalty;
+    const double cost = MedianFit(chosen, chain, repair.change).cost() + weight * repair.penalty;
     if (!(cost < least)) continue;
     least = cost;
     best = &repair;
@@ -125,8 +145,10 @@ std::optional<InputFinding> find_closure_repair(const std::vector<LoopPaths>& lo
   const bool is_direct = direct < around;
   const double ratio = std::min(direct, around),
                before = is_direct ? was.odometry : was.over_closures;
-  const bool is_refuted = before > kRefuted || ratio < kClearRatio;
-  if (ratio > kMostRatio || std::max(direct, around) > kMostOther || !is_refuted)
+  const bool is_consistent = !is_direct && are_mostly_better(tested, chain, best->change);
+  const bool is_refuted = before > kRefuted || ratio < kClearRatio || is_consistent;
+  if (ratio > (is_consistent ? kHalved : kMostRatio) || std::max(direct, around) > kMostOther ||
+      !is_refuted)
     return std::nullopt;
   return InputFinding{
       best->fault,

@@ -13,8 +13,9 @@ namespace loopbench::metrics {
 
 /// The correction of direction, order of quaternions or frame of the closures with which odometry
 /// and other closures predict them better: chosen by every other closure, it has to reduce the
-/// median chi-squared of the remaining ones (of all, if there are less than six), which the stated
-/// noise must not explain as read. nullopt if there is none, and for one or two closures.
+/// median chi-squared of the remaining ones (of all, if there are less than six). Either the stated
+/// noise does not explain it as read, or significantly more closures agree with others afterwards.
+/// nullopt if there is none, and for one or two closures.
 /// O(closures).
 std::optional<InputFinding> find_closure_repair(const std::vector<LoopPaths>& loops,
                                                 const Chain& chain);
@@ -29,7 +30,7 @@ std::optional<InputFinding> check_loop_stamps(const std::vector<double>& loops,
 /// - direction and conventions, see find_closure_repair();
 /// - gaps of closures that the odometry or most other closures contradict;
 /// - information, by the median chi-squared of the gaps (above 100 or below 10^-4), without the
-///   closures found before, and only if these are less than a fifth.
+///   closures found before, and only if these are less than a third.
 /// Nothing if the odometry is no chain. O(closures^2 + keyframes).
 std::vector<InputFinding> check_closures(const Problem& problem);
 

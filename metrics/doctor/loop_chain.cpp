@@ -66,28 +66,35 @@ double LoopPath::chi_squared(const Chain& chain, const PoseChange& change) const
 }
 
 std::vector<LoopPaths> loop_paths(const std::vector<Edge>& closures, const Chain& chain) {
-  constexpr std::size_t kCompared = 20, kMostPaths = 3;  // a false one of three is outvoted
+  constexpr std::size_t kCompared = 200, kMostPaths = 3;  // a false one of three is outvoted
   std::vector<const Edge*> sorted;
   for (const Edge& edge : closures) sorted.push_back(&edge);
-  std::ranges::stable_sort(sorted, {}, &Edge::to);
+  std::ranges::stable_sort(sorted, {}, [](const Edge* e) { return std::pair(e->to, e->from); });
   std::vector<LoopPaths> out;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     const Edge& edge = *sorted[i];
-    const auto count = [&](const Edge* other) {
-      return chain.count(edge.from, other->from) + chain.count(edge.to, other->to);
-    };
-    std::vector<const Edge*> others;
-    const std::size_t end = std::min(sorted.size(), i + kCompared + 1);
-    for (std::size_t j = i - std::min(i, kCompared); j < end; ++j) {
+    std::vector<std::pair<double, const Edge*>> nearest;  // with the odometry that leads to them
+    double most = chain.count(edge.from, edge.to);
+    /// Whether closures that are listed further away can be nearer.
+    const auto compare = [&](const Edge& other) {
+      const double to_end = chain.count(edge.to, other.to);
+      const double all = to_end + chain.count(edge.from, other.from);
       // A closure that is listed twice agrees with itself.
-      const bool is_copy = sorted[j]->from == edge.from && sorted[j]->to == edge.to;
-      if (!is_copy && count(sorted[j]) < chain.count(edge.from, edge.to))
-        others.push_back(sorted[j]);
+      if (all < most && (other.from != edge.from || other.to != edge.to)) {
+        nearest.emplace_back(all, &other);
+        std::ranges::stable_sort(nearest, {}, &std::pair<double, const Edge*>::first);
+        if (nearest.size() > kMostPaths) nearest.pop_back();
+        if (nearest.size() == kMostPaths) most = nearest.back().first;
+      }
+      return to_end < most;
+    };
+    const std::size_t end = std::min(sorted.size(), i + kCompared + 1);
+    for (std::size_t j = i + 1; j < end && compare(*sorted[j]); ++j) {
     }
-    std::ranges::sort(others, {}, count);
-    others.resize(std::min(kMostPaths, others.size()));
+    for (std::size_t j = i; j > i - std::min(i, kCompared) && compare(*sorted[j - 1]); --j) {
+    }
     out.push_back({path_over(edge, nullptr, chain), {}});
-    for (const Edge* other : others)
+    for (const auto& [count, other] : nearest)
       out.back().over_closures.push_back(path_over(edge, other, chain));
   }
   return out;

@@ -70,8 +70,8 @@ struct LoopPaths {
       over_closures;  ///< the three with the least odometry; shorter than the loop
 };
 
-/// Sorted by the ends of the closures, of which the twenty before and after are compared.
-/// O(closures).
+/// Sorted by the ends of the closures, of which at most 200 before and after are compared.
+/// O(closures log closures).
 std::vector<LoopPaths> loop_paths(const std::vector<Edge>& closures, const Chain& chain);
 
 }  // namespace loopbench::metrics

@@ -156,10 +156,6 @@ void add_scale(std::vector<Repair>& to, const Paired& poses) {
 void add_bodies(std::vector<Repair>& to, const Paired& poses) {
   constexpr double kLeastAngle = 10.0 / kDegrees, kExplained = 0.5;
   constexpr double kPenaltyOfAxes = 0.7, kPenaltyOfLeverArm = 0.1, kPenaltyOfBoth = 1.2;
-  const auto found = extrinsic_offset(poses.reference, poses.estimate, ExtrinsicOffsetOptions{});
-  if (!found) return;
-  const Pose& body = found->fit.body_from_reference;
-  const double angle = angle_between(body.rotation, Rotation::Identity());
   const auto add = [&](bool is_lever_arm,
                        const Pose& by,
                        double value,
@@ -173,18 +169,22 @@ void add_bodies(std::vector<Repair>& to, const Paired& poses) {
                   to_each(false, [by](const Pose& p) { return p * by; }),
                   is_lever_arm});
   };
-  if (angle > kLeastAngle) {
+  const Rotation axes = body_rotation(poses);
+  if (const double angle = angle_between(axes, Rotation::Identity()); angle > kLeastAngle) {
     add(false,
-        {body.rotation, Vector3::Zero()},
+        {axes, Vector3::Zero()},
         angle,
         kPenaltyOfAxes,
         fmt::format("with axes rotated by {:.1f} deg", kDegrees * angle));
   }
+  const auto found = extrinsic_offset(poses.reference, poses.estimate, ExtrinsicOffsetOptions{});
+  if (!found) return;
+  const Pose& body = found->fit.body_from_reference;
   if (found->fit.lever_arm_explained > kExplained) {
     add(true,
         body,
         body.translation.norm(),
-        angle > 0.0 ? kPenaltyOfBoth : kPenaltyOfLeverArm,
+        body.rotation.vec().norm() > 0.0 ? kPenaltyOfBoth : kPenaltyOfLeverArm,
         fmt::format("{:.3g} m away", body.translation.norm()));
   }
 }

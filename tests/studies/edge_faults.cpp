@@ -9,6 +9,8 @@
 #include "datasets/core/se3.hpp"
 #include "datasets/derive/graph_parts.hpp"
 #include "datasets/formats/g2o.hpp"
+#include "metrics/doctor/loop_chain.hpp"
+#include "metrics/doctor/sampling.hpp"
 
 namespace loopbench {
 namespace {
@@ -16,14 +18,17 @@ namespace {
 constexpr std::size_t kFewestForConventions = 3;
 constexpr double kLeastChange = 0.1;  // [m], [rad]: smaller ones are no fault
 
-std::function<bool(Problem&, std::mt19937&)> each_closure(Pose (*change)(const Pose&)) {
+/// Planar files have one angle: no quaternions, no axes of cameras.
+std::function<bool(Problem&, std::mt19937&)> each_closure(Pose (*change)(const Pose&),
+                                                          bool is_spatial = false) {
   return [=](Problem& p, std::mt19937&) {
     std::size_t changed = 0;
     for (Edge& edge : p.closures) {
       const Pose before = std::exchange(edge.from_from_to, change(edge.from_from_to));
       changed += is_close(before, edge.from_from_to, kLeastChange, kLeastChange) ? 0 : 1;
     }
-    return p.closures.size() >= kFewestForConventions && 2 * changed > p.closures.size();
+    return p.closures.size() >= kFewestForConventions && 2 * changed > p.closures.size() &&
+           !(is_spatial && p.planar);
   };
 }
 
@@ -49,8 +54,22 @@ bool add_false_closure(Problem& problem, std::mt19937& random) {
   return edge.scale == 1.0 && problem.closures.size() > kFewestForConventions;
 }
 
+/// Whether most gaps are as long as a third of their loops, so that the closures are false.
+bool are_false(const Problem& problem) {
+  constexpr double kMostDrift = 1.0 / 3.0;
+  const metrics::Chain chain = metrics::chain_of(problem);
+  std::vector<double> gaps;
+  for (const Edge& edge : problem.closures) {
+    const metrics::LoopPath path{&edge};
+    gaps.push_back(path.residual(chain, [](const Pose& p) { return p; }).head<3>().norm() /
+                   chain.distance(edge.from, edge.to));
+  }
+  return metrics::median_value(std::move(gaps)) > kMostDrift;
+}
+
 std::function<bool(Problem&, std::mt19937&)> information(bool of_odometry, double factor) {
   return [=](Problem& p, std::mt19937&) {
+    if (are_false(p)) return false;
     for (Edge& edge : p.odometry) edge.information *= of_odometry ? factor : 1.0;
     for (Edge& edge : p.closures) edge.information *= factor;
     return p.closures.size() >= kFewestForConventions;
@@ -64,21 +83,48 @@ std::vector<PlantedEdges> edge_faults() {
       {"closures inverted", "closure_direction", each_closure([](const Pose& p) {
          return p.inverse();
        })},
-      {"closures w x y z", "closure_convention", each_closure([](const Pose& p) -> Pose {
-         const Rotation& q = p.rotation;
-         return {Rotation(q.z(), q.w(), q.x(), q.y()), p.translation};
-       })},
+      {"closures w x y z",
+       "closure_convention",
+       each_closure(
+           [](const Pose& p) -> Pose {
+             const Rotation& q = p.rotation;
+             return {Rotation(q.z(), q.w(), q.x(), q.y()), p.translation};
+           },
+           true)},
       {"inverted rotations of closures",
        "closure_convention",
        each_closure([](const Pose& p) -> Pose {
          return {p.rotation.conjugate(), p.translation};
        })},
-      {"closures of another body", "closure_convention", each_closure(between_cameras)},
+      {"closures of another body", "closure_convention", each_closure(between_cameras, true)},
       {"identities as closures", "placeholders", each_closure([](const Pose&) { return Pose{}; })},
       {"a false closure", "closure_gap", add_false_closure},
       {"information x 1e6", "information", information(true, 1e6)},
       {"information / 1e8", "information", information(true, 1e-8)},
   };
+}
+
+bool exceeds_noise(const Problem& right, const Problem& planted) {
+  constexpr double kNoise = 1.0, kContradiction = 36.0;  // chi-squared per degree of freedom
+  const metrics::Chain chain = metrics::chain_of(planted);
+  const bool is_added = planted.closures.size() > right.closures.size();
+  std::vector<double> largest;
+  for (const metrics::LoopPaths& each : metrics::loop_paths(planted.closures, chain)) {
+    const Edge& edge = *each.odometry.closure;
+    const auto index = static_cast<std::size_t>(&edge - planted.closures.data());
+    const bool is_new = index >= right.closures.size();
+    if (is_new != is_added) continue;
+    const auto chi_squared = [&](const metrics::LoopPath& path) {
+      const Twist change =
+          is_new ? path.residual(chain, [](const Pose& p) { return p; })
+                 : log_se3(right.closures[index].from_from_to.inverse() * edge.from_from_to);
+      return change.dot(path.covariance.ldlt().solve(change)) / 6.0;
+    };
+    largest.push_back(chi_squared(each.odometry));
+    for (const metrics::LoopPath& path : each.over_closures)
+      largest.back() = std::max(largest.back(), chi_squared(path));
+  }
+  return metrics::median_value(largest) > (is_added ? kContradiction : kNoise);
 }
 
 std::vector<NamedProblem> measured_graphs(const std::filesystem::path& data) {

@@ -24,6 +24,11 @@ struct PlantedEdges {
 /// Closure conventions are planted in graphs with at least three closures.
 std::vector<PlantedEdges> edge_faults();
 
+/// Whether the change of the closures exceeds the stated noise of their loops (one standard
+/// deviation in the median; six for a false closure), over odometry or over another closure.
+/// Smaller faults fit the files as well as the right closures.
+bool exceeds_noise(const Problem& right, const Problem& planted);
+
 /// The graphs of the data whose odometry is a chain and that have closures.
 std::vector<NamedProblem> measured_graphs(const std::filesystem::path& data);
 

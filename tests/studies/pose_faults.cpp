@@ -5,6 +5,7 @@
 
 #include "datasets/core/median_interval.hpp"
 #include "datasets/core/se3.hpp"
+#include "metrics/doctor/agreement.hpp"
 
 namespace loopbench {
 namespace {
@@ -118,13 +119,16 @@ std::vector<PlantedFault> frames() {
            return {p.rotation * body, p.translation};
          });
        }},
-      {"another body", {"other_body"}, [](Recording& r, std::mt19937& random, const Others&) {
+      {"another body",
+       {"other_body"},
+       [](Recording& r, std::mt19937& random, const Others&) {
          const double length = r.is_car ? uniform(random, 1.5, 3.0) : uniform(random, 0.4, 0.8);
          Vector3 arm(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
          if (r.is_car) arm = {0.3, -0.2, 0.25};  // not along the height or a straight road
          const Pose other{Rotation::Identity(), length * arm.normalized()};
          return change_poses(r.estimate, [=](const Pose& p) { return p * other; });
-       }}};
+       },
+       true}};
 }
 
 bool delay(Recording& r, double seconds) {
@@ -140,7 +144,7 @@ std::vector<PlantedFault> times() {
          return delay(r, (flip(random) ? 1.0 : -1.0) * uniform(random, 0.15, 3.0));
        }},
       {"clocks without overlap",
-       {"time_offset"},
+       {"time_offset", "no_overlap"},
        [](Recording& r, std::mt19937& random, const Others&) {
          return delay(r, uniform(random, 1e4, 1e6));
        }},
@@ -158,9 +162,11 @@ std::vector<PlantedFault> times() {
       {"half a frame",
        {"time_offset"},
        [](Recording& r, std::mt19937& random, const Others&) {
-         return has_regular_stamps(r) &&
-                delay(r, (flip(random) ? 0.5 : -0.5) * median_interval(r.estimate));
-       }},
+         constexpr double kLeast = 0.02;  // [s]; smaller offsets are not reported
+         const double half = 0.5 * median_interval(r.estimate);
+         return has_regular_stamps(r) && half > kLeast && delay(r, flip(random) ? half : -half);
+       },
+       true},
       {"stamps in another unit",
        {"stamp_unit"},
        [](Recording& r, std::mt19937& random, const Others&) {
@@ -254,6 +260,14 @@ std::vector<PlantedFault> files() {
 }
 
 }  // namespace
+
+bool exceeds_errors(const Recording& right, const Recording& planted) {
+  const metrics::Agreement errors =
+      metrics::agreement(metrics::common_poses(right.reference, right.estimate));
+  const metrics::Agreement change =
+      metrics::agreement(metrics::common_poses(right.estimate, planted.estimate));
+  return change.displacement > errors.displacement || change.usual_turning > errors.usual_turning;
+}
 
 std::vector<PlantedFault> pose_faults() {
   std::vector<PlantedFault> out;
