@@ -116,7 +116,7 @@ def sweep_page(configs, folder):
     """Text of the page of some configs, which has the description of the first; writes its figures."""
     description = re.match("description: >\n((?:  .*\n)*)", configs[0].file.read_text(encoding="utf-8"))
     text = f"# {page_of(configs[0].file.stem).capitalize()}\n\n" + description[1].replace("\n  ", "\n")[2:]
-    text += "\nFrom " + ", ".join(f"configs/{config.file.name}" for config in configs) + ".\n"
+    text += "\n```\nresults/paper/make.py --data DIR --only " + " ".join(c.file.stem for c in configs) + "\n```\n"
     sweeps = [Sweep(config) for config in configs]
     swept = [m.get("sweep", {}) for m in configs[0].options["methods"] if isinstance(m, dict)]
     if any({"speed_band", "turn_max"} <= set(each) for each in swept):
