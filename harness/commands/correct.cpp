@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <sstream>
+#include <utility>
 
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
@@ -27,13 +27,10 @@ struct CorrectCommand {
 };
 
 void draw_correction(const Correction& done, const CorrectCommand& a) {
-  const DrawnFigure figure{{figure_name(a.plot)}, {"plane"}, a.figure};
   FigureData data = before_and_after(done);
   const std::vector<std::string> labels = labels_of(a.figure, {"before", "after"});
   for (std::size_t i = 0; i < labels.size(); ++i) data.curves[i].name = labels[i];
-  data.figures.push_back(figure);
-  draw({data});
-  fmt::print(stderr, "{}", printable(file_list(figure)));
+  draw_map(std::move(data), a.plot, a.figure);
 }
 
 int run_correct(CorrectCommand& a) {
@@ -41,12 +38,7 @@ int run_correct(CorrectCommand& a) {
   a.correct.format = written_format(a.output);
   const Correction done = correct(a.correct, catalogue(a.plugins));
   std::FILE* const out = is_dash(a.correct.out) ? stderr : stdout;  // poses are on stdout
-  if (a.json) {
-    fmt::print(out, "{}", json(done));
-  } else {
-    std::istringstream lines(printable(text(done)));
-    for (std::string line; std::getline(lines, line);) fmt::print(out, "{}\n", fitted(line));
-  }
+  fmt::print(out, "{}", a.json ? json(done) : fitted_lines(printable(text(done))));
   if (!a.plot.empty()) draw_correction(done, a);
   return kExitOk;
 }
@@ -59,7 +51,7 @@ void add_correct(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("correct", "Correct one trajectory or pose graph with one method");
   CorrectArguments& c = a->correct;
-  add(*command, "estimate ESTIMATE", c.estimate, "Trajectory file, or a g2o graph")->required();
+  declare_problem(*command, c);
   add(*command,
       "--method METHOD",
       c.method,
@@ -69,10 +61,6 @@ void add_correct(CLI::App& app, int& exit_code) {
   const auto file = [&](const char* name, std::string& value, const char* help) {
     command->add_option(name, value, help)->type_name("FILE");
   };
-  file("--loops",
-       c.loops,
-       "Loop closures: stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r], or a g2o graph "
-       "whose vertices are the poses of ESTIMATE");
   file("--anchors",
        c.anchors,
        "Measured positions: stamp x y z [sigma, or xx xy xz yy yz zz of the covariance], or any "
@@ -85,7 +73,6 @@ void add_correct(CLI::App& app, int& exit_code) {
       ->check(finite_number())
       ->check(positive_number());
   file("--frames", c.frames, "All tracked poses of the run, if ESTIMATE contains only keyframes");
-  declare_dataset_settings(*command, c.settings);
   auto* dense = command->add_flag("--dense", c.dense, "Output keyframes and frames");
   add(*command, "--at FILE", c.at, "Output poses at the stamps of this trajectory file")
       ->excludes(dense);

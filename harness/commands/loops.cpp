@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <sstream>
 
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
@@ -25,27 +24,14 @@ struct LoopsCommand {
   bool json = false;
 };
 
-void draw_loops(const LoopsResult& result, const LoopsCommand& a) {
-  const DrawnFigure figure{{figure_name(a.plot)}, {"plane"}, a.figure};
-  FigureData data = loops_figure(result);
-  data.figures.push_back(figure);
-  draw({data});
-  fmt::print(stderr, "{}", printable(file_list(figure)));
-}
-
 int run_loops(const LoopsCommand& a) {
   constexpr std::size_t kMostRows = 20;  // of a table that fits a screen
   if (!a.csv.empty()) reject_overwriting({a.input.estimate, a.input.loops}, a.csv);
   LoopsResult result = loops(load_problem(a.input, catalogue({})), a.input.estimate);
   add_rejections(result);
-  if (a.json) {
-    fmt::print("{}", json(result));
-  } else {
-    std::istringstream lines(printable(text(result, kMostRows)));
-    for (std::string line; std::getline(lines, line);) fmt::print("{}\n", fitted(line));
-  }
+  fmt::print("{}", a.json ? json(result) : fitted_lines(printable(text(result, kMostRows))));
   if (!a.csv.empty()) write_file(a.csv, csv(result));
-  if (!a.plot.empty()) draw_loops(result, a);
+  if (!a.plot.empty()) draw_map(loops_figure(result), a.plot, a.figure);
   return is_contradicted(result.ledger.verdict) ? kExitNotShown : kExitOk;
 }
 
@@ -55,14 +41,7 @@ void add_loops(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<LoopsCommand>();
   CLI::App* command = app.add_subcommand(
       "loops", "Check each loop closure by the closures of other places, without a reference");
-  CorrectArguments& c = a->input;
-  add(*command, "estimate ESTIMATE", c.estimate, "Trajectory file, or a g2o graph")->required();
-  add(*command,
-      "--loops FILE",
-      c.loops,
-      "Loop closures: stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r], or a g2o graph "
-      "whose vertices are the poses of ESTIMATE");
-  declare_dataset_settings(*command, c.settings);
+  declare_problem(*command, a->input);
   add(*command, "--csv FILE", a->csv, "Write one row per closure; - is standard output");
   add(*command,
       "--plot FILE",

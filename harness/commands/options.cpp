@@ -1,8 +1,11 @@
 #include "harness/commands/options.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
+#include "harness/base/printable.hpp"
 #include "harness/commands/checks.hpp"
 #include "metrics/protocols/protocol.hpp"
 
@@ -71,12 +74,19 @@ void declare_pose_filters(CLI::App& command,
       ->check(number_between(0.0, 1e9));
 }
 
-void declare_dataset_settings(CLI::App& command, std::vector<GivenSetting>& settings) {
+void declare_problem(CLI::App& command, CorrectArguments& problem) {
+  add(command, "estimate ESTIMATE", problem.estimate, "Trajectory file, or a g2o graph")
+      ->required();
+  add(command,
+      "--loops FILE",
+      problem.loops,
+      "Loop closures: stamp_from stamp_to tx ty tz qx qy qz qw [sigma_t sigma_r], or a g2o graph "
+      "whose vertices are the poses of ESTIMATE");
   command
       .add_option_function<std::vector<std::string>>(
           "--set",
-          [&settings](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) settings.push_back({text});
+          [&problem](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) problem.settings.push_back({text});
           },
           "Option of dataset trajectory (or pose_graph for a graph), see `list datasets`")
       ->type_name("OPTION=VALUE")
@@ -126,6 +136,13 @@ void declare_figures(CLI::App& command, FigureOptions& options, const std::strin
   for (CLI::Option* const option : of_files) {
     if (!needs.empty()) option->needs(needs);
   }
+}
+
+void draw_map(FigureData data, const std::filesystem::path& name, const FigureOptions& options) {
+  const DrawnFigure figure{{figure_name(name)}, {"plane"}, options};
+  data.figures.push_back(figure);
+  draw({data});
+  fmt::print(stderr, "{}", printable(file_list(figure)));
 }
 
 }  // namespace loopbench::harness

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "harness/config/entry.hpp"
+#include "harness/eval/correct.hpp"
 #include "harness/eval/named_trajectory.hpp"
 #include "harness/report/draw.hpp"
 
@@ -29,8 +31,8 @@ void declare_fields(CLI::App& command,
                     const std::vector<FieldOption>& options,
                     std::vector<GivenSetting>& given);
 
-/// Declares --set for the dataset that reads a file.
-void declare_dataset_settings(CLI::App& command, std::vector<GivenSetting>& settings);
+/// Declares the estimate, --loops and --set of the dataset that reads them.
+void declare_problem(CLI::App& command, CorrectArguments& problem);
 
 /// Declares --downsample and --motion_filter.
 void declare_pose_filters(CLI::App& command,
@@ -42,5 +44,8 @@ void declare_curves(CLI::App& command, FigureOptions& options);
 
 /// Declares the style of figures, too. `needs`: option without which it has no effect; empty: none.
 void declare_figures(CLI::App& command, FigureOptions& options, const std::string& needs = "");
+
+/// Draws the positions of `data` and lists the files. `name`: a figure, or .pdf is added.
+void draw_map(FigureData data, const std::filesystem::path& name, const FigureOptions& options);
 
 }  // namespace loopbench::harness

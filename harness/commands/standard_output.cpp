@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <sstream>
 #include <string_view>
 
 #include "harness/base/wrap.hpp"
@@ -58,6 +59,13 @@ std::string fitted(const std::string& line) {
 
 std::string fitted_error(const std::string& line) {
   return indented(line, isatty(STDERR_FILENO) == 1 ? terminal_width(STDERR_FILENO) : 0);
+}
+
+std::string fitted_lines(const std::string& text) {
+  std::string out;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) out += fitted(line) + "\n";
+  return out;
 }
 
 std::string program_name() {

@@ -24,6 +24,9 @@ std::string fitted(const std::string& line);
 /// The same in the width of the terminal, if standard error is one.
 std::string fitted_error(const std::string& line);
 
+/// fitted() of each line of `text`.
+std::string fitted_lines(const std::string& text);
+
 /// The name under which the program was called, for commands that the user can copy:
 /// $LOOPBENCH_NAME (set by run.sh) or "loopbench".
 std::string program_name();
