@@ -6,9 +6,9 @@
 #include <numeric>
 #include <utility>
 
+#include "datasets/core/closure_places.hpp"
 #include "datasets/core/upper_median.hpp"
 #include "methods/correctors/chain.hpp"
-#include "methods/correctors/closure_places.hpp"
 #include "methods/correctors/looped_chain.hpp"
 
 namespace loopbench::methods {
@@ -16,7 +16,6 @@ namespace {
 
 constexpr std::int64_t kMaxClosures = 1000;  // the inverse of the loop equations has 6,000 rows
 
-constexpr std::size_t kMinPlaces = 3;    // two places cannot show which of them is wrong
 constexpr double kMinCovered = 0.3;      // below it, most of the path is checked by no prediction
 constexpr double kContradiction = 10.0;  // chi2 per degree of freedom of one closure
 constexpr double kTooSmall = 3.0;        // median chi2: the covariances rather than closures
@@ -57,18 +56,31 @@ void add_odometry_errors(const Problem& problem, const NoiseModel& noise, Closur
   }
 }
 
-/// The joint solution with the inverse of its equations.
+/// L^-1 of a lower triangular L, in panels of which only the rows from the diagonal on are
+/// computed.
+Eigen::MatrixXd inverse_of_lower(const Eigen::MatrixXd& lower) {
+  constexpr Index kPanel = 96;  // columns
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(lower.rows(), lower.cols());
+  for (Index begin = 0; begin < lower.rows(); begin += kPanel) {
+    const Index rows = lower.rows() - begin;
+    auto panel = out.block(begin, begin, rows, std::min(kPanel, rows));
+    panel.diagonal().setOnes();
+    lower.bottomRightCorner(rows, rows).triangularView<Eigen::Lower>().solveInPlace(panel);
+  }
+  return out;
+}
+
+/// The joint solution with the inverse of the factor of its equations.
 struct JointSolution {
   LoopedChain chain;
   LoopJacobian jacobian;
-  Eigen::MatrixXd inverse;  ///< M^-1
+  Eigen::MatrixXd half;  ///< L^-1 of M = L L', so M^-1 = half' half
   Eigen::VectorXd lambda;
 
   JointSolution(const Problem& problem, const NoiseModel& noise) : chain(solved(problem, noise)) {
     LoopEquations equations = chain.equations();
-    const Index size = equations.jacobian.gap.size();
     lambda = equations.factor.solve(equations.jacobian.gap);
-    inverse = equations.factor.solve(Eigen::MatrixXd::Identity(size, size));
+    half = inverse_of_lower(equations.factor.matrixLLT());
     jacobian = std::move(equations.jacobian);
   }
 
@@ -86,7 +98,8 @@ void add_predictions(const JointSolution& joint,
   if (places.size() < 2) return;
   for (const std::vector<std::size_t>& place : places) {
     const std::vector<Index> rows = rows_of(place);
-    const Eigen::MatrixXd block = joint.inverse(rows, rows);
+    const Eigen::MatrixXd columns = joint.half(Eigen::all, rows);
+    const Eigen::MatrixXd block = columns.transpose() * columns;
     const Eigen::MatrixXd covariance =
         block.llt().solve(Eigen::MatrixXd::Identity(block.rows(), block.cols()));
     const Eigen::VectorXd residual = covariance * joint.lambda(rows);
@@ -98,21 +111,33 @@ void add_predictions(const JointSolution& joint,
   }
 }
 
-/// Effect of each closure alone: on the cost and on the positions of the keyframes.
-void add_influence(const Problem& problem,
-                   const NoiseModel& noise,
-                   const JointSolution& joint,
-                   ClosureLedger& ledger) {
+/// Effect of each closure alone on the cost. Returns the change of all multipliers without each
+/// closure, one column per closure.
+Eigen::MatrixXd add_cost_drops(const JointSolution& joint, ClosureLedger& ledger) {
+  Eigen::MatrixXd changes(joint.half.rows(), static_cast<Index>(ledger.rows.size()));
+  for (std::size_t k = 0; k < ledger.rows.size(); ++k) {
+    const auto columns = joint.half.middleCols<6>(static_cast<Index>(6 * k));
+    const Matrix6 covariance = Matrix6(columns.transpose() * columns).inverse();
+    const Twist residual = covariance * of_closure(joint.lambda, k);
+    ledger.rows[k].cost_drop = residual.dot(of_closure(joint.lambda, k));
+    changes.col(static_cast<Index>(k)) = -columns * residual;
+  }
+  return joint.half.triangularView<Eigen::Lower>().transpose() * changes;
+}
+
+/// Effect of each closure alone on the positions of the keyframes.
+void add_moves(const Problem& problem,
+               const NoiseModel& noise,
+               const JointSolution& joint,
+               const Eigen::MatrixXd& changes,
+               ClosureLedger& ledger) {
   const std::vector<Pose>& poses = joint.chain.centred_poses();
   for (std::size_t k = 0; k < ledger.rows.size(); ++k) {
     LedgerRow& row = ledger.rows[k];
-    const auto at = static_cast<Index>(6 * k);
-    const Matrix6 covariance = joint.inverse.block<6, 6>(at, at).inverse();
-    const Twist residual = covariance * of_closure(joint.lambda, k);
-    row.cost_drop = residual.dot(of_closure(joint.lambda, k));
-    const Eigen::VectorXd change = -joint.inverse.middleCols<6>(at) * residual;
-    const std::vector<Twist> pull = constraint_force_increments(
-        joint.jacobian.loop, problem.odometry.size(), problem.closures, change);
+    const std::vector<Twist> pull = constraint_force_increments(joint.jacobian.loop,
+                                                                problem.odometry.size(),
+                                                                problem.closures,
+                                                                changes.col(static_cast<Index>(k)));
     Twist force = Twist::Zero(), moved = Twist::Zero();
     double sum = 0.0;
     for (std::size_t i = 0; i < problem.odometry.size(); ++i) {
@@ -127,22 +152,6 @@ void add_influence(const Problem& problem,
   }
 }
 
-/// Errors of the places in metres: root mean square over their closures.
-void add_ratio(const std::vector<std::vector<std::size_t>>& places, ClosureLedger& ledger) {
-  double sum = 0.0;
-  for (const std::vector<std::size_t>& place : places) {
-    double predicted = 0.0, raw = 0.0;
-    for (const std::size_t k : place) {
-      predicted += std::pow(ledger.rows[k].predicted->metres, 2);
-      raw += std::pow(ledger.rows[k].in_odometry.metres, 2);
-    }
-    constexpr double kExact = 1e-18;  // squared error that is rounding [m^2]
-    sum += 0.5 * std::log(std::max(predicted, kExact) / std::max(raw, kExact));
-    if (predicted < raw) ++ledger.better_places;
-  }
-  ledger.ratio = std::exp(sum / static_cast<double>(places.size()));
-}
-
 LedgerVerdict verdict_of(const ClosureLedger& ledger) {
   if (ledger.rows.size() > 1 && ledger.largest_chi2 > kContradiction) {
     return ledger.odometry_chi2 > kTooSmall ? LedgerVerdict::covariances
@@ -150,11 +159,12 @@ LedgerVerdict verdict_of(const ClosureLedger& ledger) {
   }
   if (ledger.places < kMinPlaces) return LedgerVerdict::few_places;
   if (ledger.covered < kMinCovered) return LedgerVerdict::little_covered;
-  return ledger.ratio < kHelps ? LedgerVerdict::helps : LedgerVerdict::not_shown;
+  const bool is_majority = ledger.places > kMinPlaces || ledger.better_places == kMinPlaces;
+  return ledger.ratio < kHelps && is_majority ? LedgerVerdict::helps : LedgerVerdict::not_shown;
 }
 
-/// The ledger without its ranking.
-ClosureLedger unranked_ledger(const Problem& problem) {
+/// The ledger without its ranking; the verdict needs no `moves`.
+ClosureLedger unranked_ledger(const Problem& problem, bool with_moves) {
   const NoiseModel noise = stated_noise_model(problem);
   const std::vector<std::vector<std::size_t>> places = closure_places(problem.closures);
   ClosureLedger out;
@@ -175,8 +185,16 @@ ClosureLedger unranked_ledger(const Problem& problem) {
   add_odometry_errors(problem, noise, out);
   const JointSolution joint(problem, noise);
   add_predictions(joint, places, problem.planar, out);
-  add_influence(problem, noise, joint, out);
-  if (out.places >= 2) add_ratio(places, out);
+  const Eigen::MatrixXd changes = add_cost_drops(joint, out);
+  if (with_moves) add_moves(problem, noise, joint, changes, out);
+  if (out.places >= 2) {
+    const auto [ratio, better] = place_prediction(
+        places,
+        [&](std::size_t k) { return out.rows[k].predicted->metres; },
+        [&](std::size_t k) { return out.rows[k].in_odometry.metres; });
+    out.ratio = ratio;
+    out.better_places = better;
+  }
   const double dof = problem.planar ? 3.0 : 6.0;
   std::vector<double> odometry_chi2;
   for (const LedgerRow& row : out.rows) {
@@ -201,9 +219,8 @@ void rank_suspects(const Problem& problem, ClosureLedger& ledger) {
   };
   sort_by([](const LedgerRow& row) { return row.cost_drop; });
   if (!is_contradicted(ledger.verdict) || ledger.rows.size() < 2) return;
-  Problem rest = problem;
-  rest.closures.erase(rest.closures.begin() + static_cast<std::ptrdiff_t>(order.front()));
-  if (is_contradicted(unranked_ledger(rest).verdict)) {
+  const Problem rest = without_closures(problem, {order.front()});
+  if (is_contradicted(unranked_ledger(rest, false).verdict)) {
     sort_by([](const LedgerRow& row) { return row.in_odometry.chi2; });
   }
 }
@@ -217,7 +234,7 @@ std::string why_no_ledger(const Problem& problem) {
 }
 
 ClosureLedger closure_ledger(const Problem& problem) {
-  ClosureLedger out = unranked_ledger(problem);
+  ClosureLedger out = unranked_ledger(problem, true);
   rank_suspects(problem, out);
   return out;
 }

@@ -31,6 +31,8 @@ struct LedgerRow {
   std::size_t moves_at = 0;  ///< keyframe of the largest change
 };
 
+inline constexpr std::size_t kMinPlaces = 3;  ///< two cannot show which of them is wrong
+
 enum class LedgerVerdict {
   helps,           ///< the correction probably reduces the error
   not_shown,       ///< predictions are not better than the odometry

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -9,7 +10,7 @@
 
 #include "datasets/core/problem.hpp"
 
-namespace loopbench::methods {
+namespace loopbench {
 
 /// Returns the closures of each place, places in the order of their first closure. Two closures
 /// belong to one place if both their ends are at most `reach` keyframes apart, directly or through
@@ -65,4 +66,40 @@ inline double covered_share(const Problem& problem,
   return all > 0.0 ? covered / all : 0.0;
 }
 
-}  // namespace loopbench::methods
+/// Returns the problem without these closures (indices, ascending). O(closures).
+inline Problem without_closures(Problem problem, const std::vector<std::size_t>& closures) {
+  for (auto k = closures.rbegin(); k != closures.rend(); ++k) {
+    problem.closures.erase(problem.closures.begin() + static_cast<std::ptrdiff_t>(*k));
+  }
+  return problem;
+}
+
+/// How well the closures of each place are predicted without them.
+struct PlacePrediction {
+  double ratio = 1.0;      ///< geometric mean over places of predicted over uncorrected error [-]
+  std::size_t better = 0;  ///< places whose predicted error is the smaller one
+};
+
+/// The error of a place is the root mean square over its closures; `predicted` and `uncorrected`
+/// return the error of a closure [m]. O(closures).
+template <class Predicted, class Uncorrected>
+PlacePrediction place_prediction(const std::vector<std::vector<std::size_t>>& places,
+                                 Predicted predicted,
+                                 Uncorrected uncorrected) {
+  constexpr double kExact = 1e-18;  // squared error that is rounding [m^2]
+  PlacePrediction out;
+  double sum = 0.0;
+  for (const std::vector<std::size_t>& place : places) {
+    double with_others = 0.0, without = 0.0;
+    for (const std::size_t k : place) {
+      with_others += std::pow(predicted(k), 2);
+      without += std::pow(uncorrected(k), 2);
+    }
+    sum += 0.5 * std::log(std::max(with_others, kExact) / std::max(without, kExact));
+    if (with_others < without) ++out.better;
+  }
+  if (!places.empty()) out.ratio = std::exp(sum / static_cast<double>(places.size()));
+  return out;
+}
+
+}  // namespace loopbench
