@@ -3,6 +3,7 @@
 
 #include "metrics/checks/diagnostics.hpp"
 #include "metrics/checks/extrinsic_offset.hpp"
+#include "metrics/correction/closure_prediction.hpp"
 #include "metrics/correction/graph_cost.hpp"
 #include "metrics/correction/interpolation_floor.hpp"
 #include "metrics/correction/loop_detection.hpp"
@@ -53,6 +54,10 @@ std::vector<MetricEntry> metrics() {
       metric("closure_residual",
              "residuals of the loop closures after the correction",
              closure_residual),
+      metric_without_reference<ClosurePredictionOptions>(
+          "closure_prediction",
+          "error of closures predicted by those of other places, over that of the odometry",
+          closure_prediction),
       metric_without_reference<GraphCostOptions>(
           "graph_cost", "sum of squared Mahalanobis errors over all edges", graph_cost),
       metric_without_reference<NoOptions>(

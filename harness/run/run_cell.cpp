@@ -1,9 +1,13 @@
 #include "harness/run/run_cell.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
+#include "datasets/core/closure_places.hpp"
 #include "harness/catalogue/external_methods.hpp"
+#include "harness/catalogue/floating_point_guard.hpp"
+#include "harness/catalogue/server.hpp"
 #include "harness/run/add_scores.hpp"
 #include "harness/run/check_output.hpp"
 #include "harness/run/estimate_files.hpp"
@@ -18,7 +22,23 @@ namespace {
 struct Estimate {
   const Curve& curve;
   const std::vector<Matrix6>& covariances;  ///< one per keyframe; empty: none stated
+  const metrics::SolveWithout& without;
 };
+
+/// The result of the method without some closures, as a metric asks for it.
+Trajectory solved_without(const methods::Estimator& method,
+                          const Problem& all,
+                          const std::vector<std::size_t>& closures) {
+  const Problem problem = without_closures(all, closures);
+  const std::string why = reason_to_decline(method, problem);
+  if (!why.empty()) throw metrics::Undefined("without the closures of a place: " + why);
+  const FloatingPointGuard guard;
+  end_servers();  // no answer is from the memory of a program
+  methods::Report report;
+  const std::unique_ptr<const Curve> curve = method.estimate(problem, report);
+  check_span(curve.get(), problem.keyframes);
+  return CheckedCurve(*curve).sample(stamps(problem.keyframes));
+}
 
 metrics::Context context_of(const Sequence& sequence,
                             const Trajectory& at_keyframes,
@@ -32,7 +52,8 @@ metrics::Context context_of(const Sequence& sequence,
           .times = times,
           .protocol = protocol,
           .loop_candidates = &sequence.loop_candidates,
-          .estimate_covariances = estimate.covariances.empty() ? nullptr : &estimate.covariances};
+          .estimate_covariances = estimate.covariances.empty() ? nullptr : &estimate.covariances,
+          .solve_without = &estimate.without};
 }
 
 /// Whether all positions are equal to within 1e-9 of the reference's largest distance from its
@@ -143,7 +164,15 @@ CellResult run_cell(const Cell& cell,
     // Only metrics read them: they are neither sent to the sweep nor stored.
     const std::vector<Matrix6> covariances = std::exchange(result.report.covariances, {});
     check_covariances(covariances, sequence.problem.keyframes.size());
-    const Estimate estimate{checked, covariances};
+    std::map<std::vector<std::size_t>, Trajectory> solved;  // asked for under every protocol
+    const metrics::SolveWithout without = [&](const std::vector<std::size_t>& closures) {
+      auto found = solved.find(closures);
+      if (found == solved.end()) {
+        found = solved.emplace(closures, solved_without(*method, sequence.problem, closures)).first;
+      }
+      return found->second;
+    };
+    const Estimate estimate{checked, covariances, without};
     save_estimate(cell, sweep, sequence, checked);
     if (sequence.reference.empty()) {
       result.why = "no reference to evaluate against";

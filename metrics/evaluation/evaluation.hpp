@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct PrintedPoses {
   std::vector<PoseMatrix> estimate;
 };
 
+/// Runs the method again on its problem without these closures (indices, ascending), and returns
+/// the poses at its keyframes. Throws what the method throws, and Undefined if it declines.
+using SolveWithout = std::function<Trajectory(const std::vector<std::size_t>& closures)>;
+
 /// Non-owning pointers, null where the data do not exist: two files have neither problem nor curve.
 struct Context {
   const Trajectory* reference = nullptr;  ///< complete, before pairing
@@ -44,6 +49,7 @@ struct Context {
   /// Of each pose of `reference` and `estimate` (datasets/core/covariance.hpp).
   const std::vector<Matrix6>* reference_covariances = nullptr;
   const std::vector<Matrix6>* estimate_covariances = nullptr;
+  const SolveWithout* solve_without = nullptr;
 };
 
 /// Dereferences the view. Throws Undefined "METRIC: needs WHAT, which files do not have" if null.

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "evaluated_cell.hpp"
+#include "metrics/correction/closure_prediction.hpp"
 #include "metrics/correction/graph_cost.hpp"
 #include "metrics/correction/smoothness.hpp"
 #include "support.hpp"
@@ -20,6 +21,77 @@ using test::find;
 using test::why;
 
 const Protocol kAsIs{.align = Align::none};
+
+/// Odometry of 60 steps of 1 m that are 1.01 m in truth; closures at three places state the truth.
+Problem stretched() {
+  std::vector<double> positions;
+  for (int i = 0; i <= 60; ++i) positions.push_back(i);
+  Problem out = test::along_x(positions);
+  for (const std::size_t from : {0UL, 1UL, 25UL, 50UL}) {
+    const double length = 1.01 * static_cast<double>(60 - from);
+    out.closures.push_back({from, 60, test::at_x(length)});
+  }
+  return out;
+}
+
+/// Evaluates the metric for a method that moves the last keyframe by the mean of the gaps times
+/// `share`, and counts its runs.
+Score predicted(const Problem& problem, double share, int& runs, std::int64_t max_places = 20) {
+  const SolveWithout solve = [&](const std::vector<std::size_t>& closures) {
+    ++runs;
+    Trajectory out = problem.keyframes;
+    double sum = 0.0;
+    for (std::size_t k = 0; k < problem.closures.size(); ++k) {
+      const Edge& edge = problem.closures[k];
+      const double length = static_cast<double>(edge.to - edge.from);
+      if (std::ranges::count(closures, k) == 0) sum += edge.from_from_to.translation.x() - length;
+    }
+    const auto kept = static_cast<double>(problem.closures.size() - closures.size());
+    out.back().world_from_body.translation.x() += share * sum / kept;
+    return out;
+  };
+  Evaluation evaluation;
+  evaluation.context.problem = &problem;
+  evaluation.context.solve_without = &solve;
+  return closure_prediction(evaluation, {max_places}).at(0);
+}
+
+TEST(ClosurePrediction, IsTheGeometricMeanOverPlacesWorkedByHand) {
+  // Gaps of 0.6 and 0.59 m (one place), 0.35 and 0.1 m.
+  const Problem problem = stretched();
+  int runs = 0;
+  const double first = std::hypot(0.6 - 0.225, 0.59 - 0.225) / std::hypot(0.6, 0.59);
+  const double second = std::abs(0.35 - 1.29 / 3.0) / 0.35;
+  const double third = std::abs(0.1 - 1.54 / 3.0) / 0.1;
+  const Score score = predicted(problem, 1.0, runs);
+  EXPECT_NEAR(score.statistics.rmse, std::cbrt(first * second * third), 1e-9);
+  EXPECT_EQ(score.statistics.count, 3u);
+  EXPECT_EQ(runs, 3);
+  EXPECT_EQ(predicted(problem, 0.0, runs).statistics.rmse, 1.0);  // the odometry itself
+  runs = 0;
+  EXPECT_NEAR(predicted(problem, 1.0, runs, 2).statistics.rmse, std::sqrt(first * third), 1e-9);
+  EXPECT_EQ(runs, 2);
+}
+
+TEST(ClosurePrediction, IsUndefinedWithAReason) {
+  const auto reason = [](Problem problem) {
+    int runs = 0;
+    return why<Undefined>([&] { predicted(problem, 1.0, runs); });
+  };
+  Problem problem = stretched();
+  problem.closures.resize(2);
+  EXPECT_EQ(reason(problem), "closure_prediction: needs closures at two places, found 1");
+  problem = stretched();
+  problem.keyframes.back().world_from_body.translation.x() += 0.6;
+  EXPECT_EQ(reason(problem), "closure_prediction: the keyframes are not the poses of the odometry");
+  problem = stretched();
+  problem.closures[0].scale = 1.1;
+  EXPECT_EQ(reason(problem), "closure_prediction: a closure changes the scale");
+  Evaluation files;
+  files.context.problem = &problem;
+  EXPECT_EQ(why<Undefined>([&] { closure_prediction(files, {}); }),
+            "closure_prediction: needs a method that can run again, which files do not have");
+}
 
 TEST(ClosureResidual, ByHandIncludingMahalanobis) {
   Problem problem;
