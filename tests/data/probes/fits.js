@@ -2,8 +2,9 @@
 const said = [];
 const wide = document.documentElement.clientWidth;
 if (wide >= 1200 && document.documentElement.scrollHeight > 6000) said.push("higher than 6000 pixels");
-const first = document.querySelector("#answer svg").getBoundingClientRect();
-if (first.width < 100 || first.bottom > innerHeight) said.push("no chart on the first screen");
+const charts = [...document.querySelectorAll("#answer svg")].map((chart) => chart.getBoundingClientRect());
+const first = charts.find((box) => box.width > 0);
+if (!first || first.width < 100 || first.bottom > innerHeight) said.push("no chart on the first screen");
 for (const fold of document.querySelectorAll("main > details")) fold.open = true;
 R.changed();
 if (document.documentElement.scrollWidth > wide) said.push("page wider than the window: " + document.documentElement.scrollWidth);
