@@ -93,26 +93,19 @@ void compare_motions(const Paired& poses, Agreement& out) {
     of_estimate += estimate.translation.squaredNorm();
   }
   const double scale = of_estimate > 0.0 ? std::max(0.0, common / of_estimate) : 1.0;
-  const auto compare_displacements = [&](const std::vector<RelativePosePair>& motions) {
-    std::vector<double> errors, lengths;
-    for (const auto& [reference, estimate] : motions) {
-      errors.push_back((reference.translation - scale * (body * estimate.translation)).norm());
-      lengths.push_back(reference.translation.norm());
-    }
-    return std::pair{median_value(std::move(errors)), median_value(std::move(lengths))};
-  };
-  const std::vector<RelativePosePair> tested = motions_of(poses, false);
-  const auto [error, length] = compare_displacements(tested);
-  out.displacement = length > 0.0 ? error / length : 0.0;
   out.scale = scale;
   double error_squares = 0.0, squares = 0.0;
-  std::vector<double> angles;
-  for (const auto& [reference, estimate] : tested) {
+  std::vector<double> errors, lengths, angles;
+  for (const auto& [reference, estimate] : motions_of(poses, false)) {
+    errors.push_back((reference.translation - scale * (body * estimate.translation)).norm());
+    lengths.push_back(reference.translation.norm());
     const Vector3 rotated = log_so3(reference.rotation);
     angles.push_back((rotated - body * log_so3(estimate.rotation)).norm());
     error_squares += angles.back() * angles.back();
     squares += rotated.squaredNorm();
   }
+  const double length = median_value(std::move(lengths));
+  out.displacement = length > 0.0 ? median_value(std::move(errors)) / length : 0.0;
   out.usual_turning = median_value(std::move(angles));
   out.turning = squares > 0.0 ? std::sqrt(error_squares / squares) : 0.0;
 }
@@ -126,12 +119,12 @@ Rotation body_rotation(const Paired& poses) {
 Paired fitted_part(const Paired& poses) { return part_of(poses, true); }
 
 double Agreement::cost() const {
-  constexpr double kFloor = 0.02, kFloorOfAngle = 0.05, kWeightOfScale = 0.5, kMostScale = 20.0;
+  constexpr double kFloor = 0.02, kFloorOfAngle = 0.05, kWeightOfScale = 0.5;
   double out = std::log(position / std::max(1e-9, spread) + kFloor);
   if (has_rotations) {
     out += std::log(displacement + kFloor) + std::log(turning + kFloor);
     if (!is_line) out += std::log(rotation + kFloorOfAngle);
-    const double size = std::clamp(scale, 1.0 / kMostScale, kMostScale);
+    const double size = std::clamp(scale, kFloorOfAngle, 1.0 / kFloorOfAngle);
     out += kWeightOfScale * std::log(std::abs(std::log(size)) + kFloor);
   }
   return out;

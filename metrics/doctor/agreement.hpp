@@ -46,8 +46,7 @@ Rotation body_rotation(const Paired& poses);
 /// reference_from_estimate of the positions in least squares (Umeyama 1991). O(n).
 Eigen::Affine3d similarity(const Paired& poses);
 
-inline constexpr std::size_t kFewestCommonPoses = 20;  ///< fewer cannot be checked
-inline constexpr double kLeastRotation = 0.05;         ///< smaller ones cannot be checked [rad]
+inline constexpr double kLeastRotation = 0.05;  ///< smaller ones cannot be checked [rad]
 
 /// Largest rotation angle from the first pose [rad]. O(n).
 double largest_rotation_angle(const Trajectory& poses);

@@ -11,8 +11,9 @@
 namespace loopbench::metrics {
 namespace {
 
-constexpr double kMost = 36.0;       // chi-squared: six standard deviations
-constexpr double kMostDrift = 0.35;  // of the length of a loop; odometry is better
+constexpr double kMost = 36.0;        // chi-squared: six standard deviations
+constexpr double kMostDrift = 0.35;   // of the length of a loop; odometry is better
+constexpr double kUsualDrift = 0.01;  // the same, which stated noise can neglect
 
 Pose as_stated(const Pose& p) { return p; }
 
@@ -33,18 +34,17 @@ struct CheckedClosure {
 /// relative poses, if they are at least a fifth and neither the odometry nor a neighbour that
 /// states the same agrees. O(closures).
 std::optional<InputFinding> remove_placeholders(std::vector<Edge>& closures, const Chain& chain) {
-  constexpr double kExact = 1e-9, kLeastPart = 0.2;
+  constexpr double kLeastPart = 0.2;
   constexpr double kLeastGap = 0.05, kOfLength = 0.02;  // [m]; drift of most odometry [-]
-  constexpr std::size_t kFewest = 2;
   std::vector<Edge> identities, measured;
   for (const Edge& edge : closures) {
     const Pose& stated = edge.from_from_to;
     const bool is_identity =
-        stated.rotation.vec().norm() < kExact && stated.translation.norm() < kExact;
+        stated.rotation.vec().norm() < kRounding && stated.translation.norm() < kRounding;
     (is_identity ? identities : measured).push_back(edge);
   }
   const std::size_t count = identities.size(), all = closures.size();
-  if (count < kFewest || static_cast<double>(count) < kLeastPart * static_cast<double>(all))
+  if (count < 2 || static_cast<double>(count) < kLeastPart * static_cast<double>(all))
     return std::nullopt;
   std::vector<double> gaps, over_drift;
   for (const LoopPaths& each : loop_paths(identities, chain)) {
@@ -78,9 +78,8 @@ std::optional<InputFinding> remove_placeholders(std::vector<Edge>& closures, con
 /// median shows nothing, the gap also has to exceed 35 % of the loop's length. O(closures).
 std::vector<CheckedClosure> contradicted_closures(const std::vector<LoopPaths>& loops,
                                                   const Chain& chain) {
-  constexpr double kLeastGap = 0.3;     // [m] or [rad]: smaller ones do little harm
-  constexpr double kUsualDrift = 0.01;  // of the length of a loop, which stated noise can neglect
-  constexpr std::size_t kFewest = 4, kVotes = 3;
+  constexpr double kLeastGap = 0.3;  // [m] or [rad]: smaller ones do little harm
+  constexpr std::size_t kFewest = 4;
   std::vector<CheckedClosure> all, out;
   std::vector<double> odometry, over_closures;
   for (const LoopPaths& each : loops) {
@@ -88,7 +87,7 @@ std::vector<CheckedClosure> contradicted_closures(const std::vector<LoopPaths>& 
     closure.paths = &each;
     closure.odometry = each.odometry.chi_squared(chain, as_stated);
     odometry.push_back(closure.odometry);
-    if (each.over_closures.size() < kVotes || loops.size() < kFewest) continue;
+    if (each.over_closures.size() < kFewestLoops || loops.size() < kFewest) continue;
     std::vector<double> votes;
     for (const LoopPath& path : each.over_closures)
       votes.push_back(path.chi_squared(chain, as_stated));
@@ -121,7 +120,6 @@ InputFinding contradiction(const std::vector<CheckedClosure>& found,
                            std::size_t all,
                            const Chain& chain,
                            const Problem& problem) {
-  constexpr std::size_t kListed = 5;
   std::string list;
   for (std::size_t i = 0; i < std::min(kListed, found.size()); ++i) {
     const LoopPath& path = found[i].paths->odometry;
@@ -147,9 +145,7 @@ InputFinding contradiction(const std::vector<CheckedClosure>& found,
 /// The median chi-squared over the most certain paths. O(closures).
 std::optional<InputFinding> check_information(const std::vector<LoopPaths>& loops,
                                               const Chain& chain) {
-  constexpr std::size_t kFewest = 3;                     // one is as likely false
   constexpr double kTooLarge = 100.0, kTooSmall = 1e-4;  // drift exceeds noise
-  constexpr double kExact = 1e-6;                        // gap of measurements without noise [m]
   std::vector<double> direct, around, gaps;
   for (const LoopPaths& each : loops) {
     direct.push_back(each.odometry.chi_squared(chain, as_stated));
@@ -158,12 +154,12 @@ std::optional<InputFinding> check_information(const std::vector<LoopPaths>& loop
     gaps.push_back(each.odometry.residual(chain, as_stated).norm());
   }
   double found = median_value(std::move(direct));
-  const bool has_neighbours = around.size() >= kFewest;
+  const bool has_neighbours = around.size() >= kFewestLoops;
   const double of_neighbours = median_value(std::move(around));
   // One step of the odometry with a large deviation makes all direct paths certain of nothing.
   if (has_neighbours && std::min(found, of_neighbours) < kTooSmall) found = of_neighbours;
-  if (loops.size() < kFewest || (found < kTooLarge && found > kTooSmall) ||
-      median_value(std::move(gaps)) < kExact) {
+  if (loops.size() < kFewestLoops || (found < kTooLarge && found > kTooSmall) ||
+      median_value(std::move(gaps)) < kNoNoise) {
     return std::nullopt;
   }
   return InputFinding{
@@ -188,7 +184,7 @@ std::vector<InputFinding> check_closures(const Problem& problem) {
   std::vector<Edge> closures = problem.closures;
   const Chain chain = chain_of(problem);
   if (auto found = remove_placeholders(closures, chain)) out.push_back(*found);
-  std::vector<LoopPaths> loops = loop_paths(closures, chain);
+  const std::vector<LoopPaths> loops = loop_paths(closures, chain);
   if (auto repair = find_closure_repair(loops, chain)) {
     out.push_back(std::move(*repair));
     return out;

@@ -24,6 +24,7 @@ struct EdgeRepair {
 };
 
 Pose inverted(const Pose& p) { return p.inverse(); }
+Pose unchanged(const Pose& p) { return p; }
 
 /// Direction, order and direction of rotations, axes of the body, left-handed coordinates.
 std::vector<EdgeRepair> edge_repairs() {
@@ -74,7 +75,6 @@ struct MedianFit {
   MedianFit(const std::vector<const LoopPaths*>& loops,
             const Chain& chain,
             const PoseChange& change) {
-    constexpr double kRounding = 1e-9;
     std::vector<double> direct, around;
     for (const LoopPaths* loop : loops) {
       direct.push_back(loop->odometry.chi_squared(chain, change));
@@ -98,8 +98,7 @@ bool are_mostly_better(const std::vector<const LoopPaths*>& loops,
   for (const LoopPaths* loop : loops) {
     if (loop->over_closures.empty()) continue;
     const LoopPath& path = loop->over_closures.front();
-    const double was = path.chi_squared(chain, [](const Pose& p) { return p; });
-    better += path.chi_squared(chain, change) < was ? 1.0 : 0.0;
+    better += path.chi_squared(chain, change) < path.chi_squared(chain, unchanged) ? 1.0 : 0.0;
     all += 1.0;
   }
   return 2.0 * better - all > kDeviations * std::sqrt(all);
@@ -109,17 +108,15 @@ bool are_mostly_better(const std::vector<const LoopPaths*>& loops,
 
 std::optional<InputFinding> find_closure_repair(const std::vector<LoopPaths>& loops,
                                                 const Chain& chain) {
-  constexpr std::size_t kFewest = 3;        // one or two fit several conventions
-  constexpr std::size_t kHalves = 6;        // from so many on, one half proposes, the other decides
-  constexpr std::size_t kMost = 400;        // compared
-  constexpr double kMostRatio = 0.3;        // of chi-squared: errors fall to 55 %
-  constexpr double kMostOther = 1.2;        // of the other chi-squared; medians of few vary
-  constexpr double kRefuted = 4.0;          // chi-squared that the stated noise does not explain
-  constexpr double kClearRatio = 0.03;      // if the stated noise is so large that it explains all
-  constexpr double kFewAlternatives = 2.0;  // factor of the penalties for less than six
-  constexpr double kCertain = 12.0;         // closures from which on penalties count less
-  constexpr double kHalved = 0.5;           // chi-squared, if nearly all closures agree
-  if (loops.size() < kFewest) return std::nullopt;
+  constexpr std::size_t kHalves = 6;    // from so many on, one half proposes, the other decides
+  constexpr std::size_t kMost = 400;    // compared
+  constexpr double kMostRatio = 0.3;    // of chi-squared: errors fall to 55 %
+  constexpr double kMostOther = 1.2;    // of the other chi-squared; medians of few vary
+  constexpr double kRefuted = 4.0;      // chi-squared that the stated noise does not explain
+  constexpr double kClearRatio = 0.03;  // if the stated noise is so large that it explains all
+  constexpr double kCertain = 12.0;     // closures for which the penalties hold
+  constexpr double kHalved = 0.5;       // chi-squared, if nearly all closures agree
+  if (loops.size() < kFewestLoops) return std::nullopt;
   std::vector<const LoopPaths*> chosen, tested;
   const std::size_t step = even_step(loops.size(), kMost);
   for (std::size_t i = 0; i < loops.size(); i += step) {
@@ -127,12 +124,10 @@ std::optional<InputFinding> find_closure_repair(const std::vector<LoopPaths>& lo
     if (loops.size() < kHalves || is_chosen) chosen.push_back(&loops[i]);
     if (loops.size() < kHalves || !is_chosen) tested.push_back(&loops[i]);
   }
-  const PoseChange unchanged = [](const Pose& p) { return p; };
   const EdgeRepair* best = nullptr;
   double least = MedianFit(chosen, chain, unchanged).cost();
   static const std::vector<EdgeRepair> repairs = edge_repairs();
-  const double certainty = static_cast<double>(chosen.size()) / kCertain;
-  const double weight = loops.size() < kHalves ? kFewAlternatives : 1.0 / std::max(1.0, certainty);
+  const double weight = kCertain / static_cast<double>(loops.size());
   for (const EdgeRepair& repair : repairs) {
     const double cost = MedianFit(chosen, chain, repair.change).cost() + weight * repair.penalty;
     if (!(cost < least)) continue;

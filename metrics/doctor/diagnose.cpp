@@ -15,14 +15,12 @@ namespace {
 
 constexpr const char* kChecksOfPoses =
     "units, scale, quaternion order, inverted poses, axes, files of the same recording";
-constexpr double kConstant = 1e-6;     // of rotations [rad]
 constexpr double kLeastOfNoise = 3.0;  // standard deviation of positions over their noise
 
 /// Whether noise explains the positions: their standard deviation is at most kLeastOfNoise times
 /// the one of white noise that the median distance of a position from the middle of the ones before
 /// and after has. Acceleration adds to it. O(1).
 bool is_at_rest(const Trajectory& poses) {
-  constexpr double kRounding = 1e-9;
   constexpr double kMeanOverMedian = 3.0 / 2.366;  // of chi-squared with 3 degrees of freedom
   const auto at = [&](std::size_t i) -> const Vector3& {
     return poses[i].world_from_body.translation;
@@ -60,7 +58,6 @@ class PairDiagnosis {
   }
 
   void check_stamps() {
-    constexpr double kRowsSearched = 10.0;
     if (!has_stamps_)
       out_.unchecked.emplace_back("stamps: a file has none, its rows count as equally spaced");
     repair_unit_of_stamps();
@@ -70,7 +67,7 @@ class PairDiagnosis {
     const bool are_rows = !has_stamps_ && reference_->size() == estimate_->size();
     const auto found =
         are_rows ? estimate_time_offset(
-                       *reference_, *estimate_, kRowsSearched * usual_interval(*estimate_), true)
+                       *reference_, *estimate_, kUsualGaps * usual_interval(*estimate_), true)
                  : estimate_time_offset(*reference_, *estimate_);
     if (found) {
       out_.has_checked = true;
@@ -143,7 +140,6 @@ class PairDiagnosis {
 
   /// A finding only if the other file rotates. Files of positions are meant to have no rotations.
   void note_constant_rotation(double of_reference, double of_estimate) {
-    constexpr double kOtherRotates = 0.1;  // [rad]
     const auto [smaller, larger] = std::minmax(of_reference, of_estimate);
     const char* const name = of_reference <= kLeastRotation ? "reference" : "estimate";
     out_.unchecked.push_back(
@@ -152,7 +148,7 @@ class PairDiagnosis {
                     name,
                     kLeastRotation));
     const bool has_positions_only = lacks_rotations(*reference_) || lacks_rotations(*estimate_);
-    if (has_positions_only || smaller > kConstant || larger < kOtherRotates) return;
+    if (has_positions_only || smaller > kNoNoise || larger < 2.0 * kLeastRotation) return;
     out_.findings.push_back(
         {Fault::constant_rotation,
          fmt::format("the {}'s rotation is constant while the other file rotates by {:.0f} deg",
@@ -165,14 +161,14 @@ class PairDiagnosis {
 
   /// Nothing agrees, whatever is repaired: replaces all other findings.
   void check_recording(const Agreement& left) {
-    constexpr double kTurning = 0.7, kPosition = 0.4, kPositionAlone = 0.7, kCorrelation = 0.6;
+    constexpr double kPosition = 0.4, kAlone = 0.7;
     const double position = left.similarity / left.spread;
-    const bool disagrees = left.has_rotations ? left.turning > kTurning && position > kPosition
-                                              : position > kPositionAlone;
+    const bool disagrees =
+        left.has_rotations ? left.turning > kAlone && position > kPosition : position > kAlone;
     if (!disagrees) return;
     const double correlation = speed_correlation(*reference_, *estimate_, offset_);
     const double confidence = std::min(1.0, position) * (1.0 - correlation);
-    if (correlation > kCorrelation || confidence < kLeastConfidence) return;
+    if (correlation > kLeastCorrelation || confidence < kLeastConfidence) return;
     if (auto dropped = check_dropped_frames(*reference_, *estimate_)) {
       out_.findings = {std::move(*dropped)};
       return;

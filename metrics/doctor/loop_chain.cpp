@@ -66,7 +66,7 @@ double LoopPath::chi_squared(const Chain& chain, const PoseChange& change) const
 }
 
 std::vector<LoopPaths> loop_paths(const std::vector<Edge>& closures, const Chain& chain) {
-  constexpr std::size_t kCompared = 200, kMostPaths = 3;  // a false one of three is outvoted
+  constexpr std::size_t kCompared = 200;  // bounds the cost
   std::vector<const Edge*> sorted;
   for (const Edge& edge : closures) sorted.push_back(&edge);
   std::ranges::stable_sort(sorted, {}, [](const Edge* e) { return std::pair(e->to, e->from); });
@@ -83,8 +83,8 @@ std::vector<LoopPaths> loop_paths(const std::vector<Edge>& closures, const Chain
       if (all < most && (other.from != edge.from || other.to != edge.to)) {
         nearest.emplace_back(all, &other);
         std::ranges::stable_sort(nearest, {}, &std::pair<double, const Edge*>::first);
-        if (nearest.size() > kMostPaths) nearest.pop_back();
-        if (nearest.size() == kMostPaths) most = nearest.back().first;
+        if (nearest.size() > kFewestLoops) nearest.pop_back();
+        if (nearest.size() == kFewestLoops) most = nearest.back().first;
       }
       return to_end < most;
     };

@@ -66,9 +66,12 @@ struct LoopPath {
 
 struct LoopPaths {
   LoopPath odometry;
-  std::vector<LoopPath>
-      over_closures;  ///< the three with the least odometry; shorter than the loop
+  /// The kFewestLoops with the least odometry, so that a false one is outvoted; shorter than the
+  /// loop.
+  std::vector<LoopPath> over_closures;
 };
+
+inline constexpr std::size_t kFewestLoops = 3;  ///< one or two fit several explanations
 
 /// Sorted by the ends of the closures, of which at most 200 before and after are compared.
 /// O(closures log closures).

@@ -10,6 +10,9 @@
 
 namespace loopbench::metrics {
 
+inline constexpr double kLeastCorrelation = 0.6;  ///< of different recordings: 0.3, rarely 0.6
+inline constexpr double kNear = 10.0;             ///< [s]; larger offsets fit by chance more often
+
 struct TimeOffset {
   double offset = 0.0;          ///< to add to the estimate's stamps [s]
   double deviation = 0.0;       ///< standard deviation [s]
@@ -28,7 +31,7 @@ double speed_correlation(const Trajectory& reference, const Trajectory& estimate
 /// motion, or if no offset explains the speeds (correlation below 0.6). O(1e5 log n).
 std::optional<TimeOffset> estimate_time_offset(const Trajectory& reference,
                                                const Trajectory& estimate,
-                                               double searched = 10.0,
+                                               double searched = kNear,
                                                bool is_limited = false);
 
 /// A finding if the offset is significant (five standard deviations, above 20 ms and 35 % of the

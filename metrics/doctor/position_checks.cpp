@@ -66,11 +66,10 @@ double position_error(const Paired& poses) {
 }  // namespace
 
 std::optional<InputFinding> remove_jumps(Paired& pairs, bool of_reference) {
-  constexpr std::size_t kListed = 5, kReturnsWithin = 20;  // jumps
-  constexpr std::size_t kLongest = 20;                     // outlier, as a part of the poses
-  constexpr std::size_t kMostJumps = 6;                    // the same; more are noise
-  constexpr double kLongestPause = 100.0;                  // over the usual; after a stray stamp
-  constexpr double kMostRatio = 0.95, kLeastAngle = 0.3;   // [-], [rad]
+  constexpr std::size_t kReturnsWithin = 20;              // jumps, or this part of the poses
+  constexpr std::size_t kMostJumps = 6;                   // the same; more are noise
+  constexpr double kLongestPause = 100.0;                 // over the usual; after a stray stamp
+  constexpr double kMostRatio = 0.95, kLeastAngle = 0.3;  // [-], [rad]
   const Trajectory& poses = of_reference ? pairs.reference : pairs.estimate;
   const Trajectory& other = of_reference ? pairs.estimate : pairs.reference;
   if (poses.size() < kFewestCommonPoses) return std::nullopt;
@@ -85,7 +84,7 @@ std::optional<InputFinding> remove_jumps(Paired& pairs, bool of_reference) {
   /// Whether a jump after pose j undoes the one after pose i.
   const auto is_return = [&](std::size_t i, std::size_t j) {
     const double ratio = distance(poses, j, j + 1) / distance(poses, i, i + 1);
-    return j - i <= poses.size() / kLongest && ratio > 0.5 && ratio < 2.0 &&
+    return j - i <= poses.size() / kReturnsWithin && ratio > 0.5 && ratio < 2.0 &&
            !steps.is_jump(i, j + 1);
   };
   std::string list;

@@ -13,6 +13,8 @@
 namespace loopbench::metrics {
 namespace {
 
+constexpr double kPenalty = 0.1;  // of the gain, for a sign or a parameter that a repair changes
+
 struct Repair {
   Fault::Name fault;
   std::string what;      ///< "quaternions of the estimate in the order w x y z"
@@ -54,7 +56,7 @@ void add_conventions(std::vector<Repair>& to) {
       {Fault::quaternion_order,
        "quaternions, once read as w x y z instead of x y z w,",
        "--quaternion-order wxyz (three times, each moves them by one)",
-       0.1,
+       kPenalty,
        [](const Pose& p) -> Pose {
          const Rotation& q = p.rotation;
          return {Rotation(q.z(), q.w(), q.x(), q.y()), p.translation};
@@ -62,14 +64,14 @@ void add_conventions(std::vector<Repair>& to) {
       {Fault::inverted_poses,
        "inverting the positions, but not the rotations,",
        "--conjugate, then --invert-poses",
-       0.1,
+       kPenalty,
        [](const Pose& p) -> Pose {
          return {p.rotation, -(p.rotation * p.translation)};
        }},
       {Fault::inverted_poses,
        "inverting the rotations, but not the positions,",
        "--conjugate",
-       0.1,
+       kPenalty,
        [](const Pose& p) -> Pose {
          return {p.rotation.conjugate(), p.translation};
        }},
@@ -82,7 +84,7 @@ void add_conventions(std::vector<Repair>& to) {
                     fmt::format("{} of the {}", what, of_reference ? "reference" : "estimate"),
                     fmt::format("traj transform {} {}", file_of(of_reference), option),
                     of_reference ? 1.0 : 0.0,
-                    penalty + (of_reference ? 0.02 : 0.0),
+                    penalty + (of_reference ? 0.2 * kPenalty : 0.0),
                     to_each(of_reference, change)});
     }
   }
@@ -90,14 +92,13 @@ void add_conventions(std::vector<Repair>& to) {
 
 /// The signed permutations of the estimate's positions.
 void add_axes(std::vector<Repair>& to) {
-  constexpr double kPenalty = 0.05;  // of each axis that moves
   for (const auto& [axes, option] : signed_axes()) {
     const double distance = (axes - Matrix3::Identity()).squaredNorm();
     to.push_back({axes.determinant() < 0.0 ? Fault::mirrored : Fault::axes,
                   "taking " + option + " of the estimate's positions as x,y,z",
                   "traj transform EST --axes=" + option,
                   distance,
-                  kPenalty * distance,
+                  0.5 * kPenalty * distance,  // of each axis that moves
                   to_each(false, [by = axes](const Pose& p) -> Pose {
                     return {p.rotation, by * p.translation};
                   })});
@@ -106,21 +107,20 @@ void add_axes(std::vector<Repair>& to) {
 
 /// Left-handed coordinates.
 void add_mirrors(std::vector<Repair>& to) {
-  constexpr double kPenalty = 0.25;
   for (int axis = 0; axis < 3; ++axis) {
     const std::string name(1, "xyz"[axis]);
     to.push_back({Fault::mirrored,
                   "mirroring " + name + " of the estimate's positions and rotations",
                   "traj transform EST --mirror " + name,
                   4.0,
-                  kPenalty,
+                  2.5 * kPenalty,
                   to_each(false, [axis](const Pose& p) { return mirrored(p, axis); })});
   }
 }
 
 /// Millimetres or centimetres, or an arbitrary scale.
 void add_scale(std::vector<Repair>& to, const Paired& poses) {
-  constexpr double kUnitTolerance = 0.12, kLeastScale = 0.05, kPenalty = 0.2;
+  constexpr double kUnitTolerance = 0.12, kLeastScale = 0.05;
   const double scale = std::cbrt(similarity(poses).linear().determinant());
   if (std::abs(std::log(scale)) < kLeastScale) return;
   const auto scaled = [](bool of_reference, double by) {
@@ -132,7 +132,7 @@ void add_scale(std::vector<Repair>& to, const Paired& poses) {
              fmt::format("the estimate has scale {:.4g}", 1.0 / scale),
              "--align sim3",
              scale,
-             kPenalty,
+             2.0 * kPenalty,
              scaled(false, scale)};
   for (const auto& [factor, unit] : {std::pair{0.001, "millimetres"}, {0.01, "centimetres"}}) {
     const bool of_reference = scale > 1.0;
@@ -146,7 +146,7 @@ void add_scale(std::vector<Repair>& to, const Paired& poses) {
                        unit,
                        of_reference && factor < 0.01 ? ", or EST --scale 1000 (kilometres)" : ""),
            1.0 / scale,
-           kPenalty,
+           2.0 * kPenalty,
            scaled(of_reference, of_reference ? 1.0 / scale : scale)};
   }
   to.push_back(std::move(out));
@@ -155,7 +155,6 @@ void add_scale(std::vector<Repair>& to, const Paired& poses) {
 /// Axes and lever arm of another body.
 void add_bodies(std::vector<Repair>& to, const Paired& poses) {
   constexpr double kLeastAngle = 10.0 / kDegrees, kExplained = 0.5;
-  constexpr double kPenaltyOfAxes = 0.7, kPenaltyOfLeverArm = 0.1, kPenaltyOfBoth = 1.2;
   const auto add = [&](bool is_lever_arm,
                        const Pose& by,
                        double value,
@@ -174,7 +173,7 @@ void add_bodies(std::vector<Repair>& to, const Paired& poses) {
     add(false,
         {axes, Vector3::Zero()},
         angle,
-        kPenaltyOfAxes,
+        7.0 * kPenalty,
         fmt::format("with axes rotated by {:.1f} deg", kDegrees * angle));
   }
   const auto found = extrinsic_offset(poses.reference, poses.estimate, ExtrinsicOffsetOptions{});
@@ -184,7 +183,7 @@ void add_bodies(std::vector<Repair>& to, const Paired& poses) {
     add(true,
         body,
         body.translation.norm(),
-        body.rotation.vec().norm() > 0.0 ? kPenaltyOfBoth : kPenaltyOfLeverArm,
+        body.rotation.vec().norm() > 0.0 ? 12.0 * kPenalty : kPenalty,
         fmt::format("{:.3g} m away", body.translation.norm()));
   }
 }

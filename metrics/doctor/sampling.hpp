@@ -19,6 +19,13 @@ namespace loopbench::metrics {
 /// repairs of so many cost as much as reading 10^4 poses.
 inline constexpr std::size_t kMostPoses = 300;
 
+inline constexpr std::size_t kFewestCommonPoses = 20;  ///< fewer cannot be checked
+inline constexpr std::size_t kListed = 5;              ///< examples in a message
+inline constexpr double kRounding = 1e-9;              ///< of numbers in files [m], [rad]
+inline constexpr double kNoNoise = 1e-6;      ///< smaller errors are not measured [m], [rad]
+inline constexpr double kLeastOffset = 0.02;  ///< association tolerance of stamps [s]
+inline constexpr double kUsualGaps = 10.0;    ///< keyframes are that many intervals apart
+
 /// Median; 0 for an empty list.
 inline double median_value(std::vector<double> values) {
   return values.empty() ? 0.0 : upper_median(values);
@@ -40,7 +47,7 @@ inline double usual_interval(std::span<const StampedPose> poses) {
 /// Longest time between poses across which they are interpolated [s]: keyframes can be seconds
 /// apart. O(1).
 inline double longest_gap(const Trajectory& poses) {
-  return std::max(1.0, 10.0 * usual_interval(poses));
+  return std::max(1.0, kUsualGaps * usual_interval(poses));
 }
 
 /// Pose at any time, interpolated across gaps of at most `max_gap` [s]. O(log n).
@@ -92,10 +99,9 @@ inline double overlap(const Trajectory& a, const Trajectory& b) {
 /// O(1).
 inline bool has_frame_indices(const Trajectory& poses) {
   constexpr double kMostFirst = 1e6,
-                   kMostStep = 20.0;   // Unix time is larger; keyframes skip frames
-  constexpr std::size_t kFewest = 20;  // fewer can be whole seconds by chance
+                   kMostStep = 20.0;  // Unix time is larger; keyframes skip frames
   const double first = poses.front().stamp;
-  if (poses.size() < kFewest || first < 0.0 || first > kMostFirst ||
+  if (poses.size() < kFewestCommonPoses || first < 0.0 || first > kMostFirst ||
       usual_interval(poses) > kMostStep)
     return false;
   for (std::size_t i = 0; i < poses.size(); i += even_step(poses.size(), kMostPoses)) {

@@ -35,7 +35,7 @@ std::optional<InputFinding> check_swapped(const std::string& reference_name,
 
 std::optional<InputFinding> check_stamp_unit(const Trajectory& reference,
                                              const Trajectory& estimate) {
-  constexpr double kHardly = 0.01, kMostly = 0.5, kLeastPart = 0.05;  // of a duration
+  constexpr double kHardly = 0.01, kMostly = 0.5;  // of a duration
   if (reference.size() < 2 || estimate.size() < 2) return std::nullopt;
   const double longest = std::max(duration(reference), duration(estimate));
   if (overlap(reference, estimate) > kHardly * longest) return std::nullopt;
@@ -48,7 +48,7 @@ std::optional<InputFinding> check_stamp_unit(const Trajectory& reference,
       const Trajectory ends{{factor * wrong.front().stamp, {}}, {factor * wrong.back().stamp, {}}};
       const auto [shorter, longer] = std::minmax({duration(ends), duration(other)});
       const double common = overlap(ends, other);
-      if (shorter < kLeastPart * longer || common < kMostly * shorter) continue;
+      if (shorter < kHardly * longer || common < kMostly * shorter) continue;
       return InputFinding{
           Fault::stamp_unit,
           fmt::format("the stamps of the {} are {}: with seconds, {:.1f} s are common",
@@ -89,7 +89,6 @@ std::optional<InputFinding> check_missing(const Trajectory& reference,
                                           const Trajectory& estimate,
                                           double offset) {
   constexpr double kLeastShare = 0.25, kLeastLost = 0.12, kLeastGap = 2.0;  // of the path; [s]
-  constexpr double kUsualGaps = 10.0;  // keyframes are seconds apart
   if (std::min(reference.size(), estimate.size()) < kFewestCommonPoses) return std::nullopt;
   const double least = std::max(kLeastGap, kUsualGaps * usual_interval(estimate));
   double all = 0.0, missing = 0.0, lost = 0.0, longest = 0.0, begin = 0.0;  // lost: between poses

@@ -1,142 +1,15 @@
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "metrics/doctor/pair_checks.hpp"
+#include "metrics/doctor/speed_match.hpp"
 #include "metrics/numerics/angle.hpp"
-#include "metrics/numerics/average.hpp"
 
 namespace loopbench::metrics {
 namespace {
-
-constexpr double kLeastCorrelation = 0.6;  // of different recordings: 0.3, rarely 0.6
-constexpr double kSameCorrelation = 0.85;  // offsets that nothing else supports
-
-/// Pearson's correlation of values that are at most three times what a tenth exceeds: a jump would
-/// be all that correlates. 0 for a constant.
-double correlation(std::vector<double> a, std::vector<double> b) {
-  constexpr double kShare = 0.9, kOver = 3.0;
-  const auto centred = [](std::vector<double>& values) {
-    std::vector<double> sorted = values;
-    std::ranges::sort(sorted);
-    const double most = kOver * percentile(sorted, kShare);
-    const auto size = static_cast<Eigen::Index>(values.size());
-    const Eigen::Map<const Eigen::ArrayXd> all(values.data(), size);
-    const Eigen::ArrayXd limited = all.min(most);
-    return Eigen::VectorXd(limited - limited.mean());
-  };
-  const Eigen::VectorXd x = centred(a), y = centred(b);
-  const double norm = x.norm() * y.norm();
-  return norm > 0.0 ? x.dot(y) / norm : 0.0;
-}
-
-struct SpeedScore {
-  double angle = 0.0, distance = 0.0;
-  bool is_known = false;  ///< at least a fifth of the intervals are common
-
-  /// One of the speeds is enough: a vehicle at constant speed, a drifting scale.
-  double best() const {
-    constexpr double kPenalty = 0.15;  // a single speed fits by chance more often
-    if (!is_known) return -1.0;
-    return std::max({0.5 * (angle + distance), angle - kPenalty, distance - kPenalty});
-  }
-};
-
-/// Linear and angular speeds of both over intervals of the estimate that do not overlap, at most
-/// `most` and evenly chosen, of at least `shortest` [s]. Its stamps are read as
-/// begin + factor * (stamp - first).
-class SpeedMatch {
- public:
-  SpeedMatch(const Trajectory& reference,
-             std::span<const StampedPose> estimate,
-             std::size_t most,
-             double shortest,
-             double begin,
-             double factor = 1.0)
-      : reference_(reference), gap_(std::max(shortest, longest_gap(reference))) {
-    constexpr double kLongest = 10.0;  // over the usual
-    const std::size_t step = std::max<std::size_t>(1, estimate.size() / most);
-    const double first = estimate.front().stamp;
-    for (std::size_t i = 0, j = 0; i < estimate.size(); i = std::max(j, i + step)) {
-      const auto end =
-          std::ranges::lower_bound(estimate.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-                                   estimate.end(),
-                                   estimate[i].stamp + shortest / factor,
-                                   {},
-                                   &StampedPose::stamp);
-      if (end == estimate.end()) break;
-      j = static_cast<std::size_t>(end - estimate.begin());
-      const double from = begin + factor * (estimate[i].stamp - first);
-      const double to = begin + factor * (end->stamp - first);
-      if (to - from > kLongest * shortest) continue;
-      intervals_.push_back({from, to, estimate[i].world_from_body, end->world_from_body});
-    }
-  }
-
-  auto size() const { return static_cast<double>(intervals_.size()); }
-
-  /// O(intervals log n).
-  SpeedScore score(double offset) const {
-    constexpr std::size_t kFewest = 10;
-    std::vector<double> angles[2], distances[2];
-    const auto add = [&](int of, const Pose& from, const Pose& to, double seconds) {
-      const double angle = has_rotation(from) ? angle_between(from.rotation, to.rotation) : 0.0;
-      angles[of].push_back(angle / seconds);
-      distances[of].push_back((to.translation - from.translation).norm() / seconds);
-    };
-    for (const auto& [begin, end, from, to] : intervals_) {
-      const auto reference_from = pose_near(reference_, begin + offset, gap_);
-      if (!reference_from) continue;
-      const auto reference_to = pose_near(reference_, end + offset, gap_);
-      if (!reference_to) continue;
-      add(0, *reference_from, *reference_to, end - begin);
-      add(1, from, to, end - begin);
-    }
-    if (angles[0].size() < std::max(kFewest, intervals_.size() / 5)) return {};
-    return {correlation(angles[0], angles[1]), correlation(distances[0], distances[1]), true};
-  }
-
-  double at(double offset) const { return score(offset).best(); }
-
- private:
-  struct Interval {
-    double begin, end;  // [s]
-    Pose from, to;
-  };
-  const Trajectory& reference_;
-  double gap_;
-  std::vector<Interval> intervals_;
-};
-
-struct BestOffset {
-  double offset = 0.0;
-  double score = -1.0;
-};
-
-/// Periodic speeds fit equally well at several offsets; of these, the one near zero is likely.
-BestOffset search_offsets(const SpeedMatch& match, double low, double high, double step) {
-  constexpr double kNear = 1.0;  // [s]
-  const auto steps = static_cast<int>(std::floor((high - low) / step + 1e-6));
-  BestOffset best;
-  for (int i = 0; i <= steps; ++i) {
-    const double offset = low + i * step;
-    const double score = match.at(offset);
-    const double less = std::abs(offset) > kNear ? std::max(0.003, 0.1 * (1.0 - score)) : 0.0;
-    if (score - less > best.score) best = {offset, score - less};
-  }
-  return best;
-}
-
-/// Shortest interval over which speeds exceed noise [s].
-double least_interval(const Trajectory& reference, std::span<const StampedPose> estimate) {
-  constexpr double kShortest = 0.1;
-  return std::max({kShortest, usual_interval(reference), 0.99 * usual_interval(estimate)});
-}
 
 /// The vertex of the parabola through three scores, and its standard deviation in least squares of
 /// the angles and of the distances: from the part of both that is not explained, and the curvature
@@ -155,9 +28,6 @@ void refine(const SpeedMatch& match, double step, TimeOffset& out) {
   if (!(curvature < 0.0)) return;
   out.offset += std::clamp(0.5 * step * (left.best() - right.best()) / curvature, -step, step);
 }
-
-constexpr std::size_t kManyIntervals = 600;  // correlations are known to 0.04
-constexpr std::size_t kFewIntervals = 60;    // for many offsets: to 0.13
 
 }  // namespace
 
@@ -213,13 +83,13 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
                                            const Trajectory& reference,
                                            const Trajectory& estimate,
                                            bool has_stamps) {
-  constexpr double kSmallest = 0.02, kOfInterval = 0.35, kDeviations = 5.0;  // [s]; significant
-  constexpr double kLeastGain = 0.1, kMostRatio = 0.9;    // of the errors after an alignment
-  constexpr double kMostUsual = 0.8, kSmallAngle = 1e-4;  // [-], [rad]
-  constexpr double kNear = 10.0;  // [s]; larger offsets fit by chance more often
+  constexpr double kOfInterval = 0.35, kDeviations = 5.0;  // [s]; significant
+  constexpr double kLeastGain = 0.1, kMostRatio = 0.9;     // of the errors after an alignment
+  constexpr double kMostUsual = 0.8;                       // of the median error of rotations
   const double size = std::abs(found.offset), period = usual_interval(estimate);
   const double significant = kOfInterval * std::min(0.2, period);
-  if (size < std::max({kSmallest, significant, kDeviations * found.deviation})) return std::nullopt;
+  if (size < std::max({kLeastOffset, significant, kDeviations * found.deviation}))
+    return std::nullopt;
   const double rows = std::round(found.offset / period);
   const bool is_whole = std::abs(found.offset - rows * period) < kOfInterval * period;
   if (!has_stamps && (rows == 0.0 || !is_whole)) return std::nullopt;
@@ -231,7 +101,7 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
     const Agreement before = agreement(common_poses(reference, estimate));
     const Agreement after = agreement(common_poses(reference, estimate, offset));
     Improvement gained = improvement(before, after);
-    const double usual = after.usual_turning / std::max(kSmallAngle, before.usual_turning);
+    const double usual = after.usual_turning / std::max(kNoNoise, before.usual_turning);
     // Where an estimate is lost, its errors hide a shift of rows, but not in their median.
     const bool is_usual = !has_stamps && usual < kMostUsual;
     if (is_usual && usual < gained.ratio)
@@ -259,61 +129,6 @@ std::optional<InputFinding> offset_finding(const TimeOffset& found,
                       fmt::format("--offset {:.4f}", offset),
                       confidence,
                       offset};
-}
-
-std::optional<InputFinding> check_dropped_frames(const Trajectory& reference,
-                                                 const Trajectory& estimate) {
-  constexpr double kOtherRate = 0.07;  // logarithm; the parts below see smaller ones
-  constexpr double kCells = 120.0;     // of the reference, whose speeds are compared
-  constexpr int kSearched = 6;         // per cent of the rate, and cells
-  constexpr double kOfCell = 0.5, kCellsOfParts = 8.0;  // steps and range of the offsets of parts
-  constexpr std::size_t kParts = 5, kFewest = 4;
-  const auto finding = [&](Fault::Name fault, const std::string& evidence, double value) {
-    return InputFinding{
-        fault, evidence, "write the stamp of each frame in seconds", kSameCorrelation, value};
-  };
-  const bool has_indices = has_frame_indices(estimate) && !has_frame_indices(reference);
-  const double cell = duration(reference) / kCells,
-               ratio = duration(reference) / duration(estimate);
-  double factor = 1.0;
-  BestOffset best;
-  for (int k = -kSearched; k <= kSearched; ++k) {
-    const double each = ratio * (1.0 + 0.01 * k);
-    const SpeedMatch match(reference, estimate, kFewIntervals, cell, reference.front().stamp, each);
-    const BestOffset found = search_offsets(match, -kSearched * cell, kSearched * cell, cell);
-    if (found.score < best.score) continue;
-    best = found;
-    factor = each;
-  }
-  if (std::abs(std::log(factor)) > kOtherRate && best.score > kSameCorrelation) {
-    return finding(
-        has_indices ? Fault::no_overlap : Fault::missing_poses,
-        fmt::format("the estimate's stamps {}: times {:.3g}, correlation of speeds {:.2f}",
-                    has_indices ? "are frame numbers" : "have another rate, or it lacks poses",
-                    factor,
-                    best.score),
-        factor);
-  }
-  std::vector<double> offsets;
-  for (std::size_t k = 0; k < kParts; ++k) {
-    const std::size_t begin = k * estimate.size() / kParts,
-                      end = (k + 1) * estimate.size() / kParts;
-    const auto part = std::span(estimate).subspan(begin, end - begin);
-    const SpeedMatch match(reference,
-                           part,
-                           kFewIntervals,
-                           std::max(least_interval(reference, part), kOfCell * cell),
-                           part.front().stamp);
-    const double most = kCellsOfParts * cell;
-    const BestOffset found = search_offsets(match, -most, most, kOfCell * cell);
-    if (found.score > kSameCorrelation) offsets.push_back(found.offset);
-  }
-  if (offsets.size() < kFewest || !std::ranges::is_sorted(offsets)) return std::nullopt;
-  return finding(Fault::missing_poses,
-                 fmt::format("the estimate's fifths have offsets of {:.3f} s, as if frames had "
-                             "been dropped before stamps were written",
-                             fmt::join(offsets, ", ")),
-                 offsets.back() - offsets.front());
 }
 
 }  // namespace loopbench::metrics
