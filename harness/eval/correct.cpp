@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "datasets/core/closure_places.hpp"
 #include "datasets/core/covariance.hpp"
 #include "datasets/derive/closures.hpp"
 #include "datasets/derive/planar.hpp"
@@ -141,21 +142,32 @@ void hold_first_fixed(Correction& done) {
   }
 }
 
-/// Writes the ledger if its file is wanted. Returns the verdict of loops.hpp; an empty text if
-/// there is none or it would take long.
-std::string closure_verdict(const CorrectArguments& a, const Problem& problem) {
+/// Writes the ledger of all closures if its file is wanted, and sets the verdict on the closures
+/// that the method kept, unless it would take long.
+void judge_closures(const CorrectArguments& a, Correction& done) {
   constexpr std::size_t kFew = 200;  // closures whose ledger takes about a second
-  const bool is_wanted = !a.ledger.empty();
-  const bool is_quick = problem.closures.size() <= kFew && methods::why_no_ledger(problem).empty();
-  if (!is_wanted && !is_quick) return {};
+  std::string rows;
   try {
-    LoopsResult result = loops(problem, a.estimate);
-    if (is_wanted) add_rejections(result), write_file(a.ledger, csv(result));
-    return verdict_text(result);
-  } catch (const std::runtime_error&) {  // the joint solution fails
-    if (is_wanted) throw;
-    return {};
+    if (!a.ledger.empty()) {
+      LoopsResult all = loops(done.problem, a.estimate);
+      add_rejections(all);
+      rows = csv(all);
+    }
+    Problem kept =
+        without_closures(done.problem, done.report.rejected.value_or(std::vector<std::size_t>{}));
+    const bool is_quick = kept.closures.size() <= kFew || !rows.empty();
+    if (is_quick && methods::why_no_ledger(kept).empty()) {
+      LoopsResult result = loops(std::move(kept), a.estimate);
+      result.is_kept = done.report.rejected.has_value();
+      done.verdict = verdict_text(result);
+      done.is_contradicted = methods::is_contradicted(result.ledger.verdict);
+    }
+  } catch (const std::runtime_error& error) {  // no ledger, or the joint solution fails
+    if (!a.ledger.empty()) {
+      done.report.notes.push_back(fmt::format("{} is not written: {}", a.ledger, error.what()));
+    }
   }
+  if (!rows.empty()) write_file(a.ledger, rows);
 }
 
 std::optional<std::size_t> rejected_closures(const Correction& done) {
@@ -272,9 +284,7 @@ Correction correct(const CorrectArguments& a, const Catalogue& catalogue) {
   Correction out = correct(std::move(problem), a.estimate, choice, at, catalogue);
   out.outside = outside;
   out.provenance = std::move(provenance);
-  if (!a.ledger.empty() || uses_closures(choice, catalogue)) {
-    out.verdict = closure_verdict(a, out.problem);
-  }
+  if (!a.ledger.empty() || uses_closures(choice, catalogue)) judge_closures(a, out);
   const Rotation body_from_file = out.provenance.file_body_from_body.rotation.conjugate();
   change_body(out.problem, body_from_file);
   for (Trajectory* const poses : {&out.keyframes, &out.output}) change_body(*poses, body_from_file);

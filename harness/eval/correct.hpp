@@ -52,7 +52,8 @@ struct Correction {
   double seconds = 0.0;                 ///< wall time of the method
   methods::Report report;
   std::string out;      ///< file that was written; empty: none
-  std::string verdict;  ///< on all closures, verdict_text() of loops.hpp; empty: not computed
+  std::string verdict;  ///< on the closures kept, verdict_text() of loops.hpp; empty: not computed
+  bool is_contradicted = false;  ///< these closures contradict each other
 };
 
 /// A method as in a config, with its options: NAME:option=value,... Throws InputError also for an
@@ -70,7 +71,8 @@ Correction correct(Problem problem,
 
 /// Loads the input as the datasets `trajectory` and `pose_graph` of a sweep do, runs the method and
 /// writes the output file. Numbers are written so that reading them is bit-identical. Computes the
-/// ledger of the closures if its file is wanted, or if it takes little time. Throws InputError,
+/// ledger of the closures if its file is wanted, or if it takes little time; a note states why its
+/// file is not written. Throws InputError,
 /// also if the method declines; other exceptions of the method are not caught.
 Correction correct(const CorrectArguments& arguments, const Catalogue& catalogue);
 

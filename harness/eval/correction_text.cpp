@@ -7,6 +7,7 @@
 #include "harness/base/counted.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/eval/correct.hpp"
+#include "harness/eval/loops.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -44,7 +45,7 @@ nlohmann::json rejected_json(const Correction& c) {
   nlohmann::json out = nlohmann::json::array();
   const auto end = [&](std::size_t keyframe) -> nlohmann::json {
     if (!c.problem.ids.empty()) return c.problem.ids[keyframe];
-    return c.problem.keyframes[keyframe].stamp;
+    return shown_stamp(c.problem.keyframes[keyframe].stamp);
   };
   for (const std::size_t k : *c.report.rejected) {
     const Edge& edge = c.problem.closures[k];
@@ -56,12 +57,13 @@ nlohmann::json rejected_json(const Correction& c) {
 }  // namespace
 
 std::string text(const Correction& c) {
-  std::string out = fmt::format("{} corrected by {}: {} keyframes, {}, {}",
-                                c.estimate,
-                                c.method,
-                                c.keyframes.size(),
-                                counted(c.problem.odometry.size(), "odometry edge"),
-                                counted(c.problem.closures.size(), "closure"));
+  std::string out = c.is_contradicted ? "Warning: " + c.verdict + "\n\n" : "";
+  out += fmt::format("{} corrected by {}: {} keyframes, {}, {}",
+                     c.estimate,
+                     c.method,
+                     c.keyframes.size(),
+                     counted(c.problem.odometry.size(), "odometry edge"),
+                     counted(c.problem.closures.size(), "closure"));
   if (c.rejected) out += fmt::format(" ({} rejected)", *c.rejected);
   if (!c.problem.anchors.empty()) out += ", " + counted(c.problem.anchors.size(), "anchor");
   out += fmt::format(", {:.1f} ms\n\n", 1e3 * c.seconds);
@@ -81,7 +83,7 @@ std::string text(const Correction& c) {
     counts += fmt::format("{}{} {:.6g}", counts.empty() ? "" : ", ", count.name, count.value);
   }
   if (!counts.empty()) out += "counts: " + counts + "\n";
-  if (!c.verdict.empty()) out += "closures: " + c.verdict + "\n";
+  if (!c.verdict.empty() && !c.is_contradicted) out += "closures: " + c.verdict + "\n";
   for (const std::string& note : c.report.notes) out += "note: " + note + "\n";
   if (!c.out.empty() && !is_dash(c.out)) {
     out += fmt::format("\n{} in {}\n", counted(c.output.size(), "pose"), c.out);

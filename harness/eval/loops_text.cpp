@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "harness/base/counted.hpp"
@@ -29,7 +30,7 @@ bool rejects(const std::vector<std::size_t>& rejected, std::size_t closure) {
 /// Vertex id of a graph, or stamp.
 Json keyframe_json(const Problem& problem, std::size_t keyframe) {
   if (!problem.ids.empty()) return problem.ids[keyframe];
-  return problem.keyframes[keyframe].stamp;
+  return shown_stamp(problem.keyframes[keyframe].stamp);
 }
 
 /// Of LedgerVerdict, in its order.
@@ -90,19 +91,27 @@ std::string few_places_text(const ClosureLedger& ledger) {
 
 std::string contradiction_text(const LoopsResult& result) {
   const ClosureLedger& ledger = result.ledger;
-  const bool is_pair = ledger.rows.size() == 2;
+  const std::string first = closure_name(result, ledger.suspects.front());
+  const std::string second = closure_name(result, ledger.suspects.at(1));
+  if (ledger.places < methods::kMinPlaces) {
+    return fmt::format(
+        "Odometry and closures disagree (chi2 up to {:.3g} per degree of freedom, most at {} and "
+        "{}). With closures at fewer than three places it cannot be known whether these, the "
+        "odometry (its scale) or the stated covariances are wrong, see loopbench doctor. Do not "
+        "use the correction.",
+        ledger.largest_chi2,
+        first,
+        second);
+  }
   const std::string out = fmt::format(
-      fmt::runtime(is_pair
-                       ? "Closures {} and {} contradict each other (chi2 {:.3g} per degree of "
-                         "freedom): which one is false cannot be known from two. Do not use "
-                         "the correction."
-                       : "Closure {}, or else {}, contradicts the others (chi2 up to {:.3g} per "
-                         "degree of freedom). Do not use the correction by all closures; try "
-                         "pose_graph_pcm."),
-      closure_name(result, ledger.suspects.front()),
-      closure_name(result, ledger.suspects.at(1)),
-      ledger.largest_chi2);
-  if (ledger.verdict == LedgerVerdict::contradiction || is_pair) return out;
+      "{}losure {}, or else {}, contradicts the others (chi2 up to {:.3g} per degree of freedom). "
+      "Do not use {}.",
+      result.is_kept ? "Of the closures kept, c" : "C",
+      first,
+      second,
+      ledger.largest_chi2,
+      result.is_kept ? "this correction" : "the correction by all closures; try pose_graph_pcm");
+  if (ledger.verdict == LedgerVerdict::contradiction) return out;
   return out +
          " Most closures contradict the odometry, too: either the stated covariances are too small "
          "or most closures are false (see loopbench doctor).";
@@ -110,10 +119,15 @@ std::string contradiction_text(const LoopsResult& result) {
 
 }  // namespace
 
+double shown_stamp(double stamp) {
+  const double shortened = std::strtod(fmt::format("{:.15g}", stamp).c_str(), nullptr);
+  return std::abs(shortened - stamp) < 1e-9 ? shortened : stamp;
+}
+
 std::string closure_name(const LoopsResult& result, std::size_t closure) {
   const Edge& edge = result.problem.closures[closure];
-  return keyframe_json(result.problem, edge.to).dump() + " -> " +
-         keyframe_json(result.problem, edge.from).dump();
+  return keyframe_json(result.problem, edge.from).dump() + " -> " +
+         keyframe_json(result.problem, edge.to).dump();
 }
 
 std::string verdict_text(const LoopsResult& result) {
@@ -186,7 +200,11 @@ std::string text(const LoopsResult& result, std::size_t rows) {
     out += fmt::format(
         "{} rejects {}: {}.\n", method, counted(rejected.size(), "closure"), kRobust.at(method));
   }
-  out += "Errors that all closures share (lever arm, bias) are not visible here.\n";
+  out +=
+      "place: closures that join the same two stretches of the path; [sd]: error in standard "
+      "deviations; moves: change of the trajectory without the closure; chi2 drop: decrease of the "
+      "cost without it\n"
+      "Errors that all closures share (lever arm, bias) are not visible here.\n";
   return out;
 }
 
