@@ -24,16 +24,16 @@ void located(const ConfigEntry& entry,
   }
 }
 
-/// "name (a=1, b=2)". If the entry has a label, only the swept settings are listed.
+/// "name (a=1, b=2)". If the entry has a label or a pattern, only the swept settings and the texts
+/// of the wildcards are listed.
 std::string label_of(const ConfigEntry& entry, const GridPoint& point) {
+  const bool is_short = !entry.label.empty() || !point.matched.empty();
   std::string shown;
   for (const Setting& setting : point.settings) {
-    if (!entry.label.empty() && std::ranges::count(point.swept, setting.name) == 0) continue;
+    if (is_short && std::ranges::count(point.swept, setting.name) == 0) continue;
     shown += (shown.empty() ? "" : ", ") + setting.name + "=" + to_text(setting.value);
   }
-  if (!entry.label.empty()) {
-    for (const std::string& text : point.matched) shown += (shown.empty() ? "" : ", ") + text;
-  }
+  for (const std::string& text : point.matched) shown += (shown.empty() ? "" : ", ") + text;
   const std::string& base = entry.label.empty() ? entry.name : entry.label;
   return shown.empty() ? base : base + " (" + shown + ")";
 }
