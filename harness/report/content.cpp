@@ -92,9 +92,7 @@ ReportContent read_report_content(const std::filesystem::path& store, std::size_
 }
 
 std::vector<std::string> default_methods(const ReportContent& content) {
-  constexpr std::size_t kMostMethods = 5;    // more lines are hard to distinguish
-  constexpr std::size_t kFewestMethods = 2;  // even if their curves coincide
-  constexpr double kSame = 0.03;
+  constexpr std::size_t kMostMethods = 5;  // more lines are hard to distinguish
   std::vector<std::string> out;
   const auto add = [&](const std::string& name) {
     if (out.size() < kMostMethods && std::ranges::count(out, name) == 0) out.push_back(name);
@@ -109,25 +107,11 @@ std::vector<std::string> default_methods(const ReportContent& content) {
   for (const auto& [name, options] : method_definitions(content)) {
     if (options.find("; + ") != std::string::npos) chains.insert(name);
   }
-  if (!chains.empty()) {
-    for (const bool is_plain : {false, true}) {
-      const auto best = std::ranges::find_if(headline->methods, [&](const MethodVerdict& m) {
-        return m.method != headline->options.baseline && !(is_plain && chains.contains(m.method));
-      });
-      if (best != headline->methods.end()) add(best->method);
-    }
-    return out;
-  }
-  std::vector<double> drawn;
   for (const MethodVerdict& m : headline->methods) {
-    const bool coincides = std::ranges::any_of(
-        drawn, [&](double median) { return std::abs(m.median - median) <= kSame * median; });
-    if (coincides) continue;
-    drawn.push_back(m.median);
+    const bool is_chain = chains.contains(m.method);
+    if (m.method == headline->options.baseline || (is_chain && out.size() > 1)) continue;
     add(m.method);
-  }
-  for (const MethodVerdict& m : headline->methods) {
-    if (out.size() < kFewestMethods) add(m.method);
+    if (!chains.empty() && !is_chain) break;
   }
   return out;
 }

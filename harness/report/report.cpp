@@ -91,8 +91,6 @@ std::string thinned_html(const ReportContent& content, std::size_t bytes) {
                       {"style", "\n" + asset_text("page/report.css") + "\n"},
                       {"summary", summary_html(content)},
                       {"answers", answers_html(content)},
-                      {"verdicts", verdicts_html(content)},
-                      {"comparison", comparison_html(content)},
                       {"scores", scores_html(content)},
                       {"failures", failures_html(content)},
                       {"costs", costs_html(content)},

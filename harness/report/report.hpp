@@ -48,10 +48,8 @@ ReportContent read_report_content(const std::filesystem::path& store,
                                   std::size_t bytes = kReportBytes);
 
 /// The methods whose trajectories `plot` and the report draw by default: the baseline, the best one
-/// and, if some are chains of a corrector and a smoother, the best one without a smoother. If none
-/// are chains, the five best; methods whose medians differ by less than 3 % are not drawn twice, as
-/// their curves coincide, unless only one would remain. Without a ranking the first methods of the
-/// sweep.
+/// and, if some are chains of a corrector and a smoother, the best one without a smoother; if none
+/// are chains, the best ones, at most five in all. Without a ranking the first methods of the sweep.
 std::vector<std::string> default_methods(const ReportContent& content);
 
 /// Labels of the methods with all their options as stores have them, "dual, use=all; + dm,

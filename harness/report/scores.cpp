@@ -21,28 +21,10 @@ nlohmann::json statistics_json(const metrics::Statistics& s) {
 /// Places of the entries of these kinds by their names.
 using Places = std::map<std::string, std::size_t>;
 
-/// "dual + dm" of "dual, use=all; + dm, planar=3".
-std::string catalogue_names(const std::string& options) {
-  std::string out;
-  for (std::size_t at = 0; at < options.size();) {
-    const std::size_t end = std::min(options.find("; ", at), options.size());
-    out += out.empty() ? "" : " ";
-    out += options.substr(at, std::min(end, options.find(',', at)) - at);
-    at = end + 2;
-  }
-  return out;
-}
-
-/// [{of, name, options, members}]: the families of sequences or of methods; a member is its place
-/// followed by the values of the options.
-nlohmann::json families_json(const ReportContent& content,
-                             const Places& sequences,
-                             const Places& methods) {
+/// [{name, options, members}]: families of entries; a member is its place, then the values.
+nlohmann::json families_json(const std::vector<OptionFamily>& families, const Places& places) {
   nlohmann::json out = nlohmann::json::array();
-  const auto add = [&](const char* of,
-                       const OptionFamily& family,
-                       const std::string& name,
-                       const Places& places) {
+  for (const OptionFamily& family : families) {
     nlohmann::json members = nlohmann::json::array();
     for (const OptionFamily::Member& member : family.members) {
       const auto place = places.find(member.name);
@@ -50,15 +32,7 @@ nlohmann::json families_json(const ReportContent& content,
       nlohmann::json& entry = members.emplace_back(nlohmann::json::array({place->second}));
       for (const double value : member.values) entry.push_back(value);
     }
-    out.push_back({{"of", of}, {"name", name}, {"options", family.options}, {"members", members}});
-  };
-  for (const OptionFamily& family : sequence_families(content.shown_cells)) {
-    add("sequence", family, family.name, sequences);
-  }
-  const auto definitions = method_definitions(content);
-  const std::map<std::string, std::string> options(definitions.begin(), definitions.end());
-  for (const OptionFamily& family : option_families(definitions)) {
-    add("method", family, catalogue_names(options.at(family.members.front().name)), methods);
+    out.push_back({{"name", family.name}, {"options", family.options}, {"members", members}});
   }
   return out;
 }
@@ -143,7 +117,8 @@ nlohmann::json scores_json(const ReportContent& content) {
           {"baseline", baseline == content.run.end() ? "" : baseline->second},
           {"statistics", {"rmse", "mean", "median", "max"}},
           {"kinds", std::move(kinds)},
-          {"families", families_json(content, sequence, method)},
+          {"sequence_families", families_json(sequence_families(content.shown_cells), sequence)},
+          {"method_families", families_json(option_families(method_definitions(content)), method)},
           {"growth", growth_json(content, method)},
           {"cells", std::move(cells)}};
 }

@@ -21,10 +21,6 @@ std::string plural(std::size_t number, const std::string& one) {
   return number == 1 ? one : one + "s";
 }
 
-std::string score_name(const Comparison& c) {
-  return c.kind.short_name() + " " + c.options.value + " [" + c.kind.unit + "]";
-}
-
 /// Gains and times are shown next to the names, so that they need no scrolling.
 bool is_shown_first(const Record& r) {
   return r.kind->metric == "gain" || r.kind->metric == "time";
@@ -106,24 +102,6 @@ std::string answers_html(const ReportContent& content) {
          html_text(are_all ? "all sequences" : fmt::format("{}", fmt::join(measured, ", "))) +
          ": loop closures were measured in the reference or selected by it (oracle), which is "
          "better than any detector.</p>\n";
-}
-
-std::string verdicts_html(const ReportContent& content) {
-  if (content.comparisons.empty()) return "<p>No baseline, so no verdicts.</p>\n";
-  Table out{"verdict for every score", {"score", "times", "protocol", "verdict"}, {}, {}};
-  for (const Comparison& c : content.comparisons) {
-    if (c.methods.size() < 2) continue;
-    out.lines.push_back({score_name(c), c.kind.times, c.kind.protocol, sentence(c)});
-  }
-  if (out.lines.empty()) return "<p>A single method, so no verdicts.</p>\n";
-  out.notes.push_back(
-      "each score is tested separately; with many scores, some claims are false by chance");
-  return html_text_table(out);
-}
-
-std::string comparison_html(const ReportContent& content) {
-  const Comparison* headline = content.headline();
-  return headline == nullptr ? "" : html_table(table_view(*headline));
 }
 
 std::string scores_html(const ReportContent& content) {

@@ -27,12 +27,6 @@ std::string summary_html(const ReportContent& content);
 /// The verdict of each score: sentence, groups, cautions, limits; all but the headline are hidden.
 std::string answers_html(const ReportContent& content);
 
-/// Verdict for every score.
-std::string verdicts_html(const ReportContent& content);
-
-/// The headline comparison in full.
-std::string comparison_html(const ReportContent& content);
-
 /// Methods by scores, a table for each sequence, times and protocol.
 std::string scores_html(const ReportContent& content);
 

@@ -102,13 +102,13 @@ TEST_F(OfASweep, HoldsScoresAndTracesOfEveryRepeat) {
 }
 
 TEST_F(OfASweep, ReadsSweptOptionsFromTheConfig) {
-  const nlohmann::json families = data()["scores"]["families"];
-  ASSERT_EQ(families.size(), 2u);
-  EXPECT_EQ(families[0]["options"], nlohmann::json({"bias"}));
-  EXPECT_EQ(families[0]["members"], nlohmann::json::parse("[[0, 0.1], [1, 0.2]]"));
-  EXPECT_EQ(families[1]["name"], "shift");
-  EXPECT_EQ(families[1]["options"], nlohmann::json({"by"}));
-  EXPECT_EQ(families[1]["members"].back(), nlohmann::json::parse("[3, 2.0]"));
+  const nlohmann::json scores = data()["scores"];
+  const nlohmann::json of_sequences = scores["sequence_families"].at(0);
+  EXPECT_EQ(of_sequences["options"], nlohmann::json({"bias"}));
+  EXPECT_EQ(of_sequences["members"], nlohmann::json::parse("[[0, 0.1], [1, 0.2]]"));
+  const nlohmann::json of_methods = scores["method_families"].at(0);
+  EXPECT_EQ(of_methods["options"], nlohmann::json({"by"}));
+  EXPECT_EQ(of_methods["members"].back(), nlohmann::json::parse("[3, 2.0]"));
 }
 
 TEST_F(OfASweep, MethodsHaveTheStylesAndTheChoiceOfPlot) {

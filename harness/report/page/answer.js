@@ -35,6 +35,36 @@
     });
   });
 
+  const every = d3.select("#every-verdict");
+  for (const c of R.comparisons.filter((each) => each.methods.length > 1)) {
+    every.append("p").text(c.verdict).append("small").text(` ${c.protocol}`);
+  }
+  every.append("p").attr("class", "hint").text("Each score is tested separately; with many scores, some claims are false by chance.");
+
+  const fixed = (value) => (value === null ? "-" : value.toFixed(4));
+  const columns = [
+    ["method", (m) => m.method], ["median", (m) => R.number(m.median)], ["ratio", (m) => fixed(m.ratio)],
+    ["interval", (m) => (m.interval ? m.interval.map(fixed).join(" .. ") : "-")],
+    ["better/worse/equal", (m) => `${m.better}/${m.worse}/${m.equal}`],
+    ["p", (m) => (m.p !== null && m.p < 1e-4 ? "< 0.0001" : fixed(m.p))],
+    ["mean", (m) => fixed(m.geometric_mean)], ["fails", (m) => m.fails], ["place", (m) => m.place],
+  ];
+  R.follow(() => {
+    const host = d3.select("#ranking").html("");
+    const comparison = R.comparison(R.state.kind);
+    if (!comparison || comparison.methods.length < 2) return;
+    const table = host.append("div").attr("class", "scroll").append("table");
+    const { label, unit, times, protocol } = R.scores.kinds[R.state.kind];
+    table.append("caption").text(`${label} ${comparison.value}${unit ? ` [${unit}]` : ""}, ${times}, ${protocol}`);
+    table.append("thead").append("tr").selectAll("th").data(columns).join("th").attr("scope", "col").text(([name]) => name);
+    for (const m of comparison.methods) {
+      const row = table.append("tbody").append("tr");
+      columns.forEach(([, text], i) => row.append(i ? "td" : "th").text(text(m)));
+    }
+    const notes = host.append("ul").attr("class", "notes");
+    for (const remark of comparison.remarks) notes.append("li").text(remark);
+  }, "verdicts");
+
   R.follow(() => {
     const place = String(R.comparisons.indexOf(R.comparison(R.state.kind)));
     const known = answers.some((answer) => answer.dataset.comparison === place);

@@ -2,10 +2,13 @@
 (() => {
   "use strict";
   const R = window.R;
-  const families = R.scores.families.map((family) => ({
-    ...family, members: family.members.map(([place, ...values]) => ({ place, values })),
+  const families = (list, of, nameOf) => list.map((family) => ({
+    of, name: nameOf(family.name), options: family.options, members: family.members.map(([place, ...values]) => ({ place, values })),
   }));
-  if (!families.length) R.hide("sweeps");
+  // "dual + dm" of "dual, use=all; + dm, planar=3".
+  const catalogueNames = (text) => text.split("; ").map((part) => part.split(",")[0]).join(" ");
+  const all = [...families(R.scores.sequence_families, "sequence", (name) => name), ...families(R.scores.method_families, "method", catalogueNames)];
+  if (!all.length) R.hide("sweeps");
   if (!R.scores.growth.length) R.hide("growth");
 
   const valueOf = (m, s) => {
@@ -32,8 +35,8 @@
     const kind = R.scores.kinds[R.state.kind];
     const [option] = family.options;
     const isOfMethods = family.of === "method";
-    const all = seriesOf(family);
-    const points = all.flatMap((s) => s.points);
+    const series = seriesOf(family);
+    const points = series.flatMap((s) => s.points);
     R.caption(host, `${family.name}: ${option}`, isOfMethods ? R.scores.sequences[R.state.sequence] : "mean over the runs");
     if (!points.length) return R.nothing(host, "No value of this score.");
     const base = R.baseline && isOfMethods ? valueOf(R.baseline.place, R.state.sequence) : NaN;
@@ -51,12 +54,12 @@
           group.append("line").attr("class", "zero").attr("x1", 0).attr("x2", 1e4).attr("y1", y(base)).attr("y2", y(base));
           group.append("text").attr("class", "halo").attr("x", 6).attr("y", y(base) - 5).text(R.baseline.label);
         }
-        for (const { m, points: own } of all) {
+        for (const { m, points: own } of series) {
           const color = m === null ? "var(--accent)" : R.color(m);
           path(group, own, x, y, color, m === null ? null : R.dash(m));
           dots(group, own, x, y, color, (p) => `${m === null ? "" : label(m) + ", "}${option} ${p.x}: ${R.number(p.y)}`);
         }
-        if (all.length > 1 || points.length > 10) return;
+        if (series.length > 1 || points.length > 10) return;
         // The outer texts stay inside narrow charts.
         const anchor = (p, i) => (points.length > 1 && i === 0 ? "start" : points.length > 1 && i === points.length - 1 ? "end" : "middle");
         group.selectAll(null).data(points).join("text").attr("class", "halo strong").attr("x", (p) => x(p.x)).attr("y", (p) => y(p.y) - 9)
@@ -64,7 +67,7 @@
       },
     });
     if (Number.isFinite(base) && !isNear) R.nothing(host, `${R.baseline.label}: ${R.number(base)}, outside this range.`);
-    if (!isOfMethods) R.methodLegend(host, all.map((s) => R.methods[s.m]), false);
+    if (!isOfMethods) R.methodLegend(host, series.map((s) => R.methods[s.m]), false);
   };
 
   const heat = (host, family) => {
@@ -107,7 +110,7 @@
     const host = document.getElementById("sweep-figures");
     host.replaceChildren();
     if (!R.scores.kinds.length) return;
-    for (const family of families) {
+    for (const family of all) {
       (family.options.length === 2 ? heat : curve)(host.appendChild(document.createElement("figure")), family);
     }
   }, "sweeps");
