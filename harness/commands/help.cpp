@@ -111,7 +111,7 @@ const std::map<std::string, std::string> kExamples{
     {"plot",
      "  loopbench plot results/quickstart -o figures\n"
      "  loopbench plot results/quickstart -o figures --methods raw,dual --sequences room\n"
-     "  loopbench plot results/quickstart --panels xy,angle --size 3.3,2.4 --format pdf\n"},
+     "  loopbench plot results/quickstart --panels ratio,time,boxes --size 3.3,2.4 --format pgf\n"},
     {"report",
      "  loopbench report results/quickstart -o report.html\n"
      "  loopbench report results/quickstart -o report.html --size 2\n"

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
 
 #include "datasets/core/error.hpp"
 #include "harness/base/printable.hpp"
@@ -10,8 +12,11 @@
 #include "harness/commands/commands.hpp"
 #include "harness/commands/options.hpp"
 #include "harness/model/where.hpp"
+#include "harness/report/data.hpp"
 #include "harness/report/draw.hpp"
 #include "harness/report/report.hpp"
+#include "harness/tables/comparison.hpp"
+#include "harness/tables/growth.hpp"
 #include "harness/tables/store_provenance.hpp"
 
 namespace loopbench::harness {
@@ -20,10 +25,11 @@ namespace {
 struct PlotArguments {
   std::string store;
   std::string folder;
-  std::vector<std::string> formats{"svg", "pdf"};
+  std::vector<std::string> formats{"pdf"};
   std::vector<std::string> methods;
   std::vector<std::string> sequences;
-  std::vector<std::string> panels{"plane", "xyz", "x", "y", "z", "angle"};
+  std::vector<std::string> panels{
+      "plane", "xyz", "x", "y", "z", "angle", "ratio", "time", "boxes", "growth"};
   FigureOptions figures;
 };
 
@@ -36,6 +42,29 @@ std::string alignment_of(const ReportContent& content) {
   if (begin == std::string::npos) return "";
   const std::string how = rules.substr(begin + 6, rules.find(',', begin) - begin - 6);
   return ", " + (how == "none" ? "no" : how) + " alignment";
+}
+
+/// Figures of all sequences, one for each panel that the store has data for.
+FigureData score_figures(const ReportContent& content,
+                         const PlotArguments& arguments,
+                         const std::map<std::string, std::string>& names) {
+  FigureData out;
+  for (const std::string& panel : arguments.panels) {
+    const bool has_data = panel == "ratio"    ? content.headline() != nullptr
+                          : panel == "growth" ? !growths(content.cells).empty()
+                          : panel == "time"   ? std::ranges::any_of(content.cells, &CellRow::runs)
+                                              : !content.records.empty();
+    if (std::ranges::count(kScorePanels, panel) == 0 || !has_data) continue;
+    out.figures.push_back({{}, {panel}, arguments.figures});
+    for (const std::string& format : arguments.formats) {
+      out.figures.back().files.push_back(arguments.folder + "/" + panel + "." + format);
+    }
+  }
+  const nlohmann::json data{{"scores", scores_json(content)},
+                            {"comparisons", nlohmann::json::parse(json(content.comparisons))},
+                            {"names", names}};
+  out.scores = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return out;
 }
 
 /// Each word is a label or comma-separated labels; a label can contain commas itself.
@@ -65,6 +94,10 @@ int write_figures(const PlotArguments& arguments) {
           ? content.sequences
           : known_labels("sequence", arguments.sequences, content.sequences);
   const std::vector<std::string> labels = labels_of(arguments.figures, methods);
+  std::map<std::string, std::string> names;  // of the drawn methods
+  for (std::size_t i = 0; i < methods.size(); ++i) names[methods[i]] = labels[i];
+  const bool draws_paths = std::ranges::any_of(
+      arguments.panels, [](const auto& p) { return std::ranges::count(kScorePanels, p) == 0; });
   reject_standard_output("-o", arguments.folder);
   const std::filesystem::path folder = arguments.folder;
   Traces traces(arguments.store);
@@ -72,7 +105,7 @@ int write_figures(const PlotArguments& arguments) {
   std::string written;
   for (std::size_t s = 0; s < content.sequences.size(); ++s) {
     const std::string& sequence = content.sequences[s];
-    if (std::ranges::count(sequences, sequence) == 0) continue;
+    if (!draws_paths || std::ranges::count(sequences, sequence) == 0) continue;
     FigureData data =
         sequence_figure_data(content.cells, traces, sequence, methods, style_order(content));
     if (data.curves.empty()) {
@@ -81,8 +114,7 @@ int write_figures(const PlotArguments& arguments) {
     }
     data.title += alignment_of(content);
     for (DrawnCurve& curve : data.curves) {
-      const auto place = std::ranges::find(methods, curve.name) - methods.begin();
-      if (place < std::ssize(labels)) curve.name = labels[static_cast<std::size_t>(place)];
+      if (names.contains(curve.name)) curve.name = names[curve.name];
     }
     // The index separates labels that map to the same file name.
     const std::string stem = fmt::format("{:02}_{}", s + 1, file_stem(sequence));
@@ -98,6 +130,11 @@ int write_figures(const PlotArguments& arguments) {
     }
     all.push_back(std::move(data));
   }
+  if (arguments.methods.empty()) {
+    for (const std::string& method : content.methods) names.emplace(method, method);
+  }
+  all.push_back(score_figures(content, arguments, names));
+  for (const DrawnFigure& figure : all.back().figures) written += file_list(figure);
   if (written.empty()) throw InputError(arguments.store + ": has no stored trajectories to plot");
   draw(all);
   fmt::print("{}", printable(written));
@@ -109,7 +146,8 @@ int write_figures(const PlotArguments& arguments) {
 
 void add_plot(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<PlotArguments>();
-  CLI::App* command = app.add_subcommand("plot", "Plot the trajectories and errors of a sweep");
+  CLI::App* command =
+      app.add_subcommand("plot", "Plot trajectories, errors, scores and costs of a sweep");
   command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
       ->required();
   command->add_option("-o,--out", arguments->folder, "Output folder")
@@ -118,7 +156,7 @@ void add_plot(CLI::App& app, int& exit_code) {
   command->add_option("--methods",
                       arguments->methods,
                       "Comma-separated method labels, in \"...\" if a label contains commas "
-                      "(default: baseline and best ranked with different results)");
+                      "(default: baseline, best, best without a smoother; all for scores)");
   command->add_option("--sequences",
                       arguments->sequences,
                       "Comma-separated sequence labels, in \"...\" likewise (default: all)");
@@ -127,15 +165,17 @@ void add_plot(CLI::App& app, int& exit_code) {
           "--panels",
           arguments->panels,
           "Comma-separated panels: trajectories in the plane of the largest extent (plane), "
-          "in xy, xz, yz and in space (xyz), errors in x, y, z and angle")
+          "in xy, xz, yz and in space (xyz), errors in x, y, z and angle; of all sequences ratios "
+          "to the baseline (ratio), error against time (time), runs (boxes), time and memory over "
+          "a swept size (growth)")
       ->delimiter(',')
       ->check(CLI::IsMember(panel_names()))
       ->type_name("WORDS")
-      ->default_str("plane,xyz,x,y,z,angle");
+      ->default_str("plane,xyz,x,y,z,angle,ratio,time,boxes,growth");
   command->add_option("--format", arguments->formats, "File formats: svg, pdf, png, pgf or several")
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>(kFigureFormats.begin(), kFigureFormats.end())))
-      ->default_str("svg,pdf");
+      ->default_str("pdf");
   declare_figures(*command, arguments->figures);
   command->callback([arguments, &exit_code] { exit_code = write_figures(*arguments); });
 }

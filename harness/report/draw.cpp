@@ -54,6 +54,7 @@ nlohmann::json json_of(const FigureData& data) {
                      {"curves", nlohmann::json::array()},
                      {"figures", nlohmann::json::array()}};
   for (const DrawnCurve& curve : data.curves) out["curves"].push_back(json_of(curve));
+  if (!data.scores.empty()) out["scores"] = nlohmann::json::parse(data.scores);
   for (const DrawnFigure& figure : data.figures) out["figures"].push_back(json_of(figure));
   return out;
 }
@@ -177,13 +178,14 @@ std::vector<std::string> labels_of(const FigureOptions& options,
 
 const std::vector<std::string>& panel_names() {
   static const std::vector<std::string> names{
-      "plane", "xy", "xz", "yz", "xyz", "x", "y", "z", "angle"};
+      "plane", "xy", "xz", "yz", "xyz", "x", "y", "z", "angle", "ratio", "time", "boxes", "growth"};
   return names;
 }
 
 std::vector<std::string> figure_panels(const std::vector<std::string>& names, bool of_errors) {
   std::vector<std::string> out;
   for (const std::string& name : names) {
+    if (std::ranges::count(kScorePanels, name) > 0) continue;
     const bool is_error = name.size() == 1 || name == "angle";
     if (is_error != of_errors) continue;
     out.push_back(!is_error         ? name
@@ -202,7 +204,8 @@ FigureData sequence_figure_data(const std::vector<CellRow>& cells,
   for (const CellRow& cell : cells) {
     if (cell.sequence == sequence) repeats.insert(cell.repeat);
   }
-  FigureData out{sequence, "", {}, {}};
+  FigureData out;
+  out.title = sequence;
   if (repeats.empty()) return out;
   const std::int64_t first = *repeats.begin();
   if (repeats.size() > 1) {

@@ -31,7 +31,7 @@ std::vector<std::string> labels_of(const FigureOptions& options,
                                    const std::vector<std::string>& names);
 
 /// Panels: "plane", "xy", "xz", "yz", "xyz" (space), "COLUMN by time", "COLUMN by distance",
-/// "histogram".
+/// "histogram"; of scores kScorePanels.
 struct DrawnFigure {
   std::vector<std::filesystem::path> files;  ///< the same name with suffixes of kFigureFormats
   std::vector<std::string> panels;
@@ -46,6 +46,7 @@ struct FigureData {
   std::string title;
   std::string note;  ///< a line below the title, or empty
   std::vector<DrawnCurve> curves;
+  std::string scores;  ///< JSON for kScorePanels, see harness/python/loopbench/scores.py; or empty
   std::vector<DrawnFigure> figures;
 };
 
@@ -59,8 +60,12 @@ bool is_figure_name(const std::filesystem::path& file);
 /// The name, with .pdf added unless it ends in one of kFigureFormats.
 std::filesystem::path figure_name(std::filesystem::path name);
 
+/// Ratios to the baseline with intervals; error against time; runs of each sequence; time and
+/// memory over a swept size.
+inline constexpr std::array kScorePanels{"ratio", "time", "boxes", "growth"};
+
 /// Names of panels: trajectories in the plane of the largest extent ("plane"), in "xy", "xz", "yz"
-/// and in space ("xyz"); errors "x", "y", "z" [m] and "angle" [deg] along the path.
+/// and in space ("xyz"); errors "x", "y", "z" [m] and "angle" [deg] along the path; kScorePanels.
 const std::vector<std::string>& panel_names();
 
 /// The panels of panel_names() that show trajectories, or else errors, as panels of a DrawnFigure.

@@ -15,7 +15,7 @@ try:
     import matplotlib  # noqa: F401
     import numpy as np
 
-    from loopbench import draw, panels, render
+    from loopbench import draw, panels, render, scores
 except ImportError as missing:
     print(missing)
     sys.exit(77)
@@ -37,6 +37,27 @@ def curve(name, error=0.0, count=200):
 def data_of(*names, **texts):
     estimates = [curve(name, 0.1 * (i + 1)) for i, name in enumerate(names)]
     return {**texts, "curves": [curve("reference"), *estimates]}
+
+
+def scores_of(methods):
+    """Two sequences with three runs of each method, and costs of two sizes."""
+    cells = [{"sequence": s, "method": m, "repeat": r, "ms": 10.0 ** -m,
+              "values": [None, [(1 + s) * (1 + m + 0.1 * r), 0, 0, 0]]}
+             for s in range(2) for m in range(len(methods)) for r in range(3)]
+    growth = [{"family": "f", "unit": "keyframes", "method": m, "sizes": [60, 240, 960],
+               "cpu": [1.0, 3.9 + m, 16.0], "memory": [14.0, 15.0, 20.0],
+               "cpu_law": "O(n^1.00 ± 0.02)", "memory_law": "O(n^0.10 ± 0.02)"}
+              for m in range(len(methods))]
+    kinds = [{"label": "ate", "metric": "ate", "unit": "m", "times": times, "relation": "translation",
+              "axis": "3d", "protocol": "loopbench"} for times in ("keyframes", "dense")]
+    styles = [{"color": panels.COLORS[m % 8], "dash": 1 + m % 5} for m in range(len(methods))]
+    ratios = [{"method": name, "ratio": 0.95**m, "interval": [0.9**m, 1.1] if m else None}
+              for m, name in enumerate(methods)]
+    own = {"methods": methods, "styles": styles, "oracle": [False] * len(methods), "kinds": kinds,
+           "sequences": ["room", "it's <here> & $there$"], "growth": growth, "cells": cells}
+    comparisons = [{**kinds[1], "baseline": methods[0], "methods": ratios}]
+    names = {name: name for name in methods}
+    return {"curves": [], "scores": {"scores": own, "comparisons": comparisons, "names": names}}
 
 
 ALL = ["xy", "xz", "yz", "xyz", "error by time", "error_x by distance", "yaw by time", "histogram", "boxes"]
@@ -76,6 +97,35 @@ class Draw(unittest.TestCase):
             width = min(a.x1, b.x1) - max(a.x0, b.x0)
             height = min(a.y1, b.y1) - max(a.y0, b.y0)
             self.assertFalse(width > 1 and height > 1, (what, one, other))
+
+    def test_scores_are_on_the_page_and_do_not_overlap(self):
+        for names in (["raw", "du_al"], [f"dual + dm_n{i} (turn_max=0.{i})" for i in range(12)]):
+            for panel in ("ratio", "time", "boxes", "growth"):
+                fig = draw.figure(scores_of(names), [panel])
+                boxes = self.drawn(fig)
+                for text, box in boxes:
+                    inside = box.x0 >= -1 and box.y0 >= -1 and box.x1 <= fig.bbox.x1 + 1
+                    self.assertTrue(inside and box.y1 <= fig.bbox.y1 + 1, (panel, text, box))
+                for (one, a), (other, b) in itertools.combinations(boxes, 2):
+                    width = min(a.x1, b.x1) - max(a.x0, b.x0)
+                    height = min(a.y1, b.y1) - max(a.y0, b.y0)
+                    self.assertFalse(width > 1 and height > 1, (panel, names, one, other))
+
+    def test_rows_are_sorted_and_boxes_are_of_each_sequence(self):
+        data = scores_of(["slow", "fast"])
+        self.assertEqual(len(draw.figure(data, ["boxes", "growth"]).axes), 4)
+        self.assertEqual(scores.rows(scores.chosen(data["scores"]), "boxes 1"), ["slow", "fast"])
+        time = draw.figure(data, ["time"]).axes[0]
+        points = [line.get_xydata()[0].tolist() for line in time.lines[1:]]
+        np.testing.assert_allclose(points, [[1.0, 1.1 * 2**0.5], [0.1, 2.1 * 2**0.5]])
+        self.assertEqual([text.get_text() for text in time.texts], ["slow", "fast"])
+
+    def test_the_front_is_that_of_the_report(self):
+        for errors, times, kept in (([1, 2, 3, 2, 4], [4, 2, 3, 3, 1], "11001"), ([1, 1, 1], [2, 2, 3], "110"),
+                                    ([1, 1 - 1e-7], [1, 15], "10"), ([4, 3, 2, 1], [1, 2, 2, 2.4], "1011")):
+            points = [{"error": e, "ms": t} for e, t in zip(errors, times)]
+            front = scores.front(points)
+            self.assertEqual("".join("1" if p in front else "0" for p in points), kept)
 
     def drawn(self, fig):
         """Texts within the range of their axes: matplotlib keeps ticks beyond it, undrawn."""
@@ -174,6 +224,9 @@ class Draw(unittest.TestCase):
             self.assertIn("it's &lt;here&gt;_$", (Path(folder) / "new/0.svg").read_text())
             self.assertIn(r"it's <here>\_\$", (Path(folder) / "new/0.pgf").read_text())
             self.compile(folder, "0.pgf")
+            fig = draw.figure(scores_of(["ra_w", "#2"]), ["ratio", "time", "boxes", "growth"])
+            draw.save(fig, Path(folder) / "new/1.pgf")
+            self.compile(folder, "1.pgf")
 
     def compile(self, folder, name):
         if shutil.which("pdflatex") is None:

@@ -98,6 +98,22 @@ TEST_F(PlotCli, SelectsSequencesPanelsAndSize) {
   EXPECT_EQ(run("plot t --size 3").exit_code, 2);
 }
 
+TEST_F(PlotCli, DrawsScoresAndCostsOfAllSequences) {
+  folder_.file("sizes.yaml",
+               "datasets: [{dataset: simulated, sweep: {keyframes: [20, 40, 80]}}]\n"
+               "methods: [raw, uniform]\nmetrics: [ate]\ntraces: false\n");
+  ASSERT_EQ(run("run sizes.yaml --out t").exit_code, 0);
+  const CommandResult all = run("plot t -o f --format svg");
+  ASSERT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_TRUE(has(all.out, "f/ratio.svg\nf/time.svg\nf/boxes.svg\nf/growth.svg\n")) << all.out;
+  EXPECT_TRUE(has(read("f/ratio.svg"), ">ratio to raw: ate rmse, dense<"));
+  EXPECT_TRUE(has(read("f/growth.svg"), ">uniform: time O(n^"));
+  EXPECT_EQ(run("plot t -o g --panels time,growth --format pgf --methods raw").out,
+            "g/time.pgf\ng/growth.pgf\n");
+  EXPECT_FALSE(has(read("g/growth.pgf"), "uniform"));
+  EXPECT_EQ(run("plot r -o h --panels growth").exit_code, 2) << "one size";
+}
+
 TEST_F(PlotCli, SaysWhatStandsInItsWay) {
   const CommandResult taken = run("plot r -o quote.yaml");
   EXPECT_EQ(taken.exit_code, 2);

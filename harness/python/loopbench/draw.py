@@ -29,13 +29,11 @@ import textwrap
 import warnings
 from pathlib import Path
 from typing import Any, Mapping, Sequence
-from unittest import mock
 
 import matplotlib
 import matplotlib.style
 from cycler import cycler
 from matplotlib import rcParams, rcParamsDefault
-from matplotlib.backends import backend_pgf
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.font_manager import font_scalings
@@ -45,6 +43,7 @@ from matplotlib.textpath import TextToPath
 from matplotlib.ticker import MaxNLocator
 
 from . import panels as parts
+from . import scores
 
 MOST_LEGEND_ENTRIES = 12
 _RC = {
@@ -108,6 +107,8 @@ def _shortened(text: str, most: int) -> str:
 
 
 def _legend_entries(data: Mapping[str, Any], panels: Sequence[str]) -> list[tuple[Any, str]]:
+    if any(panel.startswith("growth") for panel in panels):
+        return [(Line2D([], [], **look), name) for look, name in scores.legend(data["scores"])]
     entries: dict[str, Any] = {}
     index = 0
     for curve in data["curves"]:
@@ -182,6 +183,11 @@ def _add_panel(
     page = [*fig.get_size_inches()] * 2
     font = 72.0 * em
     left, bottom, right, top = (5.9 * em, 3.6 * em, 1.4 * em, 0.7 * em)
+    most = 0
+    if "scores" in data:
+        names = scores.rows(data["scores"], panel)
+        most = min(max(map(len, names), default=0), int(0.45 * box[2] / (0.55 * em)))
+        left = max(5.9, 0.58 * most + 1.4) * em
     is_space = parts.is_map(panel) and len(panel) == 3
     if is_space:
         left, bottom, right, top = (1.4 * em, 2.0 * em, 4.2 * em, 0.0)
@@ -194,7 +200,9 @@ def _add_panel(
             # matplotlib adds 21 and 8 pt, for any size of the font
             axis.labelpad = (2.1 if axis is axes.zaxis else 2.3) * font - 21.0
             axis.set_tick_params(pad=0.75 * font - 8.0)
-    if parts.is_map(panel):
+    if "scores" in data:
+        scores.draw(axes, data["scores"], panel, size, most)
+    elif parts.is_map(panel):
         parts.draw_map(axes, data, panel, size)
     elif panel == "histogram":
         parts.draw_histogram(axes, data, size)
@@ -208,7 +216,7 @@ def figure(
     data: Mapping[str, Any],
     panels: Sequence[str],
     columns: int = 2,
-    size: Sequence[float] = (3.5, 2.8),
+    size: Sequence[float] | None = None,
     font: float | None = None,
     style: Sequence[str] = (),
     plane: str | None = None,
@@ -216,15 +224,23 @@ def figure(
     """Panels row by row with one legend above and, for a single estimate, a colour bar below them.
 
     panels: "plane", "xy", "xz", "yz", "xyz" (space), "COLUMN by time", "COLUMN by distance",
-    "histogram", "boxes". size: width and height of a panel [in]; font: [pt],
-    default: that of the style sheets or 8. style: style sheets of matplotlib, files or names.
+    "histogram", "boxes"; of scores "ratio", "time", "boxes", "growth". size: width and height of a
+    panel [in], default: 3.5 and 2.8, or what rows of names need; font: [pt], default: that of the
+    style sheets or 8. style: style sheets of matplotlib, files or names.
     plane: that of "plane", which is horizontal in "xyz" (default: the one of the largest extent).
     """
-    plane = plane or parts.largest_plane(data)
-    space = plane + min(set("xyz") - set(plane))
-    panels = [{"plane": plane, "xyz": space}.get(panel, panel) for panel in panels]
-    drawn = [panel for panel in panels if any(parts.is_drawn(c, panel) for c in data["curves"])]
-    panels = drawn or panels  # a file of positions has no angles, one pose no speed
+    if "scores" in data:
+        data = {**data, "scores": scores.chosen(data["scores"])}
+        panels = scores.expanded(data["scores"], panels)
+        most = max((len(scores.rows(data["scores"], panel)) for panel in panels), default=0)
+        size = size or (3.5, max(2.8, 0.7 + 0.16 * most))
+    else:
+        plane = plane or parts.largest_plane(data)
+        space = plane + min(set("xyz") - set(plane))
+        panels = [{"plane": plane, "xyz": space}.get(panel, panel) for panel in panels]
+        drawn = [panel for panel in panels if any(parts.is_drawn(c, panel) for c in data["curves"])]
+        panels = drawn or panels  # a file of positions has no angles, one pose no speed
+    size = size or (3.5, 2.8)
     columns = min(columns, len(panels))
     rows = -(-len(panels) // columns)
     settings = _settings(font, style)
@@ -270,6 +286,10 @@ _LATEX = str.maketrans(
 
 def _pgf(fig: Figure) -> bytes:
     """Without LaTeX on this machine, texts are measured in matplotlib's font instead of LaTeX's."""
+    from unittest import mock  # here, as these take long and other formats need none of them
+
+    from matplotlib.backends import backend_pgf
+
     literal = {each: each.get_text() for each in fig.findobj(Text) if not each.get_parse_math()}
     originals = {text.translate(_LATEX): text for text in literal.values()}
 
