@@ -9,6 +9,8 @@ target_sources(loopbench_library INTERFACE
 add_library(loopbench_plugin INTERFACE)
 add_library(loopbench::plugin ALIAS loopbench_plugin)
 target_link_libraries(loopbench_plugin INTERFACE loopbench::loopbench)
+# Every cell loads the plugin: functions of its own that are bound when it is linked are not searched for in each cell.
+target_link_options(loopbench_plugin INTERFACE LINKER:-Bsymbolic)
 target_sources(loopbench_plugin INTERFACE
   FILE_SET umbrella TYPE HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include
   FILES ${PROJECT_SOURCE_DIR}/include/loopbench/plugin.hpp
