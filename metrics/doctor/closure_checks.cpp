@@ -40,7 +40,7 @@ std::optional<InputFinding> remove_placeholders(std::vector<Edge>& closures, con
   for (const Edge& edge : closures) {
     const Pose& stated = edge.from_from_to;
     const bool is_identity =
-        stated.rotation.vec().norm() < kRounding && stated.translation.norm() < kRounding;
+        stated.rotation.vec().norm() < kFileRounding && stated.translation.norm() < kFileRounding;
     (is_identity ? identities : measured).push_back(edge);
   }
   const std::size_t count = identities.size(), all = closures.size();

@@ -81,9 +81,10 @@ struct MedianFit {
       if (!loop->over_closures.empty())
         around.push_back(loop->over_closures.front().chi_squared(chain, change));
     }
-    odometry = kRounding + median_value(std::move(direct));
-    over_closures =
-        around.size() < loops.size() / 2 ? odometry : kRounding + median_value(std::move(around));
+    odometry = kFileRounding + median_value(std::move(direct));
+    over_closures = around.size() < loops.size() / 2
+                        ? odometry
+                        : kFileRounding + median_value(std::move(around));
   }
   double cost() const { return std::log(odometry) + std::log(over_closures); }
 };

@@ -33,7 +33,7 @@ bool is_at_rest(const Trajectory& poses) {
     squares.push_back((at(i) - 0.5 * (at(i - 1) + at(i + 1))).squaredNorm() / 1.5);
   }
   const double noise = std::sqrt(kMeanOverMedian * median_value(std::move(squares)));
-  return spread <= kLeastOfNoise * noise + kRounding * at(0).norm();
+  return spread <= kLeastOfNoise * noise + kFileRounding * at(0).norm();
 }
 
 /// The pair with the repairs of what was found.

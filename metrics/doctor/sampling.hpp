@@ -21,7 +21,7 @@ inline constexpr std::size_t kMostPoses = 300;
 
 inline constexpr std::size_t kFewestCommonPoses = 20;  ///< fewer cannot be checked
 inline constexpr std::size_t kListed = 5;              ///< examples in a message
-inline constexpr double kRounding = 1e-9;              ///< of numbers in files [m], [rad]
+inline constexpr double kFileRounding = 1e-9;          ///< of numbers in files [m], [rad]
 inline constexpr double kNoNoise = 1e-6;      ///< smaller errors are not measured [m], [rad]
 inline constexpr double kLeastOffset = 0.02;  ///< association tolerance of stamps [s]
 inline constexpr double kUsualGaps = 10.0;    ///< keyframes are that many intervals apart
