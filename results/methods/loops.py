@@ -112,13 +112,13 @@ def with_small_covariances(problem, factor=25.0):
 
 def cases(problem, seed):
     """What was done to the problem, and the result."""
-    yield "no false closure", problem
+    yield "none false", problem
     for i, share in enumerate(SHARES[1:]):
         count = max(1, round(share / (1 - share) * len(problem.closures)))
-        change = "one false closure" if count == 1 else "several false closures"
+        change = "one false" if count == 1 else "several false"
         yield change, with_false(problem, count, 3 * seed + i)
-    yield "a consistent family", with_family(problem, 4, seed)
-    yield "covariances 25 times too small", with_small_covariances(problem)
+    yield "consistent family", with_family(problem, 4, seed)
+    yield "covariances x 0.04", with_small_covariances(problem)
 
 
 def ate(reference, poses):
@@ -196,7 +196,7 @@ def draw(results, file):
     import matplotlib.pyplot as plt
 
     _, axes = plt.subplots(figsize=(5, 3.2))
-    clean = [each for each in results if each[1] == "no false closure" and each[4]]
+    clean = [each for each in results if each[1] == "none false" and each[4]]
     for verdict, colour in zip(VERDICTS, ("C0", "C1", "C2", "0.7", "C3", "C4")):
         points = [(each[4], each[3]) for each in clean if each[2] == verdict]
         if points:
