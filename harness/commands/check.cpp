@@ -136,34 +136,28 @@ int check_store(const CheckArguments& arguments) {
 
 void add_check(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<CheckArguments>();
-  CLI::App* command = app.add_subcommand("check", "Compare a sweep with its baseline");
-  command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
+  CheckArguments& a = *arguments;
+  CLI::App& command = *app.add_subcommand("check", "Compare a sweep with its baseline");
+  declare_store(command, a.store);
+  add(command,
+      "--baseline FILE",
+      a.baseline,
+      "Baseline file, for example results/reference/quickstart.json")
       ->required();
-  command
-      ->add_option("--baseline",
-                   arguments->baseline,
-                   "Baseline file, for example results/reference/quickstart.json")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--junit", arguments->junit, "JUnit XML file to write")->type_name("FILE");
-  command->add_option("--markdown", arguments->markdown, "Markdown report to write")
-      ->type_name("FILE");
-  command->add_flag(
-      "--update", arguments->update, "Write the baseline from this store and keep its limits");
-  command->add_flag(
-      "--part", arguments->part, "Accept missing cells, because only a part of the sweep was run");
-  command->add_flag("--allow-dirty",
-                    arguments->allow_dirty,
-                    "Accept a baseline from a build with uncommitted changes");
-  command
-      ->add_option(
-          "--time",
-          arguments->time,
-          "With --update: also check times of cells and updates, with this maximum relative "
-          "increase (plus 1 ms)")
-      ->check(number_between(0.0, 1e9))
-      ->type_name("SHARE");
-  command->callback([arguments, &exit_code] { exit_code = check_store(*arguments); });
+  add(command, "--junit FILE", a.junit, "JUnit XML file to write");
+  add(command, "--markdown FILE", a.markdown, "Markdown report to write");
+  command.add_flag("--update", a.update, "Write the baseline from this store and keep its limits");
+  command.add_flag(
+      "--part", a.part, "Accept missing cells, because only a part of the sweep was run");
+  command.add_flag(
+      "--allow-dirty", a.allow_dirty, "Accept a baseline from a build with uncommitted changes");
+  add(command,
+      "--time SHARE",
+      a.time,
+      "With --update: also check times of cells and updates, with this maximum relative increase "
+      "(plus 1 ms)")
+      ->check(number_between(0.0, 1e9));
+  command.callback([arguments, &exit_code] { exit_code = check_store(*arguments); });
 }
 
 }  // namespace loopbench::harness

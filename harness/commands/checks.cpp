@@ -37,15 +37,12 @@ CLI::Validator positive_number() {
 }
 
 void declare_ties(CLI::App& command, double& tie, double& relevant) {
-  command.add_option("--tie", tie, "Largest relative difference that counts as a tie [-]")
-      ->check(number_between(0.0, 0.5))
-      ->capture_default_str();
-  command
-      .add_option("--relevant",
-                  relevant,
-                  "Relative difference below which methods share the first place [-]")
-      ->check(number_between(0.0, 0.5))
-      ->capture_default_str();
+  const auto share = [&](const char* name, double& value, const char* help) {
+    command.add_option(name, value, help)->check(number_between(0.0, 0.5))->capture_default_str();
+  };
+  share("--tie", tie, "Largest relative difference that counts as a tie [-]");
+  share(
+      "--relevant", relevant, "Relative difference below which methods share the first place [-]");
 }
 
 }  // namespace loopbench::harness

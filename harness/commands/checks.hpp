@@ -60,6 +60,18 @@ CLI::Option* add(CLI::App& command,
   return out;
 }
 
+/// Adds the store of a sweep, as first argument.
+template <class Path>
+void declare_store(CLI::App& command, Path& store) {
+  add(command, "store", store, "Folder of results, or its results.sqlite")->required();
+}
+
+/// Adds the config of a sweep, as first argument.
+inline void declare_config(CLI::App& command, std::string& config) {
+  const char* const help = "YAML file, or the name of an installed config: quickstart";
+  add(command, "config", config, help)->required();
+}
+
 /// Adds --tie and --relevant: when methods share a place.
 void declare_ties(CLI::App& command, double& tie, double& relevant);
 

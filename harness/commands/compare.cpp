@@ -115,63 +115,47 @@ int print_comparison(const CompareArguments& arguments) {
 
 void add_compare(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<CompareArguments>();
-  CLI::App* command =
-      app.add_subcommand("compare", "Compare and rank methods with significance tests");
-  command
-      ->add_option("store",
-                   arguments->stores,
-                   "Folders of results, or their results.sqlite; several are compared as one")
+  CompareArguments& a = *arguments;
+  CLI::App& command =
+      *app.add_subcommand("compare", "Compare and rank methods with significance tests");
+  add(command,
+      "store",
+      a.stores,
+      "Folders of results, or their results.sqlite; several are compared as one")
       ->required()
       ->expected(1, -1);
-  command
-      ->add_option(
-          "--baseline", arguments->options.baseline, "Method that others are compared with")
-      ->type_name("METHOD");
-  command
-      ->add_option("--metric",
-                   arguments->metric,
-                   "Label or name of a metric, or a score: ate, error x, cpu; ate unless --where "
-                   "selects one")
-      ->type_name("METRIC");
-  command
-      ->add_option("--assert",
-                   arguments->assertions,
-                   "Sentence that the comparison must show, otherwise exit 1; see below")
-      ->type_name("SENTENCE")
+  add(command, "--baseline METHOD", a.options.baseline, "Method that others are compared with");
+  add(command,
+      "--metric METRIC",
+      a.metric,
+      "Label or name of a metric, or a score: ate, error x, cpu; ate unless --where selects one");
+  add(command,
+      "--assert SENTENCE",
+      a.assertions,
+      "Sentence that the comparison must show, otherwise exit 1; see below")
       ->allow_extra_args(false);
-  command
-      ->add_option("--value",
-                   arguments->options.value,
-                   fmt::format("Statistic: {}", fmt::join(directed_statistics(), " ")))
+  add(command,
+      "--value",
+      a.options.value,
+      fmt::format("Statistic: {}", fmt::join(directed_statistics(), " ")))
       ->capture_default_str();
-  command
-      ->add_option("--alpha",
-                   arguments->options.alpha,
-                   "Significance level; intervals have level 1 - alpha [-]")
+  add(command, "--alpha", a.options.alpha, "Significance level; intervals have level 1 - alpha [-]")
       ->check(number_between(1e-6, 0.5))
       ->capture_default_str();
   const std::map<std::string, Over> units{{"groups", Over::groups}, {"sequences", Over::sequences}};
   command
-      ->add_option("--over",
-                   arguments->options.over,
-                   "Unit of independent observations: groups of dependent runs, or sequences")
+      .add_option("--over",
+                  a.options.over,
+                  "Unit of independent observations: groups of dependent runs, or sequences")
       ->transform(one_of("observation", units));
-  declare_ties(*command, arguments->options.tie, arguments->options.relevant);
-  command->add_flag(
-      "--paired",
-      arguments->options.paired,
-      "Also pair runs of evaluated files, by their names; those of sweeps always are");
-  command->add_option(
-      "--where", arguments->where, "Filter of rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, ...");
-  declare(*command,
-          arguments->output,
-          {ExportFormat::markdown,
-           ExportFormat::terminal,
-           ExportFormat::latex,
-           ExportFormat::csv,
-           ExportFormat::json});
-  command->footer(kAssertions);
-  command->callback([arguments, &exit_code] { exit_code = print_comparison(*arguments); });
+  declare_ties(command, a.options.tie, a.options.relevant);
+  command.add_flag("--paired",
+                   a.options.paired,
+                   "Also pair runs of evaluated files, by their names; those of sweeps always are");
+  add(command, "--where", a.where, "Filter of rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, ...");
+  declare(command, a.output);
+  command.footer(kAssertions);
+  command.callback([arguments, &exit_code] { exit_code = print_comparison(*arguments); });
 }
 
 }  // namespace loopbench::harness

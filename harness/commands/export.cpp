@@ -12,6 +12,7 @@
 #include "harness/base/counted.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
+#include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/write_output.hpp"
 #include "harness/run/estimate_files.hpp"
@@ -149,14 +150,13 @@ void add_export(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("export", "Write the rows, trajectories or costs of a store");
-  command->add_option("store", a->store, "Folder of results, or its results.sqlite")->required();
-  command
-      ->add_option(
-          "--what",
-          a->what,
-          "rows: every score, as CSV; trajectories: TUM files of the estimates and "
-          "references, with index.csv, see `run --save-trajectories`; benchmark: costs and "
-          "their growth as JSON of Google Benchmark")
+  declare_store(*command, a->store);
+  add(*command,
+      "--what",
+      a->what,
+      "rows: every score, as CSV; trajectories: TUM files of the estimates and references, with "
+      "index.csv, see `run --save-trajectories`; benchmark: costs and their growth as JSON of "
+      "Google Benchmark")
       ->check(CLI::IsMember({"rows", "trajectories", "benchmark"}))
       ->capture_default_str();
   command->add_option("-o,--out", a->out, "File (default: standard output), or folder");

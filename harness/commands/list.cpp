@@ -9,6 +9,7 @@
 #include "harness/base/suggest.hpp"
 #include "harness/base/wrap.hpp"
 #include "harness/catalogue/catalogue.hpp"
+#include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/config/keys.hpp"
@@ -242,23 +243,22 @@ int list(const ListArguments& arguments) {
 
 void add_list(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<ListArguments>();
-  CLI::App* command = app.add_subcommand(
+  ListArguments& a = *arguments;
+  CLI::App& command = *app.add_subcommand(
       "list", "List datasets, methods, metrics and protocols, or the options of one");
-  command->add_option("subject",
-                      arguments->subject,
-                      "datasets, methods, metrics, protocols, or the name or pattern of entries");
-  command->add_option("name", arguments->name, "name or pattern ('dm*') of entries of that list");
-  command->add_flag("--options", arguments->options, "Print the options of all entries");
-  command
-      ->add_option(
-          "--plugin", arguments->plugins, "Shared object with methods, datasets or metrics")
-      ->type_name("FILE")
+  add(command,
+      "subject",
+      a.subject,
+      "datasets, methods, metrics, protocols, or the name or pattern of entries");
+  add(command, "name", a.name, "name or pattern ('dm*') of entries of that list");
+  command.add_flag("--options", a.options, "Print the options of all entries");
+  add(command, "--plugin FILE", a.plugins, "Shared object with methods, datasets or metrics")
       ->allow_extra_args(false);
-  command->add_flag(
+  command.add_flag(
       "--json",
-      arguments->json,
+      a.json,
       "Print names, options with type, unit, range and default, and the keys of configs as JSON");
-  command->callback([arguments, &exit_code] { exit_code = list(*arguments); });
+  command.callback([arguments, &exit_code] { exit_code = list(*arguments); });
 }
 
 }  // namespace loopbench::harness

@@ -7,6 +7,7 @@
 #include "harness/base/counted.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/base/write_file.hpp"
+#include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 
 namespace loopbench::harness {
@@ -46,11 +47,10 @@ void add_merge(CLI::App& app, int& exit_code) {
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("merge", "Merge several stores of results into one");
-  command->add_option("stores", arguments->stores, "Folders of results, or their results.sqlite")
+  add(*command, "stores", arguments->stores, "Folders of results, or their results.sqlite")
       ->required()
       ->expected(1, -1);
-  command->add_option("-o,--out", arguments->out, "Store to create, or a folder for it")
-      ->required();
+  add(*command, "-o,--out", arguments->out, "Store to create, or a folder for it")->required();
   command->add_flag(
       "--mixed-builds", arguments->options.mixed_builds, "Accept cells of different builds");
   command->add_flag("--add",

@@ -9,6 +9,7 @@
 #include "harness/base/printable.hpp"
 #include "harness/base/suggest.hpp"
 #include "harness/base/write_file.hpp"
+#include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/options.hpp"
 #include "harness/model/where.hpp"
@@ -146,38 +147,37 @@ int write_figures(const PlotArguments& arguments) {
 
 void add_plot(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<PlotArguments>();
-  CLI::App* command =
-      app.add_subcommand("plot", "Plot trajectories, errors, scores and costs of a sweep");
-  command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
-      ->required();
-  command->add_option("-o,--out", arguments->folder, "Output folder")
-      ->type_name("DIR")
-      ->default_val("figures");
-  command->add_option("--methods",
-                      arguments->methods,
-                      "Comma-separated method labels, in \"...\" if a label contains commas "
-                      "(default: baseline, best, best without a smoother; all for scores)");
-  command->add_option("--sequences",
-                      arguments->sequences,
-                      "Comma-separated sequence labels, in \"...\" likewise (default: all)");
-  command
-      ->add_option(
-          "--panels",
-          arguments->panels,
-          "Comma-separated panels: trajectories in the plane of the largest extent (plane), "
-          "in xy, xz, yz and in space (xyz), errors in x, y, z and angle; of all sequences ratios "
-          "to the baseline (ratio), error against time (time), runs (boxes), time and memory over "
-          "a swept size (growth)")
+  PlotArguments& a = *arguments;
+  CLI::App& command =
+      *app.add_subcommand("plot", "Plot trajectories, errors, scores and costs of a sweep");
+  declare_store(command, a.store);
+  add(command, "-o,--out DIR", a.folder, "Output folder")->default_val("figures");
+  add(command,
+      "--methods",
+      a.methods,
+      "Comma-separated method labels, in \"...\" if a label contains commas (default: baseline, "
+      "best, "
+      "best without a smoother; all for scores)");
+  add(command,
+      "--sequences",
+      a.sequences,
+      "Comma-separated sequence labels, in \"...\" likewise (default: all)");
+  add(command,
+      "--panels WORDS",
+      a.panels,
+      "Comma-separated panels: trajectories in the plane of the largest extent (plane), in xy, xz, "
+      "yz and in space (xyz), errors in x, y, z and angle; of all sequences ratios to the baseline "
+      "(ratio), error against time (time), runs (boxes), time and memory over a swept size "
+      "(growth)")
       ->delimiter(',')
       ->check(CLI::IsMember(panel_names()))
-      ->type_name("WORDS")
       ->default_str("plane,xyz,x,y,z,angle,ratio,time,boxes,growth");
-  command->add_option("--format", arguments->formats, "File formats: svg, pdf, png, pgf or several")
+  add(command, "--format", a.formats, "File formats: svg, pdf, png, pgf or several")
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>(kFigureFormats.begin(), kFigureFormats.end())))
       ->default_str("pdf");
-  declare_figures(*command, arguments->figures);
-  command->callback([arguments, &exit_code] { exit_code = write_figures(*arguments); });
+  declare_figures(command, a.figures);
+  command.callback([arguments, &exit_code] { exit_code = write_figures(*arguments); });
 }
 
 }  // namespace loopbench::harness

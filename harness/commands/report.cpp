@@ -20,20 +20,18 @@ void add_report(CLI::App& app, int& exit_code) {
     double megabytes = 9.0;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("report", "Write the results of a sweep as one HTML file");
-  command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
-      ->required();
-  command->add_option("-o,--out", arguments->out, "File to write; - is standard output")
-      ->type_name("FILE")
+  CLI::App& command =
+      *app.add_subcommand("report", "Write the results of a sweep as one HTML file");
+  declare_store(command, arguments->store);
+  add(command, "-o,--out FILE", arguments->out, "File to write; - is standard output")
       ->capture_default_str();
-  command
-      ->add_option(
-          "--size",
-          arguments->megabytes,
-          "Maximum file size, reached by thinning trajectories, then by leaving out sequences [MB]")
+  add(command,
+      "--size",
+      arguments->megabytes,
+      "Maximum file size, reached by thinning trajectories, then by leaving out sequences [MB]")
       ->check(number_between(0.1, 1000.0))
       ->capture_default_str();
-  command->callback([arguments, &exit_code] {
+  command.callback([arguments, &exit_code] {
     reject_overwriting({store_file(arguments->store)}, arguments->out);
     const auto bytes = static_cast<std::size_t>(1e6 * arguments->megabytes);
     const std::string html = report_html(read_report_content(arguments->store, bytes), bytes);

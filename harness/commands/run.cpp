@@ -240,47 +240,40 @@ int run_config(const RunArguments& arguments, const Source& source) {
 
 void add_run(CLI::App& app, int& exit_code, const Source& source) {
   auto arguments = std::make_shared<RunArguments>();
-  CLI::App* command = app.add_subcommand("run", "Run the sweep of a config and print a summary");
-  command
-      ->add_option(
-          "config", arguments->config, "YAML file, or the name of an installed config: quickstart")
-      ->required();
-  add(*command, "--only REGEX", arguments->only, "Only cells whose 'SEQUENCE / METHOD' matches");
-  add(*command,
+  RunArguments& a = *arguments;
+  CLI::App& command = *app.add_subcommand("run", "Run the sweep of a config and print a summary");
+  declare_config(command, a.config);
+  add(command, "--only REGEX", a.only, "Only cells whose 'SEQUENCE / METHOD' matches");
+  add(command,
       "--shard I/N",
-      arguments->shard,
+      a.shard,
       "Only this part of N, into its own store OUT/shards/I-of-N; see `merge`");
-  command->add_flag("--dry-run",
-                    arguments->dry_run,
-                    "Check the config and its input files and list the cells without running them");
-  command->add_option("-j,--jobs", arguments->jobs, "Number of workers; does not affect results")
+  command.add_flag("--dry-run",
+                   a.dry_run,
+                   "Check the config and its input files and list the cells without running them");
+  add(command, "-j,--jobs", a.jobs, "Number of workers; does not affect results")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_flag("--save-trajectories",
-                    arguments->save_trajectories,
-                    "Save every cell's estimate at full length, see `export --what trajectories`");
-  command->add_flag("--failed-cells-ok",
-                    arguments->failed_cells_ok,
-                    "Exit with 0 if cells failed: they are results, too, and have their reasons");
-  command->add_flag("--no-sandbox", arguments->no_sandbox, "Let external programs read all files");
-  add(*command, "--data DIR", arguments->data, "Folder with real datasets")
-      ->envname("LOOPBENCH_DATA");
-  add(*command, "-o,--out DIR", arguments->out, "Output folder (default: results/CONFIG)");
-  add(*command,
-      "--plugin FILE",
-      arguments->plugins,
-      "Shared object with methods, datasets or metrics")
+  command.add_flag("--save-trajectories",
+                   a.save_trajectories,
+                   "Save every cell's estimate at full length, see `export --what trajectories`");
+  command.add_flag("--failed-cells-ok",
+                   a.failed_cells_ok,
+                   "Exit with 0 if cells failed: they are results, too, and have their reasons");
+  command.add_flag("--no-sandbox", a.no_sandbox, "Let external programs read all files");
+  add(command, "--data DIR", a.data, "Folder with real datasets")->envname("LOOPBENCH_DATA");
+  add(command, "-o,--out DIR", a.out, "Output folder (default: results/CONFIG)");
+  add(command, "--plugin FILE", a.plugins, "Shared object with methods, datasets or metrics")
       ->allow_extra_args(false);
-  command
-      ->add_option("--retry",
-                   arguments->retry,
-                   "Stored cells to recompute in addition to damaged ones: failed, or all")
+  add(command,
+      "--retry",
+      a.retry,
+      "Stored cells to recompute in addition to damaged ones: failed, or all")
       ->check(CLI::IsMember({"none", "failed", "all"}))
       ->capture_default_str();
-  command->add_flag(
-      "--fresh", arguments->fresh, "Recompute all cells; keep the old store as previous-N.sqlite");
-  command->callback(
-      [arguments, source, &exit_code] { exit_code = run_config(*arguments, source); });
+  command.add_flag(
+      "--fresh", a.fresh, "Recompute all cells; keep the old store as previous-N.sqlite");
+  command.callback([arguments, source, &exit_code] { exit_code = run_config(*arguments, source); });
 }
 
 }  // namespace loopbench::harness

@@ -10,6 +10,7 @@
 #include "harness/base/program.hpp"
 #include "harness/base/shell.hpp"
 #include "harness/base/write_file.hpp"
+#include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/commands/config_path.hpp"
 #include "harness/commands/slurm_scripts.hpp"
@@ -126,28 +127,23 @@ int submit(const SubmitArguments& arguments) {
 
 void add_submit(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<SubmitArguments>();
-  CLI::App* command = app.add_subcommand("submit", "Run a sweep as an array job of Slurm");
-  command
-      ->add_option(
-          "config", arguments->config, "YAML file, or the name of an installed config: quickstart")
-      ->required();
-  command->add_option("--array", arguments->array, "Number of shards, one per task")
+  SubmitArguments& a = *arguments;
+  CLI::App& command = *app.add_subcommand("submit", "Run a sweep as an array job of Slurm");
+  declare_config(command, a.config);
+  add(command, "--array", a.array, "Number of shards, one per task")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  command
-      ->add_option("--header",
-                   arguments->header,
-                   "File with lines for both scripts: #SBATCH options (time, memory, partition), "
-                   "then commands before the run (default: ~/.config/loopbench/slurm.sh)")
-      ->type_name("FILE");
-  command->add_flag("--print", arguments->print, "Print the scripts without submitting them");
-  command->add_option("--retry", arguments->retry, "Stored cells to recompute, as of `run`")
+  add(command,
+      "--header FILE",
+      a.header,
+      "File with lines for both scripts: #SBATCH options (time, memory, partition), then commands "
+      "before the run (default: ~/.config/loopbench/slurm.sh)");
+  command.add_flag("--print", a.print, "Print the scripts without submitting them");
+  add(command, "--retry", a.retry, "Stored cells to recompute, as of `run`")
       ->check(CLI::IsMember({"none", "failed", "all"}));
-  command->add_option("--out", arguments->out, "Output folder (default: results/CONFIG)")
-      ->type_name("DIR");
-  command->add_option(
-      "options", arguments->options, "After --: options of `run`, for example --only");
-  command->callback([arguments, &exit_code] { exit_code = submit(*arguments); });
+  add(command, "--out DIR", a.out, "Output folder (default: results/CONFIG)");
+  add(command, "options", a.options, "After --: options of `run`, for example --only");
+  command.callback([arguments, &exit_code] { exit_code = submit(*arguments); });
 }
 
 }  // namespace loopbench::harness

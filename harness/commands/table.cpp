@@ -139,84 +139,73 @@ int print_table(TableArguments arguments) {
 
 void add_table(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<TableArguments>();
-  CLI::App* command = app.add_subcommand("table", "Print tables of a sweep's results");
-  command->add_option("store", arguments->store, "Folder of results, or its results.sqlite")
-      ->required();
+  TableArguments& a = *arguments;
+  CLI::App& command = *app.add_subcommand("table", "Print tables of a sweep's results");
+  declare_store(command, a.store);
   const std::string columns =
       "comma-separated fields (sequence, repeat, method, closures, protocol, times, metric, label, "
       "relation, axis, unit, status, score) or options of methods (planar)";
-  command
-      ->add_option(
-          "--rows", arguments->spec.rows, "Rows: " + columns + "; sequence: sequences by methods")
-      ->delimiter(',')
+  const auto layout = [&](const char* name,
+                          std::vector<std::string>& fields,
+                          const char* before,
+                          const char* after) {
+    add(command, name, fields, before + columns + after)->delimiter(',')->capture_default_str();
+  };
+  layout("--rows", a.spec.rows, "Rows: ", "; sequence: sequences by methods");
+  layout("--columns", a.spec.columns, "Columns: ", "");
+  layout("--split",
+         a.spec.split,
+         "One table for each: ",
+         "; '': one table; without layout, one score of several sequences is one table of methods "
+         "by sequences");
+  add(command,
+      "--value",
+      a.spec.value,
+      fmt::format("Statistic: {}", fmt::join(statistic_names(), " ")))
       ->capture_default_str();
-  command->add_option("--columns", arguments->spec.columns, "Columns: " + columns)
-      ->delimiter(',')
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--split",
-          arguments->spec.split,
-          "One table for each: " + columns +
-              "; '': one table; without layout, one score of several sequences is one table of "
-              "methods by sequences")
-      ->delimiter(',')
-      ->capture_default_str();
-  command
-      ->add_option("--value",
-                   arguments->spec.value,
-                   fmt::format("Statistic: {}", fmt::join(statistic_names(), " ")))
-      ->capture_default_str();
-  command->add_flag("--plus-minus",
-                    arguments->spec.plus_minus,
-                    "Add the standard deviation over the averaged cells to each number");
-  command->add_option("--show",
-                      arguments->spec.show,
-                      "Scores to show: ate,error x,gain,time,cpu,wall,memory; default: all but "
-                      "costs, with --format latex or markdown the "
-                      "first (of a single sequence with gain and time)");
-  command
-      ->add_option("--success",
-                   arguments->success,
-                   "Print the share of runs of each method whose error is at most this (in its "
-                   "unit); failed and incomplete runs do not succeed. Default: the first score, "
-                   "usually ATE; others by --where and --value")
+  command.add_flag("--plus-minus",
+                   a.spec.plus_minus,
+                   "Add the standard deviation over the averaged cells to each number");
+  add(command,
+      "--show",
+      a.spec.show,
+      "Scores to show: ate,error x,gain,time,cpu,wall,memory; default: all but costs, with "
+      "--format latex or markdown the first (of a single sequence with gain and time)");
+  add(command,
+      "--success",
+      a.success,
+      "Print the share of runs of each method whose error is at most this (in its unit); failed "
+      "and incomplete runs do not succeed. Default: the first score, usually ATE; others by "
+      "--where and --value")
       ->check(finite_number());
-  command->add_flag("--growth",
-                    arguments->growth,
-                    "Print how processor time and memory of each method grow with the keyframes or "
-                    "closures of a sweep over them: fitted exponents with intervals");
-  command->add_option("--where",
-                      arguments->where,
-                      "Filter of rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, comma-separated; "
-                      "FIELD=\"TEXT\" if TEXT contains commas");
-  command
-      ->add_option(
-          "--alpha", arguments->ranking.alpha, "Significance level of the marks in a column [-]")
+  command.add_flag("--growth",
+                   a.growth,
+                   "Print how processor time and memory of each method grow with the keyframes or "
+                   "closures of a sweep over them: fitted exponents with intervals");
+  add(command,
+      "--where",
+      a.where,
+      "Filter of rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, comma-separated; FIELD=\"TEXT\" if "
+      "TEXT contains commas");
+  add(command, "--alpha", a.ranking.alpha, "Significance level of the marks in a column [-]")
       ->check(number_between(0.0, 0.5))
       ->capture_default_str();
-  declare_ties(*command, arguments->ranking.tie, arguments->ranking.relevant);
-  declare(*command,
-          arguments->output,
-          {ExportFormat::markdown,
-           ExportFormat::terminal,
-           ExportFormat::latex,
-           ExportFormat::csv,
-           ExportFormat::json});
-  command->callback([arguments, command, &exit_code] {
+  declare_ties(command, a.ranking.tie, a.ranking.relevant);
+  declare(command, a.output);
+  command.callback([arguments, &a, &command, &exit_code] {
     for (const char* name : {"--rows", "--columns", "--split"}) {
-      if (command->count(name) > 0) arguments->has_default_layout = false;
+      if (command.count(name) > 0) a.has_default_layout = false;
     }
-    const ExportFormat format = arguments->output.format();
-    arguments->is_for_paper = command->count("--format") > 0 &&
-                              (format == ExportFormat::latex || format == ExportFormat::markdown);
-    if (command->count("--split") == 0) {
-      std::erase_if(arguments->spec.split, [&](const std::string& field) {
-        return std::ranges::count(arguments->spec.rows, field) > 0 ||
-               std::ranges::count(arguments->spec.columns, field) > 0;
+    const ExportFormat format = a.output.format();
+    a.is_for_paper = command.count("--format") > 0 &&
+                     (format == ExportFormat::latex || format == ExportFormat::markdown);
+    if (command.count("--split") == 0) {
+      std::erase_if(a.spec.split, [&](const std::string& field) {
+        return std::ranges::count(a.spec.rows, field) > 0 ||
+               std::ranges::count(a.spec.columns, field) > 0;
       });
     }
-    exit_code = print_table(*arguments);
+    exit_code = print_table(a);
   });
 }
 

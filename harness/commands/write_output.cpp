@@ -38,25 +38,21 @@ ExportFormat OutputOptions::format() const {
   return given.value_or(has_terminal ? ExportFormat::terminal : ExportFormat::markdown);
 }
 
-void declare(CLI::App& command, OutputOptions& output, const std::vector<ExportFormat>& formats) {
+void declare(CLI::App& command, OutputOptions& output) {
   const std::map<std::string, ExportFormat> known{{"markdown", ExportFormat::markdown},
                                                   {"terminal", ExportFormat::terminal},
                                                   {"latex", ExportFormat::latex},
                                                   {"csv", ExportFormat::csv},
                                                   {"json", ExportFormat::json}};
-  std::map<std::string, ExportFormat> accepted = known;
-  std::erase_if(accepted,
-                [&](const auto& one) { return std::ranges::count(formats, one.second) == 0; });
   command
       .add_option("--format",
                   output.given,
                   "Output format; default: terminal on a terminal, otherwise markdown")
-      ->transform(one_of("format", accepted));
-  command
-      .add_option("-o,--out",
-                  output.file,
-                  "File to write (-: standard output); for CSV also its provenance")
-      ->type_name("FILE");
+      ->transform(one_of("format", known));
+  add(command,
+      "-o,--out FILE",
+      output.file,
+      "File to write (-: standard output); for CSV also its provenance");
   command.add_flag("--wide",
                    output.wide,
                    "LaTeX tables as wide as the text (174 mm) instead of one column (84 mm)");

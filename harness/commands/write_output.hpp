@@ -24,8 +24,8 @@ struct OutputOptions {
   ExportFormat format() const;
 };
 
-/// Adds --format with these formats, --provenance, and -o.
-void declare(CLI::App& command, OutputOptions& output, const std::vector<ExportFormat>& formats);
+/// Adds --format, --wide, --provenance, and -o.
+void declare(CLI::App& command, OutputOptions& output);
 
 /// The tables of a store one below the other: Markdown, LaTeX with the alignment in the captions,
 /// text_csv(), or for the terminal in its width.
