@@ -31,16 +31,30 @@ struct Tolerance {
 
 /// The numbers of one sweep, with the definitions of its labels.
 struct Snapshot {
+  using Definitions = std::map<std::string, std::string>;  ///< by label
+
   std::string sweep;
-  std::string machine;                           ///< compiler, C library and CPU of all cells
-  std::map<std::string, std::string> sequences;  ///< label -> all options, hashes of files
-  std::map<std::string, std::string> contents;   ///< label -> hash of problem and reference
-  std::map<std::string, std::string> protocols;  ///< label and version -> every rule
-  std::map<std::string, std::string> metrics;    ///< label -> name, all options
-  std::map<std::string, std::string> methods;    ///< label -> stages, all options
+  std::string machine;    ///< compiler, C library and CPU of all cells
+  Definitions sequences;  ///< all options, hashes of files
+  Definitions contents;   ///< hashes of problem and reference
+  Definitions protocols;  ///< every rule, by label and version
+  Definitions metrics;    ///< name, all options
+  Definitions methods;    ///< stages, all options
   /// Neighbours belong to one cell. A cell without checked scores has one record without a score.
   std::vector<Record> records;
 };
+
+/// The definitions of a snapshot, in the order of the file.
+struct DefinitionKind {
+  const char* name;
+  Snapshot::Definitions Snapshot::*member;
+  const char* one;  ///< in messages
+};
+inline constexpr DefinitionKind kDefinitions[] = {{"sequences", &Snapshot::sequences, "sequence"},
+                                                  {"contents", &Snapshot::contents, ""},
+                                                  {"protocols", &Snapshot::protocols, "protocol"},
+                                                  {"metrics", &Snapshot::metrics, "metric"},
+                                                  {"methods", &Snapshot::methods, "method"}};
 
 /// Largest error of the numbers in a baseline: absolute + relative * |number|.
 struct Rounding {

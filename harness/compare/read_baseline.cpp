@@ -154,11 +154,7 @@ Baseline baseline_of(const Json& root, const std::string& file) {
   Snapshot& snapshot = out.snapshot;
   root.at("sweep").get_to(snapshot.sweep);
   root.at("machine").get_to(snapshot.machine);
-  root.at("sequences").get_to(snapshot.sequences);
-  root.at("contents").get_to(snapshot.contents);
-  root.at("protocols").get_to(snapshot.protocols);
-  root.at("metrics").get_to(snapshot.metrics);
-  root.at("methods").get_to(snapshot.methods);
+  for (const DefinitionKind& each : kDefinitions) root.at(each.name).get_to(snapshot.*each.member);
   const Json& precision = root.at("precision");
   require_seen(out.limits,
                {precision.at("relative").get<double>(), precision.at("absolute").get<double>()},

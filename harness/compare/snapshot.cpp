@@ -112,26 +112,33 @@ std::string only_in(const std::string& text, const std::string& other) {
   return out.empty() ? text : out;
 }
 
-using Definitions = std::map<std::string, std::string>;
+std::string difference(const DefinitionKind& kind,
+                       const std::string& label,
+                       const std::string& before,
+                       const std::string* now) {
+  if (kind.member == &Snapshot::contents) {
+    return "the baseline has different data for the sequence '" + label +
+           "' with the same options and files: its poses, edges or reference differ (hash " +
+           before + ", these results " + *now + ")";
+  }
+  const std::string named = fmt::format("the {} '{}'", kind.one, label);
+  if (now == nullptr) return "the baseline has " + named + ", but the results do not";
+  return "the baseline defines " + named + " differently: it has '" + only_in(before, *now) +
+         "', these results have '" + only_in(*now, before) + "'";
+}
 
-/// Throws InputError about the first label that differs, with the number of further ones.
-/// `may_be_missing`: whether `now` can lack labels.
-template <class Describe>
-void require_same(const Definitions& baseline,
-                  const Definitions& now,
-                  bool may_be_missing,
-                  Describe describe) {
+/// Throws InputError about the first label that differs, with the number of further ones. Only
+/// protocols cannot be missing.
+void require_same(const DefinitionKind& kind, const Snapshot& baseline, const Snapshot& now) {
   std::string first;
   std::size_t more = 0;
-  for (const auto& [label, text] : baseline) {
-    const auto found = now.find(label);
-    const bool differs = found == now.end() ? !may_be_missing : found->second != text;
-    if (!differs) continue;
-    if (first.empty()) {
-      first = describe(label, text, found == now.end() ? nullptr : &found->second);
-    } else {
-      ++more;
-    }
+  for (const auto& [label, before] : baseline.*kind.member) {
+    const auto found = (now.*kind.member).find(label);
+    const bool is_missing = found == (now.*kind.member).end();
+    if (is_missing ? kind.member != &Snapshot::protocols : found->second == before) continue;
+    more += first.empty() ? 0 : 1;
+    if (first.empty())
+      first = difference(kind, label, before, is_missing ? nullptr : &found->second);
   }
   if (first.empty()) return;
   throw InputError(more == 0 ? first : fmt::format("{} (and {} more)", first, more));
@@ -192,29 +199,10 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
 }
 
 void require_same_definitions(const Snapshot& baseline, const Snapshot& now) {
-  const auto require = [&](const char* what, const auto Snapshot::*member, bool may_be_missing) {
-    const auto describe = [&](const std::string& label,
-                              const std::string& before,
-                              const std::string* after) {
-      const std::string named = fmt::format("the {} '{}'", what, label);
-      if (after == nullptr) return "the baseline has " + named + ", but the results do not";
-      return "the baseline defines " + named + " differently: it has '" + only_in(before, *after) +
-             "', these results have '" + only_in(*after, before) + "'";
-    };
-    require_same(baseline.*member, now.*member, may_be_missing, describe);
-  };
-  require("sequence", &Snapshot::sequences, true);
-  require("protocol", &Snapshot::protocols, false);
-  require("metric", &Snapshot::metrics, true);
-  require("method", &Snapshot::methods, true);
-  if (!are_comparable(baseline, now)) return;
-  const auto describe =
-      [](const std::string& label, const std::string& before, const std::string* after) {
-        return "the baseline has different data for the sequence '" + label +
-               "' with the same options and files: its poses, edges or reference differ (hash " +
-               before + ", these results " + *after + ")";
-      };
-  require_same(baseline.contents, now.contents, true, describe);
+  for (const DefinitionKind& kind : kDefinitions) {
+    if (kind.member != &Snapshot::contents) require_same(kind, baseline, now);
+  }
+  if (are_comparable(baseline, now)) require_same(kDefinitions[1], baseline, now);
 }
 
 std::string note_on_contents(const Snapshot& baseline, const Snapshot& now) {

@@ -143,11 +143,7 @@ std::string json(const Baseline& baseline) {
   member("machine", snapshot.machine);
   out += lines("limits", limits) + ",\n";
   member("precision", {{"relative", precision.relative}, {"absolute", precision.absolute}});
-  member("sequences", snapshot.sequences);
-  member("contents", snapshot.contents);
-  member("protocols", snapshot.protocols);
-  member("metrics", snapshot.metrics);
-  member("methods", snapshot.methods);
+  for (const DefinitionKind& each : kDefinitions) member(each.name, snapshot.*each.member);
   out += lines("scores", scores) + ",\n" + lines("cells", cells) + "\n}\n";
   out.insert(out.find('\n', 2) + 1, "\"digest\": \"" + digest_of(out) + "\",\n");
   return out;

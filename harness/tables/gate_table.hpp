@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "harness/base/counted.hpp"
 #include "harness/compare/gate.hpp"
 #include "harness/tables/table.hpp"
 
@@ -14,10 +15,6 @@ namespace loopbench::harness {
 inline const char* name(Finding::Kind kind) {
   if (kind == Finding::Kind::regression) return "regression";
   return kind == Finding::Kind::improvement ? "improvement" : "new";
-}
-
-inline std::string counted_findings(std::size_t count, const std::string& what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 inline std::string xml(const std::string& text) {
@@ -49,11 +46,10 @@ inline std::string test_case(const std::string& sweep,
     all += (all.empty() ? "" : "; ") + (finding->score.empty() ? "" : finding->score + ": ") +
            finding->what;
   }
-  return out +
-         fmt::format(">\n    <failure message=\"{}\">{}</failure>\n  </testcase>\n",
-                     xml(why_failed.empty() ? counted_findings(regressions.size(), "regression")
-                                            : why_failed),
-                     xml(all));
+  return out + fmt::format(
+                   ">\n    <failure message=\"{}\">{}</failure>\n  </testcase>\n",
+                   xml(why_failed.empty() ? counted(regressions.size(), "regression") : why_failed),
+                   xml(all));
 }
 
 /// Verdict. What passes has only failures that the baseline has, too.
@@ -71,11 +67,11 @@ inline std::string markdown(const GateReport& report, const std::string& sweep) 
             {"cell", "score", "finding", "what"},
             {},
             {fmt::format("{}, {}, {} in {} and {}",
-                         counted_findings(report.count(Finding::Kind::regression), "regression"),
-                         counted_findings(report.count(Finding::Kind::improvement), "improvement"),
-                         counted_findings(report.count(Finding::Kind::added), "new cell"),
-                         counted_findings(report.cells, "cell"),
-                         counted_findings(report.scores, "score"))}};
+                         counted(report.count(Finding::Kind::regression), "regression"),
+                         counted(report.count(Finding::Kind::improvement), "improvement"),
+                         counted(report.count(Finding::Kind::added), "new cell"),
+                         counted(report.cells, "cell"),
+                         counted(report.scores, "score"))}};
   for (const std::string& note : report.notes) out.notes.push_back(note);
   for (const Finding& finding : report.findings) {
     out.lines.push_back({{finding.cell}, {finding.score}, {name(finding.kind)}, {finding.what}});
