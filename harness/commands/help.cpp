@@ -132,9 +132,6 @@ const std::map<std::string, std::string> kExitCodes{
     {"eval",
      "0 success, 1 an estimate failed or covers too little, 2 invalid input or output, 3 internal "
      "error."},
-    {"table",
-     "0 success, 1 a result file of evo cannot be used, 2 invalid input or output, 3 internal "
-     "error."},
     {"compare",
      "0 success, 1 an assertion is not shown, 2 invalid input or output, 3 internal error."},
     {"check", "0 passed, 1 regressions, 2 invalid input or output, 3 internal error."},

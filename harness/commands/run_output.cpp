@@ -8,6 +8,7 @@
 #include <set>
 
 #include "datasets/core/error.hpp"
+#include "harness/base/counted.hpp"
 #include "harness/base/own_process.hpp"
 #include "harness/base/print_error.hpp"
 #include "harness/base/printable.hpp"
@@ -124,12 +125,8 @@ void print_plan(const Sweep& sweep, const std::vector<Cell>& planned) {
                repeat,
                printable(sweep.methods[cell.method].label));
   }
-  const std::size_t metrics = sweep.metrics.size();
-  fmt::print("{} cell{}, {} metric{} each\n",
-             planned.size(),
-             planned.size() == 1 ? "" : "s",
-             metrics,
-             metrics == 1 ? "" : "s");
+  fmt::print(
+      "{}, {} each\n", counted(planned.size(), "cell"), counted(sweep.metrics.size(), "metric"));
 }
 
 }  // namespace
