@@ -38,13 +38,17 @@ class Levels {
   std::size_t methods() const { return all_.values.size(); }
   std::size_t groups() const { return runs_of_.size(); }
   const std::vector<std::size_t>& runs_of(std::size_t group) const { return runs_of_[group]; }
-  std::size_t sequence_of(std::size_t group) const;
+  std::size_t sequence_of(std::size_t group) const {
+    return all_.sequence.empty() ? group : all_.sequence[runs_of_[group].front()];
+  }
 
   /// Whether the method was run: it has a value or failed.
   bool is_known(std::size_t method, std::size_t run) const {
     return all_.values[method][run].has_value();
   }
-  bool has_value(std::size_t method, std::size_t run) const;
+  bool has_value(std::size_t method, std::size_t run) const {
+    return is_known(method, run) && !std::isnan(*all_.values[method][run]);
+  }
 
   bool is_paired() const { return all_.is_paired; }
 
@@ -97,14 +101,6 @@ inline Levels::Levels(GroupedValues all, double tie)
     if (all_.group[run] >= runs_of_.size()) runs_of_.resize(all_.group[run] + 1);
     runs_of_[all_.group[run]].push_back(run);
   }
-}
-
-inline std::size_t Levels::sequence_of(std::size_t group) const {
-  return all_.sequence.empty() ? group : all_.sequence[runs_of_[group].front()];
-}
-
-inline bool Levels::has_value(std::size_t method, std::size_t run) const {
-  return is_known(method, run) && !std::isnan(*all_.values[method][run]);
 }
 
 inline std::optional<double> Levels::level(std::size_t method, std::size_t group) const {

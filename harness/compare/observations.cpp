@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "harness/compare/signed_rank.hpp"
@@ -24,27 +23,6 @@ Observed observed(const Record& r, const std::string& value_name) {
     return {std::nullopt, true, "not finite"};
   }
   return {std::nullopt, is_loss(r), r.status == Status::ok ? "not evaluated" : to_text(r.status)};
-}
-
-/// Group number of each run: runs that share a key of either kind are in one group.
-std::vector<std::size_t> joined(const std::vector<std::vector<std::string>>& keys) {
-  std::vector<std::size_t> group(keys.size());
-  std::iota(group.begin(), group.end(), std::size_t{0});
-  std::map<std::string, std::size_t> first;
-  for (std::size_t run = 0; run < keys.size(); ++run) {
-    for (const std::string& key : keys[run]) {
-      const std::size_t other = group[first.emplace(key, run).first->second];
-      const std::size_t own = group[run];
-      if (own == run) {
-        group[run] = other;  // without others yet
-      } else if (own != other) {
-        std::ranges::replace(group, own, other);
-      }
-    }
-  }
-  NameOrder order;
-  for (std::size_t& g : group) g = order.index(std::to_string(g));
-  return group;
 }
 
 }  // namespace
@@ -131,14 +109,19 @@ std::string sequence_key(const ObservedRun& run) {
 std::vector<std::size_t> group_numbers(const Observations& all,
                                        const std::vector<std::size_t>& runs,
                                        bool by_sequence) {
-  std::vector<std::vector<std::string>> keys;
-  for (const std::size_t run : runs) {
-    const ObservedRun& r = all.runs[run];
-    std::vector<std::string>& own = keys.emplace_back();
-    own.push_back("group " + r.group);
-    if (by_sequence) own.push_back("sequence " + sequence_key(r));
+  NameOrder groups;
+  std::vector<std::size_t> out;
+  for (const std::size_t run : runs) out.push_back(groups.index(all.runs[run].group));
+  if (!by_sequence) return out;
+  std::map<std::string, std::size_t> first;  // run of each sequence, whose groups are joined
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::size_t own = out[i];
+    const std::size_t other = out[first.emplace(sequence_key(all.runs[runs[i]]), i).first->second];
+    if (own != other) std::ranges::replace(out, own, other);
   }
-  return joined(keys);
+  NameOrder order;
+  for (std::size_t& group : out) group = order.index(std::to_string(group));
+  return out;
 }
 
 std::size_t drop_duplicates(Observations& all) {

@@ -19,8 +19,7 @@ double largest_coverage(const Comparison& c) {
   return out;
 }
 
-Lines about_runs(const Comparison& c) {
-  Lines out;
+void add_runs(const Comparison& c, Lines& out) {
   if (c.runs < c.possible) {
     out.push_back(
         fmt::format("{} of {} possible runs: those on which two methods have a value or failed",
@@ -42,7 +41,6 @@ Lines about_runs(const Comparison& c) {
         "group): " +
         joined(c.same_recordings));
   }
-  return out;
 }
 
 /// What a method lacks, for methods that lack the same.
@@ -59,8 +57,7 @@ std::string gap_text(const Gap& gap, const Comparison& c) {
       found->why_fails);
 }
 
-Lines about_methods(const Comparison& c) {
-  Lines out;
+void add_methods(const Comparison& c, Lines& out) {
   std::vector<std::pair<std::string, Lines>> gaps;  // methods by what they lack
   for (const Gap& gap : c.gaps) {
     const std::string text = gap_text(gap, c);
@@ -79,11 +76,9 @@ Lines about_methods(const Comparison& c) {
     out.push_back("closures measured in the reference or selected by it (oracle): " +
                   joined(c.oracle_closures));
   }
-  return out;
 }
 
-Lines about_ratios(const Comparison& c) {
-  Lines out;
+void add_ratios(const Comparison& c, Lines& out) {
   if (!c.is_ratio) {
     out.push_back(
         "some values are negative: no ratio for their methods; tests of plain differences");
@@ -100,7 +95,6 @@ Lines about_ratios(const Comparison& c) {
     out.push_back("no geometric mean ratio to " + c.options.baseline +
                   " where an error is zero (or no run is common): " + joined(zero));
   }
-  return out;
 }
 
 }  // namespace
@@ -155,9 +149,9 @@ std::string coverage_text(const Comparison& c, const Lines& methods) {
 }
 
 Lines limitations(const Comparison& c) {
-  Lines out = about_methods(c);
-  const Lines runs = about_runs(c);
-  out.insert(out.end(), runs.begin(), runs.end());
+  Lines out;
+  add_methods(c, out);
+  add_runs(c, out);
   return out;
 }
 
@@ -178,7 +172,7 @@ Lines remarks(const Comparison& c) {
       counted(c.tests, "test"),
       c.options.tie,
       c.options.alpha));
-  for (std::string& line : about_ratios(c)) out.push_back(std::move(line));
+  add_ratios(c, out);
   return out;
 }
 
