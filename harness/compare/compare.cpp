@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "datasets/core/error.hpp"
 #include "harness/base/suggest.hpp"
@@ -229,6 +230,10 @@ Comparison compare_one(Observations& all, const CompareOptions& options) {
     out.is_ratio = out.is_ratio && pair.is_ratio;
     add_baseline(out.methods[m], pair, kept, out);
   }
+  // Independent runs of a method differ among themselves, but it does not differ from itself.
+  MethodVerdict& itself = out.methods[baseline];
+  itself.ties += std::exchange(itself.wins, 0) + std::exchange(itself.losses, 0);
+  if (itself.ratio) itself.ratio->typical = {1.0, 1.0, 1.0};
   test_sequences(out);
   sort_methods(out.methods, out.kind.better);
   return out;

@@ -41,6 +41,12 @@ std::string relation_text(const Comparison& c, bool is_below) {
                      c.options.baseline);
 }
 
+/// What an observation is.
+const char* observed_unit(const Comparison& c) {
+  if (c.groups == c.runs) return "runs";
+  return c.options.over == Over::sequences ? "sequences" : "groups";
+}
+
 /// Why the difference of a method to the baseline is no number.
 std::string without_number(const Comparison& c, const MethodVerdict& m) {
   if (m.is_divided)
@@ -51,11 +57,12 @@ std::string without_number(const Comparison& c, const MethodVerdict& m) {
                        is_ahead ? "ahead of" : "behind",
                        c.options.baseline);
   }
-  return fmt::format("{} than {} on {} of {} groups",
+  return fmt::format("{} than {} on {} of {} {}",
                      is_ahead ? "better" : "worse",
                      c.options.baseline,
                      std::max(m.wins, m.losses),
-                     m.wins + m.losses + m.ties);
+                     m.wins + m.losses + m.ties,
+                     c.has_strata ? "pairs of runs" : observed_unit(c));
 }
 
 /// "37 to 44 % below raw (95 %: 30 to 51)".
@@ -97,8 +104,7 @@ std::string needed_text(const Comparison& c, const MethodVerdict& m) {
   const double width = std::abs(side - std::log(typical.estimate));
   const auto now = static_cast<double>(c.groups);
   const double needed = std::max(now + 1.0, std::ceil(now * std::pow(width / distance, 2)));
-  const char* const unit = c.groups == c.runs ? "runs" : "groups";
-  return fmt::format("; about {:.0f} {} would decide (now {})", needed, unit, c.groups);
+  return fmt::format("; about {:.0f} {} would decide (now {})", needed, observed_unit(c), c.groups);
 }
 
 std::string why_no_comparison(const Comparison& c) {

@@ -60,7 +60,7 @@ TEST(Failures, AreNoGainOfTheMethodThatFails) {
   }
   const Comparison c = compared(records, {.baseline = "raw"});
   EXPECT_EQ(c.methods[0].method, "raw");
-  EXPECT_EQ(sentence(c), "the baseline raw is best: same is worse than raw on 12 of 16 groups");
+  EXPECT_EQ(sentence(c), "the baseline raw is best: same is worse than raw on 12 of 16 runs");
 }
 
 TEST(Failures, MayBeFewerThanWhatABestMethodWins) {

@@ -95,7 +95,7 @@ TEST(Verdict, IsAboutTheFailuresOfABaselineThatRanksBehindAWorseMethod) {
     records.push_back(score("room", i, "dual", 1.25));
   }
   const Comparison c = compared(records, {.baseline = "raw"});
-  EXPECT_EQ(sentence(c), "dual is best, better than raw on 6 of 8 groups");
+  EXPECT_EQ(sentence(c), "dual is best, better than raw on 6 of 8 runs");
   EXPECT_TRUE(has(limitations(c)[0], "failed on 6 of 8 runs (failed 6), which are losses"));
 }
 
@@ -218,7 +218,7 @@ TEST(Compare, TakesDifferencesWhereValuesAreNegative) {
   EXPECT_EQ(c.methods[0].method, "dual");  // the higher gain
   EXPECT_EQ(c.methods[0].wins, 8u);
   EXPECT_FALSE(c.methods[0].ratio);
-  EXPECT_EQ(sentence(c), "dual is best, better than uniform on 8 of 8 groups");
+  EXPECT_EQ(sentence(c), "dual is best, better than uniform on 8 of 8 runs");
   EXPECT_TRUE(has_note(
       c, "some values are negative: no ratio for their methods; tests of plain differences"));
 }

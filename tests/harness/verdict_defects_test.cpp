@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "harness/compare/derived.hpp"
+#include "harness/model/recorded_run.hpp"
 #include "tests/studies/synthetic_records.hpp"
 #include "tests/support/compared_sweep.hpp"
 
@@ -182,6 +183,31 @@ TEST(Defect14, DifferentValuesOnEqualDataAreReported) {
   for (std::size_t i = 0; i < records.size(); i += 2) records[i].statistics.rmse = 0.1;
   const std::vector<std::string> notes = limitations(compared(records, kAgainstRaw));
   EXPECT_EQ(std::ranges::count(notes, "not deterministic, values differ on equal data: dual"), 1);
+}
+
+/// Ten runs of each of two systems on one sequence, of which the second fails on six.
+TEST(Defect15, IndependentRunsAreNoGroupsAndABaselineDoesNotDifferFromItself) {
+  std::vector<Record> records;
+  for (int run = 0; run < 10; ++run) {
+    records.push_back(score("office", run, "good", 0.01 + 0.001 * run));
+    records.push_back(run < 6 ? failed("office", run, "bad")
+                              : score("office", run, "bad", 0.03 + 0.001 * run));
+  }
+  for (Record& r : records) {
+    r.cell.edit().group = recorded_group(std::to_string(r.cell->repeat), "a");
+  }
+  const Comparison against_bad = compared(records, {.baseline = "bad"});
+  EXPECT_EQ(sentence(against_bad), "good is best, better than bad on 100 of 100 pairs of runs");
+  const Comparison c = compared(records, {.baseline = "good"});
+  const MethodVerdict& good = find(c, "good");
+  EXPECT_EQ(good.wins + good.losses, 0u);
+  EXPECT_EQ(good.ratio->typical.low, 1.0);
+  EXPECT_EQ(good.ratio->typical.high, 1.0);
+}
+
+TEST(Defect16, IntervalsStateTheirLevel) {
+  const Comparison c = compared(pairs(about(0.7, 12)), {.baseline = "raw", .alpha = 0.1});
+  EXPECT_EQ(verdict_of(c, {}).level, 90.0);
 }
 
 }  // namespace

@@ -119,6 +119,10 @@ TEST(VerdictSentence, StatesWhatWouldDecide) {
   EXPECT_TRUE(text.starts_with("ate, dense: nothing is decided: dual is 4.")) << text;
   EXPECT_TRUE(has(text, "; about ")) << text;
   EXPECT_TRUE(text.ends_with(" runs would decide (now 12).")) << text;
+  for (Record& r : records) r.cell.edit().sequence = std::to_string(r.cell->repeat / 2);
+  const Comparison by_sequence = compared(records, {.baseline = "raw", .over = Over::sequences});
+  EXPECT_TRUE(has(sentence(by_sequence), " sequences would decide (now 6)"))
+      << sentence(by_sequence);
   EXPECT_LE(std::ranges::count(text, ' ') + 1, 25) << text;
 }
 
