@@ -36,13 +36,4 @@ CLI::Validator positive_number() {
   return number("number > 0", [](double value) { return value > 0.0; });
 }
 
-void declare_ties(CLI::App& command, double& tie, double& relevant) {
-  const auto share = [&](const char* name, double& value, const char* help) {
-    command.add_option(name, value, help)->check(number_between(0.0, 0.5))->capture_default_str();
-  };
-  share("--tie", tie, "Largest relative difference that counts as a tie [-]");
-  share(
-      "--relevant", relevant, "Relative difference below which methods share the first place [-]");
-}
-
 }  // namespace loopbench::harness

@@ -72,9 +72,6 @@ inline void declare_config(CLI::App& command, std::string& config) {
   add(command, "config", config, help)->required();
 }
 
-/// Adds --tie and --relevant: when methods share a place.
-void declare_ties(CLI::App& command, double& tie, double& relevant);
-
 /// Accepts one of these words and maps it to its enumerator; `kind` names the set in messages.
 template <class Enum>
 CLI::Validator one_of(const std::string& kind, const std::map<std::string, Enum>& words) {

@@ -148,7 +148,13 @@ void add_compare(CLI::App& app, int& exit_code) {
                   a.options.over,
                   "Unit of independent observations: groups of dependent runs, or sequences")
       ->transform(one_of("observation", units));
-  declare_ties(command, a.options.tie, a.options.relevant);
+  const auto share = [&](const char* name, double& value, const char* help) {
+    command.add_option(name, value, help)->check(number_between(0.0, 0.5))->capture_default_str();
+  };
+  share("--tie", a.options.tie, "Largest relative difference that counts as a tie [-]");
+  share("--relevant",
+        a.options.relevant,
+        "Relative difference below which methods share the first place [-]");
   command.add_flag("--paired",
                    a.options.paired,
                    "Also pair runs of evaluated files, by their names; those of sweeps always are");

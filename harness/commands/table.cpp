@@ -24,7 +24,6 @@ struct TableArguments {
   TableSpec spec;
   std::vector<std::string> where;
   std::optional<double> success;  ///< limit of the error of a successful run
-  CompareOptions ranking;
   OutputOptions output;
   bool growth = false;
   bool has_default_layout = true;  ///< no --rows, --columns, --split
@@ -47,7 +46,7 @@ std::string tables_text(const TableArguments& arguments) {
     keep_where(records, arguments.where);
     tables = {success_table(records, arguments.spec.value, *arguments.success)};
   } else {
-    tables = store_tables(arguments.store, arguments.where, arguments.spec, arguments.ranking);
+    tables = store_tables(arguments.store, arguments.where, arguments.spec);
   }
   if (format == ExportFormat::csv) return csv(tables);
   if (format == ExportFormat::json) return json(tables);
@@ -187,10 +186,6 @@ void add_table(CLI::App& app, int& exit_code) {
       a.where,
       "Filter of rows: FIELD=TEXT, FIELD!=TEXT, FIELD~REGEX, comma-separated; FIELD=\"TEXT\" if "
       "TEXT contains commas");
-  add(command, "--alpha", a.ranking.alpha, "Significance level of the marks in a column [-]")
-      ->check(number_between(0.0, 0.5))
-      ->capture_default_str();
-  declare_ties(command, a.ranking.tie, a.ranking.relevant);
   declare(command, a.output);
   command.callback([arguments, &a, &command, &exit_code] {
     for (const char* name : {"--rows", "--columns", "--split"}) {

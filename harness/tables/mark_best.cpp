@@ -70,13 +70,7 @@ std::string why_none_is_best(const Comparison& c) {
 
 }  // namespace
 
-void mark_best(Table& out,
-               const TableNumbers& table,
-               const TableSpec& spec,
-               bool along_columns,
-               const CompareOptions& options) {
-  CompareOptions how = options;
-  how.value = spec.value;
+void mark_best(Table& out, const TableNumbers& table, const TableSpec& spec, bool along_columns) {
   bool is_marked = false;
   std::string why_none;
   std::vector<Lane> lanes = lanes_of(table, spec, along_columns);
@@ -89,7 +83,7 @@ void mark_best(Table& out,
                           return lane.several.contains(method);
                         });
     if (!is_one) continue;
-    const Comparison c = standings(std::move(scores[0]), how);
+    const Comparison c = standings(std::move(scores[0]), {.value = spec.value});
     if (why_none.empty()) why_none = why_none_is_best(c);
     for (const MethodVerdict& m : c.methods) {
       if (!c.is_best || m.is_worse) continue;

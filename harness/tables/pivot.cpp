@@ -169,10 +169,7 @@ TableMean mean_at(const TableNumbers& table, std::size_t row, std::size_t column
   return out;
 }
 
-Table finish(TableNumbers& table,
-             const std::string& title,
-             const TableSpec& spec,
-             const CompareOptions& options) {
+Table finish(TableNumbers& table, const std::string& title, const TableSpec& spec) {
   // Only methods are compared: a best sequence is meaningless.
   const bool down_columns = std::ranges::count(spec.rows, "method") > 0;
   const bool along_rows = spec.columns == std::vector<std::string>{"method"};
@@ -203,8 +200,8 @@ Table finish(TableNumbers& table,
       line.emplace_back().mean = mean_at(table, r, c, spec.plus_minus);
     }
   }
-  if (down_columns) mark_best(out, table, spec, true, options);
-  if (along_rows) mark_best(out, table, spec, false, options);
+  if (down_columns) mark_best(out, table, spec, true);
+  if (along_rows) mark_best(out, table, spec, false);
   format_means(out);
   return out;
 }
@@ -225,17 +222,13 @@ TableSpec separating_protocols(TableSpec spec, const std::vector<Record>& record
 
 }  // namespace
 
-std::vector<Table> pivot(const std::vector<Record>& records,
-                         const TableSpec& spec,
-                         const CompareOptions& options) {
-  PivotedTables out = pivot_parts(records, separating_protocols(spec, records), options);
+std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& spec) {
+  PivotedTables out = pivot_parts(records, separating_protocols(spec, records));
   if (out.tables.empty()) throw InputError(kEmptyTable);
   return std::move(out.tables);
 }
 
-PivotedTables pivot_parts(const std::vector<Record>& records,
-                          const TableSpec& spec,
-                          const CompareOptions& options) {
+PivotedTables pivot_parts(const std::vector<Record>& records, const TableSpec& spec) {
   NameOrder titles;
   std::vector<TableNumbers> builders;
   std::vector<const Record*> first;  // of each table
@@ -274,7 +267,7 @@ PivotedTables pivot_parts(const std::vector<Record>& records,
     if (!placed) add(builder(record), record, spec);
   }
   for (std::size_t t = 0; t < builders.size(); ++t) {
-    out.tables.push_back(finish(builders[t], titles.names()[t], spec, options));
+    out.tables.push_back(finish(builders[t], titles.names()[t], spec));
   }
   return out;
 }

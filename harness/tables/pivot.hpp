@@ -4,7 +4,6 @@
 #include <initializer_list>
 #include <vector>
 
-#include "harness/compare/compare.hpp"
 #include "harness/model/record.hpp"
 #include "harness/model/sweep.hpp"
 #include "harness/tables/table.hpp"
@@ -21,9 +20,7 @@ inline constexpr const char* kEmptyTable = "the table is empty: no rows to show"
 /// in separate tables. Rows, columns and tables are in order of first appearance in the records.
 /// Throws InputError for an unknown column or statistic, and if an entry would average different
 /// scores (rotation with translation, keyframes with dense). O(n log n).
-std::vector<Table> pivot(const std::vector<Record>& records,
-                         const TableSpec& spec,
-                         const CompareOptions& options = {});
+std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& spec);
 
 /// The tables of some of the records, for records that are not in memory at once.
 struct PivotedTables {
@@ -33,9 +30,7 @@ struct PivotedTables {
 
 /// The tables of complete sequences, if `spec` splits by sequence. Several protocols must be
 /// separated by `spec`. Does not throw if there is none.
-PivotedTables pivot_parts(const std::vector<Record>& records,
-                          const TableSpec& spec,
-                          const CompareOptions& options);
+PivotedTables pivot_parts(const std::vector<Record>& records, const TableSpec& spec);
 
 /// Whether the layout is by options of methods, without the methods themselves.
 bool is_by_option(const TableSpec& spec);

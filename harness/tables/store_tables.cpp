@@ -152,8 +152,7 @@ bool has_protocols(const RecordReader& reader,
 
 std::vector<Table> tables_by_sequence(const std::filesystem::path& store,
                                       const std::vector<std::string>& rules,
-                                      TableSpec spec,
-                                      const CompareOptions& options) {
+                                      TableSpec spec) {
   const std::string baseline = read_run(store).at("baseline");
   const auto is_kept = where(rules);
   RecordReader reader(store);
@@ -180,7 +179,7 @@ std::vector<Table> tables_by_sequence(const std::filesystem::path& store,
       if (!rules.empty()) std::erase_if(own, [&](const Record& r) { return !is_kept(r); });
       if (own.empty()) return PivotedTables{};
       has_records = true;
-      return pivot_parts(own, spec, options);
+      return pivot_parts(own, spec);
     }));
     records = {};
     return true;
@@ -253,15 +252,14 @@ std::vector<Comparison> compare_store(const std::filesystem::path& store,
 
 std::vector<Table> store_tables(const std::filesystem::path& store,
                                 const std::vector<std::string>& rules,
-                                TableSpec spec,
-                                const CompareOptions& options) {
+                                TableSpec spec) {
   for (auto* names : {&spec.rows, &spec.columns, &spec.split}) std::erase(*names, "");
-  if (is_by_sequence(spec)) return tables_by_sequence(store, rules, spec, options);
+  if (is_by_sequence(spec)) return tables_by_sequence(store, rules, spec);
   std::vector<Record> records = all_records(store, asked_by(spec, rules));
   keep_where(records, rules);
   if (records.empty()) reject_empty(store, rules);
   const std::string note = complete_layout(records, spec);
-  std::vector<Table> tables = pivot(records, spec, options);
+  std::vector<Table> tables = pivot(records, spec);
   for (Table& table : tables) {
     if (!note.empty()) table.notes.insert(table.notes.begin(), note);
   }

@@ -48,7 +48,6 @@ std::vector<Comparison> compare_store(const std::filesystem::path& store,
 /// default. Throws InputError if no record passes.
 std::vector<Table> store_tables(const std::filesystem::path& store,
                                 const std::vector<std::string>& rules,
-                                TableSpec spec,
-                                const CompareOptions& options);
+                                TableSpec spec);
 
 }  // namespace loopbench::harness

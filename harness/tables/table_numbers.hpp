@@ -94,10 +94,6 @@ std::string keep_common_runs(TableNumbers& table, bool along_columns);
 /// Marks the methods that `compare` calls best (with any baseline) among the records of each column
 /// (or row) of the finished table `out`, and adds a note about it or the reason why none is marked.
 /// A column with several scores, or with several entries of a method, has no marks.
-void mark_best(Table& out,
-               const TableNumbers& table,
-               const TableSpec& spec,
-               bool along_columns,
-               const CompareOptions& options);
+void mark_best(Table& out, const TableNumbers& table, const TableSpec& spec, bool along_columns);
 
 }  // namespace loopbench::harness
