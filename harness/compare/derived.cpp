@@ -69,7 +69,6 @@ struct CellScore {
   double (*value)(const Record&);  ///< NaN: none
 };
 
-/// One record per cell, protocol and times.
 std::vector<Record> scores_of_cells(const std::vector<Record>& records, const CellScore& score) {
   DerivedKinds kinds;
   std::vector<Record> out;
@@ -107,7 +106,6 @@ constexpr CellScore kCosts[] = {{"cpu_ms", "cpu", "ms", metrics::Better::lower, 
                                 {"wall_ms", "wall", "ms", metrics::Better::lower, milliseconds_of},
                                 {"memory_mb", "memory", "MB", metrics::Better::lower, memory_of}};
 
-/// Number of pose pairs of the scores.
 std::vector<Record> pair_counts(const std::vector<Record>& records) {
   return scores_of_cells(records, {"pairs", "", "", metrics::Better::neither, [](const Record& r) {
                                      return static_cast<double>(r.pairs);

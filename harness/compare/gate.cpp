@@ -18,7 +18,6 @@ int severity(Status status) {
   return status == Status::declined ? 2 : 3;
 }
 
-/// Positive: worse.
 double loss(const ScoreKind& kind, double before, double now) {
   switch (kind.better) {
     case metrics::Better::lower:
@@ -56,7 +55,6 @@ std::string why_not_comparable(const ScoreKind& before, const ScoreKind& now) {
   return fmt::format("best value: {}, was: {}", direction(now), direction(before));
 }
 
-/// The records of one cell.
 using CellRecords = std::span<const Record>;
 
 std::string name(const CellRecords& cell) { return cell.front().cell->name(); }

@@ -15,7 +15,6 @@ const MethodVerdict& find(const Comparison& c, const std::string& method) {
   return *std::ranges::find(c.methods, method, &MethodVerdict::method);
 }
 
-/// Names of the methods for which `holds`.
 template <class Holds>
 Names names_where(const Comparison& c, Holds holds) {
   Names out;
@@ -83,7 +82,6 @@ std::string change_text(const Comparison& c,
   return out + fmt::format(" ({:g} %: {})", 100.0 * (1.0 - c.options.alpha), range(*interval));
 }
 
-/// Change of some methods, as one group.
 std::string names_text(const Comparison& c, const Names& methods) {
   std::vector<const MethodVerdict*> members;
   for (const MethodVerdict& m : c.methods) {
