@@ -164,10 +164,15 @@ Lines remarks(const Comparison& c) {
       c.kind.better == metrics::Better::target ? fmt::format("|value - {:g}|", c.kind.target)
                                                : "value",
       c.options.baseline));
+  const std::string test = c.has_strata
+                               ? "rank sums of runs within sequences"
+                               : fmt::format("signed-rank test (exact up to {} groups) of {}",
+                                             kMostExact,
+                                             c.is_ratio ? "log ratios" : "differences");
   out.push_back(fmt::format(
       "p: {} against {}, corrected for {}; a failure is a loss, differences up to {:g} of a value "
       "are ties; >: Holm over all pairs at {:g}, or worse than a method that beats each rival",
-      c.has_strata ? "rank sums of runs within sequences" : "exact signed-rank test of log ratios",
+      test,
       c.options.baseline,
       counted(c.tests, "test"),
       c.options.tie,

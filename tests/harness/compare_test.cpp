@@ -221,6 +221,8 @@ TEST(Compare, TakesDifferencesWhereValuesAreNegative) {
   EXPECT_EQ(sentence(c), "dual is best, better than uniform on 8 of 8 runs");
   EXPECT_TRUE(has_note(
       c, "some values are negative: no ratio for their methods; tests of plain differences"));
+  EXPECT_TRUE(has(remarks(c)[1],
+                  "p: signed-rank test (exact up to 50 groups) of differences against uniform"));
 }
 
 TEST(Ratio, IsDeclinedWhereTheBaselineIsPerfect) {
