@@ -257,6 +257,7 @@ FigureData before_and_after(const Correction& done) {
   FigureData out{std::filesystem::path(done.estimate).filename().string(),
                  done.method,
                  {{.name = "before"}, {.name = "after", .style = 1}},
+                 {},
                  {}};
   const Trajectory* const poses[] = {&done.problem.keyframes, &done.keyframes};
   for (std::size_t i = 0; i < out.curves.size(); ++i) {

@@ -53,7 +53,7 @@ void add_rejections(LoopsResult& result) {
 
 FigureData loops_figure(const LoopsResult& result) {
   const std::string title = std::filesystem::path(result.estimate).filename().string();
-  FigureData out{title, "", {{.name = "keyframes"}}, {}};
+  FigureData out{title, "", {{.name = "keyframes"}}, {}, {}};
   add_poses(out.curves[0], result.problem.keyframes, 0.0);
   thin(out.curves[0]);
   std::vector<DrawnCurve> kinds{

@@ -99,7 +99,7 @@ void check_used(const Protocol& rules, const Params& changes) {
 std::vector<ProtocolEntry> protocols() {
   return {
       {"loopbench",
-       "3",
+       "4",
        "our default: one-to-one nearest stamps in order, SE(3), pairs selected on the reference",
        Protocol{}},
       {"evo",

@@ -20,7 +20,7 @@ std::vector<ProtocolEntry> protocols();
 /// A protocol with its name, version and changes.
 struct NamedProtocol {
   std::string name = "loopbench";
-  std::string version = "3";
+  std::string version = "4";
   Params changes;  ///< fields that differ from the named protocol
   Protocol rules;
 
