@@ -30,8 +30,9 @@ const std::set<std::string> kErrors = words(
     "update_time");
 const std::set<std::string> kDescriptions =
     words("closure_residual interpolation_floor coverage extrinsic_offset diagnostics");
-const std::set<std::string> kOthers =
-    words("path_length jerk graph_cost optimality loop_detection accuracy control_points nees");
+const std::set<std::string> kOthers = words(
+    "path_length jerk graph_cost optimality loop_detection accuracy control_points nees "
+    "closure_prediction");
 
 /// A circle in steps of 5 cm, back to its start; `stray` bends it upwards.
 Trajectory circle(double stray) {
