@@ -72,6 +72,11 @@ bool has_decimal_commas(std::string_view text) {
 
 }  // namespace
 
+void reject_decimal_commas(const TextFile& file, const Line& line) {
+  if (has_decimal_commas(line.text))
+    throw file.error(line.number, "has decimal commas, expected decimal points");
+}
+
 InputError wrong_columns(const TextFile& file,
                          const Line& line,
                          Format reading,

@@ -111,6 +111,9 @@ std::size_t count_columns(const TextFile& file, const Line& line);
 /// "1 column", "8 columns"
 std::string columns_text(std::size_t count);
 
+/// Throws InputError for numbers like "0,5" between spaces in a line without a point.
+void reject_decimal_commas(const TextFile& file, const Line& line);
+
 /// Error "has 7 columns, expected `expected`", with a hint if the line is truncated or looks like
 /// another format than `reading`.
 InputError wrong_columns(const TextFile& file,

@@ -202,6 +202,7 @@ void check_header(const TextFile& file, const Line& line) {
 
 Format detect_format(TextFile& file) {
   const Line line = first_line(file);
+  reject_decimal_commas(file, line);
   const auto columns = csv_columns(file);
   if (!file.header().empty()) {
     if (columns) return Format::csv;

@@ -60,8 +60,17 @@ TEST(Systems, RtabmapExportsPosesWithIds) {
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_EQ(poses[1].stamp, 2.0);
   EXPECT_EQ(poses[1].world_from_body.translation, Vector3(1, 2, 4));
-  const auto comma = scratch.file("comma.txt", "0,5 0 0 0 0 0 0 1\n");  // a decimal comma, no id
-  EXPECT_NE(refusal([&] { read_trajectory(comma); }).find("has 9 columns"), std::string::npos);
+}
+
+TEST(Systems, DecimalCommasAreNamed) {
+  const TemporaryFolder scratch;
+  for (const char* line :
+       {"0,5 0 0 0 0 0 0 1", "1,0 0,5 0,2 0,1 0 0 0 1", "VERTEX_SE3:QUAT 0 1,5 0,0 0,0 0 0 0 1"}) {
+    const auto comma = scratch.file("comma.txt", std::string(line) + "\n");
+    EXPECT_NE(refusal([&] { read_trajectory(comma); }).find("comma.txt:1: has decimal commas"),
+              std::string::npos)
+        << line;
+  }
 }
 
 TEST(Systems, StampedMatricesNameRowsThatAreWrong) {
