@@ -49,7 +49,8 @@ ReportContent read_report_content(const std::filesystem::path& store,
 
 /// The methods whose trajectories `plot` and the report draw by default: the baseline, the best one
 /// and, if some are chains of a corrector and a smoother, the best one without a smoother; if none
-/// are chains, the best ones, at most five in all. Without a ranking the first methods of the sweep.
+/// are chains, the best ones, at most five in all. Without a ranking the first methods of the
+/// sweep.
 std::vector<std::string> default_methods(const ReportContent& content);
 
 /// Labels of the methods with all their options as stores have them, "dual, use=all; + dm,
