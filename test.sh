@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# ./test.sh            setup, optimised build, all tests
-# ./test.sh all        also style, all tests under ASan and UBSan, and threaded code under TSan
+# ./test.sh            setup, optimised build, tests
+# ./test.sh all        also projects outside the tree, benchmarks and studies, style, tests under ASan and UBSan, and
+#                      threaded code under TSan; CI runs that
 # ./test.sh NAME...    only these (lint, package, slurm, colcon, or a preset: release, debug, tsan, gcc)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/setup.sh
 (($#)) || set -- release
-[[ $* == all ]] && set -- lint tsan debug release
+extras=OFF
+[[ $* == all ]] && extras=ON && set -- lint tsan debug release
 install_missing "${packages[@]}" "${sandbox_packages[@]}" "${compression_packages[@]}" "${geodetic_packages[@]}" "${image_packages[@]}" "${plot_packages[@]}" \
   "${python_packages[@]}" "${test_packages[@]}"
 [[ " $* " == *" gcc "* ]] && install_missing g++
@@ -54,7 +56,7 @@ for preset in "$@"; do
     counts+=("slurm: a sweep on four nodes, with and without failures")
     continue
   fi
-  cmake --preset "$preset" -DLOOPBENCH_BUILD_TESTS=ON >/dev/null
+  cmake --preset "$preset" -DLOOPBENCH_BUILD_TESTS=ON -DLOOPBENCH_TEST_ALL=$extras >/dev/null
   cmake --build --preset "$preset"
   ctest --preset "$preset"
   log=build/$preset/Testing/Temporary/LastTest.log
