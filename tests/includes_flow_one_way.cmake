@@ -54,6 +54,7 @@ set(order
   "harness/config harness/run"
   "harness/store"
   "harness/compare"
+  "harness/gate"
   "harness/tables"
   "harness/report"
   "harness/eval"
@@ -75,7 +76,7 @@ set(folder_xxhash "harness/base/hash\\.cpp")
 set(header_cli "CLI/")
 set(folder_cli "harness/commands/")
 set(header_json "nlohmann/")
-set(folder_json "harness/(catalogue|compare|tables|report|eval|commands)/")
+set(folder_json "harness/(catalogue|compare|gate|tables|report|eval|commands)/")
 set(header_opencv "opencv2/")
 set(folder_opencv "datasets/rgbd/.*\\.cpp")
 set(header_stb "stb/")

@@ -10,7 +10,7 @@
 #include "harness/base/write_file.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/compare/gate.hpp"
+#include "harness/gate/gate.hpp"
 #include "harness/store/open.hpp"
 #include "harness/tables/gate_table.hpp"
 

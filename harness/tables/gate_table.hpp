@@ -7,7 +7,7 @@
 #include <string>
 
 #include "harness/base/counted.hpp"
-#include "harness/compare/gate.hpp"
+#include "harness/gate/gate.hpp"
 #include "harness/tables/table.hpp"
 
 namespace loopbench::harness {

@@ -1,7 +1,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "harness/compare/gate.hpp"
+#include "harness/gate/gate.hpp"
 #include "harness/eval/arguments.hpp"
 #include "harness/eval/evaluate_files.hpp"
 #include "harness/model/where.hpp"

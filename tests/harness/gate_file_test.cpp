@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "datasets/core/error.hpp"
-#include "harness/compare/gate.hpp"
+#include "harness/gate/gate.hpp"
 #include "harness/tables/gate_table.hpp"
 #include "tests/support/gate_snapshot.hpp"
 #include "tests/support/refusal_of.hpp"

@@ -1,5 +1,5 @@
 /// Pass and fail conditions of the gate.
-#include "harness/compare/gate.hpp"
+#include "harness/gate/gate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "datasets/core/fields.hpp"
 #include "datasets/formats/regular_file.hpp"
 #include "harness/base/suggest.hpp"
-#include "harness/compare/baseline.hpp"
+#include "harness/gate/baseline.hpp"
 #include "harness/model/where.hpp"
 
 namespace loopbench::harness {

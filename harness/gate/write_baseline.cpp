@@ -9,7 +9,7 @@
 
 #include "datasets/core/fields.hpp"
 #include "harness/base/hash.hpp"
-#include "harness/compare/baseline.hpp"
+#include "harness/gate/baseline.hpp"
 
 namespace loopbench::harness {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/compare/baseline.hpp"
+#include "harness/gate/baseline.hpp"
 
 namespace loopbench::harness {
 

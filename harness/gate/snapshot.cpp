@@ -7,7 +7,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
-#include "harness/compare/gate.hpp"
+#include "harness/gate/gate.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "harness/store/read.hpp"
 

@@ -1,4 +1,4 @@
-#include "harness/compare/gate.hpp"
+#include "harness/gate/gate.hpp"
 
 #include <fmt/format.h>
 
