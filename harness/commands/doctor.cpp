@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include "datasets/derive/closures.hpp"
 #include "datasets/derive/graph_parts.hpp"
 #include "datasets/formats/g2o.hpp"
+#include "harness/base/counted.hpp"
 #include "harness/base/printable.hpp"
 #include "harness/commands/checks.hpp"
 #include "harness/commands/commands.hpp"
@@ -107,16 +109,22 @@ Diagnosed of_pair(const NamedTrajectory& reference,
   return out;
 }
 
+/// "2 findings: scale, axes".
+std::string headline(const metrics::Diagnosis& result) {
+  if (result.findings.empty())
+    return result.has_checked ? "nothing found" : "nothing could be checked";
+  std::vector<std::string_view> kinds;
+  for (const auto& found : result.findings) kinds.push_back(found.fault);
+  return fmt::format("{}: {}", counted(kinds.size(), "finding"), fmt::join(kinds, ", "));
+}
+
 std::string report_text(const std::vector<Diagnosed>& all) {
   std::string out;
   for (const Diagnosed& each : all) {
-    out += each.name + "\n";
+    out += each.name + ": " + headline(each.result) + "\n";
     for (const auto& found : each.result.findings) out += "  " + fitted(text(found)) + "\n";
     for (const std::string& part : each.result.unchecked)
       out += "  " + fitted("not checked: " + part) + "\n";
-    if (each.result.findings.empty()) {
-      out += each.result.has_checked ? "  nothing found\n" : "  nothing could be checked\n";
-    }
   }
   return out;
 }
@@ -176,10 +184,8 @@ void add_doctor(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<DoctorArguments>();
   CLI::App* command = app.add_subcommand(
       "doctor",
-      "Search trajectories or a pose graph for mistakes: clocks, quaternion order, units, axes, "
-      "inverted poses, another body, exchanged or wrong files, jumps, closures, information (exit "
-      "1 "
-      "if there are any, or if nothing could be checked)");
+      "Search trajectories or a pose graph for mistakes: clocks, units, axes, quaternion order, "
+      "another body, exchanged or wrong files, jumps, closures, information");
   add(*command, "reference REF", a->reference, "Reference trajectory, or a pose graph")->required();
   add(*command, "estimates EST", a->estimates, "Estimated trajectories");
   add(*command,
