@@ -35,10 +35,10 @@ std::string verdict_of(const EvalArguments& a,
   try {
     recorded_runs(a.reference, a.estimates, a.sequence);
   } catch (const InputError& error) {
-    std::string out = "\n";
+    std::string out;
     const std::string why = "no verdict: " + std::string(error.what());
     for (const std::string& line : wrapped(why, style ? style->width : 0)) out += line + "\n";
-    return out;
+    return out + "\n";
   }
   return run_report(records, style, a.paired);
 }
@@ -77,13 +77,13 @@ std::string result_text(const EvalArguments& a, const Evaluations& evaluations) 
   const Detail detail = detail_of(a);
   if (all.size() == 1) return text(all.front(), style, detail, a.columns);
   const std::vector<Table> tables = comparison(all, detail, a.columns);
-  std::string out;
-  if (!style) out = markdown(tables);
+  // The answer is first.
+  std::string out = verdict_of(a, evaluations.records, style);
+  if (!style) out += markdown(tables);
   for (std::size_t i = 0; style && i < tables.size(); ++i) {
     out += (i == 0 ? "" : "\n") + terminal(tables[i], *style);
   }
-  return out + verdict_of(a, evaluations.records, style) +
-         below_reference_error(a, evaluations.records);
+  return out + below_reference_error(a, evaluations.records);
 }
 
 /// Figures of the estimates under the first protocol.
@@ -115,7 +115,7 @@ int print_stored(const EvalArguments& a, const Evaluations& stored) {
     fmt::print(stderr, "{}\n", printable("loopbench: note: " + note));
   }
   const std::string report = run_report(stored.records, terminal_style(a), a.paired);
-  write_file(a.out, printable(report) + "\n" + printable(stored.summary));
+  write_file(a.out, printable(report + stored.summary));
   return stored.are_ok ? kExitOk : kExitSomeCellsFailed;
 }
 

@@ -46,7 +46,7 @@ bool has_repeats(const std::vector<Record>& records) {
   return std::ranges::any_of(runs, [](const auto& each) { return each.second.size() > 1; });
 }
 
-/// Table and verdict of one score.
+/// Verdict and table of one score, each followed by an empty line.
 std::string report_of(const std::vector<Record>& records,
                       const Record& score,
                       const std::string& title,
@@ -71,7 +71,7 @@ std::string report_of(const std::vector<Record>& records,
     std::erase_if(own, [&](const Record& r) { return r.has_score() && r.kind != score.kind; });
     Table table = pivot(own, spec).front();
     table.title = title;
-    out += "\n" + (style ? terminal(table, *style) : markdown(table));
+    out = (style ? terminal(table, *style) : markdown(table)) + "\n";
   }
   if (names.size() < 2) return out;
   CompareOptions options;
@@ -83,7 +83,7 @@ std::string report_of(const std::vector<Record>& records,
       all, score.kind->relation, [](const Comparison& c) { return c.kind.relation; });
   Table verdict = verdict_table(verdict_of(*main, all));
   for (const std::string& each : limitations(*main)) verdict.notes.push_back(each);
-  return out + "\n" + (style ? terminal(verdict, *style) : markdown(verdict));
+  return (style ? terminal(verdict, *style) : markdown(verdict)) + "\n" + out;
 }
 
 }  // namespace
