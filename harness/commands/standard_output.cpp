@@ -64,7 +64,10 @@ std::string fitted_error(const std::string& line) {
 std::string fitted_lines(const std::string& text) {
   std::string out;
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) out += fitted(line) + "\n";
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_row = line.find("   ") != std::string::npos;  // broken, its columns are lost
+    out += (is_row ? line : fitted(line)) + "\n";
+  }
   return out;
 }
 
