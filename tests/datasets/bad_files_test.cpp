@@ -1,7 +1,5 @@
-/// Checks that every file in tests/data/bad/ is rejected with the error message in the manifest.
+/// Files that are refused as a whole; those of the manifest in tests/data/bad are in the transcript run_config.
 #include <gtest/gtest.h>
-
-#include <set>
 
 #include "datasets/core/params.hpp"
 #include "datasets/formats/formats.hpp"
@@ -10,49 +8,6 @@
 
 namespace loopbench::bad_files_test {
 namespace {
-
-struct Case {
-  std::string file, reader, message;
-};
-
-std::vector<Case> cases() {
-  std::vector<Case> out;
-  std::ifstream manifest(sample("bad/manifest.txt"));
-  for (std::string line; std::getline(manifest, line);) {
-    if (line.starts_with('#')) continue;
-    std::istringstream columns(line);
-    Case one;
-    std::getline(columns, one.file, '\t');
-    std::getline(columns, one.reader, '\t');
-    std::getline(columns, one.message);
-    out.push_back(one);
-  }
-  return out;
-}
-
-TEST(BadFiles, AreRefusedInTheWordsOfTheManifest) {
-  for (const Case& one : cases()) {
-    const auto file = sample("bad/" + one.file);
-    const std::string text = refusal([&] {
-      if (one.reader == "g2o") {
-        read_g2o(file);
-      } else {
-        read_trajectory(file);
-      }
-    });
-    EXPECT_EQ(text, file.string() + one.message) << one.file;
-  }
-}
-
-TEST(BadFiles, AreManyAndEachIsInTheManifest) {
-  std::set<std::string> listed{
-      "manifest.txt", "times_two.txt", "times_unsorted.txt", "times_two_columns.txt"};
-  for (const Case& one : cases()) listed.insert(one.file);
-  EXPECT_GE(cases().size(), 50u);
-  for (const auto& entry : std::filesystem::directory_iterator(sample("bad"))) {
-    EXPECT_EQ(listed.count(entry.path().filename().string()), 1u) << entry.path();
-  }
-}
 
 TEST(BadFiles, MissingFilesAndFoldersAreRefused) {
   const auto missing = sample("nowhere.txt");

@@ -77,6 +77,9 @@ TEST(CsvHeader, NamesOfQuaternions) {
   for (const char* const names : {"q0,q1,q2,q3", "q[0],q[1],q[2],q[3]"}) {
     read_rows("t,x,y,z," + std::string(names) + "\n0.5,1,2,3,0.8,0,0,0.6\n");
   }
+  read_rows(
+      "frame,pose.orientation.w,pose.orientation.x,pose.orientation.y,pose.orientation.z,"
+      "pose.position.x,pose.position.y,pose.position.z,time [ns]\n7,0.8,0,0,0.6,1,2,3,500000000\n");
   // A rotation vector next to a quaternion.
   read_rows("t,x,y,z,rx,ry,rz,qw,qx,qy,qz\n0.5,1,2,3,9,9,9,0.8,0,0,0.6\n");
 }

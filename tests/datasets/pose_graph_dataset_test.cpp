@@ -159,39 +159,20 @@ TEST(PoseGraphDataset, TakesAGraphWithAGapWhenNoPoseIsLeftOut) {
 }
 
 TEST(PoseGraphDataset, AddsFalseClosuresBySeed) {
-  PoseGraph graph;
-  const Trajectory walk = random_walk(60, 9, 1.0, 0.3);
-  for (std::size_t i = 0; i < walk.size(); ++i) {
-    graph.ids.push_back(static_cast<std::int64_t>(i));
-    graph.vertices.push_back(walk[i].world_from_body);
-  }
-  graph.edges = odometry_edges(walk, {});
-  for (std::size_t k = 0; k < 7; ++k) {
-    graph.edges.push_back({k, 50 + k, kAside, isotropic_information(1.0, 2.0)});
-  }
   PoseGraphOptions options;
-  const std::vector<Edge> honest = derive_problem(graph, options, "g").closures;
-  options.false_closures = {0.3, 1};
-  const Problem problem = derive_problem(graph, options, "g");
-  check(problem, "g");
-  ASSERT_EQ(problem.closures.size(), 10u);  // 3 of 10 are 30 %
-  std::size_t kept = 0;
-  for (const Edge& edge : problem.closures) {
-    EXPECT_EQ(edge.from_from_to.translation, kAside.translation);
-    EXPECT_GE(edge.to - edge.from, 3u);  // 1/20 of the chain
-    for (const Edge& one : honest) kept += one.from == edge.from && one.to == edge.to ? 1 : 0;
-  }
-  EXPECT_EQ(kept, 7u);
-  const auto ends = [&](std::int64_t seed) {
-    options.false_closures.seed = seed;
-    std::vector<std::size_t> out;
-    for (const Edge& edge : derive_problem(graph, options, "g").closures) {
-      out.insert(out.end(), {edge.from, edge.to});
+  const auto closures = [&](double share, std::int64_t seed) {
+    options.false_closures = {share, seed};
+    std::vector<std::pair<std::size_t, std::size_t>> out;
+    for (const Edge& edge : derive_problem(small_graph(true), options, "g").closures) {
+      out.emplace_back(edge.from, edge.to);
     }
     return out;
   };
-  EXPECT_EQ(ends(1), ends(1));
-  EXPECT_NE(ends(1), ends(2));
+  const auto added = closures(0.5, 1);
+  EXPECT_EQ(added.size(), 6u);
+  for (const auto& ends : closures(0.0, 1)) EXPECT_EQ(std::ranges::count(added, ends), 1);
+  EXPECT_EQ(added, closures(0.5, 1));
+  EXPECT_NE(added, closures(0.5, 2));
 }
 
 TEST(PoseGraphDataset, ReadsInformationOfAnglesAsWritten) {

@@ -10,7 +10,6 @@
 #include "datasets/formats/formats.hpp"
 #include "datasets/formats/g2o.hpp"
 #include "tests/datasets/scratch.hpp"
-#include "tests/support/tolerance.hpp"
 
 namespace loopbench::real_files_test {
 namespace {
@@ -106,54 +105,6 @@ TEST_F(RealFiles, TwoPublishedFilesRepeatStampsAndNeedTheSwitch) {
   EXPECT_NE(refusal([&] { read_trajectory(euroc); }).find(":433: stamp"), std::string::npos);
   expect_rows("tum_rgbd/other/fr2_desk/groundtruth.txt", 20956, Format::tum, Repeats::keep_first);
   expect_rows("euroc/V102/estimate.txt", 803, Format::tum, Repeats::keep_first);
-}
-
-TEST_F(RealFiles, ToroEdgesEqualTheirG2oTwins) {
-  const auto toro_file = root_ / "pose_graphs/sphere2500_noisy_edges.txt";
-  const auto twin_file = root_ / "pose_graphs/sphere2500.g2o";
-  if (!std::filesystem::exists(toro_file)) GTEST_SKIP() << "missing: " << toro_file;
-  PoseGraph toro = read_g2o(toro_file);
-  PoseGraph twin = read_g2o(twin_file);
-  for (PoseGraph* graph : {&toro, &twin}) {  // the same edges in another order
-    std::sort(graph->edges.begin(), graph->edges.end(), [](const Edge& a, const Edge& b) {
-      return std::pair(a.from, a.to) < std::pair(b.from, b.to);
-    });
-  }
-  ASSERT_EQ(toro.edges.size(), twin.edges.size());
-  Twist toro_sum = Twist::Zero(), twin_sum = Twist::Zero();
-  for (std::size_t i = 0; i < toro.edges.size(); ++i) {
-    const Edge& a = toro.edges[i];
-    const Edge& b = twin.edges[i];
-    ASSERT_EQ(a.from, b.from);
-    ASSERT_EQ(a.to, b.to);
-    ASSERT_POSE_NEAR(a.from_from_to, b.from_from_to, 1e-12, 5e-6) << i;  // six digits printed
-    toro_sum += a.information.diagonal();
-    twin_sum += b.information.diagonal();
-  }
-  // The information of roll and pitch is four times that of yaw in both: the axes have the same
-  // order.
-  EXPECT_TRUE(toro_sum.isApprox(twin_sum, 0.02)) << toro_sum << "\n\n" << twin_sum;
-}
-
-TEST_F(RealFiles, TheHagueLoopSaysHowTheUnitGrew) {
-  const auto file = root_ / "cop_slam/TheHague_02_vo.g2o";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "missing: " << file;
-  const PoseGraph graph = read_g2o(file);
-  const Edge& loop = graph.edges.back();
-  EXPECT_EQ(loop.from, 0u);
-  EXPECT_EQ(loop.to, 839u);
-  EXPECT_NEAR(loop.scale, 3.099978, 1e-12);
-  // Scale with respect to the ground truth over 40 steps: 0.86 m at the start, 2.6 m at the end.
-  const PoseGraph truth = read_g2o(root_ / "cop_slam/TheHague_02_gt.g2o");
-  const auto unit = [&](std::size_t begin, std::size_t end) {
-    double measured = 0.0, metres = 0.0;
-    for (std::size_t i = begin; i < end; ++i) {
-      measured += (graph.vertices[i + 1].translation - graph.vertices[i].translation).norm();
-      metres += (truth.vertices[i + 1].translation - truth.vertices[i].translation).norm();
-    }
-    return metres / measured;
-  };
-  EXPECT_NEAR(unit(799, 839) / unit(0, 40), loop.scale, 0.5);
 }
 
 }  // namespace

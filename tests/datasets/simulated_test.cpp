@@ -85,17 +85,6 @@ TEST(Simulated, SeedsDifferInNoiseAndAgreeInTruth) {
   EXPECT_FALSE(same_bits(one.problem.keyframes, far.problem.keyframes));
 }
 
-TEST(Simulated, ClosureOptionsLeaveTheOdometryAlone) {
-  SimulatedOptions options;
-  options.stream = "shared";  // other options would draw other noise
-  const Sequence one = load_simulated(options);
-  options.closures.sigma_t = 0.5;
-  options.closures.max = 2;
-  const Sequence two = load_simulated(options);
-  EXPECT_TRUE(same_bits(one.problem.frames, two.problem.frames));
-  EXPECT_TRUE(same_bits(one.problem.odometry, two.problem.odometry));
-}
-
 TEST(Simulated, WithoutErrorTheKeyframesAreTheReference) {
   for (const auto& [name, which] : choices(SimulatedPath{})) {
     SimulatedOptions options;

@@ -92,23 +92,6 @@ TEST(Tum, RepeatedStampsCanBeDroppedWhenAsked) {
   EXPECT_EQ(last[0].world_from_body.translation.x(), 9.0);
 }
 
-TEST(Tum, StampsInNanosecondsAreSeconds) {
-  const TemporaryFolder scratch;
-  // Format of ORB-SLAM3 for EuRoC: zero decimals.
-  const auto zeros = scratch.file("a.txt",
-                                  "1403636579763555584.000000 1 2 3 0 0 0 1\n"
-                                  "1403636579813555456.000000 4 5 6 0 0 0 1\n");
-  const Trajectory poses = read_trajectory(zeros);
-  ASSERT_EQ(poses.size(), 2u);
-  EXPECT_EQ(poses[0].stamp, 1403636579.763555584);
-  EXPECT_EQ(poses[1].stamp, 1403636579.813555456);
-  const auto complete = scratch.file("b.txt", "1403636579763555584 1 2 3 0 0 0.6 0.8\n");
-  EXPECT_EQ(read_trajectory(complete)[0].world_from_body.rotation.w(), 0.8);
-  EXPECT_EQ(read_trajectory(complete)[0].stamp, 1403636579.763555584);
-  EXPECT_EQ(read_trajectory(complete, {.format = Format::euroc})[0].world_from_body.rotation.z(),
-            0.8);
-}
-
 TEST(Euroc, StampsOfASimulatorAreNanosecondsToo) {
   const TemporaryFolder scratch;
   // Starts at 0, 20 Hz, with qw first.
@@ -131,18 +114,6 @@ TEST(Euroc, StampsOfASimulatorAreNanosecondsToo) {
   const auto zeros =
       scratch.file("d.txt", "0.000000 1 2 3 0 0 0.6 0.8\n50000000.000000 4 5 6 0 0 0.6 0.8\n");
   EXPECT_EQ(read_trajectory(zeros)[1].stamp, 0.05);
-}
-
-TEST(Tum, WholeSecondsStaySeconds) {
-  const TemporaryFolder scratch;
-  for (const char* text : {"0,1,2,3,0,0,0.6,0.8\n1,4,5,6,0,0,0.6,0.8\n",
-                           "1403636579 1 2 3 0 0 0.6 0.8\n1403636580 4 5 6 0 0 0.6 0.8\n"}) {
-    const auto file = scratch.file("a.csv", text);
-    EXPECT_EQ(detect_format(file), Format::tum);
-    const Trajectory poses = read_trajectory(file);
-    EXPECT_EQ(poses[1].stamp - poses[0].stamp, 1.0);
-    EXPECT_EQ(poses[1].world_from_body.rotation.w(), 0.8);
-  }
 }
 
 TEST(Tum, GoingBackIsRefusedEvenWhenRepeatsAreDropped) {

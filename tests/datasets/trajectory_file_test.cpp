@@ -86,19 +86,6 @@ TEST(TrajectoryFile, StampsAreExactDecimals) {
   EXPECT_EQ(seconds_text(10'000'000'000), "10");
 }
 
-TEST(TrajectoryFile, AHeaderThatNamesTheColumnsDecidesTheirOrder) {
-  const TemporaryFolder scratch;
-  const auto poses = read_trajectory(scratch.file(
-      "a.csv",
-      "frame,pose.orientation.w,pose.orientation.x,pose.orientation.y,pose.orientation.z,"
-      "pose.position.x,pose.position.y,pose.position.z,time [ns]\n"
-      "7,1,0,0,0,1,2,3,500000000\n8,0,1,0,0,4,5,6,600000000\n"));
-  ASSERT_EQ(poses.size(), 2u);
-  EXPECT_EQ(poses[0].stamp, 0.5);
-  EXPECT_EQ(poses[1].world_from_body.translation, Vector3(4, 5, 6));
-  EXPECT_EQ(poses[1].world_from_body.rotation.x(), 1.0);
-}
-
 TEST(TrajectoryFile, AHeaderWithOtherNamesIsSkipped) {
   const TemporaryFolder scratch;
   const auto poses = read_trajectory(

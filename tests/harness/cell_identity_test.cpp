@@ -57,16 +57,6 @@ TEST_F(CellIdentity, TwoLabelsOfEqualOptionsSurviveAMerge) {
   EXPECT_EQ(run(twins).cells, Labels{});
 }
 
-TEST_F(CellIdentity, TwoLabelsOfEqualOptionsSurviveAMergeOfTheirStores) {
-  const std::filesystem::path one = file_ = folder_.path() / "1.sqlite";
-  run(config("straight, {method: shift, label: one}"));
-  const std::filesystem::path two = file_ = folder_.path() / "2.sqlite";
-  run(config("straight, {method: shift, label: two}"));
-  file_ = folder_.path() / "merged.sqlite";
-  EXPECT_EQ(merge_stores({one, two}, file_).duplicates, 2u);
-  EXPECT_EQ(methods_of("b"), (Labels{"straight", "one", "two"}));
-}
-
 TEST_F(CellIdentity, AnOptionIsHeldAgainstTheFileThatItNames) {
   folder_.file("run1/traj.txt", "0.1");
   folder_.file("traj.txt", "0.2");
@@ -96,23 +86,6 @@ TEST_F(CellIdentity, AFileThatComesBackBringsItsOwnFactsAndTheProvenanceOfItsCel
   EXPECT_EQ(hashes(), first);
   EXPECT_EQ(read_inputs(file_).at("f").at(0).bytes, 3u);
   EXPECT_EQ(read_provenance(file_).at("commit"), "c0ffee");
-}
-
-TEST_F(CellIdentity, AnEmptyFileIsNotAMissingOne) {
-  known_.datasets.push_back(dataset<FileOptions>(
-      "spared", "does without its file", [](const FileOptions& o, const auto&) {
-        Sequence out = tiny::load_line({}, {});
-        out.provenance.inputs = {{o.path}};
-        return out;
-      }));
-  const std::filesystem::path image = folder_.path() / "image";
-  const std::string text = "datasets: [{dataset: spared, path: " + image.string() +
-                           ", label: f}]\nmethods: [straight]\nmetrics: [ate]\n";
-  EXPECT_EQ(run(text).cells.size(), 1u);
-  EXPECT_EQ(hashes(), Labels{"missing"});
-  EXPECT_EQ(run(text).cells, Labels{});
-  folder_.file("image", "");
-  EXPECT_EQ(run(text).cells.size(), 1u);
 }
 
 TEST_F(CellIdentity, ARetryIsRecordedWithItsMachine) {

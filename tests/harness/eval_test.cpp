@@ -21,15 +21,6 @@ double rmse(const std::vector<std::string>& options, const std::string& metric) 
   return 0.0;
 }
 
-// Values of golden.json, evo APE translation_part at max_diff 0.01.
-TEST(Eval, EqualsEvoUnderEvosAssociation) {
-  const Json sim3 = eval_json(drift({"--association=evo", "--max-diff=0.01", "--align=sim3"}));
-  EXPECT_EQ(sim3["pairs"], 635);
-  EXPECT_EQ(sim3["alignment"]["type"], "sim3");
-  EXPECT_NEAR(sim3["alignment"]["scale"], 0.9848728953975282, 1e-12);
-  EXPECT_NEAR(find(sim3, "ate", "translation")["rmse"], 0.660473127811482, 1e-12);
-}
-
 // Values of golden.json.
 TEST(Eval, KnowsEvosHabits) {
   EXPECT_NEAR(rmse({}, "ate"), 12.6565235225568, 1e-10);

@@ -141,20 +141,6 @@ TEST(DmSwitches, QuinticBridgesAreC2AtTheirEnds) {
   }
 }
 
-TEST(DmSwitches, ParabolaAndCubicReproduceTheirKeyframesInEveryFrame) {
-  const Trajectory keyframes = wandering(50, 12);
-  for (const char* frame : {"chord", "world"}) {
-    for (const std::int64_t N : {3, 4}) {
-      Report report;
-      const auto curve = Dm(with(Dm::Options{}, {{"frame", Text(frame)}, {"planar", N}}))
-                             .smooth(keyframes_only(keyframes), report);
-      for (const auto& [stamp, pose] : keyframes) {
-        EXPECT_NEAR((curve->at(stamp).translation - pose.translation).norm(), 0.0, 1e-9) << frame;
-      }
-    }
-  }
-}
-
 TEST(DmSwitches, RejectsContradictoryOptions) {
   const auto build = [](Params params) { return Dm(with(Dm::Options{}, std::move(params))); };
   EXPECT_THROW(build({{"families", Text("poly7")}}), OptionError);

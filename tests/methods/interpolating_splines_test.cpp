@@ -36,30 +36,6 @@ auto polynomial(int degree) {
   };
 }
 
-TEST(SplineBasis, IsANonNegativePartitionOfUnityAndReproducesTime) {
-  for (std::size_t order = 2; order <= 6; ++order) {
-    const auto sites = uneven(9, 1000.0);
-    const auto basis = SplineBasis::for_sites(order, sites);
-    EXPECT_EQ(basis.size(), sites.size());
-    const std::vector<double>& breaks = basis.breaks();
-    for (std::size_t piece = 0; piece + 1 < breaks.size(); ++piece) {
-      for (const double u : {0.0, 0.3, 0.9, 1.0}) {
-        const double time = breaks[piece] + u * (breaks[piece + 1] - breaks[piece]);
-        const auto N = basis.values(piece, time);
-        double sum = 0.0, mean = 0.0;
-        for (std::size_t j = 0; j < order; ++j) {
-          EXPECT_GE(N[j], -1e-12);
-          sum += N[j];
-          mean += N[j] * (basis.greville(piece + j) - 1000.0);
-        }
-        EXPECT_NEAR(sum, 1.0, 1e-13);
-        EXPECT_NEAR(mean, time - 1000.0, 1e-12);
-        EXPECT_NEAR(basis.cumulative(piece, time)[0], 1.0, 1e-13);
-      }
-    }
-  }
-}
-
 TEST(RotationDerivative, AgreesWithDifferences) {
   const std::array<Rotation, 5> controls{exp_so3({0.1, 0.2, 0.3}),
                                          exp_so3({0.4, 0.0, 0.6}),
@@ -100,14 +76,6 @@ TEST(BSpline, OfOrderKReproducesPolynomialsOfDegreeKMinusOne) {
     const auto curve = smooth<BSplineThrough>(keyframes, {{"order", std::int64_t{order}}});
     expect_follows(*curve, keyframes, truth, 1e-9);
   }
-}
-
-TEST(BSpline, OfOrderTwoIsThePolyline) {
-  const Trajectory keyframes = hand_held_truth(20);
-  const auto curve = smooth<BSplineThrough>(keyframes, {{"order", std::int64_t{2}}});
-  const Polyline polyline(keyframes);
-  expect_follows(
-      *curve, keyframes, [&](double time) { return polyline.at(time); }, 1e-12);
 }
 
 /// Random walk with uneven stamps, steps up to half a metre and about half a radian.
@@ -199,19 +167,6 @@ TEST(CubicSpline, RotationAboutOneAxisIsTheNaturalSplineOfTheAngle) {
   const Textbook textbook(times, angles);
   for (const double time : query_times(keyframes, 19)) {
     EXPECT_NEAR((log_so3(curve->at(time).rotation) - textbook.at(time) * axis).norm(), 0.0, 1e-12);
-  }
-}
-
-TEST(CubicSpline, ReproducesUniformMotion) {
-  const Pose start{exp_so3({0.3, 0.1, -1.0}), {5.0, -2.0, 1.0}};
-  const auto truth = [&](double time) {
-    return Pose{start.rotation * exp_so3(time * Vector3(0.2, -0.5, 0.9)),
-                start.translation + time * Vector3(0.4, 0.3, -0.1)};
-  };
-  for (const std::size_t n : {2u, 3u, 4u, 12u}) {
-    const Trajectory keyframes = sampled_at(uneven(n), truth);
-    const auto curve = smooth<CubicSpline>(keyframes);
-    expect_follows(*curve, keyframes, truth, 1e-12);
   }
 }
 

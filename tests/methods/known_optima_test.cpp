@@ -20,13 +20,12 @@ struct Loaded {
   std::string why = "LOOPBENCH_DATA is not set";
 };
 
-Loaded loaded(const std::string& path, std::int64_t every = 1) {
+Loaded loaded(const std::string& path) {
   Loaded out;
   const char* root = std::getenv("LOOPBENCH_DATA");
   if (root == nullptr) return out;
   PoseGraphOptions options;
   options.path = path;
-  options.keyframes_every = every;
   try {
     out.problem = load_pose_graph(options, {{root}}).problem;
   } catch (const DataMissing& missing) {
@@ -63,18 +62,6 @@ INSTANTIATE_TEST_SUITE_P(Graphs,
                            std::erase(name, '-');
                            return name;
                          });
-
-TEST(KnownOptimum, DualAndPoseGraphAgreeOnKitti00) {
-  const auto [problem, why] = loaded("cop_slam/KITTI_00_vo.g2o", 10);
-  if (!problem) GTEST_SKIP() << why;
-  const Trajectory dual =
-      test::corrected<Dual>(*problem, {.max_iterations = 1000, .tolerance = 1e-15});
-  const Trajectory graph =
-      test::corrected<PoseGraphOptimizer>(*problem, {.max_iterations = 2000, .tolerance = 1e-15});
-  EXPECT_LT(test::largest_distance(dual, graph), 1e-4);
-  const double cost = test::chain_cost(*problem, test::poses_of(dual));
-  EXPECT_NEAR(cost, test::chain_cost(*problem, test::poses_of(graph)), 1e-6 * cost);
-}
 
 TEST(KnownOptimum, LoopEquationsSaveIterationsOnKitti00) {
   const auto [problem, why] = loaded("cop_slam/KITTI_00_vo.g2o");

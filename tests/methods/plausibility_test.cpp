@@ -54,15 +54,6 @@ TEST(Plausibility, SimulatedDatasetsStateTheirTrueNoise) {
   }
 }
 
-TEST(Plausibility, DualAndPoseGraphReportTheSameChi2) {
-  for (const bool planar : {true, false}) {
-    const Problem problem = simulated(SimulatedPath::driving, planar, 3);
-    EXPECT_NEAR(count(reported<Dual>(problem), "chi2_per_dof"),
-                count(reported<PoseGraphOptimizer>(problem), "chi2_per_dof"),
-                1e-6);
-  }
-}
-
 TEST(Plausibility, ImplausibleCovariancesAreReported) {
   const Problem problem = simulated(SimulatedPath::room, false, 2);
   for (const double factor : {1e-2, 1e2}) {

@@ -38,64 +38,6 @@ double largest_difference(const Trajectory& a, const Trajectory& b) {
   return largest;
 }
 
-TEST(PoseGraph, EqualsDualOnAChain) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const Problem problem = walk(seed, 200, 0.02);
-    const Trajectory dual = corrected<Dual>(problem, {.max_iterations = 200, .tolerance = 0.0});
-    const Trajectory graph = optimised(problem);
-    EXPECT_LT(largest_difference(dual, graph), 1e-4) << seed;
-    const double cost = chain_cost(problem, poses_of(graph));
-    EXPECT_NEAR(chain_cost(problem, poses_of(dual)), cost, 1e-6 * cost);
-  }
-}
-
-/// Twelve true closures with errors according to their information, and a false one for every third
-/// of them.
-Problem partly_false(std::uint64_t seed) {
-  Problem problem = walk(seed, 120, 0.0);
-  std::mt19937_64 random(seed + 100);
-  const Trajectory truth = problem.keyframes;
-  problem.closures.clear();
-  const auto add = [&](std::size_t from, std::size_t to, const Twist& error) {
-    const Pose exact = truth[from].world_from_body.inverse() * truth[to].world_from_body;
-    problem.closures.push_back({from, to, normalized(exact * exp_se3(error)), Matrix6::Identity()});
-    problem.closures.back().information *= 1e4;
-  };
-  for (std::size_t k = 0; k < 12; ++k) {
-    add(k, 100 + k, random_twist(random, 0.01, 0.01));
-    if (k % 3 == 0) add(k, 101 + k, random_twist(random, 5.0, 1.0));
-  }
-  std::sort(problem.closures.begin(), problem.closures.end(), [](const Edge& a, const Edge& b) {
-    return std::tie(a.to, a.from) < std::tie(b.to, b.from);
-  });
-  for (Edge& edge : problem.odometry) {
-    edge.from_from_to = normalized(edge.from_from_to * exp_se3(random_twist(random, 0.005, 0.002)));
-    edge.information = Matrix6::Identity() * 1e5;
-  }
-  for (std::size_t i = 0; i + 1 < truth.size(); ++i) {
-    problem.keyframes[i + 1].world_from_body =
-        problem.keyframes[i].world_from_body * problem.odometry[i].from_from_to;
-  }
-  return problem;
-}
-
-TEST(PoseGraph, GraduatedNonConvexityRejectsFalseClosures) {
-  const Problem problem = partly_false(7);
-  const Trajectory truth = walk(7, 120, 0.0).keyframes;
-  Report report;
-  const Trajectory robust = corrected<PoseGraphOptimizer>(problem, {.gnc = Gnc::tls}, &report);
-  EXPECT_EQ(count(report, "closures_kept"), 12.0);
-  const double plain = distances(optimised(problem), truth).back();
-  EXPECT_LT(distances(robust, truth).back(), 0.2 * plain);
-}
-
-TEST(PoseGraph, KeepsEveryClosureWhenAllAreTrue) {
-  Problem problem = partly_false(3);
-  std::erase_if(problem.closures, [](const Edge& e) { return e.to - e.from == 101; });
-  const Trajectory gnc = optimised(problem, {.gnc = Gnc::tls});
-  EXPECT_NEAR(largest_difference(gnc, optimised(problem)), 0.0, 1e-9);
-}
-
 TEST(PoseGraph, RobustLossesReduceTheInfluenceOfOutliers) {
   Problem problem = walk(2, 30, 0.01);
   problem.closures.resize(1);
