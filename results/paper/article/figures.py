@@ -164,8 +164,7 @@ def _complete_panels(results, raw):
             ours = results.find(raw, "text", variant)
             if ours and ours.alignment:
                 ate = ours.axis(axis, "dense")["ate"]
-                yield (_run_panel(f"{raw.sequence} text {variant}", ours, raw),
-                       f"ATE along {axis} {ate:.4f} m, densely")
+                yield _run_panel(f"{raw.sequence} text {variant}", ours, raw), f"{axis} {ate:.4f}"
 
 
 def write_figures(results, folder):
