@@ -2,7 +2,7 @@
 # Checks outputs that the pages print against the program. A comment before a code block or a table names the
 # command: <!-- output of: ./run.sh eval a.txt b.txt -->. Every line of the block must be among the printed lines, in
 # that order; "..." stands for further lines. Spaces and times are ignored. <!-- part of: FILE --> names a file, and
-# <!-- numbers of: FILE or COMMAND --> one that contains all numbers with decimals of the block.
+# <!-- numbers of: FILES or COMMAND --> what contains all numbers with decimals of the block.
 # Usage: documented_outputs.sh LOOPBENCH ROOT [QUICKSTART], a folder with the results of quickstart; without it, its
 # outputs are skipped.
 set -euo pipefail
@@ -35,7 +35,8 @@ missing_number() { grep -oE '[0-9]+\.[0-9]+' "$1" | grep -vxFf <(grep -oE '[0-9]
 check() {
   local where=$1 kind=$2 text=$3 block=$4
   if [[ $text != './run.sh '* ]]; then
-    cp "$root/$text" "$work/.said"
+    # shellcheck disable=SC2086  # a pattern
+    (cd "$root" && cat $text) >"$work/.said"
   else
     read -ra words <<<"${text#./run.sh }"
     case $text in

@@ -1,4 +1,4 @@
-"""Tables of the page from stores and from `compare`: parts by name, as Markdown."""
+"""Tables from stores and from `compare`, and the parts of the pages that are made of them, as Markdown by name."""
 
 from __future__ import annotations
 
@@ -8,11 +8,13 @@ import re
 import sqlite3
 from collections import defaultdict
 from statistics import median
+from typing import NamedTuple
 
 from article.verdicts import table
 
 SMOOTHERS = ("tracked_frames", "cubic_spline", "gp_wnoa", "spline, quasi-keyframes", "smoother N4", "smoother M7",
              "smoother robust")
+SHOWN_ROBUST = ("dual", "pose_graph_huber", "pose_graph_gnc_tls", "pose_graph_pcm")
 FALSE_CLOSURES = ("raw", "pose_graph", "pose_graph_huber", "pose_graph_cauchy", "pose_graph_dcs", "pose_graph_gnc_tls",
                   "pose_graph_pcm")
 ROWS = """
@@ -33,8 +35,14 @@ def rows_of(store, query=ROWS):
         return database.execute(query).fetchall()
 
 
-def aligned(head, lines):
-    return table(head, ("---", *["---:"] * (len(head) - 1)), *lines)
+class Table(NamedTuple):
+    head: tuple
+    lines: list
+
+    def markdown(self, columns=None):
+        """The first columns, by default all."""
+        head, *lines = (row[:columns] for row in (self.head, *self.lines))
+        return table(head, ("---", *["---:"] * (len(head) - 1)), *lines)
 
 
 def geometric_mean(values):
@@ -66,6 +74,7 @@ def ates(rows):
 
 
 def chain_parts(program, store):
+    """Parts of the page, and complete tables."""
     found, known = ates(rows_of(store))
     found = {run: each for run, each in found.items() if "dual" in each}
     methods = list(dict.fromkeys(m for each in found.values() for m in each))
@@ -84,7 +93,7 @@ def chain_parts(program, store):
                       digits(geometric_mean([found[r]["dual"] for r in runs])),
                       str(sum(found[r]["dual"] > found[r].get("raw", math.inf) for r in runs)),
                       *(f"{means(runs, m):.2f}" for m in others)))
-    parts = {"by route": aligned(("route", "chains", "closures", "dual [m]", "dual above raw", *others), lines)}
+    by_route = Table(("route", "chains", "closures", "dual [m]", "dual above raw", *others), lines)
     compared, lines = program.compared(store, "dual"), []
     for method in others:
         row, ratios = compared[method], {r: e[method] / e["dual"] for r, e in found.items() if method in e}
@@ -95,20 +104,22 @@ def chain_parts(program, store):
                       f"{row['better']}/{row['worse']}/{row['equal']}",
                       f"{of_route[low]:.2f} ({low})", f"{of_route[high]:.2f} ({high})",
                       str(sum(ratio > 1.05 for ratio in ratios.values())), f"{ratios[worst]:.2f} ({worst[0]})"))
-    parts["correctors"] = aligned(("method", "ratio to `dual`", "p", "routes", "lowest route", "highest route",
-                                   "chains above 1.05", "highest chain"), lines)
-    parts["chains"] = (f"{len(found)} chains of {len({name.split(' (')[0] for name in family.values()})} odometers on"
-                       f" {len(routes)} routes.\n")
+    correctors = Table(("method", "ratio to `dual`", "p", "routes", "lowest route", "highest route", "chains above 1.05",
+                        "highest chain"), lines)
+    parts = {"correctors": correctors.markdown(5),
+             "chains": f"{len(found)} chains of {len({name.split(' (')[0] for name in family.values()})} odometers on"
+                       f" {len(routes)} routes.\n"}
     kept = rows_of(store, KEPT)
     if kept:
         least = min(kept, key=lambda row: row["kept"] / row["closures"])
         parts["chains"] += (f"`pose_graph_pcm` rejects {sum(r['closures'] - r['kept'] for r in kept):.0f} of"
                              f" {sum(r['closures'] for r in kept)} closures here, the largest share on {least['sequence']}:"
                              f" {least['closures'] - least['kept']:.0f} of {least['closures']}.\n")
-    return parts
+    return parts, {"correctors": correctors, "by_route": by_route}
 
 
 def outlier_parts(program, store):
+    """Parts of the page, and complete tables."""
     found, _ = ates(rows_of(store))
     shares = list(dict.fromkeys(re.search(r"share=(.*)\)", run[0])[1] for run in found))
     methods, columns = list(dict.fromkeys(m for each in found.values() for m in each)), []
@@ -119,7 +130,11 @@ def outlier_parts(program, store):
         columns.append(["; ".join((*((ratio_text(compared[m]),) if m != "pose_graph_pcm" else ()),
                                    str(sum(e.get(m, math.inf) > e["raw"] for e in runs)))) for m in methods])
         head.append(f"{100 * float(share):g} % false ({len(runs)} runs, {compared['raw']['groups']} routes)")
-    return {"outliers": aligned(head, [(m, *(column[k] for column in columns)) for k, m in enumerate(methods)])}
+    lines = [(m, *(column[k] for column in columns)) for k, m in enumerate(methods)]
+    # The page has ratios without intervals.
+    shown = Table(("method", *(name.split(" false")[0] for name in head[1:])),
+                  [[re.sub(r" \[.*\]", "", cell) for cell in line] for line in lines if line[0] in SHOWN_ROBUST])
+    return {"outliers": shown.markdown()}, {"outliers": Table(head, lines)}
 
 
 def share_part(simulated, kitti):
@@ -133,7 +148,7 @@ def share_part(simulated, kitti):
         for share, runs in sorted(by_share.items()):
             means = [sum(each[m] for each in runs) / len(runs) for m in FALSE_CLOSURES]
             lines.append((f"{title} {share:g} %", *(f"{mean:.3f}" if mean < 10 else digits(mean) for mean in means)))
-    return aligned(("false", *(m.replace("pose_graph_", "") for m in FALSE_CLOSURES)), lines)
+    return Table(("false", *(m.replace("pose_graph_", "") for m in FALSE_CLOSURES)), lines).markdown()
 
 
 def spacing_part(program, stores):
@@ -143,10 +158,11 @@ def spacing_part(program, stores):
             columns[title, value] = program.compared(store, "polyline", rf"sequence~.*value={re.escape(value)}\)")
             row = columns[title, value]["polyline"]
             head.append(f"{title} ({row['runs']}), {value} s")
-    return aligned(head, [(m, *(ratio_text(c[m]) if m in c else "" for c in columns.values())) for m in SMOOTHERS])
+    return Table(head, [(m, *(ratio_text(c[m]) if m in c else "" for c in columns.values())) for m in SMOOTHERS]).markdown()
 
 
-def graph_part(store):
+def graph_parts(store):
+    """Parts of the page, and complete tables."""
     graphs = defaultdict(dict)
     for row in rows_of(store):
         graph = graphs[row["sequence"]]
@@ -155,15 +171,20 @@ def graph_part(store):
             graph[row["method"]] = row["rmse"]
         if row["relation"] == "gap" and row["axis"] == "minimum" and row["method"] == "pose_graph":
             graph["gap"] = row["rmse"]
-    worse = {name: g["pose_graph from odometry"] / g["pose_graph"] for name, g in graphs.items()}
-    differ = [f"{name} {ratio:.4g}" for name, ratio in worse.items() if abs(ratio - 1) > 1e-6]
-    proved = sum(g.get("gap", 100) < 1e-4 for g in graphs.values())
-    return (f"{len(graphs)} graphs with up to {max(g['edges'] for g in graphs.values())} edges; on {proved} the nearest minimum of"
-            f" the isotropic cost is proved to be the global one.\nFrom odometry the cost is the same on"
-            f" {len(graphs) - len(differ)}. On the others its ratio to that of the chordal start is: {'; '.join(differ)}.\n")
+    ratios = {name: graph["pose_graph from odometry"] / graph["pose_graph"] for name, graph in graphs.items()}
+    proved = {name: graph.get("gap", 100) < 1e-4 for name, graph in graphs.items()}
+    complete = Table(("graph", "edges", "cost from odometry over that of the chordal start", "certificate"),
+                     [(name, str(graph["edges"]), f"{ratios[name]:.4g}", "optimal" if proved[name] else "not proved")
+                      for name, graph in graphs.items()])
+    same = sum(abs(ratio - 1) <= 1e-6 for ratio in ratios.values())
+    text = (f"{len(graphs)} graphs with up to {max(graph['edges'] for graph in graphs.values())} edges: on"
+            f" {sum(proved.values())} the nearest minimum of the isotropic cost is proved to be the global one. From odometry"
+            f" the cost is that of the chordal start on {same}; elsewhere it is {min(ratios.values()):.4g} to"
+            f" {max(ratios.values()):.4g} times as large.\n")
+    return {"graphs": text}, {"graphs": complete}
 
 
-def cost_part(stores):
+def cost_table(stores):
     """Over all sweeps, by method."""
     cells = [row for store in stores for row in {row["id"]: row for row in rows_of(store)}.values()]
     cells = [(re.sub(r"^smoother ([NM])\d", r"smoothers \1", row["method"]), row) for row in cells]
@@ -174,7 +195,7 @@ def cost_part(stores):
         seconds = [row["seconds"] for row in good] or [math.nan]
         lines.append((method, str(len(own)), digits(1e3 * median(seconds)), digits(1e3 * max(seconds)),
                       digits(max((r["memory"] for r in good), default=math.nan) / 2**20)))
-    return aligned(("method", "cells", "median [ms]", "maximum [ms]", "memory [MiB]"), lines)
+    return Table(("method", "cells", "median [ms]", "maximum [ms]", "memory [MiB]"), lines)
 
 
 def status_text(stores):

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Runs the sweeps of results/evidence/README.md and results/methods/outliers.md and writes the tables of these pages. Needs
-Python's standard library and the program. Cells that are stored are not run again."""
+"""Runs the sweeps of results/evidence and results/methods/outliers.md, and writes the tables of their pages and, complete,
+the .csv files of results/evidence. Needs Python's standard library and the program. Cells that are stored are not run
+again."""
 
 from __future__ import annotations
 
@@ -24,13 +25,15 @@ ROOT = RESULTS.parent
 sys.path[:0] = [str(RESULTS), str(RESULTS / "paper")]
 
 from evidence_tables import (  # noqa: E402
-    chain_parts, cost_part, graph_part, outlier_parts, share_part, spacing_part, status_text,
+    Table, chain_parts, cost_table, graph_parts, outlier_parts, share_part, spacing_part, status_text,
 )
+from article.verdicts import csv_text  # noqa: E402
 from pages import with_parts  # noqa: E402
 
 SWEEPS = ("configs/chains_real.yaml", "configs/outliers_real.yaml", "configs/pose_graphs.yaml",
           "results/methods/configs/spacing.yaml", "results/methods/configs/spacing_road.yaml")
-PAGES = RESULTS / "evidence" / "README.md", RESULTS / "methods" / "outliers.md"
+EVIDENCE = RESULTS / "evidence"
+PAGES = EVIDENCE / "README.md", RESULTS / "methods" / "outliers.md", EVIDENCE / "smoothers.md"
 
 
 class Program:
@@ -82,20 +85,24 @@ def builds_of(store):
             for k in known.values()}
 
 
-def time_part(program, stores):
+def time_text(program, stores):
     wall, used = map(sum, zip(*program.times.values()))
-    steps = ", ".join(f"{name} {each:.0f} s" for name, (each, _) in program.times.items())
-    return (f"{wall:.0f} s with {program.jobs} workers, {used:.0f} s of processor time: {steps}.\n"
-            f"{'; '.join(sorted(set().union(*map(builds_of, stores))))}.\n")
+    return (f"{wall:.0f} s with {program.jobs} workers, {used:.0f} s of processor time;"
+            f" {'; '.join(sorted(set().union(*map(builds_of, stores))))}.\n")
 
 
-def parts_of(program):
-    """Generated parts of each of PAGES."""
+def made(program):
+    """Generated parts of each of PAGES, and complete tables."""
     shares = {"shares": share_part(program.store("configs/outliers.yaml"), program.store("configs/outliers_kitti.yaml"))}
     chains, outliers, graphs, *spacing = stores = [program.store(config) for config in SWEEPS]
-    return ({**chain_parts(program, chains), **outlier_parts(program, outliers), "graphs": graph_part(graphs),
-            "spacing": spacing_part(program, dict(zip(("cameras", "roads"), spacing))),
-            "costs": cost_part(stores), "times": status_text(stores) + time_part(program, stores)}, shares)
+    costs, parts, tables = cost_table(stores), {}, {}
+    for own, complete in (chain_parts(program, chains), outlier_parts(program, outliers), graph_parts(graphs)):
+        parts.update(own)
+        tables.update(complete)
+    parts["times"] = status_text(stores) + time_text(program, stores)
+    seconds = Table(("sweep", "seconds"), [(name, f"{each:.0f}") for name, (each, _) in program.times.items()])
+    smoothers = {"spacing": spacing_part(program, dict(zip(("cameras", "roads"), spacing)))}
+    return (parts, shares, smoothers), {**tables, "costs": costs, "sweeps": seconds}
 
 
 def main():
@@ -103,7 +110,7 @@ def main():
     parser.add_argument("--data", default=os.environ.get("LOOPBENCH_DATA", ""),
                         help="folder with real datasets (environment variable LOOPBENCH_DATA)")
     parser.add_argument("--program", help="loopbench; default: build/release, the path, or ./run.sh, which builds it")
-    parser.add_argument("--stores", type=Path, default=RESULTS / "evidence" / "stores", help="folder of the sweeps' results")
+    parser.add_argument("--stores", type=Path, default=EVIDENCE / "stores", help="folder of the sweeps' results")
     parser.add_argument("-j", "--jobs", type=int, default=2, help="number of workers")
     given = parser.parse_args()
     if not Path(given.data, "kitti").is_dir() or not given.data:
@@ -112,7 +119,7 @@ def main():
     file = given.program or (built if built.exists() else shutil.which("loopbench") or ROOT / "run.sh")
     program = Program(Path(file).resolve(), Path(given.data).resolve(), given.stores.resolve(), given.jobs)
     try:
-        parts = parts_of(program)
+        parts, tables = made(program)
     except (RuntimeError, OSError) as reason:
         sys.exit(f"make.py: {reason}")
     for page, own in zip(PAGES, parts):
@@ -121,6 +128,8 @@ def main():
             sys.exit(f"make.py: {page} has no line '<!-- {missing[0]}, written by make.py -->'")
         page.write_text(with_parts(text, own), encoding="utf-8")
         print(page)
+    for name, complete in tables.items():
+        (EVIDENCE / f"{name}.csv").write_text(csv_text(complete.head, complete.lines), encoding="utf-8")
 
 
 if __name__ == "__main__":

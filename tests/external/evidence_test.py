@@ -15,7 +15,7 @@ LOOPBENCH = os.path.abspath(sys.argv[1])
 sys.path.insert(0, str(EVIDENCE))
 
 from make import Program, builds_of, with_parts  # noqa: E402
-from evidence_tables import chain_parts, cost_part, outlier_parts, status_text  # noqa: E402
+from evidence_tables import chain_parts, cost_table, outlier_parts, status_text  # noqa: E402
 
 DRIVE = "dataset: simulated, closures.max: 4"
 CHAINS = "".join(f"  - {{{DRIVE}, label: {odometer} {route}, group: KITTI {route}, seed: {seed}}}\n" for seed, (odometer, route) in
@@ -66,19 +66,20 @@ class Evidence(unittest.TestCase):
                 if row["label"] == "ate" and row["unit"] == "m":
                     errors[row["sequence"], row["method"]] = float(row["rmse"])
         logs = [math.log(errors[chain, "uniform"] / errors[chain, "dual"]) for chain in ("kiss_icp 00", "viso2 00")]
-        parts = chain_parts(self.program, self.chains)
+        parts, tables = chain_parts(self.program, self.chains)
         self.assertIn("3 chains of 2 odometers on 2 routes.\n", parts["chains"])
-        route = cells(parts["by route"])["KITTI 00"]
+        route = cells(tables["by_route"].markdown())["KITTI 00"]
         self.assertEqual((route["chains"], route["uniform"]), ("2", f"{math.exp(sum(logs) / 2):.2f}"))
         corrector = cells(parts["correctors"])["uniform"]
         self.assertEqual(corrector["p"], "-")  # two groups are too few
         self.assertNotIn("[", corrector["ratio to `dual`"])
 
     def test_false_closures_and_costs(self):
-        parts = outlier_parts(self.program, self.outliers)
-        self.assertEqual(list(cells(parts["outliers"])["dual"])[1:],
-                         ["0 % false (1 runs, 1 routes)", "50 % false (1 runs, 1 routes)"])
-        cost = cells(cost_part([self.chains, self.outliers]))["dual"]
+        parts, tables = outlier_parts(self.program, self.outliers)
+        self.assertEqual(tables["outliers"].head[1:], ["0 % false (1 runs, 1 routes)", "50 % false (1 runs, 1 routes)"])
+        shown, complete = cells(parts["outliers"])["dual"], cells(tables["outliers"].markdown())["dual"]
+        self.assertEqual(shown["50 %"], complete["50 % false (1 runs, 1 routes)"])  # one run has no interval
+        cost = cells(cost_table([self.chains, self.outliers]).markdown())["dual"]
         self.assertEqual(cost["cells"], "5")
         self.assertEqual(status_text([self.chains, self.outliers]), "25 cells: 0 declined, 0 failed.\n")
         self.assertEqual(len(builds_of(self.chains)), 1)
