@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "datasets/core/closure_places.hpp"
-#include "metrics/metric.hpp"
+#include "metrics/correction/graph_cost.hpp"
 
 namespace loopbench::metrics {
 
@@ -26,24 +26,19 @@ void fields(ClosurePredictionOptions& o, Visit visit) {
 
 /// Distance of a closure's measurement from the poses [m], as in ClosureError.
 inline double closure_distance(const Edge& closure, const Trajectory& poses) {
-  const Pose from_from_to =
-      poses.at(closure.from).world_from_body.inverse() * poses.at(closure.to).world_from_body;
-  return log_se3(normalized(closure.from_from_to.inverse() * from_from_to)).head<3>().norm();
+  return log_se3(edge_difference(closure, poses)).head<3>().norm();
 }
 
-/// Why leaving out closures predicts nothing; empty if it does. O(edges).
-inline std::string why_no_prediction(const Problem& problem, std::size_t places) {
-  if (places < 2) return "needs closures at two places, found " + std::to_string(places);
+/// Throws Undefined if the keyframes are not the poses of the odometry. O(edges).
+inline void require_open_chain(const Problem& problem, const std::string& name) {
   double length = 0.0, difference = 0.0;
   for (const Edge& edge : problem.odometry) {
-    if (edge.scale != 1.0) return "an edge changes the scale";
     length += edge.from_from_to.translation.norm();
     difference += closure_distance(edge, problem.keyframes);
   }
   constexpr double kRounding = 1e-3;  // of the path, by the digits of a file
-  if (difference > kRounding * length) return "the keyframes are not the poses of the odometry";
-  const auto scaled = [](const Edge& edge) { return edge.scale != 1.0; };
-  return std::ranges::any_of(problem.closures, scaled) ? "a closure changes the scale" : "";
+  if (difference <= kRounding * length) return;
+  throw Undefined(name + ": the keyframes are not the poses of the odometry");
 }
 
 /// `ratio` [1]: the method runs without the closures of one place (closure_places.hpp); their error
@@ -61,8 +56,11 @@ inline std::vector<Score> closure_prediction(const Evaluation& evaluation,
   const SolveWithout& solve_without =
       needed(evaluation.context.solve_without, name, "a method that can run again");
   const std::vector<std::vector<std::size_t>> all = closure_places(problem.closures);
-  const std::string why = why_no_prediction(problem, all.size());
-  if (!why.empty()) throw Undefined(name + ": " + why);
+  if (all.size() < 2) {
+    throw Undefined(name + ": needs closures at two places, found " + std::to_string(all.size()));
+  }
+  for (const auto* edges : {&problem.odometry, &problem.closures}) require_rigid(*edges, name);
+  require_open_chain(problem, name);
   const std::size_t count = std::min(all.size(), static_cast<std::size_t>(options.max_places));
   std::vector<std::vector<std::size_t>> places;
   std::vector<double> predicted(problem.closures.size(), 0.0);
@@ -76,12 +74,8 @@ inline std::vector<Score> closure_prediction(const Evaluation& evaluation,
   const auto uncorrected = [&](std::size_t k) {
     return closure_distance(problem.closures[k], problem.keyframes);
   };
-  Score out = single("ratio",
-                     "",
-                     "1",
-                     place_prediction(
-                         places, [&](std::size_t k) { return predicted[k]; }, uncorrected)
-                         .ratio);
+  const auto corrected = [&](std::size_t k) { return predicted[k]; };
+  Score out = single("ratio", "", "1", place_prediction(places, corrected, uncorrected).ratio);
   out.statistics.count = count;
   return {out};
 }

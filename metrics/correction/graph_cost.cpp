@@ -25,9 +25,7 @@ double chordal_cost(const Pose& delta, const ChordalWeights& weights) {
 }
 
 double cost_of(const Edge& edge, const Trajectory& poses, bool planar, GraphError error) {
-  const Pose from_from_to =
-      poses.at(edge.from).world_from_body.inverse() * poses.at(edge.to).world_from_body;
-  const Pose delta = normalized(edge.from_from_to.inverse() * from_from_to);
+  const Pose delta = edge_difference(edge, poses);
   switch (error) {
     case GraphError::twist:
       return squared(log_se3(delta), edge.information);
@@ -41,18 +39,27 @@ double cost_of(const Edge& edge, const Trajectory& poses, bool planar, GraphErro
 
 }  // namespace
 
+Pose edge_difference(const Edge& edge, const Trajectory& poses) {
+  const Pose from_from_to =
+      poses.at(edge.from).world_from_body.inverse() * poses.at(edge.to).world_from_body;
+  return normalized(edge.from_from_to.inverse() * from_from_to);
+}
+
+void require_rigid(const std::vector<Edge>& edges, const std::string& name) {
+  for (const Edge& edge : edges) {
+    if (edge.scale == 1.0) continue;
+    throw Undefined(name + ": an edge changes the scale (factor " + to_text(edge.scale) +
+                    "), but the keyframes are rigid");
+  }
+}
+
 std::vector<Score> graph_cost(const Evaluation& evaluation, const GraphCostOptions& options) {
   const Problem& problem = needed(evaluation.context.problem, "graph_cost", "edges");
   const Trajectory& poses = needed(evaluation.context.estimate, "graph_cost", "keyframes");
   const auto sum = [&](const std::vector<Edge>& edges) {
+    require_rigid(edges, "graph_cost");
     double out = 0.0;
-    for (const Edge& edge : edges) {
-      if (edge.scale != 1.0) {
-        throw Undefined("graph_cost: an edge changes the scale (factor " + to_text(edge.scale) +
-                        "), but the keyframes are rigid");
-      }
-      out += cost_of(edge, poses, problem.planar, options.error);
-    }
+    for (const Edge& edge : edges) out += cost_of(edge, poses, problem.planar, options.error);
     return out;
   };
   const double odometry = sum(problem.odometry);
@@ -74,17 +81,10 @@ std::vector<Score> closure_residual(const Evaluation& evaluation) {
   if (problem.closures.empty()) {
     throw Undefined("closure_residual: needs loop closures; the sequence has none");
   }
-  std::vector<double> metres;
-  std::vector<double> degrees;
-  std::vector<double> mahalanobis;
+  require_rigid(problem.closures, "closure_residual");
+  std::vector<double> metres, degrees, mahalanobis;
   for (const Edge& edge : problem.closures) {
-    if (edge.scale != 1.0) {
-      throw Undefined("closure_residual: a closure changes the scale (factor " +
-                      to_text(edge.scale) + "), so its residual is not in metres");
-    }
-    const Pose from_from_to =
-        poses.at(edge.from).world_from_body.inverse() * poses.at(edge.to).world_from_body;
-    const Pose E = normalized(edge.from_from_to.inverse() * from_from_to);
+    const Pose E = edge_difference(edge, poses);
     const Twist e = log_se3(E);
     metres.push_back(E.translation.norm());
     degrees.push_back(kDegrees * log_so3(E.rotation).norm());

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "metrics/correction/chordal_minimum.hpp"
+#include "metrics/correction/graph_cost.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::metrics {
@@ -122,12 +123,8 @@ Certificate certificate(const Problem& problem, const Trajectory& keyframes) {
 std::vector<Score> optimality(const Evaluation& evaluation, const NoOptions&) {
   const Problem& problem = needed(evaluation.context.problem, "optimality", "edges");
   const Trajectory& poses = needed(evaluation.context.estimate, "optimality", "keyframes");
-  for (const std::vector<Edge>* edges : {&problem.odometry, &problem.closures}) {
-    for (const Edge& edge : *edges) {
-      if (edge.scale == 1.0) continue;
-      throw Undefined("optimality: an edge changes the scale (factor " + to_text(edge.scale) +
-                      "), the certificate is for rigid poses");
-    }
+  for (const auto* edges : {&problem.odometry, &problem.closures}) {
+    require_rigid(*edges, "optimality");
   }
   if (!problem.anchors.empty()) {
     throw Undefined("optimality: the problem has anchors, the certificate is for edges");

@@ -86,7 +86,9 @@ TEST(ClosurePrediction, IsUndefinedWithAReason) {
   EXPECT_EQ(reason(problem), "closure_prediction: the keyframes are not the poses of the odometry");
   problem = stretched();
   problem.closures[0].scale = 1.1;
-  EXPECT_EQ(reason(problem), "closure_prediction: a closure changes the scale");
+  EXPECT_EQ(
+      reason(problem),
+      "closure_prediction: an edge changes the scale (factor 1.1), but the keyframes are rigid");
   Evaluation files;
   files.context.problem = &problem;
   EXPECT_EQ(why<Undefined>([&] { closure_prediction(files, {}); }),
