@@ -13,10 +13,6 @@
 namespace loopbench::harness {
 namespace {
 
-void add_new(std::vector<std::string>& list, const std::string& text) {
-  if (std::ranges::find(list, text) == list.end()) list.push_back(text);
-}
-
 /// Sets the comparisons, the scores without a value, and the records of the first sequences: those
 /// that could fit into `bytes`, at least one.
 void read_scores(const std::string& baseline, std::size_t bytes, ReportContent& out) {
@@ -38,6 +34,11 @@ void read_scores(const std::string& baseline, std::size_t bytes, ReportContent& 
 }
 
 }  // namespace
+
+std::string ReportContent::run_value(const std::string& key) const {
+  const auto found = run.find(key);
+  return found == run.end() ? "" : found->second;
+}
 
 const Comparison* ReportContent::headline() const {
   const Comparison* out = nullptr;
@@ -118,8 +119,7 @@ std::vector<std::string> default_methods(const ReportContent& content) {
 
 std::vector<std::pair<std::string, std::string>> method_definitions(const ReportContent& content) {
   std::vector<std::pair<std::string, std::string>> out;
-  const auto found = content.run.find("methods");
-  std::istringstream lines(found == content.run.end() ? "" : found->second);
+  std::istringstream lines(content.run_value("methods"));
   for (std::string line; std::getline(lines, line);) {
     const std::size_t tab = line.find('\t');
     if (tab != std::string::npos) out.emplace_back(line.substr(0, tab), line.substr(tab + 1));
@@ -129,15 +129,15 @@ std::vector<std::pair<std::string, std::string>> method_definitions(const Report
 
 std::vector<std::string> style_order(const ReportContent& content) {
   std::vector<std::string> out;
-  const auto baseline = content.run.find("baseline");
-  if (baseline != content.run.end()) add_new(out, baseline->second);
+  const auto add = [&](const std::string& name) {
+    if (std::ranges::count(content.methods, name) == 0 || std::ranges::count(out, name) > 0) return;
+    out.push_back(name);
+  };
+  add(content.run_value("baseline"));
   // More methods than colours: those that are drawn by default must not share one.
-  if (content.methods.size() > kCurveColors.size()) {
-    for (const std::string& name : default_methods(content)) add_new(out, name);
-  }
-  for (const std::string& name : content.methods) add_new(out, name);
-  std::erase_if(
-      out, [&](const std::string& name) { return std::ranges::count(content.methods, name) == 0; });
+  if (content.methods.size() > kCurveColors.size())
+    std::ranges::for_each(default_methods(content), add);
+  std::ranges::for_each(content.methods, add);
   return out;
 }
 

@@ -33,6 +33,9 @@ struct ReportContent {
 
   std::span<const std::string> shown_sequences() const { return std::span(sequences).first(shown); }
 
+  /// Of `run`; empty if it has none.
+  std::string run_value(const std::string& key) const;
+
   /// Reduces `shown`.
   void show(std::size_t sequences);
 

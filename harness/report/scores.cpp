@@ -108,13 +108,12 @@ nlohmann::json scores_json(const ReportContent& content) {
   for (const std::string& name : default_methods(content)) {
     if (const auto known = method.find(name); known != method.end()) shown.push_back(known->second);
   }
-  const auto baseline = content.run.find("baseline");
   return {{"methods", content.methods},
           {"styles", std::move(styles)},
           {"default_methods", std::move(shown)},
           {"oracle", oracle},
           {"sequences", content.shown_sequences()},
-          {"baseline", baseline == content.run.end() ? "" : baseline->second},
+          {"baseline", content.run_value("baseline")},
           {"statistics", {"rmse", "mean", "median", "max"}},
           {"kinds", std::move(kinds)},
           {"sequence_families", families_json(sequence_families(content.shown_cells), sequence)},

@@ -132,12 +132,8 @@ std::string scores_html(const ReportContent& content) {
 
 std::string provenance_html(const ReportContent& content) {
   std::string out;
-  const auto value_of = [&](const std::string& key) {
-    const auto found = content.run.find(key);
-    return found == content.run.end() ? std::string() : found->second;
-  };
   out += "<h3>Protocol of every number</h3>\n<pre tabindex=\"0\">" +
-         html_text(value_of("protocol")) + "</pre>\n";
+         html_text(content.run_value("protocol")) + "</pre>\n";
   Table provenance{"provenance", {"item", "value"}, {}, {}};
   for (const auto& [key, value] : content.provenance) provenance.lines.push_back({key, value});
   out += html_text_table(provenance);
@@ -150,7 +146,8 @@ std::string provenance_html(const ReportContent& content) {
     }
     out += html_text_table(files);
   }
-  return out + "<h3>Config</h3>\n<pre tabindex=\"0\">" + html_text(value_of("config")) + "</pre>\n";
+  return out + "<h3>Config</h3>\n<pre tabindex=\"0\">" + html_text(content.run_value("config")) +
+         "</pre>\n";
 }
 
 }  // namespace loopbench::harness
