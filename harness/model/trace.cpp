@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "harness/model/loops.hpp"
 #include "metrics/numerics/angle.hpp"
 
 namespace loopbench::harness {
@@ -70,6 +71,7 @@ SequenceTrace sequence_trace(const Sequence& sequence) {
     const TracePose to = small(keyframes[loop.to].stamp, keyframes[loop.to].world_from_body, own);
     out.closures.push_back({from.stamp, to.stamp, from.x, from.y, from.z, to.x, to.y, to.z});
   }
+  out.ledger = stored_ledger(sequence.problem);
   return out;
 }
 

@@ -59,6 +59,7 @@ struct SequenceTrace {
   /// Before correction, in the tracker's own world frame: positions are not relative to the origin.
   std::vector<TracePose> keyframes;
   std::vector<TraceClosure> closures;  ///< all closures, positions as for keyframes
+  std::string ledger;                  ///< of the closures, stored_ledger()
 };
 
 /// Values that a metric gave for each evaluated pose.

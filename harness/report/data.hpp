@@ -36,7 +36,8 @@ struct Thinning {
 /// one repeat with kLeastPoints (drawn.cpp).
 Thinning thinning_for(const ReportContent& content, double bytes);
 
-/// {sequences, grids, cells} from the traces. Sequences: reference, and closures by repeat.
+/// {sequences, grids, cells} from the traces. Sequences: reference, and for each repeat closures,
+/// with stored_ledger() and the keyframes before correction if there is one.
 /// Cells: grid, errors and sections of the path; the evaluation times of a cell are in its grid,
 /// which cells share.
 nlohmann::json traces_json(const ReportContent& content, const Thinning& thinning);

@@ -34,23 +34,26 @@ nlohmann::json path_json(const DrawnPath& path) {
       {"t", packed(path.t)}, {"x", packed(path.x)}, {"y", packed(path.y)}, {"z", packed(path.z)}};
 }
 
-nlohmann::json reference_json(const SequenceTrace& trace, std::size_t most) {
+nlohmann::json path_json(const std::vector<TracePose>& poses, std::size_t most) {
   DrawnPath drawn;
-  for (const std::size_t i : subsampled_indices(trace.reference.size(), most)) {
-    const TracePose& pose = trace.reference[i];
-    drawn.add(pose.stamp, {pose.x, pose.y, pose.z});
+  for (const std::size_t i : subsampled_indices(poses.size(), most)) {
+    drawn.add(poses[i].stamp, {poses[i].x, poses[i].y, poses[i].z});
   }
   return path_json(drawn);
 }
 
-nlohmann::json closures_json(const SequenceTrace& trace) {
+nlohmann::json closures_json(const SequenceTrace& trace, std::size_t most) {
   constexpr int kDigits = 7;
   nlohmann::json closures = nlohmann::json::array();
   for (const std::size_t i : subsampled_indices(trace.closures.size(), kMostClosures)) {
     closures.push_back({rounded_number(trace.closures[i].from_stamp, kDigits),
                         rounded_number(trace.closures[i].to_stamp, kDigits)});
   }
-  return {{"closures", std::move(closures)}, {"all", trace.closures.size()}};
+  nlohmann::json out{{"closures", std::move(closures)}, {"all", trace.closures.size()}};
+  if (trace.ledger.empty()) return out;
+  out["ledger"] = trace.ledger;
+  out["keyframes"] = path_json(trace.keyframes, most);
+  return out;
 }
 
 struct CellErrors {
@@ -170,8 +173,8 @@ nlohmann::json traces_json(const ReportContent& content, const Thinning& thinnin
     if (sequence.is_null() || !sequence["runs"].contains(repeat)) {
       if (const std::optional<SequenceTrace> trace = traces.sequence(cell.position)) {
         origins[cell.sequence] = trace->origin.stamp;
-        if (sequence.is_null()) sequence = reference_json(*trace, thinning.points);
-        sequence["runs"][repeat] = closures_json(*trace);
+        if (sequence.is_null()) sequence = path_json(trace->reference, thinning.points);
+        sequence["runs"][repeat] = closures_json(*trace, thinning.points);
       }
     }
     const std::optional<CellTrace> trace = traces.cell(cell.position);

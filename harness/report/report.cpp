@@ -50,7 +50,7 @@ std::string script_elements(const std::string& nonce) {
   std::vector<std::string> scripts{"/*\n" + asset_text("assets/d3.LICENSE") + "*/\n" +
                                    asset_text("assets/d3.min.js")};
   std::istringstream names(
-      "data state chart answer front pareto map space along cut spread sweeps tables start");
+      "data state chart answer front pareto map ledger space along cut spread sweeps tables start");
   for (std::string name; names >> name;) {
     scripts.push_back("\n" + asset_text("page/" + name + ".js"));
   }

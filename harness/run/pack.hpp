@@ -50,7 +50,7 @@ void walk(Archive& a, T& metadata) {
   a(metadata.inputs)(metadata.closures)(metadata.oracle_closures)(metadata.size)(metadata.notes);
   a(metadata.content)(metadata.source)(metadata.group);
   a(metadata.trace.origin)(metadata.trace.reference)(metadata.trace.keyframes)(
-      metadata.trace.closures);
+      metadata.trace.closures)(metadata.trace.ledger);
 }
 
 template <class Archive, Either<harness::Worker> T>

@@ -191,7 +191,7 @@ void CellWriter::write_metadata(const Cell& cell,
   const SequenceTrace& trace = metadata.trace;
   if (trace.keyframes.empty()) return;
   const TraceOrigin& origin = trace.origin;
-  database_.prepare("INSERT OR REPLACE INTO sequence_trace VALUES (?,?,?,?,?,?,?,?,?)")
+  database_.prepare("INSERT OR REPLACE INTO sequence_trace VALUES (?,?,?,?,?,?,?,?,?,?)")
       .bind_hashed(sequence_key,
                    origin.stamp,
                    origin.x,
@@ -199,7 +199,8 @@ void CellWriter::write_metadata(const Cell& cell,
                    origin.z,
                    Blob{bytes_of(trace.reference)},
                    Blob{bytes_of(trace.keyframes)},
-                   Blob{bytes_of(trace.closures)})
+                   Blob{bytes_of(trace.closures)},
+                   trace.ledger)
       .run();
 }
 

@@ -8,7 +8,7 @@
 namespace loopbench::harness {
 
 /// Incremented when the meaning of a table or column changes; stored as SQLite's user_version.
-inline constexpr int kSchemaVersion = 16;
+inline constexpr int kSchemaVersion = 17;
 
 /// The columns of statistics but count: "rmse,", with texts before and after each name, in one
 /// line, or percentiles after `gap`.
@@ -162,6 +162,8 @@ inline const std::string kSchema = R"sql(
     reference BLOB NOT NULL,           -- TracePose, 8 floats each
     keyframes BLOB NOT NULL,           -- TracePose, in the tracker's world frame
     closures BLOB NOT NULL,            -- TraceClosure, 8 floats each
+    ledger TEXT NOT NULL,              -- what the closures state about each other: a sentence, then
+                                       -- the lines of `loops --csv`
     row_hash INTEGER NOT NULL);
   CREATE INDEX cell_position ON cell(position);
 )sql";
@@ -214,6 +216,7 @@ inline constexpr SharedTable kInputTable{"input",
                                          "sequence_key, number, option, path, bytes, hash"};
 inline constexpr SharedTable kSequenceTraceTable{
     "sequence_trace",
-    "sequence_key, origin_stamp, origin_x, origin_y, origin_z, reference, keyframes, closures"};
+    "sequence_key, origin_stamp, origin_x, origin_y, origin_z, reference, keyframes, closures, "
+    "ledger"};
 
 }  // namespace loopbench::harness

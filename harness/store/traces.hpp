@@ -117,6 +117,7 @@ inline std::optional<SequenceTrace> Traces::sequence(std::int64_t position) {
   out.reference = from_blob<TracePose>(row.view());
   out.keyframes = from_blob<TracePose>(row.view());
   out.closures = from_blob<TraceClosure>(row.view());
+  out.ledger = row.text();
   return out;
 }
 

@@ -1,7 +1,11 @@
-/// The metric `closure_prediction` of methods that run again, against the closed form.
+/// The metric `closure_prediction` of methods that run again, against the closed form; the ledger
+/// that a report shows.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "harness/config/read_sweep.hpp"
+#include "harness/model/loops.hpp"
 #include "harness/run/run_cell.hpp"
 #include "methods/correctors/closure_ledger.hpp"
 #include "tests/support/rounds.hpp"
@@ -37,6 +41,40 @@ TEST(ClosurePrediction, OrdersMethodsAsTheTruthDoes) {
   const double dual = predicted(problem, "dual").rmse;
   EXPECT_GT(dual, 2.0);
   EXPECT_LT(predicted(problem, "pose_graph_pcm").rmse, 0.6 * dual);
+}
+
+TEST(StoredLedger, HasTheSentenceAndARowForEachClosure) {
+  Problem problem = test::rounds(1);
+  problem.closures[2].from_from_to.translation += Vector3(8.0, 0.0, 0.0);
+  std::istringstream lines(stored_ledger(problem));
+  std::string sentence, header, first;
+  std::getline(lines, sentence);
+  std::getline(lines, header);
+  std::getline(lines, first);
+  const std::string name = closure_name(problem, 2);
+  EXPECT_TRUE(sentence.starts_with("Closures contradict each other: most suspicious is " + name))
+      << sentence;
+  EXPECT_TRUE(header.starts_with("from,to,place,loop_m,odometry_m,")) << header;
+  EXPECT_TRUE(first.ends_with(",2,suspicious")) << first;
+  EXPECT_EQ(std::count(std::istreambuf_iterator<char>(lines), {}, '\n'), 4);  // of five closures
+}
+
+TEST(StoredLedger, StatesWhyThereIsNone) {
+  Problem problem = test::rounds(1);
+  problem.closures[0].scale = 1.1;
+  EXPECT_EQ(stored_ledger(problem), "edges change the scale, which the ledger does not estimate");
+  problem.closures.resize(201, problem.closures[1]);
+  EXPECT_EQ(stored_ledger(problem),
+            "Not computed for more than 200 closures (here 201): see loopbench loops");
+  problem.closures.clear();
+  EXPECT_EQ(stored_ledger(problem), "");
+}
+
+TEST(PlainNumber, HasNoExponent) {
+  EXPECT_EQ(plain_number(2466.1), "2466");
+  EXPECT_EQ(plain_number(12.345), "12.3");
+  EXPECT_EQ(plain_number(1.2345), "1.23");
+  EXPECT_EQ(plain_number(1e-6), "0.000");
 }
 
 }  // namespace

@@ -190,7 +190,7 @@ TEST_F(StoreTest, AFileWithoutTablesIsBegunAnew) {
 TEST_F(StoreTest, ASchemaOfAnotherVersionIsRefused) {
   run(kUsual);
   Database(file_, Database::Mode::read).execute("PRAGMA user_version = 2");
-  expect_refused("schema 2, expected 16");
+  expect_refused("schema 2, expected 17");
 }
 
 TEST_F(StoreTest, TracesTellWhereItWasAndHowFarOff) {

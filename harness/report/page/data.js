@@ -43,12 +43,12 @@
     const packed = raw.traces.sequences[s];
     return packed && { ...path(packed), runs: packed.runs };
   });
-  // {t, x, y, z, s, closures} of a sequence's reference, with the closures of the selected run;
-  // or null.
+  // {t, x, y, z, s, closures} of a sequence's reference, with the closures of the selected run, their ledger
+  // (text) and the keyframes before correction; or null.
   R.reference = (s) => {
     const found = reference(s);
     const run = found && (found.runs[R.state.repeat] || Object.values(found.runs)[0]);
-    return found && { ...found, closures: run.closures, allClosures: run.all };
+    return found && { ...found, closures: run.closures, allClosures: run.all, ledger: run.ledger || "", keyframes: run.keyframes && path(run.keyframes) };
   };
   const grid = cached((g) => path(raw.traces.grids[g]));
 

@@ -10,7 +10,7 @@ for (const id of ["controls", "map", "space", "before", "after", "along-x", "alo
 const count = (what) => document.querySelectorAll(what).length;
 if (count("#map path.curve") < 2) said.push("no curves on the map");
 if (count("#boxes circle") < 12) said.push("runs are missing");
-if (count("script") !== 17 || count("b[onclick], main i") > 0) said.push("a name became markup");
+if (count("script") !== 18 || count("b[onclick], main i") > 0) said.push("a name became markup");
 const change = (element, value) => {
   element.value = value;
   element.dispatchEvent(new Event("change"));

@@ -30,6 +30,11 @@ for (const figure of document.querySelectorAll("#sweep-figures figure")) {
 }
 if (document.querySelectorAll("#sweep-figures rect[style*=fill]").length !== 4) said.push("no heat map");
 if (document.querySelectorAll("#sweep-figures path.curve").length !== 1) said.push("no curve");
+if (document.querySelectorAll("#closures-map .loop").length < 1) said.push("no closures on their map");
+const ledger = [...document.querySelectorAll("#closures-rows tbody tr")].map((row) => row.cells[3].textContent);
+if (ledger.length < 1 || ledger.some((loop) => !/^[0-9.]+$/.test(loop))) said.push("lengths of loops: " + ledger);
+const sentence = document.getElementById("closures-verdict").textContent;
+if (!/places|closures? at/.test(sentence) || /undefined/.test(sentence)) said.push("verdict: " + sentence);
 const dark = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
 const option = document.querySelector("#controls select").selectedOptions[0].textContent;
 document.title = `${wide} ${dark} ${option}: ` + (said.join("; ") || "well");

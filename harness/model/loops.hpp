@@ -1,0 +1,56 @@
+/// What the loop closures of one trajectory or pose graph state about each other, in words.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "datasets/core/problem.hpp"
+#include "methods/correctors/closure_ledger.hpp"
+
+namespace loopbench::harness {
+
+struct LoopsResult {
+  std::string estimate;
+  Problem problem;
+  methods::ClosureLedger ledger;
+  /// Robust methods that ran, and the closures that each rejects, as indices in the problem.
+  std::map<std::string, std::vector<std::size_t>> rejected = {};
+  bool is_kept = false;  ///< the closures are those that a robust method kept
+};
+
+/// The stamp without the digits below a nanosecond that arithmetic has left: 184.7, not
+/// 184.70000000000002.
+double shown_stamp(double stamp);
+
+/// "145 -> 1590": the keyframes of a closure, the earlier one first.
+std::string closure_name(const Problem& problem, std::size_t closure);
+
+/// Three digits for people, without an exponent: 2470, 12.4, 0.031.
+std::string plain_number(double value);
+
+/// One to three sentences: whether the correction probably helps, or which closure contradicts the
+/// others (at fewer than three places only that something does), or why nothing can be stated and
+/// what would change that.
+std::string verdict_text(const LoopsResult& result);
+
+/// What the others state about the closure at a rank of `suspects`: "confirmed", "doubtful", or
+/// "suspicious".
+const char* judgement(const LoopsResult& result, std::size_t rank);
+
+/// Names and values of the columns for the closure at a rank of `suspects`: lengths in metres,
+/// angles in degrees, `sd` in standard deviations, names of keyframes as in the file, `closure` the
+/// index in the problem; empty: no prediction. Numbers have `digits` digits; 0: all.
+std::vector<std::pair<std::string, std::string>> ledger_row(const LoopsResult& result,
+                                                            std::size_t rank,
+                                                            int digits = 0);
+
+/// One line per closure in the order of `suspects`, with a header.
+std::string csv(const LoopsResult& result, int digits = 0);
+
+/// For the report of a sweep: the sentence, then the lines of csv(); only the reason if there is no
+/// ledger, or if it would take more than about a second; empty without closures.
+std::string stored_ledger(const Problem& problem);
+
+}  // namespace loopbench::harness
