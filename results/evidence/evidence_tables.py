@@ -178,7 +178,7 @@ def graph_parts(store):
                       for name, graph in graphs.items()])
     same = sum(abs(ratio - 1) <= 1e-6 for ratio in ratios.values())
     text = (f"{len(graphs)} graphs with up to {max(graph['edges'] for graph in graphs.values())} edges: on"
-            f" {sum(proved.values())} the nearest minimum of the isotropic cost is proved to be the global one. From odometry"
+            f" {sum(proved.values())} the nearest minimum of the isotropic cost is proved to be the global one.\nFrom odometry"
             f" the cost is that of the chordal start on {same}; elsewhere it is {min(ratios.values()):.4g} to"
             f" {max(ratios.values()):.4g} times as large.\n")
     return {"graphs": text}, {"graphs": complete}
