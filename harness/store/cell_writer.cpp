@@ -25,21 +25,13 @@ std::string text_of(const Worker& worker) {
          (worker.stated ? kStatedTimes : "");
 }
 
-/// "?FROM,?FROM+1,...,?TO".
-std::string parameters(std::ptrdiff_t from, std::ptrdiff_t to) {
-  std::string out;
-  for (std::ptrdiff_t i = from; i <= to; ++i) out += (i > from ? ",?" : "?") + std::to_string(i);
-  return out;
-}
-
-std::ptrdiff_t count_columns(std::string_view columns) {
-  return std::ranges::count(columns, ',') + 1;
-}
-
-/// Inserts the id of a cell and the columns of the table, in that order.
-Statement insert_into(Database& database, const CellTable& table) {
-  return database.prepare(std::string("INSERT INTO ") + table.name + " (cell, " + table.columns +
-                          ") VALUES (" + parameters(1, count_columns(table.columns) + 1) + ")");
+/// Inserts all columns of the table.
+Statement insert_into(Database& database,
+                      const std::string& table,
+                      const std::string& verb = "INSERT") {
+  std::string values = "?";
+  for (const char c : database.columns_of(table)) values += c == ',' ? ",?" : "";
+  return database.prepare(verb + " INTO " + table + " VALUES (" + values + ")");
 }
 
 }  // namespace
@@ -48,17 +40,15 @@ CellWriter::CellWriter(Database& database, std::string provenance_key)
     : database_(database),
       provenance_key_(std::move(provenance_key)),
       replaced_(database.prepare("SELECT id FROM cell WHERE position = ?")),
-      cell_(database.prepare("INSERT INTO cell VALUES (NULL," +
-                             parameters(1, count_columns(kCellColumns) - 1) + ",0,0)")),  // hashes
-      definition_(database.prepare(
-          "INSERT OR REPLACE INTO score_definition VALUES (?,?,?,?,?,?,?,?,?,?,?)")),
+      cell_(insert_into(database, "cell")),
+      definition_(insert_into(database, "score_definition", "INSERT OR REPLACE")),
       score_(insert_into(database, kScoreTable)),
-      phase_(insert_into(database, kPhaseTable)),
-      count_(insert_into(database, kCountTable)),
-      note_(insert_into(database, kNoteTable)),
-      section_(insert_into(database, kSectionTable)),
-      trace_(insert_into(database, kTraceTable)),
-      pose_value_(insert_into(database, kPoseValueTable)) {}
+      phase_(insert_into(database, "phase")),
+      count_(insert_into(database, "count")),
+      note_(insert_into(database, "note")),
+      section_(insert_into(database, "section")),
+      trace_(insert_into(database, "trace")),
+      pose_value_(insert_into(database, "pose_value")) {}
 
 void CellWriter::write(const CellResult& result, CellKeys& keys) {
   try {
@@ -125,7 +115,7 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
     cpu = metrics::median(result.cpu_seconds);
     least_cpu = std::ranges::min(result.cpu_seconds);
   }
-  cell_.bind(cell.index, keys.key(cell, metadata.inputs), keys.build());
+  cell_.bind(nullptr, cell.index, keys.key(cell, metadata.inputs), keys.build());
   cell_.bind(keys.sequence_key(cell, metadata.inputs), provenance_key_);
   cell_.bind(dataset.label, cell.repeat, method.label);
   cell_.bind(option_text({dataset.dataset}), option_text(method.stages));
@@ -137,7 +127,7 @@ std::int64_t CellWriter::write_cell(const CellResult& result, CellKeys& keys) {
   cell_.bind(result.peak_memory, result.added_memory);
   cell_.bind(to_text(result.status), result.signal, result.why);
   cell_.bind(std::ranges::count_if(result.scores, is_failure, &ScoreResult::status));
-  cell_.bind(result.scores.size()).run();
+  cell_.bind(result.scores.size(), 0, 0).run();  // see set_hashes()
   return database_.last_row();
 }
 
@@ -177,13 +167,13 @@ void CellWriter::write_metadata(const Cell& cell,
   const std::string sequence_key = keys.sequence_key(cell, metadata.inputs);
   if (!sequences_.insert(sequence_key).second) return;
   database_.prepare("DELETE FROM input WHERE sequence_key = ?").bind(sequence_key).run();
-  Statement input = database_.prepare("INSERT INTO input VALUES (?,?,?,?,?,?,?)");
+  Statement input = insert_into(database_, "input");
   std::int64_t number = 0;
   for (const InputFile& file : metadata.inputs) {
     input.bind_hashed(sequence_key, number++, file.option, file.path, file.bytes, file.hash).run();
   }
   const SequenceSize& size = metadata.size;
-  database_.prepare("INSERT OR REPLACE INTO sequence VALUES (?,?,?,?,?,?,?,?,?,?)")
+  insert_into(database_, "sequence", "INSERT OR REPLACE")
       .bind(sequence_key, keys.configuration_hash(cell), keys.dataset_text(cell))
       .bind(size.keyframes, size.odometry, size.closures, size.frames, size.reference)
       .bind(metadata.content, metadata.group)
@@ -191,7 +181,7 @@ void CellWriter::write_metadata(const Cell& cell,
   const SequenceTrace& trace = metadata.trace;
   if (trace.keyframes.empty()) return;
   const TraceOrigin& origin = trace.origin;
-  database_.prepare("INSERT OR REPLACE INTO sequence_trace VALUES (?,?,?,?,?,?,?,?,?,?)")
+  insert_into(database_, "sequence_trace", "INSERT OR REPLACE")
       .bind_hashed(sequence_key,
                    origin.stamp,
                    origin.x,

@@ -208,8 +208,8 @@ class Merge {
                       " ORDER BY id");
     for (const CellTable& table : kCellTables) {
       const std::string name = table.name;
-      database_.execute("INSERT INTO main." + name + " (cell, " + table.columns + ") SELECT " +
-                        offset + "cell, " + table.columns + " FROM source." + name +
+      database_.execute("INSERT INTO main." + name + " SELECT " + offset +
+                        database_.columns_of(name) + " FROM source." + name +
                         " WHERE cell IN (SELECT id FROM added) ORDER BY cell");
     }
     Statement moved =

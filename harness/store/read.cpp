@@ -45,24 +45,23 @@ std::vector<CellRow> read_cells(const std::filesystem::path& file) {
   std::vector<StoredCell> cells = read_intact_cells(database);
   std::unordered_map<std::int64_t, CellRow*> by_id;
   for (StoredCell& cell : cells) by_id.emplace(cell.id, &cell);
-  const auto add = [&](const CellTable& table, const auto& read) {
-    Statement row = database.prepare(std::string("SELECT cell, ") + table.columns + " FROM " +
-                                     table.name + " ORDER BY cell, number");
+  const auto add = [&](const std::string& table, const auto& read) {
+    Statement row = database.prepare("SELECT * FROM " + table + " ORDER BY cell, number");
     while (row.step()) {
       const auto found = by_id.find(row.integer());
       row.integer();  // number
       if (found != by_id.end()) read(*found->second, row);
     }
   };
-  add(kPhaseTable, [](CellRow& cell, Statement& row) {
+  add("phase", [](CellRow& cell, Statement& row) {
     auto& [name, seconds] = cell.phases.emplace_back();
     row.read(name, seconds);
   });
-  add(kCountTable, [](CellRow& cell, Statement& row) {
+  add("count", [](CellRow& cell, Statement& row) {
     auto& [name, value] = cell.counts.emplace_back();
     row.read(name, value);
   });
-  add(kNoteTable, [](CellRow& cell, Statement& row) { row.read(cell.notes.emplace_back()); });
+  add("note", [](CellRow& cell, Statement& row) { row.read(cell.notes.emplace_back()); });
   return {std::move_iterator(cells.begin()), std::move_iterator(cells.end())};
 }
 

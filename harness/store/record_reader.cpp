@@ -24,14 +24,13 @@ Shared<CellRow> shared_cell(const SharedCells& cells, const StoredCell& cell) {
 
 std::map<std::int64_t, Shared<ScoreKind>> read_definitions(Database& database) {
   std::map<std::int64_t, Shared<ScoreKind>> out;
-  Statement row =
-      database.prepare(std::string("SELECT ") + kDefinitionColumns + ", id FROM score_definition");
+  Statement row = database.prepare("SELECT * FROM score_definition");
   while (row.step()) {
     ScoreKind k;
     std::string better;
-    std::int64_t id = 0;
+    const std::int64_t id = row.integer();
     for (const KindField& each : kKindFields) row.read(k.*each.text);
-    row.read(better, k.target, id);
+    row.read(better, k.target);
     k.better = from_text<metrics::Better>(better).value_or(metrics::Better::neither);
     out.emplace(id, k);
   }
@@ -200,9 +199,8 @@ void RecordReader::add_cell(const StoredCell& cell, std::vector<Record>& out) {
 void RecordReader::for_each_chunk(const std::function<bool(std::vector<Record>&)>& visit) {
   // CROSS JOIN: in the order of the cells, by their index.
   scores_.emplace(database_.prepare(
-      std::string("SELECT score_value.cell, ") + kScoreTable.columns +
-      " FROM (SELECT id, position FROM cell WHERE position IS NOT NULL) CROSS JOIN score_value ON "
-      "score_value.cell = id" +
+      "SELECT score_value.* FROM (SELECT id, position FROM cell WHERE position IS NOT NULL) CROSS "
+      "JOIN score_value ON score_value.cell = id" +
       kept_ + " ORDER BY position, id, number"));
   step_scores();
   const std::vector<bool> is_end = ends_of_chunks(*cells_);

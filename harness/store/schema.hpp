@@ -170,23 +170,19 @@ inline const std::string kSchema = R"sql(
 
 // Hashes do not cover the ids of cells, so that another store can number its cells differently.
 
-/// A table with rows of cells: column `cell`, and these columns.
+/// A table with rows of cells, with the column `cell` first.
 struct CellTable {
   const char* name;
-  std::string columns;
   bool is_trace = false;  ///< covered by `trace_hash`, otherwise by `hash`
 };
-inline const CellTable kScoreTable{"score_value",
-                                   "number, definition, count, " + statistic_columns("", ",") +
-                                       " pairs, possible, span, status, why"};
-inline const CellTable kPhaseTable{"phase", "number, name, seconds"};
-inline const CellTable kCountTable{"count", "number, name, value"};
-inline const CellTable kNoteTable{"note", "number, text"};
-inline const CellTable kSectionTable{"section", "number, kind, begin_stamp, end_stamp, what"};
-inline const CellTable kTraceTable{"trace", "times, samples", true};
-inline const CellTable kPoseValueTable{"pose_value", "number, name, unit, value", true};
-inline const CellTable kCellTables[] = {
-    kScoreTable, kPhaseTable, kCountTable, kNoteTable, kSectionTable, kTraceTable, kPoseValueTable};
+inline constexpr const char* kScoreTable = "score_value";
+inline constexpr CellTable kCellTables[] = {{kScoreTable},
+                                            {"phase"},
+                                            {"count"},
+                                            {"note"},
+                                            {"section"},
+                                            {"trace", true},
+                                            {"pose_value", true}};
 
 /// Columns of the table cell between `id` and `hash`.
 inline constexpr const char* kCellColumns =
@@ -202,21 +198,14 @@ inline constexpr const char* kSequenceColumns =
     "sequence.sequence_key, configuration_hash, options, keyframes, odometry, sequence.closures, "
     "frames, reference, content, group_name";
 
-inline constexpr const char* kDefinitionColumns =
-    "protocol, protocol_version, times, metric, label, relation, axis, unit, better, target";
-
-/// A table with rows that cells share: its key and other columns, and `row_hash`.
+/// A table with rows that cells share, with its key as first column and `row_hash` as last.
 struct SharedTable {
   const char* name;
-  const char* columns;
+  const char* key;
 };
-inline constexpr SharedTable kRunTable{"run", "key, value"};
-inline constexpr SharedTable kProvenanceTable{"provenance", "provenance_key, key, value"};
-inline constexpr SharedTable kInputTable{"input",
-                                         "sequence_key, number, option, path, bytes, hash"};
-inline constexpr SharedTable kSequenceTraceTable{
-    "sequence_trace",
-    "sequence_key, origin_stamp, origin_x, origin_y, origin_z, reference, keyframes, closures, "
-    "ledger"};
+inline constexpr SharedTable kRunTable{"run", "key"};
+inline constexpr SharedTable kProvenanceTable{"provenance", "provenance_key"};
+inline constexpr SharedTable kInputTable{"input", "sequence_key"};
+inline constexpr SharedTable kSequenceTraceTable{"sequence_trace", "sequence_key"};
 
 }  // namespace loopbench::harness

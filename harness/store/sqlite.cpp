@@ -2,6 +2,8 @@
 
 #include <sqlite3.h>
 
+#include <exception>
+
 #include "datasets/core/error.hpp"
 
 namespace loopbench::harness {
@@ -26,7 +28,32 @@ void add_value(RowHash& row, sqlite3_value* value) {
   }
 }
 
+/// Hash of `value(i)` for the columns from `first` up to `end`.
+template <class Value>
+std::uint64_t hash_of_columns(std::uint64_t before, int first, int end, const Value& value) {
+  thread_local RowHash row;  // keeps its memory
+  row.clear();
+  for (int i = first; i < end; ++i) add_value(row, value(i));
+  return row.after(before);
+}
+
+/// Calls the function that a query passes to SQLite.
+void visit_row(sqlite3_context* context, int count, sqlite3_value** values) {
+  using Visit = std::function<void(const RowValues&)>;
+  try {
+    (*static_cast<const Visit*>(sqlite3_user_data(context)))({values, count});
+  } catch (const std::exception& error) {  // may not pass through SQLite
+    sqlite3_result_error(context, error.what(), -1);
+  }
+}
+
 }  // namespace
+
+std::int64_t RowValues::integer(int column) const { return sqlite3_value_int64(values[column]); }
+
+std::uint64_t RowValues::hashed(std::uint64_t before, int first) const {
+  return hash_of_columns(before, first, count, [&](int i) { return values[i]; });
+}
 
 Database::Database(const std::filesystem::path& file, Mode mode) : file_(file.string()) {
   sqlite3* handle = nullptr;
@@ -73,6 +100,30 @@ Statement Database::prepare(const std::string& sql) {
     fail("rejected a statement");
   }
   return {*this, statement};
+}
+
+std::string Database::columns_of(const std::string& table) {
+  Statement row =
+      prepare("SELECT group_concat(name, ', ') FROM pragma_table_info('" + table + "')");
+  return row.step() ? row.text() : "";
+}
+
+void Database::for_each_row(const std::string& table,
+                            const std::function<void(const RowValues&)>& visit) {
+  const std::string columns = columns_of(table);
+  void* const passed = const_cast<std::function<void(const RowValues&)>*>(&visit);
+  const int code = sqlite3_create_function_v2(handle_.get(),
+                                              "visit_row",
+                                              -1,
+                                              SQLITE_UTF8 | SQLITE_DIRECTONLY,
+                                              passed,
+                                              visit_row,
+                                              nullptr,
+                                              nullptr,
+                                              nullptr);
+  if (code != SQLITE_OK) fail("cannot be read");
+  // The function returns NULL, so that no row is selected.
+  prepare("SELECT 1 FROM " + table + " WHERE visit_row(" + columns + ")").run();
 }
 
 void Database::fail(const std::string& doing) const {
@@ -142,12 +193,10 @@ std::string_view Statement::view() {
   return bytes_of(sqlite3_column_value(handle_.get(), column_++));
 }
 
-std::uint64_t Statement::hashed(std::uint64_t before, int first) const {
-  thread_local RowHash row;  // keeps its memory
-  row.clear();
-  const int count = sqlite3_column_count(handle_.get());
-  for (int i = first; i < count; ++i) add_value(row, sqlite3_column_value(handle_.get(), i));
-  return row.after(before);
+std::uint64_t Statement::hashed(std::uint64_t before, int first, int without) const {
+  const int end = sqlite3_column_count(handle_.get()) - without;
+  return hash_of_columns(
+      before, first, end, [&](int i) { return sqlite3_column_value(handle_.get(), i); });
 }
 
 }  // namespace loopbench::harness

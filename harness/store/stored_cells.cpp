@@ -28,22 +28,19 @@ void add_rows(Database& database,
               std::vector<StoredCell>& cells,
               bool of_traces,
               std::vector<std::uint64_t>& hashes) {
-  const std::set<std::int64_t> definitions = intact_definitions(database);
+  const std::vector<std::int64_t> definitions = intact_definitions(database);
   for (const CellTable& table : kCellTables) {
     if (table.is_trace != of_traces) continue;
-    const bool has_definitions = table.name == std::string_view(kScoreTable.name);
-    Statement row = database.prepare(std::string("SELECT cell, ") + table.columns + " FROM " +
-                                     table.name + " ORDER BY 1, 2");
+    const bool has_definitions = table.name == std::string_view(kScoreTable);
     std::size_t i = 0;
-    while (row.step()) {
-      const std::int64_t id = row.integer();
+    database.for_each_row(table.name, [&](const RowValues& row) {
+      const std::int64_t id = row.integer(0);
       while (i < cells.size() && cells[i].id < id) ++i;
-      if (i == cells.size() || cells[i].id != id) continue;
+      if (i == cells.size() || cells[i].id != id) return;
       hashes[i] = row.hashed(hashes[i], 1);
-      if (!has_definitions) continue;
-      row.integer();  // number
-      cells[i].intact = cells[i].intact && definitions.contains(row.integer());
-    }
+      if (!has_definitions || !cells[i].intact) return;
+      cells[i].intact = std::ranges::binary_search(definitions, row.integer(2));
+    });
   }
 }
 
@@ -51,10 +48,10 @@ void add_rows(Database& database,
 std::uint64_t add_rows(Database& database, std::uint64_t hash, std::int64_t id, bool of_trace) {
   for (const CellTable& table : kCellTables) {
     if (table.is_trace != of_trace) continue;
-    Statement row = database.prepare(std::string("SELECT ") + table.columns + " FROM " +
-                                     table.name + " WHERE cell = ? ORDER BY 1");
+    Statement row = database.prepare(std::string("SELECT * FROM ") + table.name +
+                                     " WHERE cell = ? ORDER BY 1, 2");
     row.bind(id);
-    while (row.step()) hash = row.hashed(hash, 0);
+    while (row.step()) hash = row.hashed(hash, 1);
   }
   return hash;
 }
@@ -170,21 +167,19 @@ void set_hashes(Database& database, std::int64_t id) {
 
 std::set<std::string> damaged_rows(Database& database, const SharedTable& table) {
   std::set<std::string> out;
-  Statement row =
-      database.prepare(std::string("SELECT row_hash, ") + table.columns + " FROM " + table.name);
+  Statement row = database.prepare(std::string("SELECT row_hash, * FROM ") + table.name);
   while (row.step()) {
     std::uint64_t hash = 0;
     row.read(hash);
-    if (row.hashed(0, 1) != hash) out.insert(row.text());
+    if (row.hashed(0, 1, 1) != hash) out.insert(row.text());
   }
   return out;
 }
 
 std::set<std::string> remove_damaged_rows(Database& database, const SharedTable& table) {
-  const std::string columns = table.columns;
   const std::set<std::string> out = damaged_rows(database, table);
-  Statement remove = database.prepare(std::string("DELETE FROM ") + table.name + " WHERE " +
-                                      columns.substr(0, columns.find(',')) + " = ?");
+  Statement remove =
+      database.prepare(std::string("DELETE FROM ") + table.name + " WHERE " + table.key + " = ?");
   for (const std::string& key : out) remove.bind(key).run();
   return out;
 }
@@ -198,13 +193,12 @@ void require_intact_descriptions(Database& database) {
   }
 }
 
-std::set<std::int64_t> intact_definitions(Database& database) {
-  std::set<std::int64_t> out;
-  Statement row =
-      database.prepare(std::string("SELECT id, ") + kDefinitionColumns + " FROM score_definition");
+std::vector<std::int64_t> intact_definitions(Database& database) {
+  std::vector<std::int64_t> out;
+  Statement row = database.prepare("SELECT * FROM score_definition ORDER BY id");
   while (row.step()) {
     const std::int64_t id = row.integer();
-    if (id == definition_id(row.hashed(0, 1))) out.insert(id);
+    if (id == definition_id(row.hashed(0, 1))) out.push_back(id);
   }
   return out;
 }

@@ -67,8 +67,8 @@ std::set<std::string> remove_damaged_rows(Database& database, const SharedTable&
 /// Throws InputError naming the first row of run, provenance or input that has changed.
 void require_intact_descriptions(Database& database);
 
-/// Ids of the definitions of scores that have not changed.
-std::set<std::int64_t> intact_definitions(Database& database);
+/// Ids of the definitions of scores that have not changed, sorted.
+std::vector<std::int64_t> intact_definitions(Database& database);
 
 /// Sets a value of the table run.
 void set_run_value(Database& database, const std::string& key, const std::string& value);

@@ -53,9 +53,9 @@ std::vector<Item> from_blob(std::string_view bytes) {
   return out;
 }
 
-inline std::string trace_query(const CellTable& table) {
-  return std::string("SELECT ") + table.columns + " FROM " + table.name +
-         " WHERE cell = (SELECT id FROM cell WHERE position = ?)";  // in the order of the key
+/// Selects the rows of a cell from a table, in the order of its key.
+inline std::string rows_of_cell(const std::string& table) {
+  return "SELECT * FROM " + table + " WHERE cell = (SELECT id FROM cell WHERE position = ?)";
 }
 
 inline Traces::Traces(const std::filesystem::path& file) : database_(open_store(file)) {
@@ -72,17 +72,18 @@ inline std::optional<CellTrace> Traces::cell(std::int64_t position) {
   if (trace_hash(database_, named.id) != named.trace_hash) {
     throw_damaged(database_.file(), "the trace of " + label_of(named) + " is");
   }
-  Statement row = database_.prepare(trace_query(kTraceTable));
+  Statement row = database_.prepare(rows_of_cell("trace"));
   if (!row.bind(position).step()) return std::nullopt;
   CellTrace out;
+  row.integer();  // cell
   out.times = from_text<metrics::Times>(row.text()).value_or(metrics::Times::dense);
   out.samples = from_blob<TraceSample>(row.view());
-  Statement values = database_.prepare(trace_query(kPoseValueTable));
+  Statement values = database_.prepare(rows_of_cell("pose_value"));
   values.bind(position);
+  std::int64_t cell = 0, number = 0;
   while (values.step()) {
-    values.integer();  // number
     TraceValues& added = out.values.emplace_back();
-    values.read(added.name, added.unit);
+    values.read(cell, number, added.name, added.unit);
     added.values = from_blob<float>(values.view());
   }
   return out;
@@ -90,26 +91,25 @@ inline std::optional<CellTrace> Traces::cell(std::int64_t position) {
 
 inline std::vector<methods::Section> Traces::sections(std::int64_t position) {
   std::vector<methods::Section> out;
-  Statement row = database_.prepare(trace_query(kSectionTable));
+  Statement row = database_.prepare(rows_of_cell("section"));
   row.bind(position);
+  std::int64_t cell = 0, number = 0;
   while (row.step()) {
-    row.integer();  // number
     methods::Section& section = out.emplace_back();
-    row.read(section.kind, section.begin, section.end, section.what);
+    row.read(cell, number, section.kind, section.begin, section.end, section.what);
   }
   return out;
 }
 
 inline std::optional<SequenceTrace> Traces::sequence(std::int64_t position) {
   Statement row = database_.prepare(
-      std::string("SELECT row_hash, ") + kSequenceTraceTable.columns +
-      " FROM sequence_trace WHERE sequence_key = (SELECT sequence_key FROM cell WHERE "
-      "position = ?)");
+      "SELECT row_hash, * FROM sequence_trace WHERE sequence_key = (SELECT sequence_key FROM cell "
+      "WHERE position = ?)");
   if (!row.bind(position).step()) return std::nullopt;
   std::uint64_t hash = 0;
   row.read(hash);
   const std::string key = row.text();
-  if (row.hashed(0, 1) != hash) {
+  if (row.hashed(0, 1, 1) != hash) {
     throw_damaged(database_.file(), "row " + key + " of its table sequence_trace is");
   }
   SequenceTrace out;
