@@ -81,10 +81,23 @@ inline std::optional<MotionPlane> motion_plane(const Trajectory& poses) {
 }
 
 /// Returns the plane whose normal is the axis z, y or x of the body that is the most constant in
-/// the world; `in_body`: or this one. Not for an empty list. O(n).
+/// the world; `in_body`: or this one. Of positions without rotation: the axis of the world along
+/// which they vary least. Not for an empty list. O(n).
 inline MotionPlane nearest_plane(const Trajectory& poses,
                                  const std::optional<Vector3>& in_body = {}) {
   MotionPlane out;
+  if (lacks_rotations(poses)) {
+    Vector3 low = poses.front().world_from_body.translation, high = low;
+    for (const StampedPose& each : poses) {
+      low = low.cwiseMin(each.world_from_body.translation);
+      high = high.cwiseMax(each.world_from_body.translation);
+    }
+    int axis = 2;
+    for (const int other : {1, 0}) {
+      if (high[other] - low[other] < high[axis] - low[axis]) axis = other;
+    }
+    return {Vector3::Unit(axis), Vector3::Unit(axis)};
+  }
   double longest = -1.0;
   for (const int axis : {2, 1, 0}) {
     const Vector3 normal = in_body.value_or(Vector3::Unit(axis));

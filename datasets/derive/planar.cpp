@@ -52,7 +52,7 @@ PlanarChoice moved_to_planes(const PlanarParts& parts) {
   Moved move;
   for (const auto& [name, poses] : parts.trajectories) {
     if (poses->empty()) continue;
-    const MotionPlane own = lacks_rotations(*poses) ? plane : nearest_plane(*poses, plane.in_body);
+    const MotionPlane own = nearest_plane(*poses, plane.in_body);
     const Vector3 origin = poses->front().world_from_body.translation;
     for (auto& [stamp, pose] : *poses) move(pose, own, origin);
   }

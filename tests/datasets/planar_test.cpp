@@ -170,6 +170,19 @@ TEST(PlanarDataset, IsWhatTheOptionSays) {
             "by up to 0.1 m and 0 deg");
 }
 
+TEST(PlanarDataset, MovesPositionsToAPlaneOfTheirOwnWorld) {
+  Trajectory camera = seen({kCamera.conjugate(), {}}, kCamera), positions = drive();
+  camera[7].world_from_body.translation.y() += 0.02;
+  for (auto& [stamp, pose] : positions) pose.rotation = no_rotation();
+  positions[9].world_from_body.translation.z() = 0.02;
+  const PlanarParts parts{{{"the estimate", &camera}, {"the reference", &positions}}, {}};
+  EXPECT_TRUE(choose_planar(Planar::yes, parts).planar);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vector3 moved = positions[i].world_from_body.translation;
+    EXPECT_NEAR((moved - drive()[i].world_from_body.translation).norm(), 0.0, 1e-12) << i;
+  }
+}
+
 TEST(PlanarDataset, TurnsTheBodyIfItsNormalIsNotZ) {
   const Trajectory camera = seen({kCamera.conjugate(), {1.0, 2.0, 3.0}}, kCamera);
   Files files(camera, camera);
