@@ -230,6 +230,9 @@ Sequence load_pose_graph(const PoseGraphOptions& o, const DataRoot& root) {
         read_truth(sequence.provenance.reference, vertex_stamps(graph, o.period), o);
   }
 
+  require_option(!graph.similarity || o.planar != Planar::yes,
+                 "planar",
+                 "yes has no effect on edges that change the scale, expected auto or no");
   if (!graph.planar && !graph.similarity) make_planar(o.planar, sequence);
   hold_fixed(graph, sequence);
   if (!graph.priors.empty()) {

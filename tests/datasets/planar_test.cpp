@@ -242,5 +242,14 @@ TEST(PlanarDataset, ReadsSe3LinesOfAPlanarGraph) {
   EXPECT_FALSE(load().problem.planar);
 }
 
+TEST(PlanarDataset, RejectsAPlaneForSimilarities) {
+  const TemporaryFolder folder;
+  const PoseGraph graph{
+      .ids = {0, 1}, .vertices = {{}, {}}, .edges = {{0, 1, {}}}, .similarity = true};
+  write_g2o(folder.path() / "scaled.g2o", graph);
+  const Params options{{"path", "scaled.g2o"}, {"planar", "yes"}};
+  EXPECT_THROW(load_dataset("pose_graph", options, {{folder.path()}}), OptionError);
+}
+
 }  // namespace
 }  // namespace loopbench::planar_test
