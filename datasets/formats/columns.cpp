@@ -56,16 +56,18 @@ std::string columns_text(std::size_t count) {
 
 namespace {
 
-/// Numbers as "0,5" between spaces, and none with a point.
+/// Numbers as "0,5" between spaces, with one comma at most, and none with a point.
 bool has_decimal_commas(std::string_view text) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  const std::size_t first = text.find(',');
-  if (first == text.npos || text.find(' ') == text.npos || text.find('.') != text.npos)
+  if (text.find(',') == text.npos || text.find(' ') == text.npos || text.find('.') != text.npos)
     return false;
-  for (std::size_t i = first; i < text.size(); ++i) {
+  bool has_comma = false;  // in this number
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == ' ') has_comma = false;
+    if (text[i] != ',') continue;
     const bool is_inside = i > 0 && i + 1 < text.size();
-    if (text[i] == ',' && !(is_inside && is_digit(text[i - 1]) && is_digit(text[i + 1])))
-      return false;
+    if (has_comma || !(is_inside && is_digit(text[i - 1]) && is_digit(text[i + 1]))) return false;
+    has_comma = true;
   }
   return true;
 }

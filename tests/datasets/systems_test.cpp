@@ -71,6 +71,8 @@ TEST(Systems, DecimalCommasAreNamed) {
               std::string::npos)
         << line;
   }
+  const auto dated = scratch.file("dated.csv", "2024-05-01 10:00:00,1,2,3,0,0,0,1\n");
+  EXPECT_EQ(refusal([&] { read_trajectory(dated); }).find("decimal commas"), std::string::npos);
 }
 
 TEST(Systems, StampedMatricesNameRowsThatAreWrong) {
