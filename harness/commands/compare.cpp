@@ -58,16 +58,9 @@ std::string comparisons_text(const std::vector<Comparison>& comparisons,
                              const std::string& store) {
   if (output.format() == ExportFormat::csv) return csv(comparisons);
   if (output.format() == ExportFormat::json) return json(comparisons);
-  std::vector<Table> tables;
-  for (const Comparison& comparison : comparisons) {
-    Table verdict = verdict_table(verdict_of(comparison, comparisons));
-    Table methods = table_view(comparison);
-    if (verdict.headings.empty() || output.format() == ExportFormat::latex) {
-      methods.notes.insert(methods.notes.begin(), verdict.title);
-    } else {
-      tables.push_back(std::move(verdict));
-    }
-    tables.push_back(std::move(methods));
+  std::vector<Table> tables = answer(comparisons);
+  if (output.format() == ExportFormat::latex) {
+    std::erase_if(tables, [](const Table& table) { return table.headings.empty(); });
   }
   return text(tables, output, store);
 }

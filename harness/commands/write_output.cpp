@@ -64,7 +64,8 @@ void declare(CLI::App& command, OutputOptions& output) {
 std::string text(std::vector<Table> tables,
                  const OutputOptions& output,
                  const std::filesystem::path& store) {
-  const TerminalStyle style = is_printed(output) ? standard_output_style() : TerminalStyle{};
+  TerminalStyle style = is_printed(output) ? standard_output_style() : TerminalStyle{};
+  if (style.width == 0) style.width = 100;
   const ExportFormat format = output.format();
   const std::string alignment =
       format == ExportFormat::latex ? alignments(read_store_provenance(store).run["protocol"]) : "";

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
-#include <string_view>
+#include <cstdlib>
+#include <optional>
+#include <regex>
 
 #include "datasets/core/error.hpp"
 #include "harness/base/suggest.hpp"
@@ -23,40 +22,6 @@ struct Assertion {
   std::optional<double> percent;
   std::string baseline;
 };
-
-/// Words between the two methods, around a percentage if there is one.
-struct Form {
-  std::string_view before;
-  std::string_view after;  ///< empty: no percentage
-  Assertion::Relation relation;
-};
-
-constexpr std::array kForms{
-    Form{" is below ", "", Assertion::Relation::below},
-    Form{" is at least ", " % below ", Assertion::Relation::below},
-    Form{" is not above ", "", Assertion::Relation::not_above},
-    Form{" is at most ", " % above ", Assertion::Relation::not_above},
-    Form{" is not shown to differ from ", "", Assertion::Relation::not_different}};
-
-std::optional<Assertion> assertion_of(const std::string& text, const Form& form) {
-  const std::size_t at = text.find(form.before);
-  if (at == std::string::npos) return std::nullopt;
-  Assertion out{text.substr(0, at), form.relation, {}, text.substr(at + form.before.size())};
-  if (!form.after.empty()) {
-    const char* const begin = out.baseline.data();
-    double percent = 0.0;
-    const auto [end, error] = std::from_chars(begin, begin + out.baseline.size(), percent);
-    const auto rest = static_cast<std::size_t>(end - begin);
-    const bool is_number = error == std::errc() && std::isfinite(percent) && percent >= 0.0;
-    if (!is_number || out.baseline.compare(rest, form.after.size(), form.after) != 0) {
-      return std::nullopt;
-    }
-    out.percent = percent;
-    out.baseline.erase(0, rest + form.after.size());
-  }
-  const bool has_methods = !out.method.empty() && !out.baseline.empty();
-  return has_methods ? std::optional(out) : std::nullopt;
-}
 
 /// Names of the methods of a comparison, also of those without a value.
 std::vector<std::string> method_names(const Comparison& c) {
@@ -88,14 +53,27 @@ bool is_shown(const Assertion& a, const Comparison& c, const MethodVerdict& m) {
   return !is_lower && !is_higher;
 }
 
+/// Names can contain " is ": the first form counts.
 Assertion parse_assertion(const std::string& text) {
-  for (const Form& form : kForms) {
-    if (const auto found = assertion_of(text, form)) return *found;
+  static const std::regex kForms(
+      R"((.+?) is (below|not above|not shown to differ from|at least (\d*\.?\d+) % below|)"
+      R"(at most (\d*\.?\d+) % above) (.+))");
+  std::smatch found;
+  if (!std::regex_match(text, found, kForms)) {
+    throw InputError(
+        "--assert: expected 'A is below B', 'A is at least X % below B', 'A is not above B', "
+        "'A is at most X % above B' or 'A is not shown to differ from B', found '" +
+        text + "'");
   }
-  throw InputError(
-      "--assert: expected 'A is below B', 'A is at least X % below B', 'A is not above B', "
-      "'A is at most X % above B' or 'A is not shown to differ from B', found '" +
-      text + "'");
+  const std::string words = found[2];
+  const std::string percent = found[3].str() + found[4].str();
+  Assertion out{.method = found[1], .percent = {}, .baseline = found[5]};
+  if (!words.ends_with("below")) {
+    out.relation = words.ends_with("above") ? Assertion::Relation::not_above
+                                            : Assertion::Relation::not_different;
+  }
+  if (!percent.empty()) out.percent = std::strtod(percent.c_str(), nullptr);
+  return out;
 }
 
 /// Why the comparison, with the baseline of the assertion, does not show it; empty if it does.
@@ -108,12 +86,11 @@ std::string why_not_shown(const Assertion& a, const Comparison& c) {
                     c.kind.metric_label(),
                     c.kind.target));
   }
-  const auto m = std::ranges::find(c.methods, a.method, &MethodVerdict::method);
   if (c.methods.empty()) return sentence(c);
-  if (m == c.methods.end()) return a.method + " has no value on any run";
+  const MethodVerdict* const m = c.find(a.method);
+  if (m == nullptr) return a.method + " has no value on any run";
   if (m->wins + m->losses + m->ties == 0) return "the methods have no run in common";
-  const auto partial = methods_with_less_coverage(c);
-  if (is_order && std::ranges::count(partial, a.method) > 0) return coverage_text(c, {a.method});
+  if (is_order && m->covers_less) return coverage_text(c, false);
   if (is_shown(a, c, *m)) return "";
   std::string out = "measured " + result_text(c, *m) + "; ";
   out += m->p ? "over " + unit_text(c) : cannot_show_text(c);

@@ -12,7 +12,6 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/base/suggest.hpp"
-#include "harness/compare/verdict.hpp"
 #include "harness/model/name_order.hpp"
 #include "harness/model/recorded_run.hpp"
 #include "metrics/numerics/median.hpp"
@@ -28,29 +27,24 @@ struct KeptRuns {
   std::vector<std::string> sequences;  ///< names by GroupedValues::sequence
 };
 
-/// "declined 1, failed 2": each reason with its count.
-std::string counted_reasons(const std::vector<std::string>& reasons) {
-  std::map<std::string, std::size_t> counts;
-  for (const std::string& why : reasons) ++counts[why];
-  std::string out;
-  for (const auto& [why, count] : counts) {
-    out += (out.empty() ? "" : ", ") + why + " " + std::to_string(count);
-  }
-  return out;
-}
-
 /// Methods with a value on any run; missing values are recorded in `gaps`.
 std::vector<std::size_t> ranked_methods(const Observations& all, Comparison& out) {
   std::vector<std::size_t> ranked;
   for (std::size_t m = 0; m < all.methods.size(); ++m) {
-    std::vector<std::string> reasons;
+    std::map<std::string, std::size_t> reasons;
+    Gap gap{all.methods[m], 0, "", true};
     for (const Observed& one : all.values[m]) {
-      if (!one.value) reasons.push_back(one.status);
+      if (one.value) continue;
+      ++reasons[one.status];
+      ++gap.missing;
     }
-    const bool is_ranked = reasons.size() < all.runs.size();
-    if (is_ranked) ranked.push_back(m);
+    gap.is_ranked = gap.missing < all.runs.size();
+    if (gap.is_ranked) ranked.push_back(m);
     if (reasons.empty()) continue;
-    out.gaps.push_back({all.methods[m], reasons.size(), counted_reasons(reasons), is_ranked});
+    for (const auto& [why, count] : reasons) {
+      gap.why += fmt::format("{}{} {}", gap.why.empty() ? "" : ", ", why, count);
+    }
+    out.gaps.push_back(std::move(gap));
   }
   return ranked;
 }
@@ -71,7 +65,6 @@ std::size_t count(const std::vector<std::size_t>& group) {
 KeptRuns select_runs(const Observations& all, Comparison& out) {
   KeptRuns kept{ranked_methods(all, out), {}, {}, {}};
   NameOrder sequences;
-  std::set<std::string> possible_sequences;
   std::map<std::string, std::string> first_labels;  // of the sequences by recording
   std::set<std::string> same_recordings;
   out.is_paired = out.options.paired || std::ranges::any_of(all.runs, [](const ObservedRun& run) {
@@ -81,7 +74,6 @@ KeptRuns select_runs(const Observations& all, Comparison& out) {
   std::set<std::string> measured;
   for (std::size_t run = 0; run < all.runs.size(); ++run) {
     const auto at = [&](std::size_t m) -> const Observed& { return all.values[m][run]; };
-    possible_sequences.insert(sequence_key(all.runs[run]));
     const auto known = std::ranges::count_if(
         kept.methods, [&](std::size_t m) { return at(m).value || at(m).is_loss; });
     const bool has_value =
@@ -113,7 +105,6 @@ KeptRuns select_runs(const Observations& all, Comparison& out) {
   out.runs = kept.runs.size();
   out.possible = all.runs.size();
   out.sequences = kept.sequences.size();
-  out.possible_sequences = possible_sequences.size();
   out.same_recordings.assign(same_recordings.begin(), same_recordings.end());
   out.oracle_closures.assign(measured.begin(), measured.end());
   return kept;
@@ -171,18 +162,15 @@ MethodVerdict counts_of(const Observations& all, const KeptRuns& kept, std::size
   out.method = all.methods[kept.methods[method_index]];
   std::vector<double> values;
   double covered = 0.0;
-  std::vector<std::string> reasons;
   for (const std::size_t run : kept.runs) {
     const Observed& one = all.values[kept.methods[method_index]][run];
     if (one.value) values.push_back(*one.value);
     if (one.value) covered += one.coverage;
-    if (one.is_loss) reasons.push_back(one.status);
+    out.fails += one.is_loss ? 1 : 0;
   }
   if (!values.empty()) out.coverage = covered / static_cast<double>(values.size());
   out.median = values.empty() ? std::nan("") : metrics::median(values);
   out.runs = values.size();
-  out.fails = reasons.size();
-  out.why_fails = counted_reasons(reasons);
   return out;
 }
 
@@ -207,9 +195,12 @@ KeptRuns ranked(Observations& all, Comparison& out) {
   out.unstable.assign(all.unstable.begin(), all.unstable.end());
   KeptRuns kept = select_runs(all, out);
   if (out.groups == 0 || kept.methods.size() < 2) return kept;
+  constexpr double kLess = 0.9;  // of the largest coverage
+  double largest = 0.0;
   for (std::size_t m = 0; m < kept.methods.size(); ++m) {
-    out.methods.push_back(counts_of(all, kept, m));
+    largest = std::max(largest, out.methods.emplace_back(counts_of(all, kept, m)).coverage);
   }
+  for (MethodVerdict& m : out.methods) m.covers_less = m.coverage < kLess * largest;
   rank_methods(Levels(kept.values, out.options.tie), out);
   return kept;
 }
@@ -218,12 +209,12 @@ Comparison compare_one(Observations& all, const CompareOptions& options) {
   Comparison out;
   out.options = options;
   const KeptRuns kept = ranked(all, out);
-  const auto found = std::ranges::find(out.methods, options.baseline, &MethodVerdict::method);
-  if (found == out.methods.end()) {
+  const MethodVerdict* const found = out.find(options.baseline);
+  if (found == nullptr) {
     out.methods.clear();
     return out;
   }
-  const auto baseline = static_cast<std::size_t>(found - out.methods.begin());
+  const auto baseline = static_cast<std::size_t>(found - out.methods.data());
   const Levels levels(kept.values, options.tie);
   for (std::size_t m = 0; m < out.methods.size(); ++m) {
     const Pair pair = compared(levels, m, baseline);

@@ -5,6 +5,7 @@
 /// No correction for multiple scores.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -54,8 +55,8 @@ struct MethodVerdict {
   double median = 0.0;         ///< of its values
   std::size_t runs = 0;        ///< runs with a value
   std::size_t fails = 0;       ///< runs that count as a loss
-  std::string why_fails;       ///< "crashed 1, failed 2"
   double coverage = 1.0;       ///< of the reference, mean over its values, 0..1
+  bool covers_less = false;    ///< clearly less than another method: it is better than none
   std::optional<Ratio> ratio;  ///< to the baseline; none for values below zero, most runs failed
   std::size_t wins = 0;        ///< groups better than the baseline
   std::size_t losses = 0;
@@ -79,12 +80,11 @@ struct Gap {
 struct Comparison {
   ScoreKind kind;  ///< with unit and direction of the statistic
   CompareOptions options;
-  std::size_t groups = 0;              ///< observations
-  std::size_t runs = 0;                ///< runs used: two ranked methods have a value or failed
-  std::size_t possible = 0;            ///< runs that any method has, or should have
-  std::size_t copies = 0;              ///< runs with the same content as another, not counted
-  std::size_t sequences = 0;           ///< sequences of the runs used
-  std::size_t possible_sequences = 0;  ///< sequences of the possible runs
+  std::size_t groups = 0;     ///< observations
+  std::size_t runs = 0;       ///< runs used: two ranked methods have a value or failed
+  std::size_t possible = 0;   ///< runs that any method has, or should have
+  std::size_t copies = 0;     ///< runs with the same content as another, not counted
+  std::size_t sequences = 0;  ///< sequences of the runs used
   /// Sequences with an earlier one's recording: "c2 of c1".
   std::vector<std::string> same_recordings;
   std::vector<std::string> unstable;   ///< methods with different values on equal data
@@ -99,6 +99,12 @@ struct Comparison {
   bool can_show = false;          ///< whether the observations can be significant at all
   bool has_strata = false;        ///< compared by rank sums within sequences
   std::size_t groups_needed = 0;  ///< minimum for that; if has_strata, per method and sequence
+
+  /// The verdict about a method; null for one that is not compared.
+  const MethodVerdict* find(const std::string& method) const {
+    const auto found = std::ranges::find(methods, method, &MethodVerdict::method);
+    return found == methods.end() ? nullptr : &*found;
+  }
 };
 
 /// Sets which methods are worse than another one, the others sharing the first place, and the last

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <optional>
 
-#include "harness/compare/verdict.hpp"
+#include "harness/compare/compare.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -49,10 +49,6 @@ double least_p_of(std::size_t groups, std::size_t strata) {
 
 void rank_methods(const Levels& levels, Comparison& out) {
   const std::vector<std::size_t> equals = first_equals(levels);
-  const std::vector<std::string> partial = methods_with_less_coverage(out);
-  const auto can_lead = [&](std::size_t m) {
-    return std::ranges::count(partial, out.methods[m].method) == 0;
-  };
   std::vector<std::size_t> different;
   for (std::size_t m = 0; m < equals.size(); ++m) {
     if (equals[m] == m) different.push_back(m);
@@ -69,7 +65,7 @@ void rank_methods(const Levels& levels, Comparison& out) {
       strata = std::max(strata, pair.strata.size());
       out.can_show = out.can_show || pair.least_p <= out.options.alpha;
       const auto order = order_of(pair, first, second, out.options);
-      if (!order || !can_lead(order->better)) continue;
+      if (!order || out.methods[order->better].covers_less) continue;
       orders.push_back(*order);
       ++rivals_beaten[order->better];
     }

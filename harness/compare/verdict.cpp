@@ -11,10 +11,6 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-const MethodVerdict& find(const Comparison& c, const std::string& method) {
-  return *std::ranges::find(c.methods, method, &MethodVerdict::method);
-}
-
 template <class Holds>
 Names names_where(const Comparison& c, Holds holds) {
   Names out;
@@ -27,17 +23,6 @@ Names names_where(const Comparison& c, Holds holds) {
 const MethodVerdict& first_other(const Comparison& c) {
   return *std::ranges::find_if(
       c.methods, [&](const MethodVerdict& m) { return m.method != c.options.baseline; });
-}
-
-/// "below raw", for a score with a target "closer to 1 than raw".
-std::string relation_text(const Comparison& c, bool is_below) {
-  if (c.kind.better != metrics::Better::target) {
-    return (is_below ? "below " : "above ") + c.options.baseline;
-  }
-  return fmt::format("{} {:g} than {}",
-                     is_below ? "closer to" : "farther from",
-                     c.kind.target,
-                     c.options.baseline);
 }
 
 /// What an observation is.
@@ -64,22 +49,30 @@ std::string without_number(const Comparison& c, const MethodVerdict& m) {
                      c.has_strata ? "pairs of runs" : observed_unit(c));
 }
 
-/// "37 to 44 % below raw (95 %: 30 to 51)".
-std::string change_text(const Comparison& c,
-                        const Change& change,
-                        const std::optional<Change>& interval) {
+/// The end nearer to zero first, of changes that are mostly below zero if `is_below`.
+std::pair<double, double> ordered(const Change& change, bool is_below) {
+  return is_below ? std::pair(change.high, change.low) : std::pair(change.low, change.high);
+}
+
+/// "37 to 44 % below raw (95 %: 30 to 51)"; of a score with a target "closer to 1 than raw".
+std::string change_text(const Comparison& c, const VerdictGroup& of) {
+  const Change& change = *of.all;
   const bool is_below = change.low + change.high <= 0.0;
   const double sign = is_below ? -1.0 : 1.0;
-  const auto range = [&](const Change& of) {
-    const auto [least, most] = std::minmax({sign * of.low, sign * of.high});
-    return percent_text(least) + " to " + percent_text(most);
+  const auto range = [&](const Change& each) {
+    const auto [first, last] = ordered(each, is_below);
+    return percent_text(sign * first) + " to " + percent_text(sign * last);
   };
   std::string out = change.high - change.low > 1.0
                         ? range(change)
                         : percent_text(0.5 * sign * (change.low + change.high));
-  out += " % " + relation_text(c, is_below);
-  if (!interval) return out;
-  return out + fmt::format(" ({:g} %: {})", 100.0 * (1.0 - c.options.alpha), range(*interval));
+  out += " % ";
+  out += c.kind.better == metrics::Better::target
+             ? fmt::format("{} {:g} than ", is_below ? "closer to" : "farther from", c.kind.target)
+             : std::string(is_below ? "below " : "above ");
+  out += c.options.baseline;
+  if (!of.interval) return out;
+  return out + fmt::format(" ({:g} %: {})", 100.0 * (1.0 - c.options.alpha), range(*of.interval));
 }
 
 std::string names_text(const Comparison& c, const Names& methods) {
@@ -88,8 +81,7 @@ std::string names_text(const Comparison& c, const Names& methods) {
     if (std::ranges::count(methods, m.method) > 0) members.push_back(&m);
   }
   const VerdictGroup group = group_of(members, {}, c.options.baseline);
-  return group.all ? change_text(c, *group.all, group.interval)
-                   : without_number(c, *members.front());
+  return group.all ? change_text(c, group) : without_number(c, *members.front());
 }
 
 /// How many observations would decide the difference of a method that has an interval.
@@ -122,22 +114,34 @@ std::string too_few_text(const Comparison& c) {
     const MethodVerdict& m = first_other(c);
     return m.method + " is " + names_text(c, {m.method}) + ". " + cannot_show_text(c);
   }
-  const auto value = [&](const MethodVerdict& m) {
-    const std::string unit = (c.kind.unit.empty() ? "" : " ") + c.kind.unit;
-    return m.method + (m.runs == 0 ? " failed" : fmt::format(" {:.3g}{}", m.median, unit));
-  };
-  std::string out = value(find(c, c.options.baseline));
-  std::size_t shown = 1;
+  std::vector<const MethodVerdict*> methods{c.find(c.options.baseline)};
   for (const MethodVerdict& m : c.methods) {
-    if (m.method == c.options.baseline) continue;
-    if (++shown > kMost) continue;
-    out += ", " + value(m);
-    if (!m.ratio) continue;
-    const double percent = 100.0 * (m.ratio->typical.estimate - 1.0);
-    out += fmt::format(" ({}{} %)", percent < 0.0 ? "-" : "+", percent_text(std::abs(percent)));
+    if (&m != methods.front()) methods.push_back(&m);
   }
-  if (shown > kMost) out += fmt::format(", {} more", shown - kMost);
+  std::string out;
+  for (std::size_t i = 0; i < std::min(kMost, methods.size()); ++i) {
+    const MethodVerdict& m = *methods[i];
+    out += (i == 0 ? "" : ", ") + m.method;
+    out += m.runs == 0 ? " failed" : fmt::format(" {:.3g}", m.median);
+    if (m.runs > 0 && !c.kind.unit.empty()) out += " " + c.kind.unit;
+    if (i == 0 || !m.ratio) continue;
+    const double percent = 100.0 * (m.ratio->typical.estimate - 1.0);
+    out += " (" + text({percent, percent}, 0.0) + " %)";
+  }
+  if (methods.size() > kMost) out += fmt::format(", {} more", methods.size() - kMost);
   return out + ". " + cannot_show_text(c);
+}
+
+/// "dual with a smoother" for all methods of that kind, "a, b and 3 more" otherwise.
+std::string common_name(const Comparison& c, const Names& methods) {
+  const std::string corrector = methods.front().substr(0, methods.front().find(" + ")) + " + ";
+  const auto is_of_corrector = [&](const std::string& m) { return m.starts_with(corrector); };
+  const auto of_corrector =
+      names_where(c, [&](const MethodVerdict& m) { return is_of_corrector(m.method); });
+  const bool are_all = methods.size() > 2 && methods.size() == of_corrector.size() &&
+                       std::ranges::all_of(methods, is_of_corrector);
+  return are_all ? corrector.substr(0, corrector.size() - 3) + " with a smoother"
+                 : short_names(methods, " and ");
 }
 
 std::string best_text(const Comparison& c, const Names& first, bool has_baseline) {
@@ -145,11 +149,11 @@ std::string best_text(const Comparison& c, const Names& first, bool has_baseline
   const bool is_one = first.size() == 1 || name.ends_with(" with a smoother");
   const char* const place = is_one      ? " is best"
                             : c.is_best ? " are best"
-                                        : " share the first place";
+                                        : " share first place";
   if (!has_baseline) {
     Names divided;
     for (const std::string& each : first) {
-      if (first.size() > 1 && find(c, each).is_divided) divided.push_back(each);
+      if (first.size() > 1 && c.find(each)->is_divided) divided.push_back(each);
     }
     const std::string changes = name + place + ", " + names_text(c, first);
     if (divided.empty()) return changes;
@@ -198,16 +202,17 @@ std::string short_title(const Comparison& c) {
 
 std::string legend_of(const Comparison& c, const Verdict& v) {
   const MethodVerdict& m = first_other(c);
-  const std::string value = c.kind.better == metrics::Better::target
-                                ? fmt::format("|value - {:g}|", c.kind.target)
-                                : "change";
-  std::string out = v.has_table() ? "all: " : "";
-  out += (m.ratio && m.ratio->is_of_sequences ? "mean over the sequences of their typical "
-                                              : "typical ") +
-         value + " to " + c.options.baseline + " over " + unit_text(c);
-  if (c.groups < c.runs) out += " of dependent runs";
-  out += ", for all methods together";
-  if (v.groups.size() > 1) out += "; =: shares the first place, >: significantly worse";
+  std::string out = c.kind.better == metrics::Better::target
+                        ? fmt::format("change of |value - {:g}| [%]", c.kind.target)
+                        : "change [%]";
+  out += ": typical, against " + c.options.baseline + ", over " + unit_text(c);
+  if (m.ratio && m.ratio->is_of_sequences) out += ", the mean of the sequences";
+  const auto is_range = [](const VerdictGroup& g) { return g.methods.size() > 1; };
+  if (v.has_table() && std::ranges::any_of(v.groups, is_range)) {
+    out += "; a to b: the methods of the group differ";
+  }
+  if (v.groups.size() > 1) out += "; =: shares first place, >: significantly worse";
+  if (c.kind.times == "dense") out += "; dense: between keyframes, too";
   if (c.has_strata) {
     out += "; runs of a sequence are independent (rank sums; --paired pairs equal names)";
   } else if (c.sequences < c.groups) {
@@ -219,22 +224,25 @@ std::string legend_of(const Comparison& c, const Verdict& v) {
 }  // namespace
 
 std::string percent_text(double percent) {
-  if (std::abs(percent) >= 9.95) return fmt::format("{:.0f}", percent);
-  return std::abs(percent) >= 0.95 || percent == 0.0 ? fmt::format("{:.1f}", percent + 0.0)
-                                                     : fmt::format("{:.2g}", percent);
+  const double size = std::abs(percent);
+  if (size >= 9.95) return fmt::format("{:.0f}", percent);
+  return size >= 0.95 || size == 0.0 ? fmt::format("{:.1f}", percent + 0.0)
+                                     : fmt::format("{:.2g}", percent);
+}
+
+std::string text(const Change& change, double narrow) {
+  const auto signed_text = [](double percent) {
+    return (percent > 0.0 ? "+" : "") + percent_text(percent);
+  };
+  if (change.high - change.low <= narrow) return signed_text(0.5 * (change.low + change.high));
+  const auto [first, last] = ordered(change, change.low + change.high <= 0.0);
+  return signed_text(first) + " to " + signed_text(last);
 }
 
 std::string result_text(const Comparison& c, const MethodVerdict& m) {
-  std::string out = names_text(c, {m.method});
-  if (m.ratio && !m.is_divided && !m.is_contradicted) {
-    const Interval& typical = m.ratio->typical;
-    const double sign = typical.estimate <= 1.0 ? -100.0 : 100.0;
-    out = fmt::format("{:.1f} % {}", sign * (typical.estimate - 1.0), relation_text(c, sign < 0.0));
-    const auto [low, high] = std::minmax({sign * (typical.low - 1.0), sign * (typical.high - 1.0)});
-    if (m.ratio->has_interval) out += fmt::format(" [{:.1f}, {:.1f}]", low, high);
-  }
-  if (m.p) out += *m.p < 0.0001 ? ", p < 0.0001" : fmt::format(", p = {:.2g}", *m.p);
-  return out;
+  const std::string out = names_text(c, {m.method});
+  if (!m.p) return out;
+  return out + (*m.p < 0.0001 ? ", p < 0.0001" : fmt::format(", p = {:.2g}", *m.p));
 }
 
 std::string title(const Comparison& c) {
@@ -246,12 +254,26 @@ std::string sentence(const Comparison& c) {
   const auto is_equal = [](const MethodVerdict& m) { return m.ties > 0 && m.wins + m.losses == 0; };
   if (std::ranges::all_of(c.methods, is_equal)) return "all methods are equal";
   if (!c.can_show) return too_few_text(c);
-  const std::string covered = coverage_text(c, leaders_with_less_coverage(c));
+  const std::string covered = coverage_text(c, true);
   if (!c.is_best && !covered.empty()) return "no method is best: " + covered;
-  const bool has_baseline = !find(c, c.options.baseline).is_worse;
+  const bool has_baseline = !c.find(c.options.baseline)->is_worse;
   if (has_baseline && !c.is_best) return shared_text(c);
   return best_text(
       c, names_where(c, [](const MethodVerdict& m) { return !m.is_worse; }), has_baseline);
+}
+
+const Comparison* headline(const std::vector<Comparison>& all) {
+  const Comparison* out = nullptr;
+  int best = -1;
+  for (const Comparison& c : all) {
+    const bool is_ate =
+        c.kind.metric == "ate" && c.kind.relation == "translation" && c.kind.axis == "3d";
+    const int rank = (is_ate ? 2 : 0) + (c.kind.times == "dense" ? 1 : 0);
+    if (c.methods.size() < 2 || rank <= best) continue;
+    best = rank;
+    out = &c;
+  }
+  return out;
 }
 
 Verdict verdict_of(const Comparison& c, const std::vector<Comparison>& all) {
@@ -266,12 +288,9 @@ Verdict verdict_of(const Comparison& c, const std::vector<Comparison>& all) {
         out.sequences.push_back(one.sequence);
     }
   }
-  if (out.sequences.size() > kMostSequences) out.sequences.clear();
+  if (out.sequences.size() > kMostSequences || !c.can_show) out.sequences.clear();
   out.cautions = cautions_of(c, all);
-  if (!c.can_show) {
-    out.sequences.clear();
-    return out;
-  }
+  if (!c.can_show) return out;
   out.groups = groups_of(c, out.sequences);
   out.level = 100.0 * (1.0 - c.options.alpha);
   out.legend = legend_of(c, out);

@@ -1,4 +1,4 @@
-/// The verdict of a comparison: a sentence, a table of groups, cautions. All commands, formats and
+/// The answer of a comparison: a sentence, a table of groups, cautions. All commands, formats and
 /// the report show the same one.
 #pragma once
 
@@ -42,6 +42,10 @@ struct Verdict {
 /// `all`: comparisons among which that of the rotation is searched, for cautions.
 Verdict verdict_of(const Comparison& comparison, const std::vector<Comparison>& all);
 
+/// The score to show first: dense ATE in translation, or the nearest to it that compares two
+/// methods. Null if none does.
+const Comparison* headline(const std::vector<Comparison>& all);
+
 /// Some methods as one group, without the change of the baseline beside others, because it is zero.
 VerdictGroup group_of(std::vector<const MethodVerdict*> members,
                       const std::vector<std::string>& sequences,
@@ -64,15 +68,16 @@ std::string sentence(const Comparison& comparison);
 /// "ate rotation rmse, dense, loopbench".
 std::string title(const Comparison& comparison);
 
-/// "dual with a smoother", "a, b and 3 more": methods by what they have in common, otherwise by
-/// their names, without the corrector that is also the first one's.
-std::string common_name(const Comparison& comparison, const std::vector<std::string>& methods);
+/// "dual + dm_n3, dm_n4, 8 more": without the corrector that is also the first one's.
 std::string short_names(std::vector<std::string> methods, const std::string& last_separator);
 
-/// "44", "5.1", "0.0012": at least two digits.
+/// "44", "5.1", "-0.0012": at least two digits.
 std::string percent_text(double percent);
 
-/// "12.3 % below raw [8.1, 15.2], p = 0.02": the difference of a method to the baseline.
+/// "+12", or of a range wider than `narrow` points "-37 to -51", the end nearer to zero first.
+std::string text(const Change& change, double narrow);
+
+/// "12 % below raw (95 %: 8.1 to 15), p = 0.02": the difference of a method to the baseline.
 std::string result_text(const Comparison& comparison, const MethodVerdict& method);
 
 /// "5 runs of 1 sequence; a test needs 6".
@@ -81,17 +86,14 @@ std::string cannot_show_text(const Comparison& comparison);
 /// "8 runs", "20 sequences", "6 groups (30 runs)": the observations of a comparison.
 std::string unit_text(const Comparison& comparison);
 
-/// Methods that cover clearly less of the reference than another one, and those of them that lead.
-std::vector<std::string> methods_with_less_coverage(const Comparison& comparison);
-std::vector<std::string> leaders_with_less_coverage(const Comparison& comparison);
-
-/// "half covers 53 % of the reference, others up to 100 %"; empty for no methods.
-std::string coverage_text(const Comparison& comparison, const std::vector<std::string>& methods);
+/// "half covers 53 % of the reference, others up to 100 %": methods that cover clearly less than
+/// another one, or those of them that share the first place; empty for none.
+std::string coverage_text(const Comparison& comparison, bool of_first);
 
 /// Properties of the data that limit the claims: copies, gaps, coverage, oracles.
 std::vector<std::string> limitations(const Comparison& comparison);
 
-/// The limitations, and what the columns of a table of methods are.
+/// The limitations, and what the numbers of each method are.
 std::vector<std::string> remarks(const Comparison& comparison);
 
 }  // namespace loopbench::harness

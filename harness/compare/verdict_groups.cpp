@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -75,12 +76,6 @@ std::vector<VerdictGroup> groups_within(const Comparison& c,
   for (const auto& members : groups)
     out.push_back(group_of(members, sequences, c.options.baseline));
   return out;
-}
-
-/// "dual + " of "dual + dm_n3"; empty without a smoother.
-std::string corrector_of(const std::string& method) {
-  const std::size_t at = method.find(" + ");
-  return at == std::string::npos ? "" : method.substr(0, at + 3);
 }
 
 /// A method that is significantly worse than the baseline.
@@ -160,35 +155,20 @@ VerdictGroup group_of(std::vector<const MethodVerdict*> members,
 
 std::string short_names(Names names, const std::string& last_separator) {
   constexpr std::size_t kMost = 3;
-  const std::string corrector = names.empty() ? "" : corrector_of(names.front());
-  for (std::size_t i = 1; i < names.size(); ++i) {
-    if (!corrector.empty() && names[i].starts_with(corrector)) names[i].erase(0, corrector.size());
+  const std::size_t plus = names.front().find(" + ");
+  for (std::size_t i = 1; i < names.size() && plus != std::string::npos; ++i) {
+    if (names[i].starts_with(names.front().substr(0, plus + 3))) names[i].erase(0, plus + 3);
   }
   if (names.size() > kMost) {
     names[kMost - 1] = fmt::format("{} more", names.size() - (kMost - 1));
     names.resize(kMost);
+    return fmt::format("{}", fmt::join(names, ", "));
   }
   std::string out;
   for (std::size_t i = 0; i < names.size(); ++i) {
     out += (i == 0 ? "" : i + 1 == names.size() ? last_separator : ", ") + names[i];
   }
   return out;
-}
-
-std::string common_name(const Comparison& c, const Names& methods) {
-  constexpr std::size_t kFewest = 3;
-  const std::string corrector = corrector_of(methods.front());
-  const auto is_like_first = [&](const std::string& m) { return corrector_of(m) == corrector; };
-  if (methods.size() < kFewest || corrector.empty() ||
-      !std::ranges::all_of(methods, is_like_first)) {
-    return short_names(methods, " and ");
-  }
-  const auto alike = static_cast<std::size_t>(std::ranges::count_if(
-      c.methods, [&](const MethodVerdict& m) { return is_like_first(m.method); }));
-  const std::string name = corrector.substr(0, corrector.size() - 3);
-  return methods.size() == alike
-             ? name + " with a smoother"
-             : fmt::format("{} with {} of {} smoothers", name, methods.size(), alike);
 }
 
 std::vector<VerdictGroup> groups_of(const Comparison& c, const Names& sequences) {

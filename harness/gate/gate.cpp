@@ -41,18 +41,13 @@ bool has_vanished(const Record& score, double before, double now) {
   return std::abs(now - best) <= 0.01 * std::abs(before - best);
 }
 
-/// Reason why the two numbers cannot be compared, or empty.
-std::string why_not_comparable(const ScoreKind& before, const ScoreKind& now) {
-  if (now.metric != before.metric) {
-    return fmt::format("metric '{}', was '{}'", now.metric, before.metric);
-  }
-  if (now.unit != before.unit) return fmt::format("unit '{}', was '{}'", now.unit, before.unit);
-  if (now.better == before.better && now.target == before.target) return "";
-  const auto direction = [](const ScoreKind& kind) {
-    return kind.better == metrics::Better::target ? fmt::format("target {}", kind.target)
-                                                  : to_text(kind.better);
-  };
-  return fmt::format("best value: {}, was: {}", direction(now), direction(before));
+/// Numbers are compared only if these are equal.
+std::string meaning(const ScoreKind& kind) {
+  return fmt::format("metric '{}', unit '{}', best value: {}",
+                     kind.metric,
+                     kind.unit,
+                     kind.better == metrics::Better::target ? fmt::format("{}", kind.target)
+                                                            : to_text(kind.better));
 }
 
 using CellRecords = std::span<const Record>;
@@ -206,13 +201,11 @@ class Checker {
     const auto regression = [&](const std::string& what) {
       find(Finding::Kind::regression, before.cell->name(), before.kind->name(), what);
     };
-    if (const std::string other = why_not_comparable(*before.kind, *now.kind); !other.empty()) {
-      regression(other);
+    if (meaning(*now.kind) != meaning(*before.kind)) {
+      regression(meaning(*now.kind) + "; was " + meaning(*before.kind));
       return;
     }
-    if (now.pairs < before.pairs) {
-      regression(fmt::format("evaluated {} pose pairs, was {}", now.pairs, before.pairs));
-    } else if (now.pairs * before.possible < before.pairs * now.possible) {
+    if (now.pairs < before.pairs || now.pairs * before.possible < before.pairs * now.possible) {
       regression(fmt::format("evaluated {} of {} possible pose pairs, was {} of {}",
                              now.pairs,
                              now.possible,

@@ -5,6 +5,7 @@
 
 #include "datasets/core/error.hpp"
 #include "harness/compare/derived.hpp"
+#include "harness/compare/verdict.hpp"
 #include "harness/model/name_order.hpp"
 #include "harness/report/curve.hpp"
 #include "harness/report/report.hpp"
@@ -40,20 +41,7 @@ std::string ReportContent::run_value(const std::string& key) const {
   return found == run.end() ? "" : found->second;
 }
 
-const Comparison* ReportContent::headline() const {
-  const Comparison* out = nullptr;
-  int best = -1;
-  for (const Comparison& c : comparisons) {
-    if (c.methods.size() < 2) continue;
-    const bool is_ate =
-        c.kind.metric == "ate" && c.kind.relation == "translation" && c.kind.axis == "3d";
-    const int rank = (is_ate ? 2 : 0) + (c.kind.times == "dense" ? 1 : 0);
-    if (rank <= best) continue;
-    best = rank;
-    out = &c;
-  }
-  return out;
-}
+const Comparison* ReportContent::headline() const { return harness::headline(comparisons); }
 
 void ReportContent::show(std::size_t count) {
   shown = std::min(count, shown);

@@ -8,17 +8,14 @@
 #include <sstream>
 
 #include "datasets/core/fields.hpp"
+#include "harness/base/counted.hpp"
+#include "harness/base/wrap.hpp"
 #include "harness/tables/record_csv.hpp"
 
 namespace loopbench::harness {
 namespace {
 
 std::string p_text(double p) { return p < 0.0001 ? "< 0.0001" : fmt::format("{:.4f}", p); }
-
-std::string interval_text(const Ratio& ratio) {
-  return ratio.has_interval ? fmt::format("{:.4f} .. {:.4f}", ratio.typical.low, ratio.typical.high)
-                            : "-";
-}
 
 /// With the number of runs if not all runs are included.
 std::string median_text(const Comparison& c, const MethodVerdict& m, int digits) {
@@ -31,16 +28,31 @@ using Json = nlohmann::ordered_json;
 
 Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
-/// "-44", of a range "-37 .. -51": the end that is nearer to zero first.
-std::string text(const std::optional<Change>& change, double precision) {
-  if (!change) return "-";
-  const auto signed_text = [](double percent) {
-    return (percent < 0.0 ? "-" : percent > 0.0 ? "+" : "") + percent_text(std::abs(percent));
+/// Changes that differ by less are printed as one.
+constexpr double kPoint = 1.0;  // [%]
+
+std::string optional_text(const std::optional<Change>& change, double narrow) {
+  return change ? text(*change, narrow) : "-";
+}
+
+/// As many sequences as lines of 100 columns can have.
+void drop_last_sequences(Table& table) {
+  constexpr std::size_t kWidest = 100;
+  const auto line_width = [&] {
+    std::size_t out = 1;
+    for (std::size_t c = 0; c < table.headings.size(); ++c) {
+      std::size_t column = width(table.headings[c]);
+      for (const auto& line : table.lines) column = std::max(column, width(line[c].text));
+      out += column + 3;
+    }
+    return out;
   };
-  const auto [low, high] = *change;
-  if (high - low <= precision) return signed_text(0.5 * (low + high));
-  const bool is_below = low + high <= 0.0;
-  return signed_text(is_below ? high : low) + " .. " + signed_text(is_below ? low : high);
+  std::size_t dropped = 0;
+  for (; line_width() > kWidest && table.headings.size() > 3; ++dropped) {
+    table.headings.pop_back();
+    for (auto& line : table.lines) line.pop_back();
+  }
+  if (dropped > 0) table.notes.push_back(counted(dropped, "sequence") + " more in --format json");
 }
 
 Json change_json(const std::optional<Change>& change) {
@@ -121,21 +133,21 @@ std::string csv_field(const Json& value) {
 }  // namespace
 
 Table verdict_table(const Verdict& verdict) {
-  constexpr double kPoint = 1.0;  // [%]
   Table out{verdict.sentence, {}, {}, {}};
   if (verdict.has_table()) {
-    out.headings = {"group", "all [%]", fmt::format("{:g} %", verdict.level)};
+    out.headings = {"group", "change", fmt::format("{:g} %", verdict.level)};
     for (const std::string& sequence : verdict.sequences) out.headings.push_back(sequence);
     for (const VerdictGroup& group : verdict.groups) {
       std::vector<TableCell>& line = out.lines.emplace_back();
       line = {(group.is_first ? "= " : "> ") + group.name,
-              text(group.all, kPoint),
-              text(group.interval, 0.0)};
-      for (const auto& change : group.by_sequence) line.emplace_back(text(change, kPoint));
+              optional_text(group.all, kPoint),
+              optional_text(group.interval, 0.0)};
+      for (const auto& change : group.by_sequence) line.push_back(optional_text(change, kPoint));
     }
   }
   for (const std::string& caution : verdict.cautions) out.notes.push_back("! " + caution);
   if (!verdict.legend.empty()) out.notes.push_back(verdict.legend);
+  drop_last_sequences(out);
   return out;
 }
 
@@ -144,30 +156,39 @@ Table table_view(const Comparison& c) {
   Table out{title(c),
             {"method",
              "median" + unit,
-             "ratio",
-             fmt::format("{:g} % interval", 100.0 * (1.0 - c.options.alpha)),
-             "better/worse/equal",
-             "p",
-             "mean",
-             "place"},
+             "change [%]",
+             fmt::format("{:g} %", 100.0 * (1.0 - c.options.alpha)),
+             "better/worse",
+             "p"},
             {},
             remarks(c)};
   double largest = 0.0;
   for (const MethodVerdict& m : c.methods) largest = std::max(largest, std::abs(m.median));
   for (const MethodVerdict& m : c.methods) {
+    const VerdictGroup group = group_of({&m}, {}, c.options.baseline);
     const bool is_baseline = m.method == c.options.baseline;
     const auto unless_baseline = [&](const std::string& text) { return is_baseline ? "" : text; };
-    out.lines.push_back(
-        {{m.method, c.is_best && !m.is_worse},
-         {median_text(c, m, decimals(largest))},
-         {m.ratio ? fixed(m.ratio->typical.estimate, 4) : "-"},
-         {unless_baseline(m.ratio ? interval_text(*m.ratio) : "-")},
-         {unless_baseline(fmt::format("{}/{}/{}", m.wins, m.losses, m.ties))},
-         {unless_baseline(m.p ? p_text(*m.p) : "-")},
-         {m.ratio && m.ratio->geometric_mean ? fixed(*m.ratio->geometric_mean, 4) : "-"},
-         {m.is_worse ? ">" : "="}});
+    out.lines.push_back({{(m.is_worse ? "> " : "= ") + m.method, c.is_best && !m.is_worse},
+                         {median_text(c, m, decimals(largest))},
+                         {unless_baseline(optional_text(group.all, 0.0))},
+                         {unless_baseline(optional_text(group.interval, 0.0))},
+                         {unless_baseline(fmt::format("{}/{}", m.wins, m.losses))},
+                         {unless_baseline(m.p ? p_text(*m.p) : "-")}});
   }
   out.facts = fmt::format("{} runs in {} independent groups", c.runs, c.groups);
+  return out;
+}
+
+std::vector<Table> answer(const std::vector<Comparison>& all) {
+  const Comparison* const found = headline(all);
+  const Comparison& first = found != nullptr ? *found : all.front();
+  std::vector<Table> out{verdict_table(verdict_of(first, all))};
+  if (!first.methods.empty()) out.push_back(table_view(first));
+  Table others{"Other scores, which --where selects", {}, {}, {}};
+  for (const Comparison& c : all) {
+    if (&c != &first) others.notes.push_back(verdict_of(c, all).sentence);
+  }
+  if (!others.notes.empty()) out.push_back(std::move(others));
   return out;
 }
 

@@ -9,14 +9,17 @@
 
 namespace loopbench::harness {
 
-/// The sentence as title, a line per group, then cautions and legend as notes. Without
-/// columns where they would show no more than the sentence.
+/// The sentence as title, a line per group, then cautions and legend as notes. Without columns where
+/// they would show no more than the sentence, and with as many sequences as fit into 100 columns.
 Table verdict_table(const Verdict& verdict);
 
-/// One line per method, the first place first: median, typical ratio to the baseline with its
-/// interval, wins, losses and ties against it, p, geometric mean ratio, and place (=: shares the
-/// first one, >: significantly worse). Best methods are marked. Notes: remarks.
+/// One line per method, the first place first: place (=: shares it, >: significantly worse),
+/// median, typical change to the baseline with its interval, groups on which it is better and
+/// worse, p. Best methods are marked. Notes: remarks.
 Table table_view(const Comparison& comparison);
+
+/// The verdict of the headline, its methods, and the sentences of other scores; at least one.
+std::vector<Table> answer(const std::vector<Comparison>& comparisons);
 
 /// One line per method of every comparison, numbers in full precision; missing values are empty.
 std::string csv(const std::vector<Comparison>& comparisons);

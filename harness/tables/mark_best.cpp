@@ -65,7 +65,7 @@ std::vector<Lane> lanes_of(const TableNumbers& table, const TableSpec& spec, boo
 /// Empty if a value is best, or nothing is compared.
 std::string why_none_is_best(const Comparison& c) {
   if (c.is_best || c.methods.empty()) return "";
-  return c.can_show ? coverage_text(c, leaders_with_less_coverage(c)) : cannot_show_text(c);
+  return c.can_show ? coverage_text(c, true) : cannot_show_text(c);
 }
 
 }  // namespace

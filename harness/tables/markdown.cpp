@@ -78,7 +78,10 @@ std::string markdown(const Table& all) {
   std::string out = table.title.empty() ? "" : "### " + escaped_markdown(table.title) + "\n\n";
   if (!table.headings.empty()) out += grid_text(table);
   if (!table.headings.empty() && !table.notes.empty()) out += "\n";
-  for (const std::string& note : table.notes) out += "- " + escaped_markdown(note) + "\n";
+  for (const std::string& note : table.notes) {
+    const std::vector<std::string> lines = wrapped(escaped_markdown(note), 98);
+    for (std::size_t l = 0; l < lines.size(); ++l) out += (l == 0 ? "- " : "  ") + lines[l] + "\n";
+  }
   return out;
 }
 

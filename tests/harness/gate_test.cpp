@@ -46,7 +46,7 @@ TEST(Gate, FailsOnWhatFailsNewly) {
   const GateReport score = after([](Snapshot& now) { now.records[0].status = Status::failed; });
   EXPECT_EQ(score.findings.at(0).score, "ate translation 3d, dense, loopbench");
   const GateReport pairs = after([](Snapshot& now) { now.records[0].pairs = 399; });
-  EXPECT_EQ(pairs.findings.at(0).what, "evaluated 399 pose pairs, was 400");
+  EXPECT_EQ(pairs.findings.at(0).what, "evaluated 399 of 400 possible pose pairs, was 400 of 400");
 }
 
 TEST(Gate, HasOneFindingForAMethodThatFailsEverywhere) {

@@ -87,14 +87,15 @@ TEST(PlantedRegression, OfEveryRecord) {
   };
   expect_named(
       changed([](Record& r) { r.kind.edit().metric = r.kind->label == "ate" ? "ape" : "rpe"; }),
-      {"metric 'ape', was 'ate'"});
+      {"metric 'ape', unit 'm', best value: lower; was metric 'ate', "});
   expect_named(changed([](Record& r) { r.cell.edit().oracle = r.cell->method == "uniform"; }),
                {"room / uniform", "oracle: the method or its data uses the reference, was not"});
   expect_named(changed([](Record& r) { r.cell.edit().oracle_closures = true; }),
                {"room / raw", "oracle: closures are measured in the reference, was not"});
-  expect_named(changed([](Record& r) { r.kind.edit().unit = "cm"; }), {"unit 'cm', was 'm'"});
+  expect_named(changed([](Record& r) { r.kind.edit().unit = "cm"; }),
+               {"unit 'cm', best value: lower; was ", "unit 'm'"});
   expect_named(changed([](Record& r) { r.kind.edit().better = Better::higher; }),
-               {"best value: higher, was: lower"});
+               {"best value: higher; was ", "best value: lower"});
 }
 
 TEST(PlantedRegression, OfOneCell) {
