@@ -29,36 +29,38 @@ double middle_of(const std::vector<double>& values) {
   return is_finite(middle) ? middle : std::copysign(kNoRatio, middle);
 }
 
-/// Sets the mean over groups of the mean over their runs on which both have a value.
-void set_mean(Pair& out, std::vector<std::vector<double>> groups) {
-  std::vector<double> means;
-  for (std::vector<double>& of_group : groups) {
-    for (double& difference : of_group) {
-      if (is_finite(difference)) continue;
-      difference = std::copysign(kZeroRatio, difference);
-      out.has_zero = true;
-    }
-    if (!of_group.empty()) means.push_back(metrics::mean(of_group));
+/// Adds the mean over a group's runs on which both methods have a value.
+void add_mean(Pair& out, std::vector<double>& means, std::vector<double>& differences) {
+  for (double& difference : differences) {
+    if (is_finite(difference)) continue;
+    difference = std::copysign(kZeroRatio, difference);
+    out.has_zero = true;
   }
-  if (!means.empty()) out.mean = metrics::mean(means);
+  if (!differences.empty()) means.push_back(metrics::mean(differences));
 }
 
-void add_paired_runs(Pair& out, const Levels& levels, std::size_t first, std::size_t second) {
-  std::vector<std::vector<double>> both(levels.groups());  // differences of runs with both values
+/// Returns the means of the groups.
+std::vector<double> add_paired_runs(Pair& out,
+                                    const Levels& levels,
+                                    std::size_t first,
+                                    std::size_t second) {
+  std::vector<double> means, all, both;  // differences of a group, and those of two values
   for (std::size_t group = 0; group < levels.groups(); ++group) {
-    std::vector<double> all;
+    all.clear();
+    both.clear();
     for (const std::size_t run : levels.runs_of(group)) {
       if (!levels.is_known(first, run) || !levels.is_known(second, run)) continue;
       const bool has_first = levels.has_value(first, run);
       const bool has_second = levels.has_value(second, run);
       if (!has_first && !has_second) continue;
       all.push_back(levels.difference(first, second, run));
-      if (has_first && has_second) both[group].push_back(all.back());
+      if (has_first && has_second) both.push_back(all.back());
     }
     if (all.empty()) continue;
     out.by_sequence[levels.sequence_of(group)].values.push_back(middle_of(all));
+    add_mean(out, means, both);
   }
-  set_mean(out, std::move(both));
+  return means;
 }
 
 /// Levels of a method by sequence. Equal ones are copies of one file and count once.
@@ -73,29 +75,33 @@ std::map<std::size_t, std::vector<double>> samples_of(const Levels& levels, std:
   return out;
 }
 
-/// Where most sequences have one run of either method, a sequence is an observation, as for paired
-/// runs.
-void add_independent_runs(Pair& out, const Levels& levels, std::size_t first, std::size_t second) {
+/// Returns the means of the sequences. Where most of them have one run of either method, a sequence
+/// is an observation, as for paired runs.
+std::vector<double> add_independent_runs(Pair& out,
+                                         const Levels& levels,
+                                         std::size_t first,
+                                         std::size_t second) {
   const auto seconds = samples_of(levels, second);
-  std::vector<std::vector<double>> both;  // differences of two values, by sequence
+  std::vector<double> means;
   std::size_t repeated = 0;
   for (const auto& [sequence, of_first] : samples_of(levels, first)) {
     const auto found = seconds.find(sequence);
     if (found == seconds.end()) continue;
-    both.emplace_back();
+    std::vector<double> both;  // differences of two values
     Sample& own = out.by_sequence[sequence];
     own.strata.push_back({of_first.size(), found->second.size()});
     repeated += own.strata[0].pairs() > 1 ? 1 : 0;
     for (const double a : of_first) {
       for (const double b : found->second) {
         own.values.push_back(levels.difference(first, second, a, b));
-        if (!std::isnan(a) && !std::isnan(b)) both.back().push_back(own.values.back());
+        if (!std::isnan(a) && !std::isnan(b)) both.push_back(own.values.back());
       }
     }
+    add_mean(out, means, both);
   }
-  set_mean(out, std::move(both));
-  if (2 * repeated >= out.by_sequence.size()) return;
+  if (2 * repeated >= out.by_sequence.size()) return means;
   for (auto& [sequence, own] : out.by_sequence) own = {{middle_of(own.values)}, {}};
+  return means;
 }
 
 /// Ties are counted for the method that is behind, which is the order that is worst for the claim.
@@ -221,7 +227,9 @@ std::optional<Interval> Pair::typical_interval(double alpha) const {
 Pair compared(const Levels& levels, std::size_t first, std::size_t second) {
   Pair out;
   out.is_ratio = levels.is_ratio(first, second);
-  (levels.is_paired() ? add_paired_runs : add_independent_runs)(out, levels, first, second);
+  const std::vector<double> means =
+      (levels.is_paired() ? add_paired_runs : add_independent_runs)(out, levels, first, second);
+  if (!means.empty()) out.mean = metrics::mean(means);
   for (const auto& [sequence, own] : out.by_sequence) {
     out.values.insert(out.values.end(), own.values.begin(), own.values.end());
     out.strata.insert(out.strata.end(), own.strata.begin(), own.strata.end());
