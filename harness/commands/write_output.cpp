@@ -71,7 +71,7 @@ std::string text(std::vector<Table> tables,
       format == ExportFormat::latex ? alignments(read_store_provenance(store).run["protocol"]) : "";
   std::string out;
   for (Table& table : tables) {
-    out += out.empty() ? "" : "\n";
+    out += out.empty() || out.ends_with("\n\n") ? "" : "\n";
     if (!alignment.empty()) table.facts += (table.facts.empty() ? "" : "; ") + alignment;
     out += format == ExportFormat::csv     ? text_csv(table)
            : format == ExportFormat::latex ? latex(table, output.wide)

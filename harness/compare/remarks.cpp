@@ -17,11 +17,10 @@ void add_gaps(const Comparison& c, Lines& out) {
   std::vector<std::pair<std::string, Lines>> gaps;  // methods by what they lack
   for (const Gap& gap : c.gaps) {
     const MethodVerdict* method = c.find(gap.method);
-    std::string what = gap.is_ranked ? fmt::format("no value on {} of {} runs ({})",
-                                                   gap.missing,
-                                                   c.possible,
-                                                   gap.why)
-                                     : fmt::format("not ranked, no value ({})", gap.why);
+    std::string what =
+        gap.is_ranked
+            ? fmt::format("no value on {} of {} runs ({})", gap.missing, c.possible, gap.why)
+            : fmt::format("not ranked, no value ({})", gap.why);
     if (method != nullptr && method->fails > 0) what += ", failures are losses in the tests only";
     const auto same = std::ranges::find(gaps, what, &std::pair<std::string, Lines>::first);
     (same == gaps.end() ? gaps.emplace_back(what, Lines()) : *same).second.push_back(gap.method);
@@ -92,8 +91,7 @@ Lines remarks(const Comparison& c) {
   Lines out = limitations(c);
   if (c.methods.empty()) return out;
   out.push_back(fmt::format(
-      "change, ratio: typical {} / {} (Hodges-Lehmann; of several sequences with 6 groups or more "
-      "the geometric mean); intervals hold for all methods together",
+      "change, ratio: typical {} / {} (Hodges-Lehmann; geometric mean of sequences with 6 groups)",
       c.kind.better == metrics::Better::target ? fmt::format("|value - {:g}|", c.kind.target)
                                                : "value",
       c.options.baseline));

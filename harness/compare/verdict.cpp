@@ -98,11 +98,9 @@ std::string needed_text(const Comparison& c, const MethodVerdict& m) {
 }
 
 std::string why_no_comparison(const Comparison& c) {
-  for (const Gap& gap : c.gaps) {
-    if (!gap.is_ranked && gap.method == c.options.baseline) {
-      return "the baseline " + gap.method + " has no value on any run: nothing is compared";
-    }
-  }
+  const auto gap = std::ranges::find(c.gaps, c.options.baseline, &Gap::method);
+  if (gap != c.gaps.end() && !gap->is_ranked)
+    return "the baseline " + gap->method + " has no value on any run: nothing is compared";
   return c.runs == 0 ? "no run has values of two methods: nothing is compared"
                      : "one method alone has values: nothing is compared";
 }
@@ -147,9 +145,7 @@ std::string common_name(const Comparison& c, const Names& methods) {
 std::string best_text(const Comparison& c, const Names& first, bool has_baseline) {
   const std::string name = common_name(c, first);
   const bool is_one = first.size() == 1 || name.ends_with(" with a smoother");
-  const char* const place = is_one      ? " is best"
-                            : c.is_best ? " are best"
-                                        : " share first place";
+  const char* const place = is_one ? " is best" : c.is_best ? " are best" : " share first place";
   if (!has_baseline) {
     Names divided;
     for (const std::string& each : first) {
@@ -202,14 +198,16 @@ std::string short_title(const Comparison& c) {
 
 std::string legend_of(const Comparison& c, const Verdict& v) {
   const MethodVerdict& m = first_other(c);
-  std::string out = c.kind.better == metrics::Better::target
-                        ? fmt::format("change of |value - {:g}| [%]", c.kind.target)
-                        : "change [%]";
-  out += ": typical, against " + c.options.baseline + ", over " + unit_text(c);
-  if (m.ratio && m.ratio->is_of_sequences) out += ", the mean of the sequences";
-  const auto is_range = [](const VerdictGroup& g) { return g.methods.size() > 1; };
-  if (v.has_table() && std::ranges::any_of(v.groups, is_range)) {
-    out += "; a to b: the methods of the group differ";
+  std::string out = "change: ";
+  if (c.kind.better == metrics::Better::target) {
+    out += fmt::format("of |value - {:g}| ", c.kind.target);
+  }
+  out += "to " + c.options.baseline + " [%], typical over " + unit_text(c);
+  if (m.ratio && m.ratio->is_of_sequences) out += " (mean of the sequences)";
+  out += fmt::format("; {:g} %: interval, for all methods together", v.level);
+  const auto is_several = [](const VerdictGroup& g) { return g.methods.size() > 1; };
+  if (v.has_table() && std::ranges::any_of(v.groups, is_several)) {
+    out += "; other ranges: methods of a group differ";
   }
   if (v.groups.size() > 1) out += "; =: shares first place, >: significantly worse";
   if (c.kind.times == "dense") out += "; dense: between keyframes, too";

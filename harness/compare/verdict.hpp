@@ -47,7 +47,7 @@ Verdict verdict_of(const Comparison& comparison, const std::vector<Comparison>& 
 const Comparison* headline(const std::vector<Comparison>& all);
 
 /// Some methods as one group, without the change of the baseline beside others, because it is zero.
-VerdictGroup group_of(std::vector<const MethodVerdict*> members,
+VerdictGroup group_of(const std::vector<const MethodVerdict*>& members,
                       const std::vector<std::string>& sequences,
                       const std::string& baseline);
 

@@ -10,71 +10,49 @@ namespace loopbench::harness {
 namespace {
 
 using Names = std::vector<std::string>;
-using Changes = std::vector<std::optional<double>>;  // over all, then by sequence [%]
 
 double change_of_ratio(double ratio) { return 100.0 * (ratio - 1.0); }
 
-Changes changes_of(const MethodVerdict& m, const Names& sequences) {
-  Changes out(1 + sequences.size());
-  if (!m.ratio) return out;
-  if (!m.is_divided && !m.is_contradicted) out[0] = change_of_ratio(m.ratio->typical.estimate);
-  for (const SequenceRatio& one : m.ratio->by_sequence) {
-    const auto found = std::ranges::find(sequences, one.sequence);
-    if (found == sequences.end()) continue;
-    out[1 + static_cast<std::size_t>(found - sequences.begin())] = change_of_ratio(one.ratio);
+void widen(std::optional<Change>& range, double low_ratio, double high_ratio) {
+  const Change own{change_of_ratio(low_ratio), change_of_ratio(high_ratio)};
+  range = range ? Change{std::min(range->low, own.low), std::max(range->high, own.high)} : own;
+}
+
+/// Whether both have changes, which are all within `points`, or none has.
+bool are_near(const std::optional<Change>& a, const std::optional<Change>& b, double points) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return std::max(a->high, b->high) - std::min(a->low, b->low) <= points;
+}
+
+bool are_near(const VerdictGroup& a, const VerdictGroup& b, double points) {
+  bool out = are_near(a.all, b.all, points);
+  for (std::size_t s = 0; s < a.by_sequence.size(); ++s) {
+    out = out && are_near(a.by_sequence[s], b.by_sequence[s], points);
   }
   return out;
 }
 
-bool are_near(const Changes& a, const Changes& b, double points) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a[i].has_value() != b[i].has_value()) return false;
-    if (a[i] && std::abs(*a[i] - *b[i]) > points) return false;
-  }
-  return true;
-}
-
-/// Of the members that have a value.
-std::optional<Change> range_of(const std::vector<Changes>& members, std::size_t column) {
-  std::optional<Change> out;
-  for (const Changes& m : members) {
-    if (!m[column]) continue;
-    out = out ? Change{std::min(out->low, *m[column]), std::max(out->high, *m[column])}
-              : Change{*m[column], *m[column]};
-  }
-  return out;
-}
-
-std::optional<Change> interval_of(const std::vector<const MethodVerdict*>& members) {
-  std::optional<Change> out;
-  for (const MethodVerdict* m : members) {
-    if (m->is_divided || m->is_contradicted) continue;
-    if (!m->ratio || !m->ratio->has_interval) return std::nullopt;
-    const Change own{change_of_ratio(m->ratio->typical.low),
-                     change_of_ratio(m->ratio->typical.high)};
-    out = out ? Change{std::min(out->low, own.low), std::max(out->high, own.high)} : own;
-  }
-  return out;
-}
-
-/// Neighbours that differ by at most `points` from all of their group.
+/// The first place, and neighbours that differ by at most `points` from all of their group.
 std::vector<VerdictGroup> groups_within(const Comparison& c,
                                         const Names& sequences,
                                         double points) {
-  std::vector<std::vector<const MethodVerdict*>> groups;
+  const auto as_group = [&](const std::vector<const MethodVerdict*>& members) {
+    return group_of(members, sequences, c.options.baseline);
+  };
+  std::vector<VerdictGroup> out;
+  std::vector<const MethodVerdict*> members;  // of the last group
   for (const MethodVerdict& m : c.methods) {
     if (m.is_worse && m.method == c.options.baseline) continue;
-    const auto joins = [&](const MethodVerdict* other) {
-      return other->is_worse == m.is_worse &&
-             (!m.is_worse ||
-              are_near(changes_of(*other, sequences), changes_of(m, sequences), points));
-    };
-    if (groups.empty() || !std::ranges::all_of(groups.back(), joins)) groups.emplace_back();
-    groups.back().push_back(&m);
+    const VerdictGroup own = as_group({&m});
+    const bool joins = !out.empty() && out.back().is_first == own.is_first &&
+                       (own.is_first || are_near(out.back(), own, points));
+    if (!joins) {
+      members.clear();
+      out.emplace_back();
+    }
+    members.push_back(&m);
+    out.back() = as_group(members);
   }
-  std::vector<VerdictGroup> out;
-  for (const auto& members : groups)
-    out.push_back(group_of(members, sequences, c.options.baseline));
   return out;
 }
 
@@ -133,23 +111,34 @@ void add_cautions(std::vector<Caution>& out, const Comparison& c, const std::str
 
 }  // namespace
 
-VerdictGroup group_of(std::vector<const MethodVerdict*> members,
+VerdictGroup group_of(const std::vector<const MethodVerdict*>& members,
                       const Names& sequences,
                       const std::string& baseline) {
   VerdictGroup out;
   out.is_first = !members.front()->is_worse;
-  for (const MethodVerdict* m : members) out.methods.push_back(m->method);
+  out.by_sequence.resize(sequences.size());
+  bool has_interval = true;
+  for (const MethodVerdict* m : members) {
+    out.methods.push_back(m->method);
+    if (members.size() > 1 && m->method == baseline) continue;
+    const bool is_open = m->is_divided || m->is_contradicted;
+    has_interval = has_interval && (is_open || (m->ratio && m->ratio->has_interval));
+    if (!m->ratio) continue;
+    const Interval& typical = m->ratio->typical;
+    if (!is_open) {
+      widen(out.all, typical.estimate, typical.estimate);
+      widen(out.interval, typical.low, typical.high);
+    }
+    for (const SequenceRatio& one : m->ratio->by_sequence) {
+      const auto found = std::ranges::find(sequences, one.sequence);
+      if (found == sequences.end()) continue;
+      widen(out.by_sequence[static_cast<std::size_t>(found - sequences.begin())],
+            one.ratio,
+            one.ratio);
+    }
+  }
+  if (!has_interval) out.interval.reset();
   out.name = short_names(out.methods, ", ");
-  if (members.size() > 1) {
-    std::erase_if(members, [&](const MethodVerdict* m) { return m->method == baseline; });
-  }
-  std::vector<Changes> changes;
-  for (const MethodVerdict* m : members) changes.push_back(changes_of(*m, sequences));
-  out.all = range_of(changes, 0);
-  if (out.all) out.interval = interval_of(members);
-  for (std::size_t s = 1; s <= sequences.size(); ++s) {
-    out.by_sequence.push_back(range_of(changes, s));
-  }
   return out;
 }
 

@@ -31,13 +31,15 @@ Json number_or_null(const std::optional<double>& value) { return value ? Json(*v
 /// Changes that differ by less are printed as one.
 constexpr double kPoint = 1.0;  // [%]
 
+constexpr std::size_t kWidest = 100;  // [columns] of a line
+constexpr std::size_t kNoteWidth = kWidest - 2;
+
 std::string optional_text(const std::optional<Change>& change, double narrow) {
   return change ? text(*change, narrow) : "-";
 }
 
-/// As many sequences as lines of 100 columns can have.
+/// Leaves as many sequences as fit.
 void drop_last_sequences(Table& table) {
-  constexpr std::size_t kWidest = 100;
   const auto line_width = [&] {
     std::size_t out = 1;
     for (std::size_t c = 0; c < table.headings.size(); ++c) {
@@ -133,7 +135,7 @@ std::string csv_field(const Json& value) {
 }  // namespace
 
 Table verdict_table(const Verdict& verdict) {
-  Table out{verdict.sentence, {}, {}, {}};
+  Table out{.title = verdict.sentence, .note_width = kNoteWidth};
   if (verdict.has_table()) {
     out.headings = {"group", "change", fmt::format("{:g} %", verdict.level)};
     for (const std::string& sequence : verdict.sequences) out.headings.push_back(sequence);
@@ -176,6 +178,7 @@ Table table_view(const Comparison& c) {
                          {unless_baseline(m.p ? p_text(*m.p) : "-")}});
   }
   out.facts = fmt::format("{} runs in {} independent groups", c.runs, c.groups);
+  out.note_width = kNoteWidth;
   return out;
 }
 
@@ -184,7 +187,7 @@ std::vector<Table> answer(const std::vector<Comparison>& all) {
   const Comparison& first = found != nullptr ? *found : all.front();
   std::vector<Table> out{verdict_table(verdict_of(first, all))};
   if (!first.methods.empty()) out.push_back(table_view(first));
-  Table others{"Other scores, which --where selects", {}, {}, {}};
+  Table others{.title = "Other scores, which --where selects", .note_width = kNoteWidth};
   for (const Comparison& c : all) {
     if (&c != &first) others.notes.push_back(verdict_of(c, all).sentence);
   }

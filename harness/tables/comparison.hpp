@@ -9,8 +9,9 @@
 
 namespace loopbench::harness {
 
-/// The sentence as title, a line per group, then cautions and legend as notes. Without columns where
-/// they would show no more than the sentence, and with as many sequences as fit into 100 columns.
+/// The sentence as title, a line per group, then cautions and legend as notes. Without columns
+/// where they would show no more than the sentence, and with as many sequences as fit into 100
+/// columns.
 Table verdict_table(const Verdict& verdict);
 
 /// One line per method, the first place first: place (=: shares it, >: significantly worse),

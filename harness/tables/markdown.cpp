@@ -79,7 +79,7 @@ std::string markdown(const Table& all) {
   if (!table.headings.empty()) out += grid_text(table);
   if (!table.headings.empty() && !table.notes.empty()) out += "\n";
   for (const std::string& note : table.notes) {
-    const std::vector<std::string> lines = wrapped(escaped_markdown(note), 98);
+    const std::vector<std::string> lines = wrapped(escaped_markdown(note), table.note_width);
     for (std::size_t l = 0; l < lines.size(); ++l) out += (l == 0 ? "- " : "  ") + lines[l] + "\n";
   }
   return out;

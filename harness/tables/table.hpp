@@ -42,6 +42,7 @@ struct Table {
   std::vector<std::vector<TableCell>> lines;  ///< [row][column]
   std::vector<std::string> notes;             ///< one per line, below the table
   std::string facts = {};  ///< for captions of papers: statistic, times, alignment, number of runs
+  std::size_t note_width = 0;  ///< of the notes in Markdown; 0: one line each
 };
 
 /// Properties of the terminal that a table is printed on.

@@ -30,10 +30,11 @@ TEST(Assertion, OfAPercentageIsDecidedByTheEndOfTheInterval) {
   EXPECT_EQ(why("dual is below uniform"), "");
   EXPECT_EQ(why("dual is at least 10 % below uniform"), "");
   EXPECT_EQ(why("dual is at least 12 % below uniform"),
-            "measured 13.5 % below uniform [11.0, 16.0], p = 0.016; over 8 runs of 2 sequences");
+            "measured 14 % below uniform (95 %: 11 to 16), p = 0.016; over 8 runs of 2 sequences");
   EXPECT_EQ(why("raw is at most 100.1 % above uniform"), "");  // twice the error on each run
-  EXPECT_EQ(why("raw is at most 99.9 % above uniform"),
-            "measured 100.0 % above uniform [100.0, 100.0], p = 0.016; over 8 runs of 2 sequences");
+  EXPECT_EQ(
+      why("raw is at most 99.9 % above uniform"),
+      "measured 100 % above uniform (95 %: 100 to 100), p = 0.016; over 8 runs of 2 sequences");
   EXPECT_EQ(why("copy is at most 0.1 % above uniform"), "");
   EXPECT_EQ(why("dual is at most 1 % above uniform"), "");
 }
@@ -54,7 +55,7 @@ TEST(Assertion, IsDecidedByTheTestWithoutAPercentage) {
 TEST(Assertion, HasTheComparisonWithItsSecondMethod) {
   EXPECT_EQ(why("dual is at least 55 % below raw"), "");  // 0.45 to 0.415
   EXPECT_EQ(why("dual is at least 56 % below raw"),
-            "measured 56.8 % below raw [55.5, 58.0], p = 0.016; over 8 runs of 2 sequences");
+            "measured 57 % below raw (95 %: 56 to 58), p = 0.016; over 8 runs of 2 sequences");
   EXPECT_EQ(why("uniform is not shown to differ from copy"), "");
   EXPECT_NE(why("raw is at most 100.1 % above dual"), "");
 }
@@ -63,7 +64,7 @@ TEST(Assertion, HasNoOrderFromTooFewRuns) {
   std::vector<Record> few = sweep();
   std::erase_if(few, [](const Record& r) { return r.cell->sequence == "city"; });
   EXPECT_EQ(why("dual is below uniform", few),
-            "measured 11.5 % below uniform; 4 runs of 1 sequence; a test needs 6");
+            "measured 12 % below uniform; 4 runs of 1 sequence; a test needs 6");
   EXPECT_NE(why("dual is at most 50 % above uniform", few), "");  // no interval
   EXPECT_EQ(why("raw is not above uniform", few), "");
 }
@@ -72,9 +73,10 @@ TEST(Assertion, ComparesValuesOfWhichHigherOnesAreBetter) {
   std::vector<Record> records = sweep();
   for (Record& r : records) r.kind.edit().better = Better::higher;
   EXPECT_EQ(why("dual is at least 10 % below uniform", records), "");
-  EXPECT_EQ(why("raw is not above uniform", records),
-            "measured 100.0 % above uniform [100.0, 100.0], p = 0.016; over 8 runs of 2 sequences; "
-            "above and below compare values, of which higher ones are better");
+  EXPECT_EQ(
+      why("raw is not above uniform", records),
+      "measured 100 % above uniform (95 %: 100 to 100), p = 0.016; over 8 runs of 2 sequences; "
+      "above and below compare values, of which higher ones are better");
   for (Record& r : records) {
     r.kind.edit().better = Better::target;
     r.kind.edit().target = 1.0;

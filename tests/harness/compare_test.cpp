@@ -69,8 +69,8 @@ TEST(Verdict, NamesAFirstPlaceThatIsShared) {
   }
   const Comparison c = compared(records, {.baseline = "uniform", .alpha = 0.2});
   EXPECT_EQ(sentence(c),
-            "dual, twin and pose_graph share the first place, 14 % below uniform (80 %: 11 to 16)");
-  EXPECT_TRUE(has(markdown(table_view(c)), "|     = |\n")) << markdown(table_view(c));
+            "dual, twin and pose_graph share first place, 14 % below uniform (80 %: 11 to 16)");
+  EXPECT_TRUE(has(markdown(table_view(c)), "\n| = pose_graph ")) << markdown(table_view(c));
 }
 
 TEST(Verdict, DoesNotClaimWhatSoFewRunsCannotShow) {
@@ -96,7 +96,7 @@ TEST(Verdict, IsAboutTheFailuresOfABaselineThatRanksBehindAWorseMethod) {
   }
   const Comparison c = compared(records, {.baseline = "raw"});
   EXPECT_EQ(sentence(c), "dual is best, better than raw on 6 of 8 runs");
-  EXPECT_TRUE(has(limitations(c)[0], "failed on 6 of 8 runs (failed 6), which are losses"));
+  EXPECT_TRUE(has(limitations(c)[0], "no value on 6 of 8 runs (failed 6), failures are losses"));
 }
 
 TEST(Relevance, MakesSmallDifferencesTies) {
@@ -219,10 +219,8 @@ TEST(Compare, TakesDifferencesWhereValuesAreNegative) {
   EXPECT_EQ(c.methods[0].wins, 8u);
   EXPECT_FALSE(c.methods[0].ratio);
   EXPECT_EQ(sentence(c), "dual is best, better than uniform on 8 of 8 runs");
-  EXPECT_TRUE(has_note(
-      c, "some values are negative: no ratio for their methods; tests of plain differences"));
-  EXPECT_TRUE(has(remarks(c)[1],
-                  "p: signed-rank test (exact up to 50 groups) of differences against uniform"));
+  EXPECT_TRUE(has_note(c, "no ratio of methods with negative values"));
+  EXPECT_TRUE(has(remarks(c)[1], "p: signed-rank test of differences against uniform"));
 }
 
 TEST(Ratio, IsDeclinedWhereTheBaselineIsPerfect) {
@@ -259,8 +257,8 @@ TEST(ComparisonText, HasALinePerMethodInEveryFormat) {
   const std::vector<Comparison> all = compare(sweep(), {.baseline = "uniform"});
   const std::string text = markdown(table_view(all[0]));
   EXPECT_EQ(text.find("### ate rmse, dense, loopbench\n\n| method"), 0u) << text;
-  EXPECT_TRUE(has(text, "\n| **dual**")) << text;
-  EXPECT_TRUE(has(text, "8/0/0"));
+  EXPECT_TRUE(has(text, "\n| **= dual**")) << text;
+  EXPECT_TRUE(has(text, "|          8/0 |"));
   const std::string table = csv(all);
   EXPECT_EQ(std::ranges::count(table, '\n'), 5);
   EXPECT_TRUE(has(table, "loopbench,dense,ate,ate,translation,3d,m,rmse,uniform,groups,8,8,raw,"))

@@ -68,10 +68,10 @@ TEST(VerdictTable, NamesGroupsByWhatTheyHaveInCommon) {
     for (const TableCell& cell : table.lines[group]) out += cell.text + "|";
     return out;
   };
-  EXPECT_EQ(line(1), "> dual, pose_graph|-31|-30 .. -31|-40|-20|");
-  EXPECT_EQ(line(2), "> two_pass|-21|-20 .. -21|-30|-10|");
-  EXPECT_TRUE(
-      has(v.legend, "all: mean over the sequences of their typical change to raw over 32 runs"))
+  EXPECT_EQ(line(1), "> dual, pose_graph|-31|-30 to -31|-40|-20|");
+  EXPECT_EQ(line(2), "> two_pass|-21|-20 to -21|-30|-10|");
+  EXPECT_TRUE(v.legend.starts_with(
+      "change: to raw [%], typical over 32 runs of 2 sequences (mean of the sequences); 95 %: "))
       << v.legend;
   EXPECT_TRUE(v.cautions.empty());
 }
@@ -85,7 +85,7 @@ TEST(VerdictTable, ShowsTheRangeOfMembersThatDiffer) {
   const Comparison c = against_raw(records)[0];
   ASSERT_FALSE(c.methods[2].is_worse);  // better on one, worse on the other
   const std::string text = terminal(verdict_table(verdict_of(c, {})));
-  EXPECT_TRUE(has(text, "  -50 .. -60  -25 .. -40\n")) << text;
+  EXPECT_TRUE(has(text, "  -50 to -60  -25 to -40\n")) << text;
 }
 
 TEST(VerdictTable, HasTheSamePartsInEveryFormat) {
