@@ -273,10 +273,9 @@ std::size_t GateReport::count(Finding::Kind kind) const {
 
 GateReport check(const Baseline& baseline, const Snapshot& now, GateExtent extent) {
   require_used_limits(baseline);
-  require_same_definitions(baseline.snapshot, now);
+  const std::string contents = require_same_definitions(baseline.snapshot, now);
   GateReport out = Checker(baseline, now, extent).report();
   for (std::string& note : notes_on_limits(baseline.limits)) out.notes.push_back(std::move(note));
-  const std::string contents = note_on_contents(baseline.snapshot, now);
   if (!contents.empty()) out.notes.push_back(contents);
   return out;
 }

@@ -19,11 +19,9 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
 /// in `now` but different options, stages, files or content; the message names the first difference
 /// and the number of further ones. Labels that are missing in `now` are reported with their cells
 /// and scores, except protocols. Contents of sequences are compared only between equal machines,
-/// because the last digits of a simulated sequence can differ otherwise.
-void require_same_definitions(const Snapshot& baseline, const Snapshot& now);
-
-/// "contents are not compared ..." if this applies, otherwise empty.
-std::string note_on_contents(const Snapshot& baseline, const Snapshot& now);
+/// because the last digits of a simulated sequence can differ otherwise; returns a note where they
+/// are not, otherwise an empty text.
+std::string require_same_definitions(const Snapshot& baseline, const Snapshot& now);
 
 /// Provenance of a baseline from this store.
 std::map<std::string, std::string> build_summary(const std::filesystem::path& store);

@@ -24,23 +24,28 @@ Tolerance limit_of(const Json& node, const std::string& at) {
     if (std::ranges::count(known, entry.key()) > 0) continue;
     throw InputError(at + ": " + unknown_name("key of a limit", entry.key(), known));
   }
-  const auto member = [&](const std::string& key) -> const Json& {
+  const auto member = [&](const char* key, const char* expected, auto is_valid) -> const Json& {
     const auto found = node.find(key);
-    if (found == node.end()) throw InputError(at + "." + key + ": is missing");
-    return *found;
+    if (found != node.end() && is_valid(*found)) return *found;
+    throw InputError(fmt::format("{}.{}: expected {}, found {}",
+                                 at,
+                                 key,
+                                 expected,
+                                 found == node.end() ? "none" : found->dump()));
   };
-  const auto number = [&](const std::string& key) {
-    const Json& found = member(key);
-    if (found.is_number() && found.get<double>() >= 0.0) return found.get<double>();
-    throw InputError(at + "." + key + ": expected a non-negative number, found " + found.dump());
+  const auto number = [&](const char* key) {
+    return member(key,
+                  "a non-negative number",
+                  [](const Json& n) { return n.is_number() && n.get<double>() >= 0.0; })
+        .get<double>();
   };
-  const auto texts = [&](const std::string& key) {
-    const Json& found = member(key);
-    const auto is_text = [](const Json& entry) { return entry.is_string(); };
-    if (found.is_array() && std::ranges::all_of(found, is_text)) {
-      return found.get<std::vector<std::string>>();
-    }
-    throw InputError(at + "." + key + ": expected a list of texts, found " + found.dump());
+  const auto texts = [&](const char* key) {
+    return member(key,
+                  "a list of texts",
+                  [](const Json& n) {
+                    return n.is_array() && std::ranges::all_of(n, &Json::is_string);
+                  })
+        .get<std::vector<std::string>>();
   };
   Tolerance out{texts("where"), texts("values"), number("relative"), number("absolute")};
   if (out.values.empty()) throw InputError(at + ".values: expected at least one statistic");

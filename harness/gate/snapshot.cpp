@@ -144,10 +144,6 @@ void require_same(const DefinitionKind& kind, const Snapshot& baseline, const Sn
   throw InputError(more == 0 ? first : fmt::format("{} (and {} more)", first, more));
 }
 
-bool are_comparable(const Snapshot& baseline, const Snapshot& now) {
-  return !baseline.machine.empty() && baseline.machine == now.machine;
-}
-
 }  // namespace
 
 Snapshot snapshot(const std::filesystem::path& store, const std::vector<Tolerance>& limits) {
@@ -198,15 +194,12 @@ Snapshot snapshot(const std::filesystem::path& store, const std::vector<Toleranc
   return out;
 }
 
-void require_same_definitions(const Snapshot& baseline, const Snapshot& now) {
+std::string require_same_definitions(const Snapshot& baseline, const Snapshot& now) {
+  const bool is_same_machine = !baseline.machine.empty() && baseline.machine == now.machine;
   for (const DefinitionKind& kind : kDefinitions) {
-    if (kind.member != &Snapshot::contents) require_same(kind, baseline, now);
+    if (kind.member != &Snapshot::contents || is_same_machine) require_same(kind, baseline, now);
   }
-  if (are_comparable(baseline, now)) require_same(kDefinitions[1], baseline, now);
-}
-
-std::string note_on_contents(const Snapshot& baseline, const Snapshot& now) {
-  if (are_comparable(baseline, now) || baseline.contents.empty()) return "";
+  if (is_same_machine || baseline.contents.empty()) return "";
   return "contents of sequences are not compared: the baseline is from another machine (" +
          baseline.machine + ")";
 }

@@ -76,10 +76,8 @@ inline std::string markdown(const GateReport& report, const std::string& sweep) 
   for (const Finding& finding : report.findings) {
     out.lines.push_back({{finding.cell}, {finding.score}, {name(finding.kind)}, {finding.what}});
   }
-  if (!out.lines.empty()) return markdown(out);
-  std::string text = "### " + one_line(out.title) + "\n\n";
-  for (const std::string& note : out.notes) text += "- " + one_line(note) + "\n";
-  return text;
+  if (out.lines.empty()) out.headings.clear();
+  return markdown(out);
 }
 
 /// JUnit test suite with one case per cell of the baseline, failed if the cell failed, then or now,
