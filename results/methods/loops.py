@@ -182,11 +182,16 @@ def print_planted(data):
     files = {(kind, each.get("estimate", each.get("path"))): (dataset, each) for kind, dataset, each in chains(data)}
     for name, size, count in (("viso2_loops_se2", 4, 1), ("mulran/DCC_01", 19, 1), ("00/kiss_icp", 57, 3)):
         key = next(key for key in files if name in key[1])
-        problem, _ = load(*files[key], size)
-        found, true = loopbench.loops(with_false(problem, count, 1)), pairs(problem)
+        problem, reference = load(*files[key], size)
+        changed, true = with_false(problem, count, 1), pairs(problem)
+        found = loopbench.loops(changed)
+        results = {"raw": problem.keyframes}
+        for method in ("dual", "pose_graph_pcm"):
+            results[method] = loopbench.correct(changed, method)[0]
         ranks = [i + 1 for i, row in enumerate(found["closures"]) if (row["from"], row["to"]) not in true]
         print(f"{os.path.relpath(key[1], data)}: false closures {count} of {len(problem.closures) + count}", end="")
-        print(f", at ranks {ranks}: {found['verdict']}")
+        print(f", at ranks {ranks}: {found['verdict']}", end="")
+        print("; ATE " + ", ".join(f"{method} {ate(reference, poses):.3g}" for method, poses in results.items()))
 
 
 def draw(results, file):
