@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 
 #include "datasets/core/closure_places.hpp"
 #include "datasets/core/covariance.hpp"
@@ -14,12 +12,7 @@
 #include "datasets/formats/trajectory_file.hpp"
 #include "harness/base/write_file.hpp"
 #include "harness/catalogue/external_methods.hpp"
-#include "harness/config/choices.hpp"
 #include "harness/eval/loops.hpp"
-#include "harness/run/check_output.hpp"
-#include "harness/run/evaluation_notes.hpp"
-#include "harness/run/run_cell.hpp"
-#include "metrics/correction/graph_cost.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -34,41 +27,6 @@ bool uses_closures(const MethodChoice& choice, const Catalogue& catalogue) {
     const methods::Kind kind = find_method(catalogue, stage.name).kind;
     return kind == methods::Kind::corrector || kind == methods::Kind::joint;
   });
-}
-
-std::optional<std::vector<Residual>> residuals(const Problem& problem,
-                                               const Trajectory& keyframes) {
-  metrics::Evaluation evaluation;
-  evaluation.context.problem = &problem;
-  evaluation.context.estimate = &keyframes;
-  metrics::Statistics metres, degrees;  // zero without closures
-  try {
-    if (!problem.closures.empty()) {
-      const std::vector<metrics::Score> scores = metrics::closure_residual(evaluation);
-      metres = scores.at(0).statistics;
-      degrees = scores.at(1).statistics;
-    }
-    const std::vector<metrics::Score> cost = metrics::graph_cost(evaluation, {});
-    std::vector<Residual> out{{"translation_rms", "closure residual, rms [m]", metres.rmse},
-                              {"translation_max", "closure residual, max [m]", metres.max},
-                              {"rotation_rms", "closure residual, rms [deg]", degrees.rmse},
-                              {"rotation_max", "closure residual, max [deg]", degrees.max},
-                              {"chi2_odometry", "chi2 of odometry", cost.at(1).statistics.rmse},
-                              {"chi2_closures", "chi2 of closures", cost.at(2).statistics.rmse}};
-    if (problem.anchors.empty()) return out;
-    double sum = 0.0, max = 0.0;
-    for (const Anchor& anchor : problem.anchors) {
-      const double e = anchor_error(anchor, keyframes[anchor.keyframe].world_from_body).norm();
-      sum += e * e;
-      max = std::max(max, e);
-    }
-    const double rms = std::sqrt(sum / static_cast<double>(problem.anchors.size()));
-    out.push_back({"anchor_rms", "anchor error, rms [m]", rms});
-    out.push_back({"anchor_max", "anchor error, max [m]", max});
-    return out;
-  } catch (const std::runtime_error&) {  // an edge changes the scale
-    return std::nullopt;
-  }
 }
 
 /// Stamps of the output, ascending; those outside the keyframes' time span are only counted.
@@ -170,57 +128,7 @@ void judge_closures(const CorrectArguments& a, Correction& done) {
   if (!rows.empty()) write_file(a.ledger, rows);
 }
 
-std::optional<std::size_t> rejected_closures(const Correction& done) {
-  if (done.report.rejected) return done.report.rejected->size();
-  for (const methods::Count& count : done.report.counts) {
-    if (count.name == "closures_kept" || count.name == "closures_consistent") {
-      return done.problem.closures.size() - static_cast<std::size_t>(count.value);
-    }
-  }
-  return std::nullopt;
-}
-
 }  // namespace
-
-MethodChoice method_without_reference(const std::string& text, const Catalogue& catalogue) {
-  MethodChoice out = method_choices(parse_entry(text, "--method"), catalogue).front();
-  for (const Choice& stage : out.stages) {
-    if (is_oracle(catalogue, stage.name)) {
-      throw InputError("--method: " + stage.name + " reads the reference, which is not given here");
-    }
-  }
-  return out;
-}
-
-Correction correct(Problem problem,
-                   const std::string& name,
-                   const MethodChoice& choice,
-                   const std::vector<double>& at,
-                   const Catalogue& catalogue) {
-  const auto method = make_method(choice, catalogue, {});
-  if (const std::string why = methods::reason_to_decline(*method, problem); !why.empty()) {
-    throw InputError(name + ": " + choice.label + " declines: " + why);
-  }
-  Correction out;
-  out.problem = std::move(problem);
-  out.estimate = name;
-  out.method = choice.label;
-  const auto begin = std::chrono::steady_clock::now();
-  const std::unique_ptr<const Curve> curve = method->estimate(out.problem, out.report);
-  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  out.keyframes = curve->sample(stamps(out.problem.keyframes));
-  check(out.keyframes, choice.label);
-  check_covariances(out.report.covariances, out.keyframes.size());
-  out.output = curve->sample(at);
-  check(out.output, choice.label);
-  out.before = residuals(out.problem, out.problem.keyframes);
-  out.after = residuals(out.problem, out.keyframes);
-  out.rejected = rejected_closures(out);
-  // Of the solver's start, not of the input.
-  std::erase_if(out.report.counts, [](const auto& c) { return c.name.ends_with("chi2_before"); });
-  for (std::string& note : closure_notes(out.problem)) out.report.notes.push_back(std::move(note));
-  return out;
-}
 
 Problem load_problem(const CorrectArguments& a,
                      const Catalogue& catalogue,

@@ -5,21 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "datasets/core/fields.hpp"
-#include "datasets/derive/odometry.hpp"
-#include "datasets/derive/planar.hpp"
 #include "datasets/derive/reference_body.hpp"
 #include "datasets/formats/formats.hpp"
-#include "harness/config/choices.hpp"
-#include "harness/eval/correct.hpp"
+#include "harness/catalogue/catalogue.hpp"
 #include "harness/eval/evaluate_files.hpp"
-#include "harness/eval/loops.hpp"
 #include "harness/eval/recorded_file.hpp"
-#include "harness/python/arrays.hpp"
+#include "harness/python/problems.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/stored_cells.hpp"
 #include "metrics/alignment/alignment.hpp"
@@ -139,13 +134,6 @@ Array read(const std::string& file,
   return rows_of(out);
 }
 
-/// One trajectory of the arguments of a function.
-Trajectory checked(const Array& rows, const std::string& name) {
-  Trajectory out = read_rows(rows, name).poses;
-  check(out, name);
-  return out;
-}
-
 py::tuple associate(const harness::EvalArguments& arguments,
                     const Array& reference_rows,
                     const Array& estimate_rows) {
@@ -187,84 +175,6 @@ std::vector<std::pair<double, double>> tracking_gaps(const Array& reference,
     out.emplace_back(gap.begin, gap.end);
   }
   return out;
-}
-
-Problem problem_of(const Array& keyframes,
-                   const Array& frames,
-                   const Array& odometry,
-                   const Array& closures,
-                   bool planar) {
-  Problem out{checked(keyframes, "keyframes"),
-              read_edges(odometry, "odometry"),
-              read_edges(closures, "closures"),
-              checked(frames, "frames"),
-              planar};
-  check(out, "problem");
-  return out;
-}
-
-py::tuple correct(const Problem& problem, const std::string& method, std::vector<double> at) {
-  harness::Correction done;
-  {
-    const py::gil_scoped_release unlocked;
-    const harness::Catalogue known = harness::catalogue({});
-    if (at.empty()) at = stamps(problem.keyframes);
-    done = harness::correct(
-        problem, "problem", harness::method_without_reference(method, known), at, known);
-  }
-  return py::make_tuple(rows_of(done.output), harness::json(done));
-}
-
-/// JSON of `loops --json`; keyframes are named by their indices.
-std::string loops(Problem problem) {
-  const py::gil_scoped_release unlocked;
-  problem.ids.resize(problem.keyframes.size());
-  std::iota(problem.ids.begin(), problem.ids.end(), 0);
-  harness::LoopsResult result = harness::loops(std::move(problem), "problem");
-  harness::add_rejections(result);
-  return harness::json(result);
-}
-
-/// Edges between consecutive keyframes, with the default noise of measured odometry.
-Array odometry(const Array& keyframes) {
-  return edge_rows(odometry_edges(checked(keyframes, "keyframes"), {}));
-}
-
-/// Whether poses and closures are in one plane with the normal z of the body, within rounding.
-bool is_planar(const Array& keyframes, const Array& frames, const Array& closures) {
-  Trajectory poses = checked(keyframes, "keyframes"), between = checked(frames, "frames");
-  std::vector<Edge> edges = read_edges(closures, "closures");
-  PlanarParts parts{{{"keyframes", &poses}, {"frames", &between}}, {}};
-  for (Edge& edge : edges) parts.measurements.push_back(&edge.from_from_to);
-  const PlanarChoice choice = choose_planar(Planar::automatic, parts);
-  return choice.planar && choice.normal == Vector3::UnitZ();
-}
-
-/// The data of one sequence; `entry` is the text of one entry of a config's `datasets`.
-py::tuple load(const std::string& entry, const std::vector<std::string>& folders) {
-  Sequence loaded;
-  {
-    const py::gil_scoped_release unlocked;
-    const harness::Catalogue known = harness::catalogue({});
-    const harness::Folders roots(folders.begin(), folders.end());
-    const std::vector<harness::DatasetChoice> choices =
-        harness::read_datasets(harness::parse_yaml(entry, "dataset"), known, roots);
-    if (choices.size() != 1) {
-      throw InputError("dataset: found " + std::to_string(choices.size()) +
-                       " sequences, expected one: no lists, and no pattern of several files");
-    }
-    const harness::Choice& chosen = choices.front().dataset;
-    loaded = harness::find_dataset(known, chosen.name).load(chosen.options, DataRoot{roots});
-    check(loaded.problem, choices.front().label);
-    check(loaded.reference, choices.front().label + ": reference");
-  }
-  const Problem& problem = loaded.problem;
-  return py::make_tuple(rows_of(problem.keyframes),
-                        rows_of(problem.frames),
-                        edge_rows(problem.odometry),
-                        edge_rows(problem.closures),
-                        problem.planar,
-                        rows_of(loaded.reference));
 }
 
 std::vector<std::pair<std::string, std::string>> method_list() {
@@ -311,7 +221,7 @@ PYBIND11_MODULE(_core, module) {
           "repeats", nullptr, python::word_setter<Repeats>("repeats", &Arguments::repeats))
       .def_readwrite("times", &Arguments::times)
       .def_readwrite("period", &Arguments::period);
-  py::class_<Problem>(module, "Problem").def(py::init(&python::problem_of));
+  python::add_problems(module);
   module.def("read_trajectory", &python::read, "rows of a file");
   module.def(
       "evaluate_files", &python::evaluate_files, "JSON of `eval --json`, errors of poses, names");
@@ -320,11 +230,6 @@ PYBIND11_MODULE(_core, module) {
   module.def("associate", &python::associate, "paired rows of reference and estimate");
   module.def("align", &python::align, "aligned rows, scale, rank, condition, transform");
   module.def("tracking_gaps", &python::tracking_gaps, "begin and end of each gap");
-  module.def("correct", &python::correct, "rows, and the JSON of `correct --json`");
-  module.def("loops", &python::loops, "the JSON of `loops --json`");
-  module.def("odometry", &python::odometry, "edges between consecutive keyframes");
-  module.def("is_planar", &python::is_planar, "whether keyframes, frames and closures are planar");
-  module.def("load", &python::load, "keyframes, frames, odometry, closures, planar, reference");
   module.def("check_store", &python::check_store, "raises InputError if it is damaged");
   module.def("methods", &python::method_list, "name and summary of every method");
 }
