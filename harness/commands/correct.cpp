@@ -19,7 +19,7 @@ namespace {
 
 struct CorrectCommand {
   CorrectArguments correct;
-  TrajArguments output;  ///< out and to
+  std::string to;  ///< format of the output
   std::vector<std::filesystem::path> plugins;
   std::filesystem::path plot;
   FigureOptions figure;
@@ -34,8 +34,7 @@ void draw_correction(const Correction& done, const CorrectCommand& a) {
 }
 
 int run_correct(CorrectCommand& a) {
-  a.correct.out = a.output.out;
-  a.correct.format = written_format(a.output);
+  a.correct.format = written_format(a.correct.out, a.to);
   const Correction done = correct(a.correct, catalogue(a.plugins));
   std::FILE* const out = is_dash(a.correct.out) ? stderr : stdout;  // poses are on stdout
   fmt::print(out, "{}", a.json ? json(done) : fitted_lines(printable(text(done))));
@@ -47,7 +46,6 @@ int run_correct(CorrectCommand& a) {
 
 void add_correct(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<CorrectCommand>();
-  a->output.out.clear();
   CLI::App* command =
       app.add_subcommand("correct", "Correct one trajectory or pose graph with one method");
   CorrectArguments& c = a->correct;
@@ -76,10 +74,10 @@ void add_correct(CLI::App& app, int& exit_code) {
   auto* dense = command->add_flag("--dense", c.dense, "Output keyframes and frames");
   add(*command, "--at FILE", c.at, "Output poses at the stamps of this trajectory file")
       ->excludes(dense);
-  add(*command, "-o,--out FILE", a->output.out, "Output file; - is standard output");
+  add(*command, "-o,--out FILE", c.out, "Output file; - is standard output");
   add(*command,
       "--to WORD:tum|kitti|euroc|g2o|csv",
-      a->output.to,
+      a->to,
       "Output format (default: csv, g2o or kitti if -o ends in .csv, .g2o or .kitti, otherwise "
       "tum); g2o contains all edges");
   add(*command,

@@ -45,7 +45,7 @@ void protect_inputs(const TrajArguments& a, const std::vector<std::string>& outp
 /// Writes them to the files of the arguments (with --json none without -o), and says what a format
 /// loses. Returns the exit code.
 int write_all(const TrajArguments& a, const NamedTrajectories& all) {
-  const Format format = written_format(a);
+  const Format format = written_format(a.out, a.to);
   if (a.json && is_dash(a.out)) return kExitOk;  // standard output is for JSON
   const std::vector<std::string> files = output_files(names_of(all), a.out, format);
   protect_inputs(a, files);
@@ -97,33 +97,20 @@ int write_changed(const TrajArguments& a,
   return write_all(a, all);
 }
 
-/// Indices of paired poses. Throws InputError if there are none, or no common clock.
-std::vector<metrics::IndexPair> paired_indices(const TrajArguments& a,
-                                               const NamedTrajectory& reference,
-                                               const NamedTrajectory& estimate) {
+/// Paired poses. Throws InputError if there are none, or no common clock.
+metrics::Paired paired(const TrajArguments& a,
+                       const NamedTrajectory& reference,
+                       const NamedTrajectory& estimate) {
   reject_two_clocks(reference, estimate, a.reading);
-  const std::vector<double> of_reference = stamps(reference.file.poses);
-  const std::vector<double> of_estimate = stamps(estimate.file.poses);
-  const std::vector<metrics::IndexPair> out =
-      a.association == "evo" ? metrics::match_evo(of_reference, of_estimate, a.max_diff, a.offset)
-                             : metrics::match_one_to_one(of_reference,
-                                                         of_estimate,
-                                                         a.max_diff,
-                                                         metrics::Limit::inclusive,
-                                                         metrics::Crossing::refused,
-                                                         a.offset);
-  if (!out.empty()) return out;
+  metrics::Protocol rules;
+  rules.association =
+      a.association == "evo" ? metrics::Association::evo : metrics::Association::nearest;
+  rules.max_diff = a.max_diff;
+  rules.offset = a.offset;
+  metrics::Paired out = metrics::associate(reference.file.poses, estimate.file.poses, rules);
+  if (!out.reference.empty()) return out;
   throw InputError(fmt::format(
       "{}: no stamps are within {:g} s of stamps of {}", estimate.name, a.max_diff, a.reference));
-}
-
-/// The paired poses of one trajectory.
-TrajectoryFile paired_part(const TrajectoryFile& file,
-                           const std::vector<metrics::IndexPair>& pairs,
-                           std::size_t metrics::IndexPair::*index) {
-  std::vector<std::size_t> indices;
-  for (const metrics::IndexPair& pair : pairs) indices.push_back(pair.*index);
-  return selected(file, indices);
 }
 
 int info(const TrajArguments& a) {
@@ -215,19 +202,15 @@ int align_files(const TrajArguments& a) {
   const NamedTrajectory reference = read_named(a.reference, a.reading);
   std::vector<AlignedFile> aligned;
   const auto change = [&](NamedTrajectory& each) {
-    const auto pairs = paired_indices(a, reference, each);
-    const Trajectory of_reference =
-        paired_part(reference.file, pairs, &metrics::IndexPair::reference).poses;
-    const Trajectory of_estimate =
-        paired_part(each.file, pairs, &metrics::IndexPair::estimate).poses;
+    const metrics::Paired pairs = paired(a, reference, each);
+    const std::size_t count = pairs.reference.size();
     try {
       const metrics::Alignment fit =
-          metrics::align(of_reference, of_estimate, a.align, a.align_first);
+          metrics::align(pairs.reference, pairs.estimate, a.align, a.align_first);
       each.file.poses = metrics::moved(fit, std::move(each.file.poses));
       rotate(each.file.covariances, fit.reference_from_estimate, fit.scale);
       const auto& [rotation, position] = fit.reference_from_estimate;
-      const std::size_t used =
-          a.align_first > 0 ? std::min(a.align_first, pairs.size()) : pairs.size();
+      const std::size_t used = a.align_first > 0 ? std::min(a.align_first, count) : count;
       aligned.push_back({a.reference, each.name, used, fit});
       if (!a.json) {
         fmt::print(stderr,

@@ -139,29 +139,27 @@ const std::vector<VerbInfo>& verb_infos() {
 
 }  // namespace
 
-Format written_format(const TrajArguments& arguments) {
+Format written_format(const std::string& out, const std::string& to) {
   static const std::map<std::string, Format> kEndings{{"", Format::tum},
                                                       {".txt", Format::tum},
                                                       {".tum", Format::tum},
                                                       {".csv", Format::csv},
                                                       {".g2o", Format::g2o},
                                                       {".kitti", Format::kitti}};
-  if (arguments.to.empty()) {
-    const bool is_folder = std::filesystem::is_directory(arguments.out);
-    const std::string ending =
-        is_folder ? "" : std::filesystem::path(arguments.out).extension().string();
+  if (to.empty()) {
+    const bool is_folder = std::filesystem::is_directory(out);
+    const std::string ending = is_folder ? "" : std::filesystem::path(out).extension().string();
     const auto found = kEndings.find(ending);
     if (found != kEndings.end()) return found->second;
     throw InputError(
-        arguments.out +
+        out +
         ": expected a file name that ends in .txt, .tum, .csv, .g2o or .kitti, or --to FORMAT");
   }
   for (const auto& [name, format] : choices(Format{})) {
     const bool is_written = format != Format::automatic && format != Format::bag;
-    if (is_written && name == arguments.to) return format;
+    if (is_written && name == to) return format;
   }
-  throw OptionError("to",
-                    "to = " + arguments.to + ": expected one of tum | kitti | euroc | g2o | csv");
+  throw OptionError("to", "to = " + to + ": expected one of tum | kitti | euroc | g2o | csv");
 }
 
 void declare_traj(CLI::App& traj, const std::map<std::string, TrajVerb>& verbs, int& exit_code) {

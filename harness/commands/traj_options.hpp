@@ -53,7 +53,7 @@ using TrajVerb = std::function<int(const TrajArguments&)>;
 
 /// The format of `to`, or of the ending of `out`, or tum for folders and standard output. Throws
 /// OptionError, and InputError for another ending.
-Format written_format(const TrajArguments& arguments);
+Format written_format(const std::string& out, const std::string& to);
 
 /// Adds one subcommand for each verb.
 void declare_traj(CLI::App& traj, const std::map<std::string, TrajVerb>& verbs, int& exit_code);
