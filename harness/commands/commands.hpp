@@ -25,7 +25,6 @@ void add_list(CLI::App& app, int& exit_code);
 void add_loops(CLI::App& app, int& exit_code);
 void add_table(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
-void add_correct(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_complete(CLI::App& app, int& exit_code);
 void add_correct(CLI::App& app, int& exit_code);

@@ -5,7 +5,6 @@
 
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/help.hpp"
 #include "harness/commands/help_format.hpp"
 #include "metrics/protocols/protocols.hpp"
 

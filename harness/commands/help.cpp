@@ -1,5 +1,3 @@
-#include "harness/commands/help.hpp"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,6 +6,7 @@
 #include "datasets/core/error.hpp"
 #include "harness/base/suggest.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/commands/help_format.hpp"
 
 namespace loopbench::harness {
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
@@ -47,10 +46,6 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench eval reference.txt estimate.txt --align sim3\n"
      "  loopbench eval reference.txt a.txt b.txt --protocol evo,tum,rpg\n"
      "  loopbench eval reference.txt slam_1.txt slam_2.txt --store results/slam\n"},
-    {"help",
-     "  loopbench help\n"
-     "  loopbench help run\n"
-     "  loopbench run --help\n"},
     {"merge",
      "  loopbench merge results/a results/b -o results/all\n"
      "  loopbench table results/all\n"
@@ -58,7 +53,7 @@ const std::map<std::string, std::string> kExamples{
     {"submit",
      "  loopbench submit mine.yaml --array 16 --print\n"
      "  loopbench submit mine.yaml --array 16 --header slurm.sh\n"
-     "  loopbench submit mine.yaml --array 4 --retry failed -- --only room\n"},
+     "  loopbench submit mine.yaml --array 4 -- --retry failed --only room\n"},
     {"correct",
      "  loopbench correct graph.g2o -o corrected.g2o --plot corrected.svg\n"
      "  loopbench correct run.txt --loops loops.txt --method dual_pcm -o corrected.txt\n"
@@ -118,29 +113,17 @@ const std::map<std::string, std::string> kExamples{
      "  loopbench report results/quickstart -o - | gzip >report.html.gz\n"},
 };
 
-const std::string kDefaultExitCodes = "0 success, 2 invalid input or output, 3 internal error.";
-const std::string kSweepExitCodes =
-    "0 success, 1 failed cells, 2 invalid input or output, 3 internal error, 4 the build lacks a "
-    "required part, 130 interrupted.";
-
-/// Of commands with other codes; "" is the program.
+/// Exit codes of commands besides 0, 2 and 3; "" is the program.
 const std::map<std::string, std::string> kExitCodes{
     {"",
-     "0 success, 1 failed cells, regressions or assertions, 2 invalid input or output, 3 internal "
-     "error, 4 the build lacks a required part, 130 interrupted."},
-    {"run", kSweepExitCodes},
-    {"eval",
-     "0 success, 1 an estimate failed or covers too little, 2 invalid input or output, 3 internal "
-     "error."},
-    {"compare",
-     "0 success, 1 an assertion is not shown, 2 invalid input or output, 3 internal error."},
-    {"check", "0 passed, 1 regressions, 2 invalid input or output, 3 internal error."},
-    {"loops",
-     "0 no contradiction, 1 closures contradict each other, 2 invalid input or output, 3 internal "
-     "error."},
-    {"doctor",
-     "0 nothing found, 1 mistakes found or nothing could be checked, 2 invalid input or output, 3 "
-     "internal error."},
+     "1 failed cells, regressions or assertions; 4 the build lacks a required part; 130 "
+     "interrupted"},
+    {"run", "1 failed cells; 4 the build lacks a required part; 130 interrupted"},
+    {"eval", "1 an estimate failed or covers too little"},
+    {"compare", "1 an assertion is not shown"},
+    {"check", "1 regressions"},
+    {"loops", "1 closures contradict each other"},
+    {"doctor", "1 mistakes found or nothing could be checked"},
 };
 
 const CLI::App* named_command(const CLI::App& app, const std::string& name) {
@@ -183,8 +166,8 @@ void add_footers(CLI::App& app) {
     std::string footer = examples == kExamples.end() ? "" : "Examples:\n" + examples->second + "\n";
     if (!command.get_footer().empty()) footer += command.get_footer() + "\n\n";
     const auto codes = kExitCodes.find(name);
-    command.footer(
-        footer + "Exit codes: " + (codes == kExitCodes.end() ? kDefaultExitCodes : codes->second));
+    command.footer(footer + "Exit codes: 0 success; 2 invalid input or output; 3 internal error" +
+                   (codes == kExitCodes.end() ? "" : "; " + codes->second));
   };
   add(app, "");
   const auto all = [](const CLI::App*) { return true; };

@@ -1,4 +1,4 @@
-/// Layout of `--help`, and what it says about options.
+/// Help texts: their layout, what they say about options, examples and exit codes.
 #pragma once
 
 #include <memory>
@@ -6,6 +6,7 @@
 #include <vector>
 
 namespace CLI {
+class App;
 class FormatterBase;
 class Option;
 }  // namespace CLI
@@ -24,5 +25,15 @@ bool has_value(const CLI::Option& option);
 
 /// The accepted words, if the value is one of a few.
 std::vector<std::string> choices_of(const CLI::Option& option);
+
+/// The subcommands, without hidden ones.
+std::vector<const CLI::App*> commands_of(const CLI::App& app);
+
+/// `loopbench help [COMMAND]`. Throws InputError with the nearest name for an unknown command.
+void add_help(CLI::App& app, int& exit_code);
+
+/// Adds examples and exit codes to the help of the program and of each command. Call it after all
+/// commands are added.
+void add_footers(CLI::App& app);
 
 }  // namespace loopbench::harness

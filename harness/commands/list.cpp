@@ -25,7 +25,6 @@ const std::vector<std::string> kSubjects{"datasets", "methods", "metrics", "prot
 struct ListArguments {
   std::string subject;
   std::string name;
-  bool options = false;
   std::vector<std::filesystem::path> plugins;
   bool json = false;
 };
@@ -228,9 +227,9 @@ int list(const ListArguments& arguments) {
   for (std::size_t i = 0; i < lists.size(); ++i) {
     const bool has_title = lists.size() > 1;
     if (has_title) fmt::print("{}== {} ==\n", i == 0 ? "" : "\n", lists[i].subject);
-    print(lists[i].subject, lists[i].items, lists[i].is_selected || arguments.options);
+    print(lists[i].subject, lists[i].items, lists[i].is_selected);
   }
-  if (!lists.front().is_selected && !arguments.options) {
+  if (!lists.front().is_selected) {
     const std::string name = program_name();
     fmt::print("\n{}\n",
                fitted(fmt::format(
@@ -251,7 +250,6 @@ void add_list(CLI::App& app, int& exit_code) {
       a.subject,
       "datasets, methods, metrics, protocols, or the name or pattern of entries");
   add(command, "name", a.name, "name or pattern ('dm*') of entries of that list");
-  command.add_flag("--options", a.options, "Print the options of all entries");
   add(command, "--plugin FILE", a.plugins, "Shared object with methods, datasets or metrics")
       ->allow_extra_args(false);
   command.add_flag(

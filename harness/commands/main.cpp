@@ -21,7 +21,6 @@
 #include "harness/base/printable.hpp"
 #include "harness/base/suggest.hpp"
 #include "harness/commands/commands.hpp"
-#include "harness/commands/help.hpp"
 #include "harness/commands/help_format.hpp"
 #include "harness/commands/standard_output.hpp"
 #include "harness/run/build.hpp"

@@ -28,7 +28,6 @@ struct SubmitArguments {
   std::string header;
   int array = 8;
   bool print = false;
-  std::string retry;
   std::vector<std::string> options;  ///< of `run`
 };
 
@@ -90,9 +89,6 @@ int submit(const SubmitArguments& arguments) {
                   .lexically_normal();
   sweep.shards = arguments.array;
   sweep.options = arguments.options;
-  if (!arguments.retry.empty()) {
-    sweep.options.insert(sweep.options.end(), {"--retry", arguments.retry});
-  }
   sweep.header = header_text(arguments.header);
   check_options(sweep);
   const std::string shards = slurm_shard_script(sweep);
@@ -139,8 +135,6 @@ void add_submit(CLI::App& app, int& exit_code) {
       "File with lines for both scripts: #SBATCH options (time, memory, partition), then commands "
       "before the run (default: ~/.config/loopbench/slurm.sh)");
   command.add_flag("--print", a.print, "Print the scripts without submitting them");
-  add(command, "--retry", a.retry, "Stored cells to recompute, as of `run`")
-      ->check(CLI::IsMember({"none", "failed", "all"}));
   add(command, "--out DIR", a.out, "Output folder (default: results/CONFIG)");
   add(command, "options", a.options, "After --: options of `run`, for example --only");
   command.callback([arguments, &exit_code] { exit_code = submit(*arguments); });
