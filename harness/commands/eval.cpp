@@ -40,7 +40,7 @@ std::string verdict_of(const EvalArguments& a,
     for (const std::string& line : wrapped(why, style ? style->width : 0)) out += line + "\n";
     return out + "\n";
   }
-  return run_report(records, style, a.paired);
+  return run_report(records, style);
 }
 
 /// States which ATEs differ by less than the reference's own error, if that is given.
@@ -75,8 +75,8 @@ std::string result_text(const EvalArguments& a, const Evaluations& evaluations) 
   const std::vector<EvaluationResult>& all = evaluations.results;
   const std::optional<TerminalStyle> style = terminal_style(a);
   const Detail detail = detail_of(a);
-  if (all.size() == 1) return text(all.front(), style, detail, a.columns);
-  const std::vector<Table> tables = comparison(all, detail, a.columns);
+  if (all.size() == 1) return text(all.front(), style, detail);
+  const std::vector<Table> tables = comparison(all, detail);
   // The answer is first.
   std::string out = verdict_of(a, evaluations.records, style);
   if (!style) out += markdown(tables);
@@ -94,11 +94,9 @@ void write_figures(const EvalArguments& a, const Evaluations& all) {
   if (!data.note.empty()) {
     fmt::print(stderr, "{}\n", printable("loopbench: note: figures: " + data.note));
   }
-  data.figures = figures_for_paper(a.plot, a.figures);
+  data.figures = {evaluation_page(a.plot)};
   draw({data});
-  for (const DrawnFigure& figure : data.figures) {
-    fmt::print(stderr, "{}", printable(file_list(figure)));
-  }
+  fmt::print(stderr, "{}", printable(file_list(data.figures.front())));
 }
 
 void check_outputs(const EvalArguments& a) {
@@ -114,7 +112,7 @@ int print_stored(const EvalArguments& a, const Evaluations& stored) {
   for (const std::string& note : stored.notes) {
     fmt::print(stderr, "{}\n", printable("loopbench: note: " + note));
   }
-  const std::string report = run_report(stored.records, terminal_style(a), a.paired);
+  const std::string report = run_report(stored.records, terminal_style(a));
   write_file(a.out, printable(report + stored.summary));
   return stored.are_ok ? kExitOk : kExitSomeCellsFailed;
 }
@@ -137,7 +135,7 @@ int eval(const EvalArguments& a, const Source& source) {
   write_figures(a, all);
   write_file(a.out,
              a.json  ? json(all.results)
-             : a.csv ? csv(all.records, a.columns)
+             : a.csv ? csv(all.records)
                      : printable(result_text(a, all)));
   const bool all_ok = std::ranges::all_of(
       all.results, [](const EvaluationResult& result) { return status_of(result).first == "ok"; });

@@ -66,7 +66,6 @@ void declare_pairing(CLI::App& command, EvalArguments& a) {
   declare_fields(command,
                  {{"association", "--association"},
                   {"max_diff", "--max-diff,--t_max_diff"},
-                  {"max_gap", "--max-gap"},
                   {"offset", "--offset,--t_offset"}},
                  a.settings);
   add(command,
@@ -144,11 +143,6 @@ void declare_metrics(CLI::App& command, EvalArguments& a) {
       "Unit of --delta (frames, s, m, deg, rad)")
       ->excludes(metric);
   declare_setting(command, a, "--all_pairs", "pairs=all", "Use all pairs for rpe");
-  declare_setting(command,
-                  a,
-                  "--pairs_from_reference",
-                  "pairs_from=reference",
-                  "Measure --delta along REF instead of the estimate");
 }
 
 void declare_output(CLI::App& command, EvalArguments& a) {
@@ -157,17 +151,8 @@ void declare_output(CLI::App& command, EvalArguments& a) {
       "--unit,--change_unit WORD:mm|cm|m|km|deg|rad",
       a.unit,
       "Unit of lengths (mm, cm, m, km) or angles (deg, rad) in the results");
-  add(command,
-      "--columns NAMES",
-      a.columns,
-      "Comma-separated columns of the table, or of --csv, by their headings with or without unit "
-      "(ate,rpe_1_s,coverage)")
-      ->delimiter(',')
-      ->allow_extra_args(false);
   command.add_flag("--full", a.full, "Print all statistics, single axes and the diagnosis");
-  command.add_flag("--paired", a.paired, "Pair runs of equal names in verdicts");
-  command.add_flag("--json", a.json, "Print JSON in full precision, one list entry per evaluation")
-      ->excludes("--columns");
+  command.add_flag("--json", a.json, "Print JSON in full precision, one list entry per evaluation");
   command
       .add_flag(
           "--csv", a.csv, "Print a CSV line per score in full precision, as `export --what rows`")
@@ -178,12 +163,10 @@ void declare_output(CLI::App& command, EvalArguments& a) {
       a.per_pose,
       "CSV file for the error of every pose, and per-pose values of metrics; - is standard output");
   add(command,
-      "--plot,--save_plot PREFIX",
+      "--plot,--save_plot FILE",
       a.plot,
-      "All figures on one page, PREFIX.pdf; for PREFIX.svg (or .pdf, .png, .pgf) "
-      "PREFIX_trajectories.svg, PREFIX_errors.svg and PREFIX_axes.svg, as wide as one column of a "
-      "paper (3.5 in); for other sizes and styles see `plot`");
-  declare_curves(command, a.figures);
+      "Page with all figures: .pdf, .svg, .png or .pgf (default: FILE.pdf); for single figures, "
+      "other sizes and styles see `plot`");
   add(command,
       "--report FILE",
       a.report,
@@ -195,7 +178,6 @@ void declare_output(CLI::App& command, EvalArguments& a) {
       "and NAME/3.txt are run 3 of method NAME. Later calls add runs")
       ->excludes("--json")
       ->excludes("--csv")
-      ->excludes("--columns")
       ->excludes("--unit")
       ->excludes("--per-pose");
   add(command, "--sequence NAME", a.sequence, "Label of REF in the store (default: from its name)")

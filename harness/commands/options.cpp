@@ -94,7 +94,7 @@ void declare_problem(CLI::App& command, CorrectArguments& problem) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-void declare_curves(CLI::App& command, FigureOptions& options) {
+void declare_figures(CLI::App& command, FigureOptions& options, const std::string& needs) {
   add(command,
       "--labels NAMES",
       options.labels,
@@ -105,10 +105,6 @@ void declare_curves(CLI::App& command, FigureOptions& options) {
       options.plane,
       "Plane of the map: xy, xz or yz; default: the largest extent")
       ->check(CLI::IsMember({"xy", "xz", "yz"}));
-}
-
-void declare_figures(CLI::App& command, FigureOptions& options, const std::string& needs) {
-  declare_curves(command, options);
   const std::vector<CLI::Option*> of_files{
       add(command,
           "--style FILE_OR_NAME",

@@ -39,10 +39,7 @@ void declare_pose_filters(CLI::App& command,
                           std::optional<std::size_t>& downsample,
                           std::vector<double>& motion_filter);
 
-/// Declares --labels and --plane of figures.
-void declare_curves(CLI::App& command, FigureOptions& options);
-
-/// Declares the style of figures, too. `needs`: option without which it has no effect; empty: none.
+/// Declares the options of figures. `needs`: option without which they have no effect; empty: none.
 void declare_figures(CLI::App& command, FigureOptions& options, const std::string& needs = "");
 
 /// Draws the positions of `data` and lists the files. `name`: a figure, or .pdf is added.

@@ -73,8 +73,7 @@ std::string text(std::vector<Table> tables,
   for (Table& table : tables) {
     out += out.empty() || out.ends_with("\n\n") ? "" : "\n";
     if (!alignment.empty()) table.facts += (table.facts.empty() ? "" : "; ") + alignment;
-    out += format == ExportFormat::csv     ? text_csv(table)
-           : format == ExportFormat::latex ? latex(table, output.wide)
+    out += format == ExportFormat::latex ? latex(table, output.wide)
            : format == ExportFormat::terminal
                ? terminal(with_common_unit(without_empty_columns(table)), style)
                : markdown(table);

@@ -28,7 +28,7 @@ struct OutputOptions {
 void declare(CLI::App& command, OutputOptions& output);
 
 /// The tables of a store one below the other: Markdown, LaTeX with the alignment in the captions,
-/// text_csv(), or for the terminal in its width.
+/// or for the terminal in its width.
 std::string text(std::vector<Table> tables,
                  const OutputOptions& output,
                  const std::filesystem::path& store);

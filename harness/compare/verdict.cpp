@@ -212,7 +212,7 @@ std::string legend_of(const Comparison& c, const Verdict& v) {
   if (v.groups.size() > 1) out += "; =: shares first place, >: significantly worse";
   if (c.kind.times == "dense") out += "; dense: between keyframes, too";
   if (c.has_strata) {
-    out += "; runs of a sequence are independent (rank sums; --paired pairs equal names)";
+    out += "; runs of a sequence are independent (rank sums; compare --paired pairs equal names)";
   } else if (c.sequences < c.groups) {
     out += "; other sequences need --over sequences, 6 or more";
   }

@@ -10,7 +10,6 @@
 #include "datasets/formats/formats.hpp"
 #include "harness/catalogue/catalogue.hpp"
 #include "harness/config/entry.hpp"
-#include "harness/eval/eval_figures.hpp"
 #include "harness/eval/named_trajectory.hpp"
 #include "harness/model/sweep.hpp"
 
@@ -41,22 +40,19 @@ struct EvalArguments : ReadArguments {
   std::string delta_unit;
   std::vector<std::string> metrics;  ///< NAME[:option=value,...]; empty: the default metrics
   std::vector<std::filesystem::path> plugins;
-  std::vector<std::string> columns;  ///< of the table or CSV; empty: the default ones
-  std::string unit;                  ///< of lengths or angles in the results; empty: m and deg
-  bool full = false;                 ///< print all scores and the diagnosis
+  std::string unit;   ///< of lengths or angles in the results; empty: m and deg
+  bool full = false;  ///< print all scores and the diagnosis
   bool json = false;
   bool csv = false;
   std::string out = "-";       ///< file for what is printed; -: standard output
   std::string per_pose;        ///< output file; empty: none
   bool pose_errors = false;    ///< keep EvaluationResult::poses
-  std::string plot;            ///< prefix of figure files; empty: none
-  FigureOptions figures;       ///< labels and plane
+  std::string plot;            ///< file of a figure; empty: none
   std::string report;          ///< HTML file; empty: none
   std::string store;           ///< folder of a store for the results; empty: none
   std::string sequence;        ///< label of the reference in the store; empty: from its file name
   std::string group;           ///< recording of the reference; empty: by its geometry
   std::optional<bool> common;  ///< evaluate the times that all estimates cover; none: with a store
-  bool paired = false;         ///< pair runs of equal names in verdicts
 
   /// Whether trajectories are kept with the results.
   bool keeps_traces() const { return !store.empty() || !report.empty(); }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <set>
 
@@ -14,57 +13,6 @@
 
 namespace loopbench::harness {
 namespace {
-
-/// A candidate for a figure.
-struct RatedRun {
-  DrawnCurve curve;
-  std::string method;
-  bool is_complete = true;
-};
-
-/// Best, median and worst of runs of one method, or only the median.
-std::vector<DrawnCurve> representative(std::vector<RatedRun> runs, bool is_only) {
-  std::ranges::stable_sort(runs, {}, [](const RatedRun& run) { return run.curve.rmse; });
-  const auto named = [&](std::size_t i, const char* role) {
-    DrawnCurve out = runs[i].curve;
-    out.name += role;
-    out.dash = 0;  // no other run of its method has its colour
-    return out;
-  };
-  const std::size_t middle = (runs.size() - 1) / 2;
-  if (runs.size() == 1) return {named(0, "")};
-  if (!is_only) return {named(middle, " (median)")};
-  std::vector<DrawnCurve> out{
-      named(0, " (best)"), named(middle, " (median)"), named(runs.size() - 1, " (worst)")};
-  for (std::size_t i = 0; i < out.size(); ++i) out[i].style = i;
-  return out;
-}
-
-/// Adds curves to the one of the reference.
-void choose_drawn(const std::vector<RatedRun>& all, FigureData& out) {
-  if (all.size() <= kMostDrawnEstimates) {
-    for (const RatedRun& each : all) out.curves.push_back(each.curve);
-    return;
-  }
-  std::vector<std::string> methods;
-  std::map<std::string, std::vector<RatedRun>> runs;
-  const bool has_complete = std::ranges::any_of(all, &RatedRun::is_complete);
-  for (const RatedRun& each : all) {
-    if (has_complete && !each.is_complete) continue;
-    if (runs[each.method].empty()) methods.push_back(each.method);
-    runs[each.method].push_back(each);
-  }
-  const bool is_only = methods.size() == 1 && runs[methods.front()].size() > 2;
-  const bool has_repeats = runs.size() < all.size();
-  if (methods.size() > kMostDrawnEstimates) methods.resize(kMostDrawnEstimates);
-  for (const std::string& method : methods) {
-    std::ranges::move(representative(runs[method], is_only), std::back_inserter(out.curves));
-  }
-  out.note = fmt::format("{} of {} estimates are not drawn{}",
-                         all.size() + 1 - out.curves.size(),
-                         all.size(),
-                         has_repeats ? " (chosen by ATE)" : "");
-}
 
 /// Adds the columns of a trajectory.
 DrawnCurve drawn_trajectory(DrawnCurve out, const Trajectory& poses, double origin) {
@@ -134,6 +82,7 @@ std::vector<DrawnCurve> drawn_evaluation(const Trajectory& reference,
 
 FigureData drawn_runs(const std::vector<EvaluationResult>& all,
                       const std::vector<RecordedRun>& runs) {
+  constexpr std::size_t kMostCurves = 6;  // more hide each other
   FigureData out;
   NameOrder methods;
   std::map<std::string, std::size_t> count, before;  // by method
@@ -141,59 +90,51 @@ FigureData drawn_runs(const std::vector<EvaluationResult>& all,
     methods.index(run.method);
     ++count[run.method];
   }
+  const bool is_several = methods.names().size() > 1;
   const std::size_t protocols = runs.empty() ? 1 : all.size() / runs.size();
-  std::vector<RatedRun> candidates;
+  std::size_t left_out = 0;
   for (std::size_t i = 0; i < all.size(); i += protocols) {
     const RecordedRun& run = runs[i / protocols];
-    const std::size_t repeat = before[run.method]++;
     if (!all[i].why_failed.empty()) continue;
-    if (candidates.empty()) {
+    const std::size_t repeat = before[run.method]++;
+    if (out.curves.empty()) {
       const metrics::Align align = all[i].alignment.type;
       const std::string how = align == metrics::Align::none ? "no" : to_text(align);
       out.title = run.sequence + ", " + how + " alignment (ATE as RMSE)";
       out.curves.push_back(all[i].drawn.front());
     }
-    candidates.push_back({all[i].drawn.back(), run.method, all[i].incomplete_reason.empty()});
-    DrawnCurve& curve = candidates.back().curve;
+    const bool is_repeat = is_several && repeat > 0 && runs.size() > kMostCurves;
+    if (is_repeat || out.curves.size() > kMostCurves) {
+      ++left_out;
+      continue;
+    }
+    DrawnCurve& curve = out.curves.emplace_back(all[i].drawn.back());
     const bool has_repeats = count[run.method] > 1;
     curve.name = run.method + (has_repeats ? " " + run.run : "");
-    curve.style = methods.names().size() > 1 ? methods.index(run.method) : repeat;
-    if (methods.names().size() > 1 && has_repeats) curve.dash = 1 + static_cast<int>(repeat % 5);
+    curve.style = is_several ? methods.index(run.method) : repeat;
+    if (is_several && has_repeats) curve.dash = 1 + static_cast<int>(repeat % 5);
   }
-  choose_drawn(candidates, out);
+  if (left_out > 0) {
+    out.note = fmt::format("{} of {} estimates are not drawn", left_out, all.size() / protocols);
+  }
   return out;
 }
 
-std::vector<DrawnFigure> figures_for_paper(std::filesystem::path name,
-                                           const FigureOptions& options) {
-  constexpr double kColumnWidth = 3.5;                  // of a paper [in]
-  constexpr double kMapShape = 0.9, kCurveShape = 0.4;  // height over width
-  const std::vector<std::string> panels[kErrorFigures.size()] = {
-      {"plane", "xyz"},
-      {"error by time", "angle by time", "histogram", "boxes"},
-      {"x by time", "y by time", "z by time", "roll by time", "pitch by time", "yaw by time"}};
-  std::vector<DrawnFigure> out;
-  if (!is_figure_name(name)) {
-    DrawnFigure& page = out.emplace_back(DrawnFigure{{figure_name(name)}, {}, options});
-    for (const auto& some : panels) page.panels.insert(page.panels.end(), some.begin(), some.end());
-    page.options.columns = 3;
-    page.options.size = {2.4, 2.1};
-    page.options.font = 7.0;
-    return out;
-  }
-  const std::string suffix = name.extension().string();
-  const std::string prefix = name.replace_extension().string();
-  for (std::size_t i = 0; i < kErrorFigures.size(); ++i) {
-    const bool is_map = i == 0;
-    DrawnFigure& figure = out.emplace_back(DrawnFigure{{}, panels[i], options});
-    const std::size_t columns = is_map ? 2 : 1;
-    const double width = kColumnWidth / static_cast<double>(columns);
-    figure.options.columns = columns;
-    figure.options.size = {width, width * (is_map ? kMapShape : kCurveShape)};
-    figure.options.font = 7.0;
-    figure.files.emplace_back(prefix + "_" + kErrorFigures[i] + suffix);
-  }
-  return out;
+DrawnFigure evaluation_page(const std::filesystem::path& name) {
+  return {{figure_name(name)},
+          {"plane",
+           "xyz",
+           "error by time",
+           "angle by time",
+           "histogram",
+           "boxes",
+           "x by time",
+           "y by time",
+           "z by time",
+           "roll by time",
+           "pitch by time",
+           "yaw by time"},
+          {.size = {2.4, 2.1}, .columns = 3, .font = 7.0}};
 }
 
 FigureData trajectory_figure(const std::vector<NamedTrajectory>& all,

@@ -1,7 +1,7 @@
 /// Figures of evaluations and of trajectory files.
 #pragma once
 
-#include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,29 +17,19 @@ namespace loopbench::harness {
 std::vector<DrawnCurve> drawn_evaluation(const Trajectory& reference,
                                          const metrics::Evaluation& evaluation);
 
-inline constexpr std::size_t kMostDrawnEstimates = 6;  ///< in a figure; more hide each other
-
 /// The reference and the estimates evaluated under the first protocol, without figures; no curves
 /// if all failed. The title has sequence, alignment and score, the note how many are not drawn.
 /// `runs[i / protocols]` belongs to `all[i]`. The name of an estimate is its method, or method and
 /// run if a method has several. The further runs of a method are dashed, or have colours of their
-/// own if there is only one method. Of more than kMostDrawnEstimates, the run of median ATE of each
-/// method is drawn, for the first methods, or the best, median and worst of a single method;
-/// incomplete ones only if there are no others.
+/// own if there is only one method. Of more than six estimates, six are drawn, only the first run
+/// of each of several methods.
 FigureData drawn_runs(const std::vector<EvaluationResult>& all,
                       const std::vector<RecordedRun>& runs);
 
-/// - trajectories: the plane of the largest extent and space, start and end marked, coloured by
-///   position error for a single estimate;
-/// - errors: position and rotation error over time, histogram and box plot of the position error;
-/// - axes: x, y, z, roll, pitch and yaw over time, with the complete reference.
-inline constexpr std::array kErrorFigures{"trajectories", "errors", "axes"};
-
-/// For PREFIX.svg (or another of kFigureFormats) kErrorFigures as PREFIX_NAME.svg, as wide as one
-/// column of a paper, with 2 maps or 1 panel of curves in a row; for any other name all panels on
-/// one page, NAME.pdf. `options`: labels and plane.
-std::vector<DrawnFigure> figures_for_paper(std::filesystem::path name,
-                                           const FigureOptions& options);
+/// A page of all panels for drawn_runs(): the plane of the largest extent and space; position and
+/// rotation error over time, histogram and box plot of the position error; x, y, z, roll, pitch and
+/// yaw over time. `name`: a figure, or .pdf is added.
+DrawnFigure evaluation_page(const std::filesystem::path& name);
 
 /// The plane of the largest extent and space; x, y, z, roll, pitch, yaw and speed over time. Any
 /// panel can also be xy, xz or yz.

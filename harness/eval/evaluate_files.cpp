@@ -32,8 +32,7 @@ bool is_new(const std::filesystem::path& store) {
   return !std::filesystem::exists(store) || has_no_tables(store);
 }
 
-/// With the names of files as given unless they are stored, and those of --labels: one for each
-/// file, or else one for each method.
+/// With the names of files as given unless they are stored.
 std::vector<RecordedRun> runs_of(const EvalArguments& a) {
   std::vector<RecordedRun> out;
   if (!a.store.empty()) {
@@ -42,15 +41,7 @@ std::vector<RecordedRun> runs_of(const EvalArguments& a) {
     return out;
   }
   out = labelled_runs(a.reference, a.estimates, a.sequence);
-  std::vector<std::string> methods;
-  for (const RecordedRun& run : out) {
-    const bool is_known = std::ranges::count(methods, run.method) > 0;
-    if (!is_known || a.figures.labels.size() == out.size()) methods.push_back(run.method);
-  }
-  const std::vector<std::string> labels = labels_of(a.figures, methods);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const auto place = std::ranges::find(methods, out[i].method) - methods.begin();
-    out[i].method = labels[labels.size() == out.size() ? i : static_cast<std::size_t>(place)];
     out[i].reference = a.reference;
     out[i].estimate = a.estimates[i];
   }
@@ -129,9 +120,7 @@ void add_records(Evaluations& out, const RecordedSweep& files, std::vector<Evalu
 }
 
 void write_page(const std::filesystem::path& store, const EvalArguments& a) {
-  ReportContent content = read_report_content(store, kReportBytes);
-  content.plane = a.figures.plane;
-  write_file(a.report, report_html(std::move(content), kReportBytes));
+  write_file(a.report, report_html(read_report_content(store, kReportBytes), kReportBytes));
   fmt::print(stderr, "{}\n", printable(a.report));
 }
 

@@ -49,19 +49,16 @@ std::pair<std::string, std::string> status_of(const EvaluationResult& result);
 enum class Detail { summary, scores, all };
 
 /// Properties of the evaluation, and a row of comparison() or a table of the scores with six
-/// decimals. `columns`: those of the table, see with_columns(); empty: the ones of `detail`,
-/// otherwise columns of all scores can be chosen, in a summary too. With a style, lines have at
-/// most style.width columns, and numbers four significant digits if they do not fit.
+/// decimals. With a style, lines have at most style.width columns, and numbers four significant
+/// digits if they do not fit.
 std::string text(const EvaluationResult& result,
                  const std::optional<TerminalStyle>& style = {},
-                 Detail detail = Detail::all,
-                 const std::vector<std::string>& columns = {});
+                 Detail detail = Detail::all);
 
 /// One table for each protocol, one row for each estimate: the protocol's statistic
 /// of the combined errors (axis 3d or all), not of single axes or lengths, and the coverage.
 std::vector<Table> comparison(const std::vector<EvaluationResult>& results,
-                              Detail detail = Detail::all,
-                              const std::vector<std::string>& columns = {});
+                              Detail detail = Detail::all);
 
 /// Array of objects, also for one evaluation; doubles in full precision. Keys: reference,
 /// reference_body (if given), other_body (if detected), estimate, protocol {name, version,

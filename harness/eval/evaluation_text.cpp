@@ -81,14 +81,21 @@ std::vector<Missing> missing_scores(const EvaluationResult& result, const std::s
 
 /// `digits`: decimals; none: four significant digits.
 Table scores_view(const EvaluationResult& result, std::optional<int> digits) {
-  Table out{"", {"score", "rmse", "mean", "median", "std", "min", "max", "count"}, {}, {}};
+  std::vector<metrics::StatisticField> shown;
+  Table out{"", {"score"}, {}, {}};
+  for (const metrics::StatisticField& each : metrics::kStatisticFields) {
+    if (each.share > 0.0 || !has_direction(each.name)) continue;
+    shown.push_back(each);
+    out.headings.emplace_back(each.name);
+  }
+  out.headings.emplace_back("count");
   for (const Record& record : result.records) {
     if (!has_numbers(record.status)) continue;
     const metrics::Statistics& s = record.statistics;
     std::vector<TableCell>& line = out.lines.emplace_back();
     line.push_back({score_name(record)});
-    for (const double value : {s.rmse, s.mean, s.median, s.std, s.min, s.max}) {
-      line.push_back({fixed(value, digits.value_or(decimals(s.rmse)))});
+    for (const metrics::StatisticField& each : shown) {
+      line.push_back({fixed(s.*each.member, digits.value_or(decimals(s.rmse)))});
     }
     line.push_back({std::to_string(s.count)});
   }
@@ -165,8 +172,7 @@ std::string estimate_name_of(const EvaluationResult* result) {
 /// Results under one protocol.
 Table comparison_of(const std::vector<const EvaluationResult*>& results,
                     Detail detail,
-                    bool has_totals,
-                    const std::vector<std::string>& show) {
+                    bool has_totals) {
   std::vector<Record> records;
   std::vector<Missing> notes;
   for (const EvaluationResult* result : results) {
@@ -181,7 +187,6 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results,
   const EvaluationResult& first = *results.front();
   TableSpec spec;
   spec.split.clear();
-  spec.show = show;
   spec.value = to_text(first.protocol.rules.statistic);
   Table out = pivot(records, spec).front();
   out.headings[0] = "estimate";
@@ -191,7 +196,7 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results,
                           first.reference,
                           body_text(first));
   for (std::string& note : grouped(notes)) out.notes.push_back(std::move(note));
-  if (detail == Detail::all && show.empty()) {
+  if (detail == Detail::all) {
     out.notes.push_back("other statistics: --set statistic=max, --csv, or one estimate at a time");
   }
   return out;
@@ -201,8 +206,7 @@ Table comparison_of(const std::vector<const EvaluationResult*>& results,
 
 std::string text(const EvaluationResult& result,
                  const std::optional<TerminalStyle>& style,
-                 Detail detail,
-                 const std::vector<std::string>& chosen) {
+                 Detail detail) {
   const std::size_t columns = style ? std::max<std::size_t>(40, style->width) : 0;
   const auto line = [&](const char* name, const std::string& value) {
     return property(name, value, columns);
@@ -234,29 +238,22 @@ std::string text(const EvaluationResult& result,
   if (detail == Detail::summary) {
     EvaluationResult row = result;
     std::erase_if(row.records, [&](const Record& record) {
-      const bool is_wanted = !chosen.empty() || is_in_summary(record, result.protocol.rules);
-      return !is_total(record) || !is_wanted;
+      return !is_total(record) || !is_in_summary(record, result.protocol.rules);
     });
     for (Record& record : row.records) {
       if (has_numbers(record.status)) record.status = Status::ok;
     }
-    Table summary = comparison({row}, detail, chosen).front();
+    Table summary = comparison({row}, detail).front();
     summary.title.clear();
     summary.notes = grouped(missing_scores(row, ""));
     return out + "\n" + terminal(summary, {style ? columns : 80, style && style->color});
   }
-  const auto view = [&](std::optional<int> digits) {
-    return with_columns({scores_view(result, digits)}, chosen).front();
-  };
-  const std::string scores = terminal(view(6));
+  const std::string scores = terminal(scores_view(result, 6));
   if (!style || fits(scores, columns)) return out + "\n" + scores;
-  return out + "\n" + terminal(view(std::nullopt), {columns, style->color});
+  return out + "\n" + terminal(scores_view(result, std::nullopt), {columns, style->color});
 }
 
-std::vector<Table> comparison(const std::vector<EvaluationResult>& results,
-                              Detail detail,
-                              const std::vector<std::string>& columns) {
-  if (!columns.empty() && detail == Detail::summary) detail = Detail::all;
+std::vector<Table> comparison(const std::vector<EvaluationResult>& results, Detail detail) {
   const bool has_totals = std::ranges::any_of(results, [](const EvaluationResult& result) {
     return std::ranges::any_of(result.records, is_total);
   });
@@ -267,19 +264,9 @@ std::vector<Table> comparison(const std::vector<EvaluationResult>& results,
         by_protocol, label, [](const auto& group) { return group.front()->protocol.label(); });
     (same == by_protocol.end() ? by_protocol.emplace_back() : *same).push_back(&result);
   }
-  const auto tables = [&](const std::vector<std::string>& show) {
-    std::vector<Table> out;
-    for (const auto& own : by_protocol) out.push_back(comparison_of(own, detail, has_totals, show));
-    return out;
-  };
-  if (columns.empty()) return tables({});
-  std::vector<std::string> show;  // so that notes name no others
-  for (const Table& table : with_columns(tables({}), columns)) {
-    for (const std::string& heading : table.headings) {
-      show.push_back(heading.substr(0, heading.rfind(" [")));
-    }
-  }
-  return with_columns(tables(show), columns);
+  std::vector<Table> out;
+  for (const auto& own : by_protocol) out.push_back(comparison_of(own, detail, has_totals));
+  return out;
 }
 
 }  // namespace loopbench::harness

@@ -50,8 +50,7 @@ bool has_repeats(const std::vector<Record>& records) {
 std::string report_of(const std::vector<Record>& records,
                       const Record& score,
                       const std::string& title,
-                      const std::optional<TerminalStyle>& style,
-                      bool paired) {
+                      const std::optional<TerminalStyle>& style) {
   NameOrder methods;
   std::set<SharedText> with_values;
   for (const Record& r : records) {
@@ -77,7 +76,6 @@ std::string report_of(const std::vector<Record>& records,
   CompareOptions options;
   options.baseline = *std::ranges::find_if(
       names, [&](const std::string& name) { return with_values.contains(SharedText(name)); });
-  options.paired = paired;
   const std::vector<Comparison> all = compare(records, options);
   const auto main = std::ranges::find(
       all, score.kind->relation, [](const Comparison& c) { return c.kind.relation; });
@@ -91,8 +89,7 @@ std::string report_of(const std::vector<Record>& records,
 }  // namespace
 
 std::string run_report(const std::vector<Record>& records,
-                       const std::optional<TerminalStyle>& style,
-                       bool paired) {
+                       const std::optional<TerminalStyle>& style) {
   NameOrder protocols;
   for (const Record& r : records) {
     if (!r.kind->protocol.empty()) protocols.index(r.kind->protocol);
@@ -102,7 +99,7 @@ std::string run_report(const std::vector<Record>& records,
     const std::optional<Record> score = run_score(records, protocol);
     if (!score) continue;
     const std::string title = protocols.names().size() > 1 ? protocol : "";
-    out += report_of(of_score(records, *score), *score, title, style, paired);
+    out += report_of(of_score(records, *score), *score, title, style);
   }
   return out;
 }

@@ -16,7 +16,6 @@ namespace loopbench::harness {
 /// requested, the first one with a direction, or an axis of it if there is no total. Empty below
 /// two methods and two runs. Markdown without a style.
 std::string run_report(const std::vector<Record>& records,
-                       const std::optional<TerminalStyle>& style = std::nullopt,
-                       bool paired = false);
+                       const std::optional<TerminalStyle>& style = std::nullopt);
 
 }  // namespace loopbench::harness

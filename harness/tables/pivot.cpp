@@ -150,8 +150,9 @@ void explain_averages(Table& out, const TableNumbers& table, const TableSpec& sp
 }
 
 /// The mean of an entry, or the reason why it has none.
-TableMean mean_at(const TableNumbers& table, std::size_t row, std::size_t column, bool plus_minus) {
-  TableMean out;
+TableCell mean_at(const TableNumbers& table, std::size_t row, std::size_t column, bool plus_minus) {
+  TableCell out;
+  out.has_mean = true;
   if (const auto lost = table.row_status.find(row); lost != table.row_status.end()) {
     out.status = lost->second;
   }
@@ -197,7 +198,7 @@ Table finish(TableNumbers& table, const std::string& title, const TableSpec& spe
     std::vector<TableCell>& line = out.lines.emplace_back();
     line.emplace_back(table.rows.names()[r]);
     for (std::size_t c = 0; c < columns.size(); ++c) {
-      line.emplace_back().mean = mean_at(table, r, c, spec.plus_minus);
+      line.push_back(mean_at(table, r, c, spec.plus_minus));
     }
   }
   if (down_columns) mark_best(out, table, spec, true);
@@ -223,12 +224,12 @@ TableSpec separating_protocols(TableSpec spec, const std::vector<Record>& record
 }  // namespace
 
 std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& spec) {
-  PivotedTables out = pivot_parts(records, separating_protocols(spec, records));
-  if (out.tables.empty()) throw InputError(kEmptyTable);
-  return std::move(out.tables);
+  std::vector<Table> out = pivot_parts(records, separating_protocols(spec, records));
+  if (out.empty()) throw InputError(kEmptyTable);
+  return out;
 }
 
-PivotedTables pivot_parts(const std::vector<Record>& records, const TableSpec& spec) {
+std::vector<Table> pivot_parts(const std::vector<Record>& records, const TableSpec& spec) {
   NameOrder titles;
   std::vector<TableNumbers> builders;
   std::vector<const Record*> first;  // of each table
@@ -253,21 +254,22 @@ PivotedTables pivot_parts(const std::vector<Record>& records, const TableSpec& s
   for (const Record& record : records) {
     if (record.has_score() && shown(record)) add(builder(record), record, spec);
   }
-  PivotedTables out;
-  out.with_scores = builders.size();
+  const std::size_t with_scores = builders.size();
   // A cell without any score is listed in every table of its sequence.
   for (const Record& record : records) {
     if (record.has_score()) continue;
     bool placed = false;
-    for (std::size_t t = 0; t < out.with_scores; ++t) {
+    for (std::size_t t = 0; t < with_scores; ++t) {
       if (!belongs_to(record, t)) continue;
       add(builders[t], record, spec);
       placed = true;
     }
     if (!placed) add(builder(record), record, spec);
   }
+  std::vector<Table> out;
   for (std::size_t t = 0; t < builders.size(); ++t) {
-    out.tables.push_back(finish(builders[t], titles.names()[t], spec));
+    out.push_back(finish(builders[t], titles.names()[t], spec));
+    out.back().has_scores = t < with_scores;
   }
   return out;
 }

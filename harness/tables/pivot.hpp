@@ -22,15 +22,10 @@ inline constexpr const char* kEmptyTable = "the table is empty: no rows to show"
 /// scores (rotation with translation, keyframes with dense). O(n log n).
 std::vector<Table> pivot(const std::vector<Record>& records, const TableSpec& spec);
 
-/// The tables of some of the records, for records that are not in memory at once.
-struct PivotedTables {
-  std::vector<Table> tables;
-  std::size_t with_scores = 0;  ///< the first tables; the others have only cells without a score
-};
-
-/// The tables of complete sequences, if `spec` splits by sequence. Several protocols must be
+/// The tables of some of the records, for records that are not in memory at once: of complete
+/// sequences, if `spec` splits by sequence; those without scores last. Several protocols must be
 /// separated by `spec`. Does not throw if there is none.
-PivotedTables pivot_parts(const std::vector<Record>& records, const TableSpec& spec);
+std::vector<Table> pivot_parts(const std::vector<Record>& records, const TableSpec& spec);
 
 /// Whether the layout is by options of methods, without the methods themselves.
 bool is_by_option(const TableSpec& spec);

@@ -6,11 +6,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <sstream>
 
-#include "datasets/core/error.hpp"
 #include "harness/base/printable.hpp"
-#include "harness/base/suggest.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -85,29 +82,9 @@ std::string csv_row(const Record& record) {
   return fmt::format("{}\n", fmt::join(fields_of(record), ","));
 }
 
-std::string csv(const std::vector<Record>& records, const std::vector<std::string>& columns) {
+std::string csv(const std::vector<Record>& records) {
   std::string out = rows_header();
-  if (columns.empty()) {
-    for (const Record& r : records) out += csv_row(r);
-    return out;
-  }
-  std::vector<std::string> names;
-  std::istringstream header(out.substr(0, out.size() - 1));
-  for (std::string name; std::getline(header, name, ',');) names.push_back(name);
-  std::vector<std::size_t> places;
-  for (const std::string& column : columns) {
-    const auto found = std::ranges::find(names, column);
-    if (found == names.end()) {
-      throw InputError("--columns: " + unknown_name("column", column, names));
-    }
-    places.push_back(static_cast<std::size_t>(found - names.begin()));
-  }
-  out = fmt::format("{}\n", fmt::join(columns, ","));
-  for (const Record& r : records) {
-    const std::vector<std::string> all = fields_of(r);
-    for (std::size_t i = 0; i < places.size(); ++i) out += (i == 0 ? "" : ",") + all[places[i]];
-    out += "\n";
-  }
+  for (const Record& r : records) out += csv_row(r);
   return out;
 }
 

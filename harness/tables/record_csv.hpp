@@ -13,9 +13,8 @@ namespace loopbench::harness {
 /// with + or - and is no number) gets a leading apostrophe, which spreadsheets hide.
 std::string quoted(const std::string& text);
 
-/// The long table: one line per record, with these columns of rows_header(); none: all. Throws
-/// InputError for an unknown column.
-std::string csv(const std::vector<Record>& records, const std::vector<std::string>& columns = {});
+/// The long table: one line per record.
+std::string csv(const std::vector<Record>& records);
 
 /// Its first line, and the line of one record.
 std::string rows_header();

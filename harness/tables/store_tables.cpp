@@ -162,13 +162,12 @@ std::vector<Table> tables_by_sequence(const std::filesystem::path& store,
   std::vector<Table> out;
   std::vector<Table> without_scores;  // after the others, as in pivot()
   std::atomic<bool> has_records = false;
-  std::deque<std::future<PivotedTables>> begun;
+  std::deque<std::future<std::vector<Table>>> begun;
   const auto take_first = [&] {
-    PivotedTables own = begun.front().get();
+    for (Table& table : begun.front().get()) {
+      (table.has_scores ? out : without_scores).push_back(std::move(table));
+    }
     begun.pop_front();
-    const auto middle = own.tables.begin() + static_cast<std::ptrdiff_t>(own.with_scores);
-    std::move(own.tables.begin(), middle, std::back_inserter(out));
-    std::move(middle, own.tables.end(), std::back_inserter(without_scores));
   };
   // More than processors, because the first is waited for while others may have ended.
   const std::size_t most = std::max(1u, std::thread::hardware_concurrency()) + 2;
@@ -177,7 +176,7 @@ std::vector<Table> tables_by_sequence(const std::filesystem::path& store,
     begun.push_back(std::async(std::launch::async, [&, own = std::move(records)]() mutable {
       add_derived(own, baseline, asked_by(spec, rules));
       if (!rules.empty()) std::erase_if(own, [&](const Record& r) { return !is_kept(r); });
-      if (own.empty()) return PivotedTables{};
+      if (own.empty()) return std::vector<Table>{};
       has_records = true;
       return pivot_parts(own, spec);
     }));

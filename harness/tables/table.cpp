@@ -6,26 +6,14 @@
 #include <cmath>
 #include <type_traits>
 
-#include "datasets/core/error.hpp"
 #include "harness/base/printable.hpp"
-#include "harness/base/suggest.hpp"
 #include "harness/base/wrap.hpp"
 #include "metrics/correction/optimality.hpp"
 
 namespace loopbench::harness {
 namespace {
 
-/// "rpe 1 s [m]" and "rpe_1_s" name the column "rpe 1 s [m]".
-bool is_column_name(const std::string& heading, const std::string& name) {
-  const auto plain = [](std::string text) {
-    std::ranges::replace(text, '_', ' ');
-    return text;
-  };
-  return plain(name) == plain(heading) ||
-         plain(name) == plain(heading.substr(0, heading.rfind(" [")));
-}
-
-std::string mean_text(const TableMean& mean, int digits) {
+std::string mean_text(const TableCell& mean, int digits) {
   const std::string over =
       mean.possible == 0 ? "" : fmt::format(" ({} of {})", mean.records, mean.possible);
   const std::string deviation = mean.deviation ? " \u00b1 " + fixed(*mean.deviation, digits) : "";
@@ -41,18 +29,18 @@ int column_digits(const Table& table, std::size_t column) {
   double largest = 0.0;
   bool all_integers = true;
   for (const auto& line : table.lines) {
-    if (!line[column].mean) continue;
-    const double value = line[column].mean->value.value_or(0.0);
+    if (!line[column].has_mean) continue;
+    const double value = line[column].value.value_or(0.0);
     largest = std::max(largest, std::abs(value));
     all_integers = all_integers && value == std::round(value);
   }
   return all_integers && largest > 0.0 ? 0 : decimals(largest);
 }
 
-/// Whether the mean says more than that there is no value.
-bool has_content(const TableMean& mean) {
-  return mean.value || (!mean.status.empty() && mean.status != "undefined" &&
-                        mean.status != "declined" && mean.status != kNoCommonRun);
+/// Whether it has a mean that says more than that there is no value.
+bool has_content(const TableCell& cell) {
+  return cell.value || (!cell.status.empty() && cell.status != "undefined" &&
+                        cell.status != "declined" && cell.status != kNoCommonRun);
 }
 
 }  // namespace
@@ -75,7 +63,7 @@ void format_means(Table& table) {
   for (std::size_t c = 1; c < table.headings.size(); ++c) {
     const int digits = column_digits(table, c);
     for (auto& line : table.lines) {
-      if (line[c].mean) line[c].text = mean_text(*line[c].mean, digits);
+      if (line[c].has_mean) line[c].text = mean_text(line[c], digits);
     }
   }
 }
@@ -84,10 +72,10 @@ Table without_empty_columns(Table table) {
   std::vector<std::size_t> kept;
   bool has_means = false;
   for (std::size_t c = 0; c < table.headings.size(); ++c) {
-    const bool is_of_texts = std::ranges::none_of(
-        table.lines, [&](const auto& line) { return line[c].mean.has_value(); });
-    const bool is_filled = std::ranges::any_of(
-        table.lines, [&](const auto& line) { return line[c].mean && has_content(*line[c].mean); });
+    const bool is_of_texts =
+        std::ranges::none_of(table.lines, [&](const auto& line) { return line[c].has_mean; });
+    const bool is_filled =
+        std::ranges::any_of(table.lines, [&](const auto& line) { return has_content(line[c]); });
     has_means = has_means || is_filled;
     if (is_of_texts || is_filled) kept.push_back(c);
   }
@@ -114,45 +102,6 @@ Table with_common_unit(Table table) {
   }
   (table.title.empty() ? table.headings[0] : table.title) += unit;
   return table;
-}
-
-std::vector<Table> with_columns(std::vector<Table> tables, const std::vector<std::string>& names) {
-  if (names.empty()) return tables;
-  std::vector<std::string> known;
-  for (const Table& table : tables) {
-    for (std::size_t c = 1; c < table.headings.size(); ++c) {
-      const bool is_new = std::ranges::count(known, table.headings[c]) == 0;
-      if (is_new) known.push_back(table.headings[c]);
-    }
-  }
-  if (known.empty()) return tables;  // nothing was evaluated
-  for (const std::string& name : names) {
-    const auto is_named = [&](const std::string& heading) { return is_column_name(heading, name); };
-    if (std::ranges::any_of(known, is_named)) continue;
-    std::vector<std::string> plain;  // without units
-    for (const std::string& heading : known) {
-      const std::string each = heading.substr(0, heading.rfind(" ["));
-      if (std::ranges::count(plain, each) == 0) plain.push_back(each);
-    }
-    throw InputError("--columns: " + unknown_name("column", name, plain));
-  }
-  for (Table& table : tables) {
-    std::vector<std::size_t> places{0};
-    for (const std::string& name : names) {
-      for (std::size_t c = 1; c < table.headings.size(); ++c) {
-        const bool is_named = is_column_name(table.headings[c], name);
-        if (is_named && std::ranges::count(places, c) == 0) places.push_back(c);
-      }
-    }
-    const auto chosen = [&](const auto& all) {
-      std::decay_t<decltype(all)> out;
-      for (const std::size_t place : places) out.push_back(all[place]);
-      return out;
-    };
-    table.headings = chosen(table.headings);
-    for (std::vector<TableCell>& line : table.lines) line = chosen(line);
-  }
-  return tables;
 }
 
 std::string padded(const std::string& text, std::size_t columns, bool left) {

@@ -8,9 +8,16 @@
 
 namespace loopbench::harness {
 
-/// The mean behind a cell. If several methods finished different runs, it is over the runs that all
-/// of them finished.
-struct TableMean {
+/// A text, or a mean and its text. If several methods finished different runs, the mean is over the
+/// runs that all of them finished.
+struct TableCell {
+  TableCell() = default;
+  template <std::convertible_to<std::string> Text>
+  TableCell(const Text& own_text, bool marked = false) : text(own_text), is_best(marked) {}
+
+  std::string text;
+  bool is_best = false;  ///< marked: its method is best in its column or row, see table_numbers.hpp
+  bool has_mean = false;  ///< the next members are those of a mean
   std::optional<double> value = {};
   std::optional<double> deviation = {};  ///< sample standard deviation, if requested
   std::size_t records = 0;               ///< records with a number (repeats, for example)
@@ -19,18 +26,6 @@ struct TableMean {
   bool is_stated = false;    ///< times that programs state, marked (s)
   bool is_gap = false;       ///< of the metric optimality, printed in words
   std::string status = {};   ///< "declined", "failed", "no common run", ... if there is no value
-
-  friend bool operator==(const TableMean&, const TableMean&) = default;
-};
-
-struct TableCell {
-  TableCell() = default;
-  template <std::convertible_to<std::string> Text>
-  TableCell(const Text& own_text, bool marked = false) : text(own_text), is_best(marked) {}
-
-  std::string text;
-  bool is_best = false;  ///< marked: its method is best in its column or row, see table_numbers.hpp
-  std::optional<TableMean> mean = {};
 
   friend bool operator==(const TableCell&, const TableCell&) = default;
 };
@@ -43,6 +38,7 @@ struct Table {
   std::vector<std::string> notes;             ///< one per line, below the table
   std::string facts = {};  ///< for captions of papers: statistic, times, alignment, number of runs
   std::size_t note_width = 0;  ///< of the notes in Markdown; 0: one line each
+  bool has_scores = true;  ///< false: all its cells are without a score
 };
 
 /// Properties of the terminal that a table is printed on.
@@ -77,11 +73,6 @@ Table without_empty_columns(Table table);
 /// there is no title, instead of in every heading.
 Table with_common_unit(Table table);
 
-/// Keeps the first column and those with the given names, in this order. A name is a heading with
-/// or without its unit, underscores being equal to spaces. Throws InputError, with the accepted
-/// names, for one that no table has.
-std::vector<Table> with_columns(std::vector<Table> tables, const std::vector<std::string>& names);
-
 /// GitHub Markdown, padded for reading on a terminal. Best in bold.
 /// Markdown and HTML markup is escaped.
 std::string markdown(const Table& table);
@@ -98,14 +89,13 @@ std::string terminal(const Table& table, const TerminalStyle& style = {});
 /// \usepackage{booktabs,graphicx} and UTF-8.
 std::string latex(const Table& table, bool wide = false);
 
-/// The texts of the cells (RFC 4180), with the title as first column and without marks and notes.
-std::string text_csv(const Table& table);
-
-/// The means, one line each (RFC 4180), in full precision; `mark` is best or empty.
+/// The means, one line each (RFC 4180), in full precision, or the texts of cells without one;
+/// `mark` is best or empty.
 std::string csv(const std::vector<Table>& tables);
 
 /// Array of {title, row_names, columns, rows, notes, cells[row][column] {value, records, averaged,
-/// deviation, possible, status, mark}}: the means; value is null unless status is ok.
+/// deviation, possible, status, mark}}: the means; value is null unless status is ok, and the text
+/// of a cell without a mean.
 std::string json(const std::vector<Table>& tables);
 
 /// Padded with spaces to that width.

@@ -57,10 +57,9 @@ class CommandLine(unittest.TestCase):
         for name, height in (("a.txt", 0), ("b.txt", 1), ("c.txt", 2)):
             (self.folder / name).write_text("".join(f"{t} {t} {t % 3} {height} 0 0 0 1\n" for t in range(20)))
         files = ("a.txt", "b.txt", "c.txt")
-        for labels in (("--labels", "A,B"), ("--labels", "A", "--labels", "B")):
-            self.assertIn("c.txt", self.call("eval", *labels, *files))
+        for names in (("--protocol", "evo,tum"), ("--protocol", "evo", "--protocol", "tum")):
+            self.assertIn("c.txt", self.call("eval", *names, *files))
         self.assertIn("--size requires --plot", self.call("correct", "--size", "3,2", "a.txt", code=2))
-        self.assertIn("--labels: expected 2 for a, b, found 1", self.call("eval", "--labels", "A", "B", "a.txt", "b.txt", code=2))
         self.sweep()
         self.assertIn("raw", self.call("table", "--rows", "method,times", "r"))
         self.assertIn("--size: expected WIDTH,HEIGHT, found 1 numbers", self.call("plot", "r", "-o", "f", "--size", "3", code=2))

@@ -36,7 +36,7 @@ TEST(Eval, KnowsEvosHabits) {
   EXPECT_NEAR(rmse({"-r", "full"}, "ape"), 12.783012299976825, 1e-10);
   EXPECT_NEAR(rmse({"-r", "trans_part", "-d", "1", "-u", "m"}, "rpe"), 0.0772624810704977, 1e-12);
   EXPECT_NEAR(rmse({"-d", "1", "-u", "m", "--all_pairs"}, "rpe"), 0.064717408609261, 1e-12);
-  EXPECT_NEAR(rmse({"-d", "1", "-u", "m", "--all_pairs", "--pairs_from_reference"}, "rpe"),
+  EXPECT_NEAR(rmse({"-d", "1", "-u", "m", "--all_pairs", "--set=pairs_from=reference"}, "rpe"),
               0.0680704819728785,
               1e-12);
   EXPECT_NEAR(rmse({"-d", "10", "-u", "d", "--all_pairs"}, "rpe"), 1.66822987421266, 1e-11);

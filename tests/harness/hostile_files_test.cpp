@@ -182,7 +182,7 @@ TEST(Tables, PrintNothingButUtf8WithoutControlCharacters) {
   EXPECT_TRUE(is_plain(markdown(view)));
   EXPECT_TRUE(is_plain(latex(view)));
   EXPECT_TRUE(is_plain(terminal(view)));
-  EXPECT_TRUE(is_plain(text_csv(view)));
+  EXPECT_TRUE(is_plain(csv({view})));
 }
 
 }  // namespace

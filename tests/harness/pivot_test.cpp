@@ -99,11 +99,11 @@ TEST(Pivot, AveragesOverTheRunsThatEveryMethodFinished) {
                                                    {"gp", {kNone, 1.0, 4.0, 9.0}},
                                                    {"bad", {kNone, kNone, kNone, kNone}}}))};
   const Table& table = tables[0];
-  EXPECT_EQ(*table.lines[0][1].mean->value, 2.5);  // repeats 1 and 2 only
-  EXPECT_EQ(*table.lines[1][1].mean->value, 1.25);
-  EXPECT_EQ(*table.lines[2][1].mean->value, 2.5);
-  EXPECT_EQ(table.lines[0][1].mean->averaged, 2u);
-  EXPECT_EQ(table.lines[0][1].mean->records, 4u);
+  EXPECT_EQ(*table.lines[0][1].value, 2.5);  // repeats 1 and 2 only
+  EXPECT_EQ(*table.lines[1][1].value, 1.25);
+  EXPECT_EQ(*table.lines[2][1].value, 2.5);
+  EXPECT_EQ(table.lines[0][1].averaged, 2u);
+  EXPECT_EQ(table.lines[0][1].records, 4u);
   EXPECT_EQ(table.lines[2][1].text, "2.500 (3 of 4)");
   EXPECT_EQ(table.lines[3][1].text, "failed");  // and restricts nobody
   EXPECT_EQ(table.notes[1], "means over the 2 runs that every method finished");
@@ -125,9 +125,9 @@ TEST(Pivot, AveragesGainsOverCommonRuns) {
   // ratios 0.5 and 0.125 of dm, 2 of gp
   const Table table = table_of(with_gains(
       errors({{"raw", {1.0, 1.0, 1.0}}, {"dm", {0.5, 0.125, 7.0}}, {"gp", {2.0, 2.0, kNone}}})));
-  EXPECT_EQ(*table.lines[0][2].mean->value, 0.0);
-  EXPECT_NEAR(*table.lines[1][2].mean->value, 75.0, 1e-12);
-  EXPECT_NEAR(*table.lines[2][2].mean->value, -100.0, 1e-12);
+  EXPECT_EQ(*table.lines[0][2].value, 0.0);
+  EXPECT_NEAR(*table.lines[1][2].value, 75.0, 1e-12);
+  EXPECT_NEAR(*table.lines[2][2].value, -100.0, 1e-12);
   EXPECT_EQ(table.notes[0],
             "each number is the mean of up to 2 cells; gain is 1 - the geometric mean ratio to the "
             "baseline");
@@ -140,8 +140,8 @@ TEST(Pivot, ComparesOnlyCellsThatTriedTheSameRuns) {
     if (r.cell->method == "gp") r.cell.edit().sequence = "hall";
   }
   const Table table = table_of(records);
-  EXPECT_EQ(*table.lines[0][1].mean->value, 1.0);
-  EXPECT_EQ(*table.lines[2][1].mean->value, 6.0);  // of another sequence
+  EXPECT_EQ(*table.lines[0][1].value, 1.0);
+  EXPECT_EQ(*table.lines[2][1].value, 6.0);  // of another sequence
 }
 
 TEST(Gain, IsMeasuredFromTheBaselineOfTheSameTimes) {
@@ -200,10 +200,10 @@ TEST(Pivot, LeavesIncompleteNumbersOutAndSaysSoOnce) {
   }
   records[1].cell.edit().repeat = 1;
   const std::vector<Table> tables = pivot(records, TableSpec{});
-  EXPECT_EQ(tables[0].lines[0][1].mean->value, 1.0);  // without the second repeat
-  EXPECT_EQ(tables[0].lines[0][1].mean->records, 1u);
-  EXPECT_EQ(tables[0].lines[1][1].mean->value, std::nullopt);
-  EXPECT_EQ(tables[0].lines[1][1].mean->status, "incomplete");
+  EXPECT_EQ(tables[0].lines[0][1].value, 1.0);  // without the second repeat
+  EXPECT_EQ(tables[0].lines[0][1].records, 1u);
+  EXPECT_EQ(tables[0].lines[1][1].value, std::nullopt);
+  EXPECT_EQ(tables[0].lines[1][1].status, "incomplete");
   EXPECT_EQ(tables[0].notes,
             (std::vector<std::string>{"raw, worse: incomplete: evaluated 1 of 9 poses"}));
   EXPECT_NE(csv(records).find(",9,"), std::string::npos);  // the long table keeps the number
