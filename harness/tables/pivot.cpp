@@ -100,8 +100,9 @@ void add(TableNumbers& table, const Record& record, const TableSpec& spec) {
                      "' with '" + kind_text(*record.kind) +
                      "'; add the column in which they differ");
   }
-  const auto is_other = [&](const auto& v) { return v.method != record.cell->method; };
-  if (std::ranges::any_of(entry.values, is_other) && is_by_option(spec)) {
+  // The first value stands for all: a second method is refused here.
+  if (!entry.values.empty() && entry.values.front().method != record.cell->method &&
+      is_by_option(spec)) {
     throw InputError("an entry of this table would average '" + entry.values.front().method +
                      "' with '" + record.cell->method + "'; choose methods with --where");
   }
