@@ -35,18 +35,6 @@ inline double cpu_of(const std::function<void()>& work) {
   }
 }
 
-/// Of a process that ends at once, with its parent's part: the mean of as many [s].
-inline double cpu_of_fork(int processes) {
-  const auto spent = [] { return cpu_of(RUSAGE_SELF) + cpu_of(RUSAGE_CHILDREN); };
-  const double begin = spent();
-  for (int k = 0; k < processes; ++k) {
-    const pid_t child = fork();
-    if (child == 0) _exit(0);
-    if (child < 0 || waitpid(child, nullptr, 0) != child) throw std::runtime_error("fork failed");
-  }
-  return (spent() - begin) / processes;
-}
-
 /// Of a program with all processes that it waits for [s]; its output is discarded. Throws if it
 /// does not end with one of the exit codes 0 to `most`.
 inline double cpu_of(const std::vector<std::string>& words, int most = 0) {

@@ -116,22 +116,30 @@ void guard_eval(Guard& guard, const Programs& programs) {
 }
 
 /// A further cell of the method that does nothing, with its process, scores and rows of the store,
-/// over a process that does nothing at all.
+/// on the same sequence or on one of its own, over the start of the program, which is as steady.
 void guard_cells(Guard& guard, const Programs& programs) {
-  constexpr int kFew = 20, kMany = 220;
-  const auto sweep = [&](int cells) {
-    const std::filesystem::path config = programs.folder / fmt::format("{}.yaml", cells);
-    std::ofstream(config)
-        << "datasets: [{dataset: simulated, path: room, keyframes: 20}]\nmethods: [raw]\n"
-        << "metrics: [ate]\nrepeats: " << cells << '\n';
+  const auto sweep = [&](int methods, int repeats) {
+    const std::filesystem::path config = programs.folder / "cells.yaml";
+    std::ofstream text(config);
+    text << "datasets: [{dataset: simulated, path: room, keyframes: 20}]\nmetrics: [ate]\n"
+         << "repeats: " << repeats << "\nmethods:\n";
+    for (int i = 0; i < methods; ++i) text << "  - {method: raw, label: m" << i << "}\n";
+    text.close();
     const std::filesystem::path out = programs.folder / "cells";
     std::filesystem::remove_all(out);
     return test::cpu_of({programs.loopbench, "run", config, "--out", out});
   };
+  const auto start = [&] {
+    double sum = 0.0;
+    for (int i = 0; i < 20; ++i) sum += test::cpu_of({programs.loopbench, "list"});
+    return sum / 20.0;
+  };
   guard.add(
-      "a cell of raw over a bare fork",
-      [&] { return (sweep(kMany) - sweep(kFew)) / (kMany - kFew); },
-      [] { return test::cpu_of_fork(200); });
+      "a cell of raw over a start", [&] { return (sweep(220, 1) - sweep(20, 1)) / 200.0; }, start);
+  guard.add(
+      "a cell of raw and its sequence over a start",
+      [&] { return (sweep(1, 220) - sweep(1, 20)) / 200.0; },
+      start);
 }
 
 #ifdef LOOPBENCH_CHOLMOD
@@ -194,20 +202,22 @@ void guard_smoothers(Guard& guard) {
   }
 }
 
-/// Growth: the time per cell of a large store over that of one with a tenth of the cells.
+/// Growth: the time per cell of a large store over that of one with a tenth of the cells. A
+/// sequence has many repeats if there is one method.
 void guard_stores(Guard& guard, const Programs& programs) {
-  const auto store = [&](int cells) {
-    const auto folder = programs.folder / fmt::format("{}", cells);
-    if (!std::filesystem::exists(folder))
-      test::cpu_of({programs.synthetic_sweep, folder, std::to_string(cells), "one"});
-    return folder;
+  struct Row {
+    const char *command, *methods;
+    int cells;
   };
-  for (const auto& [command, cells] :
-       {std::pair<std::string, int>{"compare", 40'000}, {"table", 40'000}, {"report", 10'000}}) {
-    const auto cost = [&, command = command](int size) {
+  for (const auto& [command, methods, cells] :
+       {Row{"compare", "40", 40'000}, {"table", "40", 40'000}, {"report", "1", 20'000}}) {
+    const auto cost = [&, command = command, methods = methods](int size) {
+      const auto store = programs.folder / fmt::format("{}-{}", methods, size);
+      if (!std::filesystem::exists(store))
+        test::cpu_of({programs.synthetic_sweep, store, std::to_string(size), "one", methods});
       std::vector<std::string> words{
-          programs.loopbench, command, store(size), "-o", programs.folder / "page"};
-      if (command == "report") words.insert(words.end(), {"--size", "100"});
+          programs.loopbench, command, store, "-o", programs.folder / "page"};
+      if (words[1] == "report") words.insert(words.end(), {"--size", "100"});
       return test::cpu_of(words) / size;
     };
     guard.add(

@@ -3,8 +3,8 @@
 /// synthetic_sweep FOLDER CELLS [SHARDS]   stores of CELLS cells (a multiple of 2000) of 20 scores
 ///                                         each: FOLDER, or FOLDER/shards/I-of-N
 /// synthetic_sweep FOLDER CELLS resume     matches the store with its sweep, as `run` does
-/// synthetic_sweep FOLDER CELLS one        a store whose cells are all of one sequence, 4 scores
-/// each
+/// synthetic_sweep FOLDER CELLS one METHODS   a store whose cells are all of one sequence, 4 scores
+///                                            each
 ///
 /// Prints the processor time of each step and the largest resident size.
 #include <fmt/format.h>
@@ -31,20 +31,19 @@ constexpr const char* kMetrics[] = {
 
 double uniform(std::uint64_t bits) { return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53; }
 
-/// 40 methods, 50 repeats, 5 scores or more of translation and rotation at two kinds of times.
-Sweep sweep_of(std::size_t cells, bool one_sequence) {
-  const std::size_t repeats = one_sequence ? cells / kMethods : kRepeats;
+/// 5 scores or more of translation and rotation at two kinds of times.
+Sweep sweep_of(std::size_t cells, std::size_t methods, std::size_t repeats) {
   Sweep out;
   out.name = "synthetic";
   out.baseline = "m0";
   out.repeats = static_cast<int>(repeats);
   out.limits.cells = 100'000'000;
   for (const char* metric : kMetrics) out.metrics.push_back({metric, {"ate", {}}});
-  for (std::size_t i = 0; i < cells / kMethods / repeats; ++i) {
+  for (std::size_t i = 0; i < cells / methods / repeats; ++i) {
     out.datasets.push_back(
         {fmt::format("sequence {}", i), {"line", {{"bias", 1e-6 * static_cast<double>(i)}}}});
   }
-  for (std::size_t i = 0; i < kMethods; ++i) {
+  for (std::size_t i = 0; i < methods; ++i) {
     out.methods.push_back({fmt::format("m{}", i), {{"shift", {{"by", static_cast<double>(i)}}}}});
   }
   return out;
@@ -99,12 +98,15 @@ void report(const char* step, std::size_t cells, double since) {
 
 int main(int count, char** words) {
   if (count < 3) {
-    fmt::print("usage: synthetic_sweep FOLDER CELLS [SHARDS | resume | one]\n");
+    fmt::print("usage: synthetic_sweep FOLDER CELLS [SHARDS | resume | one METHODS]\n");
     return 2;
   }
   const std::filesystem::path folder = words[1];
   const std::string mode = count > 3 ? words[3] : "1";
-  const Sweep sweep = sweep_of(std::strtoull(words[2], nullptr, 10), mode == "one");
+  const auto number = [&](int i) -> std::size_t { return std::strtoull(words[i], nullptr, 10); };
+  const bool is_one = mode == "one" && count > 4;
+  const std::size_t methods = is_one ? number(4) : kMethods;
+  const Sweep sweep = sweep_of(number(2), methods, is_one ? number(2) / methods : kRepeats);
   const Catalogue known = tiny::catalogue();
   const std::vector<Cell> all = cells(sweep, std::vector<bool>(sweep.datasets.size(), true), "");
   CellKeys keys(sweep, known, DataRoot{{folder}}, "synthetic");
@@ -115,7 +117,7 @@ int main(int count, char** words) {
     report("resume", found.there, begin);
     return found.there == all.size() ? 0 : 1;
   }
-  const std::size_t shards = mode == "one" ? 1 : std::strtoull(mode.c_str(), nullptr, 10);
+  const std::size_t shards = is_one ? 1 : std::strtoull(mode.c_str(), nullptr, 10);
   for (std::size_t i = 1; i <= shards; ++i) {
     const Shard shard{i, shards};
     const std::filesystem::path own = shards == 1 ? folder : folder / "shards" / shard.folder();
@@ -123,8 +125,7 @@ int main(int count, char** words) {
     Store store(own / "results.sqlite", keys, {});
     if (shards > 1) store.set_shard(shard.name() + " " + division_hash(all));
     store.resume(all, planned, Retry::none);
-    for (const Cell& cell : planned)
-      store.write(result_of(cell, mode == "one" ? 2 : std::size(kMetrics)));
+    for (const Cell& cell : planned) store.write(result_of(cell, is_one ? 2 : std::size(kMetrics)));
   }
   report("write", all.size(), begin);
   return 0;
