@@ -3,16 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "datasets/core/so3.hpp"
-#include "datasets/formats/formats.hpp"
 #include "harness/eval/eval_figures.hpp"
-#include "tests/support/command.hpp"
 
 namespace loopbench::figures_test {
 namespace {
 
 using namespace harness;
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 /// 1 m/s along x with a bend in z, from `first` to `last` [s], one pose per second.
 Trajectory path(double first, double last, double error = 0.0) {
@@ -111,52 +108,6 @@ TEST(Figures, OfManyRunsOfOneMethodSixAreDrawn) {
   const FigureData all = drawn("V.csv", files);
   EXPECT_THAT(names(all), ElementsAre("reference", "ba 0", "ba 1", "ba 2", "ba 3", "ba 4", "ba 5"));
   EXPECT_EQ(all.note, "1 of 7 estimates are not drawn");
-}
-
-class DrawnFigures : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!has_matplotlib()) GTEST_SKIP() << "needs python3-matplotlib";
-  }
-  std::string svg(const std::string& name) const { return read_all(folder_.path() / name); }
-  TemporaryFolder folder_;
-};
-
-TEST_F(DrawnFigures, EvalDrawsOnePageWithSequenceAlignmentAndScore) {
-  std::filesystem::create_directory(folder_.path() / "room");
-  write_tum(folder_.path() / "room/gt.txt", path(0.0, 50.0));
-  write_tum(folder_.path() / "room/a_long_name.txt", path(5.0, 50.0, 0.1));
-  write_tum(folder_.path() / "room/other_name.txt", path(5.0, 50.0, 0.2));
-  const std::string eval =
-      "eval room/gt.txt room/a_long_name.txt room/other_name.txt --align none --plot ";
-  EXPECT_EQ(successful_command(eval + "f/p.svg", folder_).err, "f/p.svg\n");
-  for (const char* const text : {">room, no alignment (ATE as RMSE)<",
-                                 ">a_long_name (0.0707 m)<",
-                                 ">other_name (0.141 m)<"}) {
-    EXPECT_THAT(svg("f/p.svg"), HasSubstr(text));
-  }
-  EXPECT_EQ(successful_command(eval + "p", folder_).err, "p.pdf\n");
-}
-
-TEST_F(DrawnFigures, TrajPlotHasShortNamesAndDrawsThePlaneOfCameraAxes) {
-  Trajectory poses = path(0.0, 50.0);
-  for (StampedPose& pose : poses) pose.world_from_body.translation.z() = pose.stamp;
-  std::filesystem::create_directories(folder_.path() / "runs");
-  write_tum(folder_.path() / "runs/first.txt", poses);
-  const std::string plot = "traj plot runs/first.txt --panels plane --panel-columns 1 ";
-  const auto axes = [&](const std::string& options) {
-    successful_command(plot + "-o f.svg " + options, folder_);
-    const std::string page = svg("f.svg");
-    EXPECT_THAT(page, HasSubstr(options.empty() ? ">first<" : ">Mine<"));
-    std::string out;
-    for (const char* const name : {"x", "y", "z"}) {
-      if (page.find(std::string(">") + name + " [m]<") != std::string::npos) out += name;
-    }
-    return out;
-  };
-  EXPECT_EQ(axes(""), "xz");
-  EXPECT_EQ(axes("--plane yz --labels Mine"), "yz");
-  EXPECT_THAT(loopbench_command(plot + "-o f.txt", folder_).err, HasSubstr(".png or .pgf"));
 }
 
 }  // namespace
