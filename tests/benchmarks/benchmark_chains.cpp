@@ -7,7 +7,7 @@
 #include "methods/correctors/closure_ledger.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
-#include "tests/benchmarks/markdown.hpp"
+#include "tests/benchmarks/sizes.hpp"
 #include "tests/benchmarks/peak_memory.hpp"
 
 namespace loopbench {

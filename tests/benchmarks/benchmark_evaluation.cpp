@@ -10,7 +10,7 @@
 #include "metrics/errors/rpe.hpp"
 #include "metrics/errors/segments.hpp"
 #include "metrics/pairing/association.hpp"
-#include "tests/benchmarks/markdown.hpp"
+#include "tests/benchmarks/sizes.hpp"
 
 namespace loopbench {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "methods/method.hpp"
-#include "tests/benchmarks/markdown.hpp"
+#include "tests/benchmarks/sizes.hpp"
 
 namespace loopbench {
 
