@@ -33,11 +33,6 @@ BEAST(abort_later) {
 BEAST(exit_3) { std::exit(3); }
 BEAST(exit_quietly) { _exit(0); }
 BEAST(kill_itself) { raise(SIGKILL); }
-BEAST(bad_instruction) { __builtin_trap(); }
-BEAST(divide_by_zero) { raise(SIGFPE); }
-BEAST(escaped_exception) {
-  std::thread([] { throw 1; }).join();
-}
 
 volatile int bottom = -1;
 int recursion(int depth) {
