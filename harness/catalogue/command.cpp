@@ -27,7 +27,6 @@ double seconds_since(ExchangeClock::time_point begin) {
 
 /// Runs the program on one problem; `own` becomes the method's time [s].
 Trajectory run_once(const CommandOptions& options,
-                    const CommandSetting& setting,
                     const Problem& problem,
                     methods::Report& report,
                     double& own) {
@@ -36,7 +35,7 @@ Trajectory run_once(const CommandOptions& options,
   const std::filesystem::path result = folder.path() / "result";
   std::filesystem::create_directory(input);
   write_problem(input, problem);
-  const ProgramRun ran = run_in_folder(options, setting, "problem", folder.path());
+  const ProgramRun ran = run_in_folder(options, "problem", folder.path());
   const std::string stated = result_text(result.string() + ".json");
   const ResultMetadata metadata = stated.empty() ? ResultMetadata{} : parse_metadata(stated);
   require_ok(metadata);
@@ -56,49 +55,44 @@ Trajectory run_once(const CommandOptions& options,
 }
 
 Trajectory corrected(const CommandOptions& options,
-                     const CommandSetting& setting,
                      const Problem& problem,
                      methods::Report& report) {
-  if (!options.serve.empty()) return ask_server(options, setting, problem, report);
+  if (!options.serve.empty()) return ask_server(options, problem, report);
   const auto begin = ExchangeClock::now();
   double own = 0.0;
-  Trajectory out = run_once(options, setting, problem, report, own);
+  Trajectory out = run_once(options, problem, report, own);
   report.phases.push_back({kExchangePhase, seconds_since(begin) - own});  // with its end
   return out;
 }
 
 class CommandCorrector final : public methods::Corrector {
  public:
-  CommandCorrector(CommandOptions options, CommandSetting setting)
-      : options_(std::move(options)), setting_(std::move(setting)) {}
+  explicit CommandCorrector(CommandOptions options) : options_(std::move(options)) {}
   Trajectory correct(const Problem& problem, methods::Report& report) const override {
-    return corrected(options_, setting_, problem, report);
+    return corrected(options_, problem, report);
   }
   std::unique_ptr<methods::Incremental> incremental(bool planar) const override {
-    return options_.updates ? served_updates(options_, setting_, planar) : nullptr;
+    return options_.updates ? served_updates(options_, planar) : nullptr;
   }
 
  private:
   CommandOptions options_;
-  CommandSetting setting_;
 };
 
 class DenseCommand final : public methods::Estimator {
  public:
-  DenseCommand(CommandOptions options, CommandSetting setting)
-      : options_(std::move(options)), setting_(std::move(setting)) {}
+  explicit DenseCommand(CommandOptions options) : options_(std::move(options)) {}
   std::string why_declined(const Problem& problem) const override {
     if (problem.keyframes.size() < 2) return "fewer than two keyframes";
     return "";
   }
   std::unique_ptr<const Curve> estimate(const Problem& problem,
                                         methods::Report& report) const override {
-    return std::make_unique<Polyline>(corrected(options_, setting_, problem, report));
+    return std::make_unique<Polyline>(corrected(options_, problem, report));
   }
 
  private:
   CommandOptions options_;
-  CommandSetting setting_;
 };
 
 }  // namespace
@@ -141,12 +135,11 @@ ProgramStart start_on(const std::map<std::string, std::filesystem::path>& files,
 }
 
 ProgramRun run_in_folder(const CommandOptions& options,
-                         const CommandSetting& setting,
                          const std::string& name,
                          const std::filesystem::path& folder) {
   ProgramStart start = start_on(
       {{name, folder / name}, {"result", folder / "result"}}, folder, options.run, options.shell);
-  start.folder = setting.folder;
+  start.folder = options.folder;
   start.sandbox = &program_sandbox();
   ProgramRun out;
   const auto started = ExchangeClock::now();
@@ -179,14 +172,12 @@ std::vector<std::string> command_words(const std::string& option,
   return split_arguments(option, text);
 }
 
-methods::Stage make_command(const CommandOptions& options, const CommandSetting& setting) {
+methods::Stage make_command(const CommandOptions& options) {
   check_combination(options);
   if (options.output == ResultPoses::dense) {
-    return std::unique_ptr<const methods::Estimator>(
-        std::make_unique<DenseCommand>(options, setting));
+    return std::unique_ptr<const methods::Estimator>(std::make_unique<DenseCommand>(options));
   }
-  return std::unique_ptr<const methods::Corrector>(
-      std::make_unique<CommandCorrector>(options, setting));
+  return std::unique_ptr<const methods::Corrector>(std::make_unique<CommandCorrector>(options));
 }
 
 std::string with_output(const std::string& why, const std::string& output) {
@@ -205,16 +196,16 @@ void add_output(methods::Report& report, const std::string& output) {
   if (!text.empty()) report.notes.push_back("output: " + text);
 }
 
-std::string command_version(const CommandOptions& options, const CommandSetting& setting) {
+std::string command_version(const CommandOptions& options) {
   Fields fields;
   const std::string& line = options.run.empty() ? options.serve : options.run;
-  for (const std::string& name : named_files(line, options.depends, setting.folder)) {
-    fields.add(name).add(hex(hash_of_file(setting.folder / name)));
+  for (const std::string& name : named_files(line, options.depends, options.folder)) {
+    fields.add(name).add(hex(hash_of_file(options.folder / name)));
   }
   if (options.version.empty()) return fields.hashed();
   ProgramStart start;
   start.arguments = split_arguments("version", options.version);
-  start.folder = setting.folder;
+  start.folder = options.folder;
   start.sandbox = &program_sandbox();
   std::string output;
   const ProgramEnd end = RunningProgram(start).wait(output);

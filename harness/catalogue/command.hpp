@@ -22,6 +22,7 @@ struct CommandOptions {
   ResultPoses output = ResultPoses::keyframes;
   std::string depends;
   std::string version;
+  std::filesystem::path folder = ".";  ///< working directory: that of the config; not an option
 };
 
 template <class Visit>
@@ -39,11 +40,6 @@ void fields(CommandOptions& o, Visit visit) {
   visit("depends", o.depends, "files whose change recomputes the cells, separated by blanks");
   visit("version", o.version, "command whose output is the version; its change recomputes cells");
 }
-
-/// Conditions under which an external program runs.
-struct CommandSetting {
-  std::filesystem::path folder = ".";  ///< working directory: the folder of the config
-};
 
 /// Throws OptionError unless exactly one of run and serve is set and can be split, run names
 /// {input} and {result}, and `updates` has a program that serves keyframes.
@@ -64,11 +60,10 @@ struct ProgramRun {
   std::string output;  ///< the end of what it printed
 };
 
-/// Runs the program of `run` in the setting's folder; {NAME} is FOLDER/NAME and {result} is
-/// FOLDER/result, also as variables LOOPBENCH_NAME and LOOPBENCH_RESULT. It can write in `folder`.
-/// Throws std::runtime_error if it fails.
+/// Runs the program of `run` in its folder; {NAME} is FOLDER/NAME and {result} is FOLDER/result,
+/// also as variables LOOPBENCH_NAME and LOOPBENCH_RESULT. It can write in `folder`. Throws
+/// std::runtime_error if it fails.
 ProgramRun run_in_folder(const CommandOptions& options,
-                         const CommandSetting& setting,
                          const std::string& name,
                          const std::filesystem::path& folder);
 
@@ -76,7 +71,7 @@ ProgramRun run_in_folder(const CommandOptions& options,
 std::string result_text(const std::filesystem::path& file);
 
 /// A corrector, or a joint method for output: dense. Throws OptionError.
-methods::Stage make_command(const CommandOptions& options, const CommandSetting& setting);
+methods::Stage make_command(const CommandOptions& options);
 
 /// Words of a command line, or sh with that line. Throws OptionError.
 std::vector<std::string> command_words(const std::string& option,
@@ -85,7 +80,7 @@ std::vector<std::string> command_words(const std::string& option,
 
 /// Hashes of the files that the command line and `depends` name, and the output of `version`.
 /// Throws InputError if a file under `depends` is missing or `version` fails.
-std::string command_version(const CommandOptions& options, const CommandSetting& setting);
+std::string command_version(const CommandOptions& options);
 
 /// `why`, with the end of a program's output.
 std::string with_output(const std::string& why, const std::string& output);

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string_view>
-#include <utility>
 
 #include "datasets/core/fields.hpp"
 #include "harness/base/write_file.hpp"
@@ -39,7 +37,7 @@ void check_combination(const CommandMetricOptions& o) {
 
 std::vector<metrics::Score> score_here(const metrics::Evaluation& evaluation,
                                        const CommandMetricOptions& options) {
-  return command_scores(evaluation, echo(options), {});
+  return command_scores(evaluation, options.program);
 }
 
 /// What a program reads about the poses.
@@ -67,16 +65,14 @@ std::string lines_of(const Trajectory& poses) {
   return out;
 }
 
-std::string answer_of_run(const metrics::Evaluation& evaluation,
-                          const CommandOptions& options,
-                          const CommandSetting& setting) {
+std::string answer_of_run(const metrics::Evaluation& evaluation, const CommandOptions& options) {
   const ExchangeFolder folder;
   const std::filesystem::path input = folder.path() / "evaluation";
   std::filesystem::create_directory(input);
   write_file(input / "reference.txt", lines_of(evaluation.reference));
   write_file(input / "estimate.txt", lines_of(evaluation.estimate));
   write_file(input / "evaluation.json", description(evaluation).dump() + "\n");
-  const ProgramRun ran = run_in_folder(options, setting, "evaluation", folder.path());
+  const ProgramRun ran = run_in_folder(options, "evaluation", folder.path());
   const std::string text = result_text(folder.path() / "result");
   if (text.empty())
     throw std::runtime_error(with_output("the program wrote no result", ran.output));
@@ -109,19 +105,6 @@ metrics::Score score_of(const nlohmann::json& entry, int ddof, std::size_t pairs
   return out;
 }
 
-/// Throws std::runtime_error without scores, or if two have one name and axis.
-void require_distinct(const std::vector<metrics::Score>& scores) {
-  if (scores.empty()) throw std::runtime_error("result: has no scores");
-  std::set<std::pair<std::string, std::string>> known;
-  for (const metrics::Score& score : scores) {
-    if (known.emplace(score.relation, score.axis).second) continue;
-    throw std::runtime_error(
-        fmt::format("result: two scores are named '{}'{}",
-                    score.relation,
-                    score.axis.empty() ? "" : " with axis '" + score.axis + "'"));
-  }
-}
-
 }  // namespace
 
 metrics::MetricEntry command_metric() {
@@ -138,7 +121,6 @@ std::vector<metrics::Score> parse_scores(const std::string& text, int ddof, std:
     for (const nlohmann::json& entry : answer.at("scores")) {
       out.push_back(score_of(entry, ddof, pairs));
     }
-    require_distinct(out);
     return out;
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(std::string("result: ") + error.what());
@@ -148,13 +130,11 @@ std::vector<metrics::Score> parse_scores(const std::string& text, int ddof, std:
 }
 
 std::vector<metrics::Score> command_scores(const metrics::Evaluation& evaluation,
-                                           const Params& options,
-                                           const CommandSetting& setting) {
-  const CommandOptions program = with(CommandMetricOptions{}, options).program;
+                                           const CommandOptions& program) {
   const int ddof = evaluation.protocol.ddof;
   const std::size_t pairs = evaluation.reference.size();
   if (program.serve.empty()) {
-    return parse_scores(answer_of_run(evaluation, program, setting), ddof, pairs);
+    return parse_scores(answer_of_run(evaluation, program), ddof, pairs);
   }
   std::string errors;
   try {
@@ -164,7 +144,7 @@ std::vector<metrics::Score> command_scores(const metrics::Evaluation& evaluation
                      {},
                      number);
     };
-    return parse_scores(ask_served(program, setting, bytes, pairs, errors).text, ddof, pairs);
+    return parse_scores(ask_served(program, bytes, pairs, errors).text, ddof, pairs);
   } catch (const metrics::Undefined&) {
     throw;
   } catch (const std::runtime_error& error) {

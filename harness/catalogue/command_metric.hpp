@@ -19,10 +19,9 @@ namespace loopbench::harness {
 /// Its entry; programs run in the current folder.
 metrics::MetricEntry command_metric();
 
-/// Scores of a program that runs in the folder of the setting. Throws as MetricEntry::score.
+/// Scores of a program. Throws as MetricEntry::score.
 std::vector<metrics::Score> command_scores(const metrics::Evaluation& evaluation,
-                                           const Params& options,
-                                           const CommandSetting& setting);
+                                           const CommandOptions& program);
 
 /// Scores in the text of a result; lists of values become statistics with `ddof`, and a list of
 /// length `pairs` is kept as Score::per_pose. Throws std::runtime_error, and Undefined if the

@@ -7,30 +7,20 @@
 #include "methods/pipeline.hpp"
 
 namespace loopbench::harness {
-namespace {
-
-/// Options of what runs a program: the metric has those of the method without `output`.
-CommandOptions command_options(const Params& given) { return with(CommandOptions{}, given); }
-
-}  // namespace
-
 methods::MethodEntry command_entry() {
   return {kCommand,
           methods::Kind::corrector,
           "any program; see methods/bring_a_method.md",
           describe(CommandOptions{}),
-          [](const Params& given) { return make_command(command_options(given), {}); }};
+          [](const Params& given) { return make_command(with(CommandOptions{}, given)); }};
 }
 
 bool is_program(const Choice& choice) { return choice.name == kCommand; }
 
-std::string program_version(const Choice& choice, const CommandSetting& setting) {
-  return command_version(command_options(choice.options), setting);
-}
-
-CommandSetting command_setting(const Sweep& sweep) {
-  const std::filesystem::path folder = sweep.config.parent_path();
-  return {folder.empty() ? "." : folder};
+CommandOptions command_options(const Params& options, const Sweep& sweep) {
+  auto out = with(CommandOptions{}, options);  // the metric has those of the method but `output`
+  if (sweep.config.has_parent_path()) out.folder = sweep.config.parent_path();
+  return out;
 }
 
 bool uses_programs(const Sweep& sweep) {
@@ -48,10 +38,10 @@ std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep) {
 void prepare_programs(const MethodChoice& choice, const Sweep& sweep) {
   const auto prepare = [&](const Choice& each) {
     if (!is_program(each)) return;
-    const CommandOptions options = command_options(each.options);
+    const CommandOptions options = command_options(each.options, sweep);
     if (options.serve.empty()) return;
     try {
-      prepare_server(options, command_setting(sweep));
+      prepare_server(options);
     } catch (const std::exception&) {  // asking fails for the same reason and reports it
     }
   };
@@ -62,7 +52,7 @@ void prepare_programs(const MethodChoice& choice, const Sweep& sweep) {
 std::unique_ptr<const methods::Estimator> make_method(const MethodChoice& choice,
                                                       const Catalogue& catalogue,
                                                       const Trajectory& reference,
-                                                      const CommandSetting& setting) {
+                                                      const Sweep& sweep) {
   std::unique_ptr<const methods::Corrector> corrector;
   std::unique_ptr<const methods::Smoother> smoother;
   std::unique_ptr<const methods::Estimator> joint;
@@ -70,7 +60,7 @@ std::unique_ptr<const methods::Estimator> make_method(const MethodChoice& choice
   for (const Choice& part : choice.stages) {
     const methods::MethodEntry& entry = find_method(catalogue, part.name);
     methods::Stage stage = entry.make_oracle  ? entry.make_oracle(part.options, reference)
-                           : is_program(part) ? make_command(command_options(part.options), setting)
+                           : is_program(part) ? make_command(command_options(part.options, sweep))
                                               : entry.make(part.options);
     const auto take = [&stage](auto& to) {
       using Held = std::remove_reference_t<decltype(to)>;

@@ -16,11 +16,9 @@ methods::MethodEntry command_entry();
 /// Whether a dataset, a metric or a stage of a method runs a program.
 bool is_program(const Choice& choice);
 
-/// Changes with the program of a stage or metric. Throws InputError.
-std::string program_version(const Choice& choice, const CommandSetting& setting);
-
-/// Programs of a sweep run in the folder of its config.
-CommandSetting command_setting(const Sweep& sweep);
+/// Options of a stage or metric that runs a program, in the folder of the sweep's config. Throws
+/// OptionError.
+CommandOptions command_options(const Params& options, const Sweep& sweep);
 
 /// Whether any of its methods, metrics or datasets runs programs.
 bool uses_programs(const Sweep& sweep);
@@ -33,10 +31,10 @@ std::unique_ptr<const ScratchFolder> scratch_for_programs(const Sweep& sweep);
 void prepare_programs(const MethodChoice& choice, const Sweep& sweep);
 
 /// Combines the stages of a choice into one method; only an oracle has access to `reference`, and
-/// only a program uses `setting`. Throws InputError, OptionError.
+/// programs run in the folder of the sweep's config. Throws InputError, OptionError.
 std::unique_ptr<const methods::Estimator> make_method(const MethodChoice& choice,
                                                       const Catalogue& catalogue,
                                                       const Trajectory& reference,
-                                                      const CommandSetting& setting = {});
+                                                      const Sweep& sweep = {});
 
 }  // namespace loopbench::harness

@@ -31,10 +31,10 @@ struct SharedTurn {
   std::atomic<std::uint64_t> answered = 0;
 };
 
-ProgramStart server_start(const CommandOptions& options, const CommandSetting& setting) {
+ProgramStart server_start(const CommandOptions& options) {
   ProgramStart out;
   out.arguments = command_words("serve", options.serve, options.shell);
-  out.folder = setting.folder;
+  out.folder = options.folder;
   out.sandbox = &program_sandbox();
   out.writable = std::filesystem::temp_directory_path();
   out.serves = true;
@@ -43,8 +43,7 @@ ProgramStart server_start(const CommandOptions& options, const CommandSetting& s
 
 class Server {
  public:
-  Server(const CommandOptions& options, const CommandSetting& setting)
-      : tree_(server_start(options, setting)) {
+  explicit Server(const CommandOptions& options) : tree_(server_start(options)) {
     void* shared = mmap(
         nullptr, sizeof(SharedTurn), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared == MAP_FAILED) throw std::runtime_error("cannot start a program: shared memory");
@@ -161,18 +160,18 @@ std::vector<KnownServer>& known_servers() {
   return servers;
 }
 
-KnownServer& known_server(const CommandOptions& options, const CommandSetting& setting) {
+KnownServer& known_server(const CommandOptions& options) {
   std::vector<KnownServer>& servers = known_servers();
   const std::string key =
-      fmt::format("{}\n{}\n{}", options.serve, options.shell, setting.folder.string());
+      fmt::format("{}\n{}\n{}", options.serve, options.shell, options.folder.string());
   const auto found = std::ranges::find(servers, key, &KnownServer::key);
   return found == servers.end() ? servers.emplace_back(KnownServer{key, nullptr}) : *found;
 }
 
-Server& running_server(const CommandOptions& options, const CommandSetting& setting) {
-  KnownServer& known = known_server(options, setting);
+Server& running_server(const CommandOptions& options) {
+  KnownServer& known = known_server(options);
   if (known.server && !known.server->is_in_step()) known.server.reset();
-  if (!known.server) known.server = std::make_unique<Server>(options, setting);
+  if (!known.server) known.server = std::make_unique<Server>(options);
   return *known.server;
 }
 
@@ -192,23 +191,19 @@ void end_servers(bool only_stuck) {
   }
 }
 
-void prepare_server(const CommandOptions& options, const CommandSetting& setting) {
-  running_server(options, setting);
-}
+void prepare_server(const CommandOptions& options) { running_server(options); }
 
 ServedAnswer ask_served(const CommandOptions& options,
-                        const CommandSetting& setting,
                         const Request& request,
                         std::size_t poses,
                         std::string& errors) {
-  return running_server(options, setting).ask(request, poses, errors);
+  return running_server(options).ask(request, poses, errors);
 }
 
 namespace {
 
 /// Poses of the program's answer, checked against the keyframes of `known`.
 Trajectory ask_poses(const CommandOptions& options,
-                     const CommandSetting& setting,
                      const Request& request,
                      const Problem& known,
                      methods::Report& report) {
@@ -218,7 +213,7 @@ Trajectory ask_poses(const CommandOptions& options,
   ServedAnswer answer;
   Trajectory out;
   try {
-    answer = ask_served(options, setting, request, known.keyframes.size(), errors);
+    answer = ask_served(options, request, known.keyframes.size(), errors);
     out = checked_result(
         answer_poses(answer.text, answer.data, metadata), known, options.output, "the answer");
   } catch (const metrics::Undefined&) {
@@ -239,8 +234,7 @@ Trajectory ask_poses(const CommandOptions& options,
 
 class ServedUpdates final : public methods::Incremental {
  public:
-  ServedUpdates(const CommandOptions& options, const CommandSetting& setting, bool planar)
-      : options_(options), setting_(setting) {
+  ServedUpdates(const CommandOptions& options, bool planar) : options_(options) {
     known_.planar = planar;
   }
 
@@ -249,7 +243,6 @@ class ServedUpdates final : public methods::Incremental {
     const std::size_t update = updates_++;
     return ask_poses(
         options_,
-        setting_,
         [&](std::uint64_t number) { return request(added, update, known_.planar, number); },
         known_,
         report);
@@ -257,7 +250,6 @@ class ServedUpdates final : public methods::Incremental {
 
  private:
   CommandOptions options_;
-  CommandSetting setting_;
   Problem known_;  ///< keyframes only
   std::size_t updates_ = 0;
 };
@@ -265,21 +257,17 @@ class ServedUpdates final : public methods::Incremental {
 }  // namespace
 
 Trajectory ask_server(const CommandOptions& options,
-                      const CommandSetting& setting,
                       const Problem& problem,
                       methods::Report& report) {
   return ask_poses(
       options,
-      setting,
       [&](std::uint64_t number) { return request(problem, options.output, number); },
       problem,
       report);
 }
 
-std::unique_ptr<methods::Incremental> served_updates(const CommandOptions& options,
-                                                     const CommandSetting& setting,
-                                                     bool planar) {
-  return std::make_unique<ServedUpdates>(options, setting, planar);
+std::unique_ptr<methods::Incremental> served_updates(const CommandOptions& options, bool planar) {
+  return std::make_unique<ServedUpdates>(options, planar);
 }
 
 }  // namespace loopbench::harness

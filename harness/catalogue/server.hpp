@@ -24,7 +24,7 @@ namespace loopbench::harness {
 /// Starts the program of `options.serve` unless it is running and in step. A process that forks
 /// others to send requests calls it first; otherwise each of them starts its own program. Throws
 /// std::runtime_error.
-void prepare_server(const CommandOptions& options, const CommandSetting& setting);
+void prepare_server(const CommandOptions& options);
 
 /// What a cell in a copy of this process needs to keep: the servers that run in this thread.
 struct RunningServers {
@@ -52,7 +52,6 @@ struct ServedAnswer {
 /// limits the size of the answer. `errors` receives what it prints. Throws std::runtime_error if
 /// the program fails.
 ServedAnswer ask_served(const CommandOptions& options,
-                        const CommandSetting& setting,
                         const Request& request,
                         std::size_t poses,
                         std::string& errors);
@@ -60,15 +59,12 @@ ServedAnswer ask_served(const CommandOptions& options,
 /// Sends the problem and returns the checked answer. Throws std::runtime_error if the program
 /// fails, and Undefined if it declines.
 Trajectory ask_server(const CommandOptions& options,
-                      const CommandSetting& setting,
                       const Problem& problem,
                       methods::Report& report);
 
 /// The program as a method that extends its solution: each update sends what has arrived since the
 /// last one, so the program keeps the rest. Throws as ask_server(); an update that fails or
 /// declines ends the replay.
-std::unique_ptr<methods::Incremental> served_updates(const CommandOptions& options,
-                                                     const CommandSetting& setting,
-                                                     bool planar);
+std::unique_ptr<methods::Incremental> served_updates(const CommandOptions& options, bool planar);
 
 }  // namespace loopbench::harness

@@ -57,7 +57,7 @@ std::vector<metrics::Score> scores_of_metric(const metrics::MetricEntry& metric,
                                              const Sweep& sweep,
                                              const Catalogue& catalogue) {
   if (metric.name == kCommand) {
-    return command_scores(evaluation, options, command_setting(sweep));
+    return command_scores(evaluation, command_options(options, sweep));
   }
   if (plugin_version(catalogue, "metric", metric.name).empty()) {
     return metric.score(evaluation, options);

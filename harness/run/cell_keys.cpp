@@ -27,7 +27,7 @@ std::string of_method(const MethodChoice& choice, const Sweep& sweep, const Cata
     fields.add(stage.name)
         .add(hashed(in_full(find_method(catalogue, stage.name).options, stage.options)))
         .add(plugin_version(catalogue, "method", stage.name));
-    if (is_program(stage)) fields.add(program_version(stage, command_setting(sweep)));
+    if (is_program(stage)) fields.add(command_version(command_options(stage.options, sweep)));
   }
   return fields.hashed();
 }
@@ -45,7 +45,7 @@ std::string evaluation_fields(const Sweep& sweep, const Catalogue& catalogue) {
             in_full(find_metric(catalogue, metric.metric.name).options, metric.metric.options)))
         .add(plugin_version(catalogue, "metric", metric.metric.name));
     if (is_program(metric.metric)) {
-      fields.add(program_version(metric.metric, command_setting(sweep)));
+      fields.add(command_version(command_options(metric.metric.options, sweep)));
     }
   }
   if (uses_programs(sweep) && !is_sandboxed()) fields.add("no sandbox");

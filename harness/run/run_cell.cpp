@@ -146,7 +146,7 @@ CellResult run_cell(const Cell& cell,
       result.why = "reads the reference, which has positions without rotation";
       return;
     }
-    const auto method = make_method(choice, catalogue, sequence.reference, command_setting(sweep));
+    const auto method = make_method(choice, catalogue, sequence.reference, sweep);
     if (const std::string why = reason_to_decline(*method, sequence.problem); !why.empty()) {
       result.status = Status::declined;
       result.why = stored_reason(why);

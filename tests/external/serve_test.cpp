@@ -22,7 +22,7 @@ bool asks_in_a_child(const CommandOptions& options, const Problem& problem, bool
       alarm(1);  // the program hangs, and the cell is killed
     }
     try {
-      const Trajectory out = ask_server(options, {}, problem, report);
+      const Trajectory out = ask_server(options, problem, report);
       _exit(out.size() == problem.keyframes.size() ? 0 : 1);
     } catch (const std::exception&) {
       _exit(2);
@@ -37,11 +37,11 @@ TEST(Server, AnswersForkedProcessesAndRecoversFromTheirEnd) {
   CommandOptions options;
   options.serve = LOOPBENCH_SERVING " hang";
   const Problem problem = test::circle(30);
-  prepare_server(options, {});
+  prepare_server(options);
   EXPECT_TRUE(asks_in_a_child(options, problem));
-  prepare_server(options, {});
+  prepare_server(options);
   EXPECT_FALSE(asks_in_a_child(options, problem, true)) << "the second request hangs";
-  prepare_server(options, {});  // starts it again
+  prepare_server(options);  // starts it again
   EXPECT_TRUE(asks_in_a_child(options, problem));
 }
 
