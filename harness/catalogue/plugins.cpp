@@ -39,45 +39,33 @@ namespace {
 
 using std::filesystem::path;
 
-/// An entry without its functions.
+/// An entry without its functions, and whether it has the optional one.
 struct Description {
-  std::size_t type = 0;  ///< of PluginEntry
-  std::string name;
-  std::string summary;
-  std::vector<OptionInfo> options;
-  methods::Kind kind = methods::Kind::joint;
-  bool is_oracle = false;
-  bool needs_reference = true;
-  bool has_inspect = false;
-  bool has_check_protocol = false;
-  std::string missing_part;
+  PluginEntry entry;
+  bool has_optional = false;
 };
 
 template <class Archive, Either<Description> T>
 void walk(Archive& a, T& d) {
-  a(d.type)(d.name)(d.summary)(d.options)(d.kind)(d.is_oracle)(d.needs_reference);
-  a(d.has_inspect)(d.has_check_protocol)(d.missing_part);
+  std::size_t type = d.entry.index();
+  a(type)(d.has_optional);
+  if constexpr (!std::is_const_v<T>) {
+    const std::array<PluginEntry, 3> types{
+        methods::MethodEntry{}, DatasetEntry{}, metrics::MetricEntry{}};
+    d.entry = types.at(type);
+  }
+  const auto add = [&](auto& each) {
+    a(each.name)(each.summary)(each.options);
+    if constexpr (requires { each.kind; }) a(each.kind);
+    if constexpr (requires { each.missing_part; }) a(each.missing_part);
+    if constexpr (requires { each.needs_reference; }) a(each.needs_reference);
+  };
+  std::visit(add, d.entry);
 }
 
-Description description_of(const PluginEntry& entry) {
-  Description out;
-  out.type = entry.index();
-  const auto add = [&](const auto& each) {
-    out.name = each.name;
-    out.summary = each.summary;
-    out.options = each.options;
-    if constexpr (requires { each.kind; }) out.kind = each.kind;
-    if constexpr (requires { each.make_oracle; }) out.is_oracle = each.make_oracle != nullptr;
-    if constexpr (requires { each.needs_reference; }) out.needs_reference = each.needs_reference;
-    if constexpr (requires { each.inspect; }) out.has_inspect = each.inspect != nullptr;
-    if constexpr (requires { each.missing_part; }) out.missing_part = each.missing_part;
-    if constexpr (requires { each.check_protocol; }) {
-      out.has_check_protocol = each.check_protocol != nullptr;
-    }
-  };
-  std::visit(add, entry);
-  return out;
-}
+bool has_function(const methods::MethodEntry& entry) { return entry.make_oracle != nullptr; }
+bool has_function(const DatasetEntry& entry) { return entry.inspect != nullptr; }
+bool has_function(const metrics::MetricEntry& entry) { return entry.check_protocol != nullptr; }
 
 /// Entry `index` of a plugin, which is loaded by the first call.
 template <class Entry>
@@ -129,46 +117,46 @@ methods::Stage made(const path& object, const std::string& method, const Make& m
   }
 }
 
-PluginEntry entry_of(const Description& d, const path& object, std::size_t i) {
-  if (d.type == 0) {
-    using Entry = methods::MethodEntry;
-    Entry out{d.name, d.kind, d.summary, d.options, {}};
-    out.make = [=](const Params& given) {
-      return made(object, d.name, [&] { return loaded_entry<Entry>(object, i).make(given); });
-    };
-    if (!d.is_oracle) return out;
-    out.make_oracle = [=](const Params& given, const Trajectory& reference) {
-      return made(object, d.name, [&] {
-        return loaded_entry<Entry>(object, i).make_oracle(given, reference);
-      });
-    };
-    return out;
-  }
-  if (d.type == 1) {
-    using Entry = DatasetEntry;
-    Entry out{d.name, d.summary, d.options, {}, {}, {}, d.missing_part, {}};
-    out.check = [=](const Params& given) {
-      check_in_own_process([&] { loaded_entry<Entry>(object, i).check(given); });
-    };
-    out.load = [=](const Params& given, const DataRoot& root) {
-      return loaded_entry<Entry>(object, i).load(given, root);
-    };
-    if (!d.has_inspect) return out;
-    out.inspect = [=](const Params& given, const DataRoot& root) {
-      loaded_entry<Entry>(object, i).inspect(given, root);
-    };
-    return out;
-  }
-  using Entry = metrics::MetricEntry;
-  Entry out;
-  out.name = d.name;
-  out.summary = d.summary;
-  out.options = d.options;
-  out.needs_reference = d.needs_reference;
+// These set the functions of entry `i` of a plugin.
+
+void set_functions(methods::MethodEntry& out, bool is_oracle, const path& object, std::size_t i) {
+  using Entry = methods::MethodEntry;
+  const std::string name = out.name;
+  out.make = [=](const Params& given) {
+    return made(object, name, [&] { return loaded_entry<Entry>(object, i).make(given); });
+  };
+  if (!is_oracle) return;
+  out.make_oracle = [=](const Params& given, const Trajectory& reference) {
+    return made(
+        object, name, [&] { return loaded_entry<Entry>(object, i).make_oracle(given, reference); });
+  };
+}
+
+template <class Entry>
+void set_check(Entry& out, const path& object, std::size_t i) {
   out.check = [=](const Params& given) {
     check_in_own_process([&] { loaded_entry<Entry>(object, i).check(given); });
   };
-  if (d.has_check_protocol) {
+}
+
+void set_functions(DatasetEntry& out, bool has_inspect, const path& object, std::size_t i) {
+  set_check(out, object, i);
+  out.load = [=](const Params& given, const DataRoot& root) {
+    return loaded_entry<DatasetEntry>(object, i).load(given, root);
+  };
+  if (!has_inspect) return;
+  out.inspect = [=](const Params& given, const DataRoot& root) {
+    loaded_entry<DatasetEntry>(object, i).inspect(given, root);
+  };
+}
+
+void set_functions(metrics::MetricEntry& out,
+                   bool has_check_protocol,
+                   const path& object,
+                   std::size_t i) {
+  using Entry = metrics::MetricEntry;
+  set_check(out, object, i);
+  if (has_check_protocol) {
     out.check_protocol = [=](const Params& given, const metrics::Protocol& protocol) {
       check_in_own_process([&] { loaded_entry<Entry>(object, i).check_protocol(given, protocol); });
     };
@@ -176,12 +164,14 @@ PluginEntry entry_of(const Description& d, const path& object, std::size_t i) {
   out.score = [=](const metrics::Evaluation& evaluation, const Params& given) {
     return loaded_entry<Entry>(object, i).score(evaluation, given);
   };
-  return out;
 }
 
 std::string packed_description(const path& object) {
   std::vector<Description> entries;
-  for (const PluginEntry& entry : load_plugin(object)) entries.push_back(description_of(entry));
+  for (const PluginEntry& entry : load_plugin(object)) {
+    const bool has = std::visit([](const auto& each) { return has_function(each); }, entry);
+    entries.push_back({entry, has});
+  }
   std::vector<std::string> libraries;
   for (const path& library : plugin_libraries(object)) libraries.push_back(library.string());
   Packer pack;
@@ -207,8 +197,10 @@ DescribedPlugin describe_plugin(const path& object, double seconds) {
     throw InputError("plugin " + object.string() + ": a process that loaded it " + error.what());
   }
   DescribedPlugin out;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    out.entries.push_back(entry_of(entries[i], file, i));
+  for (Description& each : entries) {
+    const std::size_t i = out.entries.size();
+    std::visit([&](auto& entry) { set_functions(entry, each.has_optional, file, i); }, each.entry);
+    out.entries.push_back(std::move(each.entry));
   }
   out.libraries.assign(libraries.begin(), libraries.end());
   return out;
