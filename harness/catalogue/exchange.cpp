@@ -64,21 +64,12 @@ void require_cover(Trajectory& poses, const Problem& problem, const std::string&
 
 }  // namespace
 
-bool uses_exchange(const methods::Report& report) {
-  return std::ranges::count(report.phases, kExchangePhase, &methods::Phase::name) > 0;
-}
-
-double exchange_seconds(const methods::Report& report) {
-  double out = 0.0;
+std::optional<double> phase_seconds(const methods::Report& report, std::string_view name) {
+  std::optional<double> out;
   for (const methods::Phase& phase : report.phases) {
-    if (phase.name == kExchangePhase) out += phase.seconds;
+    if (phase.name == name) out = out.value_or(0.0) + phase.seconds;
   }
   return out;
-}
-
-std::optional<double> wall_beside_stated(const methods::Report& report) {
-  const auto wall = std::ranges::find(report.phases, kWallPhase, &methods::Phase::name);
-  return wall == report.phases.end() ? std::nullopt : std::optional(wall->seconds);
 }
 
 void write_problem(const std::filesystem::path& folder, const Problem& problem) {

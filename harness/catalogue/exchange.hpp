@@ -17,6 +17,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "datasets/core/problem.hpp"
@@ -32,14 +33,9 @@ inline constexpr int kExchangeVersion = 1;
 inline constexpr const char* kExchangePhase = "start and exchange";
 inline constexpr const char* kWallPhase = "from start to end of the program";
 
-/// Whether a program computed the result.
-bool uses_exchange(const methods::Report& report);
-
-/// Seconds of the phases "start and exchange".
-double exchange_seconds(const methods::Report& report);
-
-/// The program's wall time [s] if the method's time is its own statement.
-std::optional<double> wall_beside_stated(const methods::Report& report);
+/// Sum of the phases with that name [s]; none if there are none: no program computed the result, or
+/// its time is not its own statement.
+std::optional<double> phase_seconds(const methods::Report& report, std::string_view name);
 
 /// Counts of a report that are measured, so that they differ between runs.
 inline constexpr const char* kProgramTime = "program_cpu_seconds";

@@ -76,7 +76,8 @@ TimedRun timed_run(const methods::Estimator& method, const Problem& problem) {
   const auto begin = Clock::now();
   out.curve = method.estimate(problem, out.report);
   const std::chrono::duration<double> took = Clock::now() - begin;
-  out.seconds = std::max(0.0, took.count() - exchange_seconds(out.report));
+  out.seconds =
+      std::max(0.0, took.count() - phase_seconds(out.report, kExchangePhase).value_or(0.0));
   out.cpu_seconds = process_cpu_seconds() - cpu_begin;
   return out;
 }
@@ -121,7 +122,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
     last = {};  // so that the destruction of its curve is not timed with the next run
     last = timed_run(method, problem);
     check_report(last.report);
-    const bool is_first = run == 0 && !uses_exchange(last.report);
+    const bool is_first = run == 0 && !phase_seconds(last.report, kExchangePhase);
     if (is_first && last.seconds < kShortRun) {
       const TimedRun warm = timed_run(method, problem);
       results.insert(hash_of_curve(warm.curve.get(), problem));
@@ -143,7 +144,7 @@ std::unique_ptr<const Curve> timed(CellResult& result,
     const std::chrono::duration<double> took = Clock::now() - begin;
     result.waiting = std::clamp((*now - *waited) / took.count(), 0.0, 1.0);
   }
-  result.worker.stated = wall_beside_stated(last.report).has_value();
+  result.worker.stated = phase_seconds(last.report, kWallPhase).has_value();
   result.report = std::move(last.report);
   if (results.size() > 1) {
     result.report.notes.push_back(
