@@ -145,12 +145,8 @@ CellCounts compute(const RunPlan& plan,
     progress.step(sweep.datasets[r.cell.dataset].label + " / " + method);
   };
   const SandboxOptions sandbox = program_sandbox();
-  run_isolated(sweep,
-               resumed.missing,
-               plan.known,
-               plan.root,
+  run_isolated({sweep, resumed.missing, plan.known, plan.root, sandbox},
                arguments.jobs,
-               sandbox,
                interrupted,
                finished);
   for (const auto& [method, note] : unsteady) {

@@ -280,19 +280,15 @@ class IsolatedSweep {
 
 }  // namespace
 
-void run_isolated(const Sweep& sweep,
-                  const std::vector<Cell>& cells,
-                  const Catalogue& catalogue,
-                  const DataRoot& root,
+void run_isolated(WorkerContext context,
                   int jobs,
-                  const SandboxOptions& sandbox,
                   const StopRequests& stop,
                   const std::function<void(const CellResult&)>& finished) {
-  const std::unique_ptr<const ScratchFolder> scratch = scratch_for_programs(sweep);
-  if (scratch && sandbox.enabled && !has_bubblewrap()) {
+  const std::unique_ptr<const ScratchFolder> scratch = scratch_for_programs(context.sweep);
+  if (scratch && context.sandbox.enabled && !has_bubblewrap()) {
     print_error("loopbench: bubblewrap (bwrap) does not work here: programs can read all files\n");
   }
-  const WorkerContext context{sweep, cells, catalogue, root, sandbox, sweep.serial || jobs == 1};
+  context.is_alone = context.sweep.serial || jobs == 1;
   IsolatedSweep(context, jobs, stop, finished).run();
 }
 

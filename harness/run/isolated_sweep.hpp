@@ -5,10 +5,8 @@
 #include <atomic>
 #include <functional>
 
-#include "harness/base/sandbox.hpp"
-#include "harness/catalogue/catalogue.hpp"
 #include "harness/model/result.hpp"
-#include "harness/model/sweep.hpp"
+#include "harness/run/worker.hpp"
 
 namespace loopbench::harness {
 
@@ -19,18 +17,14 @@ using StopRequests = std::atomic<int>;
 /// Calls `finished` once per cell, in order of completion. Uses `jobs` worker processes (one if the
 /// sweep is serial), which run each cell in a copy of themselves, so that nothing of a cell
 /// remains. Programs that methods and datasets run have temporary files in a folder that is removed
-/// at the end. Cells that exceed the sweep's limits or end their process have
-/// the status timeout, out_of_memory or crashed; a sequence that does so while it is loaded gives
-/// all its cells that status. If `stop` is 2, running cells are ended with the status interrupted,
-/// otherwise they are finished. Call from a process without threads. Throws InputError for a
-/// sequence of a built-in dataset that cannot be loaded (the cells of others fail),
-/// std::runtime_error if a process cannot be created.
-void run_isolated(const Sweep& sweep,
-                  const std::vector<Cell>& cells,
-                  const Catalogue& catalogue,
-                  const DataRoot& root,
+/// at the end. Cells that exceed the sweep's limits or end their process have the status timeout,
+/// out_of_memory or crashed; a sequence that does so while it is loaded gives all its cells that
+/// status. If `stop` is 2, running cells are ended with the status interrupted, otherwise they are
+/// finished. Call from a process without threads. Throws InputError for a sequence of a built-in
+/// dataset that cannot be loaded (the cells of others fail), std::runtime_error if a process cannot
+/// be created.
+void run_isolated(WorkerContext context,
                   int jobs,
-                  const SandboxOptions& sandbox,
                   const StopRequests& stop,
                   const std::function<void(const CellResult&)>& finished);
 

@@ -58,7 +58,7 @@ struct WorkerContext {
   const Catalogue& catalogue;
   const DataRoot& root;
   const SandboxOptions& sandbox;
-  bool is_alone = false;  ///< no two cells run at the same time
+  bool is_alone = false;  ///< no two cells run at the same time; set by run_isolated()
 };
 
 /// Reads jobs from `socket` and answers there until it is closed. `core`: the one that cells run

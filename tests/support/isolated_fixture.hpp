@@ -31,8 +31,9 @@ class IsolatedFixture : public testing::Test {
   std::vector<CellResult> run(const Sweep& sweep, const std::vector<Cell>& planned, int jobs) {
     results_.clear();
     const StopRequests stop = 0;
-    run_isolated(sweep, planned, known_, {}, jobs, sandbox_, stop, [&](const CellResult& result) {
-      results_.push_back(result);
+    const DataRoot root;
+    run_isolated({sweep, planned, known_, root, sandbox_}, jobs, stop, [&](const CellResult& r) {
+      results_.push_back(r);
     });
     std::ranges::sort(results_, {}, [](const CellResult& r) { return r.cell.index; });
     return results_;
