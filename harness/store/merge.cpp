@@ -10,6 +10,7 @@
 #include "harness/model/recorded_run.hpp"
 #include "harness/store/open.hpp"
 #include "harness/store/schema.hpp"
+#include "harness/store/shard.hpp"
 #include "harness/store/stored_cells.hpp"
 
 namespace loopbench::harness {
@@ -17,22 +18,16 @@ namespace {
 
 /// The shards that are missing in `lines` "3/8 DIVISION", of divisions that others belong to.
 std::vector<std::string> missing_shards(const std::string& lines) {
-  constexpr std::size_t kMostListed = 100'000;
-  std::map<std::string, std::set<std::size_t>> found;  // by "8 DIVISION"
+  std::map<std::pair<std::size_t, std::string>, std::set<std::size_t>> found;
   std::istringstream in(lines);
-  for (std::string line; std::getline(in, line);) {
-    const std::size_t slash = line.find('/');
-    if (slash == std::string::npos) continue;
-    std::size_t number = 0;
-    std::istringstream(line.substr(0, slash)) >> number;
-    found[line.substr(slash + 1)].insert(number);
+  for (std::string name, division; in >> name >> division;) {
+    const Shard shard = parse_shard(name);
+    found[{shard.count, division}].insert(shard.number);
   }
   std::vector<std::string> out;
   for (const auto& [division, numbers] : found) {
-    std::size_t count = 0;
-    std::istringstream(division) >> count;
-    for (std::size_t i = 1; i <= std::min(count, kMostListed); ++i) {
-      if (!numbers.contains(i)) out.push_back(std::to_string(i) + "/" + std::to_string(count));
+    for (Shard each{1, division.first}; each.number <= each.count; ++each.number) {
+      if (!numbers.contains(each.number)) out.push_back(each.name());
     }
   }
   return out;
@@ -79,13 +74,13 @@ class Merge {
 
   Merged done() {
     Merged out;
-    out.cells = static_cast<std::size_t>(number("SELECT count(*) FROM cell"));
+    out.cells = static_cast<std::size_t>(database_.integer("SELECT count(*) FROM cell"));
     set_run_value(database_, "cells", std::to_string(out.cells));
     out.duplicates = duplicates_;
     const std::int64_t planned =
-        number("SELECT CAST(value AS INTEGER) FROM run WHERE key = 'planned'");
+        database_.integer("SELECT CAST(value AS INTEGER) FROM run WHERE key = 'planned'");
     const std::int64_t there =
-        number("SELECT count(*) FROM cell WHERE position < " + std::to_string(planned));
+        database_.integer("SELECT count(*) FROM cell WHERE position < " + std::to_string(planned));
     out.planned = static_cast<std::size_t>(planned);
     out.missing = static_cast<std::size_t>(std::max<std::int64_t>(0, planned - there));
     Statement sets = database_.prepare(
@@ -150,8 +145,8 @@ class Merge {
         "('failed', 'crashed', 'timeout', 'out_of_memory'), "
         "k.id FROM source.cell s LEFT JOIN known k ON k.key = s.key AND k.sequence = s.sequence "
         "AND k.repeat = s.repeat AND k.method = s.method WHERE s.position IS NOT NULL");
-    duplicates_ +=
-        static_cast<std::size_t>(number("SELECT count(*) FROM added WHERE replaced IS NOT NULL"));
+    duplicates_ += static_cast<std::size_t>(
+        database_.integer("SELECT count(*) FROM added WHERE replaced IS NOT NULL"));
     database_.execute(
         "DELETE FROM added WHERE replaced IS NOT NULL AND (failed OR NOT (SELECT failed FROM known "
         "WHERE id = replaced))");
@@ -191,7 +186,7 @@ class Merge {
 
   void copy_cells() {
     const std::string offset =
-        std::to_string(number("SELECT coalesce(max(id), 0) FROM main.cell")) + " + ";
+        std::to_string(database_.integer("SELECT coalesce(max(id), 0) FROM main.cell")) + " + ";
     std::string columns = kCellColumns;  // with the new position
     columns.replace(columns.find("position"), 8, "place");
     for (const char* table : {"input", "sequence_trace", "sequence"}) {
@@ -237,11 +232,6 @@ class Merge {
       values[key] = row.text();
     }
     for (const auto& [key, value] : values) set_run_value(database_, key, value);
-  }
-
-  std::int64_t number(const std::string& query) {
-    Statement row = database_.prepare(query);
-    return row.step() ? row.integer() : 0;
   }
 
   std::string run_value(const std::string& key, const std::string& table = "main.run") {

@@ -89,8 +89,7 @@ void create_tables(Database& database) {
 }
 
 bool has_no_tables(Database& database) {
-  Statement count = database.prepare("SELECT count(*) FROM sqlite_master");
-  return count.step() && count.integer() == 0;
+  return database.integer("SELECT count(*) FROM sqlite_master") == 0;
 }
 
 bool has_no_tables(const std::filesystem::path& file) {
@@ -104,8 +103,7 @@ void check_schema(Database& database, const std::filesystem::path& file) {
                      ": is not a store of results, it has no tables; if its sweep was ended before "
                      "the first cell, run it again");
   }
-  Statement version = database.prepare("PRAGMA user_version");
-  const std::int64_t found = version.step() ? version.integer() : 0;
+  const std::int64_t found = database.integer("PRAGMA user_version");
   if (found == kSchemaVersion) {
     check_objects(database, file);
     return;

@@ -23,6 +23,18 @@ void add_lines(std::string& text, const std::string& more) {
   }
 }
 
+/// The texts of two columns, in order; the first one's can repeat.
+std::vector<std::pair<std::string, std::string>> text_pairs(Database& database,
+                                                            const std::string& query) {
+  Statement row = database.prepare(query);
+  std::vector<std::pair<std::string, std::string>> out;
+  while (row.step()) {
+    std::string& key = out.emplace_back().first;
+    row.read(key, out.back().second);
+  }
+  return out;
+}
+
 /// Selects sequence_key and the label of the sequences of all runs.
 constexpr const char* kRunSequences =
     "(SELECT sequence_key, sequence || iif(repeat > 0, ' (repeat ' || repeat || ')', '') AS label, "
@@ -67,25 +79,19 @@ std::vector<CellRow> read_cells(const std::filesystem::path& file) {
 
 std::map<std::string, std::string> read_run(const std::filesystem::path& file) {
   Database database = open_store(file);
-  Statement rows = database.prepare("SELECT key, value FROM run");
-  std::map<std::string, std::string> out;
-  while (rows.step()) {
-    std::string key = rows.text();
-    out.emplace(std::move(key), rows.text());
-  }
-  return out;
+  const auto all = text_pairs(database, "SELECT key, value FROM run");
+  return {all.begin(), all.end()};
 }
 
 std::map<std::string, std::string> read_provenance(const std::filesystem::path& file) {
   Database database = open_store(file);
-  Statement rows = database.prepare(
+  std::map<std::string, std::string> out;
+  const auto all = text_pairs(
+      database,
       "SELECT p.key, p.value FROM provenance p JOIN (SELECT provenance_key, min(position) AS first "
       "FROM cell WHERE position IS NOT NULL GROUP BY provenance_key) USING (provenance_key) ORDER "
       "BY first");
-  std::map<std::string, std::string> out;
-  while (rows.step()) {
-    const std::string key = rows.text();
-    const std::string value = rows.text();
+  for (const auto& [key, value] : all) {
     const auto [entry, is_new] = out.emplace(key, value);
     if (!is_new) add_lines(entry->second, value);
   }
@@ -107,14 +113,11 @@ std::map<std::string, std::vector<InputFile>> read_inputs(const std::filesystem:
 
 std::map<std::string, std::string> read_dataset_options(const std::filesystem::path& file) {
   Database database = open_store(file);
-  Statement rows = database.prepare(std::string("SELECT label, options FROM ") + kRunSequences +
-                                    " JOIN sequence USING (sequence_key) ORDER BY first");
-  std::map<std::string, std::string> out;
-  while (rows.step()) {
-    const std::string label = rows.text();
-    out[label] = rows.text();
-  }
-  return out;
+  // Of several sequences with one label, the last.
+  const auto all = text_pairs(database,
+                              std::string("SELECT label, options FROM ") + kRunSequences +
+                                  " JOIN sequence USING (sequence_key) ORDER BY first DESC");
+  return {all.begin(), all.end()};
 }
 
 }  // namespace loopbench::harness

@@ -102,6 +102,11 @@ Statement Database::prepare(const std::string& sql) {
   return {*this, statement};
 }
 
+std::int64_t Database::integer(const std::string& query) {
+  Statement row = prepare(query);
+  return row.step() ? row.integer() : 0;
+}
+
 std::string Database::columns_of(const std::string& table) {
   Statement row =
       prepare("SELECT group_concat(name, ', ') FROM pragma_table_info('" + table + "')");

@@ -100,6 +100,9 @@ class Database {
   void execute(const std::string& sql);
   Statement prepare(const std::string& sql);
 
+  /// The first value of a query; 0 without a row.
+  std::int64_t integer(const std::string& query);
+
   /// Names of the columns of a table, separated by commas.
   std::string columns_of(const std::string& table);
 

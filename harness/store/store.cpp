@@ -71,35 +71,21 @@ void reject_links(const std::filesystem::path& file) {
   }
 }
 
-void write_run(Database& database, const CellKeys& keys) {
+/// The table run, except for the number of cells.
+std::map<std::string, std::string> run_values(const CellKeys& keys) {
   const Sweep& sweep = keys.sweep();
-  const auto set_value = [&](const std::string& key, const std::string& text) {
-    set_run_value(database, key, text);
-  };
-  set_value("loopbench", kVersion);
-  set_value("sweep", sweep.name);
-  set_value("config", sweep.text);
   std::string rules;  // in full, one protocol per line
   for (const metrics::NamedProtocol& protocol : sweep.protocols) {
     rules +=
         protocol.label() + " [" + protocol.version + "]: " + to_text(echo(protocol.rules)) + "\n";
   }
-  set_value("protocol", rules);
-  set_value("metrics", keys.metric_definitions());
-  set_value("methods", keys.method_definitions());
-  set_value("baseline", sweep.baseline);
-}
-
-bool has_value(Database& database, const std::string& key, const std::string& text) {
-  Statement row = database.prepare("SELECT value FROM run WHERE key = ?");
-  return row.bind(key).step() && row.text() == text;
-}
-
-/// Whether the stored description of the run is current: a default in the code can have changed.
-bool is_run_current(Database& database, const CellKeys& keys) {
-  return has_value(database, "config", keys.sweep().text) &&
-         has_value(database, "metrics", keys.metric_definitions()) &&
-         has_value(database, "methods", keys.method_definitions());
+  return {{"loopbench", kVersion},
+          {"sweep", sweep.name},
+          {"config", sweep.text},
+          {"protocol", rules},
+          {"metrics", keys.metric_definitions()},
+          {"methods", keys.method_definitions()},
+          {"baseline", sweep.baseline}};
 }
 
 /// Key of the rows of one run's provenance.
@@ -198,20 +184,23 @@ void Store::create() {
   Transaction transaction(*database_);
   create_tables(*database_);
   set_run_value(*database_, "cells", "0");
-  write_description();
+  update_description();
   transaction.commit();
 }
 
-void Store::write_description() {
-  if (planned_ > 0) set_run_value(*database_, "planned", std::to_string(planned_));
-  if (!shard_.empty()) set_run_value(*database_, "shard", shard_);
-  write_run(*database_, keys_);
-}
-
-bool Store::is_description_current() {
-  return is_run_current(*database_, keys_) &&
-         has_value(*database_, "planned", std::to_string(planned_)) &&
-         (shard_.empty() || has_value(*database_, "shard", shard_));
+bool Store::update_description() {
+  std::map<std::string, std::string> values = run_values(keys_);
+  if (planned_ > 0) values.emplace("planned", std::to_string(planned_));
+  if (!shard_.empty()) values.emplace("shard", shard_);
+  bool is_current = true;
+  for (const auto& [key, value] : values) {
+    Statement row = database_->prepare("SELECT value FROM run WHERE key = ?");
+    if (row.bind(key).step() && row.text() == value) continue;
+    row.reset();
+    set_run_value(*database_, key, value);
+    is_current = false;
+  }
+  return is_current;
 }
 
 Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& planned, Retry retry) {
@@ -222,7 +211,7 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
     return nothing;
   }
   Transaction transaction(*database_);
-  const bool is_described = remove_damaged_rows(*database_, kRunTable).empty();
+  remove_damaged_rows(*database_, kRunTable);
   if (damaged_rows(*database_, kProvenanceTable).contains(key_of_provenance(provenance_))) {
     write_provenance(*database_, provenance_);  // so that its cells need not be recomputed
   }
@@ -230,9 +219,8 @@ Resumed Store::resume(const std::vector<Cell>& all, const std::vector<Cell>& pla
   const std::vector<std::string> damaged = remove_damaged(*database_, stored);
   Resumed out = match(*database_, stored, keys_, all, planned, retry);
   out.damaged = damaged;
+  const bool is_described = update_description();
   out.unchanged = out.unchanged && damaged.empty() && is_described;
-  out.unchanged = out.unchanged && is_description_current();
-  if (!out.unchanged) write_description();
   transaction.commit();
   return out;
 }

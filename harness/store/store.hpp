@@ -84,8 +84,8 @@ class Store {
   void sync();
   void claim_folder();
   void create();
-  void write_description();
-  bool is_description_current();
+  /// Writes what has changed of the table run; whether nothing has.
+  bool update_description();
 
   std::filesystem::path file_;
   CellKeys& keys_;

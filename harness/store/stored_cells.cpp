@@ -59,8 +59,7 @@ std::uint64_t add_rows(Database& database, std::uint64_t hash, std::int64_t id, 
 }  // namespace
 
 std::int64_t written_cells(Database& database) {
-  Statement row = database.prepare("SELECT value FROM run WHERE key = 'cells'");
-  return row.step() ? row.integer() : 0;
+  return database.integer("SELECT value FROM run WHERE key = 'cells'");
 }
 
 std::vector<StoredCell> read_stored_cells(Database& database) {
@@ -131,8 +130,7 @@ void remove_cell(Database& database, std::int64_t id) {
 }
 
 void remove_orphans(Database& database) {
-  Statement count = database.prepare("SELECT count(*) FROM cell");
-  const std::int64_t cells = count.step() ? count.integer() : 0;
+  const std::int64_t cells = database.integer("SELECT count(*) FROM cell");
   if (written_cells(database) == cells) return;
   set_run_value(database, "cells", std::to_string(cells));
   for (const CellTable& table : kCellTables) {
