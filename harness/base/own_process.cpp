@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstdio>
 #include <new>
-#include <optional>
 
 #include "datasets/core/error.hpp"
 #include "datasets/core/pack.hpp"
@@ -71,15 +70,6 @@ bool wait_for(const ChildProcess& child, double seconds) {
   }
 }
 
-std::optional<ChildAnswer> answer_in(const ResultArea& area, pid_t writer) {
-  const auto bytes = area.read(writer);
-  if (!bytes) return std::nullopt;
-  ChildAnswer out;
-  Unpacker unpack(*bytes);
-  unpack(out);
-  return out;
-}
-
 }  // namespace
 
 std::string in_own_process(const std::function<std::string()>& work, const ProcessLimits& limits) {
@@ -97,17 +87,20 @@ std::string in_own_process(const std::function<std::string()>& work, const Proce
   const pid_t id = child.id();
   const int status = child.end();
   if (!is_in_time) throw ProcessFailure(fmt::format("took longer than {} s", limits.seconds));
-  const std::optional<ChildAnswer> answer = answer_in(area, id);
-  if (!answer) throw ProcessFailure(end_text(status));
-  switch (answer->kind) {
+  const auto bytes = area.read(id);
+  if (!bytes) throw ProcessFailure(end_text(status));
+  ChildAnswer answer;
+  Unpacker unpack(*bytes);
+  unpack(answer);
+  switch (answer.kind) {
     case AnswerKind::returned:
-      return answer->text;
+      return answer.text;
     case AnswerKind::option_error:
-      throw OptionError(answer->option, answer->text);
+      throw OptionError(answer.option, answer.text);
     case AnswerKind::input_error:
-      throw InputError(answer->text);
+      throw InputError(answer.text);
     case AnswerKind::missing_part:
-      throw MissingPart(answer->text);
+      throw MissingPart(answer.text);
     case AnswerKind::out_of_memory:
       throw ProcessFailure(
           limits.memory > 0
@@ -116,7 +109,7 @@ std::string in_own_process(const std::function<std::string()>& work, const Proce
     case AnswerKind::other_error:
       break;
   }
-  throw std::runtime_error(answer->text);
+  throw std::runtime_error(answer.text);
 }
 
 }  // namespace loopbench::harness

@@ -7,13 +7,23 @@
 namespace loopbench::harness {
 namespace {
 
-/// Length of the code point at the start of `text`; 0 if it is not UTF-8 or a control character.
+/// The same as code_point_bytes(), but 0 for a control character.
 std::size_t shown_bytes(std::string_view text) {
+  const char first = text[0];
+  const bool is_c0 = static_cast<unsigned char>(first) < 0x20 && first != '\n';
+  const bool is_c1 =
+      first == '\xc2' && text.size() > 1 && (static_cast<unsigned char>(text[1]) & 0xe0u) == 0x80;
+  return is_c0 || is_c1 || first == '\x7f' ? 0 : code_point_bytes(text);
+}
+
+}  // namespace
+
+std::size_t code_point_bytes(std::string_view text) {
   const auto byte = [&](std::size_t i) {
     return std::uint32_t{static_cast<unsigned char>(text[i])};
   };
   const std::uint32_t first = byte(0);
-  if (first < 0x80) return (first >= 0x20 && first != 0x7f) || first == '\n' ? 1 : 0;
+  if (first < 0x80) return 1;
   const std::size_t size = first < 0xc0 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
   if (size == 0 || first > 0xf4 || text.size() < size) return 0;
   std::uint32_t point = first & (0x7fu >> size);
@@ -21,13 +31,10 @@ std::size_t shown_bytes(std::string_view text) {
     if ((byte(i) & 0xc0u) != 0x80) return 0;
     point = (point << 6) | (byte(i) & 0x3fu);
   }
-  constexpr std::uint32_t kLeast[] = {
-      0, 0, 0xa0, 0x800, 0x10000};  // smallest code point by length; or C1
+  constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};  // code point, by length
   const bool is_surrogate = point >= 0xd800 && point < 0xe000;
   return point >= kLeast[size] && point <= 0x10ffff && !is_surrogate ? size : 0;
 }
-
-}  // namespace
 
 std::string printable(std::string_view text) {
   std::string out;

@@ -8,6 +8,9 @@
 
 namespace loopbench::harness {
 
+/// Length of the code point at the start of a text that is not empty; 0: it is not UTF-8.
+std::size_t code_point_bytes(std::string_view text);
+
 /// Keeps newlines and UTF-8. Replaces other control characters (C0, DEL, C1) and bytes that are not
 /// UTF-8 by "\x1b", so that file names and contents cannot send terminal escape sequences.
 std::string printable(std::string_view text);

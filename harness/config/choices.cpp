@@ -96,8 +96,6 @@ std::pair<std::size_t, std::string> stage_of(const Setting& setting, const Stage
   throw setting.place.error(unknown_name("option of either stage", setting.name, known));
 }
 
-}  // namespace
-
 std::vector<DatasetChoice> dataset_choices(const ConfigEntry& entry,
                                            const Catalogue& catalogue,
                                            const Folders& folders) {
@@ -117,6 +115,38 @@ std::vector<DatasetChoice> dataset_choices(const ConfigEntry& entry,
   }
   return out;
 }
+
+/// `evo`, or `{base: evo, max_diff: 0.02, segments: {step: 5}}`; the default base is loopbench.
+metrics::NamedProtocol protocol_choice(const YamlNode& node) {
+  std::string base = metrics::NamedProtocol{}.name;
+  Place base_place = node;
+  std::vector<Setting> settings;
+  if (node.type == YamlNode::Type::scalar) {
+    base = node.text;
+  } else {
+    require_map(node, "protocol", "a name or a map with 'base: NAME'");
+    if (node.find("sweep") != nullptr || node.find("zip") != nullptr) {
+      throw node.error("protocol: cannot be swept; use a list of protocols");
+    }
+    if (const YamlNode* given = node.find("base")) {
+      base = as_text(*given, "protocol: base");
+      base_place = *given;
+    }
+    settings = expand(node, {"base"}).front().settings;
+    restore_text_options(settings, describe(metrics::Protocol{}));
+  }
+  try {
+    return known_protocol(base, to_params(settings));
+  } catch (const InputError& error) {
+    throw base_place.error(std::string("protocol: ") + error.what());
+  } catch (const OptionError& error) {
+    const auto found = std::ranges::find(settings, error.option(), &Setting::name);
+    const Place place = found == settings.end() ? Place(node) : found->place;
+    throw place.error("protocol: " + with_guess(error));
+  }
+}
+
+}  // namespace
 
 std::vector<DatasetChoice> read_datasets(const YamlNode& entry,
                                          const Catalogue& catalogue,
@@ -198,40 +228,6 @@ metrics::NamedProtocol known_protocol(const std::string& name, const Params& cha
   if (std::ranges::count(names, name) == 0) throw InputError(unknown_name("protocol", name, names));
   return metrics::named_protocol(name, changes);
 }
-
-namespace {
-
-/// `evo`, or `{base: evo, max_diff: 0.02, segments: {step: 5}}`; the default base is loopbench.
-metrics::NamedProtocol protocol_choice(const YamlNode& node) {
-  std::string base = metrics::NamedProtocol{}.name;
-  Place base_place = node;
-  std::vector<Setting> settings;
-  if (node.type == YamlNode::Type::scalar) {
-    base = node.text;
-  } else {
-    require_map(node, "protocol", "a name or a map with 'base: NAME'");
-    if (node.find("sweep") != nullptr || node.find("zip") != nullptr) {
-      throw node.error("protocol: cannot be swept; use a list of protocols");
-    }
-    if (const YamlNode* given = node.find("base")) {
-      base = as_text(*given, "protocol: base");
-      base_place = *given;
-    }
-    settings = expand(node, {"base"}).front().settings;
-    restore_text_options(settings, describe(metrics::Protocol{}));
-  }
-  try {
-    return known_protocol(base, to_params(settings));
-  } catch (const InputError& error) {
-    throw base_place.error(std::string("protocol: ") + error.what());
-  } catch (const OptionError& error) {
-    const auto found = std::ranges::find(settings, error.option(), &Setting::name);
-    const Place place = found == settings.end() ? Place(node) : found->place;
-    throw place.error("protocol: " + with_guess(error));
-  }
-}
-
-}  // namespace
 
 std::vector<metrics::NamedProtocol> protocol_choices(const YamlNode& node) {
   if (node.type != YamlNode::Type::list) return {protocol_choice(node)};

@@ -18,9 +18,6 @@ namespace loopbench::harness {
 std::vector<DatasetChoice> read_datasets(const YamlNode& entry,
                                          const Catalogue& catalogue,
                                          const Folders& folders);
-std::vector<DatasetChoice> dataset_choices(const ConfigEntry& entry,
-                                           const Catalogue& catalogue,
-                                           const Folders& folders);
 
 std::vector<MethodChoice> method_choices(const ConfigEntry& entry, const Catalogue& catalogue);
 

@@ -9,6 +9,9 @@
 #include <optional>
 #include <set>
 #include <sstream>
+#include <string_view>
+
+#include "harness/base/printable.hpp"
 
 namespace loopbench::harness {
 namespace {
@@ -156,23 +159,14 @@ class TreeCopy {
 
 /// Rejects bytes that are not UTF-8: yaml-cpp 0.7 does not terminate for some of them.
 void expect_utf8(const std::string& text, const std::string& file) {
-  std::size_t line = 1;
-  int more = 0;  // continuation bytes that the current character still needs
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool is_continuation = (byte & 0xC0U) == 0x80U;
-    const bool is_start = byte < 0x80U || (byte >= 0xC2U && byte < 0xF5U);
-    if (more > 0 ? !is_continuation : !is_start) {
-      throw input_error(file, line, "is not UTF-8 text, expected YAML");
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t size = code_point_bytes(rest);
+    if (size == 0) {
+      const auto line = std::count(text.begin(), text.end() - std::ssize(rest), '\n') + 1;
+      throw input_error(file, static_cast<std::size_t>(line), "is not UTF-8 text, expected YAML");
     }
-    if (more > 0) {
-      --more;
-    } else if (byte >= 0xC2U) {
-      more = byte < 0xE0U ? 1 : (byte < 0xF0U ? 2 : 3);
-    }
-    line += c == '\n' ? 1 : 0;
+    rest.remove_prefix(size);
   }
-  if (more > 0) throw input_error(file, line, "is not UTF-8 text, expected YAML");
 }
 
 /// The first line that is indented with a tab; 0: none.
