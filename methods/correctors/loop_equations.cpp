@@ -20,6 +20,23 @@ Twist bracket(const Twist& q, const Twist& y) {
   return twist(phi.cross(force), rho.cross(force) + phi.cross(moment));
 }
 
+/// Covariance of errors that cannot leave the plane: a lower minimum can be out of it. Correlated
+/// errors out of the plane are known to be zero, so this is no block of the inverse.
+Matrix6 covariance_in_plane(Matrix6 information) {
+  const Twist diagonal = information.diagonal();
+  const auto clear = [](Matrix6& matrix) {
+    for (const int axis : {2, 3, 4}) {
+      matrix.row(axis).setZero();
+      matrix.col(axis).setZero();
+    }
+  };
+  clear(information);
+  information.diagonal() = diagonal;
+  Matrix6 out = information.inverse();
+  clear(out);
+  return out;
+}
+
 class NewtonSystem {
  public:
   NewtonSystem(const LoopEquations& equations,
@@ -126,12 +143,8 @@ NoiseModel stated_noise_model(const Problem& problem) {
   NoiseModel out;
   for (const Edge& edge : problem.odometry) {
     out.information.push_back(edge.information);
-    out.covariance.push_back(edge.information.inverse());
-    if (!problem.planar) continue;
-    for (const int axis : {2, 3, 4}) {  // a lower minimum can be out of the plane
-      out.covariance.back().row(axis).setZero();
-      out.covariance.back().col(axis).setZero();
-    }
+    out.covariance.push_back(problem.planar ? covariance_in_plane(edge.information)
+                                            : edge.information.inverse());
   }
   for (const Edge& loop : problem.closures) {
     out.closure_information.push_back(loop.information);
