@@ -1,15 +1,9 @@
 #include "methods/correctors/looped_chain.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "datasets/core/covariance.hpp"
 #include "methods/correctors/chain.hpp"
-#include "methods/correctors/plausibility.hpp"
-#include "methods/solvers/initial_values.hpp"
 
 namespace loopbench::methods {
 namespace {
@@ -274,51 +268,6 @@ std::vector<Matrix6> LoopedChain::covariances(bool has_front) const {
     out[j] = displaced(0.5 * (of_twist + of_twist.transpose()), poses_[j].translation);
     if (problem_.planar) out[j] = planar_covariance(out[j], poses_[j].rotation.toRotationMatrix());
   }
-  return out;
-}
-
-std::optional<LoopedChain> chordal_chain(const Problem& problem, const NoiseModel& noise_model) {
-  std::vector<ScaledPose> start;
-  try {
-    EliminationCache cache;
-    start = chordal_values(problem, 1.0, cache);
-  } catch (const std::runtime_error&) {
-    return std::nullopt;
-  }
-  std::vector<Twist> errors;
-  for (const Edge& edge : problem.odometry) {
-    errors.push_back(edge_error(edge, start[edge.from].pose, start[edge.to].pose));
-  }
-  LoopedChain out(problem, noise_model);
-  out.set_errors(std::move(errors));
-  if (!std::isfinite(out.cost())) return std::nullopt;
-  return out;
-}
-
-LoopedChain lowest_minimum(const Problem& problem,
-                           const NoiseModel& noise_model,
-                           const MinimumSettings& settings,
-                           Report& report) {
-  constexpr double kOtherMinimum = 1e-6;  // relative cost difference between two minima
-  LoopedChain first(problem, noise_model);
-  report.count("chi2_before", 2.0 * first.cost());
-  if (!std::isfinite(first.cost())) throw std::runtime_error("dual: the cost is not finite");
-  int iterations = first.minimise(settings.max_iterations, settings.tolerance);
-  const bool is_implausible = is_too_large(2.0 * first.cost(), degrees_of_freedom(problem));
-  std::optional<LoopedChain> second =
-      settings.tries_chordal && is_implausible ? chordal_chain(problem, noise_model) : std::nullopt;
-  if (second) iterations += second->minimise(settings.max_iterations, settings.tolerance);
-  const bool is_lower = second && second->cost() < first.cost() * (1.0 - kOtherMinimum);
-  if (is_lower) {
-    report.notes.push_back(fmt::format(
-        "two minima: chi2 {:.6g} from the keyframes, {:.6g} from chordal relaxation; the lower "
-        "one is returned",
-        2.0 * first.cost(),
-        2.0 * second->cost()));
-  }
-  report.count("iterations", iterations);
-  LoopedChain out = is_lower ? std::move(*second) : std::move(first);
-  report.count("chi2", 2.0 * out.cost());
   return out;
 }
 

@@ -30,8 +30,7 @@ Group group_of(const Problem& problem, Poses requested, bool has_drift) {
 }
 
 std::size_t dimensions(Group group) {
-  if (group == Group::se2) return 3;
-  return group == Group::se3 ? 6 : 7;
+  return group == Group::se2 ? 3 : group == Group::se3 ? 6 : 7;
 }
 
 PoseGraphSettings settings_of(const Problem& problem,
