@@ -122,15 +122,6 @@ TEST(Implicit, NeedsPointsWithAnExtent) {
   EXPECT_FALSE(fit_implicit(std::vector<Vector2>(7, Vector2(1, 2))));
 }
 
-TEST(Polynomial, CoefficientsHaveTheOrderOfTheArticle) {
-  const auto truth = [](double x) {
-    return -1.779 * x * x * x + 0.4036 * x * x + 0.7173 * x - 17.71;
-  };
-  EXPECT_EQ(coefficient_text(fit_polynomial(along_x({3.0, 3.5, 4.0, 4.4}, truth), 3), 3),
-            "alpha(3,0) = -1.779, alpha(2,0) = 0.4036, alpha(1,0) = 0.7173, alpha(0,1) = 1, "
-            "alpha(0,0) = -17.71");
-}
-
 TEST(Families, AreParsedByName) {
   EXPECT_EQ(read_families("poly2, sin1 line"),
             (std::vector{Family::poly2, Family::sin1, Family::line}));

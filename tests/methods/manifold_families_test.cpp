@@ -192,10 +192,7 @@ TEST(FitAxes, OfGravityMakeTheResultIndependentOfTheFile) {
   EXPECT_NEAR(largest_difference(options), 0.0, 1e-8);
 }
 
-TEST(FitAxes, OfTheReferenceAreNotAvailableToAMethod) {
-  EXPECT_THROW(Dm({.fit_axes = FitAxes::reference}), OptionError);
-  EXPECT_THROW(Dm({.plane = Plane::yoz}), OptionError);  // chord axes have no such plane
-}
+TEST(FitAxes, OfChordsHaveNoOtherPlane) { EXPECT_THROW(Dm({.plane = Plane::yoz}), OptionError); }
 
 TEST(FitAxes, PlanesNameTheCoordinateThatIsReplaced) {
   struct Case {

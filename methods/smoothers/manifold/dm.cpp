@@ -164,11 +164,6 @@ Dm::Dm(const Options& options) : options_(options), families_(read_families(opti
   const auto reject = [](const char* name, const char* why) {
     throw OptionError(name, std::string(name) + ": " + why);
   };
-  if (options.fit_axes == FitAxes::reference) {
-    reject("fit_axes",
-           "a method has no access to the reference; use the oracle paper_reference_axes, or "
-           "estimate or gravity");
-  }
   if (options.plane != Plane::xoy && options.frame != Axes::world) {
     reject("plane", "yoz and xoz require frame = world, because other frames have no such planes");
   }

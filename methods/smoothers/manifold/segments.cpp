@@ -108,30 +108,16 @@ NodesWithQuasiKeyframes with_quasi_keyframes(const Problem& problem, const GapRu
   return out;
 }
 
-std::vector<double> torsions(const Nodes& nodes) {
-  std::vector<double> out(nodes.size(), 0.0);
-  for (std::size_t i = 2; i + 1 < nodes.size(); ++i) {
-    out[i] = angle_between_directions(nodes.step(i - 2).cross(nodes.step(i - 1)),
-                                      nodes.step(i - 1).cross(nodes.step(i)));
-  }
-  return out;
-}
-
 std::vector<NodeRange> segments(const Nodes& nodes,
                                 const SegmentRule& rule,
                                 std::span<const double> kappa) {
-  std::vector<double> torsion;
-  if (rule.torsion_max) torsion = torsions(nodes);
-  const auto is_sharp = [&](std::size_t node) {
-    return kappa[node] > rule.turn_max || (rule.torsion_max && torsion[node] > *rule.torsion_max);
-  };
   const double band = rule.speed_band ? *rule.speed_band : mean_speed(nodes);
   std::vector<NodeRange> out;
   std::size_t first = 0;
   Speeds speeds(0.0);
   for (std::size_t edge = 0; edge + 1 < nodes.size(); ++edge) {
     const double speed = nodes.step(edge).norm() / nodes.duration(edge);
-    if (edge > first && speeds.admit(speed, band, rule.speed) && !is_sharp(edge)) {
+    if (edge > first && speeds.admit(speed, band, rule.speed) && !(kappa[edge] > rule.turn_max)) {
       speeds.add(speed);
       continue;
     }

@@ -74,17 +74,11 @@ struct SegmentRule {
   SpeedRule speed = SpeedRule::range;
   Kappa kappa = Kappa::turn_per_kf;
   CurveSpace plane = CurveSpace::space;
-  std::optional<double> torsion_max = std::nullopt;  ///< maximum torsion at an inner node [rad]
 };
 
-/// Torsion per keyframe at every node: the angle between the planes through the three nodes that
-/// end there and the three around it (article, equation 5, with t as index) [rad]; 0 at the first
-/// two and the last node and where three nodes lie on a line. O(n).
-std::vector<double> torsions(const Nodes& nodes);
-
 /// Splits at least two nodes into consecutive segments. A segment grows while its speeds satisfy
-/// the rule; a kappa or a torsion above its threshold closes it and starts the next segment at that
-/// node with new speed statistics. Source: article section 3.3. O(n).
+/// the rule; a kappa above its threshold closes it and starts the next segment at that node with
+/// new speed statistics. Source: article section 3.3. O(n).
 std::vector<NodeRange> segments(const Nodes& nodes,
                                 const SegmentRule& rule,
                                 std::span<const double> kappa);

@@ -10,13 +10,9 @@ namespace loopbench::paper {
 template <class Visit>
 void literal_fields(methods::DmOptions& o, Visit visit) {
   visit("plane", o.plane, "plane of the planar curve with frame = world");
-  visit("torsion_max",
-        o.segment.torsion_max,
-        "maximum torsion per keyframe within a segment [rad]; none: no limit",
-        GreaterThan{0.0});
 }
 
-/// Dm with axes and planes to fit in, and torsion as a signal.
+/// Dm with axes and planes to fit in.
 class PaperLiteral final : public methods::Smoother {
  public:
   struct Options {

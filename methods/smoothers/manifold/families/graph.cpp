@@ -1,7 +1,5 @@
 #include "methods/smoothers/manifold/families/graph.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/QR>
 #include <algorithm>
 #include <limits>
@@ -76,22 +74,6 @@ Polynomial fit_polynomial(std::span<const Vector2> points, int degree) {
   }
   out.coefficients.head(terms) = powers.householderQr().solve(y);
   return out;
-}
-
-std::string coefficient_text(const Polynomial& curve, int degree) {
-  // Expands Horner's scheme in u = (x - m) / s into powers of x, from the inside.
-  const double slope = 1.0 / curve.scale;
-  const double offset = -curve.centre / curve.scale;
-  Eigen::Vector4d powers = Eigen::Vector4d::Zero();
-  for (int k = degree; k >= 0; --k) {
-    Eigen::Vector4d next = offset * powers;
-    next.tail<3>() += slope * powers.head<3>();
-    next[0] += curve.coefficients[k];
-    powers = next;
-  }
-  std::string out;
-  for (int k = degree; k > 0; --k) out += fmt::format("alpha({},0) = {:.6g}, ", k, powers[k]);
-  return out + fmt::format("alpha(0,1) = 1, alpha(0,0) = {:.6g}", powers[0]);
 }
 
 std::optional<Sine> fit_sine(std::span<const Vector2> points) {

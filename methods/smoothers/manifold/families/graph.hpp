@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <span>
-#include <string>
 
 #include "methods/smoothers/manifold/families/frame.hpp"
 #include "methods/smoothers/manifold/families/jet.hpp"
@@ -28,12 +27,6 @@ struct Polynomial {
 /// interpolated. The degree (1..3) is reduced to the number of points - 1. Requires two to twelve
 /// points with distinct x.
 Polynomial fit_polynomial(std::span<const Vector2> points, int degree);
-
-/// Coefficients of y = +f(x) in metres of the window's frame, in the article's notation and order:
-/// "alpha(2,0) = 1.238, ..., alpha(0,1) = 1, alpha(0,0) = -0.5163". The article's F = ... + y = 0
-/// would mean y = -f(x), but its printed numbers fit the ground truth with the other sign, which is
-/// used here.
-std::string coefficient_text(const Polynomial& curve, int degree);
 
 /// sin1: y = a sin(b x + c).
 struct Sine {
