@@ -38,7 +38,7 @@ struct Table {
   std::vector<std::string> notes;             ///< one per line, below the table
   std::string facts = {};  ///< for captions of papers: statistic, times, alignment, number of runs
   std::size_t note_width = 0;  ///< of the notes in Markdown; 0: one line each
-  bool has_scores = true;  ///< false: all its cells are without a score
+  bool has_scores = true;      ///< false: all its cells are without a score
 };
 
 /// Properties of the terminal that a table is printed on.

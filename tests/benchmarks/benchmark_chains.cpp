@@ -7,8 +7,8 @@
 #include "methods/correctors/closure_ledger.hpp"
 #include "methods/correctors/dual.hpp"
 #include "methods/correctors/pose_graph.hpp"
-#include "tests/benchmarks/sizes.hpp"
 #include "tests/benchmarks/peak_memory.hpp"
+#include "tests/benchmarks/sizes.hpp"
 
 namespace loopbench {
 

@@ -1,4 +1,5 @@
-/// Files that are refused as a whole; those of the manifest in tests/data/bad are in the transcript run_config.
+/// Files that are refused as a whole; those of the manifest in tests/data/bad are in the transcript
+/// run_config.
 #include <gtest/gtest.h>
 
 #include "datasets/core/params.hpp"

@@ -1,9 +1,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "harness/gate/gate.hpp"
 #include "harness/eval/arguments.hpp"
 #include "harness/eval/evaluate_files.hpp"
+#include "harness/gate/gate.hpp"
 #include "harness/model/where.hpp"
 #include "harness/run/pack.hpp"
 #include "tests/fuzz/scratch_file.hpp"
